@@ -1,0 +1,38 @@
+#include "base/Pose.h"
+
+#include <cmath>
+
+namespace heft {
+
+Pose interpolate(const Pose& from, const Pose& to, double s) {
+  return {from.position_m + s * (to.position_m - from.position_m),
+          from.orientation.slerp(s, to.orientation)};
+}
+
+Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) {
+  const double sign = rotation.w() < 0 ? -1 : 1;  // q and -q turn alike; take the shorter way
+  const Eigen::Vector3d v = sign * rotation.vec();
+  const double sine = v.norm();
+  if (sine < 1e-12) return 2 * v;
+  return v * (2 * std::atan2(sine, sign * rotation.w()) / sine);
+}
+
+Eigen::Quaterniond rotation_from_vector(const Eigen::Vector3d& vector_rad) {
+  const double angle = vector_rad.norm();
+  if (angle < 1e-12) {
+    const Eigen::Vector3d half = vector_rad / 2;
+    return Eigen::Quaterniond(1, half.x(), half.y(), half.z()).normalized();
+  }
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector_rad / angle));
+}
+
+Velocity mean_velocity(const Pose& from, const Pose& to, double dt_s) {
+  return {(to.position_m - from.position_m) / dt_s,
+          rotation_vector(to.orientation * from.orientation.conjugate()) / dt_s};
+}
+
+Pose upright_pose(const Eigen::Vector3d& position_m, double yaw_rad) {
+  return {position_m, Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()))};
+}
+
+}  // namespace heft

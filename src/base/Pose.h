@@ -1,0 +1,41 @@
+// A rigid pose and the velocities that go with it. Reads as target_from_source: a Pose of the clone
+// in the world takes clone coordinates to world coordinates. World frame: table top is z = 0, z up,
+// x to the participant's right, y away from the participant, origin at the board's center.
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace heft {
+
+struct Pose {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point_m) const {
+    return position_m + orientation * point_m;
+  }
+};
+
+/// Linear and angular velocity in the world frame.
+struct Velocity {
+  Eigen::Vector3d linear_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_rad_s = Eigen::Vector3d::Zero();
+};
+
+/// The pose a fraction s (0...1) of the way: positions linearly, orientations by the shorter slerp.
+Pose interpolate(const Pose& from, const Pose& to, double s);
+
+/// Rotation vector (axis times angle, radians, |angle| <= pi) of a unit quaternion. Uses atan2, so
+/// it is exact for tiny angles too.
+Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation);
+
+/// Inverse of rotation_vector.
+Eigen::Quaterniond rotation_from_vector(const Eigen::Vector3d& vector_rad);
+
+/// Mean velocity that takes `from` to `to` in dt_s seconds.
+Velocity mean_velocity(const Pose& from, const Pose& to, double dt_s);
+
+/// A pose standing on the table plane, turned by yaw_rad about z.
+Pose upright_pose(const Eigen::Vector3d& position_m, double yaw_rad);
+
+}  // namespace heft

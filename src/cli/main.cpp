@@ -1,0 +1,35 @@
+// The program: subcommands, --version, and errors as messages with exit codes.
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "cli/Commands.h"
+
+namespace heft::cli {
+
+CLI::App* add_command(CLI::App& app, const char* name, const char* summary,
+                      std::initializer_list<const char*> examples) {
+  CLI::App* command = app.add_subcommand(name, summary);
+  std::string footer = "Examples:";
+  for (const char* example : examples) footer += fmt::format("\n  {}", example);
+  command->footer(footer);
+  return command;
+}
+
+}  // namespace heft::cli
+
+int main(int argc, char** argv) {
+  using namespace heft;
+  CLI::App app{"Heft runs psychophysics experiments on perceived mass in augmented reality."};
+  app.name("heft");
+  app.set_version_flag("--version", std::string("heft ") + HEFT_VERSION);
+  app.require_subcommand(1);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  } catch (const Error& error) {
+    fmt::print(stderr, "heft: {}\n", error.what());
+    return static_cast<int>(error.exit_code());
+  }
+  return 0;
+}

@@ -1,0 +1,50 @@
+// The plug for simulators of the decoupling technique. One table, in DecouplingSimulator.cpp, names
+// them all.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "physics/Scene.h"
+#include "physics/WorldState.h"
+
+namespace heft {
+
+class DecouplingSimulator {
+ public:
+  virtual ~DecouplingSimulator() = default;
+
+  /// A fresh world at rest; the clone starts at target * scene.clone_offset, at rest. Gives the
+  /// same bits whether the simulator is new or used.
+  virtual void reset(const Scene& scene, const Pose& target) = 0;
+
+  /// One step of h_s seconds while the effector moves from the last target to this one.
+  virtual void step(const Pose& target, double h_s) = 0;
+
+  /// Puts the clone on the target, at the target's velocity, without touching anything on the way.
+  virtual void teleport_clone(const Pose& target, const Velocity& velocity) = 0;
+
+  /// Whether the clone collides with anything. Off while the effector is out of view.
+  virtual void set_clone_solid(bool solid) = 0;
+
+  /// Puts one cube at a pose, at rest.
+  virtual void place_cube(int cube, const Pose& pose) = 0;
+
+  /// State after the last step.
+  virtual WorldState state() const = 0;
+};
+
+/// A row of the table of simulators.
+struct SimulatorEntry {
+  std::string_view name;
+  std::string_view summary;
+  std::unique_ptr<DecouplingSimulator> (*make)();
+};
+
+std::span<const SimulatorEntry> simulators();
+
+/// @throws Error (usage) naming the nearest simulator when there is none of that name
+std::unique_ptr<DecouplingSimulator> make_simulator(std::string_view name);
+
+}  // namespace heft

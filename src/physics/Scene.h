@@ -1,0 +1,38 @@
+// What a simulated world is made of: a table, an effector clone coupled to a target, boxes.
+// World frame and SI units as in base/Pose.h.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "base/Pose.h"
+
+namespace heft {
+
+/// The law that ties the clone to the real effector (paper, section 3.1): F = -k d - c v, with
+/// c = damping_ratio * 2 sqrt(k m); the same per axis in rotation with kappa and the inertia.
+struct Coupling {
+  bool decoupled = true;  ///< false: condition C1, the clone stays on the effector
+  double stiffness_n_per_m = 50;
+  double torsional_stiffness_nm_per_rad = 150;
+  double clone_mass_kg = 0.010;
+  double damping_ratio = 1;
+};
+
+struct Cube {
+  double mass_kg = 0.2;
+  Eigen::Vector3d size_m{0.035, 0.035, 0.035};
+  Eigen::Vector3d position_m{0, 0, 0.0175};  ///< of the center
+  double yaw_rad = 0;
+};
+
+struct Scene {
+  double gravity_m_s2 = 9.81;
+  double friction = 0.8;  ///< Coulomb coefficient between any two surfaces
+  Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
+  Coupling coupling;
+  Pose clone_offset;  ///< clone from effector at the first sample, released at rest
+  std::vector<Cube> cubes;
+};
+
+}  // namespace heft

@@ -1,0 +1,144 @@
+// An experiment as data: what protocols/*.toml says, typed and checked. Every key's meaning, unit
+// and default is a comment in protocols/paper.toml.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "experiment/Stage.h"
+#include "experiment/Task.h"
+#include "physics/Scene.h"
+#include "psychophysics/Interleaving.h"
+
+namespace heft {
+
+/// How a cube behaves that leaves the area or falls: back to its start once untouched, or not.
+enum class OutOfArea { give_back, stay };
+template <>
+struct EnumNames<OutOfArea> {
+  static constexpr std::array<std::string_view, 2> names{"return", "stay"};
+};
+
+/// Whether `friction` is the coefficient between two surfaces, or each body's own as engines that
+/// multiply them take it (0.8 per body is 0.64 between two).
+enum class FrictionIs { between_surfaces, per_body };
+template <>
+struct EnumNames<FrictionIs> {
+  static constexpr std::array<std::string_view, 2> names{"between_surfaces", "per_body"};
+};
+
+/// After a wrong answer in the introduction: the same cubes again, or newly shuffled ones.
+enum class WrongAnswer { same_layout, reshuffle };
+template <>
+struct EnumNames<WrongAnswer> {
+  static constexpr std::array<std::string_view, 2> names{"same_layout", "reshuffle"};
+};
+
+enum class SortingOrders { random, balanced };
+template <>
+struct EnumNames<SortingOrders> {
+  static constexpr std::array<std::string_view, 2> names{"random", "balanced"};
+};
+
+/// What counts as a positive answer of a comparison (moves the staircase down).
+enum class PositiveAnswer { any_choice, correct_choice };
+template <>
+struct EnumNames<PositiveAnswer> {
+  static constexpr std::array<std::string_view, 2> names{"any_choice", "correct_choice"};
+};
+
+struct SimulatorChoice {
+  std::string name = "bullet";
+  double rate_hz = 240;
+};
+
+struct Layout {
+  double cube_size_m = 0.035;
+  double gap_m = 0.045;                ///< between neighboring cubes' faces
+  double row_y_m = 0;                  ///< of the cubes' centers
+  double start_distance_m = 0.06;      ///< from the cubes' near faces to the resting effector's tip
+  Eigen::Vector2d area_m{0.40, 0.30};  ///< width and depth, centered on the origin
+  OutOfArea out_of_area = OutOfArea::give_back;
+  double clear_m = 0.02;  ///< cubes appear when the effector is this far from every slot
+};
+
+struct DemonstrationBlock {
+  std::string name;
+  double duration_s = 20;
+};
+
+struct IntroductionBlock {
+  std::string name;
+  std::vector<double> masses_g;  ///< two; shuffled
+  Condition condition = Condition::C2;
+  WrongAnswer wrong_answer = WrongAnswer::same_layout;
+};
+
+struct SortingBlock {
+  std::string name;
+  std::vector<double> masses_g;  ///< three
+  int trials = 10;
+  int c1_trials = 5;
+  int max_run = 0;  ///< longest run of one condition; 0: any
+  SortingOrders orders = SortingOrders::random;
+};
+
+/// One staircase of a comparison block and the reference it compares with.
+struct ReferenceStaircase {
+  double reference_g = 0;
+  StaircaseConfig staircase;  ///< levels are comparison - reference, g
+};
+
+struct ComparisonBlock {
+  std::string name;
+  Condition condition = Condition::C2;
+  double catch_fraction = 0;  ///< of trials with difference 0; they drive no staircase
+  PositiveAnswer positive_answer = PositiveAnswer::any_choice;
+  InterleaveConfig interleaving;
+  std::vector<ReferenceStaircase> staircases;
+};
+
+struct BreakBlock {
+  std::string name;
+  double least_duration_s = 60;
+};
+
+using Block =
+    std::variant<DemonstrationBlock, IntroductionBlock, SortingBlock, ComparisonBlock, BreakBlock>;
+
+struct Protocol {
+  std::string name;
+  std::string text;    ///< the file as read; kept in the log
+  std::string sha256;  ///< of text
+  std::string title;
+  double display_rate_hz = 15;
+  double void_after_s = 5;       ///< a camera or board lost for longer voids the trial
+  bool require_contact = false;  ///< refuse answers until every cube was touched
+  Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
+  Coupling coupling;
+  double friction = 0.8;
+  FrictionIs friction_is = FrictionIs::between_surfaces;
+  double gravity_m_s2 = 9.81;
+  SimulatorChoice simulator;
+  Layout layout;
+  std::vector<Block> blocks;
+};
+
+/// Centers of n cubes in a row along x, leftmost first.
+std::vector<Eigen::Vector3d> slot_positions(const Layout& layout, int n);
+
+/// The visible geometry of a trial with n cubes.
+Stage stage_of(const Protocol& protocol, int n);
+
+/// The physics of a trial: masses in grams, leftmost first.
+Scene scene_of(const Protocol& protocol, Condition condition, const std::vector<double>& masses_g);
+
+/// @param text contents of the file  @param file its name, for messages
+/// @throws InvalidFile with every mistake at its line and column
+Protocol parse_protocol(const std::string& text, const std::string& file);
+
+/// @throws Error when the file can't be read, InvalidFile as parse_protocol
+Protocol load_protocol(const std::string& path);
+
+}  // namespace heft

@@ -1,0 +1,43 @@
+// Which of several staircases the next trial belongs to.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/Random.h"
+#include "psychophysics/Staircase.h"
+
+namespace heft {
+
+/// Uniform among the unfinished; each unfinished in file order; finish one first.
+enum class Interleave { random, round_robin, sequential };
+template <>
+struct EnumNames<Interleave> {
+  static constexpr std::array<std::string_view, 3> names{"random", "round_robin", "sequential"};
+};
+
+struct InterleaveConfig {
+  Interleave interleave = Interleave::random;
+  /// > 0: no staircase more than this many completed trials ahead of the least advanced unfinished
+  /// one
+  int max_lag = 0;
+};
+
+/// Keys of a procedure file: seed, how to interleave, and the staircases.
+struct ProcedureConfig {
+  std::uint64_t seed = 1;
+  InterleaveConfig interleaving;
+  std::vector<StaircaseConfig> staircases;
+};
+
+/// Index of the staircase that the next trial belongs to; none when all are finished.
+/// @param previous index chosen for the last completed trial, for round_robin
+/// @param stream drawn from only by `random`, and only where there is a choice
+std::optional<std::size_t> next_staircase(std::span<const Staircase> staircases,
+                                          const InterleaveConfig& config,
+                                          std::optional<std::size_t> previous,
+                                          RandomStream& stream);
+
+}  // namespace heft

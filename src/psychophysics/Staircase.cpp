@@ -1,0 +1,1 @@
+#include "psychophysics/Staircase.h"

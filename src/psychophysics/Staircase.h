@@ -1,0 +1,124 @@
+// The up-down staircase as a pure value: levels, steps, reversals, bounds, the end and the
+// estimate. No I/O, no clock, no randomness. Law and choices: Levitt (1971); Leek (2001); for the
+// paper's rule its section 4.2.1.
+//
+// A positive answer (perceived, correct) counts towards a move down, a negative one towards a move
+// up. A move is due after `down` positive or `up` negative answers in a row. A due move opposite to
+// the previous due move is a reversal; its value is the level presented on that trial.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/Names.h"
+
+namespace heft {
+
+enum class StepScale { linear, db, log10 };
+template <>
+struct EnumNames<StepScale> {
+  static constexpr std::array<std::string_view, 3> names{"linear", "db", "log10"};
+};
+
+/// At a bound, either the level itself stops there, or it goes on inside and only what is presented
+/// stays at the bound.
+enum class AtBound { clamp, virtual_level };
+template <>
+struct EnumNames<AtBound> {
+  static constexpr std::array<std::string_view, 2> names{"clamp", "virtual"};
+};
+
+/// Whether the step that a reversal changes is in force for the move it makes, or from the next.
+enum class ChangeStep { before_move, after_move };
+template <>
+struct EnumNames<ChangeStep> {
+  static constexpr std::array<std::string_view, 2> names{"before_move", "after_move"};
+};
+
+struct StaircaseConfig {
+  std::string name;
+  double start = 0;
+  /// Steps in force after 0, 1, 2... reversals; the last one repeats. Used when not empty;
+  /// otherwise `step`, halved every `halve_every` reversals (0: never) and at least `min_step`.
+  std::vector<double> steps;
+  std::vector<double> steps_up;  ///< own list for upward moves; empty: the same as down
+  double step = 0;
+  int halve_every = 0;
+  double min_step = 0;
+  StepScale step_scale = StepScale::linear;
+  int up = 1;    ///< consecutive negative answers before a move up
+  int down = 1;  ///< consecutive positive answers before a move down
+  bool initial_1up1down =
+      false;  ///< 1-up-1-down until the first reversal, and for the answer making it
+  std::optional<double> floor, ceiling;
+  AtBound at_bound = AtBound::clamp;
+  bool bound_is_reversal = false;
+  ChangeStep change_step = ChangeStep::before_move;
+  int stop_reversals = 10;
+  int min_trials = 0;     ///< reversals end it only from this many trials on
+  int stop_trials = 200;  ///< a hard limit
+  int discard_reversals = 2;
+};
+
+struct Reversal {
+  int number = 0;  ///< from 1
+  double level = 0;
+  double step_before = 0, step_after = 0;  ///< in force before and after it
+};
+
+class Staircase {
+ public:
+  enum class Finish { reversals, trials };
+
+  /// What one answer did.
+  struct Update {
+    std::optional<Reversal> reversal;
+    std::optional<Finish> finish;
+  };
+
+  explicit Staircase(StaircaseConfig config);
+
+  /// Level to present next: the planned level held within the bounds.
+  double level() const;
+
+  /// Takes the answer to a trial. Undefined after the end (check finished()).
+  /// @param shown the level really shown where it was not level(); the reversal's value, while the
+  ///   next level still follows the planned one
+  Update respond(bool positive, std::optional<double> shown = std::nullopt);
+
+  bool finished() const { return finish_.has_value(); }
+  std::optional<Finish> finish() const { return finish_; }
+  /// Mean level of the reversals but the first `discard_reversals`; none if there is none left.
+  std::optional<double> estimate() const;
+
+  const StaircaseConfig& config() const { return config_; }
+  const std::vector<Reversal>& reversals() const { return reversals_; }
+  int n_trials() const { return n_trials_; }
+  /// Due moves that the floor (ceiling) cut short.
+  int n_floor() const { return n_floor_; }
+  int n_ceiling() const { return n_ceiling_; }
+
+ private:
+  enum class Direction { down, up };
+
+  std::optional<Direction> due_move(bool positive);
+  double step(Direction direction, std::size_t n_reversals) const;
+  double moved(double level, Direction direction, double step) const;
+  double presented(double level) const;
+
+  StaircaseConfig config_;
+  double planned_ = 0;
+  int n_positive_ = 0, n_negative_ = 0;  ///< consecutive, since the last due move
+  std::optional<Direction> last_due_;
+  std::vector<Reversal> reversals_;
+  int n_trials_ = 0, n_floor_ = 0, n_ceiling_ = 0;
+  std::optional<Finish> finish_;
+};
+
+template <>
+struct EnumNames<Staircase::Finish> {
+  static constexpr std::array<std::string_view, 2> names{"reversals", "trials"};
+};
+
+}  // namespace heft

@@ -1,0 +1,1 @@
+#include "responders/Responder.h"

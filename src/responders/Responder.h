@@ -1,0 +1,80 @@
+// A responder is a hand and a mind. The hand gives the effector's pose over time; the mind receives
+// what is displayed and answers with actions. Neither ever gets a mass, a force or a condition. One
+// table, in Responder.cpp, names them all.
+//
+// Responders remember nothing from trial to trial, and draw from streams keyed by trial number and
+// attempt, so a trial that a crash cut short runs again exactly as it would have.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiment/Action.h"
+#include "experiment/DisplayedFrame.h"
+#include "experiment/Parameter.h"
+#include "experiment/ScreenState.h"
+#include "experiment/Stage.h"
+
+namespace heft {
+
+/// What a participant sees when a trial begins.
+struct TrialView {
+  int trial_number = 0;
+  int attempt = 1;
+  Task task = Task::sorting;
+  Stage stage;
+};
+
+struct HandSample {
+  Pose pose;            ///< of the effector's center
+  bool in_view = true;  ///< false: put down, out of the camera's view
+};
+
+class Responder {
+ public:
+  virtual ~Responder() = default;
+
+  virtual void begin_trial(const TrialView& trial) = 0;
+
+  /// The effector at a time since the trial's start. Asked for with non-decreasing times.
+  virtual HandSample hand(double t_s) = 0;
+
+  /// Takes in one displayed picture and the screen beside it, in order of time.
+  /// @return what it does after this picture and before the next, in order; times since the trial's
+  ///   start, within [frame.t_s, frame.t_s + 1/display rate)
+  virtual std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) = 0;
+
+  /// False when it has nothing left to do in this trial though the trial is still open (a recording
+  /// that ended): the runner then stops the session instead of waiting forever.
+  virtual bool has_more(double t_s) const = 0;
+};
+
+/// What follows the colon in NAME:FILE.
+enum class ResponderFile { none, parameters, folder };
+
+struct ResponderOptions {
+  std::uint64_t seed = 0;             ///< the session's
+  std::vector<Parameter> parameters;  ///< for ResponderFile::parameters; empty: the defaults
+  std::string folder;                 ///< for ResponderFile::folder
+};
+
+/// A row of the table of responders.
+struct ResponderEntry {
+  std::string_view name;
+  std::string_view summary;
+  ResponderFile file = ResponderFile::none;
+  /// @throws InvalidFile naming each unknown or impossible parameter at its place, with the nearest
+  ///   valid name; Error where a folder lacks what it must hold
+  std::unique_ptr<Responder> (*make)(const ResponderOptions& options);
+};
+
+std::span<const ResponderEntry> responders();
+
+/// @throws Error (usage) naming the nearest responder when there is none of that name
+const ResponderEntry& responder_named(std::string_view name);
+
+}  // namespace heft
