@@ -2,6 +2,7 @@
 // table.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -61,7 +62,13 @@ struct EnumNames<EventKind> {
 };
 
 /// Why an attempt that a crash cut short is void; it is run again with the same draws.
-inline constexpr std::string_view interrupted = "interrupted";
+inline constexpr std::string_view void_interrupted = "interrupted";
+
+/// A time as the log keeps it: to 2^-20 s, about a microsecond. Sums and differences of such times
+/// are exact, so durations come out the same bit for bit wherever in a session they lie.
+inline double log_time(double t_s) {
+  return std::round(t_s * 0x1p20) * 0x1p-20;
+}
 
 struct Event {
   double t_s = 0;  ///< since session start, monotonic

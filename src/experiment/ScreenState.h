@@ -16,9 +16,10 @@ struct ScreenState {
   Screen screen = Screen::welcome;
   Task task = Task::sorting;                 ///< trial only
   std::vector<std::optional<Label>> labels;  ///< sorting: given so far, by slot
-  bool can_validate = false;
-  bool try_again = false;  ///< introduction: the cube chosen last was not the heaviest
-  int n_choices = 0;       ///< select, label and unlabel actions so far in this trial
+  bool can_answer = true;  ///< false until all that must be done first is done (touch every cube)
+  bool can_validate = false;  ///< sorting: all three labels are given
+  bool try_again = false;     ///< introduction: the cube chosen last was not the heaviest
+  int n_choices = 0;          ///< select, label and unlabel actions so far in this trial
 };
 
 }  // namespace heft

@@ -22,6 +22,7 @@ struct TrialPlan {
   bool is_catch = false;
   std::vector<double> masses_g;       ///< by slot, leftmost first
   std::optional<int> reference_slot;  ///< comparisons only; slots count from 1
+  int n_reshuffles = 0;               ///< times the cubes were newly shuffled in this attempt
 
   int n_slots() const { return static_cast<int>(masses_g.size()); }
 };

@@ -1,0 +1,128 @@
+"""The house: who may include whom, which library lives where, what the root holds.
+
+Run: python3 tests/structure_test.py  (from anywhere)
+"""
+import re
+import subprocess
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SRC = ROOT / "src"
+
+# The layer table of README.md. Rooms on one row don't include each other (but cli -> bench).
+ROW_1_2 = {"experiment", "base", "psychophysics", "physics", "tracking"}
+MAY_INCLUDE = {
+    "base": set(),
+    "experiment": {"base"},
+    "psychophysics": {"base"},
+    "physics": {"base"},
+    "tracking": {"base"},
+    "protocol": {"experiment", "base", "physics", "psychophysics"},
+    "record": {"experiment", "base"},
+    "responders": {"experiment", "psychophysics", "base"},
+    "view": {"experiment", "base", "tracking"},
+    "session": ROW_1_2 | {"protocol", "record", "responders", "view"},
+    "analysis": ROW_1_2 | {"protocol", "record", "responders", "view"},
+}
+MAY_INCLUDE["bench"] = set(MAY_INCLUDE)
+MAY_INCLUDE["cli"] = set(MAY_INCLUDE) | {"bench"}
+
+# Third-party headers that stay inside one room (or two).
+LIBRARY_ROOMS = {
+    r"bullet/|btBullet|Bullet": {"physics"},
+    r"apriltag": {"tracking"},
+    r"opencv": {"tracking", "view"},
+    r"SDL|imgui": {"view"},
+    r"SQLiteCpp|sqlite3": {"record"},
+    r"toml": {"protocol"},
+    r"CLI/": {"cli"},
+}
+
+ROOT_NAMES = {"CMakeLists.txt", "CMakePresets.json", "src", "protocols", "tests", "results",
+              "README.md", "LICENSE", "CITATION.cff", "heft"}
+
+
+def sources():
+    return sorted(p for p in SRC.rglob("*") if p.suffix in {".h", ".cpp"})
+
+
+def room_of(path):
+    return path.relative_to(SRC).parts[0]
+
+
+def includes(path):
+    pattern = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
+    return pattern.findall(path.read_text(encoding="utf-8"))
+
+
+class Structure(unittest.TestCase):
+    def test_every_folder_is_a_known_room(self):
+        self.assertLessEqual({room_of(p) for p in sources()}, set(MAY_INCLUDE))
+
+    def test_includes_point_down_the_layers(self):
+        for path in sources():
+            room = room_of(path)
+            for quote, target in includes(path):
+                if quote == '"':
+                    other = target.split("/")[0]
+                    with self.subTest(file=str(path.relative_to(ROOT)), includes=target):
+                        self.assertTrue((SRC / target).exists(),
+                                        "include our files from src/: \"room/File.h\"")
+                        self.assertTrue(other == room or other in MAY_INCLUDE[room],
+                                        f"{room} may not include {other}")
+
+    def test_libraries_stay_in_their_rooms(self):
+        for path in sources():
+            for quote, target in includes(path):
+                if quote == '"':
+                    continue
+                for library, rooms in LIBRARY_ROOMS.items():
+                    if re.match(library, target):
+                        with self.subTest(file=str(path.relative_to(ROOT)), includes=target):
+                            self.assertIn(room_of(path), rooms)
+
+    def test_targets_link_only_what_they_may_use(self):
+        text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+        linked = dict(re.findall(r"heft_room\((\w+)(?: USES ([^)]*))?\)", text))
+        self.assertIn("responders", linked)
+        for room, uses in linked.items():
+            if room in MAY_INCLUDE:
+                with self.subTest(room=room):
+                    rooms = {use for use in uses.split() if use in MAY_INCLUDE}
+                    self.assertLessEqual(rooms, MAY_INCLUDE[room])
+        self.assertNotIn("physics", linked["responders"].split())
+
+    def test_psychophysics_is_pure(self):
+        allowed = re.compile(r"^[a-z_0-9]+$")  # the standard library only
+        impure = {"fstream", "iostream", "chrono", "ctime", "random", "thread", "cstdio", "filesystem"}
+        for path in sources():
+            if room_of(path) != "psychophysics":
+                continue
+            for quote, target in includes(path):
+                with self.subTest(file=str(path.relative_to(ROOT)), includes=target):
+                    if quote == "<":
+                        self.assertRegex(target, allowed)
+                        self.assertNotIn(target, impure)
+
+    def test_sql_is_written_in_record_alone(self):
+        sql = re.compile(r"\b(SELECT .+ FROM|INSERT INTO|CREATE TABLE|UPDATE \w+ SET|DELETE FROM)\b")
+        for path in sources():
+            if room_of(path) != "record":
+                with self.subTest(file=str(path.relative_to(ROOT))):
+                    self.assertIsNone(sql.search(path.read_text(encoding="utf-8")))
+
+    def test_root_holds_what_the_design_allows(self):
+        listed = subprocess.run(["git", "-C", str(ROOT), "ls-files"], capture_output=True, text=True)
+        names = {line.split("/")[0] for line in listed.stdout.splitlines()}
+        self.assertEqual({n for n in names if not n.startswith(".")} - ROOT_NAMES, set())
+
+    def test_no_file_is_a_crowded_room(self):
+        for path in sources():
+            with self.subTest(file=str(path.relative_to(ROOT))):
+                n_lines = len(path.read_text(encoding="utf-8").splitlines())
+                self.assertLessEqual(n_lines, 400)
+
+
+if __name__ == "__main__":
+    unittest.main()
