@@ -32,7 +32,8 @@ struct ProcedureConfig {
   std::vector<StaircaseConfig> staircases;
 };
 
-/// Index of the staircase that the next trial belongs to; none when all are finished.
+/// Index of the staircase that the next trial belongs to; none when all are finished. Where
+/// max_lag holds a staircase back, round_robin and sequential go on to the next one that may run.
 /// @param previous index chosen for the last completed trial, for round_robin
 /// @param stream drawn from only by `random`, and only where there is a choice
 std::optional<std::size_t> next_staircase(std::span<const Staircase> staircases,

@@ -3,8 +3,17 @@
 // paper's rule its section 4.2.1.
 //
 // A positive answer (perceived, correct) counts towards a move down, a negative one towards a move
-// up. A move is due after `down` positive or `up` negative answers in a row. A due move opposite to
-// the previous due move is a reversal; its value is the level presented on that trial.
+// up. A move is due after `down` positive or `up` negative answers in a row; an opposite answer
+// starts the other count again, a due move both. A due move opposite to the previous due move is a
+// reversal, whether or not a bound leaves it room; the first due move never is one. Its value is
+// the level presented on that trial. The answer that ends a staircase makes no move.
+//
+// What the literature leaves open, other programs decide like this. PsychoPy, expyfun and the Unity
+// Staircase Procedure toolkit change the step before the reversal's own move, pychoacoustics after
+// it. PsychoPy clamps and counts no clamp as a reversal; expyfun clamps and lets its user choose
+// (repeat_limit); Palamedes with truncate = "no" and the Unity toolkit without strict limits let
+// the inner level go on beyond the bound. PsychoPy with applyInitialRule and Palamedes are
+// 1-up-1-down until the first reversal.
 #pragma once
 
 #include <optional>
@@ -36,13 +45,16 @@ struct EnumNames<ChangeStep> {
   static constexpr std::array<std::string_view, 2> names{"before_move", "after_move"};
 };
 
+/// Levels are held within +-this, so that they and their means stay finite whatever the steps.
+inline constexpr double largest_level = 1e300;
+
 struct StaircaseConfig {
-  std::string name;
+  std::string name{};
   double start = 0;
   /// Steps in force after 0, 1, 2... reversals; the last one repeats. Used when not empty;
   /// otherwise `step`, halved every `halve_every` reversals (0: never) and at least `min_step`.
-  std::vector<double> steps;
-  std::vector<double> steps_up;  ///< own list for upward moves; empty: the same as down
+  std::vector<double> steps{};
+  std::vector<double> steps_up{};  ///< own list for upward moves; empty: the same as down
   double step = 0;
   int halve_every = 0;
   double min_step = 0;
@@ -51,12 +63,16 @@ struct StaircaseConfig {
   int down = 1;  ///< consecutive positive answers before a move down
   bool initial_1up1down =
       false;  ///< 1-up-1-down until the first reversal, and for the answer making it
-  std::optional<double> floor, ceiling;
+  std::optional<double> floor{}, ceiling{};  ///< none: no bound
   AtBound at_bound = AtBound::clamp;
+  /// A due move that would pass the bound counts as a reversal too, also when it goes on in the
+  /// direction of the last one; whether it would is judged by the step in force without it. So
+  /// someone who always says yes ends by reversals, with an estimate at the floor. Reaching the
+  /// bound exactly is no reversal, and no answer makes two.
   bool bound_is_reversal = false;
   ChangeStep change_step = ChangeStep::before_move;
   int stop_reversals = 10;
-  int min_trials = 0;     ///< reversals end it only from this many trials on
+  int min_trials = 0;     ///< reversals end it only from this many trials on; more are recorded
   int stop_trials = 200;  ///< a hard limit
   int discard_reversals = 2;
 };
@@ -64,7 +80,7 @@ struct StaircaseConfig {
 struct Reversal {
   int number = 0;  ///< from 1
   double level = 0;
-  double step_before = 0, step_after = 0;  ///< in force before and after it
+  double step_before = 0, step_after = 0;  ///< in force before and after it, in its own direction
 };
 
 class Staircase {
@@ -83,8 +99,8 @@ class Staircase {
   double level() const;
 
   /// Takes the answer to a trial. Undefined after the end (check finished()).
-  /// @param shown the level really shown where it was not level(); the reversal's value, while the
-  ///   next level still follows the planned one
+  /// @param shown the level really shown where it was not level(), within +-largest_level; the
+  ///   reversal's value, while the next level still follows the planned one
   Update respond(bool positive, std::optional<double> shown = std::nullopt);
 
   bool finished() const { return finish_.has_value(); }
@@ -95,17 +111,28 @@ class Staircase {
   const StaircaseConfig& config() const { return config_; }
   const std::vector<Reversal>& reversals() const { return reversals_; }
   int n_trials() const { return n_trials_; }
-  /// Due moves that the floor (ceiling) cut short.
+  /// Moves that the floor (ceiling) cut short.
   int n_floor() const { return n_floor_; }
   int n_ceiling() const { return n_ceiling_; }
 
  private:
   enum class Direction { down, up };
 
-  std::optional<Direction> due_move(bool positive);
+  struct Move {
+    Direction direction;
+    double target;  ///< inner level that it leads to, not yet held within the bounds
+    bool is_reversal;
+  };
+
+  std::optional<Direction> due_direction(bool positive);
+  std::optional<Move> due_move(bool positive);
+  Reversal add_reversal(Direction direction, double shown_level);
+  void make(const Move& move);
   double step(Direction direction, std::size_t n_reversals) const;
   double moved(double level, Direction direction, double step) const;
   double presented(double level) const;
+  bool passes_bound(const Move& move) const;
+  std::optional<Finish> reason_to_finish() const;
 
   StaircaseConfig config_;
   double planned_ = 0;

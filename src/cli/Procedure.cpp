@@ -1,0 +1,45 @@
+// `heft procedure`: adaptive procedures for programs in any language.
+#include <csignal>
+#include <iostream>
+#include <memory>
+
+#include "cli/Commands.h"
+#include "cli/ProcedureDialog.h"
+#include "protocol/ProcedureFile.h"
+
+namespace heft::cli {
+
+namespace {
+void converse(const std::string& file) {
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error to report, not a kill
+  std::ios::sync_with_stdio(false);
+  ProcedureDialog(load_procedure(file), std::cout).run(std::cin);
+}
+}  // namespace
+
+void add_procedure(CLI::App& app) {
+  CLI::App* command = add_command(
+      app, "procedure", "Drive adaptive procedures over JSON lines on stdin and stdout",
+      {"heft procedure staircases.toml", "",
+       "A session (> is written by heft, < is your program's answer, a line a trial):",
+       R"(  > {"event":"trial","trial":1,"staircase":"15g","level":175})",
+       R"(  < {"response":true}                 perceived, correct: the level goes down)",
+       R"(  > {"event":"trial","trial":2,"staircase":"15g","level":125})",
+       R"(  < {"void":true}                     the staircase is untouched, a new trial is drawn)",
+       R"(  > {"event":"trial","trial":3,"staircase":"15g","level":125})",
+       R"(  < {"response":false,"level":124.5}  the level really shown, where it was another)",
+       R"(  > {"event":"reversal","staircase":"15g","trial":3,"number":1,"level":124.5,)"
+       R"("step_before":50,"step_after":50})",
+       R"(  > {"event":"trial","trial":4,"staircase":"15g","level":175})", "  ...",
+       R"(  > {"event":"finished","staircase":"15g","reason":"reversals","estimate":112.5,)"
+       R"("n_trials":19})",
+       R"(  > {"event":"done"})", "",
+       R"(Input it can't use is answered by {"event":"error","line":N,"message":...}; the trial)",
+       "stays open. It ends, with exit code 0, when all staircases are done or its input ends."});
+  const auto file = std::make_shared<std::string>();
+  command->add_option("file", *file, "procedure file (TOML): seed, interleave, [[staircase]]...")
+      ->required();
+  command->callback([file] { converse(*file); });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,47 @@
+#include "psychophysics/Interleaving.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace heft {
+
+namespace {
+int fewest_trials(std::span<const Staircase> staircases) {
+  int fewest = std::numeric_limits<int>::max();
+  for (const Staircase& staircase : staircases)
+    if (!staircase.finished()) fewest = std::min(fewest, staircase.n_trials());
+  return fewest;
+}
+
+// In file order. Never empty while a staircase is unfinished: the least advanced one may always
+// run.
+std::vector<std::size_t> may_run(std::span<const Staircase> staircases, int max_lag) {
+  const int fewest = fewest_trials(staircases);
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < staircases.size(); ++i)
+    if (!staircases[i].finished() && (max_lag == 0 || staircases[i].n_trials() - fewest < max_lag))
+      indices.push_back(i);
+  return indices;
+}
+
+std::size_t next_in_turn(const std::vector<std::size_t>& candidates,
+                         std::optional<std::size_t> previous) {
+  if (!previous) return candidates.front();
+  const auto next = std::upper_bound(candidates.begin(), candidates.end(), *previous);
+  return next == candidates.end() ? candidates.front() : *next;
+}
+}  // namespace
+
+std::optional<std::size_t> next_staircase(std::span<const Staircase> staircases,
+                                          const InterleaveConfig& config,
+                                          std::optional<std::size_t> previous,
+                                          RandomStream& stream) {
+  const std::vector<std::size_t> candidates = may_run(staircases, config.max_lag);
+  if (candidates.empty()) return std::nullopt;
+  if (candidates.size() == 1 || config.interleave == Interleave::sequential)
+    return candidates.front();
+  if (config.interleave == Interleave::round_robin) return next_in_turn(candidates, previous);
+  return candidates[stream.below(candidates.size())];
+}
+
+}  // namespace heft

@@ -1,0 +1,156 @@
+// What holds for every staircase and every sequence of answers.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "psychophysics/staircases.h"
+
+namespace heft {
+namespace {
+
+using test::any_staircase;
+
+std::vector<bool> any_answers() {
+  return *rc::gen::container<std::vector<bool>>(150, rc::gen::arbitrary<bool>());
+}
+
+/// Calls check(level, update) for every trial until the staircase ends.
+template <typename Check>
+void play(Staircase& staircase, const std::vector<bool>& answers, const Check& check) {
+  for (bool positive : answers) {
+    if (staircase.finished()) return;
+    const double level = staircase.level();
+    check(level, positive, staircase.respond(positive));
+  }
+}
+
+RC_GTEST_PROP(StaircaseProperty, LevelsStayInBoundsAndFinite, ()) {
+  Staircase staircase(*any_staircase());
+  const StaircaseConfig& config = staircase.config();
+  play(staircase, any_answers(), [&](double level, bool, const Staircase::Update&) {
+    RC_ASSERT(std::isfinite(level));
+    if (config.floor) RC_ASSERT(level >= *config.floor);
+    if (config.ceiling) RC_ASSERT(level <= *config.ceiling);
+  });
+}
+
+RC_GTEST_PROP(StaircaseProperty, EndsByItsTrialLimitAndNotBeforeItsLeastTrials, ()) {
+  Staircase staircase(*any_staircase());
+  const StaircaseConfig& config = staircase.config();
+  play(staircase, any_answers(), [](double, bool, const Staircase::Update&) {});
+  RC_ASSERT(staircase.finished());
+  const int n_reversals = static_cast<int>(staircase.reversals().size());
+  RC_ASSERT(staircase.n_trials() <= config.stop_trials);
+  if (staircase.finish() == Staircase::Finish::reversals) {
+    RC_ASSERT(n_reversals >= config.stop_reversals);
+    RC_ASSERT(staircase.n_trials() >= config.min_trials);
+  } else {
+    RC_ASSERT(staircase.n_trials() == config.stop_trials);
+    RC_ASSERT(n_reversals < config.stop_reversals || config.min_trials > config.stop_trials);
+  }
+}
+
+RC_GTEST_PROP(StaircaseProperty, ReversalsAlternateAndAreNumbered, ()) {
+  StaircaseConfig config = *any_staircase();
+  config.bound_is_reversal = false;
+  Staircase staircase(config);
+  int number = 0;
+  std::optional<bool> last_positive;
+  play(staircase, any_answers(), [&](double level, bool positive, const Staircase::Update& update) {
+    if (!update.reversal) return;
+    RC_ASSERT(update.reversal->number == ++number);
+    RC_ASSERT(update.reversal->level == level);
+    if (last_positive) RC_ASSERT(positive != *last_positive);
+    last_positive = positive;
+  });
+  RC_ASSERT(static_cast<int>(staircase.reversals().size()) == number);
+}
+
+RC_GTEST_PROP(StaircaseProperty, OneUpOneDownReversesWhereverTheAnswerChanges, ()) {
+  StaircaseConfig config = *any_staircase();
+  config.bound_is_reversal = false;
+  config.up = config.down = 1;
+  Staircase staircase(config);
+  std::optional<bool> previous;
+  play(staircase, any_answers(), [&](double, bool positive, const Staircase::Update& update) {
+    RC_ASSERT(update.reversal.has_value() == (previous && *previous != positive));
+    previous = positive;
+  });
+}
+
+RC_GTEST_PROP(StaircaseProperty, MovesNeverGoAgainstTheAnswer, ()) {
+  StaircaseConfig config = *any_staircase();
+  config.start = std::abs(config.start);  // factors move negative levels the other way
+  config.floor.reset();
+  config.ceiling.reset();
+  if (config.step_scale == StepScale::linear) config.start = 0;
+  Staircase staircase(config);
+  play(staircase, any_answers(), [&](double level, bool positive, const Staircase::Update&) {
+    RC_ASSERT((positive ? staircase.level() <= level : staircase.level() >= level));
+  });
+}
+
+RC_GTEST_PROP(StaircaseProperty, OneSidedAnswersAlwaysEnd, (bool positive)) {
+  StaircaseConfig config = *any_staircase();
+  config.floor = config.start - 1;
+  config.ceiling = config.start + 1;
+  config.step_scale = StepScale::linear;
+  Staircase staircase(config);
+  play(staircase, std::vector<bool>(150, positive), [](double, bool, const Staircase::Update&) {});
+  RC_ASSERT(staircase.finished());
+  if (!config.bound_is_reversal) RC_ASSERT(staircase.reversals().empty());
+}
+
+RC_GTEST_PROP(StaircaseProperty, BoundReversalsEndOneSidedAnswersLongBeforeTheLimit, ()) {
+  StaircaseConfig config = *any_staircase();
+  config.step_scale = StepScale::linear;
+  config.start = 10;
+  config.floor = 0;
+  config.step = 4;
+  config.halve_every = 1;
+  config.min_step = 1;
+  config.steps.clear();
+  config.min_trials = 0;
+  config.bound_is_reversal = true;
+  config.stop_trials = 100;
+  Staircase staircase(config);
+  play(staircase, std::vector<bool>(100, true), [](double, bool, const Staircase::Update&) {});
+  RC_ASSERT(staircase.finish() == Staircase::Finish::reversals);
+}
+
+RC_GTEST_PROP(StaircaseProperty, ShownLevelsChangeOnlyTheReversalValues, ()) {
+  const StaircaseConfig config = *any_staircase();
+  Staircase told(config), untold(config);
+  for (bool positive : any_answers()) {
+    if (untold.finished()) break;
+    RC_ASSERT(told.level() == untold.level());
+    const auto with = told.respond(positive, 12345.0);
+    const auto without = untold.respond(positive);
+    RC_ASSERT(with.reversal.has_value() == without.reversal.has_value());
+    if (with.reversal) RC_ASSERT(with.reversal->level == 12345.0);
+    RC_ASSERT(with.finish == without.finish);
+  }
+}
+
+RC_GTEST_PROP(StaircaseProperty, EstimateIsTheMeanOfTheReversalsKept, ()) {
+  Staircase staircase(*any_staircase());
+  std::vector<double> kept;
+  play(staircase, any_answers(), [&](double level, bool, const Staircase::Update& update) {
+    if (update.reversal && update.reversal->number > staircase.config().discard_reversals)
+      kept.push_back(level);
+  });
+  RC_ASSERT(staircase.estimate().has_value() == !kept.empty());
+  if (kept.empty()) return;
+  long double sum = 0;
+  for (double level : kept) sum += level;
+  const double mean = static_cast<double>(sum / static_cast<long double>(kept.size()));
+  const double largest = std::abs(*std::max_element(
+      kept.begin(), kept.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+  const double rounding = 1.2e-16 * (static_cast<double>(kept.size()) + 1) * largest;
+  RC_ASSERT(std::abs(*staircase.estimate() - mean) <= rounding);
+}
+
+}  // namespace
+}  // namespace heft

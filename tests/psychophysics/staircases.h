@@ -1,0 +1,84 @@
+// Staircases for tests: the paper's, runs over written-out answers, and random ones.
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <string_view>
+#include <vector>
+
+#include "psychophysics/Staircase.h"
+
+namespace heft::test {
+
+/// The paper's staircase for the 15 g reference (its table 2), with Heft's floor.
+inline StaircaseConfig paper_15g() {
+  return {.name = "15g", .start = 175, .step = 50, .halve_every = 2, .floor = 0};
+}
+
+/// 1-up-1-down with one step, without bounds.
+inline StaircaseConfig fixed_step(double start, double step) {
+  return {.name = "s", .start = start, .step = step};
+}
+
+struct Trace {
+  std::vector<double> levels;  ///< presented, and the one planned next unless finished
+  std::vector<int> reversal_trials;
+  std::vector<double> reversal_levels;
+};
+
+/// Answers + (positive) and - (negative), until the staircase ends.
+inline Trace answer(Staircase& staircase, std::string_view answers) {
+  Trace trace;
+  for (char sign : answers) {
+    trace.levels.push_back(staircase.level());
+    const Staircase::Update update = staircase.respond(sign == '+');
+    if (update.reversal) {
+      trace.reversal_trials.push_back(staircase.n_trials());
+      trace.reversal_levels.push_back(update.reversal->level);
+    }
+    if (staircase.finished()) return trace;
+  }
+  trace.levels.push_back(staircase.level());
+  return trace;
+}
+
+inline Trace answer(const StaircaseConfig& config, std::string_view answers) {
+  Staircase staircase(config);
+  return answer(staircase, answers);
+}
+
+/// Any sensible staircase; levels and steps are multiples of 1/4 so that arithmetic is exact.
+inline rc::Gen<StaircaseConfig> any_staircase() {
+  return rc::gen::exec([] {
+    const auto quarter = [](int from, int to) { return *rc::gen::inRange(from, to) / 4.0; };
+    const auto choice = [] { return *rc::gen::arbitrary<bool>(); };
+    StaircaseConfig config;
+    config.name = "s";
+    config.start = quarter(-400, 400);
+    if (choice()) {
+      config.steps = *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(
+          rc::gen::map(rc::gen::inRange(1, 200), [](int n) { return n / 4.0; })));
+      if (choice()) config.steps_up = {quarter(1, 200)};
+    } else {
+      config.step = quarter(1, 200);
+      config.halve_every = *rc::gen::inRange(0, 4);
+      config.min_step = std::min(config.step, quarter(0, 20));
+    }
+    config.step_scale = *rc::gen::element(StepScale::linear, StepScale::db, StepScale::log10);
+    config.up = *rc::gen::inRange(1, 4);
+    config.down = *rc::gen::inRange(1, 4);
+    config.initial_1up1down = choice();
+    if (choice()) config.floor = config.start - quarter(0, 400);
+    if (choice()) config.ceiling = config.start + quarter(0, 400);
+    config.at_bound = choice() ? AtBound::clamp : AtBound::virtual_level;
+    config.bound_is_reversal = choice();
+    config.change_step = choice() ? ChangeStep::before_move : ChangeStep::after_move;
+    config.stop_reversals = *rc::gen::inRange(1, 15);
+    config.min_trials = *rc::gen::inRange(0, 40);
+    config.stop_trials = *rc::gen::inRange(1, 100);
+    config.discard_reversals = *rc::gen::inRange(0, 5);
+    return config;
+  });
+}
+
+}  // namespace heft::test
