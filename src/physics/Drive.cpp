@@ -1,1 +1,110 @@
 #include "physics/Drive.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/Boxes.h"
+#include "base/Error.h"
+
+namespace heft {
+
+namespace {
+constexpr double longest_gap_s = 0.25 + 1e-6;  // a difference of two times is a little off
+constexpr double clear_m = 0.0005;
+// Where the clone waits until the effector is first seen.
+const Pose out_of_the_way{{0, 0, 10}, Eigen::Quaterniond::Identity()};
+
+// ceil(dt * rate), but 16 where rounding makes it 16.0000001.
+double n_steps(double dt_s, double rate_hz) {
+  return std::max(1.0, std::ceil(dt_s * rate_hz - 1e-6));
+}
+
+void check(const TargetSample& sample) {
+  if (!std::isfinite(sample.t_capture_s))
+    throw Error("an effector sample's capture time is not a finite number");
+  if (!sample.tracked) return;
+  const bool finite =
+      sample.pose.position_m.allFinite() && sample.pose.orientation.coeffs().allFinite() &&
+      sample.velocity.linear_m_s.allFinite() && sample.velocity.angular_rad_s.allFinite();
+  if (!finite || std::abs(sample.pose.orientation.norm() - 1) > 1e-3) {
+    throw Error(fmt::format(
+        "the effector's pose or velocity at {} s is unusable: expected finite numbers and a unit "
+        "quaternion; a sample without a pose has tracked = false",
+        sample.t_capture_s));
+  }
+}
+}  // namespace
+
+Drive::Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz)
+    : simulator_(std::move(simulator)), scene_(scene), rate_hz_(rate_hz) {
+  if (!(rate_hz > 0) || !std::isfinite(rate_hz))
+    throw Error(fmt::format("the physics rate is {} Hz, expected more than 0", rate_hz));
+}
+
+const WorldState& Drive::advance(const TargetSample& sample) {
+  check(sample);
+  if (!started_) {
+    start(sample);
+  } else {
+    const double dt_s = sample.t_capture_s - last_.t_capture_s;
+    if (!(dt_s > 0)) {
+      throw Error(fmt::format("an effector sample at {} s does not come after the one at {} s",
+                              sample.t_capture_s, last_.t_capture_s));
+    }
+    const bool continues = sample.tracked && last_.tracked && !sample.jump && dt_s <= longest_gap_s;
+    if (!continues) set_solid(false);
+    run(continues ? sample.pose : last_.pose, dt_s);
+    if (sample.tracked && !continues) simulator_->teleport_clone(sample.pose, sample.velocity);
+  }
+  const Pose target = sample.tracked ? sample.pose : last_.pose;
+  last_ = sample;
+  last_.pose = target;
+  started_ = true;
+  read_state();
+  if (sample.tracked && !solid_ && clear_of_cubes()) set_solid(true);
+  return state_;
+}
+
+void Drive::start(const TargetSample& sample) {
+  last_.pose = out_of_the_way;
+  simulator_->reset(scene_, sample.tracked ? sample.pose : out_of_the_way);
+  set_solid(sample.tracked);
+}
+
+void Drive::run(const Pose& target, double dt_s) {
+  const double n = n_steps(dt_s, rate_hz_);
+  for (double i = 1; i < n; ++i) simulator_->step(interpolate(last_.pose, target, i / n), dt_s / n);
+  simulator_->step(target, dt_s / n);  // exactly there, whatever interpolation rounds to
+}
+
+void Drive::return_cube(int cube) {
+  if (!started_ || cube < 0 || cube >= static_cast<int>(scene_.cubes.size()))
+    throw Error(fmt::format("there is no cube {} to put back, the scene has {}{}", cube,
+                            scene_.cubes.size(), started_ ? "" : " and has not started"));
+  const Cube& start = scene_.cubes[static_cast<std::size_t>(cube)];
+  simulator_->place_cube(cube, upright_pose(start.position_m, start.yaw_rad));
+  read_state();
+  if (solid_ && !clear_of_cubes()) set_solid(false);
+}
+
+void Drive::read_state() {
+  state_ = simulator_->state();
+  state_.clone_present = last_.tracked;
+}
+
+void Drive::set_solid(bool solid) {
+  simulator_->set_clone_solid(solid);
+  solid_ = solid;
+}
+
+bool Drive::clear_of_cubes() const {
+  const Eigen::Vector3d size_m = scene_.effector_size_m + Eigen::Vector3d::Constant(2 * clear_m);
+  for (std::size_t i = 0; i < state_.cubes.size(); ++i)
+    if (boxes_overlap(state_.clone.pose, size_m, state_.cubes[i].pose, scene_.cubes[i].size_m))
+      return false;
+  return true;
+}
+
+}  // namespace heft

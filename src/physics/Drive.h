@@ -30,16 +30,23 @@ class Drive {
   /// The world at the sample's capture time. The first sample starts the world. A gap above 0.25 s
   /// counts as a jump; a jump teleports the clone. After the effector was out of view, or a jump,
   /// the clone touches nothing until it is clear of every cube.
-  /// @throws Error when time does not advance
+  /// While it is out of view or jumps, the cubes go on with their motion and nothing touches them.
+  /// @throws Error when time does not advance, or a tracked pose or velocity is not usable
   const WorldState& advance(const TargetSample& sample);
 
-  /// Puts a cube back to its place in the scene, at rest.
+  /// Puts a cube back to its place in the scene, at rest. A clone that is there touches nothing
+  /// until it is clear.
+  /// @throws Error when there is no such cube
   void return_cube(int cube);
 
   const WorldState& state() const { return state_; }
 
  private:
-  void run(const TargetSample& sample);
+  void start(const TargetSample& sample);
+  void run(const Pose& target, double dt_s);
+  void read_state();
+  void set_solid(bool solid);
+  bool clear_of_cubes() const;
 
   std::unique_ptr<DecouplingSimulator> simulator_;
   Scene scene_;

@@ -31,7 +31,8 @@ struct Scene {
   double friction = 0.8;  ///< Coulomb coefficient between any two surfaces
   Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
   Coupling coupling;
-  Pose clone_offset;  ///< clone from effector at the first sample, released at rest
+  /// Clone from effector at the first sample, released at rest. A coupled clone has none.
+  Pose clone_offset;
   std::vector<Cube> cubes;
 };
 

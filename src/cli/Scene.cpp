@@ -1,0 +1,98 @@
+// heft scene: physics alone. A scene and the effector's path in, the clone's and the cubes' paths
+// out, as CSV on stdout.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "base/Error.h"
+#include "cli/Commands.h"
+#include "experiment/Trajectory.h"
+#include "physics/Drive.h"
+#include "protocol/SceneFile.h"
+
+namespace heft::cli {
+
+namespace {
+struct Options {
+  std::string scene, trajectory, simulator = "bullet";
+  double rate_hz = 240;
+};
+
+std::string header(std::size_t n_cubes) {
+  std::string line = "t_s";
+  const auto add_body = [&](const std::string& body) {
+    for (const char* column : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"})
+      line += fmt::format(",{}_{}", body, column);
+  };
+  add_body("clone");
+  for (std::size_t i = 1; i <= n_cubes; ++i) add_body(fmt::format("cube{}", i));
+  return line;
+}
+
+// Shortest digits that read back as the same doubles.
+std::string cells(const Pose& pose) {
+  const auto& p = pose.position_m;
+  const auto& q = pose.orientation;
+  return fmt::format(",{},{},{},{},{},{},{}", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
+}
+
+// The clone's cells are empty while the effector is out of view.
+std::string row(double t_s, const WorldState& state) {
+  std::string line = fmt::format("{}", t_s);
+  line += state.clone_present ? cells(state.clone.pose) : std::string(7, ',');
+  for (const BodyState& cube : state.cubes) line += cells(cube.pose);
+  return line;
+}
+
+TargetSample sample_at(const Trajectory& trajectory, double t_s) {
+  const auto pose = trajectory.at(t_s);
+  TargetSample sample;
+  sample.t_capture_s = t_s;
+  sample.tracked = pose.has_value();
+  if (pose) sample.pose = *pose;
+  return sample;
+}
+
+void run_scene(const Options& options) {
+  // Drive takes a longer pause between two poses for a gap in tracking.
+  if (!(options.rate_hz >= 4 && options.rate_hz <= 1e6))
+    throw Error(fmt::format("--rate {}: expected 4 to 1000000 Hz", options.rate_hz),
+                ExitCode::usage);
+  auto simulator = make_simulator(options.simulator);
+  const Scene scene = load_scene(options.scene);
+  const Trajectory trajectory = load_trajectory(options.trajectory);
+  Drive drive(std::move(simulator), scene, options.rate_hz);
+  fmt::print("{}\n", header(scene.cubes.size()));
+  const double start_s = trajectory.start_s();
+  const auto last =
+      static_cast<long>(std::floor((trajectory.end_s() - start_s) * options.rate_hz + 1e-6));
+  for (long n = 0; n <= last; ++n) {
+    const double t_s = start_s + static_cast<double>(n) / options.rate_hz;
+    fmt::print("{}\n", row(t_s, drive.advance(sample_at(trajectory, t_s))));
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Error("could not write the CSV to stdout: is the disk full?");
+}
+}  // namespace
+
+void add_scene(CLI::App& app) {
+  CLI::App* command = add_command(
+      app, "scene", "Physics alone: effector poses in, clone and cube poses out, as CSV",
+      {"heft scene tests/scenes/push_200g.toml --trajectory tests/scenes/push.csv > out.csv",
+       "heft scene SCENE.toml --trajectory T.csv --simulator bullet-ea --rate 60"});
+  const auto options = std::make_shared<Options>();
+  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command
+      ->add_option("--trajectory", options->trajectory,
+                   "effector path: CSV t_s,x_m,y_m,z_m,qw,qx,qy,qz")
+      ->required();
+  command->add_option("--simulator", options->simulator, "simulator")->capture_default_str();
+  command->add_option("--rate", options->rate_hz, "physics steps and rows a second")
+      ->capture_default_str();
+  command->callback([options] { run_scene(*options); });
+}
+
+}  // namespace heft::cli

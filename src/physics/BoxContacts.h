@@ -1,0 +1,44 @@
+// Where boxes touch, or would meet next. No masses and no forces live here.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+
+#include "base/Pose.h"
+
+namespace heft {
+
+struct Box {
+  Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: its x, y and z in the world
+};
+
+Box box_at(const Pose& pose, const Eigen::Vector3d& size_m);
+
+struct ContactPoint {
+  Eigen::Vector3d on_first_m, on_second_m;
+  double distance_m = 0;  ///< along the normal; negative where the boxes overlap
+  int feature = 0;        ///< equal in the next step if the same corner or edge touches
+};
+
+/// Where two bodies meet: at most four points that share a normal.
+struct Contact {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, from the second to the first
+  std::array<ContactPoint, 4> points;
+  int n_points = 0;
+
+  std::span<const ContactPoint> all() const {
+    return {points.data(), static_cast<std::size_t>(n_points)};
+  }
+};
+
+/// Contact of two boxes nearer than margin_m: points at positive distances too, so that a solver
+/// can stop the boxes where they meet instead of pushing them apart afterwards.
+Contact contact_between(const Box& first, const Box& second, double margin_m);
+
+/// Contact of a box (first) with the table plane z = 0 (second): its lowest corners.
+Contact contact_with_table(const Box& box, double margin_m);
+
+}  // namespace heft

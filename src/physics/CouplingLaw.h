@@ -1,0 +1,59 @@
+// The law that ties the clone to the effector, along one axis, in a form that a contact solver can
+// take part in. F = -k d - c v becomes a free velocity and a solver mass for the next step: the
+// solver then sees how hard the clone really is to push aside. A force that is only applied before
+// the solver is right in free air and wrong in contact.
+//
+// With e = clone - target at the start of the step, u0 and u1 = the target's mean velocity over the
+// last and this step, w = mean velocity of the clone over the last step, less u0:
+//   implicit Euler    M = m + h c + h^2 k,   v = u1 + (m (w + u0 - u1) - h k e) / M
+//   exact             M = k h^2 / a,         v = u1 + d w - (a / h) e - (m / M) (u1 - u0)
+// where d = e^(-2 z w0 h), s = 2 e^(-z w0 h) Re cosh(w0 h sqrt(z^2 - 1)), a = 1 - s + d are those
+// of the sampled oscillator with w0 = sqrt(k/m) and damping ratio z: it is exact in free motion and
+// under a steady load, for every step.
+#pragma once
+
+namespace heft {
+
+enum class CouplingScheme { implicit_euler, exact };
+
+/// One axis: metres, kilograms, newtons, or radians, kg m^2 and newton metres.
+struct CouplingAxis {
+  double mass = 0;
+  double stiffness = 0;
+  double damping_ratio = 1;
+};
+
+/// What the contact solver has to work with in one step.
+struct FreeStep {
+  double solver_mass = 0;
+  double velocity = 0;  ///< at which the clone moves if nothing touches it
+};
+
+class CouplingLaw {
+ public:
+  CouplingLaw() = default;
+  CouplingLaw(CouplingScheme scheme, const CouplingAxis& axis) : scheme_(scheme), axis_(axis) {}
+
+  /// Forgets the past: the clone and the target move at these velocities.
+  void restart(double clone_velocity, double target_velocity);
+
+  /// Starts a step of h_s seconds.
+  FreeStep begin(double offset, double target_velocity, double h_s);
+
+  /// Ends it: the clone's velocity as the contact solver left it.
+  void end(double velocity);
+
+ private:
+  double memory(double offset, double h_s) const;
+
+  CouplingScheme scheme_ = CouplingScheme::exact;
+  CouplingAxis axis_;
+  double velocity_ = 0, target_velocity_ = 0;  ///< over the last step
+  double last_h_s_ = 0;                        ///< 0: velocity_ is momentary
+  double load_ = 0;                            ///< force on the clone over the last step
+  // The step under way:
+  FreeStep step_;
+  double h_s_ = 0, next_target_velocity_ = 0;
+};
+
+}  // namespace heft

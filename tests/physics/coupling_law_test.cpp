@@ -1,0 +1,96 @@
+// The coupling along one axis, free and loaded, apart from any simulator.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "physics/CouplingLaw.h"
+#include "physics/Oracles.h"
+
+namespace heft {
+namespace {
+
+constexpr CouplingAxis paper{0.010, 50, 1};
+
+// Clone and target along one axis.
+struct Axis {
+  CouplingLaw law;
+  double clone = 0, target = 0;
+
+  double offset() const { return clone - target; }
+  // A steady force on the clone enters as in a contact solver: through the solver mass.
+  void step(double h_s, double target_velocity = 0, double force = 0) {
+    const FreeStep free = law.begin(offset(), target_velocity, h_s);
+    const double velocity = free.velocity + force * h_s / free.solver_mass;
+    law.end(velocity);
+    clone += h_s * velocity;
+    target += h_s * target_velocity;
+  }
+};
+
+RC_GTEST_PROP(CouplingLaw, ExactSchemeFollowsTheFreeReturnForAnyDampingAndStep, ()) {
+  const double z = *rc::gen::inRange(30, 300) / 100.0;
+  const double h_s = *rc::gen::inRange(1, 70) / 1000.0;
+  const CouplingAxis axis{paper.mass, paper.stiffness, z};
+  const FreeReturn left(axis.stiffness, axis.mass, z);
+  Axis x{CouplingLaw(CouplingScheme::exact, axis), 0.03};
+  for (int i = 1; i <= 50; ++i) {
+    x.step(h_s);
+    RC_ASSERT(std::abs(x.offset() - 0.03 * left(i * h_s)) < 1e-12);
+  }
+}
+
+RC_GTEST_PROP(CouplingLaw, ExactSchemeStaysExactWhenTheStepChanges, ()) {
+  const auto steps_us = *rc::gen::container<std::vector<int>>(40, rc::gen::inRange(500, 8000));
+  const FreeReturn left(paper.stiffness, paper.mass, 1);
+  Axis x{CouplingLaw(CouplingScheme::exact, paper), 0.03};
+  double t_s = 0;
+  for (int step_us : steps_us) {
+    x.step(step_us * 1e-6);
+    t_s += step_us * 1e-6;
+    RC_ASSERT(std::abs(x.offset() - 0.03 * left(t_s)) < 1e-10);
+  }
+}
+
+TEST(CouplingLaw, ALoadedRestIsNotDisturbedByAChangeOfStep) {
+  Axis x{CouplingLaw(CouplingScheme::exact, paper)};
+  for (int i = 0; i < 500; ++i) x.step(1.0 / 240, 0, -1.5);
+  for (double h_s : {1.0 / 255, 1.0 / 120, 1.0 / 1000}) {
+    x.step(h_s, 0, -1.5);
+    EXPECT_NEAR(x.offset(), -0.03, 1e-12) << h_s;
+  }
+}
+
+TEST(CouplingLaw, BothSchemesGiveTheStaticLagUnderALoad) {
+  for (auto scheme : {CouplingScheme::implicit_euler, CouplingScheme::exact}) {
+    Axis x{CouplingLaw(scheme, paper)};
+    for (int i = 0; i < 500; ++i) x.step(1.0 / 240, 0.1, -1.5);
+    EXPECT_NEAR(x.offset(), -1.5 / 50, 1e-12);
+  }
+}
+
+TEST(CouplingLaw, ImplicitEulerIsTheTextbookStep) {
+  // v1 = v0 + h/m (-k (x0 + h v1) - c v1), solved by hand for x0 = 0.03, v0 = 0.2.
+  const double h = 1.0 / 60, m = paper.mass, k = paper.stiffness, c = 2 * std::sqrt(k * m);
+  CouplingLaw law(CouplingScheme::implicit_euler, paper);
+  law.restart(0.2, 0);
+  const FreeStep step = law.begin(0.03, 0, h);
+  EXPECT_NEAR(step.velocity, (m * 0.2 - h * k * 0.03) / (m + h * c + h * h * k), 1e-15);
+  EXPECT_NEAR(step.velocity, 0.2 + h / m * (-k * (0.03 + h * step.velocity) - c * step.velocity),
+              1e-13);
+}
+
+RC_GTEST_PROP(CouplingLaw, NeverBlowsUpHoweverStiff, ()) {
+  const CouplingAxis axis{std::pow(10, *rc::gen::inRange(-7, 1)),
+                          std::pow(10, *rc::gen::inRange(-3, 10)),
+                          *rc::gen::inRange(1, 500) / 100.0};
+  const double h_s = 1 / *rc::gen::elementOf(std::vector<double>{15, 60, 240, 1000});
+  for (auto scheme : {CouplingScheme::implicit_euler, CouplingScheme::exact}) {
+    Axis x{CouplingLaw(scheme, axis), 0.03};
+    for (int i = 0; i < 200; ++i) {
+      x.step(h_s);
+      RC_ASSERT(std::abs(x.offset()) <= 0.03 * (1 + 1e-9));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace heft
