@@ -135,8 +135,10 @@ Stage stage_of(const Protocol& protocol, int n);
 Scene scene_of(const Protocol& protocol, Condition condition, const std::vector<double>& masses_g);
 
 /// @param text contents of the file  @param file its name, for messages
-/// @throws InvalidFile with every mistake at its line and column
-Protocol parse_protocol(const std::string& text, const std::string& file);
+/// @param settings changes to it, each KEY=VALUE (Settings.h)
+/// @throws InvalidFile with every mistake at its line and column; Error for an unusable setting
+Protocol parse_protocol(const std::string& text, const std::string& file,
+                        const std::vector<std::string>& settings = {});
 
 /// @throws Error when the file can't be read, InvalidFile as parse_protocol
 Protocol load_protocol(const std::string& path);

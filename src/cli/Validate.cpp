@@ -1,0 +1,86 @@
+// heft validate: checks protocols, procedure files and scene files, and reports every mistake of
+// every file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "base/Error.h"
+#include "base/TextFile.h"
+#include "cli/Commands.h"
+#include "protocol/ExpectedLength.h"
+#include "protocol/FileKind.h"
+#include "protocol/ProcedureFile.h"
+#include "protocol/SceneFile.h"
+
+namespace heft::cli {
+
+namespace {
+std::string described(const Protocol& protocol) {
+  const TrialDurations durations;
+  const ExpectedLength length = expected_length(protocol, durations);
+  std::string assumed = fmt::format("{:.0f} s a sorting trial, {:.0f} s a comparison",
+                                    durations.sorting_s, durations.comparison_s);
+  if (length.staircases > 0)
+    assumed += fmt::format(", {:.1f} trials a staircase as simulated observers take",
+                           length.staircase_trials / length.staircases);
+  return fmt::format("about {:.0f} trials and {:.0f} minutes (assuming {})", length.trials,
+                     length.minutes, assumed);
+}
+
+std::string checked(FileKind kind, const std::string& text, const std::string& path) {
+  switch (kind) {
+    case FileKind::protocol:
+      return described(parse_protocol(text, path));
+    case FileKind::procedure:
+      return fmt::format("{} staircase(s)", parse_procedure(text, path).staircases.size());
+    case FileKind::scene:
+      return fmt::format("{} cube(s)", parse_scene(text, path).cubes.size());
+  }
+  return {};
+}
+
+// Checks one file and says how it went.
+ExitCode validate(const std::string& path) {
+  try {
+    const std::string text = read_text_file(path);
+    const FileKind kind = recognized_kind(text, path);
+    try {
+      const std::string summary = checked(kind, text, path);
+      fmt::print("{}: ok, a {}: {}\n", path, name_of(kind), summary);
+    } catch (const InvalidFile& error) {
+      fmt::print(stderr, "{}\n{}: not valid as a {}: {} mistake(s)\n", error.what(), path,
+                 name_of(kind), error.mistakes().size());
+      return error.exit_code();
+    }
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return error.exit_code();
+  }
+  return ExitCode::ok;
+}
+
+void validate_all(const std::vector<std::string>& paths) {
+  std::size_t n_bad = 0;
+  ExitCode worst = ExitCode::ok;
+  for (const std::string& path : paths) {
+    const ExitCode code = validate(path);
+    if (code != ExitCode::ok) ++n_bad;
+    worst = std::max(worst, code);
+  }
+  if (worst != ExitCode::ok)
+    throw Error(fmt::format("{} of {} file(s) can't be used as they are", n_bad, paths.size()),
+                worst);
+}
+}  // namespace
+
+void add_validate(CLI::App& app) {
+  auto* command =
+      add_command(app, "validate", "check protocols, procedure files and scene files",
+                  {"heft validate protocols/paper.toml", "heft validate my_study/*.toml"});
+  auto paths = std::make_shared<std::vector<std::string>>();
+  command->add_option("FILE", *paths, "files to check; their kind is recognized")->required();
+  command->callback([paths] { validate_all(*paths); });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,189 @@
+#include "protocol/BlockReader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "protocol/StaircaseReader.h"
+
+namespace heft {
+
+namespace {
+constexpr Range catch_fractions{0, 1, false, true};
+
+struct NamesInUse {
+  UniqueNames blocks{"block"}, staircases{"staircase"};
+};
+
+// A task whose cubes weigh the same has no right answer.
+void read_masses(TableReader& table, std::vector<double>& masses_g, std::size_t count) {
+  table.require({"masses_g"});
+  table.read("masses_g", masses_g, above_zero);
+  if (!table.has("masses_g") || !table.good({"masses_g"})) return;
+  if (masses_g.size() != count)
+    table.mistake("masses_g", fmt::format("masses_g has {} masses, expected {}: one a cube",
+                                          masses_g.size(), count));
+  for (std::size_t i = 0; i < masses_g.size(); ++i)
+    if (std::ranges::count(std::span(masses_g).first(i), masses_g[i]) > 0)
+      table.mistake("masses_g", i,
+                    fmt::format("masses_g has {} g twice, expected different masses: equal ones "
+                                "have no right answer",
+                                masses_g[i]));
+}
+
+Block read_demonstration(TableReader& table, NamesInUse&) {
+  DemonstrationBlock block;
+  table.read("name", block.name);
+  table.read("duration_s", block.duration_s, above_zero);
+  table.close();
+  return block;
+}
+
+Block read_introduction(TableReader& table, NamesInUse&) {
+  IntroductionBlock block;
+  table.read("name", block.name);
+  read_masses(table, block.masses_g, 2);
+  table.read("condition", block.condition);
+  table.read("wrong_answer", block.wrong_answer);
+  table.close();
+  return block;
+}
+
+// Runs of one condition are shortest when the rarer condition parts the other's trials.
+int shortest_run(int c1_trials, int c2_trials) {
+  const int rarer = std::min(c1_trials, c2_trials), commoner = std::max(c1_trials, c2_trials);
+  return (commoner + rarer) / (rarer + 1);
+}
+
+void check_conditions(TableReader& table, const SortingBlock& block) {
+  if (!table.good({"trials", "c1_trials"})) return;
+  if (block.c1_trials > block.trials)
+    return table.mistake("c1_trials", fmt::format("c1_trials is {}, expected at most trials {}",
+                                                  block.c1_trials, block.trials));
+  const int c2_trials = block.trials - block.c1_trials;
+  const int shortest = shortest_run(block.c1_trials, c2_trials);
+  if (table.good({"max_run"}) && block.max_run > 0 && block.max_run < shortest)
+    table.mistake("max_run",
+                  fmt::format("max_run is {}, but {} C1 and {} C2 trials can't be ordered without "
+                              "a longer run, expected at least {}, or 0 for any",
+                              block.max_run, block.c1_trials, c2_trials, shortest));
+}
+
+Block read_sorting(TableReader& table, NamesInUse&) {
+  constexpr int most_trials = 500;  // beyond any session, and what drawing their order takes
+  SortingBlock block;
+  table.require({"trials", "c1_trials"});
+  table.read("name", block.name);
+  read_masses(table, block.masses_g, 3);
+  table.read("trials", block.trials, {1, most_trials});
+  table.read("c1_trials", block.c1_trials, {0, most_trials});
+  table.read("max_run", block.max_run);
+  table.read("orders", block.orders);
+  table.close();
+  check_conditions(table, block);
+  return block;
+}
+
+// The comparison weighs reference + level, which must stay above zero wherever the staircase goes.
+void check_lightest(TableReader& table, const ReferenceStaircase& reference) {
+  const StaircaseConfig& staircase = reference.staircase;
+  if (!table.has("reference_g") || !table.good({"reference_g", "floor", "step_scale"})) return;
+  if (staircase.step_scale == StepScale::linear && !staircase.floor)
+    table.mistake("floor", fmt::format("{} lacks \"floor\": its linear steps could make the "
+                                       "comparison weigh 0 g or less, expected a floor above {}",
+                                       table.title(), -reference.reference_g));
+  if (staircase.floor && *staircase.floor <= -reference.reference_g)
+    table.mistake("floor",
+                  fmt::format("floor is {}: beside a reference of {} g the comparison "
+                              "could weigh 0 g or less, expected above {}",
+                              *staircase.floor, reference.reference_g, -reference.reference_g));
+}
+
+ReferenceStaircase read_reference_staircase(TableReader& table, NamesInUse& names) {
+  ReferenceStaircase reference;
+  table.require({"reference_g"});
+  table.read("reference_g", reference.reference_g, above_zero);
+  reference.staircase = read_staircase(table);
+  table.close();
+  check_staircase(table, reference.staircase);
+  check_lightest(table, reference);
+  names.staircases.check(table, reference.staircase.name);
+  return reference;
+}
+
+Block read_comparison(TableReader& table, NamesInUse& names) {
+  ComparisonBlock block;
+  table.require({"staircase"});
+  table.read("name", block.name);
+  table.read("condition", block.condition);
+  table.read("catch_fraction", block.catch_fraction, catch_fractions);
+  table.read("positive_answer", block.positive_answer);
+  block.interleaving = read_interleaving(table);
+  for (TableReader& staircase : table.tables("staircase"))
+    block.staircases.push_back(read_reference_staircase(staircase, names));
+  table.close();
+  return block;
+}
+
+Block read_break(TableReader& table, NamesInUse&) {
+  BreakBlock block;
+  table.read("name", block.name);
+  table.read("least_duration_s", block.least_duration_s, zero_or_more);
+  table.close();
+  return block;
+}
+
+struct BlockKind {
+  std::string_view name;
+  Block (*read)(TableReader& table, NamesInUse& names);
+};
+constexpr std::array kinds{
+    BlockKind{"demonstration", read_demonstration}, BlockKind{"introduction", read_introduction},
+    BlockKind{"sorting", read_sorting}, BlockKind{"comparison", read_comparison},
+    BlockKind{"break", read_break}};
+
+// A misspelled kind is noted, and the block is checked as what it was most likely meant to be.
+std::optional<Block> read_block(TableReader& table, NamesInUse& names) {
+  std::array<std::string_view, kinds.size()> kind_names;
+  std::ranges::transform(kinds, kind_names.begin(), &BlockKind::name);
+  const auto name = table.read_nearest_name("kind", kind_names);
+  if (!name) return std::nullopt;
+  table.require({"name"});
+  Block block = std::ranges::find(kinds, *name, &BlockKind::name)->read(table, names);
+  std::visit([&](const auto& read) { names.blocks.check(table, read.name); }, block);
+  return block;
+}
+
+// A break parts two blocks: it is neither first nor last, and no other break is beside it.
+void check_breaks(std::vector<TableReader>& tables,
+                  const std::vector<std::optional<Block>>& blocks) {
+  const auto is_break = [&](std::size_t i) {
+    return blocks[i] && std::holds_alternative<BreakBlock>(*blocks[i]);
+  };
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (!is_break(i)) continue;
+    if (i == 0 || i + 1 == blocks.size())
+      tables[i].mistake("kind",
+                        fmt::format("a break is the {} block, expected it between two others",
+                                    i == 0 ? "first" : "last"));
+    else if (is_break(i - 1))
+      tables[i].mistake("kind", "a break follows a break, expected one longer break");
+  }
+}
+}  // namespace
+
+std::vector<Block> read_blocks(TableReader& protocol) {
+  NamesInUse names;
+  std::vector<TableReader> tables = protocol.tables("block");
+  std::vector<std::optional<Block>> read;
+  for (TableReader& table : tables) read.push_back(read_block(table, names));
+  check_breaks(tables, read);
+  std::vector<Block> blocks;
+  for (auto& block : read)
+    if (block) blocks.push_back(std::move(*block));
+  return blocks;
+}
+
+}  // namespace heft

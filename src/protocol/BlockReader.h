@@ -1,0 +1,12 @@
+// The [[block]] tables of a protocol.
+#pragma once
+
+#include "protocol/Protocol.h"
+#include "protocol/TableReader.h"
+
+namespace heft {
+
+/// Reads and checks every block; those with mistakes may be left out.
+std::vector<Block> read_blocks(TableReader& protocol);
+
+}  // namespace heft

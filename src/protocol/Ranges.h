@@ -1,0 +1,30 @@
+// The numbers that a key takes.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace heft {
+
+/// Beyond this much of any unit lies no experiment, only overflow.
+inline constexpr double furthest = 1e12;
+
+/// The numbers a key takes.
+struct Range {
+  double low = -furthest, high = furthest;
+  bool low_open = false, high_open = false;
+  bool holds(double value) const;
+  std::string text() const;  ///< what it adds to "a number", e.g. ", at least 0"
+};
+inline constexpr Range any_number{};
+inline constexpr Range above_zero{0, furthest, true};
+inline constexpr Range zero_or_more{0};
+
+/// Whole numbers that a key takes.
+struct WholeRange {
+  std::int64_t low = 0;
+  std::int64_t high = std::numeric_limits<int>::max();
+};
+
+}  // namespace heft

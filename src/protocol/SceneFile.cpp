@@ -1,0 +1,111 @@
+#include "protocol/SceneFile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/Boxes.h"
+#include "base/TextFile.h"
+#include "experiment/Task.h"
+#include "protocol/PhysicsReader.h"
+
+namespace heft {
+
+namespace {
+constexpr double tolerance_m = 1e-6;  ///< rounding in a hand-written file, far below any contact
+
+struct PlacedCube {
+  Cube cube;
+  TableReader table;
+};
+
+PlacedCube read_cube(TableReader table) {
+  Cube cube;
+  table.require({"mass_kg", "size_m", "position_m"});
+  table.read("mass_kg", cube.mass_kg, above_zero);
+  table.read_size("size_m", cube.size_m);
+  table.read("position_m", cube.position_m);
+  table.read("yaw_rad", cube.yaw_rad);
+  table.close();
+  return {cube, std::move(table)};
+}
+
+void check_above_table(PlacedCube& placed) {
+  if (!placed.table.good({"size_m", "position_m"})) return;
+  const double bottom_m = placed.cube.position_m.z() - placed.cube.size_m.z() / 2;
+  if (bottom_m < -tolerance_m)
+    placed.table.mistake(
+        "position_m", 2,
+        fmt::format("position_m puts the cube {:.6g} m into the table, expected its center at "
+                    "least half its height ({:.6g} m) above z = 0",
+                    -bottom_m, placed.cube.size_m.z() / 2));
+}
+
+bool overlap(const Cube& a, const Cube& b) {
+  const Eigen::Vector3d shrunk_m = a.size_m.array() - tolerance_m;
+  return boxes_overlap(upright_pose(a.position_m, a.yaw_rad), shrunk_m,
+                       upright_pose(b.position_m, b.yaw_rad), b.size_m);
+}
+
+void check_overlaps(std::vector<PlacedCube>& cubes) {
+  const auto known = [](const PlacedCube& cube) {
+    return cube.table.good({"size_m", "position_m", "yaw_rad"});
+  };
+  for (std::size_t i = 0; i < cubes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (known(cubes[i]) && known(cubes[j]) && overlap(cubes[i].cube, cubes[j].cube))
+        cubes[i].table.mistake(
+            "position_m", fmt::format("cube {} overlaps cube {} (line {}), expected them apart",
+                                      i + 1, j + 1, cubes[j].table.place().line));
+}
+
+std::vector<Cube> read_cubes(TableReader& reader) {
+  std::vector<PlacedCube> placed;
+  for (TableReader& table : reader.tables("cube")) placed.push_back(read_cube(std::move(table)));
+  std::ranges::for_each(placed, check_above_table);
+  check_overlaps(placed);
+  std::vector<Cube> cubes;
+  for (const PlacedCube& cube : placed) cubes.push_back(cube.cube);
+  return cubes;
+}
+
+Pose read_clone_offset(TableReader& reader) {
+  Pose offset;
+  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();
+  if (auto table = reader.table("clone")) {
+    table->read("offset_m", offset.position_m);
+    table->read("offset_rotvec_rad", rotation_rad);
+    table->close();
+  }
+  offset.orientation = rotation_from_vector(rotation_rad);
+  return offset;
+}
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& file) {
+  Mistakes mistakes(file);
+  const TomlTable root = parse_toml(text, file);
+  TableReader reader(root, mistakes);
+  Scene scene;
+  reader.read("friction", scene.friction, zero_or_more);
+  reader.read("gravity_m_s2", scene.gravity_m_s2, zero_or_more);
+  read_effector(reader, scene.effector_size_m);
+  if (auto table = reader.table("coupling")) {
+    Condition condition = Condition::C2;
+    table->read("condition", condition);
+    scene.coupling = read_coupling(*table);
+    scene.coupling.decoupled = condition == Condition::C2;
+    table->close();
+  }
+  scene.clone_offset = read_clone_offset(reader);
+  scene.cubes = read_cubes(reader);
+  reader.close();
+  mistakes.throw_if_any();
+  return scene;
+}
+
+Scene load_scene(const std::string& path) {
+  return parse_scene(read_text_file(path), path);
+}
+
+}  // namespace heft

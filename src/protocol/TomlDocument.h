@@ -1,0 +1,53 @@
+// A TOML file as a tree of values that know their places. The only door to the TOML library; what
+// the values mean is for the readers of procedures, scenes and protocols.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/Error.h"
+
+namespace heft {
+
+struct TomlNode;
+struct TomlEntry;
+using TomlArray = std::vector<TomlNode>;
+using TomlTable = std::vector<TomlEntry>;  ///< in no particular order; keys are unique
+
+/// A date or time: valid TOML that no file of ours has a use for.
+struct TomlDate {};
+
+/// A number too large for its type, as written.
+struct TomlOverflow {
+  std::string text;
+};
+
+/// Lines and columns count from 1, columns in characters.
+struct TomlPlace {
+  int line = 1, column = 1;
+};
+
+struct TomlNode {
+  TomlPlace place;
+  std::variant<bool, std::int64_t, double, std::string, TomlArray, TomlTable, TomlDate,
+               TomlOverflow>
+      value;
+};
+
+struct TomlEntry {
+  std::string key;
+  TomlPlace place;
+  TomlNode node;
+};
+
+/// @return the root table
+/// @throws InvalidFile with the place of the first syntax error
+TomlTable parse_toml(const std::string& text, const std::string& file);
+
+/// A value as a message shows it: short, on one line, without control characters.
+std::string shown(const TomlNode& node);
+std::string printable(std::string text);
+
+}  // namespace heft

@@ -1,0 +1,117 @@
+"""heft validate from the outside: exit codes, what goes to stdout and to stderr, file kinds.
+
+Run as: python3 tests/cli/validate_test.py PATH_TO_HEFT
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROTOCOLS = pathlib.Path(__file__).resolve().parents[2] / "protocols"
+HEFT = "heft"
+
+PROCEDURE = """seed = 42
+[[staircase]]
+name = "15g"
+start = 175
+step = 50
+floor = 0
+"""
+SCENE = """friction = 0.8
+[[cube]]
+mass_kg = 0.2
+size_m = 0.035
+position_m = [0, 0, 0.0175]
+"""
+
+
+class Validate(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def file(self, name, text):
+        path = pathlib.Path(self.folder.name) / name
+        path.write_text(text, encoding="utf-8")
+        return str(path)
+
+    def validate(self, *paths):
+        return subprocess.run(
+            [HEFT, "validate", *map(str, paths)], capture_output=True, text=True, timeout=60
+        )
+
+    def test_every_shipped_protocol_is_ok(self):
+        paths = sorted(PROTOCOLS.glob("*.toml"))
+        self.assertGreaterEqual(len(paths), 5)
+        run = self.validate(*paths)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        lines = run.stdout.splitlines()
+        self.assertEqual(len(lines), len(paths))
+        for path, line in zip(paths, lines):
+            self.assertRegex(
+                line, rf"^{re.escape(str(path))}: ok, a protocol: about \d+ trials and \d+ minutes"
+            )
+
+    def test_says_what_it_took_a_file_for(self):
+        procedure, scene = self.file("a.toml", PROCEDURE), self.file("b.toml", SCENE)
+        run = self.validate(procedure, scene)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(
+            run.stdout.splitlines(),
+            [f"{procedure}: ok, a procedure file: 1 staircase(s)",
+             f"{scene}: ok, a scene file: 1 cube(s)"],
+        )
+
+    def test_reports_every_mistake_of_every_file(self):
+        procedure = self.file("a.toml", PROCEDURE.replace("175", "-175").replace("50", "0"))
+        good = self.file("good.toml", PROCEDURE)
+        scene = self.file("b.toml", SCENE.replace("mass_kg", "mas_kg"))
+        run = self.validate(procedure, good, scene)
+        self.assertEqual(run.returncode, 3)
+        self.assertEqual(run.stdout.splitlines(), [f"{good}: ok, a procedure file: 1 staircase(s)"])
+        places = re.findall(r"^(\S+:\d+:\d+): ", run.stderr, re.MULTILINE)
+        self.assertEqual(places, [f"{procedure}:4:9", f"{procedure}:5:8", f"{scene}:3:1"])
+        self.assertIn('"mass_kg"?', run.stderr)
+
+    def test_a_syntax_error_has_its_place(self):
+        path = self.file("a.toml", PROCEDURE + "x = = 3\n")
+        run = self.validate(path)
+        self.assertEqual(run.returncode, 3)
+        self.assertIn(f"{path}:7:5: not valid TOML", run.stderr)
+
+    def test_an_unreadable_file_fails(self):
+        missing = str(pathlib.Path(self.folder.name) / "missing.toml")
+        for path in (missing, self.folder.name):
+            run = self.validate(path)
+            self.assertEqual((run.returncode, run.stdout), (1, ""))
+            self.assertIn(path, run.stderr)
+
+    def test_the_other_files_are_checked_after_an_unreadable_one(self):
+        missing = str(pathlib.Path(self.folder.name) / "missing.toml")
+        run = self.validate(missing, self.file("a.toml", PROCEDURE.replace("seed", "sed")))
+        self.assertEqual(run.returncode, 3)
+        self.assertIn("missing.toml", run.stderr)
+        self.assertIn('"seed"?', run.stderr)
+
+    def test_a_file_of_no_kind_is_invalid(self):
+        path = self.file("a.toml", 'color = "red"\n')
+        run = self.validate(path)
+        self.assertEqual(run.returncode, 3)
+        self.assertIn(f"{path}:1:1: ", run.stderr)
+
+    def test_no_file_is_a_usage_error(self):
+        self.assertEqual(self.validate().returncode, 2)
+
+    def test_help_shows_examples(self):
+        run = self.validate("--help")
+        self.assertEqual(run.returncode, 0)
+        self.assertIn("heft validate protocols/paper.toml", run.stdout)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        HEFT = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()

@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include "EditedFile.h"
+#include "protocol/ExpectedLength.h"
+
+namespace heft {
+namespace {
+
+// PROCEDURES: the paper's staircases take 19 to 21 trials each.
+TEST(ExpectedLength, OfThePapersStaircases) {
+  const ExpectedLength length = expected_length(load_protocol(shipped_path("paper")));
+  EXPECT_EQ(length.staircases, 3);
+  EXPECT_GE(length.staircase_trials / 3, 19);
+  EXPECT_LE(length.staircase_trials / 3, 21);
+  EXPECT_DOUBLE_EQ(length.trials, length.staircase_trials + 11);
+}
+
+TEST(ExpectedLength, AddsUpBlocks) {
+  Protocol protocol;
+  protocol.blocks = {DemonstrationBlock{"d", 30}, IntroductionBlock{}, SortingBlock{},
+                     BreakBlock{"b", 60}};
+  const ExpectedLength length = expected_length(protocol, {12, 20, 5});
+  EXPECT_DOUBLE_EQ(length.trials, 11);
+  EXPECT_DOUBLE_EQ(length.minutes, (30 + 12 + 10 * 20 + 60) / 60.0);
+}
+
+TEST(ExpectedLength, CountsCatchTrials) {
+  Protocol protocol = load_protocol(shipped_path("jnd"));
+  protocol.blocks = {protocol.blocks.back()};
+  const double without = expected_length(protocol).trials;
+  std::get<ComparisonBlock>(protocol.blocks.back()).catch_fraction = 0.2;
+  EXPECT_NEAR(expected_length(protocol).trials, without / 0.8, 1e-9);
+}
+
+TEST(ExpectedLength, EndsWhereAStaircaseGetsNowhere) {
+  ComparisonBlock block;
+  block.staircases.resize(1);
+  block.staircases[0].reference_g = 1;
+  block.staircases[0].staircase.start = 1e6;
+  block.staircases[0].staircase.step = 1e-6;
+  block.staircases[0].staircase.stop_trials = 2'000'000'000;
+  Protocol protocol;
+  protocol.blocks = {block};
+  EXPECT_LE(expected_length(protocol).trials, 1000);
+}
+
+TEST(ExpectedLength, OfTheQuickProtocolIsAboutTwoMinutes) {
+  EXPECT_NEAR(expected_length(load_protocol(shipped_path("quick"))).minutes, 2, 0.5);
+}
+
+}  // namespace
+}  // namespace heft
