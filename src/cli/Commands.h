@@ -1,5 +1,6 @@
 // One file per subcommand; each adds itself to the program. A command's callback does the work,
-// writes data to stdout and talk to stderr, and throws Error to end with a message and an exit code.
+// writes data to stdout and talk to stderr, and throws Error to end with a message and an exit
+// code.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -23,10 +23,24 @@ int main(int argc, char** argv) {
   app.name("heft");
   app.set_version_flag("--version", std::string("heft ") + HEFT_VERSION);
   app.require_subcommand(1);
+  app.footer("Start with: heft demo. Each command explains itself: heft COMMAND --help");
+  cli::add_demo(app);
+  cli::add_run(app);
+  cli::add_resume(app);
+  cli::add_simulate(app);
+  cli::add_replay(app);
+  cli::add_analyse(app);
+  cli::add_validate(app);
+  cli::add_procedure(app);
+  cli::add_scene(app);
+  cli::add_doctor(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  } catch (const InvalidFile& error) {
+    fmt::print(stderr, "{}\n", error.what());  // each line starts with file:line:column
+    return static_cast<int>(error.exit_code());
   } catch (const Error& error) {
     fmt::print(stderr, "heft: {}\n", error.what());
     return static_cast<int>(error.exit_code());

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,7 +9,7 @@
 
 #include "experiment/Event.h"
 #include "experiment/Rows.h"
-#include "record/SessionLog.h"
+#include "record/SessionHeader.h"
 
 namespace heft {
 
@@ -20,30 +19,45 @@ struct SessionRow {
   SessionState state = SessionState::running;
 };
 
+/// Whether `heft resume` can go on with a session in this state.
+inline bool is_unfinished(SessionState state) {
+  return state == SessionState::running || state == SessionState::paused;
+}
+
 /// A logged event with the attempt it belongs to (0: none).
 struct LoggedEvent {
   Event event;
   int attempt_index = 0;
 };
 
+/// The log as it was when it was opened; what a writer adds later is not seen. An empty file, as a
+/// crash while it is created leaves it, is a log without sessions. Every method throws Error naming
+/// table, row and column where a value can't be one of ours, and Error where the file is damaged.
+/// Numbers have the bits that were written, but -0.0 comes back as 0.0 except in a frame's
+/// effector.
 class LogReader {
  public:
   /// @throws Error when the file can't be read, is no heft log or newer than this program
   explicit LogReader(const std::string& path);
   LogReader(LogReader&&) noexcept;
+  LogReader& operator=(LogReader&&) noexcept;
   ~LogReader();
 
+  /// Oldest first, as all lists here: in the order of writing.
   std::vector<SessionRow> sessions() const;
   /// @throws Error when there is none of that id
   SessionRow session(std::int64_t session_id) const;
+  std::vector<SessionRow> sessions_of(const std::string& participant,
+                                      const std::string& protocol_name) const;
+  std::optional<SessionRow> newest_unfinished_session() const;
 
-  // Each in the order of writing.
   std::vector<LoggedEvent> events(std::int64_t session_id) const;
-  std::vector<TrialRow> trials(std::int64_t session_id) const;
+  std::vector<TrialRow> trials(std::int64_t session_id) const;  ///< masses from their cube rows
   std::vector<CubeRow> cubes(std::int64_t session_id) const;
   std::vector<AnswerRow> answers(std::int64_t session_id) const;
   std::vector<ReversalRow> reversals(std::int64_t session_id) const;
   std::vector<EstimateRow> estimates(std::int64_t session_id) const;
+  /// @param attempt_index 0: the pictures outside of trials
   std::vector<FrameRow> frames(std::int64_t session_id, int attempt_index) const;
 
  private:

@@ -5,55 +5,47 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 
-#include "experiment/Event.h"
-#include "experiment/Rows.h"
+#include "record/EventSink.h"
+#include "record/SessionHeader.h"
 
 namespace heft {
 
-/// The `session` table's row as a session starts.
-struct SessionHeader {
-  std::string participant;
-  std::string protocol_name, protocol_text, protocol_sha256;
-  std::uint64_t seed = 0;  ///< 0...2^63-1
-  std::string heft_version, build;
-  std::string run_options;  ///< JSON: the options it was started with
-  std::string purpose;      ///< main, pilot, test or simulated
-  std::string responder;
-  std::string started_utc;  ///< ISO 8601, the session's one anchor in UTC
-};
-
-/// acknowledged: committed to disk when append() returns, before the screen changes. buffered: in
-/// order, with the next acknowledged event or within a second.
-enum class Durability { acknowledged, buffered };
-
-class SessionLog {
+class SessionLog final : public EventSink {
  public:
   /// Opens or creates the database at `path` and starts a new session in it: the schema and the
-  /// session's row are committed together.
+  /// session's row are committed together. A missing or empty file becomes a log.
   /// @throws Error when another writer has the file, or it is no heft log, newer than this program,
   ///   read-only, or the disk is full
   static SessionLog start(const std::string& path, const SessionHeader& header);
 
   /// Opens the database to go on with a session.
+  /// @throws Error as start(), and when there is no such session
   static SessionLog reopen(const std::string& path, std::int64_t session_id);
 
   SessionLog(SessionLog&&) noexcept;
   SessionLog& operator=(SessionLog&&) noexcept;
-  ~SessionLog();  ///< writes what is buffered, where it still can
+  /// Writes what is buffered, where it still can; what can't be saved and was not reported by a
+  /// call before is reported on stderr.
+  ~SessionLog() override;
 
   std::int64_t session_id() const;
 
-  /// Writes an event and all it changes in one transaction.
-  /// @throws Error when it could not be saved: what, why (disk full, ...), what to do
-  void append(const Event& event, const Changes& changes, Durability durability);
+  /// Writes an event and all it changes in one transaction, with everything buffered before it. A
+  /// trial's first row brings its cubes along: they are written from the plan's masses.
+  /// @throws Error when it could not be saved: what, why (disk full, ...), what to do. The log is
+  ///   then closed: nothing of the event is in it, and every later call throws the same error, so
+  ///   that no later event can follow a lost one.
+  void append(const Event& event, const Changes& changes, Durability durability) override;
 
-  void add_frame(const FrameRow& frame);
+  /// @throws Error as append() when the buffer was due and could not be saved
+  void add_frame(const FrameRow& frame) override;
 
-  /// Writes everything buffered.
-  void flush();
+  /// Writes everything buffered. While nothing happens nothing is written: call it when the session
+  /// stands still.
+  /// @throws Error as append()
+  void flush() override;
 
  private:
   class Impl;

@@ -1,1 +1,61 @@
 #include "responders/Responder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "responders/ResponderParameters.h"
+#include "responders/Resting.h"
+#include "responders/Scripted.h"
+#include "responders/Simulated.h"
+
+namespace heft {
+
+namespace {
+constexpr std::array table{
+    ResponderEntry{"simulated", "a hand that pushes cubes, an eye for the clone, a judgment",
+                   ResponderFile::parameters, make_simulated, simulated_parts},
+    ResponderEntry{"always_yes",
+                   "finds a difference in every trial without touching a cube",
+                   ResponderFile::none,
+                   make_always_yes,
+                   {}},
+    ResponderEntry{"always_no",
+                   "never finds a difference, never touches a cube",
+                   ResponderFile::none,
+                   make_always_no,
+                   {}},
+    ResponderEntry{"coin", "finds a difference with probability p, whatever there is",
+                   ResponderFile::parameters, make_coin, coin_parts},
+    ResponderEntry{"criterion_only", "answers from its criterion and noise alone, never looking",
+                   ResponderFile::parameters, make_criterion_only, criterion_only_parts},
+    ResponderEntry{"scripted",
+                   "plays a folder of trajectories and timed actions back",
+                   ResponderFile::folder,
+                   make_scripted,
+                   {}},
+};
+}  // namespace
+
+std::span<const ResponderEntry> responders() {
+  return table;
+}
+
+const ResponderEntry& responder_named(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const ResponderEntry& entry : table) {
+    if (entry.name == name) return entry;
+    names.push_back(entry.name);
+  }
+  const auto nearest = nearest_name(name, names);
+  const std::string hint = nearest ? fmt::format("did you mean \"{}\"?", *nearest)
+                                   : fmt::format("expected {}", quoted_list(names));
+  throw Error(fmt::format("there is no responder \"{}\", {}", name, hint), ExitCode::usage);
+}
+
+std::string describe_parameters(const ResponderEntry& responder) {
+  return describe_parameters(responder.parts);
+}
+
+}  // namespace heft

@@ -62,6 +62,8 @@ struct ResponderOptions {
   std::string folder;                 ///< for ResponderFile::folder
 };
 
+enum class ParameterPart;  // in ResponderParameters.h
+
 /// A row of the table of responders.
 struct ResponderEntry {
   std::string_view name;
@@ -70,9 +72,13 @@ struct ResponderEntry {
   /// @throws InvalidFile naming each unknown or impossible parameter at its place, with the nearest
   ///   valid name; Error where a folder lacks what it must hold
   std::unique_ptr<Responder> (*make)(const ResponderOptions& options);
+  std::span<const ParameterPart> parts;  ///< whose parameters its file may set
 };
 
 std::span<const ResponderEntry> responders();
+
+/// Its parameters, a line each: name, default, unit, range, spread, reason. Empty: it has none.
+std::string describe_parameters(const ResponderEntry& responder);
 
 /// @throws Error (usage) naming the nearest responder when there is none of that name
 const ResponderEntry& responder_named(std::string_view name);

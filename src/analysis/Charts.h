@@ -1,0 +1,33 @@
+// The charts of a Summary, as gnuplot scripts that hold their data.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/Summary.h"
+
+namespace heft {
+
+struct Chart {
+  std::string name;    ///< of its files, without extension: NAME.gp draws NAME.svg
+  std::string title;   ///< what it shows; stands in the report, too
+  std::string script;  ///< gnuplot
+};
+
+/// Sorting percentages, JND against reference, and one session's staircases; those there is
+/// something to draw for.
+std::vector<Chart> charts_of(const Summary& summary);
+
+/// The color that the paper's figures have in every chart.
+inline constexpr std::string_view published_color = "#c0561f";
+
+// Each where it has data, otherwise an empty script.
+Chart sorting_chart(const Summary& summary);
+Chart jnd_chart(const Summary& summary);
+Chart tracks_chart(const Summary& summary);
+
+/// "Made by: heft analyse --db heft.db --out report (heft 0.1.0)"
+std::string caption_of(const Summary& summary);
+
+}  // namespace heft

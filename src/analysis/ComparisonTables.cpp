@@ -1,0 +1,157 @@
+// JNDs, staircases and choices as tables.
+#include "analysis/TableParts.h"
+
+namespace heft {
+
+namespace {
+Table jnd_table(const Summary& summary) {
+  Table table{"jnd",
+              titled("JND by reference mass, mean over participants", summary),
+              {{"reference_g", "reference g"},
+               {"condition", "condition"},
+               {"mean_g", "JND g"},
+               {"sd_g", "SD"},
+               {"low_g", "95 % low"},
+               {"high_g", "high"},
+               {"n_participants", "n"},
+               {"published_g", "published g"},
+               {"published_sd_g", "published SD"}},
+              {},
+              "n participants; SD between them (n-1); Student t interval"};
+  for (const ReferenceJnd& jnd : summary.jnd)
+    table.rows.push_back({mass(jnd.compared.reference_g), named_cell(jnd.compared.condition),
+                          number(jnd.mean_g), number(jnd.sd_g), low(jnd.interval_g),
+                          high(jnd.interval_g), count(static_cast<int>(jnd.participants.size())),
+                          number(jnd.published_g), number(jnd.published_sd_g)});
+  return table;
+}
+
+Table staircase_health_table(const Summary& summary) {
+  Table table{"staircase_health",
+              titled("How the staircases went", summary),
+              {{"reference_g", "reference g"},
+               {"condition", ""},
+               {"n_staircases", "finished"},
+               {"n_unfinished", "unfinished"},
+               {"mean_trials", "trials"},
+               {"least_trials", "least"},
+               {"most_trials", "most"},
+               {"n_trial_limit", "at limit"},
+               {"n_without_estimate", "no JND"},
+               {"n_floor", "floor"},
+               {"n_floor_staircases", "in"},
+               {"n_ceiling", "ceiling"},
+               {"n_ceiling_staircases", "in"}},
+              {},
+              "staircases; trials: mean, least and most of the finished; at limit: ended by the "
+              "trial limit; "
+              "floor, ceiling: moves that the bound cut short, and in how many staircases"};
+  for (const ReferenceJnd& jnd : summary.jnd) {
+    const bool any = jnd.n_staircases > 0;
+    table.rows.push_back(
+        {mass(jnd.compared.reference_g), named_cell(jnd.compared.condition),
+         count(jnd.n_staircases), count(jnd.n_unfinished), any ? number(jnd.mean_trials) : Cell(),
+         any ? count(jnd.least_trials) : Cell(), any ? count(jnd.most_trials) : Cell(),
+         count(jnd.n_trial_limit), count(jnd.n_without_estimate), count(jnd.n_floor),
+         count(jnd.n_floor_staircases), count(jnd.n_ceiling), count(jnd.n_ceiling_staircases)});
+  }
+  return table;
+}
+
+void add_choices(Table& table, Cell reference, int n_trials, const Rate& wrong_cube,
+                 const Rate& false_alarm, const Rate& at_zero) {
+  table.rows.push_back({std::move(reference), count(n_trials), count(wrong_cube.trials.n_trials),
+                        count(wrong_cube.trials.n_hits), number(wrong_cube.percent),
+                        low(wrong_cube.interval_percent), high(wrong_cube.interval_percent),
+                        count(false_alarm.trials.n_trials), count(false_alarm.trials.n_hits),
+                        number(false_alarm.percent), low(false_alarm.interval_percent),
+                        high(false_alarm.interval_percent), count(at_zero.trials.n_trials),
+                        count(at_zero.trials.n_hits)});
+}
+
+Table choices_table(const Summary& summary) {
+  Table table{
+      "choices",
+      titled("Choices in comparisons: wrong cubes and false alarms", summary),
+      {{"reference_g", "reference g"},
+       {"n_trials", "trials"},
+       {"n_choices", "choices"},
+       {"n_wrong_cube", "wrong"},
+       {"wrong_cube_percent", "%"},
+       {"wrong_cube_low_percent", "low"},
+       {"wrong_cube_high_percent", "high"},
+       {"n_catch", "catch"},
+       {"n_false_alarm", "alarms"},
+       {"false_alarm_percent", "%"},
+       {"false_alarm_low_percent", "low"},
+       {"false_alarm_high_percent", "high"},
+       {"n_level_zero", "at 0 g"},
+       {"n_chosen_level_zero", "chosen"}},
+      {},
+      "choices between cubes that differ, and wrong ones; catch trials and false alarms; at 0 g: "
+      "staircase trials whose difference reached 0. Exact 95 % intervals over all "
+      "participants' trials together. The paper gives no such figures."};
+  const ComparisonSummary& comparison = summary.comparison;
+  int n_trials = 0;
+  for (const ComparisonChoices& choices : comparison.by_reference) {
+    add_choices(table, mass(choices.reference_g), choices.n_trials, choices.wrong_cube,
+                choices.false_alarm, choices.at_zero);
+    n_trials += choices.n_trials;
+  }
+  if (table.rows.size() > 1)
+    add_choices(table, word("all"), n_trials, comparison.wrong_cube, comparison.false_alarm,
+                comparison.at_zero);
+  return table;
+}
+}  // namespace
+
+std::vector<Table> comparison_tables(const Summary& summary) {
+  return {jnd_table(summary), staircase_health_table(summary), choices_table(summary)};
+}
+
+Table staircase_list(const Summary& summary) {
+  Table table{"staircases",
+              titled("Finished staircases", summary),
+              {{"session_id", "session"},
+               {"participant", "participant"},
+               {"staircase", "staircase"},
+               {"reference_g", "reference g"},
+               {"condition", "condition"},
+               {"jnd_g", "JND g"},
+               {"n_trials", "trials"},
+               {"n_reversals", "reversals"},
+               {"n_floor", "floor hits"},
+               {"n_ceiling", "ceiling hits"},
+               {"reason", "ended by"}},
+              {},
+              ""};
+  for (const StaircaseResult& result : summary.staircases)
+    table.rows.push_back({word(std::to_string(result.session_id)), word(result.participant),
+                          word(result.staircase), mass(result.compared.reference_g),
+                          named_cell(result.compared.condition), number(result.jnd_g),
+                          count(result.n_trials), count(result.n_reversals), count(result.n_floor),
+                          count(result.n_ceiling),
+                          word(result.at_trial_limit ? "trials" : "reversals")});
+  return table;
+}
+
+Table level_list(const Summary& summary) {
+  Table table{"choices_by_level",
+              titled("Choices in comparisons by difference, without catch trials", summary),
+              {{"reference_g", "reference g"},
+               {"level_g", "difference g"},
+               {"n_trials", "trials"},
+               {"n_chosen", "chosen"},
+               {"n_choices", "choices between different cubes"},
+               {"n_wrong_cube", "wrong cube"}},
+              {},
+              ""};
+  for (const ComparisonChoices& level : summary.comparison.by_level)
+    table.rows.push_back({mass(level.reference_g), number(level.level_g), count(level.n_trials),
+                          count(level.difference.trials.n_hits),
+                          count(level.wrong_cube.trials.n_trials),
+                          count(level.wrong_cube.trials.n_hits)});
+  return table;
+}
+
+}  // namespace heft

@@ -1,0 +1,88 @@
+#include "analysis/Dataset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/Error.h"
+
+namespace heft {
+
+std::vector<double> Attempt::masses_g() const {
+  std::vector<double> masses;
+  for (const CubeRow& cube : cubes) masses.push_back(cube.mass_g);
+  return masses;
+}
+
+bool SessionData::simulated() const {
+  return session.header.purpose == "simulated" || session.header.responder != "human";
+}
+
+std::string SessionData::participant() const {
+  const SessionHeader& header = session.header;
+  return simulated() ? fmt::format("{} ({})", header.participant, header.responder)
+                     : header.participant;
+}
+
+SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
+  SessionData data{session, {}, rows.estimates};
+  std::map<int, std::size_t> place;  // attempt index -> its place in data.attempts
+  for (const TrialRow& trial : rows.trials) {
+    place[trial.attempt_index] = data.attempts.size();
+    data.attempts.push_back({trial, {}, {}, false});
+  }
+  const auto with_attempt = [&](int attempt_index, auto change) {
+    const auto found = place.find(attempt_index);
+    if (found != place.end()) change(data.attempts[found->second]);
+  };
+  for (const CubeRow& cube : rows.cubes)
+    with_attempt(cube.attempt_index, [&](Attempt& a) { a.cubes.push_back(cube); });
+  for (const AnswerRow& answer : rows.answers)
+    with_attempt(answer.attempt_index, [&](Attempt& a) { a.answers.push_back(answer); });
+  for (const ReversalRow& reversal : rows.reversals)
+    with_attempt(reversal.attempt_index, [&](Attempt& a) { a.is_reversal = true; });
+  for (Attempt& attempt : data.attempts) std::ranges::sort(attempt.cubes, {}, &CubeRow::slot);
+  return data;
+}
+
+Dataset read_dataset(const std::string& database, const std::vector<std::int64_t>& session_ids) {
+  const LogReader log(database);
+  std::vector<SessionRow> sessions;
+  if (session_ids.empty()) sessions = log.sessions();
+  for (std::int64_t id : std::set(session_ids.begin(), session_ids.end()))
+    sessions.push_back(log.session(id));
+  Dataset dataset{database, {}};
+  for (const SessionRow& session : sessions) {
+    const std::int64_t id = session.session_id;
+    dataset.sessions.push_back(join_rows(session, {log.trials(id), log.cubes(id), log.answers(id),
+                                                   log.reversals(id), log.estimates(id)}));
+  }
+  return dataset;
+}
+
+std::vector<std::string> purposes(const Dataset& dataset) {
+  std::set<std::string> names;
+  for (const SessionData& data : dataset.sessions) names.insert(data.session.header.purpose);
+  return {names.begin(), names.end()};
+}
+
+void refuse_mixed_purposes(const Dataset& dataset) {
+  const std::vector<std::string> names = purposes(dataset);
+  if (names.size() < 2) return;
+  std::string counts;
+  for (const std::string& name : names) {
+    const auto n = std::ranges::count(dataset.sessions, name, [](const SessionData& data) {
+      return data.session.header.purpose;
+    });
+    counts += fmt::format("{}{} of purpose \"{}\"", counts.empty() ? "" : ", ", n, name);
+  }
+  throw Error(fmt::format("{} holds sessions of several purposes ({}), and their figures don't "
+                          "belong together. Name the sessions to use with --session, or put all "
+                          "together with --mix.",
+                          dataset.database, counts),
+              ExitCode::usage);
+}
+
+}  // namespace heft

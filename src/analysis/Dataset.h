@@ -1,0 +1,64 @@
+// The part of a log that the analysis reads, with each attempt's rows joined. Everything after this
+// is a pure function of a Dataset.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "experiment/Rows.h"
+#include "record/LogReader.h"
+
+namespace heft {
+
+/// One attempt at a trial with all that was logged of it.
+struct Attempt {
+  TrialRow trial;
+  std::vector<CubeRow> cubes;      ///< by slot
+  std::vector<AnswerRow> answers;  ///< in order
+  bool is_reversal = false;
+
+  bool completed() const { return trial.status == TrialStatus::completed; }
+  std::vector<double> masses_g() const;  ///< by slot
+};
+
+struct SessionData {
+  SessionRow session;
+  std::vector<Attempt> attempts;
+  std::vector<EstimateRow> estimates;
+
+  /// No person answered: of that purpose, or the responder is not a human.
+  bool simulated() const;
+  /// Who is counted as one. Simulated responders of one name but different models are not.
+  std::string participant() const;
+  bool finished() const { return session.state == SessionState::finished; }
+};
+
+/// The rows of one session as the log holds them.
+struct SessionRows {
+  std::vector<TrialRow> trials;
+  std::vector<CubeRow> cubes;
+  std::vector<AnswerRow> answers;
+  std::vector<ReversalRow> reversals;
+  std::vector<EstimateRow> estimates;
+};
+
+/// Joins each attempt's rows. Rows of an attempt that has no trial row are left out.
+SessionData join_rows(const SessionRow& session, const SessionRows& rows);
+
+struct Dataset {
+  std::string database;  ///< the log's file name, as given
+  std::vector<SessionData> sessions;
+};
+
+/// @param session_ids which sessions; empty: all
+/// @throws Error when the file can't be read or has no such session
+Dataset read_dataset(const std::string& database, const std::vector<std::int64_t>& session_ids);
+
+/// The purposes of the sessions, sorted, each once.
+std::vector<std::string> purposes(const Dataset& dataset);
+
+/// @throws Error (usage) naming the purposes and their sessions when there are several
+void refuse_mixed_purposes(const Dataset& dataset);
+
+}  // namespace heft

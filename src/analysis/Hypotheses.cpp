@@ -1,0 +1,112 @@
+#include "analysis/Hypotheses.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string_view>
+
+namespace heft {
+
+namespace {
+constexpr double chance_percent = 100.0 / 6;  // one of the six orders of three cubes
+
+std::string beside(std::optional<double> published, std::string_view unit) {
+  return published ? fmt::format("; published {:.1f}{}", *published, unit) : "";
+}
+
+std::string within(const std::optional<Interval>& interval) {
+  return interval ? fmt::format(" [{:.1f}, {:.1f}]", interval->low, interval->high) : "";
+}
+
+std::string share_figure(std::string_view what, const Share& share) {
+  if (!share.mean_percent) return fmt::format("{}: no trials", what);
+  return fmt::format("{}: {:.1f} %{}, n = {}{}", what, *share.mean_percent,
+                     within(share.interval_percent), share.n_participants,
+                     beside(share.published_percent, " %"));
+}
+
+std::string chance_figure() {
+  return fmt::format("a random order is right in {:.1f} % of trials", chance_percent);
+}
+
+std::string first_try_figure(const IntroductionSummary& introduction) {
+  const Rate& rate = introduction.first_try;
+  if (!rate.percent) return "introduction: not completed by anyone";
+  return fmt::format("introduction right on the first try: {} of {} participants, {:.1f} %{}{}",
+                     rate.trials.n_hits, rate.trials.n_trials, *rate.percent,
+                     within(rate.interval_percent), beside(introduction.published_percent, " %"));
+}
+
+bool counts(const ReferenceJnd& jnd) {
+  return jnd.compared.condition == Condition::C2 && jnd.mean_g.has_value();
+}
+
+std::vector<std::string> jnd_figures(const Summary& summary) {
+  std::vector<std::string> figures;
+  for (const ReferenceJnd& jnd : summary.jnd)
+    if (counts(jnd))
+      figures.push_back(fmt::format("JND at {:g} g: {:.1f} g{}, n = {}{}", jnd.compared.reference_g,
+                                    *jnd.mean_g, within(jnd.interval_g), jnd.participants.size(),
+                                    beside(jnd.published_g, " g")));
+  if (figures.empty()) figures.push_back("no finished staircase in C2");
+  return figures;
+}
+
+// Of the participants with a JND at every reference, those whose JND rises at each step.
+std::string rising_figure(const Summary& summary) {
+  std::map<std::string, std::vector<double>> jnds;
+  std::size_t n_references = 0;
+  for (const ReferenceJnd& jnd : summary.jnd) {
+    if (!counts(jnd)) continue;
+    ++n_references;
+    for (const ParticipantJnd& one : jnd.participants) jnds[one.participant].push_back(one.jnd_g);
+  }
+  int n_complete = 0, n_rising = 0;
+  for (const auto& [participant, values] : jnds) {
+    if (values.size() != n_references) continue;
+    ++n_complete;
+    bool rising = true;
+    for (std::size_t i = 1; i < values.size(); ++i) rising = rising && values[i - 1] < values[i];
+    n_rising += rising ? 1 : 0;
+  }
+  return n_references < 2 ? "rising JNDs need two references or more"
+                          : fmt::format(
+                                "JND rises from each reference to the next in {} of {} "
+                                "participants with all of them",
+                                n_rising, n_complete);
+}
+
+std::vector<std::string> ratio_figures(const Summary& summary) {
+  std::vector<std::string> figures;
+  for (const ReferenceJnd& jnd : summary.jnd) {
+    const double reference_g = jnd.compared.reference_g;
+    if (!counts(jnd) || reference_g == 0) continue;
+    const std::string published =
+        jnd.published_g ? fmt::format("; published {:.2f}", *jnd.published_g / reference_g) : "";
+    figures.push_back(fmt::format("JND / reference at {:g} g: {:.2f}{}", reference_g,
+                                  *jnd.mean_g / reference_g, published));
+  }
+  if (figures.empty()) figures.push_back("no finished staircase in C2");
+  return figures;
+}
+}  // namespace
+
+std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
+  const auto& [c1, c2] = summary.sorting;
+  std::vector<std::string> rising = jnd_figures(summary);
+  rising.push_back(rising_figure(summary));
+  return {{"E1-H1",
+           "C1 does not allow to perceive a mass difference among virtual objects",
+           {share_figure("C1 correct", c1.correct),
+            share_figure("C1 correct, of answered trials", c1.answered_correct),
+            share_figure("C1 \"I don't know\"", c1.none), chance_figure()}},
+          {"E1-H2",
+           "C2 allows to recognize which objects are lighter and heavier",
+           {share_figure("C2 correct", c2.correct), share_figure("C2 \"I don't know\"", c2.none),
+            chance_figure()}},
+          {"E1-H3", "C2 is effective with no training", {first_try_figure(summary.introduction)}},
+          {"E2-H1", "the JND increases with the reference mass", rising},
+          {"E2-H2", "the JND is proportional to the reference mass", ratio_figures(summary)}};
+}
+
+}  // namespace heft

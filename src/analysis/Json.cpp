@@ -1,0 +1,196 @@
+#include "analysis/Json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace heft {
+
+namespace {
+using nlohmann::ordered_json;
+
+ordered_json figure(std::optional<double> value) {
+  return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json low(const std::optional<Interval>& interval) {
+  return interval ? figure(interval->low) : ordered_json(nullptr);
+}
+
+ordered_json high(const std::optional<Interval>& interval) {
+  return interval ? figure(interval->high) : ordered_json(nullptr);
+}
+
+ordered_json share_json(const Share& share) {
+  const bool any = share.method != IntervalMethod::none;
+  return {{"mean", figure(share.mean_percent)},
+          {"sd", figure(share.sd_percent)},
+          {"low", low(share.interval_percent)},
+          {"high", high(share.interval_percent)},
+          {"published", figure(share.published_percent)},
+          {"published_sd", figure(share.published_sd_percent)},
+          {"interval", any ? ordered_json(name_of(share.method)) : ordered_json(nullptr)},
+          {"pooled", figure(share.pooled_percent)},
+          {"n_participants", share.n_participants},
+          {"n_hits", share.trials.n_hits},
+          {"n_trials", share.trials.n_trials}};
+}
+
+ordered_json rate_json(const Rate& rate) {
+  return {{"percent", figure(rate.percent)},
+          {"low", low(rate.interval_percent)},
+          {"high", high(rate.interval_percent)},
+          {"n_hits", rate.trials.n_hits},
+          {"n_trials", rate.trials.n_trials}};
+}
+
+ordered_json swaps_json(const ConditionSorting& sorting) {
+  ordered_json json = ordered_json::object();
+  for (std::size_t i = 0; i < sorting.swaps.size(); ++i)
+    json[std::string(EnumNames<Swap>::names.at(i))] = sorting.swaps.at(i);
+  return json;
+}
+
+ordered_json sorting_json(const ConditionSorting& sorting) {
+  return {{"correct", share_json(sorting.correct)},
+          {"incorrect", share_json(sorting.incorrect)},
+          {"none", share_json(sorting.none)},
+          {"answered",
+           {{"correct", share_json(sorting.answered_correct)},
+            {"incorrect", share_json(sorting.answered_incorrect)}}},
+          {"swapped", swaps_json(sorting)},
+          {"n_trials", sorting.n_trials},
+          {"n_participants", sorting.n_participants}};
+}
+
+ordered_json introduction_json(const IntroductionSummary& introduction) {
+  const Rate& rate = introduction.first_try;
+  return {{"first_try",
+           {{"percent", figure(rate.percent)},
+            {"low", low(rate.interval_percent)},
+            {"high", high(rate.interval_percent)},
+            {"published", figure(introduction.published_percent)},
+            {"published_n", introduction.published_n ? ordered_json(*introduction.published_n)
+                                                     : ordered_json(nullptr)}}},
+          {"n_first_try", rate.trials.n_hits},
+          {"n_participants", rate.trials.n_trials}};
+}
+
+ordered_json participants_json(const ReferenceJnd& jnd) {
+  ordered_json participants = ordered_json::array();
+  for (const ParticipantJnd& one : jnd.participants)
+    participants.push_back({{"participant", one.participant}, {"jnd_g", figure(one.jnd_g)}});
+  return participants;
+}
+
+ordered_json jnd_json(const ReferenceJnd& jnd) {
+  const bool any = jnd.n_staircases > 0;
+  const auto of_any = [any](auto value) {
+    return any ? ordered_json(value) : ordered_json(nullptr);
+  };
+  return {{"reference_g", figure(jnd.compared.reference_g)},
+          {"condition", name_of(jnd.compared.condition)},
+          {"mean_g", figure(jnd.mean_g)},
+          {"sd_g", figure(jnd.sd_g)},
+          {"low_g", low(jnd.interval_g)},
+          {"high_g", high(jnd.interval_g)},
+          {"published_g", figure(jnd.published_g)},
+          {"published_sd_g", figure(jnd.published_sd_g)},
+          {"n_participants", jnd.participants.size()},
+          {"participants", participants_json(jnd)},
+          {"trials",
+           {{"mean", of_any(jnd.mean_trials)},
+            {"least", of_any(jnd.least_trials)},
+            {"most", of_any(jnd.most_trials)}}},
+          {"n_staircases", jnd.n_staircases},
+          {"n_unfinished", jnd.n_unfinished},
+          {"n_without_estimate", jnd.n_without_estimate},
+          {"n_trial_limit", jnd.n_trial_limit},
+          {"n_floor", jnd.n_floor},
+          {"n_floor_staircases", jnd.n_floor_staircases},
+          {"n_ceiling", jnd.n_ceiling},
+          {"n_ceiling_staircases", jnd.n_ceiling_staircases}};
+}
+
+ordered_json choices_json(const ComparisonChoices& choices) {
+  ordered_json json;
+  json["reference_g"] = figure(choices.reference_g);
+  if (choices.level_g) json["level_g"] = figure(choices.level_g);
+  json["n_trials"] = choices.n_trials;
+  json["difference"] = rate_json(choices.difference);
+  json["wrong_cube"] = rate_json(choices.wrong_cube);
+  if (choices.level_g) return json;
+  json["false_alarm"] = rate_json(choices.false_alarm);
+  json["at_zero"] = rate_json(choices.at_zero);
+  return json;
+}
+
+ordered_json times_json(const ResponseTimes& times) {
+  return {{"task", name_of(times.task)},
+          {"condition", name_of(times.condition)},
+          {"n_trials", times.n_trials},
+          {"median_s", figure(times.median_s)},
+          {"lower_quartile_s", figure(times.lower_quartile_s)},
+          {"upper_quartile_s", figure(times.upper_quartile_s)}};
+}
+
+ordered_json session_json(const SessionSummary& session) {
+  return {{"session_id", session.session_id},
+          {"participant", session.participant},
+          {"protocol", session.protocol},
+          {"purpose", session.purpose},
+          {"responder", session.responder},
+          {"state", name_of(session.state)},
+          {"n_completed", session.n_completed},
+          {"n_void", session.n_void},
+          {"n_open", session.n_open}};
+}
+
+template <typename Rows, typename Convert>
+ordered_json array_of(const Rows& rows, Convert convert) {
+  ordered_json array = ordered_json::array();
+  for (const auto& row : rows) array.push_back(convert(row));
+  return array;
+}
+
+ordered_json comparison_json(const ComparisonSummary& comparison) {
+  return {{"wrong_cube", rate_json(comparison.wrong_cube)},
+          {"false_alarm", rate_json(comparison.false_alarm)},
+          {"at_zero", rate_json(comparison.at_zero)},
+          {"by_reference", array_of(comparison.by_reference, choices_json)},
+          {"by_level", array_of(comparison.by_level, choices_json)}};
+}
+}  // namespace
+
+std::string as_json(const Summary& summary) {
+  const auto& [c1, c2] = summary.sorting;
+  const auto void_json = [](const VoidCount& count) -> ordered_json {
+    return {{"reason", count.reason}, {"n", count.n}};
+  };
+  const auto hypothesis_json = [](const Hypothesis& hypothesis) -> ordered_json {
+    return {{"name", hypothesis.name},
+            {"statement", hypothesis.statement},
+            {"figures", hypothesis.figures}};
+  };
+  const ordered_json json{
+      {"made_by", "heft analyse"},
+      {"heft_version", HEFT_VERSION},
+      {"command", summary.command},
+      {"database", summary.database},
+      {"simulated", summary.simulated()},
+      {"data", summary.data.empty() ? ordered_json(nullptr) : ordered_json(summary.data)},
+      {"confidence", confidence_level},
+      {"n_sessions", summary.sessions.size()},
+      {"n_participants", summary.n_participants},
+      {"introduction", introduction_json(summary.introduction)},
+      {"sorting", {{"C1", sorting_json(c1)}, {"C2", sorting_json(c2)}}},
+      {"jnd", array_of(summary.jnd, jnd_json)},
+      {"comparison", comparison_json(summary.comparison)},
+      {"response_times", array_of(summary.times, times_json)},
+      {"voids", array_of(summary.voids, void_json)},
+      {"hypotheses", array_of(summary.hypotheses, hypothesis_json)},
+      {"notes", summary.notes},
+      {"sessions", array_of(summary.sessions, session_json)}};
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace heft

@@ -1,0 +1,116 @@
+#include "analysis/Report.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "analysis/Charts.h"
+#include "analysis/Gnuplot.h"
+#include "analysis/Json.h"
+#include "analysis/ReportPage.h"
+#include "analysis/Tables.h"
+#include "base/Error.h"
+#include "base/TextFile.h"
+
+namespace heft {
+
+namespace {
+namespace fs = std::filesystem;
+constexpr std::string_view summary_file = "summary.json";
+constexpr std::string_view files_key = "files";
+
+// The summary.json that an earlier analysis left; null where there is none.
+nlohmann::json earlier_summary(const fs::path& folder) {
+  const fs::path file = folder / summary_file;
+  if (!fs::is_regular_file(file)) return nullptr;
+  const auto json = nlohmann::json::parse(read_text_file(file), nullptr, false);
+  const bool ours = json.is_object() && json.value("made_by", nlohmann::json()) == "heft analyse";
+  return ours ? json : nlohmann::json();
+}
+
+// Charts and tables that are not made this time must not stay beside those that are.
+void remove_earlier_files(const fs::path& folder) {
+  const nlohmann::json earlier = earlier_summary(folder);
+  if (!earlier.is_object() || !earlier.contains(files_key)) return;
+  for (const auto& name : earlier[files_key])
+    if (name.is_string()) fs::remove(folder / fs::path(name.get<std::string>()).filename());
+}
+
+class Folder {
+ public:
+  explicit Folder(fs::path path) : path_(std::move(path)) {}
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream file(path_ / name, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file)
+      throw Error(
+          fmt::format("can't write {}: {}. The log is untouched; run it again with "
+                      "another --out.",
+                      (path_ / name).string(), std::strerror(errno)));
+    files_.push_back(name);
+  }
+
+  /// @return the drawn SVG; none without gnuplot
+  std::optional<std::string> draw(const Chart& chart) {
+    write(chart.name + ".gp", fmt::format("# {}\n", chart.title) + chart.script);
+    if (!run_gnuplot(path_.string(), chart.name + ".gp")) return std::nullopt;
+    files_.push_back(chart.name + ".svg");
+    return read_text_file(path_ / files_.back());
+  }
+
+  const std::vector<std::string>& files() const { return files_; }
+
+ private:
+  fs::path path_;
+  std::vector<std::string> files_;
+};
+
+void write_tables(Folder& folder, const Summary& summary) {
+  for (const auto& tables : {tables_of(summary), lists_of(summary)})
+    for (const Table& table : tables)
+      folder.write(table.name + ".csv", as_csv(table, summary.data));
+}
+}  // namespace
+
+void refuse_foreign_folder(const std::string& folder) {
+  const fs::path path(folder);
+  if (!fs::exists(path)) return;
+  if (!fs::is_directory(path))
+    throw Error(fmt::format("--out {}: it is a file, expected a folder", folder));
+  if (fs::is_empty(path) || earlier_summary(path).is_object()) return;
+  throw Error(
+      fmt::format("--out {}: the folder holds files that heft analyse did not make, and "
+                  "nothing is overwritten. Name a new or empty folder.",
+                  folder));
+}
+
+ReportResult write_report(const Summary& summary, const std::string& folder) {
+  refuse_foreign_folder(folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw Error(fmt::format("can't make the folder {}: {}", folder, error.message()));
+  remove_earlier_files(folder);
+  Folder out(folder);
+  ReportResult result;
+  write_tables(out, summary);
+  std::vector<DrawnChart> drawn;
+  for (const Chart& chart : charts_of(summary)) {
+    const auto svg = out.draw(chart);
+    result.charts_drawn = result.charts_drawn && svg.has_value();
+    if (svg) drawn.push_back({chart.title, *svg});
+  }
+  out.write("report.html", report_page(summary, drawn));
+  auto json = nlohmann::ordered_json::parse(as_json(summary));
+  json[std::string(files_key)] = out.files();
+  out.write(std::string(summary_file), json.dump(2) + '\n');
+  result.files = out.files();
+  return result;
+}
+
+}  // namespace heft

@@ -1,0 +1,46 @@
+// The sorting task: how many trials were sorted correctly, incorrectly or not at all, and which
+// cubes were taken for each other.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/Dataset.h"
+#include "analysis/Share.h"
+#include "experiment/Task.h"
+
+namespace heft {
+
+/// What is wrong in an incorrect sorting of three cubes: one pair exchanged, or all three moved on
+/// in a cycle.
+enum class Swap { light_intermediate, intermediate_heavy, light_heavy, all_three };
+template <>
+struct EnumNames<Swap> {
+  static constexpr std::array<std::string_view, 4> names{"light_intermediate", "intermediate_heavy",
+                                                         "light_heavy", "all_three"};
+};
+
+/// The labels that the cubes bear after a trial's answers, by slot. A used label moves.
+std::vector<std::optional<Label>> final_labels(std::span<const AnswerRow> answers, int n_slots);
+
+/// @param masses_g, labels  of three cubes by slot
+/// @return none where the order is correct, or there are not three differently labeled cubes
+std::optional<Swap> swap_of(std::span<const double> masses_g,
+                            std::span<const std::optional<Label>> labels);
+
+struct ConditionSorting {
+  Condition condition = Condition::C1;
+  int n_trials = 0;
+  int n_participants = 0;
+  Share correct, incorrect, none;              ///< of all completed trials; none: "I don't know"
+  Share answered_correct, answered_incorrect;  ///< of the trials that were answered
+  std::array<int, 4> swaps{};                  ///< by Swap, of the incorrect trials
+};
+
+/// Completed trials of both conditions. A participant's sessions count together. The paper's
+/// figures are beside where all cubes have the paper's masses.
+std::array<ConditionSorting, 2> sorting_of(std::span<const SessionData> sessions);
+
+}  // namespace heft

@@ -1,0 +1,59 @@
+#include "analysis/Statistics.h"
+
+#include <algorithm>
+#include <boost/math/distributions/beta.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numeric>
+
+namespace heft {
+
+namespace {
+constexpr double tail = (1 - confidence_level) / 2;
+}
+
+std::optional<double> mean(std::span<const double> values) {
+  if (values.empty()) return std::nullopt;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::optional<double> sample_sd(std::span<const double> values) {
+  if (values.size() < 2) return std::nullopt;
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  if (*least == *greatest) return 0;  // a rounded mean must not make equal values differ
+  const double center = *mean(values);
+  double sum = 0;
+  for (double value : values) sum += (value - center) * (value - center);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+std::optional<Interval> student_t_interval(std::span<const double> values) {
+  if (values.size() < 2) return std::nullopt;
+  return student_t_interval(*mean(values), *sample_sd(values), static_cast<int>(values.size()));
+}
+
+Interval student_t_interval(double mean, double sd, int n) {
+  const boost::math::students_t t(n - 1);
+  const double half = quantile(complement(t, tail)) * sd / std::sqrt(n);
+  return {mean - half, mean + half};
+}
+
+Interval exact_interval(int n_hits, int n_trials) {
+  using boost::math::beta_distribution;
+  const double hits = n_hits, misses = n_trials - n_hits;
+  Interval interval{0, 1};
+  if (n_hits > 0) interval.low = quantile(beta_distribution<>(hits, misses + 1), tail);
+  if (misses > 0) interval.high = quantile(complement(beta_distribution<>(hits + 1, misses), tail));
+  return interval;
+}
+
+std::optional<double> quantile(std::vector<double> values, double fraction) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const double position = fraction * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], position - static_cast<double>(below));
+}
+
+}  // namespace heft

@@ -1,0 +1,37 @@
+// Means, spreads and intervals of plain numbers. Where a figure does not exist (the SD of one
+// value) there is none; no function returns NaN or infinity for finite input.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace heft {
+
+/// The confidence of every interval that the analysis gives.
+inline constexpr double confidence_level = 0.95;
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// None for no values.
+std::optional<double> mean(std::span<const double> values);
+
+/// Standard deviation over n-1; none for fewer than two values, exactly 0 where all are equal.
+std::optional<double> sample_sd(std::span<const double> values);
+
+/// mean ± t(n-1) * SD / sqrt(n); none for fewer than two values.
+std::optional<Interval> student_t_interval(std::span<const double> values);
+
+/// The same from figures that were published instead of values. n >= 2.
+Interval student_t_interval(double mean, double sd, int n);
+
+/// Clopper and Pearson (1934): the exact interval of a proportion, as fractions. n_trials > 0.
+Interval exact_interval(int n_hits, int n_trials);
+
+/// Quantile by linear interpolation between order statistics (Hyndman and Fan's type 7, the default
+/// of R and NumPy); none for no values. fraction in [0, 1].
+std::optional<double> quantile(std::vector<double> values, double fraction);
+
+}  // namespace heft

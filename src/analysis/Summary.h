@@ -1,0 +1,72 @@
+// The whole analysis of a log: options in, one Summary out. Tables, JSON, charts and the report are
+// ways to show a Summary.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/Comparison.h"
+#include "analysis/Dataset.h"
+#include "analysis/Introduction.h"
+#include "analysis/Jnd.h"
+#include "analysis/Sorting.h"
+#include "analysis/Timing.h"
+#include "analysis/Tracks.h"
+
+namespace heft {
+
+struct AnalysisOptions {
+  std::string database;                   ///< the log's file
+  std::vector<std::int64_t> session_ids;  ///< empty: all
+  bool mix = false;                       ///< put sessions of several purposes together
+  std::string command;                    ///< what was typed; stands below every chart
+};
+
+/// One session and how much of it counts.
+struct SessionSummary {
+  std::int64_t session_id = 0;
+  std::string participant, protocol, purpose, responder;
+  SessionState state = SessionState::running;
+  int n_completed = 0, n_void = 0, n_open = 0;  ///< attempts
+};
+
+/// One of the paper's hypotheses and the figures that speak to it, without a verdict. The paper's
+/// two sets share the names H1...H3, so each carries its experiment.
+struct Hypothesis {
+  std::string name;  ///< "E1-H1"
+  std::string statement;
+  std::vector<std::string> figures;  ///< a sentence each
+};
+
+struct Summary {
+  std::string database, command;
+  std::string data;  ///< "human", "simulated" or "human and simulated"; empty: no sessions
+  std::vector<SessionSummary> sessions;
+  int n_participants = 0;
+  std::array<ConditionSorting, 2> sorting;
+  IntroductionSummary introduction;
+  std::vector<ReferenceJnd> jnd;
+  std::vector<StaircaseResult> staircases;
+  ComparisonSummary comparison;
+  std::vector<ResponseTimes> times;
+  std::vector<VoidCount> voids;
+  std::optional<SessionTracks> tracks;
+  std::vector<Hypothesis> hypotheses;
+  std::vector<std::string> notes;  ///< what a reader must know about what was counted
+
+  bool simulated() const { return data == "simulated" || data == "human and simulated"; }
+};
+
+/// Reads the log and summarizes it.
+/// @throws Error when the file can't be read, has no such session, or holds several purposes and
+///   they were not to be mixed
+Summary analyze(const AnalysisOptions& options);
+
+/// The same for data at hand.
+/// @param command as AnalysisOptions has it
+Summary summarize(const Dataset& dataset, const std::string& command);
+
+}  // namespace heft

@@ -1,0 +1,46 @@
+// A small table and the ways to write it: aligned text, CSV, HTML.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace heft {
+
+struct Cell {
+  std::string text;             ///< rounded for reading; empty: the figure does not exist
+  std::optional<double> value;  ///< unrounded; a word where there is none
+};
+
+Cell word(std::string text);
+/// "" where there is no value.
+Cell number(std::optional<double> value, int decimals = 1);
+Cell count(int value);
+
+struct Column {
+  std::string name;     ///< in CSV: snake_case with its unit
+  std::string heading;  ///< in text and HTML, with its unit; empty: in CSV only
+};
+
+struct Table {
+  std::string name;  ///< of the CSV file, without extension
+  std::string title;
+  std::vector<Column> columns;
+  std::vector<std::vector<Cell>> rows;
+  std::string note;  ///< how to read it; may be empty
+};
+
+/// Title, headings, rows: words to the left, numbers to the right, "-" for what does not exist.
+std::string as_text(const Table& table);
+
+/// RFC 4180, UTF-8, '.' decimals, unrounded; an empty cell for what does not exist. The first
+/// column, "data", says whose figures they are on every row.
+std::string as_csv(const Table& table, std::string_view data);
+
+std::string as_html(const Table& table);
+
+/// Text with <, >, & and quotes as HTML has them.
+std::string html_escaped(std::string_view text);
+
+}  // namespace heft

@@ -1,0 +1,35 @@
+// The tables of a Summary one by one; Tables.h puts them together.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/Summary.h"
+#include "analysis/Table.h"
+
+namespace heft {
+
+std::vector<Table> sorting_tables(const Summary& summary);     ///< with the introduction
+std::vector<Table> comparison_tables(const Summary& summary);  ///< JNDs and choices
+std::vector<Table> session_tables(const Summary& summary);     ///< response times and voids
+
+// Row for row, for CSV files only.
+Table staircase_list(const Summary& summary);
+Table level_list(const Summary& summary);
+Table session_list(const Summary& summary);
+
+// Cells that several tables have.
+Cell low(const std::optional<Interval>& interval);
+Cell high(const std::optional<Interval>& interval);
+Cell mass(double mass_g);  ///< as many decimals as it has
+template <typename Enum>
+Cell named_cell(Enum value) {
+  return word(std::string(name_of(value)));
+}
+
+/// "Sorting" becomes "Sorting (simulated)" where it is.
+std::string titled(std::string_view title, const Summary& summary);
+
+}  // namespace heft

@@ -1,0 +1,37 @@
+// The courses of one session's staircases, for looking at.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/Dataset.h"
+
+namespace heft {
+
+struct TrackPoint {
+  double level_g = 0;   ///< as presented
+  bool chosen = false;  ///< a cube was; otherwise "no difference"
+  bool is_reversal = false;
+};
+
+struct Track {
+  std::string staircase;
+  double reference_g = 0;
+  std::vector<TrackPoint> points;  ///< the staircase's completed trials in order
+  std::optional<double> jnd_g;
+};
+
+struct SessionTracks {
+  std::int64_t session_id = 0;
+  std::string participant;
+  bool simulated = false;
+  std::vector<Track> tracks;  ///< by reference, then name
+};
+
+/// The first finished session that has staircases, or else the first that has any.
+std::optional<SessionTracks> example_tracks(std::span<const SessionData> sessions);
+
+}  // namespace heft

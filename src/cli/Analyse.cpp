@@ -1,0 +1,83 @@
+// heft analyse: what a log holds, as tables, JSON, or a folder with charts and a report.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/Json.h"
+#include "analysis/Report.h"
+#include "analysis/Summary.h"
+#include "analysis/Tables.h"
+#include "cli/Commands.h"
+
+namespace heft::cli {
+
+namespace {
+struct Options {
+  std::string database = "heft.db";
+  std::string out;
+  std::vector<std::int64_t> sessions;
+  bool json = false, mix = false;
+};
+
+// A word as a shell takes it.
+std::string shell_word(const std::string& word) {
+  constexpr auto plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,+=@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+// The command as it can be typed again.
+std::string command_of(const Options& options) {
+  std::string command = "heft analyse --db " + shell_word(options.database);
+  for (std::int64_t id : options.sessions) command += fmt::format(" --session {}", id);
+  if (options.mix) command += " --mix";
+  if (!options.out.empty()) command += " --out " + shell_word(options.out);
+  return command;
+}
+
+void report(const Summary& summary, const std::string& folder) {
+  const ReportResult result = write_report(summary, folder);
+  fmt::print(stderr, "\n{} files in {}; open {}/report.html\n", result.files.size(), folder,
+             folder);
+  if (!result.charts_drawn)
+    fmt::print(stderr,
+               "No charts: gnuplot is not installed (sudo apt-get install gnuplot-nox). The .gp "
+               "files there draw them later: gnuplot NAME.gp\n");
+}
+
+void analyse(const Options& options) {
+  if (!options.out.empty()) refuse_foreign_folder(options.out);
+  const Summary summary =
+      analyze({options.database, options.sessions, options.mix, command_of(options)});
+  fmt::print("{}", options.json ? as_json(summary) : readable(summary));
+  std::fflush(stdout);  // the talk below comes after it, wherever both go
+  if (!options.out.empty())
+    report(summary, options.out);
+  else if (!options.json && !summary.sessions.empty())
+    fmt::print(stderr, "\nCharts and the report: {} --out DIR\n", command_of(options));
+}
+}  // namespace
+
+void add_analyse(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      add_command(app, "analyse", "tables, estimates with intervals, charts and a report of a log",
+                  {"heft analyse --db heft.db", "heft analyse --db heft.db --out report",
+                   "heft analyse --db heft.db --session 3 4 --json"});
+  command->add_option("--db", options->database, "the log")->capture_default_str();
+  command->add_option("--out", options->out,
+                      "a new or empty folder for CSV, charts, summary.json and report.html");
+  command->add_option("--session", options->sessions, "only these sessions (default: all)");
+  command->add_flag("--json", options->json, "JSON on stdout instead of tables");
+  command->add_flag("--mix", options->mix,
+                    "put sessions of several purposes (main, pilot, test, simulated) together");
+  command->callback([options] { analyse(*options); });
+}
+
+}  // namespace heft::cli

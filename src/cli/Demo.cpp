@@ -1,0 +1,84 @@
+// heft demo: the paper's whole session with a simulated responder, and what was found.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include "analysis/Report.h"
+#include "analysis/Summary.h"
+#include "analysis/Tables.h"
+#include "cli/Commands.h"
+#include "cli/Installation.h"
+#include "cli/SessionCommand.h"
+
+namespace heft::cli {
+
+namespace {
+
+struct Options {
+  std::string out = "heft-demo";
+  std::optional<std::uint64_t> seed;
+};
+
+SessionRequest demo_session(const Options& options) {
+  SessionRequest request;
+  request.protocol = load_protocol(installed_file("protocols/paper.toml"));
+  complete(request.options);
+  request.participant = "demo";
+  request.db = options.out + "/demo.db";
+  request.seed = options.seed.value_or(fresh_seed());
+  request.again = true;
+  return request;
+}
+
+void demo(const Options& options) {
+  std::filesystem::create_directories(options.out);
+  const SessionRequest request = demo_session(options);
+  const auto started = std::chrono::steady_clock::now();
+  fmt::print(stderr,
+             "The paper's session (demonstration, introduction, 10 sorting trials, three "
+             "interleaved staircases)\nwith a simulated participant, rigid-body physics and a "
+             "complete log; seed {}.\n",
+             request.seed);
+  const SessionResult result =
+      run_session(request.protocol, request.db,
+                  [&](const RunnerOptions& runner) { return start_session(request, runner); });
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+
+  const std::string report = options.out + "/report";
+  const Summary summary = analyze({request.db,
+                                   {result.session_id},
+                                   false,
+                                   fmt::format("heft analyse --db {} --session {} --out {}",
+                                               request.db, result.session_id, report)});
+  fmt::print("{}", readable(summary));
+  write_report(summary, report);
+  fmt::print(
+      stderr,
+      "\n{} trials, {:.0f} minutes of session time, in {:.1f} s.\n"
+      "The log:     {}\n"
+      "The report:  {}/report.html\n"
+      "Check it:    ./heft replay --db {} --session {}\n"
+      "Try it:      ./heft run protocols/quick.toml --participant 01 --responder simulated\n",
+      result.n_completed, result.duration_s / 60, elapsed.count(), request.db, report, request.db,
+      result.session_id);
+}
+
+}  // namespace
+
+void add_demo(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = add_command(
+      app, "demo", "the paper's whole session with a simulated participant, and what was found",
+      {"heft demo", "heft demo --seed 42 --out trial-run"});
+  command->add_option("--out", options->out, "folder for the log and the report")
+      ->capture_default_str();
+  command
+      ->add_option("--seed", options->seed,
+                   "0...2^63-1; without it a fresh one is drawn, printed and logged")
+      ->check(CLI::Range(std::uint64_t{0}, (std::uint64_t{1} << 63) - 1));
+  command->callback([options] { demo(*options); });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,183 @@
+// heft doctor: whether this machine has what a session needs, with a verdict each.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/statvfs.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include "base/Build.h"
+#include "base/Error.h"
+#include "base/TextFile.h"
+#include "cli/Commands.h"
+#include "cli/Installation.h"
+#include "physics/DecouplingSimulator.h"
+#include "record/Integrity.h"
+#include "responders/Responder.h"
+#include "view/ArView.h"
+
+namespace heft::cli {
+
+namespace {
+
+enum class Verdict { ok, warning, failed };
+
+// Prints one line a check and remembers the worst.
+class Report {
+ public:
+  void line(Verdict verdict, const std::string& what, const std::string& found) {
+    constexpr std::array<const char*, 3> marks{"ok     ", "warning", "FAILED "};
+    fmt::print("{}  {:<12} {}\n", marks[static_cast<std::size_t>(verdict)], what, found);
+    worst_ = std::max(worst_, verdict);
+  }
+  bool failed() const { return worst_ == Verdict::failed; }
+
+ private:
+  Verdict worst_ = Verdict::ok;
+};
+
+// What a command prints; nothing if it can't be run.
+std::string output_of(const std::string& command) {
+  std::string output;
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::array<char, 256> part{};
+  while (pipe && fgets(part.data(), part.size(), pipe.get())) output += part.data();
+  return output;
+}
+
+void check_packages(Report& report) {
+  std::istringstream list(read_text_file(installed_file(".packages")));
+  std::string line, missing;
+  int n = 0;
+  while (std::getline(list, line)) {
+    std::istringstream words(line);
+    std::string package, purpose;
+    if (!(words >> package >> purpose) || package.starts_with('#') || purpose == "test") continue;
+    ++n;
+    if (output_of("dpkg-query -W -f '${db:Status-Status}' " + package + " 2>/dev/null") !=
+        "installed")
+      missing += " " + package;
+  }
+  if (missing.empty())
+    report.line(Verdict::ok, "packages", fmt::format("all {} are installed", n));
+  else
+    report.line(Verdict::failed, "packages",
+                fmt::format("missing; install them: sudo apt-get install{}", missing));
+}
+
+void check_space(Report& report, const std::string& folder) {
+  struct statvfs space {};
+  if (statvfs(folder.c_str(), &space) != 0)
+    return report.line(Verdict::failed, "disk",
+                       fmt::format("{} can't be looked at; is the folder there?", folder));
+  const double free_gb =
+      static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize) / 1e9;
+  const std::string found = fmt::format("{:.1f} GB free in {}", free_gb, folder);
+  if (free_gb < 0.1)
+    report.line(Verdict::failed, "disk", found + ": too little for a session (about 20 MB each)");
+  else
+    report.line(free_gb < 1 ? Verdict::warning : Verdict::ok, "disk", found);
+}
+
+// SQLite's write-ahead log needs shared memory, which network file systems do not give.
+void check_file_system(Report& report, const std::string& folder) {
+  constexpr long nfs = 0x6969, smb = 0x517B, smb2 = 0xFE534D42L, cifs = 0xFF534D42L;
+  struct statfs system {};
+  if (statfs(folder.c_str(), &system) != 0) return;
+  const bool remote = system.f_type == nfs || system.f_type == smb || system.f_type == smb2 ||
+                      system.f_type == cifs;
+  report.line(remote ? Verdict::failed : Verdict::ok, "file system",
+              remote ? "a network file system: keep the log on a local disk and copy it afterwards"
+                     : "local");
+}
+
+// How long an answer takes to be safe on disk.
+void check_commit(Report& report, const std::string& folder) {
+  std::string path = folder + "/heft-doctor-XXXXXX";
+  const int file = mkstemp(path.data());
+  if (file < 0)
+    return report.line(
+        Verdict::failed, "writing",
+        fmt::format("no file can be made in {}; choose another folder with --db", folder));
+  std::vector<double> times_ms;
+  const std::string page(4096, 'x');
+  for (int i = 0; i < 20; ++i) {
+    const auto started = std::chrono::steady_clock::now();
+    const bool written = write(file, page.data(), page.size()) > 0 && fsync(file) == 0;
+    const std::chrono::duration<double, std::milli> took =
+        std::chrono::steady_clock::now() - started;
+    if (written) times_ms.push_back(took.count());
+  }
+  close(file);
+  unlink(path.c_str());
+  if (times_ms.empty())
+    return report.line(Verdict::failed, "writing", "nothing can be written; is the disk full?");
+  std::ranges::sort(times_ms);
+  const double median_ms = times_ms[times_ms.size() / 2], worst_ms = times_ms.back();
+  report.line(worst_ms > 100 ? Verdict::warning : Verdict::ok, "writing",
+              fmt::format("an answer is safe on disk in {:.1f} ms (worst of 20: {:.1f} ms)",
+                          median_ms, worst_ms));
+}
+
+void check_log(Report& report, const std::string& db) {
+  if (!std::filesystem::exists(db))
+    return report.line(Verdict::ok, "log", fmt::format("{} is not there yet", db));
+  const std::vector<std::string> faults = check_integrity(db);
+  if (faults.empty()) return report.line(Verdict::ok, "log", fmt::format("{} is sound", db));
+  for (const std::string& fault : faults) report.line(Verdict::failed, "log", fault);
+}
+
+void list_plugs() {
+  fmt::print("\nsimulators:\n");
+  for (const SimulatorEntry& entry : simulators())
+    fmt::print("  {:<16} {}\n", entry.name, entry.summary);
+  fmt::print("views:\n");
+  for (const ViewEntry& entry : views()) fmt::print("  {:<16} {}\n", entry.name, entry.summary);
+  fmt::print("responders:\n");
+  for (const ResponderEntry& entry : responders())
+    fmt::print("  {:<16} {}\n", entry.name, entry.summary);
+  fmt::print("the parameters of a responder: heft doctor --responder NAME\n");
+}
+
+void diagnose(const std::string& db) {
+  Report report;
+  report.line(Verdict::ok, "program", fmt::format("heft {}, {}", HEFT_VERSION, build_name()));
+  check_packages(report);
+  const auto parent = std::filesystem::path(db).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  check_space(report, folder);
+  check_file_system(report, folder);
+  check_commit(report, folder);
+  check_log(report, db);
+  list_plugs();
+  if (report.failed()) throw Error("this machine is not ready; see the lines marked FAILED");
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app) {
+  struct Options {
+    std::string db = "heft.db", responder;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      add_command(app, "doctor", "check this machine, and list what can be plugged in",
+                  {"heft doctor", "heft doctor --db lab.db", "heft doctor --responder simulated"});
+  command->add_option("--db", options->db, "the log to check, and whose folder")
+      ->capture_default_str();
+  command->add_option("--responder", options->responder, "only describe its parameters");
+  command->callback([options] {
+    if (options->responder.empty()) return diagnose(options->db);
+    const std::string text = describe_parameters(responder_named(options->responder));
+    fmt::print("{}", text.empty() ? "it has no parameters\n" : text);
+  });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,27 @@
+#include "cli/Progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace heft::cli {
+
+ProgressBar::ProgressBar(std::string label)
+    : label_(std::move(label)), shown_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+  if (shown_) fmt::print(stderr, "\r\033[K");
+}
+
+void ProgressBar::update(double share, const std::string& text) {
+  constexpr int width = 30;
+  const auto now = std::chrono::steady_clock::now();
+  if (!shown_ || now - drawn_ < std::chrono::milliseconds(100)) return;
+  drawn_ = now;
+  const int filled = static_cast<int>(width * std::clamp(share, 0.0, 1.0));
+  fmt::print(stderr, "\r\033[K{} [{:=<{}}{:{}}] {}", label_, "", filled, "", width - filled, text);
+  std::fflush(stderr);
+}
+
+}  // namespace heft::cli

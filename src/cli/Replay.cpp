@@ -1,0 +1,161 @@
+// heft replay: verify a log, or ask what a session would have been.
+#include "session/Replay.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "base/Error.h"
+#include "cli/Commands.h"
+#include "cli/Progress.h"
+#include "physics/DecouplingSimulator.h"
+#include "record/Integrity.h"
+#include "session/WhatIf.h"
+
+namespace heft::cli {
+
+namespace {
+
+struct Options {
+  std::string db = "heft.db";
+  std::optional<std::int64_t> session;
+  std::string responder, simulator;
+  std::vector<std::string> set;
+  bool asks_what_if() const { return !responder.empty() || !simulator.empty() || !set.empty(); }
+};
+
+std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const Options& options) {
+  if (options.session) return {reader.session(*options.session).session_id};
+  std::vector<std::int64_t> ids;
+  for (const SessionRow& row : reader.sessions()) ids.push_back(row.session_id);
+  if (ids.empty()) throw Error(fmt::format("{} holds no session yet", options.db));
+  return ids;
+}
+
+void print_divergence(const Divergence& divergence) {
+  const std::string trial =
+      divergence.trial_number > 0 ? fmt::format("trial {}", divergence.trial_number) : "no trial";
+  fmt::print("  first divergence: {}, at {:.6f} s: {}\n    logged:   {}\n    came out: {}\n", trial,
+             divergence.t_s, divergence.what, divergence.logged, divergence.came_out);
+}
+
+// @return whether the log says what its events give
+bool verify(const LogReader& reader, std::int64_t session_id) {
+  ProgressBar bar(fmt::format("session {}", session_id));
+  const Verification found = verify_session(reader, session_id, [&](double share) {
+    bar.update(share, fmt::format("{:.0f} %", 100 * share));
+  });
+  const std::string pictures =
+      found.n_pictures == 0
+          ? "no pictures logged, so the simulator was not checked"
+          : fmt::format("{} pictures simulated again, {}", found.n_pictures,
+                        found.same_build
+                            ? "equal bits demanded"
+                            : fmt::format("logged by another build: poses within 1e-6 m demanded, "
+                                          "largest difference {:.3g} m",
+                                          found.largest_difference_m));
+  fmt::print("session {}: {}: {} events folded, {} rows in {} attempts compared; {}\n", session_id,
+             found.first ? "DIVERGED" : "verified", found.n_events, found.n_rows, found.n_attempts,
+             pictures);
+  if (found.first) print_divergence(*found.first);
+  return !found.first;
+}
+
+void verify_all(const LogReader& reader, const Options& options) {
+  bool same = true;
+  for (const std::string& fault : check_integrity(options.db)) {
+    fmt::print("the file is damaged: {}\n", fault);
+    same = false;
+  }
+  for (const std::int64_t session_id : chosen_sessions(reader, options))
+    same = verify(reader, session_id) && same;
+  if (!same)
+    throw Error(fmt::format("{} does not hold what its events give", options.db),
+                ExitCode::diverged);
+}
+
+void print_paths(const std::vector<PathDifference>& differences) {
+  fmt::print(
+      "  where things would have been, against the log (mm):\n"
+      "  {:<13} {:<4} {:>9} {:>11} {:>10} {:>11} {:>10}\n",
+      "task", "", "pictures", "clone RMS", "clone max", "cubes RMS", "cubes max");
+  for (const PathDifference& d : differences)
+    fmt::print("  {:<13} {:<4} {:>9} {:>11.4f} {:>10.4f} {:>11.4f} {:>10.4f}\n", name_of(d.task),
+               name_of(d.condition), d.n_pictures, 1e3 * d.clone_rms_m, 1e3 * d.clone_max_m,
+               1e3 * d.cubes_rms_m, 1e3 * d.cubes_max_m);
+}
+
+std::string grams(const std::optional<double>& value_g) {
+  return value_g ? fmt::format("{:.1f} g", *value_g) : "none";
+}
+
+void print_responder(const OtherResponder& other) {
+  fmt::print("  {:<13} {:<4} {:>20} {:>20}\n", "task", "", "logged, right of n",
+             "would be, right of n");
+  for (const OutcomeDifference& o : other.outcomes)
+    fmt::print("  {:<13} {:<4} {:>20} {:>20}\n", name_of(o.task), name_of(o.condition),
+               fmt::format("{} of {}", o.n_logged_correct, o.n_logged),
+               fmt::format("{} of {}", o.n_would_be_correct, o.n_would_be));
+  for (const EstimateDifference& e : other.estimates)
+    fmt::print("  JND of staircase {:<12} logged {:>9}, would be {:>9}\n", '"' + e.staircase + '"',
+               grams(e.logged_g), grams(e.would_be_g));
+}
+
+void ask_what_if(const LogReader& reader, const Options& options) {
+  for (const std::int64_t session_id : chosen_sessions(reader, options)) {
+    const LoggedSession session = load_session(reader, options.db, session_id);
+    RunOptions changed = session.options;
+    if (!options.simulator.empty()) {
+      make_simulator(options.simulator);  // says so if there is none of that name
+      changed.simulator = options.simulator;
+    }
+    if (!options.responder.empty()) {
+      changed.responder = options.responder;
+      complete(changed);
+    }
+    Protocol protocol = parse_protocol(session.row.header.protocol_text,
+                                       session.row.header.protocol_name, options.set);
+    if (!changed.simulator.empty()) protocol.simulator.name = changed.simulator;
+    fmt::print("session {}, participant {}:\n", session_id, session.row.header.participant);
+    if (options.responder.empty()) {
+      print_paths(compare_paths(reader, session, protocol));
+      continue;
+    }
+    ProgressBar bar(fmt::format("session {}", session_id));
+    RunnerOptions runner;
+    runner.keep_frames = false;
+    runner.progress = [&](const Engine& engine) {
+      bar.update(0, fmt::format("{} trials", engine.n_completed()));
+    };
+    print_responder(compare_responders(reader, session, protocol, changed, runner));
+  }
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = add_command(
+      app, "replay", "verify a log (exit 5 at a divergence), or ask what a session would have been",
+      {"heft replay --db lab.db", "heft replay --db lab.db --session 3",
+       "heft replay --db lab.db --session 3 --simulator bullet-ea",
+       "heft replay --db lab.db --set physics.friction=0.64",
+       "heft replay --db lab.db --responder coin"});
+  command->add_option("--db", options->db, "the log")->capture_default_str();
+  command->add_option("--session", options->session, "default: all");
+  command->add_option("--responder", options->responder,
+                      "run the trials anew with this responder, and compare answers");
+  command->add_option("--simulator", options->simulator,
+                      "run the logged hand through this simulator, and compare paths");
+  command->add_option("--set", options->set,
+                      "change a key of the protocol, such as coupling.stiffness_n_per_m=100");
+  command->callback([options] {
+    const LogReader reader(options->db);
+    if (options->asks_what_if())
+      ask_what_if(reader, *options);
+    else
+      verify_all(reader, *options);
+  });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,38 @@
+#include "cli/SessionCommand.h"
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "cli/Progress.h"
+#include "cli/StopOnSignal.h"
+#include "protocol/ExpectedLength.h"
+
+namespace heft::cli {
+
+SessionResult run_session(const Protocol& protocol, const std::string& db,
+                          const std::function<SessionResult(const RunnerOptions&)>& run) {
+  const StopOnSignal stop_on_signal;
+  ProgressBar bar("session");
+  const double expected = expected_length(protocol).trials;
+  RunnerOptions options;
+  options.stop = &stop_on_signal.requested();
+  // Nothing that would unblind whoever watches: no mass, level, condition or correctness.
+  options.progress = [&](const Engine& engine) {
+    bar.update(engine.n_completed() / expected,
+               fmt::format("{} of about {:.0f} trials, {:.0f} min", engine.n_completed(), expected,
+                           engine.last_s() / 60));
+  };
+  const SessionResult result = run(options);
+  const std::string resume = fmt::format("heft resume --db {} --session {}", db, result.session_id);
+  if (result.end == RunEnd::stopped)
+    throw Error("stopped; everything up to the last answer is saved. Go on with: " + resume,
+                ExitCode::interrupted);
+  if (result.end == RunEnd::paused)
+    throw Error(
+        fmt::format("the session paused itself: one trial was void {} times. Look at the "
+                    "camera and the board, then go on with: {}",
+                    max_voids, resume));
+  return result;
+}
+
+}  // namespace heft::cli

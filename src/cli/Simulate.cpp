@@ -1,0 +1,96 @@
+// heft simulate: many sessions of a protocol with a model for a participant.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "base/Error.h"
+#include "cli/Commands.h"
+#include "cli/Progress.h"
+#include "cli/StopOnSignal.h"
+#include "session/Simulation.h"
+
+namespace heft::cli {
+
+namespace {
+
+struct Options {
+  std::string protocol, responder = "simulated", simulator, db = "heft.db";
+  std::optional<std::uint64_t> seed;
+  int participants = 13;
+  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  bool frames = false;
+};
+
+void simulate_participants(const Options& options) {
+  SimulationRequest request;
+  request.protocol = load_protocol(options.protocol);
+  request.options.responder = options.responder;
+  request.options.simulator = options.simulator;
+  complete(request.options);
+  request.db = options.db;
+  request.seed = options.seed.value_or(fresh_seed());
+  request.participants = options.participants;
+  request.jobs = options.jobs;
+  request.keep_frames = options.frames;
+  fmt::print(stderr, "{} participants, protocol {}, responder {}, seed {}\n", request.participants,
+             request.protocol.name, request.options.responder, request.seed);
+
+  const StopOnSignal stop;
+  const auto started = std::chrono::steady_clock::now();
+  int stored = 0;
+  {
+    ProgressBar bar("simulating");
+    bar.update(0, "");
+    stored = simulate(
+        request,
+        [&](int n) {
+          bar.update(static_cast<double>(n) / request.participants,
+                     fmt::format("{} of {} participants", n, request.participants));
+        },
+        stop.requested());
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+  fmt::print(stderr, "{} participants in {:.1f} s: {:.1f} participants a minute with {} job{}\n",
+             stored, elapsed.count(), 60 * stored / elapsed.count(), request.jobs,
+             request.jobs == 1 ? "" : "s");
+  if (stored < request.participants)
+    throw Error(fmt::format("stopped; {} participants are stored in {}", stored, request.db),
+                ExitCode::interrupted);
+  fmt::print(stderr, "what was found: heft analyse --db {}\n", request.db);
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = add_command(
+      app, "simulate", "run many sessions with a simulated responder",
+      {"heft simulate protocols/paper.toml --responder simulated --participants 13 --db sim.db",
+       "heft simulate protocols/jnd.toml --responder coin --participants 100 --jobs 2 --seed 1",
+       "heft simulate protocols/jnd.toml --responder simulated:mine.toml --participants 50"});
+  command->add_option("PROTOCOL", options->protocol, "a protocol file")->required();
+  command
+      ->add_option("--responder", options->responder, "NAME or NAME:FILE (heft doctor lists them)")
+      ->capture_default_str();
+  command->add_option("--participants", options->participants, "how many")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--jobs", options->jobs,
+                   "threads; any number gives the same data (default: one a core)")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--db", options->db, "the log; an existing one gets more sessions")
+      ->capture_default_str();
+  command
+      ->add_option("--seed", options->seed,
+                   "0...2^63-1; without it a fresh one is drawn, printed and logged")
+      ->check(CLI::Range(std::uint64_t{0}, (std::uint64_t{1} << 63) - 1));
+  command->add_option("--simulator", options->simulator, "instead of the protocol's");
+  command->add_flag("--frames", options->frames,
+                    "store every displayed picture too (about 10 MB a session)");
+  command->callback([options] { simulate_participants(*options); });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,81 @@
+// Values into a prepared statement's places, in order, bit for bit. Private to this room.
+#pragma once
+
+#include <SQLiteCpp/Statement.h>
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "base/Error.h"
+#include "base/Names.h"
+#include "base/Pose.h"
+
+namespace heft {
+
+class Binding {
+ public:
+  template <typename... Values>
+  explicit Binding(SQLite::Statement& statement, const Values&... values) : statement_(statement) {
+    ((*this << values), ...);
+  }
+  Binding(const Binding&) = delete;
+  /// Ready for the next row, whatever became of this one.
+  ~Binding() { statement_.tryReset(); }
+
+  template <std::integral Integer>
+  Binding& operator<<(Integer value) {
+    statement_.bind(++place_, static_cast<std::int64_t>(value));
+    return *this;
+  }
+  Binding& operator<<(double value) {
+    // SQLite would turn it into NULL without a word.
+    if (std::isnan(value)) throw Error("a value of its row is not a number (NaN)");
+    statement_.bind(++place_, value);
+    return *this;
+  }
+  Binding& operator<<(const std::string& value) {
+    statement_.bind(++place_, value);
+    return *this;
+  }
+  template <typename Enum>
+  requires std::is_enum_v<Enum> Binding& operator<<(Enum value) {
+    return *this << std::string(name_of(value));
+  }
+  template <typename Value>
+  Binding& operator<<(const std::optional<Value>& value) {
+    if (value) return *this << *value;
+    return null();
+  }
+  Binding& operator<<(const Eigen::Vector3d& value) {
+    return *this << value.x() << value.y() << value.z();
+  }
+  Binding& operator<<(const Pose& pose) {
+    const Eigen::Quaterniond& q = pose.orientation;
+    return *this << pose.position_m << q.w() << q.x() << q.y() << q.z();
+  }
+  Binding& null(int columns = 1) {
+    for (int i = 0; i < columns; ++i) statement_.bind(++place_);
+    return *this;
+  }
+
+  void run() { statement_.exec(); }
+  /// True when there is a row.
+  bool step() { return statement_.executeStep(); }
+
+ private:
+  SQLite::Statement& statement_;
+  int place_ = 0;
+};
+
+/// Executes a statement that gives no rows, with these values in its places.
+template <typename... Values>
+void run(SQLite::Statement& statement, const Values&... values) {
+  Binding(statement, values...).run();
+}
+
+}  // namespace heft

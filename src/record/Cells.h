@@ -1,0 +1,68 @@
+// The cells of a row that was read, in order, checked: a value that can't be one of ours is an
+// Error naming table, row and column. Private to this room.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/Error.h"
+#include "base/Names.h"
+#include "base/Pose.h"
+
+namespace SQLite {
+class Column;
+class Statement;
+}  // namespace SQLite
+
+namespace heft {
+
+class Cells {
+ public:
+  /// @param query stands on a row whose first column is its id
+  Cells(SQLite::Statement& query, std::string_view file, std::string_view table);
+
+  std::int64_t id() const { return id_; }
+
+  std::int64_t long_integer();
+  int integer();
+  bool flag();
+  double real();
+  std::string text();
+  Eigen::Vector3d vector();
+  Pose pose();
+
+  std::optional<int> integer_or_none();
+  std::optional<bool> flag_or_none();
+  std::optional<double> real_or_none();
+  std::optional<std::string> text_or_none();
+  std::optional<Pose> pose_or_none();
+
+  template <typename Enum>
+  Enum name() {
+    const std::string written = text();
+    if (const auto value = named<Enum>(written)) return *value;
+    refuse_name(written, quoted_list(EnumNames<Enum>::names));
+  }
+  template <typename Enum>
+  std::optional<Enum> name_or_none() {
+    if (skip_null()) return std::nullopt;
+    return name<Enum>();
+  }
+
+ private:
+  bool next_is_null() const;
+  bool skip_null();
+  SQLite::Column next(int type, std::string_view expected);
+  [[noreturn]] void refuse(const std::string& found, std::string_view expected) const;
+  [[noreturn]] void refuse_name(const std::string& found, const std::string& names) const;
+
+  SQLite::Statement& query_;
+  std::string_view file_, table_;
+  int column_ = 0;  ///< the one read last
+  std::int64_t id_ = 0;
+};
+
+}  // namespace heft

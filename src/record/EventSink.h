@@ -1,0 +1,29 @@
+// Where a session's events and pictures go: a log on disk (SessionLog) or memory (RecordedSession).
+// The runner writes to either and can't tell which.
+#pragma once
+
+#include "experiment/Event.h"
+#include "experiment/Rows.h"
+
+namespace heft {
+
+/// acknowledged: committed to disk when append() returns, before the screen changes. buffered: in
+/// order, with the next acknowledged event or within a second. A sink in memory keeps both alike.
+enum class Durability { acknowledged, buffered };
+
+class EventSink {
+ public:
+  virtual ~EventSink() = default;
+
+  /// Takes an event and all it changes, together or not at all.
+  /// @throws Error when it could not be saved: what, why (disk full, ...), what to do
+  virtual void append(const Event& event, const Changes& changes, Durability durability) = 0;
+
+  /// Takes a displayed picture; pictures keep their order among the events.
+  virtual void add_frame(const FrameRow& frame) = 0;
+
+  /// Puts everything taken so far where it stays.
+  virtual void flush() = 0;
+};
+
+}  // namespace heft

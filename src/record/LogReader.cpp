@@ -1,0 +1,188 @@
+#include "record/LogReader.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "record/Binding.h"
+#include "record/LogFile.h"
+#include "record/ReadOnlyDatabase.h"
+#include "record/RowsFromCells.h"
+#include "record/Schema.h"
+#include "record/SqliteError.h"
+
+namespace heft {
+
+class LogReader::Impl {
+ public:
+  explicit Impl(const std::string& path) : path_(path), database_(open_for_reading(path)) {
+    switch (schema::kind_of(*database_)) {
+      case schema::FileKind::foreign:
+        refuse_foreign_file(path_);
+      case schema::FileKind::newer_log:
+        refuse_newer_log(path_);
+      case schema::FileKind::empty:
+        break;
+      case schema::FileKind::log:
+        has_tables_ = true;
+        // One moment for all reads: a transaction that the first of them opens.
+        database_->exec("BEGIN");
+        database_->execAndGet("SELECT count(*) FROM session");
+    }
+  }
+
+  /// Every row of a query, made into a value by `make`. The query's first column is the row's id.
+  template <typename Row, typename... Values>
+  std::vector<Row> rows(Row (*make)(Cells&), std::string_view table, const std::string& sql,
+                        const Values&... values) const try {
+    std::vector<Row> found;
+    if (!has_tables_) return found;
+    SQLite::Statement query(*database_, sql);
+    Binding binding(query, values...);
+    while (binding.step()) {
+      Cells cells(query, path_, table);
+      found.push_back(make(cells));
+    }
+    return found;
+  } catch (const SQLite::Exception& error) {
+    const SqliteFailure failure = explained(error, database_.get());
+    throw Error(fmt::format("can't read table {} of {}: {}. {}.", table, path_, failure.reason,
+                            failure.advice));
+  }
+
+  std::vector<SessionRow> sessions(const std::string& condition) const {
+    return with_participant_info(rows(session_from, "session", session_sql(condition)));
+  }
+
+  std::vector<SessionRow> with_participant_info(std::vector<SessionRow> sessions) const {
+    for (SessionRow& session : sessions)
+      for (const auto& [key, value] :
+           rows(info_from, "participant_info",
+                "SELECT rowid, key, value FROM participant_info WHERE session_id = ?",
+                session.session_id))
+        session.header.participant_info[key] = value;
+    return sessions;
+  }
+
+  static std::string session_sql(const std::string& condition) {
+    return fmt::format("SELECT session_id, {} FROM session WHERE {} ORDER BY session_id",
+                       schema::session_columns, condition);
+  }
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  std::unique_ptr<SQLite::Database> database_;
+  bool has_tables_ = false;
+};
+
+namespace {
+// The attempt of a row that names its trial: 0 where it names none, a text (which Cells refuses)
+// where its session has no such trial.
+std::string attempt_of(std::string_view table) {
+  return fmt::format(
+      "CASE WHEN trial_id IS NULL THEN 0 ELSE ifnull((SELECT attempt_index FROM trial WHERE "
+      "trial.trial_id = {}.trial_id AND trial.session_id = ?1), 'trial ' || trial_id || ', which "
+      "is not in this session') END AS trial_id",
+      table);
+}
+
+// Rows that carry the session's id themselves.
+std::string in_session(std::string_view table, std::string_view id, std::string_view columns) {
+  return fmt::format("SELECT {}, {}, {} FROM {} WHERE session_id = ?1 ORDER BY {}", id,
+                     attempt_of(table), columns, table, id);
+}
+
+// Rows that belong to a session through their trial.
+std::string in_trials(std::string_view table, std::string_view id, std::string_view columns) {
+  return fmt::format(
+      "SELECT {}, {}, {} FROM {} WHERE trial_id IN (SELECT trial_id FROM trial WHERE session_id = "
+      "?1) ORDER BY {}",
+      id, attempt_of(table), columns, table, id);
+}
+}  // namespace
+
+LogReader::LogReader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+LogReader::LogReader(LogReader&&) noexcept = default;
+LogReader& LogReader::operator=(LogReader&&) noexcept = default;
+LogReader::~LogReader() = default;
+
+std::vector<SessionRow> LogReader::sessions() const {
+  return impl_->sessions("true");
+}
+
+SessionRow LogReader::session(std::int64_t session_id) const {
+  const auto found = impl_->with_participant_info(
+      impl_->rows(session_from, "session", Impl::session_sql("session_id = ?1"), session_id));
+  if (found.empty()) throw Error(fmt::format("{} holds no session {}", impl_->path(), session_id));
+  return found.front();
+}
+
+std::vector<SessionRow> LogReader::sessions_of(const std::string& participant,
+                                               const std::string& protocol_name) const {
+  return impl_->with_participant_info(impl_->rows(
+      session_from, "session", Impl::session_sql("participant = ?1 AND protocol_name = ?2"),
+      participant, protocol_name));
+}
+
+std::optional<SessionRow> LogReader::newest_unfinished_session() const {
+  auto unfinished = impl_->sessions("state IN ('running', 'paused')");
+  if (unfinished.empty()) return std::nullopt;
+  return std::move(unfinished.back());
+}
+
+std::vector<LoggedEvent> LogReader::events(std::int64_t session_id) const {
+  return impl_->rows(event_from, "event", in_session("event", "event_id", schema::event_columns),
+                     session_id);
+}
+
+std::vector<TrialRow> LogReader::trials(std::int64_t session_id) const {
+  auto trials = impl_->rows(
+      trial_from, "trial",
+      fmt::format("SELECT trial_id, {} FROM trial WHERE session_id = ? ORDER BY trial_id",
+                  schema::trial_columns),
+      session_id);
+  std::map<int, std::vector<double>> masses_g;
+  for (const CubeRow& cube : cubes(session_id)) masses_g[cube.attempt_index].push_back(cube.mass_g);
+  for (TrialRow& trial : trials) trial.plan.masses_g = masses_g[trial.attempt_index];
+  return trials;
+}
+
+std::vector<CubeRow> LogReader::cubes(std::int64_t session_id) const {
+  return impl_->rows(cube_from, "cube", in_trials("cube", "rowid", schema::cube_columns),
+                     session_id);
+}
+
+std::vector<AnswerRow> LogReader::answers(std::int64_t session_id) const {
+  return impl_->rows(answer_from, "answer",
+                     in_trials("answer", "answer_id", schema::answer_columns), session_id);
+}
+
+std::vector<ReversalRow> LogReader::reversals(std::int64_t session_id) const {
+  return impl_->rows(reversal_from, "reversal",
+                     in_session("reversal", "rowid", schema::reversal_columns), session_id);
+}
+
+std::vector<EstimateRow> LogReader::estimates(std::int64_t session_id) const {
+  return impl_->rows(
+      estimate_from, "estimate",
+      fmt::format("SELECT rowid, {} FROM estimate WHERE session_id = ? ORDER BY rowid",
+                  schema::estimate_columns),
+      session_id);
+}
+
+std::vector<FrameRow> LogReader::frames(std::int64_t session_id, int attempt_index) const {
+  const std::string of_attempt =
+      attempt_index == 0 ? "trial_id IS NULL AND ?2 = 0"
+                         : "trial_id = (SELECT trial_id FROM trial WHERE session_id = ?1 AND "
+                           "attempt_index = ?2)";
+  return impl_->rows(
+      frame_from, "frame",
+      fmt::format("SELECT frame_id, ?2 AS trial_id, {} FROM frame WHERE session_id = ?1 AND {} "
+                  "ORDER BY frame_id",
+                  schema::frame_columns, of_attempt),
+      session_id, attempt_index);
+}
+
+}  // namespace heft

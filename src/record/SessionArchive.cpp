@@ -1,0 +1,50 @@
+#include "record/SessionArchive.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include "record/LogFile.h"
+#include "record/RowWriter.h"
+#include "record/Schema.h"
+#include "record/WriteFailure.h"
+
+namespace heft {
+
+class SessionArchive::Impl {
+ public:
+  explicit Impl(const std::string& path) : file_(path), writer_(file_.database()) {}
+
+  std::int64_t store(const RecordedSession& session) {
+    SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
+    schema::migrate(file_.database());
+    const std::int64_t session_id = writer_.write_session(session.header());
+    for (const RecordedEntry& entry : session.entries()) writer_.write(session_id, entry);
+    transaction.commit();
+    return session_id;
+  }
+
+  std::int64_t store_or_explain(const RecordedSession& session) {
+    try {
+      return store(session);
+    } catch (const std::exception& error) {
+      writer_.forget();
+      throw write_error(fmt::format("the session of {}", session.header().participant), file_,
+                        error, "start again");
+    }
+  }
+
+ private:
+  LogFile file_;
+  RowWriter writer_;
+};
+
+SessionArchive::SessionArchive(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+SessionArchive::SessionArchive(SessionArchive&&) noexcept = default;
+SessionArchive& SessionArchive::operator=(SessionArchive&&) noexcept = default;
+SessionArchive::~SessionArchive() = default;
+
+std::int64_t SessionArchive::store(const RecordedSession& session) {
+  return impl_->store_or_explain(session);
+}
+
+}  // namespace heft

@@ -1,0 +1,95 @@
+#include "responders/Answering.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "responders/TrialStream.h"
+
+namespace heft {
+
+namespace {
+// An answer that has had no effect for this long was not taken.
+constexpr double patience_s = 2;
+constexpr double least_interval_s = 0.3;
+constexpr int most_refused = 3;
+// Cubes that have not appeared by then never will: the hand rests where it keeps them away.
+constexpr double waits_for_cubes_s = 60;
+}  // namespace
+
+Answering::Answering(std::uint64_t seed, const TrialView& trial, double tap_interval_s)
+    : task_(trial.task),
+      picture_s_(1 / trial.stage.display_rate_hz),
+      tap_interval_s_(tap_interval_s),
+      stream_(trial_stream(seed, "taps", trial)) {}
+
+bool Answering::gave_up(double t_s) const {
+  return n_refused_ >= most_refused || (!cubes_seen_ && t_s > waits_for_cubes_s);
+}
+
+double Answering::interval_s() {
+  return std::max(least_interval_s, tap_interval_s_ * (0.7 + 0.6 * stream_.uniform()));
+}
+
+void Answering::give(const Answer& answer, double first_tap_s) {
+  free_ = false;
+  chosen_ = answer.slot;
+  to_validate_ = !answer.labels.empty();
+  if (to_validate_) return queue_labels(answer, first_tap_s);
+  if (answer.slot) return queue_.push_back({first_tap_s, ActionKind::select, answer.slot, {}});
+  const auto none = task_ == Task::sorting ? ActionKind::dont_know : ActionKind::no_difference;
+  queue_.push_back({first_tap_s, none, {}, {}});
+}
+
+void Answering::queue_labels(const Answer& answer, double first_tap_s) {
+  std::vector<int> slots;
+  for (std::size_t i = 0; i < answer.labels.size(); ++i) slots.push_back(static_cast<int>(i) + 1);
+  stream_.shuffle(std::span(slots));
+  const auto label_of = [&](int slot) { return answer.labels[static_cast<std::size_t>(slot - 1)]; };
+  double t_s = first_tap_s;
+  const auto tap = [&](int slot, Label label) {
+    queue_.push_back({t_s, ActionKind::label, slot, label});
+    t_s += interval_s();
+  };
+  if (answer.first_label_corrected) tap(slots.front(), label_of(slots.back()));
+  for (int slot : slots) tap(slot, label_of(slot));
+}
+
+std::vector<Action> Answering::see(const DisplayedFrame& frame, const ScreenState& screen) {
+  cubes_seen_ = cubes_seen_ || !frame.cubes.empty();
+  if (screen.screen != Screen::trial || free_) {
+    last_tap_s_ = std::max(last_tap_s_, frame.t_s);  // patience starts anew after a pause
+    return {};
+  }
+  if (queue_.empty()) look_for_outcome(frame.t_s, screen);
+  return due(frame.t_s, screen);
+}
+
+void Answering::look_for_outcome(double t_s, const ScreenState& screen) {
+  if (to_validate_ && screen.can_validate) {
+    to_validate_ = false;
+    queue_.push_back({last_tap_s_ + interval_s(), ActionKind::validate, {}, {}});
+  } else if (screen.try_again && screen.n_choices > n_choices_before_) {
+    wrong_slots_.push_back(chosen_.value());
+    free_ = true;
+  } else if (t_s > last_tap_s_ + patience_s) {
+    ++n_refused_;
+    free_ = true;
+  }
+}
+
+std::vector<Action> Answering::due(double t_s, const ScreenState& screen) {
+  // What could not be done in its time moves on as a whole, so that taps keep their distance.
+  const double late_s = queue_.empty() ? 0 : std::max(0.0, t_s - queue_.front().t_s);
+  for (Action& action : queue_) action.t_s += late_s;
+  std::vector<Action> actions;
+  while (!queue_.empty() && queue_.front().t_s < t_s + picture_s_) {
+    last_tap_s_ = queue_.front().t_s;
+    n_choices_before_ = screen.n_choices;
+    actions.push_back(std::exchange(queue_.front(), {}));
+    queue_.pop_front();
+  }
+  return actions;
+}
+
+}  // namespace heft

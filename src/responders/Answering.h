@@ -1,0 +1,60 @@
+// A finger on the touch screen: carries out an answer tap by tap, at human intervals, and only what
+// the screen offers; finds out whether the answer was taken.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "base/Random.h"
+#include "experiment/Action.h"
+#include "experiment/DisplayedFrame.h"
+#include "experiment/ScreenState.h"
+#include "responders/Decision.h"
+#include "responders/Responder.h"
+
+namespace heft {
+
+class Answering {
+ public:
+  /// @param tap_interval_s mean; taps are 0.3 s apart or more
+  Answering(std::uint64_t seed, const TrialView& trial, double tap_interval_s);
+
+  /// Starts to carry out an answer.
+  /// @param first_tap_s time of its first action
+  void give(const Answer& answer, double first_tap_s);
+
+  /// Actions that fall between this picture and the next. Nothing while the trial is paused; what
+  /// was due then comes after.
+  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen);
+
+  /// No answer is under way: none given yet, or the last one was wrong or not taken.
+  bool free() const { return free_; }
+  /// Introduction: slots chosen wrongly so far, oldest first.
+  const std::vector<int>& wrong_slots() const { return wrong_slots_; }
+  bool cubes_seen() const { return cubes_seen_; }
+  /// Going on is pointless: several answers were not taken, or the cubes never appeared.
+  bool gave_up(double t_s) const;
+
+ private:
+  void queue_labels(const Answer& answer, double first_tap_s);
+  void look_for_outcome(double t_s, const ScreenState& screen);
+  std::vector<Action> due(double t_s, const ScreenState& screen);
+  double interval_s();
+
+  Task task_;
+  double picture_s_;
+  double tap_interval_s_;
+  RandomStream stream_;
+  bool cubes_seen_ = false;
+  bool free_ = true;
+  bool to_validate_ = false;
+  std::deque<Action> queue_;
+  double last_tap_s_ = 0;
+  int n_choices_before_ = 0;
+  std::optional<int> chosen_;
+  std::vector<int> wrong_slots_;
+  int n_refused_ = 0;
+};
+
+}  // namespace heft

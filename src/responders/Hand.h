@@ -1,0 +1,71 @@
+// A simulated hand: rests in front of the row, pushes cubes away from the participant where it sees
+// them, lifts over everything between pushes, and comes back. Its pose is a pure function of time
+// and of what has been displayed so far. It knows nothing of answers.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+
+#include "base/Random.h"
+#include "experiment/DisplayedFrame.h"
+#include "responders/HandPath.h"
+#include "responders/ResponderParameters.h"
+
+namespace heft {
+
+/// The effector at rest before a trial: its tip away from the participant, start_distance_m in
+/// front of the row's middle, hover_m above the table.
+Pose resting_pose(const Stage& stage, double hover_m);
+
+class Hand {
+ public:
+  Hand(const ResponderParameters& parameters, std::uint64_t seed, const TrialView& trial);
+
+  /// Sets out to push these cubes (from 0), one after the other in drawn order.
+  void explore(std::span<const int> cubes);
+
+  /// Takes in a picture; plans the next movement when the last one is over.
+  void see(const DisplayedFrame& frame);
+
+  Pose at(double t_s) const { return path_.at(t_s); }
+  /// Back at rest with nothing left to push.
+  bool done(double t_s) const;
+  /// Movements planned last.
+  const HandPath& path() const { return path_; }
+
+ private:
+  /// Effector poses at both ends of a push along +y.
+  struct Stroke {
+    int cube = 0;
+    Pose start, end;
+    double peak_speed_m_s = 0;
+  };
+
+  std::optional<Stroke> next_stroke(std::span<const Pose> cubes);
+  std::optional<Stroke> stroke_on(int cube, std::span<const Pose> cubes);
+  Stroke aimed(int cube, const Pose& at, double lateral_m, double yaw_rad, double length_m) const;
+  bool possible(const Stroke& stroke, std::span<const Pose> cubes) const;
+  void push(const Stroke& stroke, std::span<const Pose> cubes);
+  void back_off(std::span<const Pose> cubes);
+  Eigen::Vector3d half_extents_of(const Pose& cube) const;
+  double near_face_m(const Pose& cube) const;
+  double tip_m(const Pose& effector) const;
+  double safe_height_m(std::span<const Pose> cubes) const;
+  void travel_to(const Pose& place, std::span<const Pose> cubes);
+  void go_home(std::span<const Pose> cubes);
+  double varied(double mean);
+  double error(double sd);
+
+  ResponderParameters parameters_;
+  Stage stage_;
+  RandomStream stream_;
+  Pose home_;
+  HandPath path_;
+  std::deque<int> to_push_;  ///< cubes, one entry a stroke
+  bool at_home_ = true;
+  std::optional<Stroke> pushed_;  ///< the last planned movement ends in this push
+};
+
+}  // namespace heft

@@ -1,0 +1,56 @@
+// A simulated eye: what the displayed pictures tell of each cube's heaviness, in millimeters of the
+// cue. It gets pictures only: no mass, force, condition, and nothing of the hand's plans.
+//
+// Each picture in which the clone touches a cube gives a noisy reading of the cue, nothing where it
+// is less than just visible. Readings are smoothed over the eye's integration time; the largest one
+// of an unbroken touch is a look, and the mean of a cube's looks is its percept. Without a drawn
+// clone there is no cue.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/Random.h"
+#include "experiment/DisplayedFrame.h"
+#include "responders/ResponderParameters.h"
+
+namespace heft {
+
+class Perception {
+ public:
+  Perception(const ResponderParameters& parameters, std::uint64_t seed, const TrialView& trial);
+
+  void see(const DisplayedFrame& frame);
+
+  /// By cube, leftmost first; 0 for a cube that was not looked at.
+  std::vector<double> percepts_mm() const;
+
+  /// Cubes (from 0) that were not seen touched.
+  std::vector<int> not_looked_at() const;
+
+  /// Looks afresh from now on.
+  void forget();
+
+ private:
+  /// An unbroken touch of one cube.
+  struct Touch {
+    int cube = 0;
+    double last_s = 0;
+    double smoothed_mm = 0;
+    Pose effector_at_start, cube_at_start;
+  };
+
+  void keep_touch(int cube, const DisplayedFrame& frame);
+  double cue_mm(const DisplayedFrame& frame) const;
+  double reading_mm(double shown_mm);
+
+  ResponderParameters parameters_;
+  Stage stage_;
+  RandomStream stream_;
+  std::optional<Touch> touch_;
+  std::optional<double> last_picture_s_;
+  std::vector<std::vector<double>> looks_mm_;  ///< by cube
+};
+
+}  // namespace heft

@@ -1,0 +1,38 @@
+// A recorded participant as a folder: trial_<trial_number>.csv, the effector's trajectory
+// (experiment/Trajectory.h), and actions.csv: trial_number,t_s,action,slot,label. Times count from
+// the trial's start.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/Error.h"
+#include "experiment/Action.h"
+#include "experiment/Trajectory.h"
+
+namespace heft {
+
+struct RecordedAction {
+  Action action;
+  SourcePlace place;
+};
+
+/// Actions by trial number, in the file's order, which is that of time within a trial.
+using RecordedActions = std::map<int, std::vector<RecordedAction>>;
+
+/// @throws InvalidFile naming every unusable cell and what was expected there
+RecordedActions parse_actions(const std::string& text, const std::string& file);
+
+struct Recording {
+  std::string folder;
+  std::map<int, Trajectory> trajectories;  ///< by trial number
+  RecordedActions actions;
+};
+
+/// @throws Error where the folder or its actions.csv can't be read, InvalidFile with the mistakes
+/// of
+///   all its files
+Recording load_recording(const std::string& folder);
+
+}  // namespace heft

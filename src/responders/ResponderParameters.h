@@ -1,0 +1,81 @@
+// The numbers that simulated participants are made of. One table, in ResponderParameters.cpp, gives
+// each its name, unit, default, allowed range, spread between participants and reason. They are
+// provisional: taken from general knowledge of hands and eyes, fitted to no experiment.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/Names.h"
+#include "responders/Responder.h"
+
+namespace heft {
+
+/// What a cube's heaviness is seen by.
+/// offset: how far the clone is from the effector while it touches the cube.
+/// cube_motion: how much less the cube has moved than the hand since they touched.
+enum class Cue { offset, cube_motion };
+template <>
+struct EnumNames<Cue> {
+  static constexpr std::array<std::string_view, 2> names{"offset", "cube_motion"};
+};
+
+/// Which part of a responder a parameter belongs to; a responder takes those of the parts it has.
+enum class ParameterPart { everyone, hand, perception, decision, coin };
+
+inline constexpr std::array simulated_parts{ParameterPart::everyone, ParameterPart::hand,
+                                            ParameterPart::perception, ParameterPart::decision};
+inline constexpr std::array criterion_only_parts{ParameterPart::everyone, ParameterPart::decision};
+inline constexpr std::array coin_parts{ParameterPart::coin};
+
+/// One participant's values. Meanings, units and defaults: the table.
+struct ResponderParameters {
+  double participant_spread = 0;
+
+  double strokes_per_cube = 0;
+  double stroke_length_m = 0, stroke_peak_speed_m_s = 0, stroke_variation = 0;
+  double travel_peak_speed_m_s = 0;
+  double hold_s = 0, pause_s = 0;
+  double lateral_error_m = 0, yaw_error_rad = 0;
+  double hover_m = 0, reach_m = 0;
+
+  Cue cue = Cue::offset;
+  double just_visible_mm = 0, localization_noise_mm = 0, length_noise = 0;
+  double integration_s = 0, memory_noise = 0;
+
+  double judgment_noise_mm = 0, criterion_mm = 0, criterion_fraction = 0;
+  double guess_probability = 0, lapse_rate = 0, correction_probability = 0;
+  double think_s = 0, tap_interval_s = 0;
+
+  double p = 0;
+};
+
+/// A row of the table.
+struct ParameterRow {
+  ParameterPart part;
+  std::string_view name, unit;
+  double value, least, most;
+  double spread;  ///< between participants: SD of the value's logarithm
+  double ResponderParameters::*member;
+  std::string_view reason;
+};
+
+/// All numbers; the cue, a name, stands beside the table.
+std::span<const ParameterRow> parameter_rows();
+
+/// The defaults of all parts, as an average participant has them.
+ResponderParameters default_parameters();
+
+/// Defaults, overridden by the options' parameters, then varied between participants: each value
+/// times exp(spread * normal), drawn from the seed once per parameter and held in its range.
+/// @param parts whose parameters may be given
+/// @throws InvalidFile naming each unknown or impossible parameter at its place
+ResponderParameters participant_parameters(const ResponderOptions& options,
+                                           std::span<const ParameterPart> parts);
+
+/// A line a parameter: name, default, unit, range, spread, reason.
+std::string describe_parameters(std::span<const ParameterPart> parts);
+
+}  // namespace heft

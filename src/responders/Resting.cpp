@@ -1,0 +1,105 @@
+#include "responders/Resting.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "base/Random.h"
+#include "responders/Answering.h"
+#include "responders/Decision.h"
+#include "responders/Hand.h"
+#include "responders/ResponderParameters.h"
+#include "responders/TrialStream.h"
+
+namespace heft {
+
+namespace {
+constexpr double hover_m = 0.005;
+constexpr double tap_interval_s = 0.7;
+
+/// Gives the answer to a trial.
+/// @param wrong_slots introduction: slots chosen wrongly so far, oldest first
+using Mind = std::function<Answer(std::span<const int> wrong_slots)>;
+/// Makes the mind for one trial.
+using MakeMind = std::function<Mind(const TrialView& trial)>;
+
+class Resting : public Responder {
+ public:
+  Resting(std::uint64_t seed, MakeMind make_mind) : seed_(seed), make_mind_(std::move(make_mind)) {}
+
+  void begin_trial(const TrialView& trial) override {
+    rest_ = resting_pose(trial.stage, hover_m);
+    mind_ = make_mind_(trial);
+    answering_.emplace(seed_, trial, tap_interval_s);
+    delays_ = trial_stream(seed_, "delay", trial);
+  }
+
+  HandSample hand(double) override { return {rest_, true}; }
+
+  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+    const bool to_answer = answering_->free() && answering_->cubes_seen();
+    if (to_answer && screen.screen == Screen::trial)
+      answering_->give(mind_(answering_->wrong_slots()), frame.t_s + 1 + delays_->uniform());
+    return answering_->see(frame, screen);
+  }
+
+  bool has_more(double t_s) const override { return !answering_->gave_up(t_s); }
+
+ private:
+  std::uint64_t seed_;
+  MakeMind make_mind_;
+  Pose rest_;
+  Mind mind_;
+  std::optional<Answering> answering_;
+  std::optional<RandomStream> delays_;
+};
+
+Answer any_answer(Task task, int n_slots, RandomStream& stream) {
+  if (task == Task::comparison)
+    return {.slot = 1 + static_cast<int>(stream.below(static_cast<std::uint64_t>(n_slots))),
+            .labels = {}};
+  std::vector<double> values;
+  for (int i = 0; i < n_slots; ++i) values.push_back(stream.uniform());
+  return {.slot = {}, .labels = labels_in_order(values)};
+}
+
+// Finds a difference with a probability, whatever there is. The introduction takes no "none": it
+// tries one cube after the other, from the left.
+std::unique_ptr<Responder> make_blind(std::uint64_t seed, double p_different) {
+  return std::make_unique<Resting>(seed, [=](const TrialView& trial) -> Mind {
+    RandomStream stream = trial_stream(seed, "blind answer", trial);
+    return [task = trial.task, n = trial.stage.n_slots(), p_different,
+            stream](std::span<const int> wrong_slots) mutable -> Answer {
+      if (task == Task::introduction)
+        return {.slot = 1 + static_cast<int>(wrong_slots.size()) % n, .labels = {}};
+      return stream.coin(p_different) ? any_answer(task, n, stream) : Answer{};
+    };
+  });
+}
+}  // namespace
+
+std::unique_ptr<Responder> make_always_yes(const ResponderOptions& options) {
+  return make_blind(options.seed, 1);
+}
+
+std::unique_ptr<Responder> make_always_no(const ResponderOptions& options) {
+  return make_blind(options.seed, 0);
+}
+
+std::unique_ptr<Responder> make_coin(const ResponderOptions& options) {
+  return make_blind(options.seed, participant_parameters(options, coin_parts).p);
+}
+
+std::unique_ptr<Responder> make_criterion_only(const ResponderOptions& options) {
+  const auto parameters = participant_parameters(options, criterion_only_parts);
+  return std::make_unique<Resting>(
+      options.seed, [seed = options.seed, parameters](const TrialView& trial) -> Mind {
+        const std::vector<double> nothing(trial.stage.slots_m.size(), 0.0);
+        return [decision = Decision(parameters, seed, trial),
+                nothing](std::span<const int> wrong_slots) mutable {
+          return decision.decide(nothing, wrong_slots);
+        };
+      });
+}
+
+}  // namespace heft

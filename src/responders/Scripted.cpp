@@ -1,0 +1,105 @@
+#include "responders/Scripted.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+
+#include "responders/Recording.h"
+
+namespace heft {
+
+namespace {
+// Labels recorded just before "validate" take a picture or two to be on the screen.
+constexpr double waits_for_validate_s = 1;
+
+bool offered(Task task, ActionKind kind) {
+  switch (kind) {
+    case ActionKind::select:
+      return task != Task::sorting;
+    case ActionKind::no_difference:
+      return task == Task::comparison;
+    case ActionKind::label:
+    case ActionKind::unlabel:
+    case ActionKind::validate:
+    case ActionKind::dont_know:
+      break;
+  }
+  return task == Task::sorting;
+}
+
+void check(const std::vector<RecordedAction>& actions, const TrialView& trial) {
+  std::vector<Mistake> mistakes;
+  for (const auto& [action, place] : actions) {
+    if (!offered(trial.task, action.kind))
+      mistakes.push_back({place, fmt::format("a {} trial has no action \"{}\"", name_of(trial.task),
+                                             name_of(action.kind))});
+    if (action.slot && *action.slot > trial.stage.n_slots())
+      mistakes.push_back({place, fmt::format("slot {}, but trial {} has {} cubes", *action.slot,
+                                             trial.trial_number, trial.stage.n_slots())});
+  }
+  if (!mistakes.empty()) throw InvalidFile(std::move(mistakes));
+}
+
+class Scripted : public Responder {
+ public:
+  explicit Scripted(Recording recording) : recording_(std::move(recording)) {}
+
+  void begin_trial(const TrialView& trial) override {
+    const auto trajectory = recording_.trajectories.find(trial.trial_number);
+    if (trajectory == recording_.trajectories.end())
+      throw Error(fmt::format("the recording {} has no trial {}: expected the file trial_{}.csv",
+                              recording_.folder, trial.trial_number, trial.trial_number));
+    trajectory_ = &trajectory->second;
+    const auto& actions = recording_.actions[trial.trial_number];
+    check(actions, trial);
+    to_do_.clear();
+    for (const RecordedAction& recorded : actions) to_do_.push_back(recorded.action);
+    end_s_ = trajectory_->end_s();
+    if (!to_do_.empty()) end_s_ = std::max(end_s_, to_do_.back().t_s);
+    picture_s_ = 1 / trial.stage.display_rate_hz;
+    last_pose_ = trajectory_->rows().front().pose.value_or(Pose{});
+  }
+
+  HandSample hand(double t_s) override {
+    const auto pose = trajectory_->at(t_s);
+    if (pose) last_pose_ = *pose;
+    return {last_pose_, pose.has_value()};
+  }
+
+  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+    // A pause takes no taps; those that fell into it come after it.
+    paused_ = screen.screen != Screen::trial;
+    std::vector<Action> actions;
+    if (paused_) return actions;
+    while (!to_do_.empty() && to_do_.front().t_s < frame.t_s + picture_s_) {
+      if (to_do_.front().kind == ActionKind::validate && !screen.can_validate) break;
+      actions.push_back(to_do_.front());
+      actions.back().t_s = std::max(actions.back().t_s, frame.t_s);
+      to_do_.pop_front();
+    }
+    if (!actions.empty()) end_s_ = std::max(end_s_, actions.back().t_s);
+    return actions;
+  }
+
+  bool has_more(double t_s) const override {
+    return paused_ || t_s <= end_s_ + (to_do_.empty() ? 0 : waits_for_validate_s);
+  }
+
+ private:
+  Recording recording_;
+  const Trajectory* trajectory_ = nullptr;
+  std::deque<Action> to_do_;
+  Pose last_pose_;
+  double end_s_ = 0;
+  double picture_s_ = 0;
+  bool paused_ = false;
+};
+}  // namespace
+
+std::unique_ptr<Responder> make_scripted(const ResponderOptions& options) {
+  return std::make_unique<Scripted>(load_recording(options.folder));
+}
+
+}  // namespace heft

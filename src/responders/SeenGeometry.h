@@ -1,0 +1,30 @@
+// What can be told from displayed poses alone: how far boxes extend, what touches what, which ways
+// are free.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "base/Pose.h"
+#include "experiment/Stage.h"
+
+namespace heft {
+
+/// Half the size of the axis-aligned box around a turned box.
+Eigen::Vector3d half_extents_m(const Eigen::Quaterniond& orientation,
+                               const Eigen::Vector3d& size_m);
+
+/// Index of the cube that the clone's tip looks to be in touch with: the nearest one in front of
+/// it. None when there is none within a few millimeters.
+std::optional<int> touched_cube(const Pose& clone, std::span<const Pose> cubes, const Stage& stage);
+
+/// A rectangle on the table, world axes.
+struct Footprint {
+  Eigen::Vector2d least_m, most_m;
+};
+
+/// Whether a rectangle is clear of every cube but one.
+bool clear_of_others(const Footprint& area, std::span<const Pose> cubes, int but,
+                     const Stage& stage);
+
+}  // namespace heft

@@ -1,0 +1,93 @@
+#include "responders/Simulated.h"
+
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "responders/Answering.h"
+#include "responders/Decision.h"
+#include "responders/Hand.h"
+#include "responders/Perception.h"
+#include "responders/ResponderParameters.h"
+
+namespace heft {
+
+namespace {
+/// Everything that lives for one trial.
+struct SimulatedTrial {
+  SimulatedTrial(const ResponderParameters& parameters, std::uint64_t seed, const TrialView& trial)
+      : hand(parameters, seed, trial),
+        perception(parameters, seed, trial),
+        decision(parameters, seed, trial),
+        answering(seed, trial, parameters.tap_interval_s) {
+    std::vector<int> all(trial.stage.slots_m.size());
+    std::iota(all.begin(), all.end(), 0);
+    hand.explore(all);
+    cubes = all;
+  }
+
+  Hand hand;
+  Perception perception;
+  Decision decision;
+  Answering answering;
+  std::vector<int> cubes;
+  bool looked_twice = false;  ///< at cubes that it had missed
+  bool answered = false;      ///< since it last set out
+};
+
+class Simulated : public Responder {
+ public:
+  explicit Simulated(const ResponderOptions& options)
+      : seed_(options.seed), parameters_(participant_parameters(options, simulated_parts)) {}
+
+  void begin_trial(const TrialView& trial) override { trial_.emplace(parameters_, seed_, trial); }
+
+  HandSample hand(double t_s) override { return {trial_->hand.at(t_s), true}; }
+
+  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+    SimulatedTrial& trial = *trial_;
+    if (screen.screen == Screen::trial) {
+      trial.perception.see(frame);
+      trial.hand.see(frame);
+      if (trial.answering.free() && trial.hand.done(frame.t_s)) look_again_or_answer(frame.t_s);
+    }
+    return trial.answering.see(frame, screen);
+  }
+
+  bool has_more(double t_s) const override { return !trial_->answering.gave_up(t_s); }
+
+ private:
+  void look_again_or_answer(double t_s) {
+    SimulatedTrial& trial = *trial_;
+    if (trial.answered) return set_out_again();
+    const std::vector<int> missed = trial.perception.not_looked_at();
+    if (!missed.empty() && !trial.looked_twice) {
+      trial.looked_twice = true;
+      return trial.hand.explore(missed);
+    }
+    const auto percepts_mm = trial.perception.percepts_mm();
+    const Answer answer = trial.decision.decide(percepts_mm, trial.answering.wrong_slots());
+    trial.answering.give(answer, t_s + parameters_.think_s);
+    trial.answered = true;
+  }
+
+  // The last answer was wrong or not taken.
+  void set_out_again() {
+    SimulatedTrial& trial = *trial_;
+    trial.perception.forget();
+    trial.hand.explore(trial.cubes);
+    trial.answered = false;
+    trial.looked_twice = false;
+  }
+
+  std::uint64_t seed_;
+  ResponderParameters parameters_;
+  std::optional<SimulatedTrial> trial_;
+};
+}  // namespace
+
+std::unique_ptr<Responder> make_simulated(const ResponderOptions& options) {
+  return std::make_unique<Simulated>(options);
+}
+
+}  // namespace heft

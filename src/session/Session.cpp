@@ -1,0 +1,149 @@
+#include "session/Session.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <random>
+
+#include "base/Build.h"
+#include "base/Error.h"
+#include "record/LogReader.h"
+#include "record/SessionLog.h"
+
+namespace heft {
+
+namespace {
+
+// A participant's data is never mixed up by a slip: an unfinished session is resumed, a finished
+// one repeated only on purpose.
+void refuse_repetition(const SessionRequest& request) {
+  if (!std::filesystem::exists(request.db) || std::filesystem::file_size(request.db) == 0) return;
+  for (const SessionRow& session :
+       LogReader(request.db).sessions_of(request.participant, request.protocol.name)) {
+    if (is_unfinished(session.state))
+      throw Error(fmt::format("participant {} has an unfinished session of {} in {}; go on with "
+                              "it: heft resume --db {} --session {}",
+                              request.participant, request.protocol.name, request.db, request.db,
+                              session.session_id),
+                  ExitCode::usage);
+    if (!request.again)
+      throw Error(
+          fmt::format("participant {} has finished {} in {} (session {}); to run it once "
+                      "more on purpose add --again",
+                      request.participant, request.protocol.name, request.db, session.session_id),
+          ExitCode::usage);
+  }
+}
+
+// The parts that the options name, put together around an engine and a sink.
+RunEnd run_with(Engine& engine, EventSink& sink, const RunOptions& options,
+                const RunnerOptions& runner, double start_s) {
+  const auto responder = make_responder(options, engine.seed());
+  const auto view = make_view(options.view);
+  HandPictures pictures(*responder, engine.protocol().display_rate_hz);
+  const RunEnd end = Runner({engine, sink, pictures, *responder, *view}, runner, start_s).run();
+  sink.flush();
+  return end;
+}
+
+SessionResult result_of(const Engine& engine, RunEnd end, std::int64_t session_id) {
+  return {end, session_id, engine.last_s(), engine.n_completed()};
+}
+
+Event plain_event(double t_s, EventKind kind, std::string detail) {
+  Event event;
+  event.t_s = t_s;
+  event.kind = kind;
+  event.detail = std::move(detail);
+  return event;
+}
+
+}  // namespace
+
+std::uint64_t fresh_seed() {
+  std::random_device device;
+  return ((std::uint64_t{device()} << 32) | device()) >> 1;
+}
+
+SessionHeader header_of(const SessionRequest& request) {
+  SessionHeader header;
+  header.participant = request.participant;
+  header.protocol_name = request.protocol.name;
+  header.protocol_text = request.protocol.text;
+  header.protocol_sha256 = request.protocol.sha256;
+  header.seed = request.seed;
+  header.heft_version = HEFT_VERSION;
+  header.build = build_name();
+  header.run_options = to_json(request.options);
+  header.purpose = "simulated";  // no responder of this version is a person
+  header.responder = request.options.responder;
+  header.started_utc = utc_now();
+  return header;
+}
+
+SessionResult start_session(const SessionRequest& request, const RunnerOptions& runner) {
+  refuse_repetition(request);
+  SessionLog log = SessionLog::start(request.db, header_of(request));
+  Engine engine(protocol_for(request.protocol, request.options), request.seed);
+  const RunEnd end = run_with(engine, log, request.options, runner, 0);
+  return result_of(engine, end, log.session_id());
+}
+
+LoggedSession load_session(const LogReader& reader, const std::string& db,
+                           std::int64_t session_id) {
+  LoggedSession session;
+  session.db = db;
+  session.row = reader.session(session_id);
+  const SessionHeader& header = session.row.header;
+  session.options = run_options_from_json(header.run_options);
+  Protocol protocol = parse_protocol(header.protocol_text, header.protocol_name);
+  protocol.name = header.protocol_name;
+  session.protocol = protocol_for(std::move(protocol), session.options);
+  return session;
+}
+
+LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_t> session_id) {
+  const LogReader reader(db);
+  if (session_id) {
+    const SessionState state = reader.session(*session_id).state;
+    if (!is_unfinished(state))
+      throw Error(fmt::format("session {} in {} is {}; there is nothing to go on with", *session_id,
+                              db, name_of(state)));
+    return load_session(reader, db, *session_id);
+  }
+  if (const auto row = reader.newest_unfinished_session())
+    return load_session(reader, db, row->session_id);
+  throw Error(
+      fmt::format("{} holds no unfinished session; start one: heft run PROTOCOL "
+                  "--participant ID --db {}",
+                  db, db));
+}
+
+SessionResult resume_session(const LoggedSession& session, const RunnerOptions& runner) {
+  const std::int64_t session_id = session.row.session_id;
+  SessionLog log = SessionLog::reopen(session.db, session_id);  // from here on nobody else writes
+  Engine engine(session.protocol, session.row.header.seed);
+  for (const LoggedEvent& logged : LogReader(session.db).events(session_id))
+    engine.apply(logged.event);
+  const auto append = [&](const Event& event) {
+    log.append(event, engine.apply(event), Durability::acknowledged);
+  };
+  const double last_s = engine.last_s();
+  if (engine.trial_is_open())
+    append(plain_event(last_s, EventKind::voided, std::string(void_interrupted)));
+  const double now_s = log_time(std::max(last_s, seconds_since(session.row.header.started_utc)));
+  Event resumed = plain_event(now_s, EventKind::resumed, utc_now());
+  resumed.value = now_s - last_s;
+  append(resumed);
+  const RunEnd end = run_with(engine, log, session.options, runner, now_s);
+  return result_of(engine, end, session_id);
+}
+
+RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {
+  RecordedSession recorded(header_of(request));
+  Engine engine(protocol_for(request.protocol, request.options), request.seed);
+  run_with(engine, recorded, request.options, runner, 0);
+  return recorded;
+}
+
+}  // namespace heft

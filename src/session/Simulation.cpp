@@ -1,0 +1,118 @@
+#include "session/Simulation.h"
+
+#include <fmt/format.h>
+
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "base/Random.h"
+#include "record/SessionArchive.h"
+
+namespace heft {
+
+namespace {
+
+// Hands out session numbers to workers and gives their results back in order. Workers wait when
+// they are far ahead, so memory stays flat.
+class InOrder {
+ public:
+  InOrder(int n, int ahead) : n_(n), ahead_(ahead) {}
+
+  // Next number to compute, 0 when there is none.
+  int take() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return closed_ || taken_ < given_ + ahead_; });
+    return closed_ || taken_ == n_ ? 0 : ++taken_;
+  }
+
+  void put(int number, RecordedSession session) {
+    const std::lock_guard lock(mutex_);
+    done_.emplace(number, std::move(session));
+    changed_.notify_all();
+  }
+
+  void fail(std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    if (!error_) error_ = error;
+    changed_.notify_all();
+  }
+
+  RecordedSession give(int number) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return done_.contains(number) || error_; });
+    if (!done_.contains(number)) std::rethrow_exception(error_);
+    auto session = std::move(done_.extract(number).mapped());
+    given_ = number;
+    changed_.notify_all();
+    return session;
+  }
+
+  void close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<int, RecordedSession> done_;
+  std::exception_ptr error_;
+  int n_, ahead_, taken_ = 0, given_ = 0;
+  bool closed_ = false;
+};
+
+SessionRequest session_of(const SimulationRequest& request, int number) {
+  SessionRequest session;
+  session.protocol = request.protocol;
+  session.options = request.options;
+  session.participant = simulated_participant(number);
+  session.db = request.db;
+  session.seed =
+      RandomStream(request.seed, "participant", static_cast<std::uint64_t>(number)).bits() >> 1;
+  return session;
+}
+
+}  // namespace
+
+std::string simulated_participant(int n) {
+  return fmt::format("sim-{:04}", n);
+}
+
+int simulate(const SimulationRequest& request, const std::function<void(int)>& progress,
+             const std::atomic<bool>& stop) {
+  SessionArchive archive(request.db);  // says what is wrong with the file before hours of work
+  InOrder sessions(request.participants, 2 * request.jobs);
+  RunnerOptions runner;
+  runner.keep_frames = request.keep_frames;
+  runner.stop = &stop;
+  const auto work = [&] {
+    try {
+      for (int number = sessions.take(); number != 0; number = sessions.take())
+        sessions.put(number, compute_session(session_of(request, number), runner));
+    } catch (...) {
+      sessions.fail(std::current_exception());
+    }
+  };
+  std::vector<std::jthread> workers;
+  // Whatever happens here, the workers must not wait for it.
+  struct CloseAtEnd {
+    InOrder& sessions;
+    ~CloseAtEnd() { sessions.close(); }
+  };
+  const CloseAtEnd close_at_end{sessions};
+  for (int i = 0; i < request.jobs; ++i) workers.emplace_back(work);
+  int stored = 0;
+  while (stored < request.participants && !stop) {
+    const RecordedSession session = sessions.give(stored + 1);
+    if (stop) break;  // it may be cut short
+    archive.store(session);
+    progress(++stored);
+  }
+  return stored;
+}
+
+}  // namespace heft

@@ -1,0 +1,127 @@
+// From a log to a Dataset: joined rows, participants, purposes, and a real file read back.
+#include "analysis/Dataset.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "MadeUpSessions.h"
+#include "analysis/Summary.h"
+#include "base/Error.h"
+#include "record/SessionLog.h"
+
+namespace heft {
+namespace {
+
+using namespace made_up;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class LogFile : public testing::Test {
+ protected:
+  LogFile() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ =
+        std::filesystem::temp_directory_path() / (std::string("heft_dataset_test_") + test->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  ~LogFile() override { std::filesystem::remove_all(folder_); }
+
+  std::string path() const { return (folder_ / "log.db").string(); }
+
+  /// A finished session with one sorting trial, light and intermediate taken for each other.
+  void write_session(const std::string& participant, const std::string& purpose) {
+    SessionHeader header = session(0, participant, purpose).session.header;
+    header.heft_version = "0.1.0";
+    header.run_options = "{}";
+    header.started_utc = "2026-01-01T00:00:00.000Z";
+    SessionLog log = SessionLog::start(path(), header);
+    Changes started;
+    started.attempt_index = 1;
+    TrialRow trial;
+    trial.attempt_index = 1;
+    trial.plan.trial_number = 1;
+    trial.plan.condition = Condition::C2;
+    trial.plan.masses_g = {800, 15, 200};
+    started.trial = trial;
+    log.append({0, EventKind::trial_started, {}, {}, "", {}}, started, Durability::acknowledged);
+    Changes validated = started;
+    validated.trial->status = TrialStatus::completed;
+    validated.trial->outcome = Outcome::incorrect;
+    validated.answers = {label(1, Label::heaviest), label(2, Label::intermediate),
+                         label(3, Label::lightest)};
+    for (AnswerRow& answer : validated.answers) answer.attempt_index = 1;
+    validated.state = SessionState::finished;
+    log.append({9, EventKind::action, {}, {}, "validate", {}}, validated, Durability::acknowledged);
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST(Dataset, JoinsTheRowsOfAnAttempt) {
+  SessionRows rows;
+  for (int index : {1, 2}) {
+    TrialRow trial;
+    trial.attempt_index = index;
+    rows.trials.push_back(trial);
+    for (int slot : {2, 1}) rows.cubes.push_back({index, slot, 100.0 * index + slot, 0, 0, {}, {}});
+  }
+  rows.answers.push_back({2, 1, ActionKind::validate, {}, {}});
+  rows.answers.push_back({7, 1, ActionKind::validate, {}, {}});  // of no attempt
+  rows.reversals.push_back({"15g", 1, 2, 100, 50, 50});
+  const SessionData data = join_rows({}, rows);
+  ASSERT_EQ(data.attempts.size(), 2);
+  EXPECT_THAT(data.attempts[1].masses_g(), ElementsAre(201, 202));
+  EXPECT_EQ(data.attempts[0].answers.size(), 0);
+  EXPECT_EQ(data.attempts[1].answers.size(), 1);
+  EXPECT_FALSE(data.attempts[0].is_reversal);
+  EXPECT_TRUE(data.attempts[1].is_reversal);
+}
+
+TEST(Dataset, SimulatedRespondersOfOneNameAreSeveralParticipants) {
+  EXPECT_NE(session(1, "1", "simulated", "simulated").participant(),
+            session(2, "1", "simulated", "coin").participant());
+  EXPECT_EQ(session(1, "1", "pilot").participant(), session(2, "1", "main").participant());
+  EXPECT_TRUE(session(1, "1", "test", "coin").simulated());
+  EXPECT_FALSE(session(1, "1", "pilot", "human").simulated());
+}
+
+TEST(Dataset, SeveralPurposesAreRefused) {
+  Dataset dataset{"x.db", {session(1, "a", "main"), session(2, "b", "main")}};
+  EXPECT_NO_THROW(refuse_mixed_purposes(dataset));
+  dataset.sessions.push_back(session(3, "c", "pilot"));
+  try {
+    refuse_mixed_purposes(dataset);
+    FAIL() << "several purposes were not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::usage);
+    EXPECT_THAT(error.what(), HasSubstr("2 of purpose \"main\", 1 of purpose \"pilot\""));
+    EXPECT_THAT(error.what(), HasSubstr("--mix"));
+  }
+}
+
+TEST_F(LogFile, IsReadBack) {
+  write_session("P01", "main");
+  const Summary summary = analyze({path(), {}, false, ""});
+  EXPECT_EQ(summary.sessions.size(), 1);
+  EXPECT_EQ(summary.data, "human");
+  EXPECT_EQ(summary.sorting[1].n_trials, 1);
+  EXPECT_EQ(summary.sorting[1].incorrect.mean_percent, 100);
+  EXPECT_THAT(summary.sorting[1].swaps, ElementsAre(1, 0, 0, 0));
+  EXPECT_EQ(summary.sorting[1].correct.published_percent, 78.5);
+}
+
+TEST_F(LogFile, PurposesAreMixedOnlyOnDemandAndSessionsCanBeNamed) {
+  write_session("P01", "main");
+  write_session("P02", "pilot");
+  EXPECT_THROW(analyze({path(), {}, false, ""}), Error);
+  EXPECT_EQ(analyze({path(), {}, true, ""}).sorting[1].n_trials, 2);
+  EXPECT_EQ(analyze({path(), {2}, false, ""}).sorting[1].n_trials, 1);
+  EXPECT_EQ(analyze({path(), {2, 2}, false, ""}).sorting[1].n_trials, 1);
+  EXPECT_THROW(analyze({path(), {3}, false, ""}), Error);
+}
+
+}  // namespace
+}  // namespace heft

@@ -1,0 +1,99 @@
+// JNDs by reference: what is averaged first, and what is counted of the staircases.
+#include "analysis/Jnd.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "MadeUpSessions.h"
+
+namespace heft {
+namespace {
+
+using namespace made_up;
+
+TEST(Jnd, MeansSpreadAndIntervalOverParticipants) {
+  std::vector<SessionData> sessions;
+  for (double jnd_g : {60.0, 80.0, 100.0, 80.0}) {
+    const auto id = static_cast<std::int64_t>(sessions.size()) + 1;
+    sessions.push_back(session(id, std::to_string(id)));
+    add_staircase(sessions.back(), "15g", 15, jnd_g);
+  }
+  const auto jnds = jnd_of(sessions);
+  ASSERT_EQ(jnds.size(), 1);
+  EXPECT_DOUBLE_EQ(*jnds[0].mean_g, 80);
+  EXPECT_DOUBLE_EQ(*jnds[0].sd_g, std::sqrt(800.0 / 3));
+  EXPECT_NEAR(jnds[0].interval_g->high, 105.984565272502, 1e-9);
+  EXPECT_EQ(jnds[0].published_g, 172.3);
+  EXPECT_EQ(jnds[0].published_sd_g, 72.4);
+}
+
+TEST(Jnd, StaircasesThenSessionsAreAveragedWithinAParticipant) {
+  SessionData first = session(1, "a"), again = session(2, "a"), other = session(3, "b");
+  add_staircase(first, "from above", 200, 100);
+  add_staircase(first, "from below", 200, 200);  // session: 150
+  add_staircase(again, "from above", 200, 250);  // participant: (150 + 250) / 2
+  add_staircase(other, "from above", 200, 400);
+  const auto jnds = jnd_of(std::vector{first, again, other});
+  ASSERT_EQ(jnds.size(), 1);
+  ASSERT_EQ(jnds[0].participants.size(), 2);
+  EXPECT_DOUBLE_EQ(jnds[0].participants[0].jnd_g, 200);
+  EXPECT_DOUBLE_EQ(*jnds[0].mean_g, 300);
+  EXPECT_EQ(jnds[0].n_staircases, 4);
+}
+
+TEST(Jnd, OneParticipantHasNoSpreadAndNoInterval) {
+  SessionData data = session(1, "a");
+  add_staircase(data, "800g", 800, 700);
+  const auto jnds = jnd_of({&data, 1});
+  EXPECT_EQ(jnds[0].mean_g, 700);
+  EXPECT_FALSE(jnds[0].sd_g.has_value());
+  EXPECT_FALSE(jnds[0].interval_g.has_value());
+}
+
+TEST(Jnd, CountsTrialsLimitsAndBounds) {
+  SessionData data = session(1, "a");
+  add_staircase(data, "one", 15, 100, 18);
+  add_staircase(data, "two", 15, 100, 200);
+  data.estimates[0].n_floor = 3;
+  data.estimates[1].n_ceiling = 2;
+  data.estimates[1].reason = "trials";
+  data.estimates[1].jnd_g.reset();
+  const ReferenceJnd jnd = jnd_of({&data, 1}).at(0);
+  EXPECT_DOUBLE_EQ(jnd.mean_trials, 109);
+  EXPECT_EQ(jnd.least_trials, 18);
+  EXPECT_EQ(jnd.most_trials, 200);
+  EXPECT_EQ(jnd.n_trial_limit, 1);
+  EXPECT_EQ(jnd.n_without_estimate, 1);
+  EXPECT_EQ(jnd.n_floor, 3);
+  EXPECT_EQ(jnd.n_floor_staircases, 1);
+  EXPECT_EQ(jnd.n_ceiling, 2);
+  EXPECT_EQ(jnd.n_ceiling_staircases, 1);
+  EXPECT_EQ(jnd.mean_g, 100);
+}
+
+TEST(Jnd, AStaircaseWithoutEstimateIsUnfinished) {
+  SessionData data = session(1, "a");
+  add_comparison(data, "15g", 15, 175);
+  const ReferenceJnd jnd = jnd_of({&data, 1}).at(0);
+  EXPECT_EQ(jnd.n_unfinished, 1);
+  EXPECT_EQ(jnd.n_staircases, 0);
+  EXPECT_EQ(jnd.least_trials, 0);
+  EXPECT_FALSE(jnd.mean_g.has_value());
+}
+
+TEST(Jnd, PublishedFiguresNeedReferenceAndConditionOfThePaper) {
+  SessionData data = session(1, "a");
+  add_staircase(data, "coupled", 15, 100);
+  data.attempts.back().trial.plan.condition = Condition::C1;
+  add_staircase(data, "other", 100, 100);
+  add_staircase(data, "paper", 800, 100);
+  const auto jnds = jnd_of({&data, 1});
+  ASSERT_EQ(jnds.size(), 3);
+  EXPECT_FALSE(jnds[0].published_g.has_value());
+  EXPECT_FALSE(jnds[1].published_g.has_value());
+  EXPECT_EQ(jnds[2].published_g, 696.2);
+}
+
+}  // namespace
+}  // namespace heft

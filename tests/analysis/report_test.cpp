@@ -1,0 +1,120 @@
+// The report's folder: what is in it, and that nothing of others is overwritten.
+#include "analysis/Report.h"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "MadeUpSessions.h"
+#include "analysis/Charts.h"
+#include "base/Error.h"
+#include "base/TextFile.h"
+
+namespace heft {
+namespace {
+
+using namespace made_up;
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+class ReportFolder : public testing::Test {
+ protected:
+  ReportFolder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder = fs::temp_directory_path() / (std::string("heft_report_test_") + test->name());
+    fs::remove_all(folder);
+  }
+  ~ReportFolder() override { fs::remove_all(folder); }
+
+  std::string read(const std::string& name) const { return read_text_file(folder / name); }
+
+  fs::path folder;
+};
+
+Summary summary_with_everything() {
+  SessionData data = session(1, "it's <P01>", "simulated", "simulated");
+  add_introduction(data, 1);
+  add_sortings(data, Condition::C1, Outcome::correct, 2);  // and nothing in C2
+  add_staircase(data, "15g", 15, 100);
+  add_staircase(data, "800g", 800, 700);
+  return summarize({"x.db", {data}}, "heft analyse --db x.db --out 'a folder'");
+}
+
+TEST_F(ReportFolder, HoldsTablesChartsPageAndSummary) {
+  const ReportResult result = write_report(summary_with_everything(), folder);
+  for (const char* name :
+       {"sorting.csv", "jnd.csv", "sessions.csv", "staircases.gp", "report.html", "summary.json"})
+    EXPECT_THAT(result.files, Contains(name));
+  for (const std::string& name : result.files) EXPECT_TRUE(fs::exists(folder / name)) << name;
+  const auto json = nlohmann::json::parse(read("summary.json"));
+  EXPECT_EQ(json["made_by"], "heft analyse");
+  EXPECT_EQ(json["command"], "heft analyse --db x.db --out 'a folder'");
+}
+
+TEST_F(ReportFolder, PageIsSelfContainedAndEscaped) {
+  const ReportResult result = write_report(summary_with_everything(), folder);
+  if (!result.charts_drawn) GTEST_SKIP() << "gnuplot is not installed";
+  const std::string page = read("report.html");
+  EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_THAT(page, Not(HasSubstr("<?xml")));
+  EXPECT_THAT(page, Not(HasSubstr("<P01>")));
+  EXPECT_THAT(read("staircases.svg"), HasSubstr("Staircases of session 1"));
+}
+
+TEST_F(ReportFolder, EveryChartCarriesItsCommandAndVersion) {
+  for (const Chart& chart : charts_of(summary_with_everything())) {
+    EXPECT_THAT(chart.script, HasSubstr("Made by: heft analyse --db x.db --out ''a folder''"));
+    EXPECT_THAT(chart.script, HasSubstr("(heft " HEFT_VERSION ")"));
+    EXPECT_THAT(chart.title, HasSubstr("(simulated)"));
+  }
+  EXPECT_EQ(charts_of(summary_with_everything()).size(), 3);
+  EXPECT_TRUE(charts_of(summarize({"x.db", {}}, "")).empty());
+}
+
+TEST_F(ReportFolder, OfNothingIsAReportToo) {
+  const ReportResult result = write_report(summarize({"x.db", {}}, ""), folder);
+  EXPECT_THAT(result.files, Contains("report.html"));
+  EXPECT_THAT(read("report.html"), HasSubstr("x.db holds no sessions."));
+}
+
+TEST_F(ReportFolder, WithOtherFilesIsRefused) {
+  fs::create_directories(folder);
+  std::ofstream(folder / "thesis.txt") << "mine";
+  EXPECT_THROW(write_report(summary_with_everything(), folder), Error);
+  std::ofstream(folder / "summary.json") << R"({"made_by": "me"})";
+  EXPECT_THROW(write_report(summary_with_everything(), folder), Error);
+  EXPECT_FALSE(fs::exists(folder / "report.html"));
+}
+
+TEST_F(ReportFolder, ThatIsAFileIsRefused) {
+  std::ofstream(folder.string()) << "mine";
+  EXPECT_THROW(refuse_foreign_folder(folder), Error);
+}
+
+TEST_F(ReportFolder, MadeBeforeIsWrittenAnewWithoutLeftovers) {
+  write_report(summary_with_everything(), folder);
+  std::ofstream(folder / "notes.txt") << "mine";
+  write_report(summarize({"x.db", {session(1, "a")}}, ""), folder);
+  EXPECT_FALSE(fs::exists(folder / "jnd.csv"));
+  EXPECT_FALSE(fs::exists(folder / "jnd.gp"));
+  EXPECT_TRUE(fs::exists(folder / "notes.txt"));
+}
+
+TEST_F(ReportFolder, WithoutGnuplotHasEverythingButTheDrawings) {
+  const std::string path = getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);
+  const ReportResult result = write_report(summary_with_everything(), folder);
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_FALSE(result.charts_drawn);
+  EXPECT_THAT(result.files, Contains("jnd.gp"));
+  EXPECT_THAT(result.files, Not(Contains("jnd.svg")));
+  EXPECT_THAT(read("report.html"), HasSubstr("No charts were drawn."));
+}
+
+}  // namespace
+}  // namespace heft

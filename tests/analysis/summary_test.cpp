@@ -1,0 +1,158 @@
+// The whole Summary: the JSON contract, what is said about what was counted, and that nothing at
+// all is fine too.
+#include "analysis/Summary.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "MadeUpSessions.h"
+#include "analysis/Json.h"
+#include "analysis/Tables.h"
+
+namespace heft {
+namespace {
+
+using namespace made_up;
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+SessionData full_session(std::int64_t id, const std::string& participant) {
+  SessionData data = session(id, participant);
+  add_introduction(data, 1);
+  add_sortings(data, Condition::C1, Outcome::dont_know, 5);
+  add_sortings(data, Condition::C2, Outcome::correct, static_cast<int>(id) + 1);
+  add_sortings(data, Condition::C2, Outcome::incorrect, 1);
+  add_staircase(data, "15g", 15, 100 + 10 * static_cast<double>(id));
+  add_staircase(data, "200g", 200, 200);
+  return data;
+}
+
+json json_of(const std::vector<SessionData>& sessions) {
+  return json::parse(as_json(summarize({"x.db", sessions}, "heft analyse --db x.db")));
+}
+
+std::string text_of(const std::vector<SessionData>& sessions) {
+  return readable(summarize({"x.db", sessions}, "heft analyse --db x.db"));
+}
+
+TEST(SummaryJson, KeepsTheContract) {
+  const json found = json_of({full_session(1, "a"), full_session(2, "b")});
+  const json& correct = found["sorting"]["C2"]["correct"];
+  EXPECT_NEAR(correct["mean"], (200.0 / 3 + 75) / 2, 1e-9);
+  EXPECT_NEAR(correct["sd"], (75 - 200.0 / 3) / std::sqrt(2), 1e-9);
+  EXPECT_TRUE(correct["low"].is_number());
+  EXPECT_TRUE(correct["high"].is_number());
+  EXPECT_EQ(correct["published"], 78.5);
+  EXPECT_EQ(found["sorting"]["C1"]["none"]["mean"], 100);
+  EXPECT_EQ(found["sorting"]["C1"]["none"]["published"], 38.5);
+  EXPECT_TRUE(found["sorting"]["C1"]["answered"]["correct"]["mean"].is_null());
+  EXPECT_EQ(found["sorting"]["C2"]["swapped"].size(), 4);
+  EXPECT_EQ(found["introduction"]["first_try"]["percent"], 100);
+  ASSERT_EQ(found["jnd"].size(), 2);
+  EXPECT_EQ(found["jnd"][0]["reference_g"], 15);
+  EXPECT_EQ(found["jnd"][0]["mean_g"], 115);
+  EXPECT_NEAR(found["jnd"][0]["sd_g"], std::sqrt(50), 1e-12);
+  EXPECT_TRUE(found["jnd"][0]["low_g"].is_number());
+  EXPECT_EQ(found["jnd"][0]["published_g"], 172.3);
+  EXPECT_EQ(found["jnd"][1]["sd_g"], 0);
+  EXPECT_TRUE(found["jnd"][1]["low_g"].is_null());
+  EXPECT_EQ(found["simulated"], false);
+}
+
+TEST(SummaryJson, OfNothingHasTheSameKeys) {
+  const json empty = json_of({}), full = json_of({full_session(1, "a")});
+  for (const auto& [key, value] : full.items()) EXPECT_TRUE(empty.contains(key)) << key;
+  EXPECT_TRUE(empty["sorting"]["C1"]["correct"]["mean"].is_null());
+  EXPECT_EQ(empty["jnd"], json::array());
+  EXPECT_TRUE(empty["introduction"]["first_try"]["percent"].is_null());
+}
+
+TEST(SummaryJson, NeverHoldsNanOrInfinity) {
+  SessionData data = full_session(1, "a");
+  data.estimates[0].jnd_g = std::numeric_limits<double>::infinity();
+  const std::string text = as_json(summarize({"x.db", {data}}, ""));
+  EXPECT_THAT(text, Not(HasSubstr("inf")));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+  EXPECT_TRUE(json::parse(text)["jnd"][0]["mean_g"].is_null());
+}
+
+TEST(SummaryJson, NamesThatAreNoUtf8DoNotBreakIt) {
+  EXPECT_NO_THROW(json_of({full_session(1, "\xff\xfe")}));
+}
+
+TEST(Summary, SimulatedFiguresSayEverywhereThatTheyAre) {
+  SessionData data = full_session(1, "a");
+  data.session.header.purpose = "simulated";
+  data.session.header.responder = "simulated";
+  const Summary summary = summarize({"x.db", {data}}, "");
+  EXPECT_TRUE(summary.simulated());
+  for (const Table& table : tables_of(summary)) {
+    EXPECT_THAT(table.title, HasSubstr("(simulated)"));
+    EXPECT_THAT(as_csv(table, summary.data), HasSubstr("\nsimulated,"));
+  }
+  EXPECT_EQ(json::parse(as_json(summary))["simulated"], true);
+}
+
+TEST(Summary, HumanFiguresDoNotSayTheyAreSimulated) {
+  EXPECT_THAT(text_of({full_session(1, "a")}), Not(HasSubstr("simulated")));
+}
+
+TEST(Summary, SaysWhatIsUnfinishedRepeatedAndOfSeveralProtocols) {
+  SessionData first = full_session(1, "a"), again = full_session(2, "a");
+  again.session.state = SessionState::paused;
+  again.session.header.protocol_sha256 = "fedcba9876543210";
+  const std::string text = text_of({first, again});
+  EXPECT_THAT(text, HasSubstr("Not finished: session 2 (a, paused)"));
+  EXPECT_THAT(text, HasSubstr("More than one session: a (2 sessions)"));
+  EXPECT_THAT(text, HasSubstr("2 different protocols"));
+}
+
+TEST(Summary, AnOrdinaryLogHasNoNotes) {
+  EXPECT_TRUE(summarize({"x.db", {full_session(1, "a"), full_session(2, "b")}}, "").notes.empty());
+}
+
+TEST(Summary, NothingIsSaidClearly) {
+  EXPECT_THAT(text_of({}), HasSubstr("x.db holds no sessions."));
+  SessionData data = session(1, "a");
+  add_sorting(data, Condition::C1, Outcome::correct).trial.status = TrialStatus::voided;
+  const std::string text = text_of({data});
+  EXPECT_THAT(text, HasSubstr("No trial was completed"));
+  EXPECT_THAT(text, HasSubstr("Sorting: no completed trials."));
+  EXPECT_THAT(text, HasSubstr("JND: no staircases."));
+}
+
+TEST(Summary, HypothesesCarryTheirExperiment) {
+  std::vector<std::string> names;
+  for (const Hypothesis& hypothesis : summarize({"x.db", {full_session(1, "a")}}, "").hypotheses) {
+    names.push_back(hypothesis.name);
+    EXPECT_FALSE(hypothesis.figures.empty());
+  }
+  EXPECT_THAT(names, ElementsAre("E1-H1", "E1-H2", "E1-H3", "E2-H1", "E2-H2"));
+}
+
+TEST(Summary, RisingJndsAreCountedByParticipant) {
+  SessionData rising = full_session(1, "a"), falling = full_session(2, "b");
+  falling.estimates[1].jnd_g = 50;
+  const Summary summary = summarize({"x.db", {rising, falling}}, "");
+  EXPECT_THAT(summary.hypotheses[3].figures.back(), HasSubstr("in 1 of 2 participants"));
+}
+
+TEST(Summary, ShowsTheStaircasesOfAFinishedSession) {
+  SessionData running = full_session(1, "a"), finished = full_session(2, "b");
+  running.session.state = SessionState::running;
+  finished.attempts.back().is_reversal = true;
+  const auto tracks = summarize({"x.db", {running, finished}}, "").tracks;
+  ASSERT_TRUE(tracks.has_value());
+  EXPECT_EQ(tracks->session_id, 2);
+  ASSERT_EQ(tracks->tracks.size(), 2);
+  EXPECT_EQ(tracks->tracks[1].jnd_g, 200);
+  EXPECT_TRUE(tracks->tracks[1].points.at(0).is_reversal);
+}
+
+}  // namespace
+}  // namespace heft

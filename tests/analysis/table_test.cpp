@@ -1,0 +1,59 @@
+// Tables as text, CSV and HTML.
+#include "analysis/Table.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "analysis/Wrapping.h"
+
+namespace heft {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+Table small_table() {
+  return {"small",
+          "A title",
+          {{"name", "name"}, {"value_g", "value g"}, {"hidden", ""}},
+          {{word("é, \"x\""), number(1.0 / 3), count(7)}, {word("b"), number({}), count(8)}},
+          "a note"};
+}
+
+TEST(Table, TextIsAlignedByCharactersNotBytes) {
+  EXPECT_EQ(as_text(small_table()),
+            "A title\n"
+            "  name    value g\n"
+            "  é, \"x\"      0.3\n"
+            "  b             -\n"
+            "  a note\n");
+}
+
+TEST(Table, CsvIsUnroundedQuotedAndSaysWhoseFigures) {
+  EXPECT_EQ(as_csv(small_table(), "simulated"),
+            "data,name,value_g,hidden\n"
+            "simulated,\"é, \"\"x\"\"\",0.3333333333333333,7\n"
+            "simulated,b,,8\n");
+}
+
+TEST(Table, HtmlIsEscapedAndWithoutCsvOnlyColumns) {
+  const std::string html = as_html(small_table());
+  EXPECT_THAT(html, HasSubstr("<td>é, &quot;x&quot;</td><td class=\"n\">0.3</td></tr>"));
+  EXPECT_EQ(html_escaped("<a & b>"), "&lt;a &amp; b&gt;");
+}
+
+TEST(Table, WhatIsNotFiniteDoesNotExist) {
+  EXPECT_TRUE(number(std::numeric_limits<double>::quiet_NaN()).text.empty());
+  EXPECT_FALSE(number(std::numeric_limits<double>::infinity()).value.has_value());
+}
+
+TEST(Wrapping, BreaksAtSpacesAndLongWords) {
+  EXPECT_THAT(wrapped("one two three", 8), ElementsAre("one two", "three"));
+  EXPECT_THAT(wrapped("abcdefgh", 3), ElementsAre("abc", "def", "gh"));
+  EXPECT_THAT(wrapped("", 3), SizeIs(0));
+}
+
+}  // namespace
+}  // namespace heft

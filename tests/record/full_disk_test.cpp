@@ -1,0 +1,235 @@
+// A write that fails is told, in words for a person, and leaves the file as it was.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/Error.h"
+#include "record/Integrity.h"
+#include "record/LogReader.h"
+#include "record/SessionArchive.h"
+#include "record/SessionLog.h"
+#include "record/rows.h"
+#include "record/temporary_folder.h"
+
+namespace heft::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// No file of this process may grow beyond a size, until the end of the scope.
+class SizeLimit {
+ public:
+  explicit SizeLimit(std::uintmax_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  SizeLimit(const SizeLimit&) = delete;
+  ~SizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  sighandler_t handler_;
+};
+
+/// A small disk of its own.
+class SmallDisk {
+ public:
+  explicit SmallDisk(const char* options)
+      : mounted_(::mount("tmpfs", folder_.path().c_str(), "tmpfs", 0, options) == 0) {}
+  SmallDisk(const SmallDisk&) = delete;
+  ~SmallDisk() {
+    if (mounted_) ::umount2(folder_.path().c_str(), MNT_DETACH);
+  }
+  bool mounted() const { return mounted_; }
+  std::string file(const std::string& name) const { return folder_.file(name); }
+
+ private:
+  TemporaryFolder folder_;
+  bool mounted_;
+};
+
+Event seventh_answer() {
+  return action(8, ActionKind::label, 2, Label::heaviest);
+}
+
+void start_trial_seven(SessionLog& log) {
+  TrialRow trial = sorting_trial(1, 1);
+  trial.plan.trial_number = 7;
+  log.append(event(1, EventKind::trial_started), starting(trial), Durability::acknowledged);
+}
+
+Changes with_answer(const Event& answer) {
+  Changes changes = of_attempt(1);
+  changes.answers = {answer_of(1, answer)};
+  return changes;
+}
+
+/// Answers until one can't be saved. @return the message; `n_saved` counts the others
+std::string answer_until_it_fails(SessionLog& log, std::size_t& n_saved) {
+  for (n_saved = 0; n_saved < 100'000; ++n_saved) try {
+      for (int i = 0; i < 5; ++i) log.add_frame(frame(1, 8));
+      log.append(seventh_answer(), with_answer(seventh_answer()), Durability::acknowledged);
+    } catch (const Error& error) {
+      return error.what();
+    }
+  return "";
+}
+
+template <typename Work>
+std::string failure(Work&& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_saved(const std::string& file, std::size_t n_answers) {
+  EXPECT_TRUE(check_integrity(file).empty());
+  const LogReader reader(file);
+  EXPECT_EQ(reader.answers(1).size(), n_answers);
+  EXPECT_EQ(reader.events(1).size(), n_answers + 1);
+}
+
+TEST(full_disk, a_full_disk_is_told_and_all_acknowledged_answers_are_kept) {
+  const SmallDisk disk("size=1m");
+  if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
+  const std::string file = disk.file("log.db");
+  std::size_t n_saved = 0;
+  {
+    SessionLog log = SessionLog::start(file, header_of("P01"));
+    start_trial_seven(log);
+    const std::string message = answer_until_it_fails(log, n_saved);
+    EXPECT_THAT(message,
+                AllOf(HasSubstr("could not save the answer \"label cube 2 heaviest\" of "
+                                "trial 7"),
+                      HasSubstr(file), HasSubstr("the disk is full"), HasSubstr("Free some space"),
+                      HasSubstr("heft resume --db " + file)));
+    // Whoever goes on hears it again; nothing may follow a lost answer.
+    EXPECT_EQ(failure([&] { log.append(event(9, EventKind::note), {}, Durability::buffered); }),
+              message);
+    EXPECT_EQ(failure([&] { log.add_frame(frame(1, 9)); }), message);
+    EXPECT_EQ(failure([&] { log.flush(); }), message);
+    expect_saved(file, n_saved);
+  }
+  EXPECT_GT(n_saved, 0u);
+  expect_saved(file, n_saved);
+}
+
+TEST(full_disk, a_session_goes_on_once_there_is_space_again) {
+  const SmallDisk disk("size=1m");
+  if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
+  const std::string file = disk.file("log.db"), ballast = disk.file("ballast");
+  std::ofstream(ballast) << std::string(400'000, '.');
+  std::size_t n_saved = 0;
+  {
+    SessionLog log = SessionLog::start(file, header_of("P01"));
+    start_trial_seven(log);
+    ASSERT_NE(answer_until_it_fails(log, n_saved), "");
+  }
+  std::filesystem::remove(ballast);
+  SessionLog log = SessionLog::reopen(file, 1);
+  log.append(seventh_answer(), with_answer(seventh_answer()), Durability::acknowledged);
+  expect_saved(file, n_saved + 1);
+}
+
+TEST(full_disk, a_session_can_not_start_on_a_full_disk) {
+  const SmallDisk disk("size=64k");
+  if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
+  const std::string file = disk.file("log.db");
+  EXPECT_THAT(failure([&] { SessionLog::start(file, header_of("P01")); }),
+              AllOf(HasSubstr(file), HasSubstr("full")));
+}
+
+TEST(full_disk, a_read_only_disk_is_told) {
+  const SmallDisk disk("size=1m");
+  if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
+  const std::string file = disk.file("log.db");
+  {
+    SessionLog log = SessionLog::start(file, header_of("P01"));
+    log.append(event(1, EventKind::note), {}, Durability::acknowledged);
+  }
+  const std::string folder = std::filesystem::path(file).parent_path();
+  ASSERT_EQ(::mount("tmpfs", folder.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, "size=1m"), 0);
+  EXPECT_THAT(failure([&] { SessionLog::reopen(file, 1); }),
+              AllOf(HasSubstr(file), HasSubstr("Read-only file system")));
+  EXPECT_EQ(LogReader(file).events(1).size(), 1u);
+  EXPECT_TRUE(check_integrity(file).empty());
+}
+
+// The same path without a disk of its own: a file that may not grow.
+TEST(full_disk, a_file_that_can_not_grow_is_told_and_all_acknowledged_answers_are_kept) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("log.db");
+  std::size_t n_saved = 0;
+  {
+    SessionLog log = SessionLog::start(file, header_of("P01"));
+    start_trial_seven(log);
+    {
+      const SizeLimit limit(1'000'000);
+      const std::string message = answer_until_it_fails(log, n_saved);
+      EXPECT_THAT(message, AllOf(HasSubstr("the answer \"label cube 2 heaviest\" of trial 7"),
+                                 HasSubstr("the file has reached the largest size allowed"),
+                                 HasSubstr("heft resume --db " + file)));
+      expect_saved(file, n_saved);
+    }
+    // The cause is gone, but this log had a loss: only a resumed one may go on.
+    EXPECT_NE(failure([&] { log.flush(); }), "");
+  }
+  EXPECT_GT(n_saved, 0u);
+  expect_saved(file, n_saved);
+}
+
+TEST(full_disk, pictures_that_can_not_be_saved_are_told_too) {
+  const TemporaryFolder folder;
+  SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
+  start_trial_seven(log);
+  for (int i = 0; i < 3000; ++i) log.add_frame(frame(1, i));
+  const SizeLimit limit(1'000'000);
+  EXPECT_THAT(failure([&] { log.flush(); }), HasSubstr("0 events and 3000 pictures"));
+}
+
+TEST(full_disk, what_nobody_was_told_of_is_told_at_the_end) {
+  const TemporaryFolder folder;
+  std::optional<SessionLog> log(SessionLog::start(folder.file("log.db"), header_of("P01")));
+  start_trial_seven(*log);
+  for (int i = 0; i < 3000; ++i) log->add_frame(frame(1, i));
+  const SizeLimit limit(1'000'000);
+  testing::internal::CaptureStderr();
+  log.reset();
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("0 events and 3000 pictures"));
+}
+
+TEST(full_disk, a_stored_session_is_whole_or_not_there) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("log.db");
+  RecordedSession small(header_of("P01")), large(header_of("P02"));
+  small.append(event(1, EventKind::note), {}, Durability::acknowledged);
+  for (int i = 0; i < 5000; ++i) large.add_frame(frame(0, i));
+  SessionArchive archive(file);
+  archive.store(small);
+  {
+    const SizeLimit limit(1'000'000);
+    EXPECT_THAT(failure([&] { archive.store(large); }),
+                AllOf(HasSubstr("the session of P02"), HasSubstr("start again")));
+  }
+  archive.store(small);
+  const auto sessions = LogReader(file).sessions();
+  ASSERT_EQ(sessions.size(), 2u);
+  EXPECT_EQ(sessions[1].header.participant, "P01");
+}
+
+}  // namespace
+}  // namespace heft::test

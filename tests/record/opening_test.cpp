@@ -1,0 +1,219 @@
+// Which files are opened, which are refused, and whether the message helps.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/Error.h"
+#include "base/TextFile.h"
+#include "record/Integrity.h"
+#include "record/LogReader.h"
+#include "record/SessionArchive.h"
+#include "record/SessionLog.h"
+#include "record/child.h"
+#include "record/rows.h"
+#include "record/temporary_folder.h"
+
+namespace heft::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+template <typename Work>
+std::string failure(Work&& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string failure_to_start(const std::string& file) {
+  return failure([&] { SessionLog::start(file, header_of("P01")); });
+}
+
+class opening : public testing::Test {
+ protected:
+  void write_log() {
+    SessionLog log = SessionLog::start(file_, header_of("P01"));
+    log.append(event(1, EventKind::note, "here"), {}, Durability::acknowledged);
+  }
+
+  TemporaryFolder folder_;
+  std::string file_ = folder_.file("log.db");
+};
+
+TEST_F(opening, an_empty_file_becomes_a_log) {
+  std::ofstream(file_).close();
+  EXPECT_TRUE(LogReader(file_).sessions().empty());
+  EXPECT_TRUE(check_integrity(file_).empty());
+  write_log();
+  EXPECT_EQ(LogReader(file_).sessions().size(), 1u);
+}
+
+TEST_F(opening, a_file_name_is_never_an_instruction_to_sqlite) {
+  for (const char* name : {":memory:", "file:x?mode=memory", "50%?#.db"}) {
+    const std::string file = folder_.file(name);
+    SessionLog::start(file, header_of("P01"));
+    EXPECT_TRUE(std::filesystem::exists(file)) << name;
+    EXPECT_EQ(LogReader(file).sessions().size(), 1u) << name;
+  }
+  EXPECT_THAT(failure_to_start(""), HasSubstr("--db FILE"));
+}
+
+TEST_F(opening, other_files_are_refused_and_left_as_they_are) {
+  const std::string text = "participant,answer\nP01,heavier\n" + std::string(5000, '.');
+  std::ofstream(file_) << text;
+  EXPECT_THAT(failure_to_start(file_), AllOf(HasSubstr(file_), HasSubstr("no heft log")));
+  EXPECT_THAT(failure([&] { LogReader reader(file_); }), HasSubstr("no heft log"));
+  EXPECT_THAT(failure([&] { check_integrity(file_); }), HasSubstr("no heft log"));
+  EXPECT_EQ(read_text_file(file_), text);
+}
+
+TEST_F(opening, another_programs_database_is_refused) {
+  SQLite::Database(file_, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec("CREATE TABLE address (name TEXT)");
+  EXPECT_THAT(failure_to_start(file_), HasSubstr("belongs to another program"));
+  EXPECT_THAT(failure([&] { LogReader reader(file_); }), HasSubstr("belongs to another program"));
+}
+
+TEST_F(opening, a_newer_log_is_refused) {
+  write_log();
+  SQLite::Database(file_, SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 2");
+  EXPECT_THAT(failure_to_start(file_), AllOf(HasSubstr("newer heft"), HasSubstr("Update heft")));
+  EXPECT_THAT(failure([&] { SessionLog::reopen(file_, 1); }), HasSubstr("newer heft"));
+  EXPECT_THAT(failure([&] { LogReader reader(file_); }), HasSubstr("newer heft"));
+}
+
+TEST_F(opening, folders_and_missing_places_are_named) {
+  EXPECT_THAT(failure_to_start(folder_.path()), HasSubstr("is a folder"));
+  EXPECT_THAT(failure_to_start(folder_.file("no/such/log.db")),
+              HasSubstr("No such file or directory"));
+  EXPECT_THAT(failure([&] { LogReader reader(file_); }), HasSubstr("there is no file"));
+  EXPECT_FALSE(std::filesystem::exists(file_)) << "reading made a file";
+}
+
+TEST_F(opening, a_session_that_is_not_there_is_named) {
+  write_log();
+  EXPECT_THAT(failure([&] { SessionLog::reopen(file_, 7); }), HasSubstr("no session 7"));
+  EXPECT_THAT(failure([&] { LogReader(file_).session(7); }), HasSubstr("no session 7"));
+}
+
+TEST_F(opening, a_reopened_session_goes_on) {
+  write_log();
+  {
+    SessionLog log = SessionLog::reopen(file_, 1);
+    log.append(event(2, EventKind::resumed), starting(sorting_trial(1, 2)),
+               Durability::acknowledged);
+  }
+  {
+    SessionLog log = SessionLog::reopen(file_, 1);
+    log.append(event(3, EventKind::note), of_attempt(1), Durability::acknowledged);
+  }
+  const auto events = LogReader(file_).events(1);
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[2].attempt_index, 1);
+}
+
+TEST_F(opening, what_resume_looks_for_is_found) {
+  const auto add = [&](const char* participant, std::optional<SessionState> state) {
+    SessionLog log = SessionLog::start(file_, header_of(participant));
+    Changes changes;
+    changes.state = state;
+    log.append(event(1, EventKind::note), changes, Durability::acknowledged);
+  };
+  add("P01", SessionState::finished);
+  add("P01", SessionState::paused);
+  add("P02", std::nullopt);
+  add("P03", SessionState::aborted);
+  const LogReader reader(file_);
+  const auto sessions = reader.sessions_of("P01", "paper");
+  ASSERT_EQ(sessions.size(), 2u);
+  EXPECT_FALSE(is_unfinished(sessions[0].state));
+  EXPECT_TRUE(is_unfinished(sessions[1].state));
+  EXPECT_TRUE(reader.sessions_of("P01", "jnd").empty());
+  ASSERT_TRUE(reader.newest_unfinished_session());
+  EXPECT_EQ(reader.newest_unfinished_session()->header.participant, "P02");
+}
+
+TEST_F(opening, a_second_writer_is_refused_while_the_first_lives) {
+  {
+    SessionLog log = SessionLog::start(file_, header_of("P01"));
+    EXPECT_THAT(failure_to_start(file_),
+                AllOf(HasSubstr(file_), HasSubstr("in use"), HasSubstr("--db FILE")));
+    EXPECT_THAT(failure([&] { SessionLog::reopen(file_, 1); }), HasSubstr("in use"));
+    EXPECT_THAT(failure([&] { SessionArchive archive(file_); }), HasSubstr("in use"));
+    std::filesystem::create_symlink(file_, folder_.file("same.db"));
+    EXPECT_THAT(failure_to_start(folder_.file("same.db")), HasSubstr("in use"));
+    SessionLog moved = std::move(log);
+    EXPECT_THAT(failure_to_start(file_), HasSubstr("in use"));
+  }
+  EXPECT_EQ(failure_to_start(file_), "");
+}
+
+TEST_F(opening, the_lock_dies_with_its_owner) {
+  Child owner([&](int out) {
+    SessionLog log = SessionLog::start(file_, header_of("P01"));
+    say(out, "!");
+    ::pause();
+  });
+  ASSERT_TRUE(owner.read_byte());
+  EXPECT_THAT(failure_to_start(file_), HasSubstr("in use"));
+  owner.kill();
+  EXPECT_EQ(failure_to_start(file_), "");
+}
+
+TEST_F(opening, a_read_only_file_is_refused_before_the_session_starts) {
+  write_log();
+  ::chmod(folder_.path().c_str(), 0777);
+  ::chmod((file_ + "-lock").c_str(), 0666);
+  ::chmod(file_.c_str(), 0444);
+  EXPECT_THAT(failure_as_ordinary_user([&] { SessionLog::start(file_, header_of("P02")); }),
+              AllOf(HasSubstr(file_), HasSubstr("read-only"), HasSubstr("--db FILE")));
+  EXPECT_EQ(LogReader(file_).sessions().size(), 1u);
+}
+
+TEST_F(opening, a_read_only_folder_is_refused_before_the_session_starts) {
+  ::chmod(folder_.path().c_str(), 0555);
+  EXPECT_THAT(failure_as_ordinary_user([&] { SessionLog::start(file_, header_of("P02")); }),
+              AllOf(HasSubstr(file_), HasSubstr("Permission denied"), HasSubstr("--db FILE")));
+}
+
+TEST_F(opening, a_finished_log_is_read_where_nothing_can_be_written) {
+  write_log();
+  ::chmod(file_.c_str(), 0444);
+  ::chmod(folder_.path().c_str(), 0555);
+  EXPECT_EQ(failure_as_ordinary_user([&] {
+              const auto events = LogReader(file_).events(1);
+              if (events.size() != 1 || events[0].event.detail != "here")
+                throw std::runtime_error("not the events that were written");
+            }),
+            "");
+}
+
+TEST_F(opening, a_log_whose_end_lies_beside_it_is_not_read_without_it) {
+  Child owner([&](int out) {
+    SessionLog log = SessionLog::start(file_, header_of("P01"));
+    log.append(event(1, EventKind::note), {}, Durability::acknowledged);
+    say(out, "!");
+    ::pause();
+  });
+  ASSERT_TRUE(owner.read_byte());
+  owner.kill();
+  std::filesystem::remove(file_ + "-shm");
+  ASSERT_GT(std::filesystem::file_size(file_ + "-wal"), 0u);
+  ::chmod(folder_.path().c_str(), 0555);
+  EXPECT_THAT(failure_as_ordinary_user([&] { LogReader reader(file_); }),
+              AllOf(HasSubstr("-wal"), HasSubstr("Copy the files together")));
+  ::chmod(folder_.path().c_str(), 0755);
+  EXPECT_EQ(LogReader(file_).events(1).size(), 1u);
+}
+
+}  // namespace
+}  // namespace heft::test

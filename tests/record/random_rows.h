@@ -1,0 +1,205 @@
+// Rows of any values that a log can hold, and what is written beside what is read.
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "record/rows.h"
+
+namespace heft::test {
+
+inline rc::Gen<double> any_number() {
+  const auto from_bits = rc::gen::map(rc::gen::arbitrary<std::uint64_t>(), [](std::uint64_t bits) {
+    return std::bit_cast<double>(bits);
+  });
+  using Limits = std::numeric_limits<double>;
+  return rc::gen::suchThat(
+      rc::gen::oneOf(from_bits,
+                     rc::gen::element(0.0, -0.0, 1.0, 3.0, 0.1, Limits::max(), Limits::lowest(),
+                                      Limits::min(), Limits::denorm_min(), Limits::infinity(),
+                                      9007199254740993.0, 1e15, -1e300)),
+      [](double value) { return !std::isnan(value); });
+}
+
+// -0.0 as 0.0: SQLite's REAL columns don't tell them apart.
+inline double number() {
+  return *any_number() + 0.0;
+}
+inline double time_s() {
+  return std::abs(number());
+}
+
+inline double mass_g() {
+  return *rc::gen::suchThat(
+      rc::gen::map(any_number(), [](double value) { return std::abs(value); }),
+      [](double value) { return value > 0; });
+}
+
+inline std::string words() {
+  return *rc::gen::oneOf(rc::gen::string<std::string>(),
+                         rc::gen::element<std::string>("", "naïve – 質量 🧊", "a'b\"c;--\n",
+                                                       "NULL", std::string("a\0b", 3)));
+}
+
+template <typename Value>
+std::optional<Value> maybe(Value (*make)()) {
+  return *rc::gen::arbitrary<bool>() ? std::optional(make()) : std::nullopt;
+}
+
+inline int slot() {
+  return *rc::gen::inRange(1, 4);
+}
+inline int count() {
+  return *rc::gen::oneOf(rc::gen::inRange(0, 100), rc::gen::just(2147483647));
+}
+inline bool flag() {
+  return *rc::gen::arbitrary<bool>();
+}
+
+template <typename Enum>
+Enum any_of() {
+  const auto n = static_cast<int>(EnumNames<Enum>::names.size());
+  return static_cast<Enum>(*rc::gen::inRange(0, n));
+}
+
+// With every sign of zero, as physics may be given it.
+inline Eigen::Vector3d exact_vector() {
+  const double x = *any_number(), y = *any_number(), z = *any_number();
+  return {x, y, z};
+}
+
+inline Pose exact_pose() {
+  Pose made;
+  made.position_m = exact_vector();
+  const double w = *any_number(), x = *any_number(), y = *any_number(), z = *any_number();
+  made.orientation = Eigen::Quaterniond(w, x, y, z);
+  return made;
+}
+
+inline Pose pose() {
+  Pose made;
+  const double px = number(), py = number(), pz = number();
+  made.position_m = {px, py, pz};
+  const double w = number(), x = number(), y = number(), z = number();
+  made.orientation = Eigen::Quaterniond(w, x, y, z);
+  return made;
+}
+
+inline Event any_event() {
+  return {time_s(), any_of<EventKind>(), maybe(slot), maybe(any_of<Label>), words(), maybe(number)};
+}
+
+inline TrialRow any_trial(int attempt_index) {
+  TrialRow row;
+  row.attempt_index = attempt_index;
+  TrialPlan& plan = row.plan;
+  plan.trial_number = count() / 2 + 1;
+  plan.attempt = count() / 2 + 1;
+  plan.block = words();
+  plan.task = any_of<Task>();
+  plan.condition = any_of<Condition>();
+  plan.staircase = words();
+  plan.reference_g = maybe(mass_g);
+  plan.level_g = maybe(number);
+  plan.is_catch = flag();
+  plan.n_reshuffles = count();
+  plan.masses_g.resize(static_cast<std::size_t>(*rc::gen::inRange(0, 4)));
+  for (double& mass : plan.masses_g) mass = mass_g();
+  plan.reference_slot = maybe(slot);
+  row.status = any_of<TrialStatus>();
+  row.void_reason = maybe(words);
+  row.outcome = maybe(any_of<Outcome>);
+  row.chosen_slot = maybe(slot);
+  row.choice_correct = maybe(flag);
+  row.started_s = time_s();
+  row.shown_s = maybe(time_s);
+  row.first_contact_s = maybe(time_s);
+  row.first_choice_s = maybe(time_s);
+  row.validated_s = maybe(time_s);
+  row.ended_s = maybe(time_s);
+  row.paused_s = time_s();
+  row.lost_s = time_s();
+  return row;
+}
+
+inline CubeRow any_cube(const TrialRow& trial, int slot) {
+  return {trial.attempt_index,
+          slot,
+          trial.plan.masses_g.at(static_cast<std::size_t>(slot - 1)),
+          count(),
+          time_s(),
+          maybe(time_s),
+          maybe(time_s)};
+}
+
+inline FrameRow any_frame(int attempt_index) {
+  FrameRow row;
+  row.attempt_index = attempt_index;
+  row.after_event = count();
+  row.t_s = time_s();
+  row.trial_t_s = number();
+  row.capture_s = number();
+  row.present_s = number();
+  row.tracked = flag();
+  row.jump = flag();
+  row.contact_slot = maybe(slot);
+  row.quality = maybe(number);
+  row.state_hash = words();
+  row.effector = exact_pose();
+  row.effector_velocity = {exact_vector(), exact_vector()};
+  row.clone = maybe(pose);
+  row.cubes.resize(static_cast<std::size_t>(*rc::gen::inRange(0, 4)));
+  for (Pose& cube : row.cubes) cube = pose();
+  return row;
+}
+
+inline SessionHeader any_header() {
+  SessionHeader header = header_of(words());
+  header.protocol_text = words();
+  header.run_options = words();
+  header.seed = *rc::gen::arbitrary<std::uint64_t>() >> 1;
+  header.participant_info[words()] = words();
+  header.participant_info["age"] = words();
+  return header;
+}
+
+// What is written by hand beside what is read.
+struct Written {
+  std::vector<LoggedEvent> events;
+  std::vector<TrialRow> trials;
+  std::vector<CubeRow> cubes;
+  std::vector<AnswerRow> answers;
+  std::vector<ReversalRow> reversals;
+  std::vector<EstimateRow> estimates;
+};
+
+inline Changes any_changes(const TrialRow& trial, int number, Written& written) {
+  Changes changes = starting(trial);
+  for (int slot = 1; slot <= trial.plan.n_slots(); ++slot)
+    changes.cubes.push_back(any_cube(trial, slot));
+  changes.answers.push_back(
+      {trial.attempt_index, time_s(), any_of<ActionKind>(), maybe(slot), maybe(any_of<Label>)});
+  changes.reversals.push_back({words(), number, trial.attempt_index, heft::test::number(),
+                               heft::test::number(), heft::test::number()});
+  changes.estimates.push_back({words() + std::to_string(number), words(), maybe(heft::test::number),
+                               maybe(heft::test::number), maybe(heft::test::number), count(),
+                               count(), count(), count(), flag() ? "reversals" : "trials"});
+  written.trials.push_back(trial);
+  const auto add = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  add(written.cubes, changes.cubes);
+  add(written.answers, changes.answers);
+  add(written.reversals, changes.reversals);
+  add(written.estimates, changes.estimates);
+  return changes;
+}
+
+}  // namespace heft::test

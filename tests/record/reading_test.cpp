@@ -1,0 +1,162 @@
+// Reading beside a writer, what is seen when, and values that can't be ours.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "base/Error.h"
+#include "record/LogReader.h"
+#include "record/SessionLog.h"
+#include "record/child.h"
+#include "record/rows.h"
+#include "record/temporary_folder.h"
+
+namespace heft::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class reading : public testing::Test {
+ protected:
+  std::size_t n_events() const { return LogReader(file_).events(1).size(); }
+  std::size_t n_frames() const { return LogReader(file_).frames(1, 1).size(); }
+
+  TemporaryFolder folder_;
+  std::string file_ = folder_.file("log.db");
+};
+
+TEST_F(reading, acknowledged_events_are_seen_at_once_with_all_buffered_before_them) {
+  SessionLog log = SessionLog::start(file_, header_of("P01"));
+  log.append(event(1, EventKind::trial_started), starting(sorting_trial(1, 1)),
+             Durability::acknowledged);
+  EXPECT_EQ(n_events(), 1u);
+  log.add_frame(frame(1, 2));
+  log.append(event(2, EventKind::cubes_shown), of_attempt(1), Durability::buffered);
+  EXPECT_EQ(n_events(), 1u);
+  EXPECT_EQ(n_frames(), 0u);
+  log.append(event(3, EventKind::note), of_attempt(1), Durability::acknowledged);
+  EXPECT_EQ(n_events(), 3u);
+  EXPECT_EQ(n_frames(), 1u);
+  EXPECT_EQ(LogReader(file_).events(1)[1].event.kind, EventKind::cubes_shown);
+}
+
+TEST_F(reading, buffered_rows_are_seen_after_a_flush_and_at_the_end) {
+  {
+    SessionLog log = SessionLog::start(file_, header_of("P01"));
+    log.append(event(1, EventKind::note), {}, Durability::buffered);
+    log.flush();
+    EXPECT_EQ(n_events(), 1u);
+    log.append(event(2, EventKind::note), {}, Durability::buffered);
+    EXPECT_EQ(n_events(), 1u);
+  }
+  EXPECT_EQ(n_events(), 2u);
+}
+
+TEST_F(reading, buffered_rows_are_written_once_a_second_has_passed) {
+  SessionLog log = SessionLog::start(file_, header_of("P01"));
+  log.append(event(1, EventKind::note), {}, Durability::buffered);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1010));
+  log.append(event(2, EventKind::note), {}, Durability::buffered);
+  EXPECT_EQ(n_events(), 2u);
+}
+
+TEST_F(reading, a_reader_stays_with_the_moment_it_was_opened) {
+  SessionLog log = SessionLog::start(file_, header_of("P01"));
+  log.append(event(1, EventKind::note), {}, Durability::acknowledged);
+  const LogReader before(file_);
+  log.append(event(2, EventKind::note), {}, Durability::acknowledged);
+  EXPECT_EQ(before.events(1).size(), 1u);
+  EXPECT_EQ(n_events(), 2u);
+}
+
+TEST_F(reading, a_reader_in_another_process_never_meets_half_an_event) {
+  Child writer([&](int out) {
+    SessionLog log = SessionLog::start(file_, header_of("P01"));
+    for (int n = 1; n <= 300; ++n) {
+      log.append(event(n, EventKind::trial_started), starting(sorting_trial(n, n)),
+                 Durability::acknowledged);
+      if (n == 1) say(out, "!");
+    }
+  });
+  ASSERT_TRUE(writer.read_byte());
+  std::size_t n = 0;
+  for (int looks = 0; n < 300 && looks < 10'000; ++looks) {
+    const LogReader reader(file_);
+    const std::size_t now = reader.events(1).size();
+    EXPECT_GE(now, n);
+    EXPECT_EQ(reader.trials(1).size(), now);
+    EXPECT_EQ(reader.cubes(1).size(), 3 * now);
+    n = now;
+  }
+  EXPECT_EQ(n, 300u);
+}
+
+class damage : public reading {
+ protected:
+  void SetUp() override {
+    SessionLog log = SessionLog::start(file_, header_of("P01"));
+    Changes changes = starting(sorting_trial(1, 1));
+    changes.answers = {{1, 2, ActionKind::label, 2, Label::heaviest}};
+    changes.reversals = {{"15g", 1, 1, 100, 50, 50}};
+    log.append(event(1, EventKind::trial_started), changes, Durability::acknowledged);
+    log.add_frame(frame(1, 2));
+  }
+
+  /// The message of reading everything after somebody changed the file with all rules off.
+  std::string failure_after(const std::string& change) {
+    {
+      SQLite::Database database(file_, SQLite::OPEN_READWRITE);
+      database.exec("PRAGMA ignore_check_constraints = ON; PRAGMA foreign_keys = OFF");
+      database.exec(change);
+    }
+    try {
+      whole_session(LogReader(file_), 1);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(damage, an_unchanged_log_is_read) {
+  EXPECT_EQ(failure_after("SELECT 1"), "");
+}
+
+TEST_F(damage, an_unknown_name_is_refused_with_its_place) {
+  EXPECT_THAT(failure_after("UPDATE event SET kind = 'foo'"),
+              AllOf(HasSubstr(file_), HasSubstr("table event, row 1, column kind"),
+                    HasSubstr("found \"foo\""), HasSubstr("\"trial_started\"")));
+}
+
+TEST_F(damage, values_that_can_not_be_ours_are_refused_with_their_place) {
+  EXPECT_THAT(failure_after("UPDATE answer SET label = 'heavy'"),
+              HasSubstr("table answer, row 1, column label"));
+  EXPECT_THAT(failure_after("UPDATE answer SET label = NULL; UPDATE trial SET is_catch = 7"),
+              HasSubstr("table trial, row 1, column is_catch"));
+}
+
+TEST_F(damage, a_number_too_large_for_us_is_refused) {
+  EXPECT_THAT(failure_after("UPDATE trial SET attempt = 5000000000"),
+              AllOf(HasSubstr("column attempt"), HasSubstr("5000000000")));
+}
+
+TEST_F(damage, half_a_pose_is_refused) {
+  EXPECT_THAT(failure_after("UPDATE frame SET clone_qx = NULL"),
+              AllOf(HasSubstr("table frame, row 1, column clone_qx"), HasSubstr("nothing")));
+}
+
+TEST_F(damage, a_pose_without_its_beginning_is_refused) {
+  EXPECT_THAT(failure_after("UPDATE frame SET clone_x_m = NULL"),
+              HasSubstr("table frame, row 1, column clone_y_m"));
+}
+
+TEST_F(damage, a_row_of_no_trial_is_refused) {
+  EXPECT_THAT(failure_after("UPDATE event SET trial_id = 99"),
+              AllOf(HasSubstr("table event, row 1, column trial_id"), HasSubstr("trial 99")));
+}
+
+}  // namespace
+}  // namespace heft::test

@@ -1,0 +1,129 @@
+// What is written is what is read, bit for bit, whatever the values.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "base/Error.h"
+#include "record/LogReader.h"
+#include "record/SessionArchive.h"
+#include "record/SessionLog.h"
+#include "record/random_rows.h"
+#include "record/rows.h"
+#include "record/temporary_folder.h"
+
+namespace heft::test {
+namespace {
+
+RC_GTEST_PROP(round_trip, every_row_is_read_as_it_was_written, ()) {
+  const TemporaryFolder folder;
+  const SessionHeader header = any_header();
+  const auto state = any_of<SessionState>();
+  Written written;
+  std::vector<FrameRow> frames, frames_outside;
+  std::int64_t session_id = 0;
+  {
+    SessionLog log = SessionLog::start(folder.file("log.db"), header);
+    session_id = log.session_id();
+    for (int n = 1; n <= 3; ++n) {
+      const Event event = any_event();
+      const Changes changes = any_changes(any_trial(n), n, written);
+      written.events.push_back({event, n});
+      log.append(event, changes, flag() ? Durability::acknowledged : Durability::buffered);
+      frames.push_back(any_frame(n));
+      log.add_frame(frames.back());
+    }
+    frames_outside.push_back(any_frame(0));
+    log.add_frame(frames_outside.back());
+    Changes changes;
+    changes.state = state;
+    written.events.push_back({any_event(), 0});
+    log.append(written.events.back().event, changes, Durability::acknowledged);
+  }
+  const LogReader reader(folder.file("log.db"));
+  RC_ASSERT(text(reader.session(session_id).header) == text(header));
+  RC_ASSERT(reader.session(session_id).state == state);
+  RC_ASSERT(text(reader.events(session_id)) == text(written.events));
+  RC_ASSERT(text(reader.trials(session_id)) == text(written.trials));
+  RC_ASSERT(text(reader.cubes(session_id)) == text(written.cubes));
+  RC_ASSERT(text(reader.answers(session_id)) == text(written.answers));
+  RC_ASSERT(text(reader.reversals(session_id)) == text(written.reversals));
+  RC_ASSERT(text(reader.estimates(session_id)) == text(written.estimates));
+  for (int n = 1; n <= 3; ++n)
+    RC_ASSERT(text(reader.frames(session_id, n)) ==
+              text(std::vector{frames[static_cast<std::size_t>(n - 1)]}));
+  RC_ASSERT(text(reader.frames(session_id, 0)) == text(frames_outside));
+}
+
+TEST(round_trip, a_changed_trial_and_its_cubes_take_the_place_of_the_old_rows) {
+  const TemporaryFolder folder;
+  SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
+  TrialRow trial = sorting_trial(1, 2.5);
+  log.append(event(2.5, EventKind::trial_started), starting(trial), Durability::acknowledged);
+  trial.status = TrialStatus::completed;
+  trial.plan.masses_g = {15, 200, 800};
+  Changes changes = starting(trial);
+  changes.cubes = {{1, 2, 200, 4, 1.25, 3.0, 4.0}};
+  log.append(event(5, EventKind::action, "validate"), changes, Durability::acknowledged);
+
+  const LogReader reader(folder.file("log.db"));
+  ASSERT_EQ(reader.trials(1).size(), 1u);
+  EXPECT_EQ(text(reader.trials(1).front()), text(trial));
+  const std::vector<CubeRow> expected{
+      {1, 1, 15, 0, 0, {}, {}}, {1, 2, 200, 4, 1.25, 3.0, 4.0}, {1, 3, 800, 0, 0, {}, {}}};
+  EXPECT_EQ(text(reader.cubes(1)), text(expected));
+}
+
+TEST(round_trip, a_later_session_in_the_same_file_has_its_own_attempts) {
+  const TemporaryFolder folder;
+  for (const char* participant : {"P01", "P02"}) {
+    SessionLog log = SessionLog::start(folder.file("log.db"), header_of(participant));
+    TrialRow trial = sorting_trial(1, 1);
+    trial.plan.block = participant;
+    log.append(event(1, EventKind::trial_started), starting(trial), Durability::acknowledged);
+  }
+  const LogReader reader(folder.file("log.db"));
+  EXPECT_EQ(reader.sessions().size(), 2u);
+  EXPECT_EQ(reader.trials(1).at(0).plan.block, "P01");
+  EXPECT_EQ(reader.trials(2).at(0).plan.block, "P02");
+  EXPECT_EQ(reader.events(2).at(0).attempt_index, 1);
+}
+
+TEST(round_trip, a_value_that_is_no_number_is_refused_instead_of_lost) {
+  const TemporaryFolder folder;
+  SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
+  Event broken = event(1, EventKind::rest);
+  broken.value = std::nan("");
+  EXPECT_THROW(log.append(broken, {}, Durability::acknowledged), Error);
+  EXPECT_TRUE(LogReader(folder.file("log.db")).events(1).empty());
+}
+
+RC_GTEST_PROP(archive, a_stored_session_has_the_rows_of_a_live_one, ()) {
+  const TemporaryFolder folder;
+  const SessionHeader header = any_header();
+  RecordedSession recorded(header);
+  {
+    SessionLog live = SessionLog::start(folder.file("live.db"), header);
+    Written written;
+    for (int n = 1; n <= 3; ++n) {
+      const Event event = any_event();
+      const Changes changes = any_changes(any_trial(n), n, written);
+      const FrameRow frame = any_frame(n);
+      for (EventSink* sink : std::initializer_list<EventSink*>{&live, &recorded}) {
+        sink->append(event, changes, Durability::acknowledged);
+        sink->add_frame(frame);
+        sink->flush();
+      }
+    }
+  }
+  SessionArchive archive(folder.file("stored.db"));
+  const std::int64_t first = archive.store(recorded);
+  const std::int64_t second = archive.store(recorded);
+  RC_ASSERT(second == first + 1);
+  const LogReader live(folder.file("live.db")), stored(folder.file("stored.db"));
+  RC_ASSERT(whole_session(stored, first) == whole_session(live, 1));
+  RC_ASSERT(whole_session(stored, second) == whole_session(live, 1));
+}
+
+}  // namespace
+}  // namespace heft::test

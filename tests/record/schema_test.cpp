@@ -1,0 +1,167 @@
+// The file itself keeps the rules: types, references, names and ranges, whoever writes to it.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "record/Integrity.h"
+#include "record/SessionLog.h"
+#include "record/rows.h"
+#include "record/temporary_folder.h"
+
+namespace heft::test {
+namespace {
+
+class schema_rules : public testing::Test {
+ protected:
+  void SetUp() override {
+    {
+      SessionLog log = SessionLog::start(file_, header_of("P01"));
+      log.append(event(1, EventKind::trial_started), starting(sorting_trial(1, 1)),
+                 Durability::acknowledged);
+      Changes changes = of_attempt(1);
+      const Event answer = action(2, ActionKind::label, 2, Label::heaviest);
+      changes.answers = {answer_of(1, answer)};
+      changes.reversals = {{"15g", 1, 1, 100, 50, 50}};
+      changes.estimates = {{"15g", "mean_of_reversals", 70.0, {}, {}, 30, 10, 0, 0, "reversals"}};
+      log.append(answer, changes, Durability::acknowledged);
+      log.add_frame(frame(1, 2));
+    }
+    database_ = std::make_unique<SQLite::Database>(file_, SQLite::OPEN_READWRITE);
+    database_->exec("PRAGMA foreign_keys = ON");
+  }
+
+  bool accepts(const std::string& sql) {
+    try {
+      database_->exec(sql);
+      return true;
+    } catch (const SQLite::Exception& error) {
+      EXPECT_EQ(error.getErrorCode(), SQLITE_CONSTRAINT) << sql << ": " << error.what();
+      return false;
+    }
+  }
+
+  template <typename Enum>
+  void expect_exactly_the_names(const std::string& table, const std::string& column) {
+    for (const std::string_view name : EnumNames<Enum>::names)
+      EXPECT_TRUE(accepts(fmt::format("UPDATE {} SET {} = '{}'", table, column, name))) << name;
+    EXPECT_FALSE(accepts(fmt::format("UPDATE {} SET {} = 'foo'", table, column))) << column;
+    EXPECT_FALSE(accepts(fmt::format("UPDATE {} SET {} = ''", table, column))) << column;
+  }
+
+  static constexpr int SQLITE_CONSTRAINT = 19;
+  TemporaryFolder folder_;
+  std::string file_ = folder_.file("log.db");
+  std::unique_ptr<SQLite::Database> database_;
+};
+
+TEST_F(schema_rules, the_file_is_marked_as_ours) {
+  EXPECT_EQ(database_->execAndGet("PRAGMA application_id").getInt(), 0x48656674);
+  EXPECT_EQ(database_->execAndGet("PRAGMA user_version").getInt(), 1);
+  EXPECT_EQ(database_->execAndGet("PRAGMA journal_mode").getString(), "wal");
+}
+
+TEST_F(schema_rules, every_table_is_strict) {
+  EXPECT_EQ(database_
+                ->execAndGet("SELECT count(*) FROM pragma_table_list WHERE schema = 'main' AND "
+                             "type = 'table' AND name NOT LIKE 'sqlite_%' AND NOT strict")
+                .getInt(),
+            0);
+  EXPECT_EQ(database_
+                ->execAndGet("SELECT count(*) FROM pragma_table_list WHERE schema = 'main' AND "
+                             "type = 'table' AND strict")
+                .getInt(),
+            9);
+  EXPECT_FALSE(accepts("UPDATE event SET t_s = 'soon'"));
+  EXPECT_FALSE(accepts("UPDATE trial SET attempt = 1.5"));
+  EXPECT_FALSE(accepts("UPDATE frame SET effector_x_m = 'left'"));
+  EXPECT_FALSE(accepts("UPDATE frame SET effector_x_m = NULL"));
+}
+
+TEST_F(schema_rules, enumerations_take_every_name_of_ours_and_no_other) {
+  expect_exactly_the_names<SessionState>("session", "state");
+  expect_exactly_the_names<EventKind>("event", "kind");
+  expect_exactly_the_names<Label>("event", "label");
+  expect_exactly_the_names<Task>("trial", "task");
+  expect_exactly_the_names<Condition>("trial", "condition");
+  expect_exactly_the_names<TrialStatus>("trial", "status");
+  expect_exactly_the_names<Outcome>("trial", "outcome");
+  expect_exactly_the_names<ActionKind>("answer", "action");
+  expect_exactly_the_names<Label>("answer", "label");
+  for (const char* purpose : {"main", "pilot", "test", "simulated"})
+    EXPECT_TRUE(accepts(fmt::format("UPDATE session SET purpose = '{}'", purpose)));
+  EXPECT_FALSE(accepts("UPDATE session SET purpose = 'fun'"));
+  EXPECT_FALSE(accepts("UPDATE estimate SET reason = 'boredom'"));
+}
+
+TEST_F(schema_rules, impossible_numbers_are_refused) {
+  for (const char* assignment :
+       {"event SET t_s = -1",           "event SET slot = 0",          "event SET slot = 4",
+        "cube SET mass_g = 0",          "cube SET n_pushes = -1",      "cube SET contact_s = -0.5",
+        "trial SET attempt = 0",        "trial SET trial_number = 0",  "trial SET is_catch = 2",
+        "trial SET choice_correct = 2", "trial SET reference_g = -15", "trial SET chosen_slot = 4",
+        "trial SET paused_s = -1",      "trial SET lost_s = -1",       "reversal SET number = 0",
+        "estimate SET n_trials = -1",   "frame SET tracked = 2",       "frame SET jump = -1",
+        "frame SET contact_slot = 0",   "session SET seed = -1"})
+    EXPECT_FALSE(accepts(fmt::format("UPDATE {}", assignment))) << assignment;
+}
+
+TEST_F(schema_rules, references_must_lead_somewhere) {
+  for (const char* statement :
+       {"UPDATE event SET trial_id = 99", "UPDATE event SET session_id = 99",
+        "UPDATE answer SET trial_id = 99", "UPDATE cube SET trial_id = 99 WHERE slot = 1",
+        "UPDATE reversal SET trial_id = 99", "UPDATE estimate SET session_id = 99",
+        "UPDATE frame SET trial_id = 99", "DELETE FROM trial", "DELETE FROM session",
+        "INSERT INTO participant_info VALUES (99, 'age', '30')"})
+    EXPECT_FALSE(accepts(statement)) << statement;
+}
+
+TEST_F(schema_rules, a_row_is_there_once) {
+  EXPECT_FALSE(accepts("INSERT INTO reversal SELECT * FROM reversal"));
+  EXPECT_FALSE(accepts("INSERT INTO estimate SELECT * FROM estimate"));
+  EXPECT_FALSE(accepts("INSERT INTO cube SELECT * FROM cube"));
+}
+
+TEST_F(schema_rules, a_sound_file_has_no_faults_and_a_broken_reference_is_one) {
+  EXPECT_TRUE(check_integrity(file_).empty());
+  database_->exec("PRAGMA foreign_keys = OFF");
+  database_->exec("UPDATE answer SET trial_id = 99");
+  const auto faults = check_integrity(file_);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front(), "table answer, row 1: refers to a row of trial that is not there");
+}
+
+TEST_F(schema_rules, a_value_put_in_with_the_rules_off_is_a_fault) {
+  database_->exec("PRAGMA ignore_check_constraints = ON");
+  database_->exec("UPDATE event SET kind = 'foo' WHERE event_id = 2");
+  const auto faults = check_integrity(file_);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults.front().find("event"), std::string::npos) << faults.front();
+}
+
+TEST_F(schema_rules, a_damaged_page_is_a_fault) {
+  const int page =
+      database_->execAndGet("SELECT rootpage FROM sqlite_master WHERE name = 'frame'").getInt();
+  constexpr int page_size = 4096;
+  database_.reset();  // everything goes into the file itself
+  std::fstream(file_, std::ios::in | std::ios::out | std::ios::binary)
+          .seekp(static_cast<std::streamoff>(page - 1) * page_size)
+      << std::string(page_size, 'x');
+  EXPECT_FALSE(check_integrity(file_).empty());
+}
+
+TEST_F(schema_rules, readers_find_their_rows_by_index) {
+  for (const char* query :
+       {"SELECT * FROM event WHERE session_id = 1", "SELECT * FROM answer WHERE trial_id = 1",
+        "SELECT * FROM frame WHERE trial_id = 1", "SELECT * FROM cube WHERE trial_id = 1",
+        "SELECT * FROM trial WHERE session_id = 1", "SELECT * FROM reversal WHERE session_id = 1",
+        "SELECT * FROM estimate WHERE session_id = 1"}) {
+    SQLite::Statement plan(*database_, fmt::format("EXPLAIN QUERY PLAN {}", query));
+    ASSERT_TRUE(plan.executeStep());
+    EXPECT_EQ(plan.getColumn(3).getString().rfind("SEARCH", 0), 0u) << query;
+  }
+}
+
+}  // namespace
+}  // namespace heft::test

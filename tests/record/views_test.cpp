@@ -1,0 +1,122 @@
+// The views that other programs read: what they compute, from rows as a session leaves them.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include "record/SessionLog.h"
+#include "record/rows.h"
+#include "record/temporary_folder.h"
+
+namespace heft::test {
+namespace {
+
+/// A cell as SQLite shows it; "NULL" where there is nothing.
+std::string cell(const std::string& file, const std::string& query) {
+  SQLite::Database database(file, SQLite::OPEN_READONLY);
+  SQLite::Statement statement(database, query);
+  if (!statement.executeStep()) return "no row";
+  return statement.getColumn(0).isNull() ? "NULL" : statement.getColumn(0).getString();
+}
+
+class views : public testing::Test {
+ protected:
+  std::string of(const std::string& query) const { return cell(file_, query); }
+
+  // Masses by slot: 800, 15, 200 g. Shown at 11 s, validated at 31.5 s.
+  void complete_sorting(int attempt_index, const std::vector<Event>& answers) {
+    TrialRow trial = sorting_trial(attempt_index, 10);
+    log_.append(event(10, EventKind::trial_started), starting(trial), Durability::buffered);
+    for (const Event& answer : answers) {
+      Changes changes = of_attempt(attempt_index);
+      changes.answers = {answer_of(attempt_index, answer)};
+      log_.append(answer, changes, Durability::buffered);
+    }
+    trial.status = TrialStatus::completed;
+    trial.outcome = Outcome::correct;
+    trial.shown_s = 11;
+    trial.validated_s = trial.ended_s = 31.5;
+    trial.paused_s = 4;
+    trial.lost_s = 0.25;
+    log_.append(event(31.5, EventKind::note), starting(trial), Durability::acknowledged);
+  }
+
+  TemporaryFolder folder_;
+  std::string file_ = folder_.file("log.db");
+  SessionLog log_ = SessionLog::start(file_, header_of("P07"));
+};
+
+TEST_F(views, response_time_leaves_out_pauses_and_losses) {
+  complete_sorting(1, {});
+  EXPECT_EQ(of("SELECT response_time_s FROM v_trial"), "16.25");
+  EXPECT_EQ(of("SELECT response_time_s FROM v_sorting"), "16.25");
+}
+
+TEST_F(views, a_trial_row_has_its_masses_participant_and_pushes) {
+  TrialRow trial = sorting_trial(1, 10);
+  Changes changes = starting(trial);
+  changes.cubes = {{1, 1, 800, 2, 1.5, {}, {}}, {1, 3, 200, 3, 0.25, {}, {}}};
+  log_.append(event(10, EventKind::trial_started), changes, Durability::acknowledged);
+  EXPECT_EQ(of("SELECT participant || ' ' || cube1_mass_g || ' ' || cube2_mass_g || ' ' || "
+               "cube3_mass_g FROM v_trial"),
+            "P07 800.0 15.0 200.0");
+  EXPECT_EQ(of("SELECT n_pushes || ' ' || contact_s FROM v_trial"), "5 1.75");
+  EXPECT_EQ(of("SELECT response_time_s FROM v_trial"), "NULL");
+}
+
+TEST_F(views, a_comparison_has_its_comparison_mass_and_no_third_cube) {
+  TrialRow trial = sorting_trial(1, 10);
+  trial.plan.task = Task::comparison;
+  trial.plan.staircase = "200g";
+  trial.plan.reference_g = 200;
+  trial.plan.level_g = 75;
+  trial.plan.masses_g = {275, 200};
+  log_.append(event(10, EventKind::trial_started), starting(trial), Durability::acknowledged);
+  EXPECT_EQ(of("SELECT comparison_g FROM v_trial"), "275.0");
+  EXPECT_EQ(of("SELECT cube3_mass_g FROM v_trial"), "NULL");
+  EXPECT_EQ(of("SELECT count(*) FROM v_sorting"), "0");
+}
+
+TEST_F(views, jnd_names_the_reference_of_its_staircase) {
+  TrialRow trial = sorting_trial(1, 10);
+  trial.plan.task = Task::comparison;
+  trial.plan.staircase = "fine";
+  trial.plan.reference_g = 800;
+  Changes changes = starting(trial);
+  changes.estimates = {{"fine", "mean_of_reversals", 101.5, {}, {}, 32, 10, 1, 0, "reversals"}};
+  log_.append(event(10, EventKind::trial_started), changes, Durability::acknowledged);
+  EXPECT_EQ(of("SELECT participant || ' ' || staircase || ' ' || reference_g || ' ' || jnd_g || ' "
+               "' || n_trials || ' ' || reason FROM v_jnd"),
+            "P07 fine 800.0 101.5 32 reversals");
+}
+
+TEST_F(views, sorting_shows_which_mass_ended_with_each_label) {
+  complete_sorting(1, {action(12, ActionKind::label, 1, Label::heaviest),
+                       action(13, ActionKind::label, 2, Label::lightest),
+                       action(14, ActionKind::label, 3, Label::intermediate)});
+  EXPECT_EQ(of("SELECT labeled_lightest_g || ' ' || labeled_intermediate_g || ' ' || "
+               "labeled_heaviest_g FROM v_sorting"),
+            "15.0 200.0 800.0");
+}
+
+TEST_F(views, sorting_follows_labels_that_are_moved_replaced_and_taken_away) {
+  complete_sorting(
+      1, {action(12, ActionKind::label, 1, Label::lightest),
+          action(13, ActionKind::label, 2, Label::lightest),  // moves it
+          action(14, ActionKind::label, 1, Label::heaviest),
+          action(15, ActionKind::label, 1, Label::intermediate),  // replaces it
+          action(16, ActionKind::label, 3, Label::heaviest), action(17, ActionKind::unlabel, 3)});
+  EXPECT_EQ(of("SELECT labeled_lightest_g FROM v_sorting"), "15.0");
+  EXPECT_EQ(of("SELECT labeled_intermediate_g FROM v_sorting"), "800.0");
+  EXPECT_EQ(of("SELECT labeled_heaviest_g FROM v_sorting"), "NULL");
+}
+
+TEST_F(views, void_attempts_are_no_sorting_results) {
+  TrialRow trial = sorting_trial(1, 10);
+  trial.status = TrialStatus::voided;
+  trial.void_reason = "camera";
+  log_.append(event(10, EventKind::trial_started), starting(trial), Durability::acknowledged);
+  EXPECT_EQ(of("SELECT count(*) FROM v_sorting"), "0");
+  EXPECT_EQ(of("SELECT status || ' ' || void_reason FROM v_trial"), "void camera");
+}
+
+}  // namespace
+}  // namespace heft::test

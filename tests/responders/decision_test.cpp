@@ -1,0 +1,84 @@
+// From percepts to answers.
+#include "responders/Decision.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace heft {
+namespace {
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// Nothing but the criterion: no noise, lapse or guess.
+ResponderParameters certain() {
+  ResponderParameters parameters;
+  parameters.criterion_mm = 4;
+  parameters.criterion_fraction = 0.1;
+  return parameters;
+}
+
+Answer decide(const ResponderParameters& parameters, Task task, std::vector<double> percepts_mm,
+              std::vector<int> wrong_slots = {}, int trial = 1) {
+  return Decision(parameters, 7, {trial, 1, task, {}}).decide(percepts_mm, wrong_slots);
+}
+
+TEST(Decision, the_criterion_grows_with_the_larger_percept) {
+  // 4 mm + a tenth of the larger one.
+  EXPECT_EQ(decide(certain(), Task::comparison, {16.1, 10}).slot, 1);
+  EXPECT_EQ(decide(certain(), Task::comparison, {10, 15.4}).slot, std::nullopt);
+  EXPECT_EQ(decide(certain(), Task::comparison, {100, 106}).slot, std::nullopt);
+  EXPECT_EQ(decide(certain(), Task::comparison, {100, 116}).slot, 2);
+  EXPECT_EQ(decide(certain(), Task::comparison, {0, 0}).slot, std::nullopt);
+}
+
+TEST(Decision, sorting_labels_by_percept_or_gives_up) {
+  EXPECT_THAT(decide(certain(), Task::sorting, {30, 2, 90}).labels,
+              ElementsAre(Label::intermediate, Label::lightest, Label::heaviest));
+  EXPECT_THAT(decide(certain(), Task::sorting, {1, 2, 3}).labels, IsEmpty());
+}
+
+TEST(Decision, guesses_as_often_as_it_is_told_to) {
+  ResponderParameters parameters = certain();
+  parameters.judgment_noise_mm = 0.1;
+  parameters.guess_probability = 0.3;
+  int n_guesses = 0;
+  for (int trial = 1; trial <= 1000; ++trial)
+    n_guesses += decide(parameters, Task::sorting, {0, 0, 0}, {}, trial).labels.empty() ? 0 : 1;
+  EXPECT_NEAR(n_guesses, 300, 60);  // four standard deviations
+}
+
+TEST(Decision, a_lapse_answers_anything_equally_often) {
+  ResponderParameters parameters = certain();
+  parameters.lapse_rate = 1;
+  std::array<int, 3> counts{};
+  for (int trial = 1; trial <= 3000; ++trial)
+    ++counts[static_cast<std::size_t>(
+        decide(parameters, Task::comparison, {0, 90}, {}, trial).slot.value_or(0))];
+  for (int count : counts) EXPECT_NEAR(count, 1000, 105);  // four standard deviations
+}
+
+TEST(Decision, the_introduction_always_names_a_cube_and_not_the_one_just_found_wrong) {
+  EXPECT_EQ(decide(certain(), Task::introduction, {0, 0.1}).slot, 2);
+  EXPECT_EQ(decide(certain(), Task::introduction, {0, 0.1}, {2}).slot, 1);
+  EXPECT_EQ(decide(certain(), Task::introduction, {0, 0.1}, {2, 1}).slot, 2) << "shuffled since";
+}
+
+RC_GTEST_PROP(HeaviestSlot, is_the_largest_that_is_not_ruled_out, ()) {
+  const auto values =
+      *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(rc::gen::arbitrary<double>()));
+  const int n = static_cast<int>(values.size());
+  const auto wrong = *rc::gen::container<std::vector<int>>(rc::gen::inRange(1, n + 1));
+  const int slot = heaviest_slot(values, wrong);
+  RC_ASSERT(slot >= 1 && slot <= n);
+  const auto recent =
+      std::span(wrong).last(std::min(wrong.size(), static_cast<std::size_t>(n - 1)));
+  const auto ruled_out = [&](int s) { return std::ranges::find(recent, s) != recent.end(); };
+  RC_ASSERT(!ruled_out(slot));
+  for (int other = 1; other <= n; ++other)
+    RC_ASSERT(ruled_out(other) || values[static_cast<std::size_t>(other - 1)] <=
+                                      values[static_cast<std::size_t>(slot - 1)]);
+}
+
+}  // namespace
+}  // namespace heft

@@ -1,0 +1,164 @@
+// The simulated eye: what pictures tell, and what they don't.
+#include "responders/Perception.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "FakeTrial.h"
+#include "responders/Hand.h"
+
+namespace heft {
+namespace {
+using fake::World;
+using testing::ElementsAre;
+
+ResponderParameters noiseless() {
+  ResponderParameters parameters = default_parameters();
+  parameters.localization_noise_mm = parameters.length_noise = 0;
+  return parameters;
+}
+
+std::vector<double> percepts_mm(const ResponderParameters& parameters, const Stage& stage,
+                                World world) {
+  const TrialView trial{1, 1, Task::sorting, stage};
+  Hand hand(parameters, 9, trial);
+  Perception perception(parameters, 9, trial);
+  std::vector<int> cubes(stage.slots_m.size());
+  std::iota(cubes.begin(), cubes.end(), 0);
+  hand.explore(cubes);
+  world.show_cubes();
+  for (int i = 0; i < 2000; ++i) {
+    const double t_s = i / stage.display_rate_hz;
+    for (double earlier_s : {0.75, 0.5, 0.25, 0.0})
+      world.move_effector(hand.at(std::max(0.0, t_s - earlier_s / stage.display_rate_hz)));
+    const DisplayedFrame frame = world.picture(t_s);
+    perception.see(frame);
+    hand.see(frame);
+  }
+  return perception.percepts_mm();
+}
+
+std::vector<double> percepts_mm(const ResponderParameters& parameters,
+                                const std::vector<double>& masses_g, double rate_hz = 15) {
+  const Stage stage = fake::row_of(static_cast<int>(masses_g.size()), rate_hz);
+  return percepts_mm(parameters, stage, World(stage, Condition::C2, masses_g));
+}
+
+TEST(Perception, percepts_grow_with_mass_until_the_cube_does_not_move) {
+  double last_mm = 0;
+  for (double mass_g : {15, 30, 60, 100, 150, 200, 300, 400}) {
+    const double percept_mm = percepts_mm(noiseless(), {mass_g, 10}).front();
+    EXPECT_GT(percept_mm, last_mm) << mass_g << " g";
+    last_mm = percept_mm;
+  }
+  const double heavy_mm = percepts_mm(noiseless(), {1000, 10}).front();
+  EXPECT_GT(heavy_mm, last_mm);
+  EXPECT_EQ(percepts_mm(noiseless(), {1500, 10}).front(), heavy_mm);
+}
+
+TEST(Perception, attributes_the_offset_to_the_cube_that_is_pushed) {
+  const auto percepts = percepts_mm(noiseless(), {200, 15, 400});
+  EXPECT_NEAR(percepts[0], 0.157 * 200, 3);
+  EXPECT_NEAR(percepts[1], 0.157 * 15, 0.5);
+  EXPECT_NEAR(percepts[2], 0.157 * 400, 6);
+}
+
+TEST(Perception, in_C1_or_without_a_clone_every_percept_is_exactly_nothing) {
+  const Stage stage = fake::row_of(3);
+  const std::vector<double> masses{15, 200, 800};
+  EXPECT_THAT(percepts_mm(default_parameters(), stage, World(stage, Condition::C1, masses)),
+              ElementsAre(0, 0, 0));
+  EXPECT_THAT(percepts_mm(default_parameters(), stage, World(stage, Condition::C2, masses, false)),
+              ElementsAre(0, 0, 0));
+}
+
+TEST(Perception, offsets_that_are_not_visible_are_nothing) {
+  ResponderParameters parameters = default_parameters();
+  parameters.just_visible_mm = 5;
+  const auto percepts = percepts_mm(parameters, {15, 200});
+  EXPECT_EQ(percepts[0], 0);
+  EXPECT_GT(percepts[1], 20);
+}
+
+TEST(Perception, half_the_pictures_tell_something_else) {
+  for (const auto& parameters : {default_parameters(), noiseless()}) {
+    const auto at_15 = percepts_mm(parameters, {100, 200, 300}, 15);
+    const auto at_7 = percepts_mm(parameters, {100, 200, 300}, 7.5);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NE(at_15[i], at_7[i]);
+  }
+}
+
+TEST(Perception, the_missing_motion_of_a_cube_is_a_cue_as_well) {
+  ResponderParameters parameters = noiseless();
+  parameters.cue = Cue::cube_motion;
+  double last_mm = 0;
+  for (double mass_g : {30, 100, 200, 400}) {
+    const double percept_mm = percepts_mm(parameters, {mass_g, 10}).front();
+    EXPECT_GT(percept_mm, last_mm) << mass_g << " g";
+    last_mm = percept_mm;
+  }
+  // In C1 it is what the tip travels before it meets the cube, for any mass.
+  const Stage stage = fake::row_of(2);
+  const auto in_C1 = percepts_mm(parameters, stage, World(stage, Condition::C1, {15, 800}));
+  for (double percept_mm : in_C1) EXPECT_LE(percept_mm, 4.001);
+  EXPECT_EQ(percepts_mm(parameters, stage, World(stage, Condition::C1, {800, 15})), in_C1);
+}
+
+class PictureTest : public testing::Test {
+ protected:
+  // The clone's tip at a cube's near face, 20 mm behind the effector's.
+  DisplayedFrame touching(int cube, double t_s) const {
+    DisplayedFrame frame;
+    frame.t_s = t_s;
+    for (const auto& slot : stage_.slots_m) frame.cubes.push_back(upright_pose(slot, 0));
+    const Eigen::Vector3d center_m =
+        stage_.slots_m[static_cast<std::size_t>(cube)] - Eigen::Vector3d(0, 0.0175 + 0.045, 0);
+    frame.clone = frame.effector = upright_pose(center_m, std::numbers::pi / 2);
+    frame.effector.position_m.y() += 0.02;
+    return frame;
+  }
+
+  Stage stage_ = fake::row_of(2);
+  Perception perception_{noiseless(), 1, {1, 1, Task::comparison, stage_}};
+};
+
+TEST_F(PictureTest, a_cube_counts_as_looked_at_once_it_is_seen_touched) {
+  EXPECT_THAT(perception_.not_looked_at(), ElementsAre(0, 1));
+  perception_.see(touching(1, 1));
+  EXPECT_THAT(perception_.not_looked_at(), ElementsAre(0));
+  perception_.forget();
+  EXPECT_THAT(perception_.not_looked_at(), ElementsAre(0, 1));
+}
+
+// Pictures further apart than the eye integrates over: each reading counts in full.
+TEST_F(PictureTest, the_percept_is_the_mean_of_looks) {
+  perception_.see(touching(1, 1));  // its first picture has lasted for no time yet: 0 mm
+  perception_.see(touching(1, 5));
+  EXPECT_NEAR(perception_.percepts_mm()[1], 10, 1e-9);
+  perception_.see(touching(1, 9));
+  EXPECT_NEAR(perception_.percepts_mm()[1], 40.0 / 3, 1e-9);
+}
+
+TEST_F(PictureTest, another_cube_is_another_look_even_at_once) {
+  perception_.see(touching(1, 1));
+  perception_.see(touching(1, 5));
+  perception_.see(touching(0, 5.1));
+  EXPECT_THAT(perception_.not_looked_at(), ElementsAre());
+  EXPECT_NEAR(perception_.percepts_mm()[0], 20 * (1 - std::exp(-1)), 1e-9);
+  EXPECT_NEAR(perception_.percepts_mm()[1], 10, 1e-9);
+}
+
+TEST_F(PictureTest, an_effector_out_of_view_tells_nothing) {
+  perception_.see(touching(1, 1));
+  DisplayedFrame frame = touching(1, 5);
+  frame.tracked = false;
+  perception_.see(frame);
+  EXPECT_EQ(perception_.percepts_mm()[1], 0);
+}
+
+}  // namespace
+}  // namespace heft
