@@ -227,7 +227,7 @@ class Replaying(SessionTest):
 
     def test_events(self):
         self.tampered("update event set slot = 3 - slot where event_id = (select max(event_id) from "
-                      "event where detail = 'select')", "chosen_slot")
+                      "event where detail = 'select')", "answer")
         self.tampered("delete from event where event_id = (select min(event_id) from event where "
                       "kind = 'cube_contact')", "cube_contact")
         self.tampered("update event set detail = 'no_difference', slot = null where event_id = "
