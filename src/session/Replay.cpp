@@ -69,12 +69,12 @@ class Verifier {
     const auto events = reader_.events(session_.session_id);
     fold_ = fold_session(protocol_, session_.header.seed, events);
     result.n_events = fold_.n_events;
+    compare_rows();
     if (fold_.refused) {
       const auto& [logged, why] = *fold_.refused;
       differ(logged.attempt_index, logged.event.t_s, fmt::format("event {}", fold_.n_events + 1),
              text_of(logged.event), "refused: " + why);
     }
-    compare_rows();
     compare_pictures(progress);
   }
 
