@@ -1,0 +1,122 @@
+// What a simulated participant can and can't know, with real rigid-body physics.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "Protocols.h"
+#include "base/Random.h"
+#include "session/PictureSource.h"
+#include "session/RunningAttempt.h"
+#include "session/TrialWorld.h"
+
+namespace heft {
+namespace {
+
+using testing::small_protocol;
+
+// What reaches the eye may be changed on the way.
+using Change = std::function<void(DisplayedFrame&)>;
+
+struct Answer {
+  std::vector<Action> actions;
+  Outcome outcome = Outcome::dont_know;
+  std::vector<std::optional<Label>> labels;
+
+  // The same actions at the same times.
+  bool operator==(const Answer& other) const {
+    return labels == other.labels &&
+           std::ranges::equal(actions, other.actions, [](const Action& a, const Action& b) {
+             return a.t_s == b.t_s && a.kind == b.kind && a.slot == b.slot && a.label == b.label;
+           });
+  }
+};
+
+// One sorting trial from its start to its answer.
+Answer sort_cubes(
+    const Protocol& protocol, Condition condition, std::vector<double> masses_g, std::uint64_t seed,
+    const Change& change = [](DisplayedFrame&) {}) {
+  TrialPlan plan;
+  plan.trial_number = 1;
+  plan.task = Task::sorting;
+  plan.condition = condition;
+  plan.masses_g = std::move(masses_g);
+  ResponderOptions options;
+  options.seed = seed;
+  const auto responder = responder_named("simulated").make(options);
+  responder->begin_trial({1, 1, Task::sorting, stage_of(protocol, 3)});
+  TrialWorld world(protocol, plan);
+  RunningAttempt attempt(1, plan, 0, false);
+  HandPictures pictures(*responder, protocol.display_rate_hz);
+  pictures.begin_attempt();
+  Answer answer;
+  for (;;) {
+    ShownPicture shown = world.advance(pictures.next().sample);
+    for (const Event& event : shown.events)
+      if (event.kind == EventKind::cubes_shown) attempt.show(event);
+    change(shown.frame);
+    for (const Action& action : responder->see(shown.frame, attempt.screen())) {
+      Event event;
+      event.kind = EventKind::action;
+      event.detail = name_of(action.kind);
+      event.slot = action.slot;
+      event.label = action.label;
+      EXPECT_EQ(attempt.refusal(event), std::nullopt);
+      answer.actions.push_back(action);
+      if (const auto outcome = attempt.act(event)) {
+        answer.outcome = *outcome;
+        answer.labels = attempt.screen().labels;
+        return answer;
+      }
+    }
+  }
+}
+
+TEST(Blindness, permuting_the_masses_in_c1_leaves_every_answer_unchanged) {
+  const Protocol protocol = small_protocol();
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    std::vector<double> masses_g{15, 200, 800};
+    const Answer first = sort_cubes(protocol, Condition::C1, masses_g, seed);
+    while (std::ranges::next_permutation(masses_g).found)
+      EXPECT_EQ(sort_cubes(protocol, Condition::C1, masses_g, seed), first) << "seed " << seed;
+  }
+}
+
+TEST(Blindness, hiding_the_clone_drops_c2_sorting_to_chance) {
+  const Protocol protocol = small_protocol();
+  constexpr int n = 120;
+  int n_right = 0, n_right_hidden = 0, n_answered_hidden = 0;
+  for (std::uint64_t seed = 0; seed < n; ++seed) {
+    std::vector<double> masses_g{15, 200, 800};
+    RandomStream(seed, "order").shuffle(std::span(masses_g));
+    n_right += sort_cubes(protocol, Condition::C2, masses_g, seed).outcome == Outcome::correct;
+    const Outcome hidden =
+        sort_cubes(protocol, Condition::C2, masses_g, seed, [](DisplayedFrame& frame) {
+          frame.clone.reset();
+        }).outcome;
+    n_right_hidden += hidden == Outcome::correct;
+    n_answered_hidden += hidden != Outcome::dont_know;
+  }
+  EXPECT_GT(n_right, n * 3 / 4);
+  // Of answered trials one in six by chance: within four standard errors.
+  ASSERT_GT(n_answered_hidden, 20);
+  const double chance = 1.0 / 6;
+  EXPECT_NEAR(n_right_hidden, n_answered_hidden * chance,
+              4 * std::sqrt(n_answered_hidden * chance * (1 - chance)));
+}
+
+TEST(Blindness, halving_the_display_rate_changes_what_is_perceived) {
+  Protocol protocol = small_protocol();
+  int n_changed = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    protocol.display_rate_hz = 15;
+    const Answer at_15 = sort_cubes(protocol, Condition::C2, {15, 200, 800}, seed);
+    protocol.display_rate_hz = 7.5;
+    n_changed += !(sort_cubes(protocol, Condition::C2, {15, 200, 800}, seed) == at_15);
+  }
+  EXPECT_GT(n_changed, 5);
+}
+
+}  // namespace
+}  // namespace heft
