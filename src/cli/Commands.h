@@ -4,6 +4,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
 
 namespace heft::cli {
 
@@ -21,5 +23,8 @@ void add_validate(CLI::App& app);
 /// Adds a subcommand whose --help ends with examples, a line each.
 CLI::App* add_command(CLI::App& app, const char* name, const char* summary,
                       std::initializer_list<const char*> examples);
+
+/// Adds --seed N.
+void add_seed(CLI::App* command, std::optional<std::uint64_t>& seed);
 
 }  // namespace heft::cli

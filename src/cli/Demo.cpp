@@ -74,10 +74,7 @@ void add_demo(CLI::App& app) {
       {"heft demo", "heft demo --seed 42 --out trial-run"});
   command->add_option("--out", options->out, "folder for the log and the report")
       ->capture_default_str();
-  command
-      ->add_option("--seed", options->seed,
-                   "0...2^63-1; without it a fresh one is drawn, printed and logged")
-      ->check(CLI::Range(std::uint64_t{0}, (std::uint64_t{1} << 63) - 1));
+  add_seed(command, options->seed);
   command->callback([options] { demo(*options); });
 }
 

@@ -19,7 +19,7 @@ void converse(const std::string& file) {
 
 void add_procedure(CLI::App& app) {
   CLI::App* command = add_command(
-      app, "procedure", "Drive adaptive procedures over JSON lines on stdin and stdout",
+      app, "procedure", "drive adaptive procedures over JSON lines on stdin and stdout",
       {"heft procedure staircases.toml", "",
        "A session (> is written by heft, < is your program's answer, a line a trial):",
        R"(  > {"event":"trial","trial":1,"staircase":"15g","level":175})",

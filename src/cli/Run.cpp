@@ -66,10 +66,7 @@ void add_run(CLI::App& app) {
       ->required();
   command->add_option("--db", options->db, "the log; an existing one gets one more session")
       ->capture_default_str();
-  command
-      ->add_option("--seed", options->seed,
-                   "0...2^63-1; without it a fresh one is drawn, printed and logged")
-      ->check(CLI::Range(std::uint64_t{0}, (std::uint64_t{1} << 63) - 1));
+  add_seed(command, options->seed);
   command
       ->add_option("--responder", options->responder,
                    "human, or a model: NAME or NAME:FILE (heft doctor lists them)")

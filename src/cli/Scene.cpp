@@ -80,7 +80,7 @@ void run_scene(const Options& options) {
 
 void add_scene(CLI::App& app) {
   CLI::App* command = add_command(
-      app, "scene", "Physics alone: effector poses in, clone and cube poses out, as CSV",
+      app, "scene", "physics alone: effector poses in, clone and cube poses out, as CSV",
       {"heft scene tests/scenes/push_200g.toml --trajectory tests/scenes/push.csv > out.csv",
        "heft scene SCENE.toml --trajectory T.csv --simulator bullet-ea --rate 60"});
   const auto options = std::make_shared<Options>();

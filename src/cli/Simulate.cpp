@@ -83,10 +83,7 @@ void add_simulate(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
   command->add_option("--db", options->db, "the log; an existing one gets more sessions")
       ->capture_default_str();
-  command
-      ->add_option("--seed", options->seed,
-                   "0...2^63-1; without it a fresh one is drawn, printed and logged")
-      ->check(CLI::Range(std::uint64_t{0}, (std::uint64_t{1} << 63) - 1));
+  add_seed(command, options->seed);
   command->add_option("--simulator", options->simulator, "instead of the protocol's");
   command->add_flag("--frames", options->frames,
                     "store every displayed picture too (about 10 MB a session)");

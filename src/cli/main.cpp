@@ -15,6 +15,13 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* summary,
   return command;
 }
 
+void add_seed(CLI::App* command, std::optional<std::uint64_t>& seed) {
+  command
+      ->add_option("--seed", seed,
+                   "0...2^63-1; without it a fresh one is drawn, printed and logged")
+      ->check(CLI::Range(std::uint64_t{0}, (std::uint64_t{1} << 63) - 1));
+}
+
 }  // namespace heft::cli
 
 int main(int argc, char** argv) {
