@@ -50,7 +50,7 @@ Projection fold_session(std::shared_ptr<const Protocol> protocol, std::uint64_t 
       if (logged.event.kind == EventKind::trial_started)
         attempt.first_plan = plan;
       else
-        attempt.events.push_back({projection.n_events, logged.event, plan});
+        attempt.events.push_back({projection.n_events, projection.last_s, logged.event, plan});
     }
     ++projection.n_events;
     projection.last_s = logged.event.t_s;

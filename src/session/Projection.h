@@ -17,6 +17,7 @@ namespace heft {
 /// One event of an attempt, with how many events of the session came before it.
 struct AttemptEvent {
   int before = 0;
+  double previous_s = 0;  ///< time of the event before it
   Event event;
   TrialPlan plan_after;  ///< as presented after it
 };

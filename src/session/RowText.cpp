@@ -48,6 +48,7 @@ RowText text_of(const TrialRow& row) {
            {"level_g", text(plan.level_g)},
            {"is_catch", text(plan.is_catch)},
            {"reference_slot", text(plan.reference_slot)},
+           {"n_reshuffles", text(plan.n_reshuffles)},
            {"status", text(row.status)},
            {"void_reason", text(row.void_reason)},
            {"outcome", text(row.outcome)},
@@ -112,6 +113,12 @@ RowText text_of(const EstimateRow& row) {
            {"n_floor", text(row.n_floor)},
            {"n_ceiling", text(row.n_ceiling)},
            {"reason", text(row.reason)}}};
+}
+
+std::string text_of(const Event& event) {
+  return fmt::format("{} {} slot {} label {} at {} s, value {}", name_of(event.kind),
+                     text(event.detail), text(event.slot), text(event.label), event.t_s,
+                     text(event.value));
 }
 
 }  // namespace heft

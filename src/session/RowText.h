@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiment/Event.h"
 #include "experiment/Rows.h"
 
 namespace heft {
@@ -24,5 +25,8 @@ RowText text_of(const AnswerRow& row,
                 int number);  ///< number: of the answer in the session, from 1
 RowText text_of(const ReversalRow& row);
 RowText text_of(const EstimateRow& row);
+
+/// An event in a line.
+std::string text_of(const Event& event);
 
 }  // namespace heft

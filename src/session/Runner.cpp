@@ -92,6 +92,7 @@ bool Runner::wait_for_camera(const Picture& picture) {
   if (!trouble_since_s_) {
     trouble_since_s_ = now_s_;
     emit_now(EventKind::paused, picture.trouble);
+    parts_.sink.flush();
   } else if (picture.trouble.empty()) {
     trouble_since_s_.reset();
     emit_now(EventKind::continued);
@@ -99,6 +100,10 @@ bool Runner::wait_for_camera(const Picture& picture) {
   }
   if (open && now_s_ - *trouble_since_s_ > parts_.engine.protocol().void_after_s)
     emit_now(EventKind::voided, picture.trouble);
+  DisplayedFrame nothing;
+  nothing.t_s = picture.sample.t_capture_s;
+  nothing.tracked = false;
+  parts_.view.present(nothing, parts_.engine.screen(), now_s_);
   return !parts_.engine.needs_somebody();
 }
 
@@ -145,7 +150,8 @@ void Runner::take_actions(const ShownPicture& shown) {
 
 void Runner::take_action(const Action& action) {
   Event event;
-  event.t_s = std::max(now_s_, attempt_start_s_ + log_time(action.t_s));
+  // A touch keeps its own time, which may lie before the newest picture's, but not before an event.
+  event.t_s = std::max(attempt_start_s_ + log_time(action.t_s), parts_.engine.last_s());
   event.kind = EventKind::action;
   event.detail = name_of(action.kind);
   event.slot = action.slot;
@@ -163,7 +169,6 @@ void Runner::take_action(const Action& action) {
       ended.t_s += attempt_start_s_;
       emit(ended, Durability::buffered);
     }
-  now_s_ = event.t_s;
   emit(event, Durability::acknowledged);
   const Next& after = parts_.engine.next();
   if (after.kind == Next::Kind::act && after.plan->n_reshuffles > before.n_reshuffles)

@@ -1,0 +1,102 @@
+// Sessions that were run in memory, stored, and verified.
+#include "session/Replay.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "base/Build.h"
+#include "record/SessionArchive.h"
+#include "session/RunOptions.h"
+#include "session/Runner.h"
+
+namespace heft {
+namespace {
+
+// Pushes the middle of the row to and fro, and answers in every trial `delay_s` after a picture.
+class LateAnswers final : public Responder {
+ public:
+  explicit LateAnswers(double delay_s) : delay_s_(delay_s) {}
+  void begin_trial(const TrialView& trial) override { task_ = trial.task; }
+  HandSample hand(double t_s) override {
+    const double y_m = -0.15 + 0.09 * (1 - std::cos(2 * t_s));
+    return {upright_pose({-0.04, y_m, 0.025}, std::numbers::pi / 2), true};
+  }
+  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+    const double t_s = frame.t_s + delay_s_;
+    if (frame.cubes.empty() || frame.t_s < 2) return {};
+    switch (task_) {
+      case Task::introduction:
+        return {{t_s, ActionKind::select, 1 + screen.n_choices % 2, {}}};
+      case Task::sorting:
+        if (frame.t_s > 9) return {{t_s, ActionKind::dont_know, {}, {}}};
+        return {{t_s, ActionKind::label, 1, static_cast<Label>(screen.n_choices % 3)}};
+      case Task::comparison:
+        return {{t_s, ActionKind::no_difference, {}, {}}};
+    }
+    return {};
+  }
+  bool has_more(double) const override { return true; }
+
+ private:
+  double delay_s_;
+  Task task_ = Task::sorting;
+};
+
+class Replay : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
+    path = std::filesystem::temp_directory_path() /
+           ("heft-replay-" + std::to_string(::getpid()) + ".db");
+  }
+  void TearDown() override {
+    for (const char* end : {"", "-wal", "-shm", "-lock"})
+      std::filesystem::remove(path.string() + end);
+  }
+
+  Verification run_and_verify(Responder& responder) {
+    SessionHeader header;
+    header.participant = "1";
+    header.protocol_name = protocol.name;
+    header.protocol_text = protocol.text;
+    header.protocol_sha256 = protocol.sha256;
+    header.seed = 5;
+    header.heft_version = "test";
+    header.build = build_name();
+    RunOptions options;
+    options.tracker = "camera:0";  // whose pictures and touches keep no common beat
+    header.run_options = to_json(options);
+    header.purpose = "test";
+    header.responder = "late";
+    header.started_utc = utc_now();
+    RecordedSession recorded(header);
+    Engine engine(std::make_shared<const Protocol>(protocol), header.seed);
+    HandPictures pictures(responder, protocol.display_rate_hz);
+    const auto view = make_view("headless");
+    Runner({engine, recorded, pictures, responder, *view}, {}, 0).run();
+    const std::int64_t id = SessionArchive(path.string()).store(recorded);
+    return verify_session(LogReader(path.string()), id, [](double) {});
+  }
+
+  Protocol protocol;
+  std::filesystem::path path;
+};
+
+TEST_F(Replay, answers_later_than_the_next_pictures_are_replayed_exactly) {
+  for (double delay_s : {0.0, 0.05, 0.07, 0.2}) {
+    LateAnswers responder(delay_s);
+    const Verification found = run_and_verify(responder);
+    EXPECT_GT(found.n_pictures, 100);
+    EXPECT_TRUE(found.same_build);
+    EXPECT_FALSE(found.first) << delay_s << " s: " << found.first->what << ", logged "
+                              << found.first->logged << ", came out " << found.first->came_out;
+    TearDown();
+  }
+}
+
+}  // namespace
+}  // namespace heft
