@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 
 namespace heft {
 
@@ -13,7 +14,7 @@ namespace {
 std::string some_of(const std::vector<std::string>& names) {
   constexpr std::size_t most = 8;
   const std::size_t shown = std::min(most, names.size());
-  std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + shown, ", "));
+  std::string text = fmt::format("{}", fmt::join(std::span(names).first(shown), ", "));
   if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
   return text;
 }
