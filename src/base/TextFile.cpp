@@ -23,7 +23,8 @@ std::string_view trimmed(std::string_view text) {
 }  // namespace
 
 std::string read_text_file(const std::string& path) {
-  if (std::filesystem::is_directory(path))
+  std::error_code unknown;  // what can't be looked at is explained when it is opened
+  if (std::filesystem::is_directory(path, unknown))
     throw Error(fmt::format("can't read {}: it is a folder, expected a file", path));
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(fmt::format("can't read {}: {}", path, std::strerror(errno)));
@@ -33,6 +34,8 @@ std::string read_text_file(const std::string& path) {
 }
 
 std::vector<std::string_view> lines_of(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as spreadsheets put it in front
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   std::vector<std::string_view> lines;
   while (!text.empty()) {
     const auto end = text.find('\n');

@@ -11,7 +11,8 @@ namespace heft {
 /// @throws Error naming the file and the system's reason
 std::string read_text_file(const std::string& path);
 
-/// Lines without their line ends (LF or CRLF); no empty last line.
+/// Lines without their line ends (LF or CRLF) and without a UTF-8 byte-order mark; no empty last
+/// line.
 std::vector<std::string_view> lines_of(std::string_view text);
 
 /// Cells of a line without quotes, spaces around them removed.

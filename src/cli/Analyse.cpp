@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +11,11 @@
 #include "analysis/Summary.h"
 #include "analysis/Tables.h"
 #include "cli/Commands.h"
+#include "cli/MissingCharts.h"
+#include "cli/Output.h"
+#include "cli/Talk.h"
+#include "cli/WholeNumber.h"
+#include "session/Session.h"
 
 namespace heft::cli {
 
@@ -43,24 +47,21 @@ std::string command_of(const Options& options) {
 
 void report(const Summary& summary, const std::string& folder) {
   const ReportResult result = write_report(summary, folder);
-  fmt::print(stderr, "\n{} files in {}; open {}/report.html\n", result.files.size(), folder,
-             folder);
-  if (!result.charts_drawn)
-    fmt::print(stderr,
-               "No charts: gnuplot is not installed (sudo apt-get install gnuplot-nox). The .gp "
-               "files there draw them later: gnuplot NAME.gp\n");
+  say("\n{} files in {}; open {}/report.html\n", result.files.size(), folder, folder);
+  explain_missing_charts(result, folder);
 }
 
 void analyse(const Options& options) {
+  refuse_special_file(options.database);
   if (!options.out.empty()) refuse_foreign_folder(options.out);
   const Summary summary =
       analyze({options.database, options.sessions, options.mix, command_of(options)});
   fmt::print("{}", options.json ? as_json(summary) : readable(summary));
-  std::fflush(stdout);  // the talk below comes after it, wherever both go
+  flush_output();
   if (!options.out.empty())
     report(summary, options.out);
   else if (!options.json && !summary.sessions.empty())
-    fmt::print(stderr, "\nCharts and the report: {} --out DIR\n", command_of(options));
+    say("\nCharts and the report: {} --out DIR\n", command_of(options));
 }
 }  // namespace
 
@@ -73,7 +74,8 @@ void add_analyse(CLI::App& app) {
   command->add_option("--db", options->database, "the log")->capture_default_str();
   command->add_option("--out", options->out,
                       "a new or empty folder for CSV, charts, summary.json and report.html");
-  command->add_option("--session", options->sessions, "only these sessions (default: all)");
+  command->add_option("--session", options->sessions, "only these sessions (default: all)")
+      ->check(session_number());
   command->add_flag("--json", options->json, "JSON on stdout instead of tables");
   command->add_flag("--mix", options->mix,
                     "put sessions of several purposes (main, pilot, test, simulated) together");

@@ -10,7 +10,10 @@
 #include "analysis/Tables.h"
 #include "cli/Commands.h"
 #include "cli/Installation.h"
+#include "cli/MissingCharts.h"
+#include "cli/Output.h"
 #include "cli/SessionCommand.h"
+#include "cli/Talk.h"
 
 namespace heft::cli {
 
@@ -36,11 +39,10 @@ void demo(const Options& options) {
   std::filesystem::create_directories(options.out);
   const SessionRequest request = demo_session(options);
   const auto started = std::chrono::steady_clock::now();
-  fmt::print(stderr,
-             "The paper's session (demonstration, introduction, 10 sorting trials, three "
-             "interleaved staircases)\nwith a simulated participant, rigid-body physics and a "
-             "complete log; seed {}.\n",
-             request.seed);
+  say("The paper's session (demonstration, introduction, 10 sorting trials, three "
+      "interleaved staircases)\nwith a simulated participant, rigid-body physics and a "
+      "complete log; seed {}.\n",
+      request.seed);
   const SessionResult result =
       run_session(request.protocol, request.db,
                   [&](const RunnerOptions& runner) { return start_session(request, runner); });
@@ -53,10 +55,9 @@ void demo(const Options& options) {
                                    fmt::format("heft analyse --db {} --session {} --out {}",
                                                request.db, result.session_id, report)});
   fmt::print("{}", readable(summary));
-  write_report(summary, report);
-  fmt::print(
-      stderr,
-      "\n{} trials, {:.0f} minutes of session time, in {:.1f} s.\n"
+  flush_output();
+  explain_missing_charts(write_report(summary, report), report);
+  say("\n{} trials, {:.0f} minutes of session time, in {:.1f} s.\n"
       "The log:     {}\n"
       "The report:  {}/report.html\n"
       "Check it:    ./heft replay --db {} --session {}\n"

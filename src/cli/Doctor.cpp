@@ -21,6 +21,7 @@
 #include "physics/DecouplingSimulator.h"
 #include "record/Integrity.h"
 #include "responders/Responder.h"
+#include "session/Session.h"
 #include "view/ArView.h"
 
 namespace heft::cli {
@@ -147,6 +148,7 @@ void list_plugs() {
 }
 
 void diagnose(const std::string& db) {
+  refuse_special_file(db);
   Report report;
   report.line(Verdict::ok, "program", fmt::format("heft {}, {}", HEFT_VERSION, build_name()));
   check_packages(report);

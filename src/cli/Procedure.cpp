@@ -37,7 +37,7 @@ void add_procedure(CLI::App& app) {
        R"(Input it can't use is answered by {"event":"error","line":N,"message":...}; the trial)",
        "stays open. It ends, with exit code 0, when all staircases are done or its input ends."});
   const auto file = std::make_shared<std::string>();
-  command->add_option("file", *file, "procedure file (TOML): seed, interleave, [[staircase]]...")
+  command->add_option("FILE", *file, "procedure file (TOML): seed, interleave, [[staircase]]...")
       ->required();
   command->callback([file] { converse(*file); });
 }

@@ -1,9 +1,10 @@
 #include "cli/Progress.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+
+#include "cli/Talk.h"
 
 namespace heft::cli {
 
@@ -11,7 +12,7 @@ ProgressBar::ProgressBar(std::string label)
     : label_(std::move(label)), shown_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
-  if (shown_) fmt::print(stderr, "\r\033[K");
+  if (shown_) say("\r\033[K");
 }
 
 void ProgressBar::update(double share, const std::string& text) {
@@ -20,8 +21,7 @@ void ProgressBar::update(double share, const std::string& text) {
   if (!shown_ || now - drawn_ < std::chrono::milliseconds(100)) return;
   drawn_ = now;
   const int filled = static_cast<int>(width * std::clamp(share, 0.0, 1.0));
-  fmt::print(stderr, "\r\033[K{} [{:=<{}}{:{}}] {}", label_, "", filled, "", width - filled, text);
-  std::fflush(stderr);
+  say("\r\033[K{} [{:=<{}}{:{}}] {}", label_, "", filled, "", width - filled, text);
 }
 
 }  // namespace heft::cli

@@ -9,6 +9,8 @@
 #include "cli/Commands.h"
 #include "cli/Progress.h"
 #include "cli/StopOnSignal.h"
+#include "cli/Talk.h"
+#include "cli/WholeNumber.h"
 #include "session/Simulation.h"
 
 namespace heft::cli {
@@ -34,15 +36,20 @@ void simulate_participants(const Options& options) {
   request.participants = options.participants;
   request.jobs = options.jobs;
   request.keep_frames = options.frames;
-  fmt::print(stderr, "{} participants, protocol {}, responder {}, seed {}\n", request.participants,
-             request.protocol.name, request.options.responder, request.seed);
+  say("{} participants, protocol {}, responder {}, seed {}\n", request.participants,
+      request.protocol.name, request.options.responder, request.seed);
 
   const StopOnSignal stop;
   const auto started = std::chrono::steady_clock::now();
   int stored = 0;
   {
     ProgressBar bar("simulating");
-    bar.update(0, "");
+    request.numbered = [&](int first) {
+      if (first > 1)
+        say("{} holds participants up to {} of this protocol already; going on with {}\n",
+            request.db, simulated_participant(first - 1), simulated_participant(first));
+      bar.update(0, "");
+    };
     stored = simulate(
         request,
         [&](int n) {
@@ -52,13 +59,12 @@ void simulate_participants(const Options& options) {
         stop.requested());
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
-  fmt::print(stderr, "{} participants in {:.1f} s: {:.1f} participants a minute with {} job{}\n",
-             stored, elapsed.count(), 60 * stored / elapsed.count(), request.jobs,
-             request.jobs == 1 ? "" : "s");
+  say("{} participants in {:.1f} s: {:.1f} participants a minute with {} job{}\n", stored,
+      elapsed.count(), 60 * stored / elapsed.count(), request.jobs, request.jobs == 1 ? "" : "s");
   if (stored < request.participants)
     throw Error(fmt::format("stopped; {} participants are stored in {}", stored, request.db),
                 ExitCode::interrupted);
-  fmt::print(stderr, "what was found: heft analyse --db {}\n", request.db);
+  say("what was found: heft analyse --db {}\n", request.db);
 }
 
 }  // namespace
@@ -75,12 +81,12 @@ void add_simulate(CLI::App& app) {
       ->add_option("--responder", options->responder, "NAME or NAME:FILE (heft doctor lists them)")
       ->capture_default_str();
   command->add_option("--participants", options->participants, "how many")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1, 1'000'000))
       ->capture_default_str();
   command
       ->add_option("--jobs", options->jobs,
                    "threads; any number gives the same data (default: one a core)")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole_number(1, 1024));
   command->add_option("--db", options->db, "the log; an existing one gets more sessions")
       ->capture_default_str();
   add_seed(command, options->seed);

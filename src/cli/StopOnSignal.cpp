@@ -5,6 +5,8 @@
 namespace heft::cli {
 
 namespace {
+constexpr std::array stopping_signals{SIGINT, SIGTERM, SIGHUP};
+
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
@@ -13,13 +15,16 @@ void request_stop(int) {
 }
 }  // namespace
 
-StopOnSignal::StopOnSignal()
-    : interrupt_(std::signal(SIGINT, request_stop)),
-      terminate_(std::signal(SIGTERM, request_stop)) {}
+StopOnSignal::StopOnSignal() {
+  for (std::size_t i = 0; i < stopping_signals.size(); ++i) {
+    before_[i] = std::signal(stopping_signals[i], request_stop);
+    if (stopping_signals[i] == SIGHUP && before_[i] == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  }
+}
 
 StopOnSignal::~StopOnSignal() {
-  std::signal(SIGINT, interrupt_);
-  std::signal(SIGTERM, terminate_);
+  for (std::size_t i = 0; i < stopping_signals.size(); ++i)
+    std::signal(stopping_signals[i], before_[i]);
 }
 
 const std::atomic<bool>& StopOnSignal::requested() const {

@@ -1,11 +1,13 @@
-// Ctrl-C and a polite kill as a flag that long work looks at.
+// Ctrl-C, a polite kill and a closed terminal as a flag that long work looks at.
 #pragma once
 
+#include <array>
 #include <atomic>
 
 namespace heft::cli {
 
-/// While one of these lives, SIGINT and SIGTERM set the flag instead of ending the program.
+/// While one of these lives, SIGINT, SIGTERM and SIGHUP set the flag instead of ending the program.
+/// A SIGHUP that was ignored (nohup) stays ignored.
 class StopOnSignal {
  public:
   StopOnSignal();
@@ -16,8 +18,7 @@ class StopOnSignal {
   const std::atomic<bool>& requested() const;
 
  private:
-  void (*interrupt_)(int);
-  void (*terminate_)(int);
+  std::array<void (*)(int), 3> before_{};
 };
 
 }  // namespace heft::cli

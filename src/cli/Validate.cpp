@@ -8,6 +8,7 @@
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
+#include "cli/Talk.h"
 #include "protocol/ExpectedLength.h"
 #include "protocol/FileKind.h"
 #include "protocol/ProcedureFile.h"
@@ -49,12 +50,12 @@ ExitCode validate(const std::string& path) {
       const std::string summary = checked(kind, text, path);
       fmt::print("{}: ok, a {}: {}\n", path, name_of(kind), summary);
     } catch (const InvalidFile& error) {
-      fmt::print(stderr, "{}\n{}: not valid as a {}: {} mistake(s)\n", error.what(), path,
-                 name_of(kind), error.mistakes().size());
+      say("{}\n{}: not valid as a {}: {} mistake(s)\n", error.what(), path, name_of(kind),
+          error.mistakes().size());
       return error.exit_code();
     }
   } catch (const Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    say("{}\n", error.what());
     return error.exit_code();
   }
   return ExitCode::ok;

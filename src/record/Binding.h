@@ -1,4 +1,5 @@
-// Values into a prepared statement's places, in order, bit for bit. Private to this room.
+// Values into a prepared statement's places, in order, bit for bit, and into the row's digest where
+// it has one. Private to this room.
 #pragma once
 
 #include <SQLiteCpp/Statement.h>
@@ -14,6 +15,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/Pose.h"
+#include "record/RowDigest.h"
 
 namespace heft {
 
@@ -27,19 +29,39 @@ class Binding {
   /// Ready for the next row, whatever became of this one.
   ~Binding() { statement_.tryReset(); }
 
-  template <std::integral Integer>
-  Binding& operator<<(Integer value) {
-    statement_.bind(++place_, static_cast<std::int64_t>(value));
+  /// From here on every value enters this digest too.
+  Binding& also_into(RowDigest& digest) {
+    digest_ = &digest;
     return *this;
   }
-  Binding& operator<<(double value) {
+
+  template <std::integral Integer>
+  Binding& operator<<(Integer value) {
+    const auto written = static_cast<std::int64_t>(value);
+    statement_.bind(++place_, written);
+    if (digest_) digest_->integer(written);
+    return *this;
+  }
+  /// Into a REAL column, which keeps -0.0 as 0.0.
+  Binding& operator<<(double value) { return exactly(value + 0.0); }
+  /// Into an ANY column, which keeps every bit.
+  Binding& exactly(double value) {
     // SQLite would turn it into NULL without a word.
     if (std::isnan(value)) throw Error("a value of its row is not a number (NaN)");
     statement_.bind(++place_, value);
+    if (digest_) digest_->real(value);
     return *this;
+  }
+  Binding& exactly(const Eigen::Vector3d& value) {
+    return exactly(value.x()).exactly(value.y()).exactly(value.z());
+  }
+  Binding& exactly(const Pose& pose) {
+    const Eigen::Quaterniond& q = pose.orientation;
+    return exactly(pose.position_m).exactly(q.w()).exactly(q.x()).exactly(q.y()).exactly(q.z());
   }
   Binding& operator<<(const std::string& value) {
     statement_.bind(++place_, value);
+    if (digest_) digest_->text(value);
     return *this;
   }
   template <typename Enum>
@@ -59,17 +81,28 @@ class Binding {
     return *this << pose.position_m << q.w() << q.x() << q.y() << q.z();
   }
   Binding& null(int columns = 1) {
-    for (int i = 0; i < columns; ++i) statement_.bind(++place_);
+    for (int i = 0; i < columns; ++i) {
+      statement_.bind(++place_);
+      if (digest_) digest_->null();
+    }
     return *this;
   }
 
   void run() { statement_.exec(); }
+  /// With what went also_into() the digest as the last value. @return the digest
+  std::string run_with_digest() {
+    std::string digest = digest_->value();
+    *this << digest;
+    run();
+    return digest;
+  }
   /// True when there is a row.
   bool step() { return statement_.executeStep(); }
 
  private:
   SQLite::Statement& statement_;
   int place_ = 0;
+  RowDigest* digest_ = nullptr;
 };
 
 /// Executes a statement that gives no rows, with these values in its places.

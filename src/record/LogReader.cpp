@@ -5,8 +5,10 @@
 
 #include "base/Error.h"
 #include "record/Binding.h"
+#include "record/DigestCheck.h"
 #include "record/LogFile.h"
 #include "record/ReadOnlyDatabase.h"
+#include "record/RowQueries.h"
 #include "record/RowsFromCells.h"
 #include "record/Schema.h"
 #include "record/SqliteError.h"
@@ -45,9 +47,14 @@ class LogReader::Impl {
     }
     return found;
   } catch (const SQLite::Exception& error) {
-    const SqliteFailure failure = explained(error, database_.get());
-    throw Error(fmt::format("can't read table {} of {}: {}. {}.", table, path_, failure.reason,
-                            failure.advice));
+    refuse_damaged(fmt::format("table {}", table), error);
+  }
+
+  std::optional<BrokenDigest> first_broken_digest(std::int64_t session_id) const try {
+    if (!has_tables_) refuse_unknown(session_id);
+    return DigestCheck(*database_, path_, session_id).first_broken();
+  } catch (const SQLite::Exception& error) {
+    refuse_damaged("the digests", error);
   }
 
   std::vector<SessionRow> sessions(const std::string& condition) const {
@@ -65,43 +72,25 @@ class LogReader::Impl {
   }
 
   static std::string session_sql(const std::string& condition) {
-    return fmt::format("SELECT session_id, {} FROM session WHERE {} ORDER BY session_id",
-                       schema::session_columns, condition);
+    return fmt::format("SELECT session_id, {}, state FROM session WHERE {} ORDER BY session_id",
+                       schema::header_columns, condition);
   }
 
-  const std::string& path() const { return path_; }
+  [[noreturn]] void refuse_unknown(std::int64_t session_id) const {
+    throw Error(fmt::format("{} holds no session {}", path_, session_id));
+  }
 
  private:
+  [[noreturn]] void refuse_damaged(const std::string& part, const SQLite::Exception& error) const {
+    const SqliteFailure failure = explained(error, database_.get());
+    throw Error(
+        fmt::format("can't read {} of {}: {}. {}.", part, path_, failure.reason, failure.advice));
+  }
+
   std::string path_;
   std::unique_ptr<SQLite::Database> database_;
   bool has_tables_ = false;
 };
-
-namespace {
-// The attempt of a row that names its trial: 0 where it names none, a text (which Cells refuses)
-// where its session has no such trial.
-std::string attempt_of(std::string_view table) {
-  return fmt::format(
-      "CASE WHEN trial_id IS NULL THEN 0 ELSE ifnull((SELECT attempt_index FROM trial WHERE "
-      "trial.trial_id = {}.trial_id AND trial.session_id = ?1), 'trial ' || trial_id || ', which "
-      "is not in this session') END AS trial_id",
-      table);
-}
-
-// Rows that carry the session's id themselves.
-std::string in_session(std::string_view table, std::string_view id, std::string_view columns) {
-  return fmt::format("SELECT {}, {}, {} FROM {} WHERE session_id = ?1 ORDER BY {}", id,
-                     attempt_of(table), columns, table, id);
-}
-
-// Rows that belong to a session through their trial.
-std::string in_trials(std::string_view table, std::string_view id, std::string_view columns) {
-  return fmt::format(
-      "SELECT {}, {}, {} FROM {} WHERE trial_id IN (SELECT trial_id FROM trial WHERE session_id = "
-      "?1) ORDER BY {}",
-      id, attempt_of(table), columns, table, id);
-}
-}  // namespace
 
 LogReader::LogReader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
 LogReader::LogReader(LogReader&&) noexcept = default;
@@ -115,7 +104,7 @@ std::vector<SessionRow> LogReader::sessions() const {
 SessionRow LogReader::session(std::int64_t session_id) const {
   const auto found = impl_->with_participant_info(
       impl_->rows(session_from, "session", Impl::session_sql("session_id = ?1"), session_id));
-  if (found.empty()) throw Error(fmt::format("{} holds no session {}", impl_->path(), session_id));
+  if (found.empty()) impl_->refuse_unknown(session_id);
   return found.front();
 }
 
@@ -183,6 +172,10 @@ std::vector<FrameRow> LogReader::frames(std::int64_t session_id, int attempt_ind
                   "ORDER BY frame_id",
                   schema::frame_columns, of_attempt),
       session_id, attempt_index);
+}
+
+std::optional<BrokenDigest> LogReader::first_broken_digest(std::int64_t session_id) const {
+  return impl_->first_broken_digest(session_id);
 }
 
 }  // namespace heft

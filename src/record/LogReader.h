@@ -9,6 +9,7 @@
 
 #include "experiment/Event.h"
 #include "experiment/Rows.h"
+#include "record/BrokenDigest.h"
 #include "record/SessionHeader.h"
 
 namespace heft {
@@ -59,6 +60,14 @@ class LogReader {
   std::vector<EstimateRow> estimates(std::int64_t session_id) const;
   /// @param attempt_index 0: the pictures outside of trials
   std::vector<FrameRow> frames(std::int64_t session_id, int attempt_index) const;
+
+  /// Whether the session's header, events and pictures are as they were written: no column changed,
+  /// no row taken out, put in or swapped. The header comes first, then the earliest row by t_s. A
+  /// row that can't be one of ours is found, not thrown. Not seen: rows cut off at the end of the
+  /// events or of an attempt's pictures, the session's state (the events tell it), participant_info
+  /// (which may be deleted on request), and a forger who computes all later digests anew.
+  /// @throws Error when there is no such session, or pages of the file are damaged
+  std::optional<BrokenDigest> first_broken_digest(std::int64_t session_id) const;
 
  private:
   class Impl;

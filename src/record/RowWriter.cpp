@@ -16,12 +16,18 @@ std::string keyed_insert(std::string_view table, std::string_view keys, std::str
   return schema::insert_sql(table, fmt::format("{}, {}", keys, columns));
 }
 
+// The row's digest is bound last.
+std::string digested_insert(std::string_view table, std::string_view keys,
+                            std::string_view columns) {
+  return keyed_insert(table, keys, fmt::format("{}, digest", columns));
+}
+
 std::optional<std::string> if_any(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(text);
 }
 }  // namespace
 
-RowWriter::RowWriter(SQLite::Database& database) : database_(database) {}
+RowWriter::RowWriter(SQLite::Database& database) : database_(database), chain_(database) {}
 RowWriter::RowWriter(RowWriter&&) noexcept = default;
 RowWriter::~RowWriter() = default;
 
@@ -32,10 +38,14 @@ SQLite::Statement& RowWriter::statement(const std::string& sql) {
 }
 
 std::int64_t RowWriter::write_session(const SessionHeader& header) {
-  static const std::string sql = schema::insert_sql("session", schema::session_columns);
-  run(statement(sql), header.participant, header.protocol_name, header.protocol_text,
-      header.protocol_sha256, header.seed, header.heft_version, header.build, header.run_options,
-      header.started_utc, SessionState::running, header.purpose, header.responder);
+  static const std::string sql = digested_insert("session", "state", schema::header_columns);
+  digest_.begin("session", "");
+  Binding row(statement(sql), SessionState::running);
+  row.also_into(digest_) << header.participant << header.protocol_name << header.protocol_text
+                         << header.protocol_sha256 << header.seed << header.heft_version
+                         << header.build << header.run_options << header.started_utc
+                         << header.purpose << header.responder;
+  row.run_with_digest();
   const std::int64_t session_id = database_.getLastInsertRowid();
   static const std::string info_sql =
       schema::insert_sql("participant_info", "session_id, key, value");
@@ -87,15 +97,23 @@ std::optional<std::int64_t> RowWriter::trial_id_or_none(std::int64_t session_id,
 void RowWriter::write_event(std::int64_t session_id, const RecordedEvent& recorded) {
   const auto& [event, changes] = recorded;
   if (changes.trial) write_trial(session_id, *changes.trial);
-  static const std::string sql =
-      keyed_insert("event", "session_id, trial_id", schema::event_columns);
-  run(statement(sql), session_id, trial_id_or_none(session_id, changes.attempt_index), event.t_s,
-      event.kind, event.slot, event.label, event.detail, event.value);
+  write_event_row(session_id, changes.attempt_index, event);
   for (const CubeRow& cube : changes.cubes) write_cube(session_id, cube);
   for (const AnswerRow& answer : changes.answers) write_answer(session_id, answer);
   for (const ReversalRow& reversal : changes.reversals) write_reversal(session_id, reversal);
   for (const EstimateRow& estimate : changes.estimates) write_estimate(session_id, estimate);
   if (changes.state) write_state(session_id, *changes.state);
+}
+
+void RowWriter::write_event_row(std::int64_t session_id, int attempt_index, const Event& event) {
+  static const std::string sql =
+      digested_insert("event", "session_id, trial_id", schema::event_columns);
+  Binding row(statement(sql), session_id, trial_id_or_none(session_id, attempt_index));
+  digest_.begin("event", chain_.before_event(session_id));
+  digest_.integer(attempt_index);
+  row.also_into(digest_) << event.t_s << event.kind << event.slot << event.label << event.detail
+                         << event.value;
+  chain_.event_written(row.run_with_digest());
 }
 
 void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {
@@ -158,19 +176,23 @@ void RowWriter::write_frame(std::int64_t session_id, const FrameRow& frame) {
     throw Error(fmt::format("it has {} cubes, the log keeps at most {}", frame.cubes.size(),
                             schema::most_cubes));
   static const std::string sql =
-      keyed_insert("frame", "session_id, trial_id", schema::frame_columns);
-  Binding row(statement(sql));
-  row << session_id << trial_id_or_none(session_id, frame.attempt_index) << frame.after_event
-      << frame.t_s << frame.trial_t_s << frame.capture_s << frame.present_s << frame.tracked
-      << frame.jump << frame.contact_slot << frame.quality << frame.state_hash << frame.effector
-      << frame.effector_velocity.linear_m_s << frame.effector_velocity.angular_rad_s;
+      digested_insert("frame", "session_id, trial_id", schema::frame_columns);
+  const auto trial_id = trial_id_or_none(session_id, frame.attempt_index);
+  Binding row(statement(sql), session_id, trial_id);
+  digest_.begin("frame", chain_.before_frame(session_id, trial_id));
+  digest_.integer(frame.attempt_index);
+  row.also_into(digest_) << frame.after_event << frame.t_s << frame.trial_t_s << frame.capture_s
+                         << frame.present_s << frame.tracked << frame.jump << frame.contact_slot
+                         << frame.quality << frame.state_hash;
+  const Velocity& velocity = frame.effector_velocity;
+  row.exactly(frame.effector).exactly(velocity.linear_m_s).exactly(velocity.angular_rad_s);
   if (frame.clone)
     row << *frame.clone;
   else
     row.null(pose_columns);
   for (const Pose& cube : frame.cubes) row << cube;
   row.null(pose_columns * (schema::most_cubes - static_cast<int>(frame.cubes.size())));
-  row.run();
+  chain_.frame_written(row.run_with_digest());
 }
 
 }  // namespace heft

@@ -7,7 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "record/DigestChain.h"
 #include "record/RecordedSession.h"
+#include "record/RowDigest.h"
 
 namespace SQLite {
 class Database;
@@ -34,7 +36,10 @@ class RowWriter {
   std::optional<int> trial_number(std::int64_t session_id, int attempt_index);
 
   /// After a rollback: what was looked up may be gone.
-  void forget() { last_attempt_.reset(); }
+  void forget() {
+    last_attempt_.reset();
+    chain_.forget();
+  }
 
  private:
   struct Attempt {
@@ -50,6 +55,7 @@ class RowWriter {
   std::optional<std::int64_t> trial_id_or_none(std::int64_t session_id, int attempt_index);
 
   void write_event(std::int64_t session_id, const RecordedEvent& recorded);
+  void write_event_row(std::int64_t session_id, int attempt_index, const Event& event);
   void write_frame(std::int64_t session_id, const FrameRow& frame);
   void write_trial(std::int64_t session_id, const TrialRow& trial);
   void write_masses(std::int64_t session_id, const TrialRow& trial);
@@ -62,6 +68,8 @@ class RowWriter {
   SQLite::Database& database_;
   std::map<std::string, std::unique_ptr<SQLite::Statement>> statements_;
   std::optional<Attempt> last_attempt_;
+  DigestChain chain_;
+  RowDigest digest_;  ///< of the row being written
 };
 
 }  // namespace heft

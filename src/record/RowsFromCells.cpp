@@ -17,9 +17,9 @@ SessionRow session_from(Cells& cells) {
   header.build = cells.text();
   header.run_options = cells.text();
   header.started_utc = cells.text();
-  row.state = cells.name<SessionState>();
   header.purpose = cells.text();
   header.responder = cells.text();
+  row.state = cells.name<SessionState>();
   return row;
 }
 

@@ -27,9 +27,9 @@ FileKind kind_of(SQLite::Database& database);
 void migrate(SQLite::Database& database);
 
 // Columns after the keys, in the order in which rows are bound and read.
-inline constexpr std::string_view session_columns =
+inline constexpr std::string_view header_columns =
     "participant, protocol_name, protocol_text, protocol_sha256, seed, heft_version, build, "
-    "run_options, started_utc, state, purpose, responder";
+    "run_options, started_utc, purpose, responder";  ///< state and digest follow
 inline constexpr std::string_view event_columns = "t_s, kind, slot, label, detail, value";
 inline constexpr std::string_view trial_columns =
     "attempt_index, trial_number, attempt, block, task, condition, staircase, reference_g, "

@@ -19,7 +19,8 @@ CREATE TABLE session (
   started_utc TEXT NOT NULL,
   state TEXT NOT NULL CHECK (state IN ('running', 'paused', 'finished', 'aborted')),
   purpose TEXT NOT NULL CHECK (purpose IN ('main', 'pilot', 'test', 'simulated')),
-  responder TEXT NOT NULL
+  responder TEXT NOT NULL,
+  digest TEXT NOT NULL
 ) STRICT;
 
 CREATE TABLE participant_info (
@@ -75,6 +76,7 @@ CREATE TABLE event (
   label TEXT CHECK (label IN ('lightest', 'intermediate', 'heaviest')),
   detail TEXT NOT NULL,
   value REAL,
+  digest TEXT NOT NULL,
   FOREIGN KEY (session_id, trial_id) REFERENCES trial (session_id, trial_id)
 ) STRICT;
 CREATE INDEX event_by_session ON event (session_id);
@@ -155,6 +157,7 @@ CREATE TABLE frame (
   cube2_qw REAL, cube2_qx REAL, cube2_qy REAL, cube2_qz REAL,
   cube3_x_m REAL, cube3_y_m REAL, cube3_z_m REAL,
   cube3_qw REAL, cube3_qx REAL, cube3_qy REAL, cube3_qz REAL,
+  digest TEXT NOT NULL,
   CHECK (
     typeof(effector_x_m) IN ('real', 'integer') AND
     typeof(effector_y_m) IN ('real', 'integer') AND

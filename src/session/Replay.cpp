@@ -21,6 +21,7 @@ class Verifier {
   }
 
   Verification run(const std::function<void(double)>& progress) {
+    std::string unreadable;
     try {
       compare_protocol();
       fold();
@@ -28,8 +29,11 @@ class Verifier {
       compare_state();
       compare_pictures(progress);
     } catch (const Error& error) {  // a row that can't be read is a difference too
-      differ(0, fold_.last_s, "the log", error.what(), "rows that can be read");
+      unreadable = error.what();
     }
+    compare_digests();
+    if (!unreadable.empty() && !result_.first)
+      differ(0, fold_.last_s, "the log", unreadable, "rows that can be read");
     return result_;
   }
 
@@ -111,6 +115,16 @@ class Verifier {
       if (result_.n_pictures > 0 && row.status == TrialStatus::completed)
         differ(index, row.started_s, "its pictures", "none", "at least one");
     }
+  }
+
+  // What can't be folded or simulated again (a note, who took part) is held by its digest. Asked
+  // last: of two differences at one time the more telling one stands.
+  void compare_digests() {
+    const auto broken = reader_.first_broken_digest(session_.session_id);
+    if (!broken) return;
+    differ(broken->attempt_index, broken->t_s, broken->row,
+           broken->damage.empty() ? "digest " + broken->logged : broken->damage,
+           broken->damage.empty() ? "digest " + broken->recomputed : "a row as it was written");
   }
 
   void compare_attempt(int index, const AttemptFold& attempt, const std::vector<FrameRow>& frames) {

@@ -15,9 +15,12 @@ namespace heft {
 namespace {
 
 // A participant's data is never mixed up by a slip: an unfinished session is resumed, a finished
-// one repeated only on purpose.
+// one repeated only on purpose. Of two programs that come through here at once only one gets the
+// log's lock.
 void refuse_repetition(const SessionRequest& request) {
-  if (!std::filesystem::exists(request.db) || std::filesystem::file_size(request.db) == 0) return;
+  refuse_special_file(request.db);
+  std::error_code unknown;  // what can't be looked at is explained when it is opened for writing
+  if (!std::filesystem::exists(request.db, unknown)) return;
   for (const SessionRow& session :
        LogReader(request.db).sessions_of(request.participant, request.protocol.name)) {
     if (is_unfinished(session.state))
@@ -58,11 +61,50 @@ Event plain_event(double t_s, EventKind kind, std::string detail) {
   return event;
 }
 
+// A logged session folded up to its last event, with nobody else writing.
+struct Reopened {
+  explicit Reopened(const LoggedSession& session)
+      : log(SessionLog::reopen(session.db, session.row.session_id)),
+        engine(session.protocol, session.row.header.seed) {
+    for (const LoggedEvent& logged : LogReader(session.db).events(session.row.session_id))
+      engine.apply(logged.event);
+  }
+  void append(const Event& event) { log.append(event, engine.apply(event), Durability::buffered); }
+  void close_attempt(const std::string& why) {
+    if (engine.trial_is_open()) append(plain_event(engine.last_s(), EventKind::voided, why));
+  }
+
+  SessionLog log;
+  Engine engine;
+};
+
+// With the options that were given again when it was resumed before.
+LoggedSession load_unfinished(const LogReader& reader, const std::string& db,
+                              std::int64_t session_id) {
+  LoggedSession session = load_session(reader, db, session_id);
+  for (const LoggedEvent& logged : reader.events(session_id))
+    if (logged.event.kind == EventKind::deviation)
+      apply_deviation(session.options, logged.event.detail);
+  return session;
+}
+
 }  // namespace
 
 std::uint64_t fresh_seed() {
   std::random_device device;
   return ((std::uint64_t{device()} << 32) | device()) >> 1;
+}
+
+void refuse_special_file(const std::string& db) {
+  std::error_code unknown;
+  const auto status = std::filesystem::status(db, unknown);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status) ||
+      std::filesystem::is_directory(status))  // a folder is explained when it is opened
+    return;
+  throw Error(
+      fmt::format("{} is a device, pipe or socket, expected a log file. Choose another "
+                  "file with --db FILE.",
+                  db));
 }
 
 SessionHeader header_of(const SessionRequest& request) {
@@ -103,40 +145,63 @@ LoggedSession load_session(const LogReader& reader, const std::string& db,
 }
 
 LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_t> session_id) {
+  refuse_special_file(db);
   const LogReader reader(db);
   if (session_id) {
     const SessionState state = reader.session(*session_id).state;
     if (!is_unfinished(state))
       throw Error(fmt::format("session {} in {} is {}; there is nothing to go on with", *session_id,
                               db, name_of(state)));
-    return load_session(reader, db, *session_id);
+    return load_unfinished(reader, db, *session_id);
   }
   if (const auto row = reader.newest_unfinished_session())
-    return load_session(reader, db, row->session_id);
+    return load_unfinished(reader, db, row->session_id);
   throw Error(
       fmt::format("{} holds no unfinished session; start one: heft run PROTOCOL "
                   "--participant ID --db {}",
                   db, db));
 }
 
+void give_again(LoggedSession& session, const OptionsAgain& again) {
+  const std::string& simulator = session.protocol->simulator.name;
+  if (again.simulator && !is_same_simulator(*again.simulator, simulator))
+    throw Error(fmt::format("session {} runs with the simulator {}, and replay checks a whole "
+                            "session with one; go on without --simulator {}",
+                            session.row.session_id, simulator, *again.simulator),
+                ExitCode::usage);
+  RunOptions options = session.options;
+  if (again.tracker) options.tracker = *again.tracker;
+  if (again.view) options.view = *again.view;
+  if (again.responder) {
+    options.responder = *again.responder;
+    complete(options);
+  } else {
+    check(options);
+  }
+  session.changes = changes_between(session.options, options);
+  session.options = options;
+}
+
 SessionResult resume_session(const LoggedSession& session, const RunnerOptions& runner) {
-  const std::int64_t session_id = session.row.session_id;
-  SessionLog log = SessionLog::reopen(session.db, session_id);  // from here on nobody else writes
-  Engine engine(session.protocol, session.row.header.seed);
-  for (const LoggedEvent& logged : LogReader(session.db).events(session_id))
-    engine.apply(logged.event);
-  const auto append = [&](const Event& event) {
-    log.append(event, engine.apply(event), Durability::acknowledged);
-  };
-  const double last_s = engine.last_s();
-  if (engine.trial_is_open())
-    append(plain_event(last_s, EventKind::voided, std::string(void_interrupted)));
+  Reopened reopened(session);
+  const double last_s = reopened.engine.last_s();
+  reopened.close_attempt(std::string(void_interrupted));
   const double now_s = log_time(std::max(last_s, seconds_since(session.row.header.started_utc)));
   Event resumed = plain_event(now_s, EventKind::resumed, utc_now());
   resumed.value = now_s - last_s;
-  append(resumed);
-  const RunEnd end = run_with(engine, log, session.options, runner, now_s);
-  return result_of(engine, end, session_id);
+  reopened.append(resumed);
+  for (const OptionChange& change : session.changes)
+    reopened.append(plain_event(now_s, EventKind::deviation, to_json(change)));
+  reopened.log.flush();  // all of the return or nothing of it
+  const RunEnd end = run_with(reopened.engine, reopened.log, session.options, runner, now_s);
+  return result_of(reopened.engine, end, session.row.session_id);
+}
+
+void abort_session(const LoggedSession& session) {
+  Reopened reopened(session);
+  reopened.close_attempt("aborted");
+  reopened.append(plain_event(reopened.engine.last_s(), EventKind::ended, "aborted"));
+  reopened.log.flush();
 }
 
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {

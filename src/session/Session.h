@@ -21,6 +21,10 @@ struct SessionRequest {
   bool again = false;  ///< one more session of a participant who finished this protocol
 };
 
+/// @throws Error when there is a device, a pipe or a socket where the log should be: opening one
+///   could wait forever or leave files beside it
+void refuse_special_file(const std::string& db);
+
 struct SessionResult {
   RunEnd end = RunEnd::finished;
   std::int64_t session_id = 0;
@@ -41,18 +45,33 @@ struct LoggedSession {
   SessionRow row;
   RunOptions options;
   std::shared_ptr<const Protocol> protocol;
+  std::vector<OptionChange> changes;  ///< given again, to be logged when the session goes on
 };
 
 /// @throws Error when there is no such session, or its protocol or options can't be read
 LoggedSession load_session(const LogReader& reader, const std::string& db, std::int64_t session_id);
 
-/// The session of that id, or the newest unfinished one.
+/// The session of that id, or the newest unfinished one, with the options now in force: those it
+/// was started with and those given again since.
 /// @throws Error when there is none, or it is over
 LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_t> session_id);
 
+/// Options given again for the rest of a session; what is not given stays.
+struct OptionsAgain {
+  std::optional<std::string> responder, tracker, view, simulator;
+};
+
+/// Puts them in force and checks everything the session will run with.
+/// @throws Error as complete(); Error (usage) for another simulator, as a log is replayed with one
+void give_again(LoggedSession& session, const OptionsAgain& again);
+
 /// Goes on with an unfinished session: an attempt that was open is void ("interrupted") and runs
-/// again with the same draws.
+/// again with the same draws. Each of `session.changes` is logged as a deviation.
 SessionResult resume_session(const LoggedSession& session, const RunnerOptions& runner);
+
+/// Ends an unfinished session for good (state "aborted"): somebody who will not come back. What was
+/// answered stays; an attempt that was open is void.
+void abort_session(const LoggedSession& session);
 
 /// A simulated session that is kept in memory.
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner);

@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <condition_variable>
 #include <exception>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <thread>
 
+#include "base/Error.h"
 #include "base/Random.h"
+#include "record/LogReader.h"
 #include "record/SessionArchive.h"
 
 namespace heft {
@@ -76,6 +81,27 @@ SessionRequest session_of(const SimulationRequest& request, int number) {
   return session;
 }
 
+// The number in a simulated participant's id; 0 for other ids.
+int number_in_id(const std::string& participant) {
+  const auto digits = participant.find_first_of("0123456789");
+  int n = 0;
+  if (digits != std::string::npos)
+    std::from_chars(participant.data() + digits, participant.data() + participant.size(), n);
+  return n > 0 && participant == simulated_participant(n) ? n : 0;
+}
+
+// Call it with the file held: nobody else then takes the number.
+int first_free_number(const SimulationRequest& request) {
+  int highest = 0;
+  for (const SessionRow& session : LogReader(request.db).sessions())
+    if (session.header.protocol_name == request.protocol.name)
+      highest = std::max(highest, number_in_id(session.header.participant));
+  if (highest > std::numeric_limits<int>::max() - request.participants)
+    throw Error(fmt::format("{} holds participant {} already; choose another file with --db FILE",
+                            request.db, simulated_participant(highest)));
+  return highest + 1;
+}
+
 }  // namespace
 
 std::string simulated_participant(int n) {
@@ -84,7 +110,10 @@ std::string simulated_participant(int n) {
 
 int simulate(const SimulationRequest& request, const std::function<void(int)>& progress,
              const std::atomic<bool>& stop) {
+  refuse_special_file(request.db);
   SessionArchive archive(request.db);  // says what is wrong with the file before hours of work
+  const int first = first_free_number(request);
+  request.numbered(first);
   InOrder sessions(request.participants, 2 * request.jobs);
   RunnerOptions runner;
   runner.keep_frames = request.keep_frames;
@@ -92,7 +121,7 @@ int simulate(const SimulationRequest& request, const std::function<void(int)>& p
   const auto work = [&] {
     try {
       for (int number = sessions.take(); number != 0; number = sessions.take())
-        sessions.put(number, compute_session(session_of(request, number), runner));
+        sessions.put(number, compute_session(session_of(request, first - 1 + number), runner));
     } catch (...) {
       sessions.fail(std::current_exception());
     }

@@ -18,9 +18,12 @@ struct SimulationRequest {
   int participants = 1;
   int jobs = 1;
   bool keep_frames = false;
+  /// Told the first participant's number once the file is held, before anything is computed.
+  std::function<void(int)> numbered = [](int) {};
 };
 
-/// Participant n (from 1) of a simulation: "sim-0001".
+/// Participant n (from 1) of a simulation: "sim-0001". A file that holds simulated participants of
+/// the protocol already gets the numbers after theirs, so that no two share an id.
 std::string simulated_participant(int n);
 
 /// @param progress called after each stored session with how many are stored

@@ -100,6 +100,13 @@ TEST(Text, cells_lines_and_numbers) {
     EXPECT_EQ(number_in(text), std::nullopt) << text;
 }
 
+TEST(Text, a_byte_order_mark_is_no_part_of_the_first_line) {
+  EXPECT_THAT(lines_of("\xEF\xBB\xBF"
+                       "t_s,x_m\r\n\xEF\xBB\xBF"),
+              ElementsAre("t_s,x_m", "\xEF\xBB\xBF"));
+  EXPECT_THAT(lines_of("\xEF\xBB\xBF"), ElementsAre());
+}
+
 TEST(Text, an_unreadable_file_is_named_with_the_reason) {
   try {
     read_text_file("no/such/file");

@@ -233,6 +233,22 @@ class Replaying(SessionTest):
         self.tampered("update event set detail = 'no_difference', slot = null where event_id = "
                       "(select max(event_id) from event where detail = 'select')", "no_difference")
 
+    def test_what_is_only_kept(self):
+        self.tampered("update session set participant = 'somebody else'", "header")
+        self.tampered("update session set started_utc = '2020-01-01T00:00:00.000Z'", "header")
+        self.tampered("update session set run_options = '{}'", "header")
+        self.tampered("update session set protocol_text = ''", "protocol")
+        self.tampered("update event set detail = 'nothing happened' where event_id = (select "
+                      "min(event_id) from event where kind = 'trial_started')", "digest")
+
+    def test_rows_that_can_not_be(self):
+        self.tampered("delete from trial where trial_number = 1", "trial")
+        self.tampered("update trial set status = 'x' where trial_number = 1", "status")
+        self.tampered("update event set kind = 'x' where event_id = 3", "kind")
+        self.tampered("update frame set cube1_x_m = null where cube1_x_m is not null and frame_id = "
+                      "(select max(frame_id) from frame)", "cube1")
+        self.tampered("update session set state = 'x'", "state")
+
     def test_pictures(self):
         middle = "frame_id = (select frame_id from frame where contact_slot is not null limit 1)"
         self.tampered(f"update frame set effector_y_m = effector_y_m + 1e-9 where {middle}",
@@ -241,7 +257,11 @@ class Replaying(SessionTest):
         self.tampered(f"update frame set cube1_z_m = cube1_z_m + 1e-9 where {middle}", "cube1")
         self.tampered(f"update frame set contact_slot = contact_slot % 2 + 1 where {middle}",
                       "contact_slot")
-        self.tampered(f"delete from frame where {middle}", "state_hash")
+        self.tampered(f"delete from frame where {middle}", "trial_t_s")
+        self.tampered(f"update frame set effector_vx_m_s = effector_vx_m_s + 1e-9 where {middle}",
+                      "digest")
+        self.tampered(f"update frame set trial_t_s = 0 where {middle}", "picture")
+        self.tampered(f"update frame set effector_qw = 7 where {middle}", "picture")
         self.tampered("delete from frame where frame_id = (select max(frame_id) from frame)",
                       "pictures after this one")
 

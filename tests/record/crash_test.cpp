@@ -62,6 +62,7 @@ void expect_whole(const std::string& file, const std::string& acknowledged) {
     EXPECT_EQ(events[i].event.t_s, static_cast<double>(i + 1));
   EXPECT_EQ(reader.trials(1).size(), (events.size() + 2) / 3);
   EXPECT_EQ(reader.cubes(1).size(), 3 * reader.trials(1).size());
+  EXPECT_FALSE(reader.first_broken_digest(1));
 }
 
 void expect_can_go_on(const std::string& file) {
@@ -69,7 +70,9 @@ void expect_can_go_on(const std::string& file) {
   SessionLog log =
       has_session ? SessionLog::reopen(file, 1) : SessionLog::start(file, header_of("P01"));
   log.append(event(1000, EventKind::ended), {}, Durability::acknowledged);
-  EXPECT_EQ(LogReader(file).events(log.session_id()).back().event.t_s, 1000);
+  const LogReader reader(file);
+  EXPECT_EQ(reader.events(log.session_id()).back().event.t_s, 1000);
+  EXPECT_FALSE(reader.first_broken_digest(log.session_id()));
 }
 
 TEST(crash, kills_at_random_moments_lose_nothing_acknowledged) {

@@ -101,6 +101,7 @@ void expect_saved(const std::string& file, std::size_t n_answers) {
   const LogReader reader(file);
   EXPECT_EQ(reader.answers(1).size(), n_answers);
   EXPECT_EQ(reader.events(1).size(), n_answers + 1);
+  EXPECT_FALSE(reader.first_broken_digest(1));
 }
 
 TEST(full_disk, a_full_disk_is_told_and_all_acknowledged_answers_are_kept) {

@@ -1,0 +1,47 @@
+// Whether a session's rows still have the digests that DigestChain gave them. The rows' cells are
+// taken as they are in the file, so that a damaged row is found like a changed one. Private to this
+// room.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "record/BrokenDigest.h"
+#include "record/RowDigest.h"
+
+namespace SQLite {
+class Database;
+class Statement;
+}  // namespace SQLite
+
+namespace heft {
+
+class DigestCheck {
+ public:
+  DigestCheck(SQLite::Database& database, std::string file, std::int64_t session_id);
+
+  /// The header before everything else, then the earliest by time.
+  /// @throws Error when there is no such session, SQLite::Exception where pages are damaged
+  std::optional<BrokenDigest> first_broken();
+
+ private:
+  std::optional<BrokenDigest> broken_header();
+  std::optional<BrokenDigest> broken_event();
+  std::optional<BrokenDigest> broken_frame();
+
+  /// Over the query's cells after its id, up to `last_cell`.
+  std::string recomputed(SQLite::Statement& query, const std::string& table,
+                         const std::string& previous, int last_cell);
+  /// Where the row's digest is not the next of the chain; else puts the chain forward to it.
+  std::optional<BrokenDigest> broken_link(SQLite::Statement& query, const std::string& table,
+                                          std::string& chain);
+
+  SQLite::Database& database_;
+  std::string file_;
+  std::int64_t session_id_;
+  std::string start_;  ///< the header's digest, from which all chains start
+  RowDigest digest_;
+};
+
+}  // namespace heft

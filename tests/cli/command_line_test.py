@@ -1,0 +1,279 @@
+"""What the command line takes, what it refuses, and how it says so.
+
+Run: python3 tests/cli/command_line_test.py PATH_TO_HEFT
+"""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+from session_harness import PROTOCOLS, ROOT, SessionTest, main, query
+
+QUICK = PROTOCOLS / "quick.toml"
+
+
+class CommandLine(SessionTest):
+    def says(self, expect, *words, **options):
+        """One line on stderr, from the program and not from a library."""
+        said = self.run_heft(*words, expect=expect, **options).stderr
+        self.assertTrue(said.splitlines()[-1].startswith("heft: "), said)
+        return said
+
+    def run_words(self, *words):
+        return ("run", QUICK, "--responder", "coin", "--db", self.folder / "s.db", *words)
+
+
+class Mistakes(CommandLine):
+    def test_an_unknown_command_is_named_with_the_nearest(self):
+        self.assertEqual(self.says(2, "analize"), 'heft: there is no command "analize" '
+                                                  "(did you mean analyse?); heft --help lists all\n")
+        self.assertIn('"qqqqqqqq"', self.says(2, "qqqqqqqq"))
+        self.assertIn("command is missing", self.says(2))
+
+    def test_every_usage_mistake_points_to_the_help_of_its_command(self):
+        for words in (["run"], ["run", QUICK, "--participant"], ["replay", "--sesion", "3"],
+                      ["scene", "x.toml", "--trajectory", "y.csv", "--rate", "fast"],
+                      ["simulate", QUICK, "--participants", "0"]):
+            self.assertIn(f"heft {words[0]} --help", self.says(2, *words))
+        said = self.says(2, "replay", "--sesion", "3")
+        self.assertIn("unexpected: --sesion 3 (did you mean --session?)", said)
+
+    def test_numbers_are_decimal_digits(self):
+        for seed in ("010", "0x10", "+1", " 1", "1 ", "-1", "1.0", "1e3", "", str(2**63), str(2**64)):
+            said = self.says(2, *self.run_words("--participant", "1", f"--seed={seed}"))
+            self.assertIn("--seed", said)
+        self.assertFalse((self.folder / "s.db").exists())
+        for n, seed in enumerate((0, 2**63 - 1)):
+            self.run_heft(*self.run_words("--participant", n, "--seed", seed))
+        self.assertEqual(query(self.folder / "s.db", "select seed from session"),
+                         [(0,), (2**63 - 1,)])
+        said = self.says(2, "simulate", QUICK, "--participants", 0)
+        self.assertIn("1...1000000", said)
+        self.assertLess(len(said), 200)
+        self.says(2, "replay", "--session", "010")
+
+    def test_a_participant_is_text_that_people_can_read(self):
+        too_long = "x" * 201
+        for participant in ("", " ", "\u00a0\u3000", "a\nb", "a\tb", "a\x7f", "a\u0085", b"\xff",
+                            b"\xc0\xaf", b"\xed\xa0\x80", b"\xe2\x82", too_long):
+            words = [os.fsencode(str(word)) for word in self.run_words()]
+            participant = participant if isinstance(participant, bytes) else participant.encode()
+            done = subprocess.run([os.fsencode(self.heft), *words, b"--participant=" + participant],
+                                  capture_output=True)
+            self.assertEqual(done.returncode, 2, participant)
+            self.assertTrue(done.stderr.startswith(b"heft: --participant"), done.stderr)
+        self.assertFalse((self.folder / "s.db").exists())
+        kept = ["007", "Zoë 3", "参加者", "😀", "y" * 200]
+        for participant in kept:
+            self.run_heft(*self.run_words("--participant", participant))
+        self.assertEqual([p for (p,) in query(self.folder / "s.db",
+                                              "select participant from session")], kept)
+
+    def test_devices_to_come_are_missing_and_not_unknown(self):
+        for option, value in (("--tracker", "camera:0"), ("--tracker", "video:a.mp4"),
+                              ("--tracker", "frames:d"), ("--tracker", "synthetic"),
+                              ("--view", "window"), ("--view", "video:a.mp4")):
+            said = self.says(4, *self.run_words("--participant", "1", option, value))
+            self.assertIn(f'does not have the {option[2:]} "{value}" yet', said)
+        for option, value, hint in (("--tracker", "camra:0", "camera"), ("--view", "windw", "window"),
+                                    ("--tracker", "hnd", "hand"), ("--view", "zzzzzzz", "headless")):
+            self.assertIn(hint, self.says(2, *self.run_words("--participant", "1", option, value)))
+
+    def test_a_log_must_be_a_file(self):
+        pipe, folder = self.folder / "pipe", self.folder / "folder"
+        os.mkfifo(pipe)
+        folder.mkdir()
+        for db in (pipe, folder, "/dev/null", "x" * 300, self.folder / "no" / "folder" / "s.db"):
+            self.says(1, "run", QUICK, "--participant", "1", "--responder", "coin", "--db", db)
+            self.says(1, "simulate", QUICK, "--participants", "1", "--db", db)
+            self.says(1, "resume", "--db", db)
+            self.says(1, "replay", "--db", db)
+            self.says(1, "analyse", "--db", db)
+        self.assertEqual(os.listdir(folder), [])
+
+    def test_what_a_library_throws_is_told_without_a_crash(self):
+        self.assertIn("/dev/null", self.says(1, "demo", "--out", "/dev/null/x"))
+
+
+class Output(CommandLine):
+    def test_output_that_can_not_be_written_is_a_failure_in_one_line(self):
+        db = self.folder / "s.db"
+        self.session(db)
+        for words in (["--version"], ["--help"], ["run", "--help"], ["analyse", "--db", db],
+                      ["analyse", "--db", db, "--json"], ["replay", "--db", db],
+                      ["validate", QUICK], ["doctor", "--responder", "simulated"]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([self.heft, *map(str, words)], stdout=full,
+                                      stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, 1, words)
+            self.assertIn("heft: can't write to the standard output: No space left", done.stderr)
+            self.assertEqual(done.stderr.count("heft: "), 1, done.stderr)
+
+    def test_talk_that_can_not_be_written_ends_nothing(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([self.heft, *map(str, self.run_words("--participant", "1"))],
+                                  stderr=full)
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(query(self.folder / "s.db", "select state from session"), [("finished",)])
+
+    def test_help_reads_the_same_everywhere(self):
+        for command, positional in (("run", "PROTOCOL"), ("validate", "FILE"), ("procedure", "FILE"),
+                                    ("scene", "SCENE.toml"), ("simulate", "PROTOCOL")):
+            said = self.run_heft(command, "--help").stdout
+            self.assertIn(f"\n  {positional} ", said)
+            self.assertIn("print this help", said)
+
+    def test_a_demo_without_gnuplot_says_how_to_get_charts(self):
+        said = self.run_heft("demo", "--seed", 1, cwd=self.folder,
+                             env={"PATH": str(self.folder)}).stderr
+        self.assertIn("gnuplot is not installed", said)
+        self.assertIn("heft-demo/report", said)
+
+
+class GoingOn(CommandLine):
+    def start_and_stop(self, db, *words, with_signal=signal.SIGTERM):
+        return self.stop(["run", PROTOCOLS / "jnd.toml", "--participant", "01", "--seed", "5",
+                          "--db", db, *words], lambda: self.count(db, "true") > 3, with_signal)
+
+    def stop(self, words, when, with_signal=signal.SIGTERM):
+        process = subprocess.Popen([self.heft, *words], stderr=subprocess.PIPE, text=True,
+                                   cwd=self.folder)
+        while process.poll() is None and not when():
+            time.sleep(0.005)
+        process.send_signal(with_signal)
+        _, said = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, said)
+        return said
+
+    def count(self, db, which):
+        try:
+            return query(db, f"select count(*) from event where {which}")[0][0]
+        except Exception:  # the file is still being made
+            return 0
+
+    def deviations(self, db):
+        return [json.loads(detail) for (detail,) in
+                query(db, "select detail from event where kind = 'deviation' order by event_id")]
+
+    def test_a_closed_terminal_saves_everything(self):
+        db = self.folder / "s.db"
+        said = self.start_and_stop(db, "--responder", "simulated", with_signal=signal.SIGHUP)
+        self.assertIn("heft resume", said)
+        self.assertEqual(query(db, "select state from session"), [("paused",)])
+
+    def test_a_responder_given_again_holds_for_the_rest_and_is_logged(self):
+        db = self.folder / "s.db"
+        self.start_and_stop(db, "--responder", "simulated")
+        said = self.run_heft("resume", "--db", db, "--responder", "coin", "--tracker", "hand",
+                             "--view", "headless", "--simulator", "bullet-lx").stderr
+        self.assertIn("coin instead of simulated", said)
+        self.assertEqual(self.deviations(db),
+                         [{"option": "responder", "from": "simulated", "to": "coin"}])
+        kinds = [kind for (kind,) in query(db, "select kind from event order by event_id")]
+        self.assertEqual(kinds[kinds.index("resumed") + 1], "deviation")
+        [(touched,)] = query(db, "select max(n_pushes) from cube join trial using (trial_id) where "
+                                 "started_s > (select t_s from event where kind = 'resumed')")
+        self.assertEqual(touched, 0, "a coin touches no cube")
+        self.run_heft("replay", "--db", db)
+
+    def test_it_still_holds_when_the_session_is_resumed_once_more(self):
+        db, parameters = self.folder / "s.db", self.folder / "mine.toml"
+        parameters.write_text("criterion_mm = 3\n")
+        self.start_and_stop(db, "--responder", "coin")
+        self.stop(["resume", "--db", db, "--responder", "simulated:mine.toml"],
+                  lambda: self.count(db, "kind = 'deviation'") == 2)
+        self.assertEqual([(d["option"], d["to"]) for d in self.deviations(db)],
+                         [("responder", f"simulated:{parameters}"),
+                          ("responder_text", "criterion_mm = 3\n")])
+        parameters.unlink()
+        self.run_heft("resume", "--db", db)
+        self.assertEqual(self.count(db, "kind = 'deviation'"), 2)
+        [(least_touched,)] = query(db, "select min(n) from (select sum(n_pushes) n from cube join "
+                                       "trial using (trial_id) where status = 'completed' and "
+                                       "started_s > (select max(t_s) from event where kind = "
+                                       "'resumed') group by trial_id)")
+        self.assertGreater(least_touched, 0, "not the coin, which touches no cube")
+        self.run_heft("replay", "--db", db)
+
+    def test_another_simulator_is_refused(self):
+        db = self.folder / "s.db"
+        self.start_and_stop(db, "--responder", "simulated")
+        before = query(db, "select count(*) from event")
+        self.assertIn("bullet-ea", self.says(2, "resume", "--db", db, "--simulator", "bullet-ea"))
+        self.says(2, "resume", "--db", db, "--simulator", "bulet")
+        self.says(2, "resume", "--db", db, "--responder", "coyn")
+        self.says(4, "resume", "--db", db, "--tracker", "camera:0")
+        self.says(4, "resume", "--db", db, "--view", "window")
+        self.assertEqual(query(db, "select count(*) from event"), before)
+        self.run_heft("resume", "--db", db)
+
+    def test_files_are_logged_with_their_whole_path(self):
+        db = self.folder / "s.db"
+        (self.folder / "mine.toml").write_text("p = 0.75\n")
+        (self.folder / "hand").mkdir()
+        (self.folder / "hand" / "actions.csv").write_text("trial_number,t_s,action,slot,label\n")
+        trajectory = "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,-0.2,0.02,1,0,0,0\n5,0,-0.2,0.02,1,0,0,0\n"
+        # A spreadsheet puts a byte-order mark in front.
+        (self.folder / "hand" / "trial_1.csv").write_text("\ufeff" + trajectory, encoding="utf-8")
+        for participant, responder, code in (("1", "coin:mine.toml", 0), ("2", "scripted:hand", 1)):
+            self.run_heft("run", QUICK, "--participant", participant, "--responder", responder, "--db",
+                          db, cwd=self.folder, expect=code)
+        rows = query(db, "select responder, run_options from session order by session_id")
+        for (responder, options), expected in zip(rows, ("coin:{}/mine.toml", "scripted:{}/hand")):
+            self.assertEqual(responder, expected.format(self.folder))
+            self.assertEqual(json.loads(options)["responder"], responder)
+        # From another folder the recording is found again, and ends again too early.
+        said = self.run_heft("resume", "--db", db, cwd=ROOT, expect=1).stderr
+        self.assertIn("nothing more to do", said)
+
+    def test_what_if_reads_no_parameters_of_another_responder(self):
+        db = self.folder / "s.db"
+        (self.folder / "mine.toml").write_text("lapse_rate = 0.5\n")
+        self.run_heft("run", QUICK, "--participant", "1", "--responder", "simulated:mine.toml",
+                      "--db", db, cwd=self.folder)
+        self.run_heft("replay", "--db", db, "--responder", "coin")
+
+
+class Simulating(CommandLine):
+    def simulate(self, db, n, *words, protocol=QUICK):
+        return self.run_heft("simulate", protocol, "--participants", n, "--seed", 9, "--db", db, *words)
+
+    def test_a_file_with_simulated_participants_gets_the_next_ones(self):
+        db, whole = self.folder / "s.db", self.folder / "whole.db"
+        self.assertNotIn("already", self.simulate(db, 2).stderr)
+        self.assertIn("going on with sim-0003", self.simulate(db, 3, "--jobs", 2).stderr)
+        self.simulate(whole, 5, "--jobs", 1)
+        for sql in ("select participant, seed from session",
+                    "select participant, trial_number, level_g, chosen_slot, outcome, ended_s "
+                    "from session join trial using (session_id) order by trial_id"):
+            self.assertEqual(query(db, sql), query(whole, sql))
+
+    def test_another_protocol_starts_from_one(self):
+        db, other = self.folder / "s.db", self.folder / "other.toml"
+        shutil.copy(QUICK, other)
+        self.simulate(db, 2)
+        self.run_heft(*self.run_words("--participant", "sim-x7"))
+        self.simulate(db, 1, protocol=other)
+        self.assertEqual([p for (p,) in query(db, "select participant from session")],
+                         ["sim-0001", "sim-0002", "sim-x7", "sim-0001"])
+
+
+class ByteOrderMarks(CommandLine):
+    def test_a_trajectory_from_a_spreadsheet_is_read(self):
+        push = self.folder / "push.csv"
+        scenes = ROOT / "tests" / "scenes"
+        push.write_bytes(b"\xef\xbb\xbf" + (scenes / "push.csv").read_bytes())
+        outputs = {self.run_heft("scene", scenes / "push_200g.toml", "--trajectory", path).stdout
+                   for path in (push, scenes / "push.csv")}
+        self.assertEqual(len(outputs), 1)
+
+    def test_a_protocol_with_a_mark_is_read(self):
+        protocol = self.folder / "quick.toml"
+        protocol.write_bytes(b"\xef\xbb\xbf" + QUICK.read_bytes())
+        self.run_heft("validate", protocol)
+
+
+if __name__ == "__main__":
+    main("__main__")

@@ -1,0 +1,80 @@
+// Every column of an event, a picture and a session's header, with every kind of value that it
+// takes.
+#include <gmock/gmock.h>
+
+#include <vector>
+
+#include "record/tampered_log.h"
+
+namespace heft::test {
+namespace {
+
+class digest_columns : public TamperedLog {
+ protected:
+  /// Every value of another kind or size, as SQL, that the column takes.
+  std::vector<std::string> changes_of(const std::string& table, const std::string& column,
+                                      const std::string& key, int row_id) {
+    SQLite::Database database(original_, SQLite::OPEN_READONLY);
+    std::vector<std::string> changes;
+    for (const std::string& value :
+         {column + " + 1", column + " || ' '", std::string("NULL"), std::string("0"), "-" + column,
+          std::string("'note'"), std::string("x'00'")}) {
+      const std::string where = fmt::format("FROM {} WHERE {} = {}", table, key, row_id);
+      const std::string same = fmt::format("SELECT {} IS {} {}", value, column, where);
+      if (database.execAndGet(same).getInt() == 0)
+        changes.push_back(
+            fmt::format("UPDATE {} SET {} = {} WHERE {} = {}", table, column, value, key, row_id));
+    }
+    return changes;
+  }
+
+  std::vector<std::string> columns_of(const std::string& table) {
+    SQLite::Database database(original_, SQLite::OPEN_READONLY);
+    SQLite::Statement query(database, "SELECT name FROM pragma_table_info(?)");
+    query.bind(1, table);
+    std::vector<std::string> columns;
+    while (query.executeStep()) columns.push_back(query.getColumn(0).getString());
+    return columns;
+  }
+
+  /// @param elsewhere columns that take the row out of its place: the next row's digest tells
+  void expect_every_column_found(const std::string& table, int row_id,
+                                 const std::vector<std::string>& elsewhere,
+                                 const std::vector<std::string>& left_out = {}) {
+    const std::string key = table + "_id";
+    int n_changes = 0;
+    for (const std::string& column : columns_of(table)) {
+      if (testing::Value(left_out, testing::Contains(column))) continue;
+      const bool moves = testing::Value(elsewhere, testing::Contains(column));
+      int n_taken = 0;
+      for (const std::string& change : changes_of(table, column, key, row_id)) try {
+          expect_found(change, table, moves ? row_id + 1 : row_id);
+          ++n_taken;
+        } catch (const SQLite::Exception&) {  // a STRICT table does not take it
+        }
+      EXPECT_GT(n_taken, 0) << column;
+      n_changes += n_taken;
+    }
+    EXPECT_GT(n_changes, 10);
+  }
+};
+
+TEST_F(digest_columns, of_an_event_are_found) {
+  expect_every_column_found("event", 2, {"session_id"}, {"event_id"});
+  expect_every_column_found("event", 3, {"session_id"}, {"event_id"});
+}
+
+TEST_F(digest_columns, of_a_picture_are_found) {
+  expect_every_column_found("frame", 1, {"session_id"}, {"frame_id"});
+  expect_every_column_found("frame", 4, {"session_id"}, {"frame_id"});
+}
+
+TEST_F(digest_columns, of_the_header_are_found) {
+  // Without its id the session is another one; its state is told by its events.
+  expect_every_column_found("session", 2, {}, {"session_id", "state"});
+  EXPECT_FALSE(found_after("UPDATE session SET state = 'aborted'"));
+  EXPECT_TRUE(found_after("UPDATE session SET seed = 1 WHERE session_id = 1", 1));
+}
+
+}  // namespace
+}  // namespace heft::test

@@ -1,0 +1,71 @@
+// A log whose copies are changed by somebody, and what is found in them.
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "record/LogReader.h"
+#include "record/SessionLog.h"
+#include "record/rows.h"
+#include "record/temporary_folder.h"
+
+namespace heft::test {
+
+class TamperedLog : public testing::Test {
+ protected:
+  // Session 2 has the events 1 to 4 and the pictures 1 to 6, of which 3 and 6 are outside of
+  // trials.
+  void SetUp() override {
+    SessionLog::start(original_, header_of("P01"));
+    write_session("P02");
+    write_session("P03");
+  }
+
+  void write_session(const std::string& participant) {
+    SessionLog log = SessionLog::start(original_, header_of(participant));
+    for (int n = 1; n <= 2; ++n) {
+      log.append(event(n, EventKind::trial_started), starting(sorting_trial(n, n)),
+                 Durability::acknowledged);
+      Event full = action(n + 0.25, ActionKind::label, 2, Label::heaviest);
+      full.value = 0.5;
+      log.append(full, of_attempt(n), Durability::acknowledged);
+      for (double t_s : {n + 0.5, n + 0.75}) log.add_frame(picture(n, t_s));
+      log.add_frame(picture(0, n + 0.9));
+    }
+  }
+
+  static FrameRow picture(int attempt_index, double t_s) {
+    FrameRow made = frame(attempt_index, t_s);
+    made.contact_slot = 2;
+    made.quality = 0.9;
+    return made;
+  }
+
+  /// What is found in the session of P02 after somebody changed a copy with all rules off.
+  std::optional<BrokenDigest> found_after(const std::string& change, std::int64_t session_id = 2) {
+    std::filesystem::copy_file(original_, copy_, std::filesystem::copy_options::overwrite_existing);
+    {
+      SQLite::Database database(copy_, SQLite::OPEN_READWRITE);
+      database.exec("PRAGMA ignore_check_constraints = ON; PRAGMA foreign_keys = OFF");
+      database.exec(change);
+    }
+    return LogReader(copy_).first_broken_digest(session_id);
+  }
+
+  void expect_found(const std::string& change, const std::string& table, std::int64_t row_id) {
+    const auto broken = found_after(change);
+    ASSERT_TRUE(broken) << change;
+    EXPECT_EQ(broken->table, table) << change;
+    EXPECT_EQ(broken->row_id, row_id) << change;
+  }
+
+  TemporaryFolder folder_;
+  std::string original_ = folder_.file("log.db"), copy_ = folder_.file("copy.db");
+};
+
+}  // namespace heft::test
