@@ -39,7 +39,7 @@ set ylabel "participants a minute"
 set grid y lc rgb "#e0e0e0"
 set border 3
 set tics nomirror
-set key top left
+set key top right
 set label 1 "Made by: results/simulate/measure.sh at commit $commit" at screen 0.01,0.03 font ",9" tc rgb "#777777"
 set bmargin 4
 plot "< awk -F, 'NR > 1 && \$2 == 1' $here/speed.csv" using 5:xtic(1) title "one job" lc rgb "#8a94a0", \

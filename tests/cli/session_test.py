@@ -86,6 +86,22 @@ class Running(SessionTest):
         self.run_heft("resume", "--db", db)
         self.assertEqual(outcome_of(db), outcome_of(whole))
 
+    def test_a_session_can_be_ended_for_somebody_who_will_not_come_back(self):
+        db = self.folder / "s.db"
+        process = subprocess.Popen(
+            [self.heft, "run", PROTOCOLS / "jnd.toml", "--participant", "01", "--responder",
+             "simulated", "--seed", "5", "--db", db], stderr=subprocess.DEVNULL)
+        while not db.exists() or not self.completed(db):
+            time.sleep(0.01)
+        process.kill()
+        process.wait()
+        self.run_heft("resume", "--db", db, "--end")
+        self.assertEqual(query(db, "select state from session"), [("aborted",)])
+        self.assertEqual(query(db, "select count(*) from trial where status = 'open'"), [(0,)])
+        self.run_heft("replay", "--db", db)
+        self.run_heft("resume", "--db", db, expect=1)
+        self.session(db, "--again", protocol="jnd")
+
     def completed(self, db):
         try:
             return query(db, "select count(*) from trial where status = 'completed'") > [(1,)]
