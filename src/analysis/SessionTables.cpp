@@ -33,10 +33,21 @@ Table voids_table(const Summary& summary) {
     table.rows.push_back({word(reason.reason), count(reason.n)});
   return table;
 }
+
+Table choices_table(const Summary& summary) {
+  Table table{"protocol_choices",
+              "What the protocol chose where the paper leaves it open",
+              {{"protocol", "protocol"}, {"choice", "choice"}, {"value", "value"}},
+              {},
+              "each is a key of the protocol, which is kept in the log; paper.toml explains them"};
+  for (const ProtocolChoice& choice : summary.choices)
+    table.rows.push_back({word(choice.protocol), word(choice.choice), word(choice.value)});
+  return table;
+}
 }  // namespace
 
 std::vector<Table> session_tables(const Summary& summary) {
-  return {times_table(summary), voids_table(summary)};
+  return {times_table(summary), voids_table(summary), choices_table(summary)};
 }
 
 Table session_list(const Summary& summary) {

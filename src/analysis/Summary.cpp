@@ -52,6 +52,7 @@ Summary summarize(const Dataset& dataset, const std::string& command) {
   summary.voids = voids_of(dataset.sessions);
   summary.tracks = example_tracks(dataset.sessions);
   summary.hypotheses = hypotheses_of(summary);
+  summary.choices = protocol_choices(dataset.sessions);
   summary.notes = notes_on(dataset, summary);
   return summary;
 }

@@ -12,6 +12,7 @@
 #include "analysis/Dataset.h"
 #include "analysis/Introduction.h"
 #include "analysis/Jnd.h"
+#include "analysis/ProtocolChoices.h"
 #include "analysis/Sorting.h"
 #include "analysis/Timing.h"
 #include "analysis/Tracks.h"
@@ -55,6 +56,7 @@ struct Summary {
   std::vector<VoidCount> voids;
   std::optional<SessionTracks> tracks;
   std::vector<Hypothesis> hypotheses;
+  std::vector<ProtocolChoice> choices;
   std::vector<std::string> notes;  ///< what a reader must know about what was counted
 
   bool simulated() const { return data == "simulated" || data == "human and simulated"; }

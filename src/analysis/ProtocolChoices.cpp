@@ -1,0 +1,104 @@
+#include "analysis/ProtocolChoices.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+
+#include "base/Error.h"
+
+namespace heft {
+
+namespace {
+
+// Collects the choices of one protocol; of blocks too, which may differ in theirs.
+class Collector {
+ public:
+  explicit Collector(const Protocol& protocol) : name_(protocol.name) {
+    add("pictures a second", fmt::format("{:g}", protocol.display_rate_hz));
+    add("effector, length x width x height",
+        fmt::format("{:g} x {:g} x {:g} mm", 1e3 * protocol.effector_size_m.x(),
+                    1e3 * protocol.effector_size_m.y(), 1e3 * protocol.effector_size_m.z()));
+    add("gap between cubes", fmt::format("{:g} mm", 1e3 * protocol.layout.gap_m));
+    add("start distance", fmt::format("{:g} mm", 1e3 * protocol.layout.start_distance_m));
+    add("cubes that leave their area", std::string(name_of(protocol.layout.out_of_area)));
+    add("friction", fmt::format("{:g}, {}", protocol.friction, name_of(protocol.friction_is)));
+    add("simulator",
+        fmt::format("{} at {:g} Hz", protocol.simulator.name, protocol.simulator.rate_hz));
+    add("answers need contact with every cube", protocol.require_contact ? "yes" : "no");
+    add("practice and feedback", "none");
+    for (const Block& block : protocol.blocks) std::visit(*this, block);
+  }
+
+  void operator()(const DemonstrationBlock&) {}
+  void operator()(const IntroductionBlock& block) {
+    add("wrong introduction answer", std::string(name_of(block.wrong_answer)));
+  }
+  void operator()(const SortingBlock& block) {
+    add("sorting orders", std::string(name_of(block.orders)));
+    add("C1 and C2", fmt::format("{} and {} shuffled, longest run {}", block.c1_trials,
+                                 block.trials - block.c1_trials,
+                                 block.max_run > 0 ? fmt::format("{}", block.max_run) : "any"));
+  }
+  void operator()(const BreakBlock& block) {
+    add(block.name, fmt::format("a break of at least {:g} s", block.least_duration_s));
+  }
+  void operator()(const ComparisonBlock& block) {
+    const InterleaveConfig& interleaving = block.interleaving;
+    add("interleaving",
+        fmt::format("{}{}", name_of(interleaving.interleave),
+                    interleaving.max_lag > 0
+                        ? fmt::format(", at most {} trials ahead", interleaving.max_lag)
+                        : ""));
+    add("catch trials", fmt::format("{:g} %", 100 * block.catch_fraction));
+    add("moves a staircase down", std::string(name_of(block.positive_answer)));
+    for (const ReferenceStaircase& entry : block.staircases) {
+      const StaircaseConfig& config = entry.staircase;
+      add(fmt::format("staircase {}", config.name),
+          fmt::format("floor {}, ceiling {}, step changes {}, at most {} trials",
+                      bound(config.floor), bound(config.ceiling), name_of(config.change_step),
+                      config.stop_trials));
+    }
+  }
+
+  std::vector<ProtocolChoice> choices;
+
+ private:
+  static std::string bound(const std::optional<double>& bound_g) {
+    return bound_g ? fmt::format("{:g} g", *bound_g) : "none";
+  }
+  void add(std::string choice, std::string value) {
+    choices.push_back({name_, std::move(choice), std::move(value)});
+  }
+
+  std::string name_;
+};
+
+}  // namespace
+
+std::vector<ProtocolChoice> choices_in(const Protocol& protocol) {
+  return Collector(protocol).choices;
+}
+
+std::vector<ProtocolChoice> protocol_choices(const std::vector<SessionData>& sessions) {
+  std::map<std::string, std::set<std::string>> hashes_by_name;
+  for (const SessionData& data : sessions)
+    hashes_by_name[data.session.header.protocol_name].insert(data.session.header.protocol_sha256);
+  std::vector<ProtocolChoice> all;
+  std::set<std::string> seen;
+  for (const SessionData& data : sessions) {
+    const SessionHeader& header = data.session.header;
+    if (!seen.insert(header.protocol_name + header.protocol_sha256).second) continue;
+    try {
+      Protocol protocol = parse_protocol(header.protocol_text, header.protocol_name);
+      protocol.name = header.protocol_name;
+      if (hashes_by_name[header.protocol_name].size() > 1)
+        protocol.name = fmt::format("{} {:.8}", header.protocol_name, header.protocol_sha256);
+      for (ProtocolChoice& choice : choices_in(protocol)) all.push_back(std::move(choice));
+    } catch (const InvalidFile&) {
+    }
+  }
+  return all;
+}
+
+}  // namespace heft

@@ -1,0 +1,59 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "analysis/ProtocolChoices.h"
+
+namespace heft {
+namespace {
+
+using ::testing::IsEmpty;
+
+Protocol shipped(const std::string& name) {
+  return load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/" + name);
+}
+
+std::string value_of(const std::vector<ProtocolChoice>& choices, const std::string& choice) {
+  const auto found = std::ranges::find(choices, choice, &ProtocolChoice::choice);
+  return found == choices.end() ? "absent" : found->value;
+}
+
+SessionData session_of(const Protocol& protocol) {
+  SessionData data;
+  data.session.header.protocol_name = protocol.name;
+  data.session.header.protocol_text = protocol.text;
+  data.session.header.protocol_sha256 = protocol.sha256;
+  return data;
+}
+
+TEST(ProtocolChoices, name_what_the_paper_leaves_open) {
+  const auto choices = choices_in(shipped("paper.toml"));
+  EXPECT_EQ(value_of(choices, "effector, length x width x height"), "90 x 40 x 40 mm");
+  EXPECT_EQ(value_of(choices, "friction"), "0.8, between_surfaces");
+  EXPECT_EQ(value_of(choices, "wrong introduction answer"), "same_layout");
+  EXPECT_EQ(value_of(choices, "between the experiments"), "a break of at least 60 s");
+  EXPECT_EQ(value_of(choices, "staircase 15g"),
+            "floor 0 g, ceiling 1500 g, step changes before_move, at most 60 trials");
+}
+
+TEST(ProtocolChoices, are_told_once_a_protocol_and_versions_are_told_apart) {
+  const Protocol quick = shipped("quick.toml");
+  Protocol changed = quick;
+  changed.text += "\n# changed\n";
+  changed.sha256 = "0123456789abcdef";
+  const auto once = protocol_choices({session_of(quick), session_of(quick)});
+  EXPECT_EQ(once.size(), choices_in(quick).size());
+  EXPECT_EQ(once.front().protocol, "quick");
+  const auto both = protocol_choices({session_of(quick), session_of(changed)});
+  EXPECT_EQ(both.size(), 2 * once.size());
+  EXPECT_EQ(both.back().protocol, "quick 01234567");
+}
+
+TEST(ProtocolChoices, a_text_that_is_no_protocol_has_none) {
+  Protocol broken;
+  broken.text = "nonsense";
+  EXPECT_THAT(protocol_choices({session_of(broken)}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace heft
