@@ -93,11 +93,7 @@ class Killed(SessionTest):
 
     def test_the_gap_is_logged_and_time_goes_on(self):
         db = self.folder / "s.db"
-        process = self.start("run", PROTOCOLS / "jnd.toml", "--participant", "01", "--responder",
-                             "simulated", "--seed", 5, "--db", db)
-        time.sleep(0.5)
-        process.send_signal(signal.SIGKILL)
-        process.communicate()
+        self.kill_under_way(db)
         self.run_heft("resume", "--db", db)
         [(gap_s,)] = query(db, "select value from event where kind = 'resumed'")
         self.assertGreaterEqual(gap_s, 0)

@@ -3,6 +3,7 @@ import os
 import sqlite3
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -77,6 +78,28 @@ class SessionTest(unittest.TestCase):
         return self.run_heft("run", PROTOCOLS / f"{protocol}.toml", "--participant", participant,
                              "--responder", "simulated", "--seed", seed, "--db", db, *words,
                              **options)
+
+    def start_until_under_way(self, db):
+        """A session of jnd.toml, seed 5, returned as soon as two trials are completed."""
+        process = subprocess.Popen(
+            [self.heft, "run", PROTOCOLS / "jnd.toml", "--participant", "01", "--responder",
+             "simulated", "--seed", "5", "--db", db], stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not self.is_under_way(db):
+            time.sleep(0.01)
+        self.assertIsNone(process.poll(), "it was over before it could be stopped")
+        return process
+
+    def kill_under_way(self, db):
+        process = self.start_until_under_way(db)
+        process.kill()
+        process.communicate()
+
+    @staticmethod
+    def is_under_way(db):
+        try:
+            return query(db, "select count(*) from trial where status = 'completed'") > [(1,)]
+        except sqlite3.Error:  # the file is still being made
+            return False
 
 
 def main(module):

@@ -3,8 +3,6 @@
 Run: python3 tests/cli/session_test.py PATH_TO_HEFT
 """
 import shutil
-import subprocess
-import time
 
 from session_harness import PROTOCOLS, SessionTest, change, main, outcome_of, query
 
@@ -73,11 +71,7 @@ class Running(SessionTest):
     def test_ctrl_c_saves_everything_and_resume_goes_on(self):
         whole, db = self.folder / "whole.db", self.folder / "s.db"
         self.session(whole, protocol="jnd")
-        process = subprocess.Popen(
-            [self.heft, "run", PROTOCOLS / "jnd.toml", "--participant", "01", "--responder",
-             "simulated", "--seed", "5", "--db", db], stderr=subprocess.PIPE, text=True)
-        while not db.exists() or not self.completed(db):
-            time.sleep(0.01)
+        process = self.start_until_under_way(db)
         process.send_signal(2)
         _, said = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, said)
@@ -88,25 +82,13 @@ class Running(SessionTest):
 
     def test_a_session_can_be_ended_for_somebody_who_will_not_come_back(self):
         db = self.folder / "s.db"
-        process = subprocess.Popen(
-            [self.heft, "run", PROTOCOLS / "jnd.toml", "--participant", "01", "--responder",
-             "simulated", "--seed", "5", "--db", db], stderr=subprocess.DEVNULL)
-        while not db.exists() or not self.completed(db):
-            time.sleep(0.01)
-        process.kill()
-        process.wait()
+        self.kill_under_way(db)
         self.run_heft("resume", "--db", db, "--end")
         self.assertEqual(query(db, "select state from session"), [("aborted",)])
         self.assertEqual(query(db, "select count(*) from trial where status = 'open'"), [(0,)])
         self.run_heft("replay", "--db", db)
         self.run_heft("resume", "--db", db, expect=1)
         self.session(db, "--again", protocol="jnd")
-
-    def completed(self, db):
-        try:
-            return query(db, "select count(*) from trial where status = 'completed'") > [(1,)]
-        except Exception:  # the file is still being made
-            return False
 
     def test_simulation_gives_the_same_data_for_any_number_of_jobs(self):
         for jobs in (1, 3):
@@ -283,12 +265,7 @@ class Replaying(SessionTest):
 
     def test_an_unfinished_log_is_verified_too(self):
         db = self.folder / "s.db"
-        process = subprocess.Popen(
-            [self.heft, "run", PROTOCOLS / "jnd.toml", "--participant", "01", "--responder",
-             "simulated", "--seed", "5", "--db", db], stderr=subprocess.DEVNULL)
-        time.sleep(0.4)
-        process.kill()
-        process.wait()
+        self.kill_under_way(db)
         self.run_heft("replay", "--db", db)
 
     def test_what_would_have_been(self):
