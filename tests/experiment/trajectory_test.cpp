@@ -31,8 +31,8 @@ TEST(Trajectory, is_linear_and_slerped_between_rows_and_held_outside) {
   EXPECT_EQ(hand.end_s(), 3);
   const Pose middle = hand.at(2).value();
   EXPECT_TRUE(middle.position_m.isApprox(Eigen::Vector3d(0.1, 0, 0.2)));
-  EXPECT_NEAR(middle.orientation.angularDistance(Eigen::Quaterniond::Identity()), std::numbers::pi / 2,
-              1e-12);
+  EXPECT_NEAR(middle.orientation.angularDistance(Eigen::Quaterniond::Identity()),
+              std::numbers::pi / 2, 1e-12);
   EXPECT_EQ(hand.at(0)->position_m, Eigen::Vector3d::Zero());
   EXPECT_EQ(hand.at(9)->position_m, Eigen::Vector3d(0.2, 0, 0.4));
 }
