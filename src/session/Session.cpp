@@ -30,11 +30,12 @@ void refuse_repetition(const SessionRequest& request) {
                               session.session_id),
                   ExitCode::usage);
     if (!request.again)
-      throw Error(
-          fmt::format("participant {} has finished {} in {} (session {}); to run it once "
-                      "more on purpose add --again",
-                      request.participant, request.protocol.name, request.db, session.session_id),
-          ExitCode::usage);
+      throw Error(fmt::format("participant {} has {} {} in {} (session {}); to run it once "
+                              "more on purpose add --again",
+                              request.participant,
+                              session.state == SessionState::finished ? "finished" : "ended",
+                              request.protocol.name, request.db, session.session_id),
+                  ExitCode::usage);
   }
 }
 
