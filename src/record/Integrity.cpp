@@ -32,15 +32,7 @@ std::vector<std::string> check_integrity(const std::string& path) {
   const auto database = open_for_reading(path);
   std::vector<std::string> faults;
   try {
-    switch (schema::kind_of(*database)) {
-      case schema::FileKind::foreign:
-        refuse_foreign_file(path);
-      case schema::FileKind::newer_log:
-        refuse_newer_log(path);
-      case schema::FileKind::empty:
-      case schema::FileKind::log:
-        break;
-    }
+    holds_log(*database, path);
     // A connection that only reads leaves out the rules (CHECK), so a temporary copy is checked.
     SQLite::Database copy("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     SQLite::Backup(copy, *database).executeStep();

@@ -13,6 +13,13 @@
 namespace heft {
 
 namespace {
+[[noreturn]] void refuse_newer_log(const std::string& path) {
+  throw Error(fmt::format(
+      "{} was written by a newer heft than this one ({}). Update heft, or choose another file with "
+      "--db FILE.",
+      path, HEFT_VERSION));
+}
+
 constexpr int busy_timeout_ms = 5000;
 
 std::unique_ptr<SQLite::Database> opened(const std::string& path) {
@@ -49,15 +56,7 @@ void LogFile::check_kind() {
         "can't write to {}: the file is read-only. Make it writable (chmod u+w), copy it to a "
         "folder of yours, or choose another file with --db FILE.",
         path_));
-  switch (schema::kind_of(*database_)) {
-    case schema::FileKind::foreign:
-      refuse_foreign_file(path_);
-    case schema::FileKind::newer_log:
-      refuse_newer_log(path_);
-    case schema::FileKind::empty:
-    case schema::FileKind::log:
-      break;
-  }
+  holds_log(*database_, path_);
 }
 
 void LogFile::prepare() {
@@ -90,11 +89,18 @@ void refuse_foreign_file(const std::string& path) {
                   path));
 }
 
-void refuse_newer_log(const std::string& path) {
-  throw Error(fmt::format(
-      "{} was written by a newer heft than this one ({}). Update heft, or choose another file with "
-      "--db FILE.",
-      path, HEFT_VERSION));
+bool holds_log(SQLite::Database& database, const std::string& path) {
+  switch (schema::kind_of(database)) {
+    case schema::FileKind::foreign:
+      refuse_foreign_file(path);
+    case schema::FileKind::newer_log:
+      refuse_newer_log(path);
+    case schema::FileKind::empty:
+      return false;
+    case schema::FileKind::log:
+      return true;
+  }
+  return false;
 }
 
 }  // namespace heft

@@ -38,8 +38,11 @@ class LogFile {
 /// @throws Error for an empty name or a folder
 std::string resolved_path(const std::string& path);
 
-/// What reading and writing both refuse.
+/// Whether the file holds a log that this program can use; false: nothing yet.
+/// @throws Error for another program's file, or a log newer than this program
+bool holds_log(SQLite::Database& database, const std::string& path);
+
+/// Refuses a file that is no log.
 [[noreturn]] void refuse_foreign_file(const std::string& path);
-[[noreturn]] void refuse_newer_log(const std::string& path);
 
 }  // namespace heft

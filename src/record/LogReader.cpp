@@ -18,19 +18,11 @@ namespace heft {
 class LogReader::Impl {
  public:
   explicit Impl(const std::string& path) : path_(path), database_(open_for_reading(path)) {
-    switch (schema::kind_of(*database_)) {
-      case schema::FileKind::foreign:
-        refuse_foreign_file(path_);
-      case schema::FileKind::newer_log:
-        refuse_newer_log(path_);
-      case schema::FileKind::empty:
-        break;
-      case schema::FileKind::log:
-        has_tables_ = true;
-        // One moment for all reads: a transaction that the first of them opens.
-        database_->exec("BEGIN");
-        database_->execAndGet("SELECT count(*) FROM session");
-    }
+    has_tables_ = holds_log(*database_, path_);
+    if (!has_tables_) return;
+    // One moment for all reads: a transaction that the first of them opens.
+    database_->exec("BEGIN");
+    database_->execAndGet("SELECT count(*) FROM session");
   }
 
   /// Every row of a query, made into a value by `make`. The query's first column is the row's id.
