@@ -112,7 +112,7 @@ void ask_what_if(const LogReader& reader, const Options& options) {
     const LoggedSession session = load_session(reader, options.db, session_id);
     RunOptions changed = session.options;
     if (!options.simulator.empty()) {
-      make_simulator(options.simulator);  // says so if there is none of that name
+      simulator_named(options.simulator);  // says so if there is none of that name
       changed.simulator = options.simulator;
     }
     if (!options.responder.empty()) {

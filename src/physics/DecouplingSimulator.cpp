@@ -1,13 +1,10 @@
 // The table of simulators.
 #include "physics/DecouplingSimulator.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <vector>
 
-#include "base/Error.h"
-#include "base/Names.h"
+#include "base/PlugTable.h"
 #include "physics/bullet/BulletSimulator.h"
 
 namespace heft {
@@ -25,17 +22,12 @@ std::span<const SimulatorEntry> simulators() {
   return table;
 }
 
+const SimulatorEntry& simulator_named(std::string_view name) {
+  return entry_named("simulator", name, simulators());
+}
+
 std::unique_ptr<DecouplingSimulator> make_simulator(std::string_view name) {
-  std::vector<std::string_view> names;
-  for (const SimulatorEntry& entry : table) {
-    if (entry.name == name) return entry.make();
-    names.push_back(entry.name);
-  }
-  const auto nearest = nearest_name(name, names);
-  throw Error(fmt::format("there is no simulator \"{}\"{}; expected {}", name,
-                          nearest ? fmt::format(", did you mean \"{}\"?", *nearest) : "",
-                          quoted_list(names)),
-              ExitCode::usage);
+  return simulator_named(name).make();
 }
 
 }  // namespace heft

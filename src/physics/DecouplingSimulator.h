@@ -45,6 +45,9 @@ struct SimulatorEntry {
 std::span<const SimulatorEntry> simulators();
 
 /// @throws Error (usage) naming the nearest simulator when there is none of that name
+const SimulatorEntry& simulator_named(std::string_view name);
+
+/// @throws Error as simulator_named
 std::unique_ptr<DecouplingSimulator> make_simulator(std::string_view name);
 
 }  // namespace heft

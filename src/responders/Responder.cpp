@@ -1,10 +1,9 @@
 #include "responders/Responder.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
+#include "base/PlugTable.h"
 #include "responders/ResponderParameters.h"
 #include "responders/Resting.h"
 #include "responders/Scripted.h"
@@ -43,15 +42,7 @@ std::span<const ResponderEntry> responders() {
 }
 
 const ResponderEntry& responder_named(std::string_view name) {
-  std::vector<std::string_view> names;
-  for (const ResponderEntry& entry : table) {
-    if (entry.name == name) return entry;
-    names.push_back(entry.name);
-  }
-  const auto nearest = nearest_name(name, names);
-  const std::string hint = nearest ? fmt::format("did you mean \"{}\"?", *nearest)
-                                   : fmt::format("expected {}", quoted_list(names));
-  throw Error(fmt::format("there is no responder \"{}\", {}", name, hint), ExitCode::usage);
+  return entry_named("responder", name, responders());
 }
 
 std::string describe_parameters(const ResponderEntry& responder) {

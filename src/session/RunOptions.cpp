@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/PlugTable.h"
 #include "base/Random.h"
 #include "base/TextFile.h"
 #include "physics/DecouplingSimulator.h"
@@ -50,18 +51,12 @@ void check_device(const char* kind, const std::string& given, const Names& prese
                 ExitCode::device_missing);
   Names known = present;
   known.insert(known.end(), to_come.begin(), to_come.end());
-  const auto nearest = nearest_name(name, known);
-  throw Error(fmt::format("there is no {} \"{}\", {}", kind, given,
-                          nearest ? fmt::format("did you mean \"{}\"?", *nearest)
-                                  : fmt::format("expected {}", quoted_list(known))),
-              ExitCode::usage);
+  throw unknown_name(kind, name, known);
 }
 
 void check_devices(const RunOptions& options) {
   check_device("tracker", options.tracker, {"hand"}, {"camera", "video", "frames", "synthetic"});
-  Names present;
-  for (const ViewEntry& view : views()) present.push_back(view.name);
-  check_device("view", options.view, present, {"window", "video"});
+  check_device("view", options.view, names_in(views()), {"window", "video"});
 }
 
 // A session may be resumed from another folder than it was started in.
@@ -121,16 +116,12 @@ void complete(RunOptions& options) {
 void check(const RunOptions& options) {
   checked_responder(options.responder);
   check_devices(options);
-  if (!options.simulator.empty()) make_simulator(options.simulator);
+  if (!options.simulator.empty()) simulator_named(options.simulator);
   make_responder(options, 0);  // says what is wrong with its parameters before anything is logged
 }
 
 bool is_same_simulator(const std::string& a, const std::string& b) {
-  const auto maker_of = [](const std::string& name) {
-    make_simulator(name);  // says so if there is none of that name
-    return std::ranges::find(simulators(), name, &SimulatorEntry::name)->make;
-  };
-  return maker_of(a) == maker_of(b);
+  return simulator_named(a).make == simulator_named(b).make;
 }
 
 std::string to_json(const OptionChange& change) {

@@ -1,11 +1,8 @@
 #include "view/ArView.h"
 
-#include <fmt/format.h>
-
 #include <array>
 
-#include "base/Error.h"
-#include "base/Names.h"
+#include "base/PlugTable.h"
 
 namespace heft {
 
@@ -30,14 +27,7 @@ std::span<const ViewEntry> views() {
 }
 
 std::unique_ptr<ArView> make_view(std::string_view name) {
-  std::vector<std::string_view> names;
-  for (const ViewEntry& entry : table) {
-    if (entry.name == name) return entry.make();
-    names.push_back(entry.name);
-  }
-  throw Error(
-      fmt::format("there is no view \"{}\" in this version; expected {}", name, quoted_list(names)),
-      ExitCode::usage);
+  return entry_named("view", name, views()).make();
 }
 
 }  // namespace heft
