@@ -18,7 +18,7 @@ MAY_INCLUDE = {
     "psychophysics": {"base"},
     "physics": {"base"},
     "tracking": {"base"},
-    "protocol": {"experiment", "base", "physics", "psychophysics"},
+    "protocol": {"experiment", "base", "physics", "psychophysics", "tracking"},
     "record": {"experiment", "base"},
     "responders": {"experiment", "psychophysics", "base"},
     "view": {"experiment", "base", "tracking"},
@@ -32,6 +32,8 @@ MAY_INCLUDE["cli"] = set(MAY_INCLUDE) | {"bench"}
 LIBRARY_ROOMS = {
     r"bullet/|btBullet|Bullet": {"physics"},
     r"apriltag": {"tracking"},
+    r"cairo": {"tracking"},
+    r"ode/|mujoco": {"bench"},
     r"opencv": {"tracking", "view"},
     r"SDL|imgui": {"view"},
     r"SQLiteCpp|sqlite3": {"record"},

@@ -10,6 +10,7 @@
 namespace heft::cli {
 
 void add_analyse(CLI::App& app);
+void add_bench(CLI::App& app);
 void add_demo(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_procedure(CLI::App& app);

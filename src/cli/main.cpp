@@ -45,6 +45,7 @@ void add_commands(CLI::App& app) {
   add_validate(app);
   add_procedure(app);
   add_scene(app);
+  add_bench(app);
   add_doctor(app);
 }
 

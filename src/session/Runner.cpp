@@ -103,7 +103,7 @@ bool Runner::wait_for_camera(const Picture& picture) {
   DisplayedFrame nothing;
   nothing.t_s = picture.sample.t_capture_s;
   nothing.tracked = false;
-  parts_.view.present(nothing, parts_.engine.screen(), now_s_);
+  parts_.view.present({nothing, nullptr, {}}, parts_.engine.screen());
   return !parts_.engine.needs_somebody();
 }
 
@@ -115,7 +115,8 @@ void Runner::present(const ShownPicture& shown, const Picture& picture, int afte
     in_session.t_s += attempt_start_s_;
     emit(in_session, Durability::buffered);
   }
-  const double present_s = parts_.view.present(shown.frame, parts_.engine.screen(), now_s_);
+  parts_.view.present({shown.frame, nullptr, {}}, parts_.engine.screen());
+  const double present_s = now_s_;
   if (std::ranges::any_of(shown.events,
                           [](const Event& e) { return e.kind == EventKind::cubes_shown; })) {
     now_s_ = std::max(now_s_, log_time(present_s));

@@ -68,6 +68,7 @@ ScreenState RunningAttempt::screen() const {
   ScreenState screen;
   screen.screen = Screen::trial;
   screen.task = plan().task;
+  screen.n_slots = plan().n_slots();
   if (plan().task == Task::sorting) screen.labels = labels_;
   screen.can_answer = cubes_shown_ && (!require_contact_ || all_touched());
   screen.can_validate = plan().task == Task::sorting && all_labeled() && screen.can_answer;

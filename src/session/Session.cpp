@@ -43,7 +43,7 @@ void refuse_repetition(const SessionRequest& request) {
 RunEnd run_with(Engine& engine, EventSink& sink, const RunOptions& options,
                 const RunnerOptions& runner, double start_s) {
   const auto responder = make_responder(options, engine.seed());
-  const auto view = make_view(options.view);
+  const auto view = view_named(options.view).make({});
   HandPictures pictures(*responder, engine.protocol().display_rate_hz);
   const RunEnd end = Runner({engine, sink, pictures, *responder, *view}, runner, start_s).run();
   sink.flush();

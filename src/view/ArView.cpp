@@ -10,24 +10,26 @@ namespace {
 // Shows nothing: for simulated responders and machines without a display.
 class HeadlessView final : public ArView {
  public:
-  double present(const DisplayedFrame&, const ScreenState&, double now_s) override { return now_s; }
+  explicit HeadlessView(const ViewSetup&) {}
+  std::optional<double> present(const ViewPicture&, const ScreenState&) override { return {}; }
+  std::vector<Touch> wait(double) override { return {}; }
 };
 
 template <typename View>
-std::unique_ptr<ArView> make() {
-  return std::make_unique<View>();
+std::unique_ptr<ArView> make(const ViewSetup& setup) {
+  return std::make_unique<View>(setup);
 }
 
-constexpr std::array table{
-    ViewEntry{"headless", "shows nothing; for simulated responders", make<HeadlessView>}};
+constexpr std::array table{ViewEntry{"headless", "shows nothing; for simulated responders", false,
+                                     false, make<HeadlessView>}};
 }  // namespace
 
 std::span<const ViewEntry> views() {
   return table;
 }
 
-std::unique_ptr<ArView> make_view(std::string_view name) {
-  return entry_named("view", name, views()).make();
+const ViewEntry& view_named(std::string_view name) {
+  return entry_named("view", name, views());
 }
 
 }  // namespace heft

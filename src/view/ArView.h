@@ -3,36 +3,65 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "experiment/Action.h"
+#include "base/Image.h"
 #include "experiment/DisplayedFrame.h"
 #include "experiment/ScreenState.h"
+#include "experiment/ScreenTexts.h"
+#include "experiment/Stage.h"
+#include "experiment/Touch.h"
+#include "tracking/Intrinsics.h"
 
 namespace heft {
+
+/// One picture to show: the world as of its capture, over the camera picture that it belongs to.
+struct ViewPicture {
+  DisplayedFrame frame;
+  std::shared_ptr<const Image> camera;    ///< none: a plain table is drawn
+  std::optional<Pose> camera_from_board;  ///< none: where the camera was last, or the default
+};
+
+/// What a view needs to know before the first picture.
+struct ViewSetup {
+  Stage stage;
+  std::optional<Intrinsics> camera;  ///< none: no camera pictures will come
+  ScreenTexts texts;
+  bool left_handed = false;  ///< mirrors the controls, never the cubes
+  std::string file;          ///< what follows the colon: "video:session.mp4"
+  double rate_hz = 15;       ///< pictures a second
+};
 
 class ArView {
  public:
   virtual ~ArView() = default;
 
   /// Presents one picture and the screen around it.
-  /// @return the session time at which it was presented; a view without a display returns `now_s`
-  virtual double present(const DisplayedFrame& frame, const ScreenState& screen, double now_s) = 0;
+  /// @return monotonic time (base/Clock.h) at which it was presented; none: there is no display
+  virtual std::optional<double> present(const ViewPicture& picture, const ScreenState& screen) = 0;
+
+  /// Keeps the screen alive for up to `seconds` and returns early with what was touched since the
+  /// last call, in order. A view without a screen returns nothing at once.
+  virtual std::vector<Touch> wait(double seconds) = 0;
 };
 
 /// A row of the table of views.
 struct ViewEntry {
   std::string_view name;
   std::string_view summary;
-  std::unique_ptr<ArView> (*make)();
+  bool has_screen;  ///< people can look at it and touch it; the session then runs on a wall clock
+  bool has_file;    ///< NAME:FILE
+  /// @throws Error (device_missing) when there is no display
+  std::unique_ptr<ArView> (*make)(const ViewSetup& setup);
 };
 
 std::span<const ViewEntry> views();
 
 /// @throws Error (usage) naming the nearest view when there is none of that name
-std::unique_ptr<ArView> make_view(std::string_view name);
+const ViewEntry& view_named(std::string_view name);
 
 }  // namespace heft

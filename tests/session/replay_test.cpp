@@ -76,7 +76,7 @@ class Replay : public ::testing::Test {
     RecordedSession recorded(header);
     Engine engine(std::make_shared<const Protocol>(protocol), header.seed);
     HandPictures pictures(responder, protocol.display_rate_hz);
-    const auto view = make_view("headless");
+    const auto view = view_named("headless").make({});
     Runner({engine, recorded, pictures, responder, *view}, {}, 0).run();
     const std::int64_t id = SessionArchive(path.string()).store(recorded);
     return verify_session(LogReader(path.string()), id, [](double) {});

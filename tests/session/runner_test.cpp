@@ -79,10 +79,11 @@ class MadeUpPictures final : public PictureSource {
 
 class Nothing final : public ArView {
  public:
-  double present(const DisplayedFrame& frame, const ScreenState&, double now_s) override {
-    frames.push_back(frame);
-    return now_s;
+  std::optional<double> present(const ViewPicture& picture, const ScreenState&) override {
+    frames.push_back(picture.frame);
+    return {};
   }
+  std::vector<Touch> wait(double) override { return {}; }
   std::vector<DisplayedFrame> frames;
 };
 

@@ -1,0 +1,39 @@
+// A camera's projection: pinhole with OpenCV's distortion model. Camera frame: x right, y down, z
+// forward. Pixel centers are integers: the top left pixel's center is (0, 0).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+
+namespace heft {
+
+struct Intrinsics {
+  int width_px = 640, height_px = 480;
+  double fx_px = 540, fy_px = 540, cx_px = 319.5, cy_px = 239.5;
+  std::array<double, 8> distortion{};  ///< k1 k2 p1 p2 k3 k4 k5 k6, as OpenCV orders them
+};
+
+/// Pixel of a point in the camera frame (z > 0), with distortion.
+Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_m);
+
+/// Pixel of a ray (x/z, y/z), with distortion.
+Eigen::Vector2d distort(const Intrinsics& camera, const Eigen::Vector2d& ray);
+
+/// Ray (x/z, y/z) of a pixel: the inverse of distort to 1e-9, within the picture.
+Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel);
+
+/// Reads OpenCV's YAML: image_width, image_height, camera_matrix, distortion_coefficients (4, 5 or
+/// 8 of them).
+/// @param text contents  @param file its name, for messages
+/// @throws InvalidFile naming what is missing or impossible
+Intrinsics parse_intrinsics(const std::string& text, const std::string& file);
+
+/// @throws Error when the file can't be read, InvalidFile as parse_intrinsics
+Intrinsics load_intrinsics(const std::string& path);
+
+/// The YAML that parse_intrinsics and OpenCV's FileStorage read. @param comment put on top, may be
+/// empty
+std::string to_yaml(const Intrinsics& camera, const std::string& comment);
+
+}  // namespace heft

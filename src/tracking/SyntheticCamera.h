@@ -1,0 +1,58 @@
+// A camera that renders what a real one would film: a table, the printed board, a hand that holds
+// the effector with its tags; through a lens, with an exposure time and a sensor. Its pixels go to
+// the same tracker. Exact ground truth: the poses it was given.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "base/Image.h"
+#include "base/Pose.h"
+#include "tracking/MarkerBody.h"
+
+namespace heft {
+
+struct Optics {
+  double blur_px = 0.6;       ///< sd of the lens' blur, on linear light
+  bool tone_curve = true;     ///< sRGB; false: the sensor's linear light is stored
+  double vignetting = 0.3;    ///< share of light lost in the corners
+  double exposure = 1;        ///< 1: white paper just below saturation
+  double noise = 3;           ///< sd, of 255
+  double exposure_s = 0.004;  ///< how long the shutter is open; moving things blur
+};
+
+struct SyntheticSettings {
+  /// Where the camera stands; the default looks down on the whole board from the participant's
+  /// side.
+  Pose camera_from_board;
+  Optics optics;
+  bool hand = true;        ///< a hand that holds the effector's back end and occludes
+  int motion_samples = 4;  ///< renderings averaged over the exposure, where the effector moves
+
+  SyntheticSettings();
+};
+
+class SyntheticCamera {
+ public:
+  /// The effector over time, seconds; none: out of view.
+  using EffectorPath = std::function<std::optional<Pose>(double t_s)>;
+
+  /// @param seed of the noise; the same seed, number and path give the same pixels
+  /// @throws Error for a tag family without known codes
+  SyntheticCamera(const Apparatus& apparatus, const SyntheticSettings& settings,
+                  std::uint64_t seed);
+  ~SyntheticCamera();
+  SyntheticCamera(SyntheticCamera&&) noexcept;
+  SyntheticCamera& operator=(SyntheticCamera&&) noexcept;
+
+  /// The picture whose exposure has its middle at t_s. @param number of the picture: its noise
+  Image picture(const EffectorPath& board_from_effector, double t_s, std::uint64_t number);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace heft

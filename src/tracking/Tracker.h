@@ -1,0 +1,60 @@
+// From pixels to poses: finds the board's and the effector's tags, measures their edges on linear
+// light, and solves for both poses. Unfiltered: PoseFilter.h smooths.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "base/Image.h"
+#include "base/Pose.h"
+#include "tracking/MarkerBody.h"
+
+namespace heft {
+
+struct TrackerSettings {
+  /// Detection on a picture smaller by this factor; 0: 1.5 up to 640 pixels wide, 2 above.
+  double decimate = 0;
+  bool refine_edges = true;  ///< false: the detector's own corners
+  bool remove_bias = true;   ///< the edge bias that blur and the tone curve cause
+  bool region_of_interest = true;
+  double least_quality = 0.85;  ///< of a tag's edges, 0...1
+};
+
+/// Where the time of a picture went, seconds.
+struct TrackerTimes {
+  double detect_s = 0, refine_s = 0, pose_s = 0;
+};
+
+struct TrackedPicture {
+  std::optional<Pose> camera_from_board;
+  std::optional<Pose> board_from_effector;  ///< only with the board
+  int n_board_tags = 0, n_effector_tags = 0;
+  double board_reprojection_px = 0, effector_reprojection_px = 0;  ///< RMS over used corners
+  /// 0...1: how far the effector's pose can be trusted (the board's where there is no effector).
+  double quality = 0;
+  bool jump = false;        ///< the effector is not where motion could have taken it
+  double edge_bias_px = 0;  ///< outwards; black tags shrink: negative
+  TrackerTimes times;
+};
+
+/// One tracker is used by one thread.
+class Tracker {
+ public:
+  /// @throws Error for a family that the detector does not have
+  explicit Tracker(const Apparatus& apparatus, const TrackerSettings& settings = {});
+  ~Tracker();
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
+
+  /// @throws Error when the picture is not of the size that the camera was calibrated for
+  TrackedPicture track(const Image& image, double t_s);
+
+  /// Forgets the last poses: what comes next is no continuation.
+  void reset();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace heft
