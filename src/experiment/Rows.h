@@ -83,6 +83,10 @@ struct FrameRow {
   double t_s = 0;        ///< session time at which its world was computed
   double trial_t_s = 0;  ///< seconds since the attempt's start: the time Drive was given
   double capture_s = 0, present_s = 0;
+  /// Session times at which its poses and its world were there, and how many pictures of the camera
+  /// since the last shown one were not; none on a virtual clock.
+  std::optional<double> detected_s, simulated_s;
+  std::optional<int> n_dropped;
   bool tracked = true, jump = false;
   std::optional<int> contact_slot;
   std::optional<double> quality;

@@ -19,8 +19,18 @@ namespace {
 std::string events_sql() {
   return in_session("event", "event_id", fmt::format("{}, digest", schema::event_columns));
 }
-std::string frames_sql() {
-  return pictures_in_session(fmt::format("{}, digest", schema::frame_columns));
+std::string frames_sql(SQLite::Database& database) {
+  return pictures_in_session(
+      fmt::format("{}, {}, digest", schema::frame_columns, schema::frame_timing_in(database)));
+}
+
+// The row's last cell that its digest was taken over; see Schema.h, frame_timing_columns.
+int last_digested(SQLite::Statement& query, const std::string& table) {
+  const int last = query.getColumnCount() - 2;
+  if (table != "frame") return last;
+  for (int i = last; i > last - schema::n_frame_timing_columns; --i)
+    if (!query.getColumn(i).isNull()) return last;
+  return last - schema::n_frame_timing_columns;
 }
 
 bool is_earlier(const BrokenDigest& one, const BrokenDigest& other) {
@@ -100,7 +110,7 @@ std::optional<BrokenDigest> DigestCheck::broken_event() {
 }
 
 std::optional<BrokenDigest> DigestCheck::broken_frame() {
-  SQLite::Statement query(database_, frames_sql());
+  SQLite::Statement query(database_, frames_sql(database_));
   query.bind(1, session_id_);
   // By the attempt's cell. Pictures of a trial that is not there have a chain too, which no picture
   // fits.
@@ -129,7 +139,7 @@ std::optional<BrokenDigest> DigestCheck::broken_link(SQLite::Statement& query,
   const int last = query.getColumnCount() - 1;
   BrokenDigest broken{table, query.getColumn(0).getInt64(), 0, 0, query.getColumn(last), {}, {},
                       {}};
-  broken.recomputed = recomputed(query, table, chain, last - 1);
+  broken.recomputed = recomputed(query, table, chain, last_digested(query, table));
   chain = broken.logged;
   if (broken.recomputed == broken.logged) return std::nullopt;
   set_place(broken, query);

@@ -2,6 +2,8 @@
 // The runner writes to either and can't tell which.
 #pragma once
 
+#include <string>
+
 #include "experiment/Event.h"
 #include "experiment/Rows.h"
 
@@ -21,6 +23,11 @@ class EventSink {
 
   /// Takes a displayed picture; pictures keep their order among the events.
   virtual void add_frame(const FrameRow& frame) = 0;
+
+  /// What the participant told about themselves (table participant_info), at once to where it
+  /// stays.
+  /// @throws Error as append()
+  virtual void add_info(const std::string& key, const std::string& value) = 0;
 
   /// Puts everything taken so far where it stays.
   virtual void flush() = 0;

@@ -42,6 +42,8 @@ class LogReader::Impl {
     refuse_damaged(fmt::format("table {}", table), error);
   }
 
+  std::string frame_timing() const { return schema::frame_timing_in(*database_); }
+
   std::optional<BrokenDigest> first_broken_digest(std::int64_t session_id) const try {
     if (!has_tables_) refuse_unknown(session_id);
     return DigestCheck(*database_, path_, session_id).first_broken();
@@ -160,9 +162,9 @@ std::vector<FrameRow> LogReader::frames(std::int64_t session_id, int attempt_ind
                            "attempt_index = ?2)";
   return impl_->rows(
       frame_from, "frame",
-      fmt::format("SELECT frame_id, ?2 AS trial_id, {} FROM frame WHERE session_id = ?1 AND {} "
+      fmt::format("SELECT frame_id, ?2 AS trial_id, {}, {} FROM frame WHERE session_id = ?1 AND {} "
                   "ORDER BY frame_id",
-                  schema::frame_columns, of_attempt),
+                  schema::frame_columns, impl_->frame_timing(), of_attempt),
       session_id, attempt_index);
 }
 

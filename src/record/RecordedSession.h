@@ -27,6 +27,9 @@ class RecordedSession final : public EventSink {
     entries_.emplace_back(std::in_place_type<RecordedEvent>, event, changes);
   }
   void add_frame(const FrameRow& frame) override { entries_.push_back(frame); }
+  void add_info(const std::string& key, const std::string& value) override {
+    header_.participant_info[key] = value;
+  }
   void flush() override {}
 
   const SessionHeader& header() const { return header_; }

@@ -47,11 +47,15 @@ std::int64_t RowWriter::write_session(const SessionHeader& header) {
                          << header.purpose << header.responder;
   row.run_with_digest();
   const std::int64_t session_id = database_.getLastInsertRowid();
-  static const std::string info_sql =
-      schema::insert_sql("participant_info", "session_id, key, value");
-  for (const auto& [key, value] : header.participant_info)
-    run(statement(info_sql), session_id, key, value);
+  for (const auto& [key, value] : header.participant_info) write_info(session_id, key, value);
   return session_id;
+}
+
+void RowWriter::write_info(std::int64_t session_id, const std::string& key,
+                           const std::string& value) {
+  static const std::string sql =
+      schema::upsert_sql("participant_info", "session_id, key, value", "session_id, key");
+  run(statement(sql), session_id, key, value);
 }
 
 void RowWriter::write(std::int64_t session_id, const RecordedEntry& entry) {
@@ -176,7 +180,8 @@ void RowWriter::write_frame(std::int64_t session_id, const FrameRow& frame) {
     throw Error(fmt::format("it has {} cubes, the log keeps at most {}", frame.cubes.size(),
                             schema::most_cubes));
   static const std::string sql =
-      digested_insert("frame", "session_id, trial_id", schema::frame_columns);
+      digested_insert("frame", "session_id, trial_id",
+                      fmt::format("{}, {}", schema::frame_columns, schema::frame_timing_columns));
   const auto trial_id = trial_id_or_none(session_id, frame.attempt_index);
   Binding row(statement(sql), session_id, trial_id);
   digest_.begin("frame", chain_.before_frame(session_id, trial_id));
@@ -192,6 +197,10 @@ void RowWriter::write_frame(std::int64_t session_id, const FrameRow& frame) {
     row.null(pose_columns);
   for (const Pose& cube : frame.cubes) row << cube;
   row.null(pose_columns * (schema::most_cubes - static_cast<int>(frame.cubes.size())));
+  if (frame.detected_s || frame.simulated_s || frame.n_dropped)
+    row << frame.detected_s << frame.simulated_s << frame.n_dropped;
+  else
+    row.undigested_null(schema::n_frame_timing_columns);
   chain_.frame_written(row.run_with_digest());
 }
 

@@ -32,6 +32,9 @@ class RowWriter {
 
   void write(std::int64_t session_id, const RecordedEntry& entry);
 
+  /// What the participant told; told again, it takes the place of what was there.
+  void write_info(std::int64_t session_id, const std::string& key, const std::string& value);
+
   /// The attempt's planned trial, if it is in the log.
   std::optional<int> trial_number(std::int64_t session_id, int attempt_index);
 

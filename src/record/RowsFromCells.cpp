@@ -137,6 +137,9 @@ FrameRow frame_from(Cells& cells) {
   row.clone = cells.pose_or_none();
   for (int i = 0; i < schema::most_cubes; ++i)
     if (auto cube = cells.pose_or_none()) row.cubes.push_back(*cube);
+  row.detected_s = cells.real_or_none();
+  row.simulated_s = cells.real_or_none();
+  row.n_dropped = cells.integer_or_none();
   return row;
 }
 

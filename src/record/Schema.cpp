@@ -18,8 +18,12 @@ void create_version_1(SQLite::Database& database) {
   database.exec(views_1);
 }
 
+void add_frame_timing(SQLite::Database& database) {
+  database.exec(changes_2);
+}
+
 // migrations[n] takes a file from user_version n to n + 1.
-constexpr std::array migrations{create_version_1};
+constexpr std::array migrations{create_version_1, add_frame_timing};
 
 std::int64_t number(SQLite::Database& database, const char* query) {
   return database.execAndGet(query).getInt64();
@@ -54,6 +58,11 @@ void migrate(SQLite::Database& database) {
   if (version == migrations.size()) return;
   for (std::size_t from = version; from < migrations.size(); ++from) migrations[from](database);
   database.exec(fmt::format("PRAGMA user_version = {}", current_version()));
+}
+
+std::string frame_timing_in(SQLite::Database& database) {
+  if (number(database, "PRAGMA user_version") >= 2) return std::string(frame_timing_columns);
+  return "NULL AS detected_s, NULL AS simulated_s, NULL AS n_dropped";
 }
 
 std::string insert_sql(std::string_view table, std::string_view columns) {

@@ -54,7 +54,14 @@ inline constexpr std::string_view frame_columns =
     "cube1_x_m, cube1_y_m, cube1_z_m, cube1_qw, cube1_qx, cube1_qy, cube1_qz, "
     "cube2_x_m, cube2_y_m, cube2_z_m, cube2_qw, cube2_qx, cube2_qy, cube2_qz, "
     "cube3_x_m, cube3_y_m, cube3_z_m, cube3_qw, cube3_qx, cube3_qy, cube3_qz";
+/// Since version 2; empty on a virtual clock, and then no part of the row's digest, so that rows of
+/// version 1 keep theirs.
+inline constexpr std::string_view frame_timing_columns = "detected_s, simulated_s, n_dropped";
+inline constexpr int n_frame_timing_columns = 3;
 inline constexpr int most_cubes = 3;  ///< that a frame has columns for
+
+/// frame_timing_columns as this file's version has them: NULLs before version 2.
+std::string frame_timing_in(SQLite::Database& database);
 
 /// INSERT INTO table(columns) VALUES (?, ?, ...)
 std::string insert_sql(std::string_view table, std::string_view columns);

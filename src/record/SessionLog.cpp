@@ -35,6 +35,7 @@ class SessionLog::Impl {
   void reopen(std::int64_t session_id);
   void append(const Event& event, const Changes& changes, Durability durability);
   void add_frame(const FrameRow& frame);
+  void add_info(const std::string& key, const std::string& value);
   void flush();
   std::int64_t session_id() const { return session_id_; }
 
@@ -107,6 +108,15 @@ void SessionLog::Impl::append(const Event& event, const Changes& changes, Durabi
 void SessionLog::Impl::add_frame(const FrameRow& frame) {
   refuse_after_failure();
   wait_with(frame);
+}
+
+void SessionLog::Impl::add_info(const std::string& key, const std::string& value) {
+  flush();
+  try {
+    writer_.write_info(session_id_, key, value);
+  } catch (const std::exception& error) {
+    throw failed(fmt::format("what the participant told ({})", key), error);
+  }
 }
 
 void SessionLog::Impl::flush() {
@@ -198,6 +208,10 @@ void SessionLog::append(const Event& event, const Changes& changes, Durability d
 
 void SessionLog::add_frame(const FrameRow& frame) {
   impl_->add_frame(frame);
+}
+
+void SessionLog::add_info(const std::string& key, const std::string& value) {
+  impl_->add_info(key, value);
 }
 
 void SessionLog::flush() {

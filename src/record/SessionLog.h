@@ -42,6 +42,8 @@ class SessionLog final : public EventSink {
   /// @throws Error as append() when the buffer was due and could not be saved
   void add_frame(const FrameRow& frame) override;
 
+  void add_info(const std::string& key, const std::string& value) override;
+
   /// Writes everything buffered. While nothing happens nothing is written: call it when the session
   /// stands still.
   /// @throws Error as append()

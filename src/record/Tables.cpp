@@ -224,4 +224,10 @@ SELECT t.session_id, t.participant, t.protocol_name, t.purpose, t.responder,
 FROM v_trial t WHERE t.task = 'sorting' AND t.status = 'completed';
 )sql";
 
+const char* const changes_2 = R"sql(
+ALTER TABLE frame ADD COLUMN detected_s REAL;
+ALTER TABLE frame ADD COLUMN simulated_s REAL;
+ALTER TABLE frame ADD COLUMN n_dropped INTEGER CHECK (n_dropped >= 0);
+)sql";
+
 }  // namespace heft::schema

@@ -8,4 +8,7 @@ namespace heft::schema {
 extern const char* const tables_1;
 extern const char* const views_1;
 
+/// Version 2: where the time of a displayed picture went.
+extern const char* const changes_2;
+
 }  // namespace heft::schema

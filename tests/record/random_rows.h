@@ -157,6 +157,9 @@ inline FrameRow any_frame(int attempt_index) {
   row.clone = maybe(pose);
   row.cubes.resize(static_cast<std::size_t>(*rc::gen::inRange(0, 4)));
   for (Pose& cube : row.cubes) cube = pose();
+  row.detected_s = maybe(number);
+  row.simulated_s = maybe(number);
+  row.n_dropped = maybe(count);
   return row;
 }
 

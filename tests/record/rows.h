@@ -95,8 +95,8 @@ inline std::string text(const EstimateRow& e) {
 inline std::string text(const FrameRow& f) {
   return joined(f.attempt_index, f.after_event, f.t_s, f.trial_t_s, f.capture_s, f.present_s,
                 f.tracked, f.jump, f.contact_slot, f.quality, f.state_hash, f.effector,
-                f.effector_velocity.linear_m_s, f.effector_velocity.angular_rad_s, f.clone,
-                f.cubes);
+                f.effector_velocity.linear_m_s, f.effector_velocity.angular_rad_s, f.clone, f.cubes,
+                f.detected_s, f.simulated_s, f.n_dropped);
 }
 inline std::string text(const SessionHeader& h) {
   std::string all = joined(h.participant, h.protocol_name, h.protocol_text, h.protocol_sha256,

@@ -58,7 +58,7 @@ class schema_rules : public testing::Test {
 
 TEST_F(schema_rules, the_file_is_marked_as_ours) {
   EXPECT_EQ(database_->execAndGet("PRAGMA application_id").getInt(), 0x48656674);
-  EXPECT_EQ(database_->execAndGet("PRAGMA user_version").getInt(), 1);
+  EXPECT_EQ(database_->execAndGet("PRAGMA user_version").getInt(), 2);
   EXPECT_EQ(database_->execAndGet("PRAGMA journal_mode").getString(), "wal");
 }
 
