@@ -1,5 +1,6 @@
 // A camera's projection: pinhole with OpenCV's distortion model. Camera frame: x right, y down, z
-// forward. Pixel centers are integers: the top left pixel's center is (0, 0).
+// forward. Pixel centers are integers: the top left pixel's center is (0, 0). A camera's file is in
+// IntrinsicsFile.cpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,11 +15,18 @@ struct Intrinsics {
   std::array<double, 8> distortion{};  ///< k1 k2 p1 p2 k3 k4 k5 k6, as OpenCV orders them
 };
 
+/// A pixel and how it moves with what was projected onto it.
+struct DistortedRay {
+  Eigen::Vector2d pixel;
+  Eigen::Matrix2d pixel_by_ray;  ///< derivative
+};
+
 /// Pixel of a point in the camera frame (z > 0), with distortion.
 Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_m);
 
 /// Pixel of a ray (x/z, y/z), with distortion.
 Eigen::Vector2d distort(const Intrinsics& camera, const Eigen::Vector2d& ray);
+DistortedRay distort_with_derivative(const Intrinsics& camera, const Eigen::Vector2d& ray);
 
 /// Ray (x/z, y/z) of a pixel: the inverse of distort to 1e-9, within the picture.
 Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel);

@@ -14,12 +14,16 @@
 
 namespace heft {
 
+/// The camera that the project's goals are stated for: fx 540 at 640 pixels across, 1000 at 1280,
+/// others in proportion; distortion k1 .06, k2 -.15.
+Intrinsics default_camera(int width_px, int height_px);
+
 struct Optics {
-  double blur_px = 0.6;       ///< sd of the lens' blur, on linear light
-  bool tone_curve = true;     ///< sRGB; false: the sensor's linear light is stored
-  double vignetting = 0.3;    ///< share of light lost in the corners
-  double exposure = 1;        ///< 1: white paper just below saturation
-  double noise = 3;           ///< sd, of 255
+  double blur_px = 0.6;     ///< sd of the lens' blur, on linear light; more where out of focus
+  bool tone_curve = true;   ///< sRGB; false: the sensor's linear light is stored
+  double vignetting = 0.3;  ///< share of light lost in the corners; grows with distance squared
+  double exposure = 1;      ///< 1: white paper just below saturation
+  double noise = 3;  ///< sd, of 255; the same in all three channels, so gray pictures have it too
   double exposure_s = 0.004;  ///< how long the shutter is open; moving things blur
 };
 
@@ -28,8 +32,10 @@ struct SyntheticSettings {
   /// side.
   Pose camera_from_board;
   Optics optics;
-  bool hand = true;        ///< a hand that holds the effector's back end and occludes
-  int motion_samples = 4;  ///< renderings averaged over the exposure, where the effector moves
+  bool hand = true;  ///< a hand that holds the effector's back end and occludes
+  /// Renderings averaged over the exposure where the effector moves, at least; more where it smears
+  /// so far that they would show.
+  int motion_samples = 4;
 
   SyntheticSettings();
 };
@@ -40,7 +46,8 @@ class SyntheticCamera {
   using EffectorPath = std::function<std::optional<Pose>(double t_s)>;
 
   /// @param seed of the noise; the same seed, number and path give the same pixels
-  /// @throws Error for a tag family without known codes
+  /// @throws Error for an unknown tag family, a board tag that does not lie on the table, an
+  ///   effector tag that does not lie on a face of the box
   SyntheticCamera(const Apparatus& apparatus, const SyntheticSettings& settings,
                   std::uint64_t seed);
   ~SyntheticCamera();

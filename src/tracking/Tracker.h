@@ -16,6 +16,7 @@ struct TrackerSettings {
   double decimate = 0;
   bool refine_edges = true;  ///< false: the detector's own corners
   bool remove_bias = true;   ///< the edge bias that blur and the tone curve cause
+  /// Look where things were in the last picture, and everywhere only when they are not there.
   bool region_of_interest = true;
   double least_quality = 0.85;  ///< of a tag's edges, 0...1
 };
@@ -29,23 +30,30 @@ struct TrackedPicture {
   std::optional<Pose> camera_from_board;
   std::optional<Pose> board_from_effector;  ///< only with the board
   int n_board_tags = 0, n_effector_tags = 0;
-  double board_reprojection_px = 0, effector_reprojection_px = 0;  ///< RMS over used corners
-  /// 0...1: how far the effector's pose can be trusted (the board's where there is no effector).
+  /// RMS distance of the measured tag edges from where the pose puts them.
+  double board_reprojection_px = 0, effector_reprojection_px = 0;
+  /// 0...1: how far the effector's pose can be trusted (the board's where there is no effector):
+  /// the share of pixels around its tags' edges that look like edges; halved where two poses fit
+  /// about equally well, and where the reprojection error is 1 pixel.
   double quality = 0;
-  bool jump = false;        ///< the effector is not where motion could have taken it
-  double edge_bias_px = 0;  ///< outwards; black tags shrink: negative
+  /// The effector is not where motion could have taken it since it was last seen, or was not seen
+  /// for so long that nothing can be said.
+  bool jump = false;
+  double edge_bias_px = 0;  ///< of the board's tags, outwards; black tags that look small: negative
   TrackerTimes times;
 };
 
 /// One tracker is used by one thread.
 class Tracker {
  public:
-  /// @throws Error for a family that the detector does not have
+  /// @throws Error for a board without tags, a family that the detector does not have, an id that a
+  ///   family does not have, or a tag that is on both bodies
   explicit Tracker(const Apparatus& apparatus, const TrackerSettings& settings = {});
   ~Tracker();
   Tracker(Tracker&&) noexcept;
   Tracker& operator=(Tracker&&) noexcept;
 
+  /// @param t_s the picture's capture time; times increase
   /// @throws Error when the picture is not of the size that the camera was calibrated for
   TrackedPicture track(const Image& image, double t_s);
 

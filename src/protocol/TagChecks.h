@@ -1,0 +1,31 @@
+// Whether a tag, as a file gives it, can be one: a square of paper with a code of its family.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/TableReader.h"
+#include "tracking/MarkerBody.h"
+
+namespace heft {
+
+/// Sides beyond this are no printed tag but another unit.
+inline constexpr double largest_tag_m = 2;
+
+/// A tag and the table that it came from: a [[tag]] or a shorthand.
+struct PlacedTag {
+  Tag tag;
+  TableReader table;
+  std::string id_key;
+};
+
+/// Notes corners, at corners_m, that are no printed square.
+void check_square(PlacedTag& placed);
+
+/// Notes a tag whose front looks at the body's center: its corners go round the wrong way.
+void check_outwards(PlacedTag& placed);
+
+/// Notes ids that the family does not have, and those given twice.
+void check_ids(std::vector<PlacedTag>& tags, const std::string& family);
+
+}  // namespace heft

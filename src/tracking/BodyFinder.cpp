@@ -1,0 +1,168 @@
+#include "tracking/BodyFinder.h"
+
+#include <algorithm>
+
+#include "base/Clock.h"
+
+namespace heft {
+
+namespace {
+using Corners = std::array<Eigen::Vector2d, 4>;
+
+constexpr double usual_blur_px = 0.7;
+constexpr double least_expected_edge_px = 9;
+constexpr double least_agreement = 0.85;  // of the data cells of a tag that no detector read
+
+// Adds the time from its making to its end.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum_s) : sum_s_(sum_s), start_s_(monotonic_s()) {}
+  ~Stopwatch() { sum_s_ += monotonic_s() - start_s_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_s_;
+  double start_s_;
+};
+
+// Seen from its front, with all corners well in the picture and edges long enough to measure.
+bool measurable(const Intrinsics& camera, const Corners& c) {
+  constexpr double margin_px = 2;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool inside = c[i].x() >= margin_px && c[i].y() >= margin_px &&
+                        c[i].x() <= camera.width_px - 1 - margin_px &&
+                        c[i].y() <= camera.height_px - 1 - margin_px;
+    const Eigen::Vector2d edge = c[(i + 1) % 4] - c[i], next = c[(i + 2) % 4] - c[(i + 1) % 4];
+    const double height = (edge.x() * next.y() - edge.y() * next.x()) / edge.norm();
+    if (!inside || !(edge.norm() >= least_expected_edge_px) || !(height >= least_expected_edge_px))
+      return false;
+  }
+  return true;
+}
+
+std::optional<Corners> projected(const Intrinsics& camera, const Tag& tag, const Pose& pose) {
+  Corners corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector3d p = pose * tag.corners_m[i];
+    if (!(p.z() > 0.01)) return std::nullopt;
+    corners[i] = project(camera, p);
+  }
+  if (!measurable(camera, corners)) return std::nullopt;
+  return corners;
+}
+
+BiasPrior prior_for(const TrackerSettings& settings, BiasPrior prior) {
+  if (!settings.remove_bias) return {0, 0};
+  // The detector's own corners are off by about half a pixel where ours are by a tenth.
+  if (!settings.refine_edges) prior.sd_px *= 5;
+  return prior;
+}
+}  // namespace
+
+BodyFinder::BodyFinder(const Intrinsics& camera, const MarkerBody& body,
+                       const TrackerSettings& settings, int most_edge_pixels)
+    : camera_(camera),
+      body_(body),
+      settings_(settings),
+      most_edge_pixels_(most_edge_pixels),
+      looks_(looks_of(body)),
+      blur_px_(usual_blur_px) {}
+
+std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<DetectedTag>& detected,
+                                        const std::optional<Pose>& expected, const BiasPrior& prior,
+                                        TrackerTimes& times) {
+  const BiasPrior bias = prior_for(settings_, prior);
+  std::vector<bool> done(body_.tags.size(), false);
+  std::vector<TagObservation> tags;
+  {
+    const Stopwatch watch(times.refine_s);
+    tags = measure_detected(gray, detected, done);
+  }
+  std::optional<BodyFit> fit;
+  {
+    const Stopwatch watch(times.pose_s);
+    fit = solve_body(tags, expected, bias);
+  }
+  if (!fit || !settings_.refine_edges) return fit;
+  std::vector<TagObservation> more;
+  {
+    const Stopwatch watch(times.refine_s);
+    more = measure_expected(gray, fit->camera_from_body, done);
+  }
+  if (more.empty()) return fit;
+  tags.insert(tags.end(), more.begin(), more.end());
+  const Stopwatch watch(times.pose_s);
+  return solve_body(tags, fit->camera_from_body, bias);
+}
+
+std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& expected,
+                                              int least_tags, const BiasPrior& prior,
+                                              TrackerTimes& times) {
+  std::vector<bool> done(body_.tags.size(), false);
+  std::vector<TagObservation> tags;
+  {
+    const Stopwatch watch(times.refine_s);
+    tags = measure_expected(gray, expected, done);
+  }
+  if (static_cast<int>(tags.size()) < least_tags) return std::nullopt;
+  const Stopwatch watch(times.pose_s);
+  const auto fit = solve_body(tags, expected, prior_for(settings_, prior));
+  return fit && fit->n_tags >= least_tags ? fit : std::nullopt;
+}
+
+std::vector<TagObservation> BodyFinder::measure_detected(const Image& gray,
+                                                         const std::vector<DetectedTag>& detected,
+                                                         std::vector<bool>& done) {
+  std::vector<TagObservation> tags, fallback;
+  for (const DetectedTag& found : detected) {
+    const auto tag = std::ranges::find(body_.tags, found.id, &Tag::id);
+    if (tag == body_.tags.end()) continue;
+    const auto index = static_cast<std::size_t>(tag - body_.tags.begin());
+    if (!settings_.refine_edges) {
+      tags.push_back(unrefined(index, found.corners_px));
+    } else {
+      const auto seen = observe(camera_, *tag, measure(gray, index, found.corners_px),
+                                looks_[index].bright_outside);
+      const bool good = seen.quality >= settings_.least_quality;
+      (good ? tags : fallback).push_back(seen);
+      done[index] = good;
+    }
+  }
+  // Tags whose edges can't be measured (a finger on them, no white margin) still tell roughly.
+  return tags.empty() ? fallback : tags;
+}
+
+std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,
+                                                         const Pose& camera_from_body,
+                                                         std::vector<bool>& done) {
+  std::vector<TagObservation> tags;
+  for (std::size_t i = 0; i < body_.tags.size(); ++i) {
+    if (done[i]) continue;
+    const auto corners = projected(camera_, body_.tags[i], camera_from_body);
+    if (!corners) continue;
+    const MeasuredTag measured = measure(gray, i, *corners);
+    if (measured.quality < settings_.least_quality || measured.agreement < least_agreement)
+      continue;
+    tags.push_back(observe(camera_, body_.tags[i], measured, looks_[i].bright_outside));
+    done[i] = true;
+  }
+  return tags;
+}
+
+MeasuredTag BodyFinder::measure(const Image& gray, std::size_t tag, const Corners& corners_px) {
+  const MeasuredTag seen =
+      measure_tag(gray, camera_, looks_[tag], corners_px, blur_px_, most_edge_pixels_);
+  if (seen.quality < settings_.least_quality) return seen;
+  double sum = 0;
+  for (const FittedEdge& edge : seen.edges) sum += edge.blur_px;
+  constexpr double memory = 0.95;
+  blur_px_ = memory * blur_px_ + (1 - memory) * sum / 4;
+  return seen;
+}
+
+TagObservation BodyFinder::unrefined(std::size_t tag, const Corners& corners_px) const {
+  return observe(camera_, body_.tags[tag], unrefined_tag(corners_px), looks_[tag].bright_outside);
+}
+
+}  // namespace heft

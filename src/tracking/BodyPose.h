@@ -1,0 +1,60 @@
+// The pose of a body from all of its tags' edges at once. Lens distortion is taken out of the
+// measured points, so that what is left is straight: the residual is the distance of a measured
+// point from the line through an edge's two projected ends, brought to pixels. Unknown beside the
+// pose: the edge bias, by which every black edge of a picture seems moved outwards (negative: tags
+// look too small). A board of several tags tells it from its distance, since the gaps between its
+// tags grow as the tags shrink; otherwise the prior holds it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/Pose.h"
+#include "tracking/MarkerBody.h"
+#include "tracking/TagEdges.h"
+
+namespace heft {
+
+/// A measured tag, ready for the solver.
+struct TagObservation {
+  struct Edge {
+    Eigen::Vector3d start_m, end_m;       ///< on the body
+    std::array<Eigen::Vector2d, 2> rays;  ///< two measured points, undistorted
+    std::array<double, 2> px_per_ray;     ///< across the edge
+    double sd_px = 0;                     ///< of each
+  };
+  std::array<Eigen::Vector3d, 4> corners_m;  ///< on the body
+  std::array<Eigen::Vector2d, 4> rays;       ///< of the measured corners
+  double px_per_ray = 0;                     ///< on average
+  std::array<Edge, 4> edges;
+  double outward = 1;  ///< -1 where the detected border is white within black
+  double quality = 0;
+  double area_px2 = 0;
+};
+
+TagObservation observe(const Intrinsics& camera, const Tag& tag, const MeasuredTag& measured,
+                       bool bright_outside);
+
+/// What is known of the edge bias before the body was seen.
+struct BiasPrior {
+  double mean_px = 0, sd_px = 0.1;  ///< sd 0: it is the mean
+};
+
+struct BodyFit {
+  Pose camera_from_body;
+  double bias_px = 0;
+  double rms_px = 0;  ///< distance of measured points from their edges
+  double cost = 0;    ///< robust, in variances
+  int n_tags = 0;     ///< used
+  /// A second pose, far from this one, fits nearly as well: a flat body seen from afar.
+  bool ambiguous = false;
+  double quality = 0;  ///< mean of its tags', halved where ambiguous, less where rms_px is large
+};
+
+/// @param previous where the body was expected; wins where the picture can't decide
+/// @return none for no tags, or where no pose fits them to a few pixels. Tags that don't fit the
+///   others are left out.
+std::optional<BodyFit> solve_body(const std::vector<TagObservation>& tags,
+                                  const std::optional<Pose>& previous, const BiasPrior& prior);
+
+}  // namespace heft

@@ -1,0 +1,56 @@
+#include "tracking/BoxFaces.h"
+
+#include <cmath>
+
+namespace heft {
+
+namespace {
+Eigen::Vector3d outwards(BoxFace face) {
+  switch (face) {
+    case BoxFace::tip:
+      return Eigen::Vector3d::UnitX();
+    case BoxFace::top:
+      return Eigen::Vector3d::UnitZ();
+    case BoxFace::left:
+      return Eigen::Vector3d::UnitY();
+    case BoxFace::right:
+      return -Eigen::Vector3d::UnitY();
+    case BoxFace::bottom:
+      return -Eigen::Vector3d::UnitZ();
+    case BoxFace::back:
+      return -Eigen::Vector3d::UnitX();
+  }
+  return {};
+}
+}  // namespace
+
+FaceFrame face_frame(const Eigen::Vector3d& size_m, BoxFace face) {
+  const Eigen::Vector3d normal = outwards(face);
+  const bool is_end = face == BoxFace::tip || face == BoxFace::back;
+  const Eigen::Vector3d up = is_end ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d right = up.cross(normal);
+  return {normal.cwiseProduct(size_m) / 2,
+          right,
+          up,
+          {right.cwiseAbs().dot(size_m), up.cwiseAbs().dot(size_m)}};
+}
+
+Tag tag_on(const FaceFrame& face, int id, const Eigen::Vector2d& center_m, double side_m) {
+  const double half_m = side_m / 2;
+  const auto corner = [&](double x, double y) {
+    return face.at(center_m + Eigen::Vector2d(x, y) * half_m);
+  };
+  return {id, {corner(-1, 1), corner(1, 1), corner(1, -1), corner(-1, -1)}};
+}
+
+Eigen::Vector3d tag_normal(const Tag& tag) {
+  const auto& c = tag.corners_m;  // of the diagonals: also for corners that are no exact square
+  return (c[1] - c[3]).cross(c[0] - c[2]).normalized();
+}
+
+Eigen::Vector3d tag_center_m(const Tag& tag) {
+  const auto& c = tag.corners_m;
+  return (c[0] + c[1] + c[2] + c[3]) / 4;
+}
+
+}  // namespace heft

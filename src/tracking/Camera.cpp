@@ -1,0 +1,34 @@
+#include "tracking/Camera.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "base/Error.h"
+#include "base/PlugTable.h"
+#include "tracking/CameraSources.h"
+
+namespace heft {
+
+namespace {
+constexpr std::array table{
+    CameraEntry{"camera", "a live camera: camera:0 is /dev/video0", open_live_camera},
+    CameraEntry{"video", "a video file: video:session.avi", open_video_file},
+    CameraEntry{"frames", "a folder of pictures: frames:pictures/", open_frames_folder},
+};
+}  // namespace
+
+std::span<const CameraEntry> cameras() {
+  return table;
+}
+
+std::unique_ptr<Camera> open_camera(const std::string& source, const CameraRequest& request) {
+  const std::size_t colon = source.find(':');
+  const CameraEntry& entry = entry_named("camera", source.substr(0, colon), cameras());
+  if (colon == std::string::npos || colon + 1 == source.size())
+    throw Error(fmt::format("\"{}\" does not say which one; write {}", source, entry.summary),
+                ExitCode::usage);
+  return entry.open(source.substr(colon + 1), request);
+}
+
+}  // namespace heft

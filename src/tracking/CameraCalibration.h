@@ -1,0 +1,74 @@
+// The camera's intrinsics from views of the board: OpenCV's calibrateCamera over refined corners,
+// from which the edge bias of each picture is taken out, and without views that don't fit the
+// others. Five coefficients (k1 k2 p1 p2 k3) and both focal lengths are free: holding fx = fy and
+// the tangential ones at zero costs pixels with common lenses.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tracking/TagViews.h"
+
+namespace heft {
+
+/// Which parts of the picture the board has been in: a grid of cells, each with the number of tag
+/// corners in it.
+struct Coverage {
+  static constexpr int columns = 8, rows = 6;
+  std::array<std::array<int, columns>, rows> corners{};
+
+  void add(const TagView& view, int width_px, int height_px);
+  /// Share of cells with any corner.
+  double share() const;
+  /// A line a row, '.' where nothing was seen, 'o' some, '#' much.
+  std::string drawing() const;
+  /// "the upper left", where the emptiest part is; empty where there is none.
+  std::string emptiest() const;
+};
+
+struct CalibratedView {
+  std::string name;
+  std::size_t n_tags = 0;
+  double reprojection_px = 0;        ///< rms
+  Eigen::Vector3d normal{0, 0, -1};  ///< of the board, in the camera frame
+  double bias_px = 0;                ///< its edges seem moved outwards by as much
+  bool used = true;                  ///< false: it does not fit the others
+};
+
+struct CameraCalibration {
+  Intrinsics camera;
+  double rms_px = 0;        ///< reprojection, of used views
+  double focal_sd_px = 0;   ///< standard error of the focal lengths, the larger one
+  double center_sd_px = 0;  ///< and of the principal point
+  std::vector<CalibratedView> views;
+  Coverage coverage;  ///< of used views
+
+  std::size_t n_used() const;
+  /// How far used views are tilted against each other: the widest angle between two board normals.
+  double tilt_range_rad() const;
+};
+
+/// Why a calibration should not be trusted and what to do about it; empty: it can be.
+std::vector<std::string> doubts(const CameraCalibration& calibration);
+
+/// How the result came about, for the top of its file.
+std::string summary(const CameraCalibration& calibration);
+
+/// The smallest number of views that a camera can be calibrated from.
+inline constexpr std::size_t least_views = 5;
+
+/// Of a camera that nothing is known of: 60 degrees across, no distortion.
+Intrinsics guessed_camera(int width_px, int height_px);
+
+/// The board's normal in the camera frame, good to some degrees; none where it can't be told.
+std::optional<Eigen::Vector3d> rough_normal(const MarkerBody& board, const Intrinsics& camera,
+                                            const TagView& view);
+
+/// @param pictures all of one size; at least least_views with four tags or more
+/// @throws Error when there are too few, or no camera fits them
+CameraCalibration calibrate_camera(const MarkerBody& board, const std::vector<Image>& pictures,
+                                   const std::vector<std::string>& names);
+
+}  // namespace heft

@@ -1,0 +1,310 @@
+#include "tracking/EdgeFit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tracking/ToneCurve.h"
+
+namespace heft {
+
+namespace {
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+enum Unknown { offset, slope, dark, contrast, gain, blur };
+
+constexpr double least_contrast = 20;  // gray levels between black and white
+constexpr double least_light_contrast = 0.002;
+constexpr double most_light = 3, saturated_light = 0.97, saturated_blur_sd_px = 0.02;
+constexpr double window_cells = 0.5, least_window_px = 1.0, most_window_px = 5;
+constexpr double corner_px = 2, most_corner_share = 0.2;  // left out: two edges blur together there
+constexpr int least_pixels = 12;
+constexpr double least_blur_px = 0.2, most_blur_px = 3.5;
+constexpr double least_noise = 0.5;  // rounding to 8 bits alone leaves .3
+
+// The normal distribution function and its density by table: value, first and second order.
+struct Normal {
+  double below, density;
+};
+
+constexpr double normal_end = 5, normal_steps_per_unit = 64;
+const std::array<Normal, static_cast<std::size_t>(2 * normal_end * normal_steps_per_unit) + 1>
+    normal_table = [] {
+      std::array<Normal, static_cast<std::size_t>(2 * normal_end * normal_steps_per_unit) + 1>
+          made{};
+      for (std::size_t i = 0; i < made.size(); ++i) {
+        const double x = static_cast<double>(i) / normal_steps_per_unit - normal_end;
+        made[i] = {0.5 * std::erfc(-x / std::numbers::sqrt2),
+                   std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi)};
+      }
+      return made;
+    }();
+
+Normal normal_at(double x) {
+  if (x <= -normal_end) return {0, 0};
+  if (x >= normal_end) return {1, 0};
+  const double place = (x + normal_end) * normal_steps_per_unit;
+  const auto nearest = static_cast<std::size_t>(place + 0.5);
+  const double rest = (place - static_cast<double>(nearest)) / normal_steps_per_unit;
+  const Normal& there = normal_table[nearest];
+  return {there.below + there.density * rest, there.density * (1 - x * rest)};
+}
+
+struct Sample {
+  double along;    ///< u
+  double outward;  ///< d, pixels
+  double value;    ///< stored
+};
+
+// The predicted edge's own axes.
+struct Frame {
+  Eigen::Vector2d start, direction, normal;
+  double length, sag;
+
+  explicit Frame(const EdgeGuess& guess)
+      : start(guess.start_px),
+        direction((guess.end_px - guess.start_px).normalized()),
+        normal(direction.y(), -direction.x()),
+        length((guess.end_px - guess.start_px).norm()),
+        sag(guess.sag_px) {}
+
+  double bend(double u) const { return sag * (1 - u * u); }
+  Eigen::Vector2d at(double u, double outward) const {
+    return start + direction * (length * (u + 1) / 2) + normal * (outward + bend(u));
+  }
+};
+
+// Pixels in a band along the edge, row by row or column by column, whichever crosses it.
+class Band {
+ public:
+  Band(const Image& gray, const Frame& frame, double half_width_px, int most_pixels)
+      : gray_(gray), frame_(frame), half_width_px_(half_width_px) {
+    const bool by_rows = std::abs(frame.direction.y()) > std::abs(frame.direction.x());
+    major_ = by_rows ? 1 : 0;
+    minor_ = 1 - major_;
+    const double trim = std::min(corner_px, most_corner_share * frame.length);
+    most_u_ = 1 - 2 * trim / frame.length;
+    const double a = frame.at(-1, 0)(major_), b = frame.at(1, 0)(major_);
+    const int first = std::max(0, static_cast<int>(std::floor(std::min(a, b))));
+    const int last = std::min(major_ == 1 ? gray.height - 1 : gray.width - 1,
+                              static_cast<int>(std::ceil(std::max(a, b))));
+    const double reach = half_width_px / std::abs(frame.normal(minor_));
+    const int stride = std::max(
+        1, static_cast<int>(std::ceil((last - first) * 2 * reach / std::max(1, most_pixels))));
+    for (int line = first; line <= last; line += stride) add_line(line, reach);
+  }
+
+  std::vector<Sample> samples;
+
+ private:
+  void add_line(int line, double reach) {
+    const double progress = (line - frame_.start(major_)) / frame_.direction(major_);
+    const double center = frame_.start(minor_) + progress * frame_.direction(minor_);
+    const double margin = reach + std::abs(frame_.sag) + 1;
+    const int size = minor_ == 0 ? gray_.width : gray_.height;
+    const int first = std::max(0, static_cast<int>(std::floor(center - margin)));
+    const int last = std::min(size - 1, static_cast<int>(std::ceil(center + margin)));
+    for (int across = first; across <= last; ++across) {
+      if (minor_ == 0)
+        add_pixel(across, line);
+      else
+        add_pixel(line, across);
+    }
+  }
+
+  void add_pixel(int x, int y) {
+    const Eigen::Vector2d from_start = Eigen::Vector2d(x, y) - frame_.start;
+    const double u = 2 * from_start.dot(frame_.direction) / frame_.length - 1;
+    if (std::abs(u) > most_u_) return;
+    const double d = from_start.dot(frame_.normal) - frame_.bend(u);
+    if (std::abs(d) > half_width_px_) return;
+    const auto at = static_cast<std::size_t>(y) * gray_.row_bytes() + static_cast<std::size_t>(x);
+    samples.push_back({u, d, static_cast<double>(gray_.pixels[at])});
+  }
+
+  const Image& gray_;
+  const Frame& frame_;
+  double half_width_px_;
+  double most_u_ = 1;
+  int major_ = 0, minor_ = 1;
+};
+
+// The step model on one band of pixels.
+class StepFit {
+ public:
+  StepFit(const std::vector<Sample>& samples, const EdgeGuess& guess)
+      : samples_(samples), guess_(guess), blur_sd_px_(guess.blur_sd_px) {
+    // Pixels far from the edge tell the light on its sides best.
+    double light[2] = {0, 0}, weights[2] = {1e-9, 1e-9};
+    for (const Sample& sample : samples) {
+      const double weight = sample.outward * sample.outward;
+      light[sample.outward > 0 ? 1 : 0] += weight * light_of_stored(sample.value);
+      weights[sample.outward > 0 ? 1 : 0] += weight;
+    }
+    const double inside = light[0] / weights[0], outside = light[1] / weights[1];
+    unknowns << 0, 0, inside, outside - inside, 0, guess.blur_px;
+    // Above saturation the light, the blur and the place can't all be told from one flank.
+    if (std::max(inside, outside) > saturated_light) blur_sd_px_ = saturated_blur_sd_px;
+    has_contrast =
+        (guess.bright_outside ? outside - inside : inside - outside) > least_light_contrast;
+  }
+
+  // @return the longest way an end of the edge moved, pixels
+  double step(bool drop_outliers) {
+    Matrix6 normal_matrix = prior();
+    Vector6 pull = Vector6::Zero();
+    pull(blur) = normal_matrix(blur, blur) * (guess_.blur_px - unknowns(blur));
+    const double clip = 2.5 * noise;
+    const double far = drop_outliers ? outlier_bound() : 1e9;  // another thing lies over the edge
+    double sum = 0;
+    int n = 0;
+    for (const Sample& sample : samples_) {
+      Vector6 by;
+      const double residual = sample.value - model(sample, by);
+      const double size = std::abs(residual);
+      if (size > far) continue;
+      ++n;
+      sum += size;
+      const double weight = (size > clip ? clip / size : 1) / (noise * noise);
+      const Vector6 weighted = weight * by;
+      normal_matrix.noalias() += weighted * by.transpose();
+      pull += residual * weighted;
+    }
+    noise = std::max(least_noise, 1.2533 * sum / std::max(1, n));
+    const Vector6 change = normal_matrix.llt().solve(pull);
+    if (!change.allFinite()) return 1e9;
+    unknowns += change;
+    unknowns(blur) = std::clamp(unknowns(blur), least_blur_px, most_blur_px);
+    unknowns(contrast) = std::min(unknowns(contrast), most_light - unknowns(dark));
+    information = normal_matrix;
+    return std::abs(change(offset)) + std::abs(change(slope));
+  }
+
+  // Share of pixels that the model explains.
+  double explained() const {
+    const double bound = outlier_bound();
+    int n = 0;
+    Vector6 unused;
+    for (const Sample& sample : samples_)
+      if (std::abs(sample.value - model(sample, unused)) < bound) ++n;
+    return static_cast<double>(n) / static_cast<double>(samples_.size());
+  }
+
+  double outlier_bound() const { return std::max(10.0, 0.12 * levels()); }
+  double inside_value() const { return stored_of_light(unknowns(dark)).value; }
+  double outside_value() const {
+    return stored_of_light(unknowns(dark) + unknowns(contrast)).value;
+  }
+  double levels() const { return std::abs(outside_value() - inside_value()); }
+
+  Vector6 unknowns;
+  Matrix6 information = Matrix6::Zero();
+  double noise = 6;
+  bool has_contrast = false;
+
+ private:
+  // What is known before: the blur. The rest is damped.
+  Matrix6 prior() const {
+    Vector6 weights;
+    weights << 1e-3, 1e-3, 1, 1, 100, 1 / (blur_sd_px_ * blur_sd_px_);
+    return weights.asDiagonal();
+  }
+
+  double model(const Sample& sample, Vector6& by) const {
+    const double u = sample.along, s = unknowns(blur);
+    const double q = (sample.outward - unknowns(offset) - unknowns(slope) * u) / s;
+    const Normal step = normal_at(q);
+    const double light = unknowns(dark) + unknowns(contrast) * step.below;
+    const double brighter = 1 + unknowns(gain) * u;
+    const Stored stored = stored_of_light(light * brighter);
+    const double by_light = stored.by_light * brighter;
+    const double by_shift = -by_light * unknowns(contrast) * step.density / s;
+    by << by_shift, by_shift * u, by_light, by_light * step.below, stored.by_light * light * u,
+        by_shift * q;
+    return stored.value;
+  }
+
+  const std::vector<Sample>& samples_;
+  const EdgeGuess& guess_;
+  double blur_sd_px_;
+};
+
+// Two points at which a straight line's errors are independent: at its best known place, plus and
+// minus the distance where offset and slope weigh the same.
+// @param leak_px how far the light of the tag's next cells may have moved the edge
+void place_points(FittedEdge& edge, const Frame& frame, const StepFit& fit, double leak_px) {
+  const Matrix6 covariance = fit.information.inverse();
+  const double slope_variance = covariance(slope, slope);
+  const double best_u = -covariance(offset, slope) / slope_variance;
+  const double best_variance = covariance(offset, offset) - covariance(offset, slope) *
+                                                                covariance(offset, slope) /
+                                                                slope_variance;
+  const double half = std::sqrt(best_variance / slope_variance);
+  const auto on_edge = [&](double u) {
+    return frame.at(u, fit.unknowns(offset) + fit.unknowns(slope) * u);
+  };
+  edge.points_px = {on_edge(best_u - half), on_edge(best_u + half)};
+  edge.start_px = on_edge(-1);
+  edge.end_px = on_edge(1);
+  edge.sd_px = std::sqrt(2 * best_variance + leak_px * leak_px);
+}
+
+constexpr int most_steps = 6, most_bands = 3;
+constexpr double settled_px = 0.004, recenter_px = 0.35;
+
+double moved_px(const StepFit& fit) {
+  return std::abs(fit.unknowns(offset)) + std::abs(fit.unknowns(slope));
+}
+
+// What a cell's width away from the edge blurs into the outer half of the window.
+double leak(double cell_px, double blur_px) {
+  constexpr double cautious = 2;
+  return cautious * blur_px * normal_at(-(1 - window_cells) * cell_px / blur_px).below;
+}
+
+FittedEdge described(const Frame& frame, const StepFit& fit, double cell_px) {
+  FittedEdge edge;
+  place_points(edge, frame, fit, leak(cell_px, fit.unknowns(blur)));
+  edge.dark = std::min(fit.inside_value(), fit.outside_value());
+  edge.bright = std::max(fit.inside_value(), fit.outside_value());
+  edge.blur_px = fit.unknowns(blur);
+  edge.noise = fit.noise;
+  const bool usable = fit.levels() >= least_contrast && std::isfinite(edge.sd_px);
+  edge.quality = usable ? fit.explained() : 0;
+  return edge;
+}
+}  // namespace
+
+FittedEdge fit_edge(const Image& gray, const EdgeGuess& first_guess, int most_pixels) {
+  EdgeGuess guess = first_guess;
+  const double half_width_px =
+      std::clamp(window_cells * guess.cell_px, least_window_px, most_window_px);
+  const double furthest_px = std::max(1.0, window_cells * guess.cell_px);
+  FittedEdge edge;
+  for (int band_number = 0; band_number < most_bands; ++band_number) {
+    const Frame frame(guess);
+    if (!(frame.length >= 4)) return {};
+    const Band band(gray, frame, half_width_px, most_pixels);
+    if (band.samples.size() < least_pixels) return {};
+    StepFit fit(band.samples, guess);
+    if (!fit.has_contrast) return {};
+    for (int i = 0; i < most_steps; ++i) {
+      if (fit.step(i > 1) < settled_px && i > 1) break;
+      if (!(moved_px(fit) < 2 * half_width_px)) return {};
+    }
+    edge = described(frame, fit, guess.cell_px);
+    const double from_start = std::max((edge.start_px - first_guess.start_px).norm(),
+                                       (edge.end_px - first_guess.end_px).norm());
+    if (!(from_start < 2 * furthest_px)) return {};
+    if (moved_px(fit) < recenter_px) break;
+    guess.start_px = edge.start_px;
+    guess.end_px = edge.end_px;
+    guess.blur_px = std::clamp(edge.blur_px, 0.5 * guess.blur_px, 2 * guess.blur_px);
+  }
+  return edge;
+}
+
+}  // namespace heft

@@ -1,0 +1,43 @@
+// Where a hand-made effector's tags really are, from pictures of it: the tags' places on the
+// effector and the effector's pose in each picture are adjusted together (bundle adjustment) until
+// all corners project to where they were measured. Each tag stays the flat square that its file
+// says; overall size can't be told from pictures, so that the tags' printed size fixes it. Origin
+// and axes stay those of the file: the corners' best rigid fit.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tracking/TagViews.h"
+
+namespace heft {
+
+struct CalibratedTag {
+  int id = 0;
+  int n_views = 0;     ///< that show it together with another tag
+  double moved_m = 0;  ///< mean way of its corners from where the file had them
+};
+
+struct EffectorCalibration {
+  MarkerBody effector;  ///< as measured
+  double rms_px = 0;    ///< reprojection
+  double bias_px = 0;   ///< by which edges seemed moved outwards
+  int n_views = 0;
+  std::vector<CalibratedTag> tags;  ///< in the effector's order
+};
+
+/// The smallest number of views that a tag needs to be placed.
+inline constexpr int least_views_of_a_tag = 6;
+
+/// @param views of the effector; those with fewer than two tags don't count
+/// @throws Error when there are too few
+EffectorCalibration calibrate_effector(const MarkerBody& effector, const Intrinsics& camera,
+                                       const std::vector<TagView>& views);
+
+/// Why a calibration should not be trusted and what to do about it; empty: it can be.
+std::vector<std::string> doubts(const EffectorCalibration& calibration);
+
+/// How the result came about, for the top of its file.
+std::string summary(const EffectorCalibration& calibration);
+
+}  // namespace heft

@@ -1,0 +1,49 @@
+#include "tracking/GrabThread.h"
+
+#include <chrono>
+#include <utility>
+
+namespace heft {
+
+namespace {
+bool equal(const Image& a, const Image& b) {
+  return a.width == b.width && a.height == b.height && a.channels == b.channels &&
+         a.pixels == b.pixels;
+}
+}  // namespace
+
+GrabThread::GrabThread(Grab grab, double pause_s)
+    : grab_(std::move(grab)),
+      pause_s_(pause_s),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+void GrabThread::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::optional<GrabbedPicture> picture = grab_();
+    if (picture) {
+      keep(std::move(*picture));
+      continue;
+    }
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, stop, std::chrono::duration<double>(pause_s_), [] { return false; });
+  }
+}
+
+void GrabThread::keep(GrabbedPicture picture) {
+  if (equal(picture.image, last_)) return;
+  last_ = picture.image;
+  {
+    const std::scoped_lock lock(mutex_);
+    newest_ = {std::move(picture.image), picture.capture_s, n_kept_++, ""};
+  }
+  changed_.notify_all();
+}
+
+std::optional<CameraPicture> GrabThread::next(double timeout_s) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, std::chrono::duration<double>(timeout_s),
+                    [this] { return newest_.has_value(); });
+  return std::exchange(newest_, std::nullopt);
+}
+
+}  // namespace heft

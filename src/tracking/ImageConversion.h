@@ -1,0 +1,16 @@
+// Between the house's pictures and OpenCV's.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "base/Image.h"
+
+namespace heft {
+
+/// The image's own pixels, not to be written to.
+cv::Mat mat_of(const Image& image);
+
+/// A copy. @param mat 8 bits, 1 or 3 channels
+Image image_from(const cv::Mat& mat);
+
+}  // namespace heft

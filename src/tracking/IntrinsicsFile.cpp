@@ -1,0 +1,159 @@
+// A camera's file, as OpenCV's calibration programs write it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <sstream>
+
+#include "base/Error.h"
+#include "base/TextFile.h"
+#include "tracking/Intrinsics.h"
+
+namespace heft {
+
+namespace {
+constexpr int largest_side_px = 20000;
+
+class Reader {
+ public:
+  Reader(const std::string& text, const std::string& file) : file_(file) {
+    try {
+      storage_.open(with_heading(text), cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    } catch (const cv::Exception& error) {
+      refuse(fmt::format("this is no YAML that OpenCV can read ({})", error.err));
+    }
+    if (!storage_.isOpened() || !storage_.root().isMap())
+      refuse(
+          "the file has no keys; expected OpenCV's YAML with image_width, image_height, "
+          "camera_matrix and distortion_coefficients");
+  }
+
+  int side(const char* key) {
+    const std::vector<double> value = numbers(key, "a number of pixels");
+    if (value.empty()) return 1;
+    if (value.size() != 1 || !(value[0] >= 1 && value[0] <= largest_side_px) ||
+        value[0] != std::floor(value[0])) {
+      mistake(fmt::format("{} is {}, expected a whole number of pixels from 1 to {}", key,
+                          fmt::join(value, ", "), largest_side_px));
+      return 1;
+    }
+    return static_cast<int>(value[0]);
+  }
+
+  void matrix(Intrinsics& camera) {
+    const std::vector<double> m = numbers("camera_matrix", "9 numbers");
+    if (m.empty()) return;
+    if (m.size() != 9)
+      return mistake(fmt::format("camera_matrix has {} numbers, expected 3 x 3", m.size()));
+    if (!(m[0] > 0 && m[4] > 0))
+      mistake(fmt::format("camera_matrix has focal lengths {} and {}, expected more than 0 pixels",
+                          m[0], m[4]));
+    if (m[1] != 0 || m[3] != 0 || m[6] != 0 || m[7] != 0 || m[8] != 1)
+      mistake("camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]; skew is not supported");
+    camera.fx_px = m[0];
+    camera.fy_px = m[4];
+    camera.cx_px = m[2];
+    camera.cy_px = m[5];
+  }
+
+  void distortion(Intrinsics& camera) {
+    const std::vector<double> d = numbers("distortion_coefficients", "4, 5 or 8 numbers");
+    if (d.empty()) return;
+    if (d.size() != 4 && d.size() != 5 && d.size() != 8)
+      return mistake(fmt::format(
+          "distortion_coefficients has {} numbers, expected 4, 5 or 8 (k1 k2 p1 p2 k3 k4 k5 k6); "
+          "calibrate with OpenCV's standard or rational model",
+          d.size()));
+    std::ranges::copy(d, camera.distortion.begin());
+  }
+
+  void mistake(std::string message) { mistakes_.push_back({{file_}, std::move(message)}); }
+
+  void finish() {
+    if (!mistakes_.empty()) throw InvalidFile(std::move(mistakes_));
+  }
+
+ private:
+  // Files written by hand often lack the first line that OpenCV insists on.
+  static std::string with_heading(const std::string& text) {
+    const auto start = text.find_first_not_of(" \t\r\n");
+    const bool has_heading = start != std::string::npos &&
+                             (text[start] == '%' || text[start] == '<' || text[start] == '{');
+    return has_heading ? text : "%YAML:1.0\n---\n" + text;
+  }
+
+  // The numbers of a scalar, a list, or a matrix (a map with a list named data).
+  std::vector<double> numbers(const char* key, const char* expected) {
+    cv::FileNode node = storage_[key];
+    if (node.isMap()) node = node["data"];
+    std::vector<double> values;
+    if (node.isInt() || node.isReal()) values.push_back(static_cast<double>(node));
+    bool usable = !node.isString();
+    if (node.isSeq())
+      for (const cv::FileNode& item : node) {
+        usable = usable && (item.isInt() || item.isReal());
+        values.push_back(usable ? static_cast<double>(item) : 0);
+      }
+    usable = usable && std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
+    if (node.empty() || values.empty() || !usable) {
+      mistake(fmt::format("{} {}, expected {}", key, node.empty() ? "is missing" : "is unusable",
+                          expected));
+      return {};
+    }
+    return values;
+  }
+
+  [[noreturn]] void refuse(std::string message) {
+    mistake(std::move(message));
+    throw InvalidFile(std::move(mistakes_));
+  }
+
+  std::string file_;
+  cv::FileStorage storage_;
+  std::vector<Mistake> mistakes_;
+};
+
+std::string matrix_text(const char* key, std::size_t rows, std::size_t columns,
+                        const std::vector<double>& values) {
+  return fmt::format("{}: !!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ {} ]\n",
+                     key, rows, columns, fmt::join(values, ", "));
+}
+
+std::string comment_lines(const std::string& comment) {
+  std::string lines, line;
+  std::istringstream in(comment);
+  while (std::getline(in, line)) lines += "# " + line + "\n";
+  return lines;
+}
+}  // namespace
+
+Intrinsics parse_intrinsics(const std::string& text, const std::string& file) {
+  Reader reader(text, file);
+  Intrinsics camera;
+  camera.width_px = reader.side("image_width");
+  camera.height_px = reader.side("image_height");
+  reader.matrix(camera);
+  reader.distortion(camera);
+  reader.finish();
+  return camera;
+}
+
+Intrinsics load_intrinsics(const std::string& path) {
+  return parse_intrinsics(read_text_file(path), path);
+}
+
+std::string to_yaml(const Intrinsics& camera, const std::string& comment) {
+  const std::vector<double> matrix{
+      camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1};
+  const std::vector<double> all(camera.distortion.begin(), camera.distortion.end());
+  const bool rational = all[5] != 0 || all[6] != 0 || all[7] != 0;
+  const std::vector<double> distortion(all.begin(), all.begin() + (rational ? 8 : 5));
+  return "%YAML:1.0\n---\n" + comment_lines(comment) +
+         fmt::format("image_width: {}\nimage_height: {}\n", camera.width_px, camera.height_px) +
+         matrix_text("camera_matrix", 3, 3, matrix) +
+         matrix_text("distortion_coefficients", 1, distortion.size(), distortion);
+}
+
+}  // namespace heft

@@ -1,0 +1,24 @@
+// What a live camera's times and locks are worked out from, apart from any device.
+#pragma once
+
+#include <functional>
+
+#include "tracking/Camera.h"
+
+namespace heft {
+
+/// Middle of the exposure on the monotonic clock.
+/// @param driver_s when the driver says that the picture was taken; it is believed where it lies in
+///   the second before arrival, else arrival counts
+double capture_time_s(double driver_s, double arrival_s, double exposure_s);
+
+/// Reads and sets a device's controls by OpenCV's number of the property.
+struct CameraControls {
+  std::function<bool(int property, double value)> set;
+  std::function<double(int property)> get;
+};
+
+/// Fixes exposure, focus and white balance, reads back what the driver made of it, and lists it.
+void lock_controls(const CameraControls& controls, double exposure_s, CameraMode& mode);
+
+}  // namespace heft

@@ -1,0 +1,23 @@
+// Poses of a flat tag from its four corners alone: where every pose search starts.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/Pose.h"
+
+namespace heft {
+
+/// The homography that takes the unit square's corners (0,0), (1,0), (1,1), (0,1) to these
+/// (Heckbert, "Fundamentals of texture mapping", 1989, eq. 3.14 and on).
+Eigen::Matrix3d square_to(const std::array<Eigen::Vector2d, 4>& corners);
+
+/// Up to two poses (target_from_source: camera from the corners' frame) that fit, the better one
+/// first: a flat thing seen from afar looks alike from two sides (Collins & Bartoli,
+/// "Infinitesimal plane-based pose estimation", IJCV 2014). None for corners that can't be a
+/// tag's picture.
+/// @param corners_m in one plane  @param rays of the corners, without distortion
+std::vector<Pose> planar_poses(const std::array<Eigen::Vector3d, 4>& corners_m,
+                               const std::array<Eigen::Vector2d, 4>& rays);
+
+}  // namespace heft

@@ -1,0 +1,145 @@
+#include "tracking/PoseFilter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace heft {
+
+namespace {
+// How well a pose is measured, at quality 1.
+constexpr double position_sd_m = 0.00025, turn_sd_rad = 0.004;
+// How violently a hand moves: spectral density of its acceleration, at rest (the little that a hand
+// trembles) and in motion, which the filter must follow at once. Motion is told by speed.
+struct Restlessness {
+  double at_rest, moving;
+  double slow, fast;  ///< speeds between which the one turns into the other
+};
+constexpr Restlessness position_noise{5e-6, 20, 0.02, 0.08};  // m2/s3, m/s
+constexpr Restlessness turn_noise{1e-3, 3e3, 0.15, 0.6};      // rad2/s3, rad/s
+// ... or, before there is any speed, by measurements that are this many standard deviations off.
+constexpr double surprise_starts = 2, surprise_full = 4;
+constexpr double calms_down_s = 0.15;
+constexpr double least_quality = 0.1;
+
+// One axis' position and velocity, relative to the last estimate, with their covariance. The three
+// axes of a quantity share it: they are measured alike.
+struct Covariance {
+  double position, both = 0, velocity;
+
+  void predict(double dt_s, double noise) {
+    position += dt_s * (2 * both + dt_s * velocity) + noise * dt_s * dt_s * dt_s / 3;
+    both += dt_s * velocity + noise * dt_s * dt_s / 2;
+    velocity += noise * dt_s;
+  }
+
+  struct Gain {
+    double position, velocity;
+  };
+
+  Gain correct(double measured_variance) {
+    const double sum = position + measured_variance;
+    const Gain gain{position / sum, both / sum};
+    velocity -= gain.velocity * both;
+    both *= 1 - gain.position;
+    position *= 1 - gain.position;
+    return gain;
+  }
+};
+
+// How far from rest, 0...1; rises at once and falls slowly, so that the filter never lags at the
+// start of a motion.
+class Liveliness {
+ public:
+  double update(double surprise, double speed, const Restlessness& noise, double dt_s) {
+    const double now = std::max(share(surprise, surprise_starts, surprise_full),
+                                share(speed, noise.slow, noise.fast));
+    value_ = std::max(now, value_ * std::exp(-dt_s / calms_down_s));
+    return value_;
+  }
+
+ private:
+  static double share(double value, double none, double all) {
+    return std::clamp((value - none) / (all - none), 0.0, 1.0);
+  }
+
+  double value_ = 0;
+};
+
+// Between the two in the logarithm: they are orders of magnitude apart.
+double noise_of(const Restlessness& noise, double liveliness) {
+  return noise.at_rest * std::pow(noise.moving / noise.at_rest, liveliness);
+}
+
+// Three axes of one quantity.
+class Axes {
+ public:
+  Axes(double measured_sd, const Restlessness& noise, double velocity_sd)
+      : measured_sd_(measured_sd),
+        noise_(noise),
+        covariance_{measured_sd * measured_sd, 0, velocity_sd * velocity_sd} {}
+
+  // @param off how far the measured place is from the predicted one
+  // @return how far the estimated place is from the predicted one
+  Eigen::Vector3d update(const Eigen::Vector3d& off, double dt_s, double quality) {
+    const double sd = measured_sd_ / std::max(quality, least_quality);
+    Covariance calm = covariance_;
+    calm.predict(dt_s, noise_.at_rest);
+    const double surprise = off.norm() / std::sqrt(3 * (calm.position + sd * sd));
+    covariance_.predict(
+        dt_s, noise_of(noise_, liveliness_.update(surprise, velocity.norm(), noise_, dt_s)));
+    const auto gain = covariance_.correct(sd * sd);
+    velocity += gain.velocity * off;
+    return gain.position * off;
+  }
+
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+
+ private:
+  double measured_sd_;
+  Restlessness noise_;
+  Covariance covariance_;
+  Liveliness liveliness_;
+};
+}  // namespace
+
+struct PoseFilter::Parts {
+  struct State {
+    double t_s;
+    Pose pose;
+    Axes position{position_sd_m, position_noise, 1.0};
+    Axes turn{turn_sd_rad, turn_noise, 5.0};
+  };
+  std::optional<State> state;
+};
+
+PoseFilter::PoseFilter() : parts_(std::make_unique<Parts>()) {}
+PoseFilter::~PoseFilter() = default;
+PoseFilter::PoseFilter(PoseFilter&&) noexcept = default;
+PoseFilter& PoseFilter::operator=(PoseFilter&&) noexcept = default;
+
+FilteredPose PoseFilter::update(double t_s, const Pose& measured, double quality) {
+  if (!parts_->state) {
+    parts_->state = Parts::State{t_s, measured};
+    return {measured, {}};
+  }
+  Parts::State& state = *parts_->state;
+  const double dt_s = std::max(t_s - state.t_s, 1e-6);
+  state.t_s = t_s;
+  Axes &position = state.position, &turn = state.turn;
+  const Eigen::Vector3d predicted_m = state.pose.position_m + dt_s * position.velocity;
+  const Eigen::Quaterniond predicted =
+      rotation_from_vector(dt_s * turn.velocity) * state.pose.orientation;
+  const Eigen::Vector3d off_rad = rotation_vector(measured.orientation * predicted.conjugate());
+  state.pose.position_m =
+      predicted_m + position.update(measured.position_m - predicted_m, dt_s, quality);
+  state.pose.orientation =
+      (rotation_from_vector(turn.update(off_rad, dt_s, quality)) * predicted).normalized();
+  return {state.pose, {position.velocity, turn.velocity}};
+}
+
+void PoseFilter::reset() {
+  parts_->state.reset();
+}
+
+}  // namespace heft

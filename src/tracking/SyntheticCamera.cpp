@@ -1,0 +1,180 @@
+#include "tracking/SyntheticCamera.h"
+
+#include <cmath>
+#include <vector>
+
+#include "tracking/synthetic/FaceDrawing.h"
+#include "tracking/synthetic/Hand.h"
+#include "tracking/synthetic/Sensor.h"
+#include "tracking/synthetic/StillScene.h"
+
+namespace heft {
+
+namespace {
+using Eigen::Vector3d;
+
+// Renderings this far apart blend into one smear: with a blur of .6 px the ripple is 1e-4 of it.
+constexpr double smear_step_px = 1.0;
+constexpr double still_px = 0.02;  // less than this over the exposure is no motion
+constexpr int most_motion_samples = 64;
+
+double largest_move_px(const std::vector<PrintedFace>& faces, const SeenBody& from,
+                       const SeenBody& to, const Lens& lens) {
+  double largest = 0;
+  for (const PrintedFace& face : faces) {
+    for (const Vector3d& corner : face.patches.front().corners_m) {
+      const Vector3d a = from.in_camera(corner), b = to.in_camera(corner);
+      if (a.z() < Lens::nearest_m || b.z() < Lens::nearest_m) continue;
+      largest = std::max(largest, (lens.pixel(a) - lens.pixel(b)).norm());
+    }
+  }
+  return largest;
+}
+}  // namespace
+
+Intrinsics default_camera(int width_px, int height_px) {
+  const double focal_px = width_px <= 640 ? 540.0 * width_px / 640 : 1000.0 * width_px / 1280;
+  Intrinsics camera{
+      width_px, height_px, focal_px, focal_px, (width_px - 1) / 2.0, (height_px - 1) / 2.0, {}};
+  camera.distortion = {0.06, -0.15};
+  return camera;
+}
+
+SyntheticSettings::SyntheticSettings() {
+  constexpr double distance_m = 0.45, pitch_rad = 52 * M_PI / 180;
+  const double across = std::cos(pitch_rad), down = std::sin(pitch_rad);
+  Eigen::Matrix3d rotation;  // rows: the camera's right, down and forward
+  rotation << 1, 0, 0, 0, -down, -across, 0, across, -down;
+  camera_from_board = {{0, 0, distance_m}, Eigen::Quaterniond(rotation)};
+}
+
+struct SyntheticCamera::Parts {
+  Parts(const Apparatus& apparatus, const SyntheticSettings& with, std::uint64_t seed);
+
+  SeenBody seen(const Pose& board_from_effector) const {
+    return {settings.camera_from_board, board_from_effector};
+  }
+  std::vector<std::optional<Pose>> poses_while_open(const EffectorPath& path, double t_s) const;
+  int motion_samples(const EffectorPath& path, double t_s) const;
+  PixelBox extent(const Pose& pose) const;
+  void draw_hand_and_effector(const Pose& pose);
+  void draw_moving(const std::vector<std::optional<Pose>>& poses, const PixelBox& box);
+  void put_before_still();
+
+  SyntheticSettings settings;
+  Lens lens;
+  std::vector<PrintedFace> effector;
+  Hand hand;
+  Sensor sensor;
+  LightPicture still;   ///< table and board, sharp
+  Levels still_levels;  ///< the same, as the sensor has it
+  Levels levels;        ///< this picture's
+  AreaRaster raster;
+  LightPicture instant;  ///< hand and effector at one moment
+  LightPicture moving;   ///< their mean over the exposure, then before the still scene
+  LightPicture blurred;
+};
+
+SyntheticCamera::Parts::Parts(const Apparatus& apparatus, const SyntheticSettings& with,
+                              std::uint64_t seed)
+    : settings(with),
+      lens(apparatus.camera),
+      effector(printed_effector(apparatus.effector)),
+      hand(apparatus.effector.size_m),
+      sensor(with.optics, apparatus.camera.width_px, apparatus.camera.height_px, seed),
+      still(still_scene(apparatus.board, with.camera_from_board, lens)) {
+  sensor.blur(still, still.box, blurred);
+  sensor.expose(blurred, still_levels);
+  levels = still_levels;
+}
+
+// As many as the smear is long, so that it has no steps.
+int SyntheticCamera::Parts::motion_samples(const EffectorPath& path, double t_s) const {
+  const double half_s = settings.optics.exposure_s / 2;
+  const auto opens = path(t_s - half_s), closes = path(t_s + half_s);
+  if (!opens || !closes) return settings.motion_samples;
+  const double move_px = largest_move_px(effector, seen(*opens), seen(*closes), lens);
+  if (move_px < still_px) return 1;
+  return std::clamp(static_cast<int>(std::ceil(move_px / smear_step_px)), settings.motion_samples,
+                    std::max(settings.motion_samples, most_motion_samples));
+}
+
+// At the middles of equal parts of the exposure.
+std::vector<std::optional<Pose>> SyntheticCamera::Parts::poses_while_open(const EffectorPath& path,
+                                                                          double t_s) const {
+  const int n = motion_samples(path, t_s);
+  std::vector<std::optional<Pose>> poses;
+  for (int i = 0; i < n; ++i)
+    poses.push_back(path(t_s + ((i + 0.5) / n - 0.5) * settings.optics.exposure_s));
+  return poses;
+}
+
+PixelBox SyntheticCamera::Parts::extent(const Pose& pose) const {
+  const auto box = extent_of(effector, seen(pose), lens);
+  if (!box) return {};
+  return settings.hand ? box->around(hand.extent(seen(pose), lens)) : *box;
+}
+
+void SyntheticCamera::Parts::draw_hand_and_effector(const Pose& pose) {
+  const SeenBody body = seen(pose);
+  const auto extent = extent_of(effector, body, lens);
+  if (!extent) return;
+  if (settings.hand) hand.draw(Hand::Side::behind_box, body, lens, instant);
+  raster.begin(extent->within(instant.box));
+  for (const PrintedFace& face : effector)
+    if (is_seen(face, body)) draw_face(face, body, lens, raster);
+  raster.draw_over(instant);
+  if (settings.hand) hand.draw(Hand::Side::before_box, body, lens, instant);
+}
+
+void SyntheticCamera::Parts::draw_moving(const std::vector<std::optional<Pose>>& poses,
+                                         const PixelBox& box) {
+  moving.reset(box);
+  const float share = 1 / static_cast<float>(poses.size());
+  for (const std::optional<Pose>& pose : poses) {
+    if (!pose) continue;
+    instant.reset(box);
+    draw_hand_and_effector(*pose);
+    for (std::size_t i = 0; i < moving.light.size(); ++i)
+      moving.light[i] += share * instant.light[i];
+  }
+}
+
+void SyntheticCamera::Parts::put_before_still() {
+  const PixelBox& box = moving.box;
+  for (int y = box.y0; y < box.y1; ++y) {
+    Light* row = moving.row(y);
+    const Light* behind = still.row(y) + box.x0;
+    for (int x = 0; x < box.width(); ++x) row[x] = over(row[x], behind[x]);
+  }
+}
+
+SyntheticCamera::SyntheticCamera(const Apparatus& apparatus, const SyntheticSettings& settings,
+                                 std::uint64_t seed)
+    : parts_(std::make_unique<Parts>(apparatus, settings, seed)) {}
+SyntheticCamera::~SyntheticCamera() = default;
+SyntheticCamera::SyntheticCamera(SyntheticCamera&&) noexcept = default;
+SyntheticCamera& SyntheticCamera::operator=(SyntheticCamera&&) noexcept = default;
+
+// Only what hand and effector reach is rendered; the blur reaches a little farther, and needs to
+// know as much again.
+Image SyntheticCamera::picture(const EffectorPath& board_from_effector, double t_s,
+                               std::uint64_t number) {
+  Parts& p = *parts_;
+  const auto poses = p.poses_while_open(board_from_effector, t_s);
+  PixelBox reached;
+  for (const auto& pose : poses)
+    if (pose) reached = reached.around(p.extent(*pose));
+  const int blur_px = p.sensor.blur_reach_px();
+  const PixelBox changed = reached.empty() ? reached : reached.grown(blur_px).within(p.still.box);
+  if (changed.empty()) return p.sensor.develop(p.still_levels, number);
+
+  p.draw_moving(poses, changed.grown(blur_px).within(p.still.box));
+  p.put_before_still();
+  p.sensor.blur(p.moving, changed, p.blurred);
+  p.levels = p.still_levels;
+  p.sensor.expose(p.blurred, p.levels);
+  return p.sensor.develop(p.levels, number);
+}
+
+}  // namespace heft

@@ -1,0 +1,184 @@
+#include "tracking/TagBundle.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace heft {
+
+namespace {
+// Of the springs, beside corners known to 0.05 px.
+constexpr double corner_sd_px = 0.05, huber = 2.5;
+constexpr double place_sd_m = 0.005, turn_sd_rad = 0.1, bias_sd_px = 0.1;
+
+// Unknowns: six of each tag, six of each view, the bias. A pose moves by a turn about its own
+// origin and a shift, both in the target's axes.
+struct Layout {
+  Eigen::Index n_tags, n_views;
+  Eigen::Index tag(std::size_t i) const { return 6 * static_cast<Eigen::Index>(i); }
+  Eigen::Index view(std::size_t i) const { return 6 * (n_tags + static_cast<Eigen::Index>(i)); }
+  Eigen::Index bias() const { return 6 * (n_tags + n_views); }
+  Eigen::Index size() const { return bias() + 1; }
+};
+
+Layout layout_of(const TagBundle& bundle) {
+  return {static_cast<Eigen::Index>(bundle.body_from_tag.size()),
+          static_cast<Eigen::Index>(bundle.camera_from_body.size())};
+}
+
+struct Equations {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd pull;
+  double cost = 0, sum_px2 = 0;
+  int n = 0;
+
+  explicit Equations(Eigen::Index size)
+      : matrix(Eigen::MatrixXd::Zero(size, size)), pull(Eigen::VectorXd::Zero(size)) {}
+};
+
+Pose moved(const Pose& pose, const Eigen::Matrix<double, 6, 1>& step) {
+  return {pose.position_m + step.tail<3>(),
+          (rotation_from_vector(step.head<3>()) * pose.orientation).normalized()};
+}
+
+TagBundle moved(const TagBundle& bundle, const Eigen::VectorXd& step) {
+  const Layout at = layout_of(bundle);
+  TagBundle next = bundle;
+  for (std::size_t i = 0; i < next.body_from_tag.size(); ++i)
+    next.body_from_tag[i] = moved(next.body_from_tag[i], step.segment<6>(at.tag(i)));
+  for (std::size_t i = 0; i < next.camera_from_body.size(); ++i)
+    next.camera_from_body[i] = moved(next.camera_from_body[i], step.segment<6>(at.view(i)));
+  next.bias_px += step(at.bias());
+  return next;
+}
+
+// A point's pixel by the point, in the camera frame; distortion by small steps of the ray.
+Eigen::Matrix<double, 2, 3> pixel_by_point(const Intrinsics& camera, const Eigen::Vector3d& p) {
+  constexpr double step = 1e-6;
+  const Eigen::Vector2d ray = p.head<2>() / p.z();
+  Eigen::Matrix2d pixel_by_ray;
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d aside = step * Eigen::Vector2d::Unit(i);
+    pixel_by_ray.col(i) =
+        (distort(camera, ray + aside) - distort(camera, ray - aside)) / (2 * step);
+  }
+  Eigen::Matrix<double, 2, 3> ray_by_point;
+  ray_by_point << 1 / p.z(), 0, -ray.x() / p.z(), 0, 1 / p.z(), -ray.y() / p.z();
+  return pixel_by_ray * ray_by_point;
+}
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+// One corner's two equations, by its tag, its view and the bias.
+struct CornerEquation {
+  Eigen::Vector2d residual;
+  Eigen::Matrix<double, 2, 6> by_tag, by_view;
+  Eigen::Vector2d by_bias;
+};
+
+CornerEquation corner_equation(const TagBundle& bundle, const Intrinsics& camera,
+                               const SeenTag& seen, std::size_t view, std::size_t corner,
+                               const Eigen::Vector2d& outward) {
+  const Pose& tag = bundle.body_from_tag[seen.tag];
+  const Pose& body = bundle.camera_from_body[view];
+  const Eigen::Vector3d in_tag = corner_in_tag(bundle.side_m[seen.tag], corner);
+  const Eigen::Vector3d in_body = tag * in_tag, in_camera = body * in_body;
+  const auto by_point = pixel_by_point(camera, in_camera);
+  const Eigen::Matrix3d turn = body.orientation.toRotationMatrix();
+  CornerEquation equation;
+  equation.residual =
+      project(camera, in_camera) + bundle.bias_px * outward - seen.corners_px[corner];
+  equation.by_view << -by_point * cross_matrix(body.orientation * in_body), by_point;
+  equation.by_tag << -by_point * turn * cross_matrix(tag.orientation * in_tag), by_point * turn;
+  equation.by_bias = outward;
+  return equation;
+}
+
+void add(Equations& equations, const CornerEquation& corner, const Layout& at, std::size_t tag,
+         std::size_t view) {
+  Eigen::Matrix<double, 13, 2> by;
+  by << corner.by_tag.transpose(), corner.by_view.transpose(), corner.by_bias.transpose();
+  const double size = corner.residual.norm() / corner_sd_px;
+  const double weight = (size > huber ? huber / size : 1) / (corner_sd_px * corner_sd_px);
+  const std::array<Eigen::Index, 3> place{at.tag(tag), at.view(view), at.bias()};
+  const std::array<Eigen::Index, 3> from{0, 6, 12}, length{6, 6, 1};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto rows = by.middleRows(from[a], length[a]);
+    equations.pull.segment(place[a], length[a]) -= weight * rows * corner.residual;
+    for (std::size_t b = 0; b < 3; ++b)
+      equations.matrix.block(place[a], place[b], length[a], length[b]) +=
+          weight * rows * by.middleRows(from[b], length[b]).transpose();
+  }
+  equations.cost += size > huber ? huber * (2 * size - huber) : size * size;
+  equations.sum_px2 += corner.residual.squaredNorm();
+  ++equations.n;
+}
+
+void add_spring(Equations& equations, Eigen::Index at, double off, double sd) {
+  equations.matrix(at, at) += 1 / (sd * sd);
+  equations.pull(at) -= off / (sd * sd);
+  equations.cost += off * off / (sd * sd);
+}
+
+void add_springs(Equations& equations, const TagBundle& bundle, const TagBundle& start) {
+  const Layout at = layout_of(bundle);
+  for (std::size_t i = 0; i < bundle.body_from_tag.size(); ++i) {
+    const Pose &now = bundle.body_from_tag[i], &then = start.body_from_tag[i];
+    const Eigen::Vector3d turn = rotation_vector(now.orientation * then.orientation.conjugate());
+    const Eigen::Vector3d shift = now.position_m - then.position_m;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      add_spring(equations, at.tag(i) + k, turn[k], turn_sd_rad);
+      add_spring(equations, at.tag(i) + 3 + k, shift[k], place_sd_m);
+    }
+  }
+  add_spring(equations, at.bias(), bundle.bias_px, bias_sd_px);
+}
+
+Equations equations_at(const TagBundle& bundle, const TagBundle& start, const Intrinsics& camera,
+                       const std::vector<TagView>& views) {
+  const Layout at = layout_of(bundle);
+  Equations equations(at.size());
+  for (std::size_t v = 0; v < views.size(); ++v)
+    for (const SeenTag& seen : views[v].tags) {
+      const auto outward = outward_moves(seen.corners_px);
+      for (std::size_t c = 0; c < 4; ++c)
+        add(equations, corner_equation(bundle, camera, seen, v, c, outward[c]), at, seen.tag, v);
+    }
+  add_springs(equations, bundle, start);
+  return equations;
+}
+}  // namespace
+
+Eigen::Vector3d corner_in_tag(double side_m, std::size_t corner) {
+  const double half = side_m / 2;
+  return {corner == 1 || corner == 2 ? half : -half, corner < 2 ? half : -half, 0};
+}
+
+double adjust(TagBundle& bundle, const Intrinsics& camera, const std::vector<TagView>& views) {
+  constexpr int most_steps = 60;
+  const TagBundle start = bundle;
+  Equations equations = equations_at(bundle, start, camera, views);
+  double damping = 1e-3;
+  for (int i = 0; i < most_steps && damping < 1e9; ++i) {
+    Eigen::MatrixXd matrix = equations.matrix;
+    matrix.diagonal() *= 1 + damping;
+    const TagBundle there = moved(bundle, matrix.ldlt().solve(equations.pull));
+    Equations next = equations_at(there, start, camera, views);
+    if (!(next.cost <= equations.cost)) {
+      damping *= 10;
+      continue;
+    }
+    const double gained = equations.cost - next.cost;
+    bundle = there;
+    equations = std::move(next);
+    damping = std::max(damping / 10, 1e-9);
+    if (gained <= 1e-8 * equations.cost) break;
+  }
+  return std::sqrt(equations.sum_px2 / std::max(1, equations.n));
+}
+
+}  // namespace heft

@@ -1,0 +1,162 @@
+#include "tracking/TagEdges.h"
+
+#include <apriltag/apriltag.h>
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "base/Error.h"
+#include "tracking/PlanarPose.h"
+#include "tracking/TagFamily.h"
+
+namespace heft {
+
+namespace {
+constexpr double unrefined_sd_px = 0.3;
+constexpr double least_edge_quality = 0.6;
+constexpr double alike_blur_share = 0.1;
+
+TagLook look_of(const apriltag_family& family, int id) {
+  TagLook look{family.width_at_border, !family.reversed_border, {}};
+  const std::uint64_t code = family.codes[id];
+  for (std::uint32_t bit = 0; bit < family.nbits; ++bit) {
+    // Places count from the border's corner, and below 0 outside of it.
+    const Eigen::Vector2d cell(static_cast<int>(family.bit_x[bit]),
+                               static_cast<int>(family.bit_y[bit]));
+    look.data.push_back({(cell + Eigen::Vector2d(0.5, 0.5)) / family.width_at_border,
+                         (code >> (family.nbits - 1 - bit) & 1) != 0});
+  }
+  return look;
+}
+
+using Corners = std::array<Eigen::Vector2d, 4>;
+
+Eigen::Vector2d through(const Eigen::Matrix3d& homography, const Eigen::Vector2d& place) {
+  return (homography * place.homogeneous()).hnormalized();
+}
+
+// How far the lens bends a straight edge's middle outwards.
+double sag_px(const Intrinsics& camera, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d middle = (undistort(camera, a) + undistort(camera, b)) / 2;
+  const Eigen::Vector2d along = (b - a).normalized();
+  return (distort(camera, middle) - (a + b) / 2).dot(Eigen::Vector2d(along.y(), -along.x()));
+}
+
+// Width of the cells along an edge's inside, across it.
+double cell_px(const Eigen::Matrix3d& pixel_from_square, int n_cells, std::size_t edge) {
+  const double d = 1.0 / n_cells;
+  const std::array<Eigen::Vector2d, 4> middles{{{.5, 0}, {1, .5}, {.5, 1}, {0, .5}}};
+  const std::array<Eigen::Vector2d, 4> inwards{{{0, d}, {-d, 0}, {0, -d}, {d, 0}}};
+  const std::array<Eigen::Vector2d, 4> alongs{{{d, 0}, {0, d}, {-d, 0}, {0, -d}}};
+  const Eigen::Vector2d middle = through(pixel_from_square, middles[edge]);
+  const Eigen::Vector2d in = through(pixel_from_square, middles[edge] + inwards[edge]) - middle;
+  const Eigen::Vector2d along =
+      (through(pixel_from_square, middles[edge] + alongs[edge]) - middle).normalized();
+  return std::abs(in.x() * along.y() - in.y() * along.x());
+}
+
+// Where the lines through two edges meet.
+Eigen::Vector2d crossing(const FittedEdge& one, const FittedEdge& other) {
+  const Eigen::Vector2d a = one.end_px - one.start_px, b = other.end_px - other.start_px;
+  const Eigen::Vector2d between = other.start_px - one.start_px;
+  const double t = (between.x() * b.y() - between.y() * b.x()) / (a.x() * b.y() - a.y() * b.x());
+  return one.start_px + t * a;
+}
+
+bool is_there(const FittedEdge& edge) {
+  return edge.quality > 0;
+}
+
+// Keeps the guess where the fit found no edge.
+void take_edge(FittedEdge& edge, const FittedEdge& fitted) {
+  edge.quality = 0;
+  if (fitted.quality >= least_edge_quality) edge = fitted;
+}
+
+// The guess with what the first fits told: opposite edges are blurred alike, by motion, too.
+EdgeGuess informed(EdgeGuess guess, const std::array<FittedEdge, 4>& edges, std::size_t edge) {
+  guess.start_px = edges[edge].start_px;
+  guess.end_px = edges[edge].end_px;
+  guess.blur_px = (edges[edge].blur_px + edges[(edge + 2) % 4].blur_px) / 2;
+  guess.blur_sd_px = alike_blur_share * guess.blur_px;
+  return guess;
+}
+
+double value_at(const Image& gray, const Eigen::Vector2d& pixel) {
+  const double x = std::clamp(pixel.x(), 0.0, gray.width - 1.001);
+  const double y = std::clamp(pixel.y(), 0.0, gray.height - 1.001);
+  const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
+  const double right = x - static_cast<double>(column), down = y - static_cast<double>(row);
+  const std::uint8_t* p = &gray.pixels[row * gray.row_bytes() + column];
+  const std::uint8_t* below = p + gray.row_bytes();
+  return (1 - down) * ((1 - right) * p[0] + right * p[1]) +
+         down * ((1 - right) * below[0] + right * below[1]);
+}
+
+double agreement(const Image& gray, const TagLook& look, const MeasuredTag& tag) {
+  double middle = 0;
+  for (const FittedEdge& edge : tag.edges) middle += (edge.dark + edge.bright) / 8;
+  const Eigen::Matrix3d pixel_from_square = square_to(tag.corners_px);
+  const auto agrees = [&](const TagLook::Cell& cell) {
+    return (value_at(gray, through(pixel_from_square, cell.place)) > middle) == cell.white;
+  };
+  return static_cast<double>(std::ranges::count_if(look.data, agrees)) /
+         static_cast<double>(look.data.size());
+}
+}  // namespace
+
+std::vector<TagLook> looks_of(const MarkerBody& body) {
+  const TagFamilyHandle family = make_tag_family(body.family);
+  std::vector<TagLook> looks;
+  for (const Tag& tag : body.tags) {
+    if (tag.id < 0 || tag.id >= static_cast<int>(family->ncodes))
+      throw Error(fmt::format("{} has no tag {}: its ids are 0 to {}", body.family, tag.id,
+                              family->ncodes - 1));
+    looks.push_back(look_of(*family, tag.id));
+  }
+  return looks;
+}
+
+MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagLook& look,
+                        const Corners& corners_px, double blur_px, int most_pixels) {
+  const Eigen::Matrix3d pixel_from_square = square_to(corners_px);
+  MeasuredTag tag = unrefined_tag(corners_px);
+  std::array<EdgeGuess, 4> guesses;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EdgeGuess& guess = guesses[i];
+    guess.start_px = corners_px[i];
+    guess.end_px = corners_px[(i + 1) % 4];
+    guess.sag_px = sag_px(camera, guess.start_px, guess.end_px);
+    guess.cell_px = cell_px(pixel_from_square, look.border_cells, i);
+    guess.blur_px = blur_px;
+    guess.bright_outside = look.bright_outside;
+    take_edge(tag.edges[i], fit_edge(gray, guess, most_pixels));
+  }
+  if (std::ranges::all_of(tag.edges, is_there))
+    for (std::size_t i = 0; i < 4; ++i)
+      take_edge(tag.edges[i], fit_edge(gray, informed(guesses[i], tag.edges, i), most_pixels));
+  tag.quality = 0;
+  for (const FittedEdge& edge : tag.edges) tag.quality += edge.quality / 4;
+  for (std::size_t i = 0; i < 4; ++i)
+    tag.corners_px[i] = crossing(tag.edges[(i + 3) % 4], tag.edges[i]);
+  tag.agreement = agreement(gray, look, tag);
+  return tag;
+}
+
+MeasuredTag unrefined_tag(const Corners& corners_px) {
+  MeasuredTag tag;
+  tag.corners_px = corners_px;
+  for (std::size_t i = 0; i < 4; ++i) {
+    FittedEdge& edge = tag.edges[i];
+    edge.start_px = edge.points_px[0] = corners_px[i];
+    edge.end_px = edge.points_px[1] = corners_px[(i + 1) % 4];
+    edge.sd_px = unrefined_sd_px;
+    edge.quality = 1;
+  }
+  tag.quality = tag.agreement = 1;
+  return tag;
+}
+
+}  // namespace heft

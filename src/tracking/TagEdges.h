@@ -1,0 +1,45 @@
+// A tag's four edges measured in a picture, where a detector or a predicted pose says that it is,
+// and whether it really is that tag.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tracking/EdgeFit.h"
+#include "tracking/MarkerBody.h"
+
+namespace heft {
+
+/// What measuring needs to know of a printed tag. Made from libapriltag's families.
+struct TagLook {
+  struct Cell {
+    Eigen::Vector2d place;  ///< 0...1 between the detected corners, from the top left
+    bool white;
+  };
+  int border_cells = 8;
+  bool bright_outside = true;  ///< of the detected border
+  std::vector<Cell> data;      ///< the cells that tell tags apart
+};
+
+/// One for each tag of a body, in its order.
+/// @throws Error (usage) for a family that there is not; Error for an id that it does not have
+std::vector<TagLook> looks_of(const MarkerBody& body);
+
+struct MeasuredTag {
+  std::array<Eigen::Vector2d, 4> corners_px;  ///< where the edges meet
+  std::array<FittedEdge, 4> edges;            ///< from top left to top right and on, clockwise
+  /// Share of the pixels around its edges that look like an edge, 0 for edges that are not there.
+  double quality = 0;
+  double agreement = 0;  ///< share of its data cells that are black or white as they should
+};
+
+/// Edges that are hidden or not there are left where they are expected, with a wide error.
+/// @param corners_px where they are expected, within half a cell  @param most_pixels an edge
+MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagLook& look,
+                        const std::array<Eigen::Vector2d, 4>& corners_px, double blur_px,
+                        int most_pixels);
+
+/// The same from the detector's corners as they are: each edge goes from corner to corner.
+MeasuredTag unrefined_tag(const std::array<Eigen::Vector2d, 4>& corners_px);
+
+}  // namespace heft

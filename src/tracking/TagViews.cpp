@@ -1,0 +1,90 @@
+#include "tracking/TagViews.h"
+
+#include <Eigen/LU>
+#include <limits>
+#include <map>
+#include <opencv2/imgproc.hpp>
+
+#include "tracking/ImageConversion.h"
+#include "tracking/TagDetector.h"
+#include "tracking/TagEdges.h"
+
+namespace heft {
+
+namespace {
+constexpr double least_quality = 0.85;
+constexpr double usual_blur_px = 0.7;
+constexpr int most_edge_pixels = 1000;  // all of an edge: time does not count here
+
+Image gray_copy(const Image& image) {
+  if (image.channels == 1) return image;
+  cv::Mat gray;
+  cv::cvtColor(mat_of(image), gray, cv::COLOR_BGR2GRAY);
+  return image_from(gray);
+}
+
+// A corner that edge refinement took far from where the detector read the tag is no better.
+bool near_detected(const MeasuredTag& measured, const DetectedTag& detected) {
+  constexpr double furthest_px = 3;
+  for (std::size_t c = 0; c < 4; ++c)
+    if (!((measured.corners_px[c] - detected.corners_px[c]).norm() < furthest_px)) return false;
+  return true;
+}
+}  // namespace
+
+struct TagViewer::Parts {
+  TagDetector detector;
+  std::vector<TagLook> looks;
+  std::map<int, std::size_t> place;  ///< of an id among the body's tags
+
+  explicit Parts(const MarkerBody& body) : detector(body.family, 1), looks(looks_of(body)) {
+    for (std::size_t i = 0; i < body.tags.size(); ++i) place[body.tags[i].id] = i;
+  }
+};
+
+TagViewer::TagViewer(const MarkerBody& body) : parts_(std::make_unique<Parts>(body)) {}
+TagViewer::~TagViewer() = default;
+TagViewer::TagViewer(TagViewer&&) noexcept = default;
+TagViewer& TagViewer::operator=(TagViewer&&) noexcept = default;
+
+TagView TagViewer::view(const Image& image, const Intrinsics& camera) {
+  const Image gray = gray_copy(image);
+  TagView view;
+  for (const DetectedTag& detected : parts_->detector.detect(gray, whole(gray))) {
+    const auto known = parts_->place.find(detected.id);
+    if (known == parts_->place.end()) continue;
+    const MeasuredTag measured = measure_tag(gray, camera, parts_->looks[known->second],
+                                             detected.corners_px, usual_blur_px, most_edge_pixels);
+    if (measured.quality >= least_quality && near_detected(measured, detected))
+      view.tags.push_back({known->second, measured.corners_px});
+  }
+  return view;
+}
+
+double difference_px(const TagView& a, const TagView& b) {
+  double sum_px = 0;
+  int n = 0;
+  for (const SeenTag& one : a.tags)
+    for (const SeenTag& other : b.tags) {
+      if (one.tag != other.tag) continue;
+      for (std::size_t c = 0; c < 4; ++c, ++n)
+        sum_px += (one.corners_px[c] - other.corners_px[c]).norm();
+    }
+  return n > 0 ? sum_px / n : std::numeric_limits<double>::infinity();
+}
+
+std::array<Eigen::Vector2d, 4> outward_moves(const std::array<Eigen::Vector2d, 4>& corners_px) {
+  std::array<Eigen::Vector2d, 4> moves;
+  const auto outwards = [&](std::size_t from) -> Eigen::Vector2d {
+    const Eigen::Vector2d along = (corners_px[(from + 1) % 4] - corners_px[from]).normalized();
+    return {along.y(), -along.x()};  // corners go round clockwise, y is down
+  };
+  for (std::size_t c = 0; c < 4; ++c) {
+    Eigen::Matrix2d normals;
+    normals << outwards((c + 3) % 4).transpose(), outwards(c).transpose();
+    moves[c] = normals.inverse() * Eigen::Vector2d::Ones();
+  }
+  return moves;
+}
+
+}  // namespace heft

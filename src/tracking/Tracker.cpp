@@ -1,0 +1,228 @@
+#include "tracking/Tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "base/Clock.h"
+#include "base/Error.h"
+#include "tracking/BodyFinder.h"
+#include "tracking/ImageConversion.h"
+#include "tracking/TagDetector.h"
+
+namespace heft {
+
+namespace {
+constexpr int board_edge_pixels = 120, effector_edge_pixels = 500;
+constexpr BiasPrior unknown_bias{0, 0.1};
+// The effector's edges are in another light and at another slant than the board's.
+constexpr double bias_differs_px = 0.02;
+constexpr int tags_that_tell_bias = 4;
+
+constexpr double longest_gap_s = 0.25;  // Drive takes a longer one for a jump, too
+// What no hand with a light box in it does.
+constexpr double fastest_m_s = 5, fastest_rad_s = 30;
+constexpr double jitter_m = 0.01, jitter_rad = 0.2;
+
+Pose inverse(const Pose& pose) {
+  const Eigen::Quaterniond back = pose.orientation.conjugate();
+  return {-(back * pose.position_m), back};
+}
+
+Pose after(const Pose& first, const Pose& then) {
+  return {first * then.position_m, (first.orientation * then.orientation).normalized()};
+}
+
+Image gray_of(const Image& image) {
+  if (image.channels == 1) return image;
+  Image gray(image.width, image.height, 1);
+  cv::Mat to(image.height, image.width, CV_8UC1, gray.pixels.data());
+  cv::cvtColor(mat_of(image), to, cv::COLOR_BGR2GRAY);
+  return gray;
+}
+
+struct SeenEffector {
+  double t_s;
+  Pose board_from_effector;
+  Velocity velocity;
+
+  Pose expected_at(double then_s) const {
+    const double dt_s = then_s - t_s;
+    return {board_from_effector.position_m + dt_s * velocity.linear_m_s,
+            (rotation_from_vector(dt_s * velocity.angular_rad_s) * board_from_effector.orientation)
+                .normalized()};
+  }
+};
+
+bool could_have_moved(const SeenEffector& from, const Pose& to, double dt_s) {
+  if (dt_s > longest_gap_s) return false;
+  const double way_m = (to.position_m - from.board_from_effector.position_m).norm();
+  const double turn_rad = to.orientation.angularDistance(from.board_from_effector.orientation);
+  return way_m < fastest_m_s * dt_s + jitter_m && turn_rad < fastest_rad_s * dt_s + jitter_rad;
+}
+
+// The part of the picture in which a body will be, with room for a hand's change of mind.
+Region region_around(const Intrinsics& camera, const MarkerBody& body,
+                     const Pose& camera_from_body) {
+  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
+  for (const Tag& tag : body.tags)
+    for (const Eigen::Vector3d& corner_m : tag.corners_m) {
+      const Eigen::Vector3d p = camera_from_body * corner_m;
+      if (!(p.z() > 0.01)) return {0, 0, camera.width_px, camera.height_px};
+      const Eigen::Vector2d pixel = project(camera, p);
+      low = low.cwiseMin(pixel);
+      high = high.cwiseMax(pixel);
+    }
+  const double margin = 0.05 * camera.width_px + 0.15 * (high - low).maxCoeff();
+  const auto bound = [&](double v) { return static_cast<int>(std::clamp(v, -1e6, 1e6)); };
+  return {bound(low.x() - margin), bound(low.y() - margin), bound(high.x() - low.x() + 2 * margin),
+          bound(high.y() - low.y() + 2 * margin)};
+}
+
+void require_own_tags(const MarkerBody& board, const MarkerBody& effector) {
+  if (board.tags.empty()) throw Error("the board has no tags, so nothing says where the table is");
+  if (board.family != effector.family) return;
+  for (const Tag& tag : effector.tags)
+    if (std::ranges::find(board.tags, tag.id, &Tag::id) != board.tags.end())
+      throw Error(
+          fmt::format("tag {} of {} is on the board and on the effector; give the effector "
+                      "tags of its own",
+                      tag.id, board.family));
+}
+}  // namespace
+
+struct Tracker::Parts {
+  Parts(const Apparatus& apparatus, const TrackerSettings& how)
+      : camera(apparatus.camera),
+        settings(how),
+        board(camera, apparatus.board, how, board_edge_pixels),
+        effector(camera, apparatus.effector, how, effector_edge_pixels) {
+    const double decimate = how.decimate > 0 ? how.decimate : camera.width_px <= 640 ? 1.5 : 2;
+    detectors.emplace_back(apparatus.board.family, decimate);
+    if (has_effector() && apparatus.effector.family != apparatus.board.family)
+      detectors.emplace_back(apparatus.effector.family, decimate);
+  }
+
+  bool has_effector() const { return !effector.body().tags.empty(); }
+
+  std::vector<DetectedTag> detect(TagDetector& detector, const Region& region) {
+    const double start_s = monotonic_s();
+    std::vector<DetectedTag> tags = detector.detect(gray, region);
+    // Of two tags with one id the one that was read more clearly counts.
+    std::ranges::sort(tags, std::greater{}, &DetectedTag::decision_margin);
+    std::ranges::stable_sort(tags, {}, &DetectedTag::id);
+    const auto repeated = std::ranges::unique(tags, {}, &DetectedTag::id);
+    tags.erase(repeated.begin(), repeated.end());
+    result.times.detect_s += monotonic_s() - start_s;
+    return tags;
+  }
+
+  // Everywhere, once a picture.
+  const std::vector<DetectedTag>& all_board_tags() {
+    if (!board_family_tags) board_family_tags = detect(detectors.front(), whole(gray));
+    return *board_family_tags;
+  }
+
+  std::vector<DetectedTag> all_effector_tags() {
+    return detectors.size() == 1 ? all_board_tags() : detect(detectors.back(), whole(gray));
+  }
+
+  std::optional<BodyFit> find_board() {
+    if (settings.region_of_interest && settings.refine_edges && last_board) {
+      const int least_tags = std::max(1, (last_n_board_tags + 1) / 2);
+      const auto fit = board.find_again(gray, *last_board, least_tags, unknown_bias, result.times);
+      // A single tag tells too little to go on without reading it.
+      if (fit && fit->n_tags > 1) return fit;
+    }
+    return board.find(gray, all_board_tags(), last_board, unknown_bias, result.times);
+  }
+
+  std::optional<BodyFit> find_effector(const BodyFit& seen_board, double t_s) {
+    BiasPrior prior = unknown_bias;
+    if (seen_board.n_tags >= tags_that_tell_bias) prior = {seen_board.bias_px, bias_differs_px};
+    std::optional<Pose> expected;
+    if (seen && t_s - seen->t_s <= longest_gap_s)
+      expected = after(seen_board.camera_from_body, seen->expected_at(t_s));
+    if (settings.region_of_interest && expected && !board_family_tags) {
+      const Region region = region_around(camera, effector.body(), *expected);
+      const auto fit =
+          effector.find(gray, detect(detectors.back(), region), expected, prior, result.times);
+      if (fit) return fit;
+    }
+    return effector.find(gray, all_effector_tags(), expected, prior, result.times);
+  }
+
+  void take_board(const std::optional<BodyFit>& fit) {
+    last_board.reset();
+    if (!fit) return;
+    last_board = result.camera_from_board = fit->camera_from_body;
+    last_n_board_tags = result.n_board_tags = fit->n_tags;
+    result.board_reprojection_px = fit->rms_px;
+    result.edge_bias_px = fit->bias_px;
+    if (!has_effector()) result.quality = fit->quality;
+  }
+
+  void take_effector(const BodyFit& fit, double t_s) {
+    const Pose pose = after(inverse(*result.camera_from_board), fit.camera_from_body);
+    const double dt_s = seen ? t_s - seen->t_s : 0;
+    result.jump = !seen || !could_have_moved(*seen, pose, dt_s);
+    const bool moves_on = !result.jump && dt_s > 0;
+    seen = SeenEffector{
+        t_s, pose, moves_on ? mean_velocity(seen->board_from_effector, pose, dt_s) : Velocity{}};
+    result.board_from_effector = pose;
+    result.n_effector_tags = fit.n_tags;
+    result.effector_reprojection_px = fit.rms_px;
+    result.quality = fit.quality;
+  }
+
+  Intrinsics camera;
+  TrackerSettings settings;
+  BodyFinder board, effector;
+  std::vector<TagDetector> detectors;  ///< one, or the board's and the effector's
+
+  // Of the picture at hand.
+  Image gray;
+  std::optional<std::vector<DetectedTag>> board_family_tags;
+  TrackedPicture result;
+
+  // Of the pictures before it.
+  std::optional<Pose> last_board;
+  int last_n_board_tags = 0;
+  std::optional<SeenEffector> seen;
+};
+
+Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings) {
+  require_own_tags(apparatus.board, apparatus.effector);
+  parts_ = std::make_unique<Parts>(apparatus, settings);
+}
+
+Tracker::~Tracker() = default;
+Tracker::Tracker(Tracker&&) noexcept = default;
+Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+
+TrackedPicture Tracker::track(const Image& image, double t_s) {
+  Parts& parts = *parts_;
+  if (image.width != parts.camera.width_px || image.height != parts.camera.height_px ||
+      image.empty())
+    throw Error(fmt::format(
+        "the picture has {} x {} pixels, but the camera was calibrated for {} x {}: calibrate it "
+        "at the size that it is used at",
+        image.width, image.height, parts.camera.width_px, parts.camera.height_px));
+  parts.gray = gray_of(image);
+  parts.board_family_tags.reset();
+  parts.result = {};
+  const auto board = parts.find_board();
+  parts.take_board(board);
+  if (board && parts.has_effector())
+    if (const auto effector = parts.find_effector(*board, t_s)) parts.take_effector(*effector, t_s);
+  return parts.result;
+}
+
+void Tracker::reset() {
+  parts_->last_board.reset();
+  parts_->seen.reset();
+}
+
+}  // namespace heft

@@ -1,0 +1,52 @@
+// Which pictures of a stream are worth calibrating from, and what is still wanted: views of the
+// board that differ, cover the picture and are tilted to all sides.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "tracking/CameraCalibration.h"
+
+namespace heft {
+
+class ViewCollector {
+ public:
+  /// Enough for rays within .2 px; more than most add nothing but time.
+  static constexpr std::size_t enough = 20, most = 60;
+
+  /// @param live pictures come from a hand-held board: blurred ones are passed over, and views must
+  /// differ more, so that they are spread over the picture
+  ViewCollector(const MarkerBody& board, int width_px, int height_px, bool live);
+
+  /// @return whether the picture was kept: enough tags, unlike every one kept so far, not moving
+  bool offer(const Image& image, const std::string& name);
+
+  bool complete() const;
+  bool full() const { return names_.size() >= most; }
+  /// What to do next, for the person with the board; empty when all is there.
+  std::string wanted() const;
+
+  std::size_t size() const { return names_.size(); }
+  const Coverage& coverage() const { return coverage_; }
+  const std::vector<Image>& pictures() const { return pictures_; }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  enum Side { left, right, upper, lower };
+  void count_tilt(const TagView& view);
+
+  MarkerBody board_;
+  Intrinsics guess_;
+  TagViewer viewer_;
+  bool live_;
+  double least_difference_px_;
+  TagView last_;
+  std::vector<TagView> views_;
+  std::vector<Image> pictures_;
+  std::vector<std::string> names_;
+  Coverage coverage_;
+  std::array<int, 4> tilted_{};  ///< views in which that side of the board is farther away
+};
+
+}  // namespace heft

@@ -1,0 +1,113 @@
+// The board's sheet.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/Error.h"
+#include "tracking/BoxFaces.h"
+#include "tracking/Sheet.h"
+#include "tracking/sheets/Layout.h"
+
+namespace heft {
+
+namespace {
+Eigen::AlignedBox2d extent_mm(const MarkerBody& board) {
+  Eigen::AlignedBox2d box;
+  for (const Tag& tag : board.tags)
+    for (const Eigen::Vector3d& corner_m : tag.corners_m) box.extend(corner_m.head<2>() * 1000);
+  return box;
+}
+
+void refuse_what_is_not_flat(const MarkerBody& board) {
+  constexpr double tolerance_m = 1e-4;
+  for (const Tag& tag : board.tags) {
+    const auto off = [](const Eigen::Vector3d& corner_m) { return std::abs(corner_m.z()); };
+    if (std::ranges::max(tag.corners_m, {}, off).cwiseAbs().z() > tolerance_m ||
+        tag_normal(tag).z() < 0)
+      throw Error(fmt::format("tag {} does not lie face up on the table (z = 0); a sheet can only "
+                              "hold tags that do",
+                              tag.id),
+                  ExitCode::invalid_file);
+  }
+}
+
+double side_mm(const Tag& tag) {
+  return (tag.corners_m[1] - tag.corners_m[0]).norm() * 1000;
+}
+
+// White or code around the outermost corners.
+double margin_mm(const MarkerBody& board) {
+  double margin = 0;
+  for (const Tag& tag : board.tags)
+    margin = std::max(margin, tag_pattern(board.family, tag.id).margin_m(side_mm(tag)));
+  const bool code = tag_pattern(board.family, board.tags.front().id).margin_cells() > 1;
+  return code ? margin + unprintable_mm : std::max(margin, unprintable_mm);
+}
+
+// What the detected corners of a board may span.
+PointMm room_mm(const PointMm& paper, double margin) {
+  return {paper.x() - 2 * margin, paper.y() - 2 * margin - ruler_strip_mm};
+}
+
+// The paper upright or across; none where neither holds the board.
+std::optional<PointMm> fitting(const PointMm& upright, const PointMm& size_mm, double margin) {
+  for (const PointMm& paper : {PointMm(upright.y(), upright.x()), upright})
+    if ((size_mm.array() <= room_mm(paper, margin).array()).all()) return paper;
+  return std::nullopt;
+}
+
+PointMm chosen_paper(const MarkerBody& board, Paper paper) {
+  const PointMm size = extent_mm(board).sizes(), upright = paper_mm(paper);
+  if (const auto fits = fitting(upright, size, margin_mm(board))) return *fits;
+  const PointMm room = room_mm({upright.y(), upright.x()}, margin_mm(board));
+  throw Error(
+      fmt::format("the board's tags span {:.4g} x {:.4g} mm, but a sheet of {} has room for "
+                  "{:.4g} x {:.4g}; take fewer or smaller tags, or other paper (--paper)",
+                  size.x(), size.y(), name_of(paper), std::floor(room.x()), std::floor(room.y())));
+}
+
+const std::array<std::string, 6> steps{
+    "Print page 1 at 100 % (\"actual size\"), not \"fit to page\", on matte white paper.\n"
+    "Gloss reflects lamps, and tags under a reflection are not seen.",
+    "Measure the ruler line at the bottom of page 1 with a good ruler or calipers,\n"
+    "between its first and its last tick, to a tenth of a millimeter. It should be 150.0 mm.",
+    "Write what you measured into the board file, in meters, for example:\n"
+    "    ruler_measured_m = 0.1496\n"
+    "Half a percent that is not written down moves the effector by about 2 mm.",
+    "Glue the sheet, without bubbles, to something flat and stiff: glass, an aluminum\n"
+    "plate, a thick board. Keep the white around the tags; do not cut into it.",
+    "Check the file, then calibrate the camera with the board in your hands:\n"
+    "    heft validate BOARD.toml\n"
+    "    heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
+    "Lay the board in front of the participant, with the edge marked so towards them, and\n"
+    "fix it: neither the board nor the camera may move during a session."};
+}  // namespace
+
+void write_board_sheet(const MarkerBody& board, Paper paper, const std::string& path) {
+  const MarkerBody designed = as_designed(board);
+  refuse_what_is_not_flat(designed);
+  const PointMm sheet_mm = chosen_paper(designed, paper);
+  const Eigen::AlignedBox2d extent = extent_mm(designed);
+  const double free_mm = room_mm(sheet_mm, margin_mm(designed)).y() - extent.sizes().y();
+  const PointMm middle(sheet_mm.x() / 2,
+                       margin_mm(designed) + free_mm / 2 + extent.sizes().y() / 2);
+  const auto on_paper = [&](const Eigen::Vector3d& point_m) -> PointMm {
+    const PointMm from_middle = point_m.head<2>() * 1000 - extent.center();
+    return middle + PointMm(from_middle.x(), -from_middle.y());  // y is down on paper
+  };
+  PdfSheet sheet(path, sheet_mm, "Board for Heft");
+  for (const Tag& tag : designed.tags) {
+    std::array<PointMm, 4> corners_mm;
+    std::ranges::transform(tag.corners_m, corners_mm.begin(), on_paper);
+    draw_tag(sheet, designed.family, tag.id, corners_mm);
+  }
+  draw_ruler_strip(sheet, sheet_mm, "This edge: towards the participant.");
+  sheet.next_page();
+  write_steps(sheet, "The board: print, measure, glue", steps);
+  sheet.finish();
+}
+
+}  // namespace heft

@@ -1,0 +1,62 @@
+// Draws a PDF in true millimeters: x right and y down from the paper's top left corner.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tracking/TagFamily.h"
+
+namespace heft {
+
+using PointMm = Eigen::Vector2d;
+
+struct Stroke {
+  double width_mm = 0.2;
+  double gray = 0;  ///< 0 black ... 1 white
+  bool dashed = false;
+};
+
+struct Lettering {
+  double size_mm = 3;  ///< of the font
+  double gray = 0;
+  bool bold = false;
+  bool centered = false;  ///< about the given point, else starting at it
+};
+
+class PdfSheet {
+ public:
+  PdfSheet(const std::string& path, const PointMm& paper_mm, const std::string& title);
+  ~PdfSheet();
+  PdfSheet(const PdfSheet&) = delete;
+  PdfSheet& operator=(const PdfSheet&) = delete;
+
+  /// A whole tag. @param corners_mm where the detected corners come: the upright tag's top left,
+  /// top right, bottom right, bottom left
+  void tag(const TagPattern& pattern, const std::array<PointMm, 4>& corners_mm);
+  void lines(std::span<const PointMm> points_mm, const Stroke& stroke);
+  void line(const PointMm& from_mm, const PointMm& to_mm, const Stroke& stroke);
+  /// @param at_mm on the base line
+  void text(const PointMm& at_mm, const std::string& text, const Lettering& lettering);
+  /// A line to `to_mm` with a head there.
+  void arrow(const PointMm& from_mm, const PointMm& to_mm, const Stroke& stroke);
+  /// The line that a person measures: heft::ruler_m long between its outermost ticks.
+  void ruler(const PointMm& from_mm);
+
+  void next_page();
+  /// @throws Error when the file can't be written
+  void finish();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+  std::string path_;
+};
+
+/// A page of words: a heading, then numbered steps, each broken into lines by hand with '\n'.
+void write_steps(PdfSheet& sheet, const std::string& heading, std::span<const std::string> steps);
+
+}  // namespace heft

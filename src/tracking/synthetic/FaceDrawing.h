@@ -1,0 +1,56 @@
+// Draws printed faces as the camera sees them: those that look its way, lit from above, cut off
+// where they go into the table.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/Pose.h"
+#include "tracking/synthetic/AreaRaster.h"
+#include "tracking/synthetic/Lens.h"
+#include "tracking/synthetic/PrintedFaces.h"
+
+namespace heft {
+
+/// Where a body is, for the camera and for the light.
+struct SeenBody {
+  Pose camera_from_board, board_from_body;
+
+  Eigen::Vector3d in_camera(const Eigen::Vector3d& point_m) const {
+    return camera_from_board * (board_from_body * point_m);
+  }
+  Eigen::Vector3d in_board(const Eigen::Vector3d& point_m) const {
+    return board_from_body * point_m;
+  }
+};
+
+/// A lamp above the table and light from all around.
+class Shading {
+ public:
+  explicit Shading(const Pose& camera_from_board);
+
+  /// How much of its full light a surface gives back, as a factor of a patch's light; the table's
+  /// is 1. @param normal in the camera's frame, of length 1
+  Light on(const Eigen::Vector3f& normal) const {
+    return ambient + std::max(0.0F, normal.dot(lamp_)) * lamp_share;
+  }
+  const Eigen::Vector3f& towards_lamp() const { return lamp_; }
+
+  // Shares of all light and of the lamp's; coverage is not shaded.
+  inline static const Light ambient{0.45F, 0.45F, 0.45F, 1};
+  inline static const Light lamp_share{0.55F, 0.55F, 0.55F, 0};
+
+ private:
+  Eigen::Vector3f lamp_;  ///< towards it, in the camera's frame; its length makes the table 1
+};
+
+/// Whether the camera is on the face's outer side.
+bool is_seen(const PrintedFace& face, const SeenBody& body);
+
+/// The pixels that the faces reach; none if they come too near to the camera to be drawn.
+std::optional<PixelBox> extent_of(const std::vector<PrintedFace>& faces, const SeenBody& body,
+                                  const Lens& lens);
+
+void draw_face(const PrintedFace& face, const SeenBody& body, const Lens& lens, AreaRaster& raster);
+
+}  // namespace heft

@@ -1,0 +1,228 @@
+#include "tracking/synthetic/Hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace heft {
+
+namespace {
+using Eigen::Vector2d;
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+// Four neighboring pixels of a row at a time: the hand is most of a picture's work.
+using Four = Eigen::Array4f;
+struct FourVectors {
+  Four x, y, z;
+};
+
+inline Four dot(const Vector3f& a, const FourVectors& b) {
+  return a.x() * b.x + a.y() * b.y + a.z() * b.z;
+}
+
+inline Four share(const Four& value) {
+  return value.max(0.0F).min(1.0F);
+}
+
+struct Plane {
+  Vector3f normal;
+  float offset_m;
+  float above_m(const Vector3f& point_m) const { return normal.dot(point_m) - offset_m; }
+  Four above_m(const FourVectors& points_m) const { return dot(normal, points_m) - offset_m; }
+};
+}  // namespace
+
+// All that the skin has to be compared with, in the camera's frame; float is plenty.
+struct Hand::Surroundings {
+  Plane table;
+  std::array<Plane, 3> seen_faces;  // of the box; those that are not seen have a zero normal
+  Vector3f lamp;
+
+  Surroundings(const SeenBody& effector, const Vector3d& half_m);
+
+  // A point outside of a face that the camera sees is before the box, any other is not.
+  template <typename Point>
+  auto before_box_m(const Point& point_m) const {
+    return larger(larger(seen_faces[0].above_m(point_m), seen_faces[1].above_m(point_m)),
+                  seen_faces[2].above_m(point_m));
+  }
+
+ private:
+  static float larger(float a, float b) { return std::max(a, b); }
+  static Four larger(const Four& a, const Four& b) { return a.max(b); }
+};
+
+namespace {
+Plane plane_through(const Vector3d& point_m, const Vector3d& normal) {
+  return {normal.cast<float>(), static_cast<float>(normal.dot(point_m))};
+}
+}  // namespace
+
+Hand::Surroundings::Surroundings(const SeenBody& effector, const Vector3d& half_m)
+    : table(plane_through(effector.camera_from_board.position_m,
+                          effector.camera_from_board.orientation * Vector3d::UnitZ())),
+      lamp(Shading(effector.camera_from_board).towards_lamp()) {
+  const Eigen::Quaterniond camera_from_body =
+      effector.camera_from_board.orientation * effector.board_from_body.orientation;
+  const Vector3d center_m = effector.in_camera(Vector3d::Zero());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    Vector3d normal = camera_from_body * Vector3d::Unit(axis);
+    if (normal.dot(center_m) > 0) normal = -normal;  // of the two faces, the nearer
+    seen_faces[i] = plane_through(center_m + half_m[axis] * normal, normal);
+    const bool looks_away = -seen_faces[i].offset_m <= 0;  // the camera is at 0
+    if (looks_away) seen_faces[i] = {Vector3f::Zero(), 1};
+  }
+}
+
+// Of four pixels: how much of them the skin covers, and how much of the lamp falls on it.
+struct Hand::SkinInRow {
+  Four coverage, lamp;
+};
+
+struct Hand::SeenCone {
+  Vector3f from_m, to_m;
+  float from_radius_m, to_radius_m;
+  Vector2f from_px, to_px;
+  float from_radius_px, to_radius_px;
+
+  PixelBox box() const;
+  std::pair<int, int> columns_in_row(int y, const PixelBox& area) const;
+  float distance_m() const { return from_m.norm() + to_m.norm() - from_radius_m - to_radius_m; }
+  bool may_be(Side side, const Surroundings& surroundings) const;
+  SkinInRow skin_at(int x, int y, Side side, const Surroundings& near) const;
+  void draw(Side side, const Surroundings& near, LightPicture& picture) const;
+};
+
+PixelBox Hand::SeenCone::box() const {
+  const auto reach = [](const Vector2f& center, float radius) {
+    const Vector2d middle = center.cast<double>(), r = Vector2d::Constant(radius + 1);
+    const std::array<Vector2d, 2> corners{middle - r, middle + r};
+    return pixels_around(corners);
+  };
+  return reach(from_px, from_radius_px).around(reach(to_px, to_radius_px));
+}
+
+// Of a slanted cone a row has much less than its box: what lies between the two lines beside its
+// axis.
+std::pair<int, int> Hand::SeenCone::columns_in_row(int y, const PixelBox& area) const {
+  const Vector2f along = to_px - from_px;
+  if (std::abs(along.y()) < 1) return {area.x0, area.x1};
+  const float middle = from_px.x() + (static_cast<float>(y) - from_px.y()) * along.x() / along.y();
+  const float reach =
+      (std::max(from_radius_px, to_radius_px) + 1) * along.norm() / std::abs(along.y());
+  const auto column = [&](float x) {
+    return static_cast<int>(
+        std::clamp(x, static_cast<float>(area.x0), static_cast<float>(area.x1)));
+  };
+  return {column(middle - reach), column(middle + reach + 1)};
+}
+
+// Spares most cones one of the two drawings.
+bool Hand::SeenCone::may_be(Side side, const Surroundings& surroundings) const {
+  const float from = surroundings.before_box_m(from_m), to = surroundings.before_box_m(to_m);
+  if (side == Side::before_box) return from > -from_radius_m || to > -to_radius_m;
+  return !std::ranges::any_of(surroundings.seen_faces, [&](const auto& face) {
+    return face.above_m(from_m) > from_radius_m && face.above_m(to_m) > to_radius_m;
+  });
+}
+
+// x from the box's back end towards the tip; the thumb on top, the fingers around the right side.
+Hand::Hand(const Vector3d& box_size_m) : half_m_(box_size_m / 2) {
+  const double y = half_m_.y(), z = half_m_.z();
+  const double grip = std::min(0.034, 0.36 * box_size_m.x());  // how far fingers reach over the box
+  const auto add = [&](const Vector3d& from, const Vector3d& to, double from_radius,
+                       double to_radius) {
+    const Vector3d back(-half_m_.x(), 0, 0);
+    cones_.push_back({back + from, back + to, from_radius, to_radius});
+  };
+  add({-0.115, 0, 0.012}, {-0.24, 0.02, 0.05}, 0.026, 0.033);          // forearm
+  add({-0.026, 0.016, -0.004}, {-0.115, 0.004, 0.012}, 0.024, 0.026);  // palm
+  add({-0.026, -0.014, -0.002}, {-0.115, -0.004, 0.012}, 0.024, 0.025);
+  add({-0.050, 0.026, 0.010}, {-0.012, 0.6 * y, z + 0.010}, 0.015, 0.011);  // thumb
+  add({-0.012, 0.6 * y, z + 0.010}, {0.8 * grip, 0.2 * y, z + 0.008}, 0.011, 0.0085);
+  for (int finger = 0; finger < 4; ++finger) {
+    const double down = z * (0.75 - 0.55 * finger);
+    const double reach = grip * (1 - 0.1 * finger);
+    const double side = -y - 0.009;
+    add({-0.034, -0.030, 0.5 * down}, {0.3 * reach, side, down}, 0.011, 0.0095);
+    add({0.3 * reach, side, down}, {reach, side + 0.002, down - 0.002}, 0.0095, 0.0075);
+  }
+}
+
+std::vector<Hand::SeenCone> Hand::seen(const SeenBody& effector, const Lens& lens) const {
+  std::vector<SeenCone> all;
+  for (const Cone& cone : cones_) {
+    const Vector3d from_m = effector.in_camera(cone.from_m), to_m = effector.in_camera(cone.to_m);
+    if (from_m.z() < Lens::nearest_m || to_m.z() < Lens::nearest_m) continue;
+    all.push_back({from_m.cast<float>(), to_m.cast<float>(), static_cast<float>(cone.from_radius_m),
+                   static_cast<float>(cone.to_radius_m), lens.pixel(from_m).cast<float>(),
+                   lens.pixel(to_m).cast<float>(),
+                   static_cast<float>(cone.from_radius_m * lens.px_per_m(from_m.z())),
+                   static_cast<float>(cone.to_radius_m * lens.px_per_m(to_m.z()))});
+  }
+  std::ranges::stable_sort(all, std::greater{}, &SeenCone::distance_m);
+  return all;
+}
+
+PixelBox Hand::extent(const SeenBody& effector, const Lens& lens) const {
+  PixelBox box;
+  for (const SeenCone& cone : seen(effector, lens)) box = box.around(cone.box());
+  return box;
+}
+
+void Hand::draw(Side side, const SeenBody& effector, const Lens& lens,
+                LightPicture& picture) const {
+  const Surroundings surroundings(effector, half_m_);
+  for (const SeenCone& cone : seen(effector, lens))
+    if (cone.may_be(side, surroundings)) cone.draw(side, surroundings, picture);
+}
+
+// Of each pixel: the nearest point of the axis, how far across the cone it is, and from that the
+// skin's point and normal. What is not to be drawn here gets no coverage.
+inline Hand::SkinInRow Hand::SeenCone::skin_at(int x, int y, Side side,
+                                               const Surroundings& near) const {
+  const Vector2f along_px = to_px - from_px;
+  const Vector3f along_m = to_m - from_m;
+  const Four start_x = Four(0, 1, 2, 3) + (static_cast<float>(x) - from_px.x());
+  const float start_y = static_cast<float>(y) - from_px.y();
+  const float per_length2 = 1 / std::max(1e-6F, along_px.squaredNorm());
+  const Four s = share((start_x * along_px.x() + start_y * along_px.y()) * per_length2);
+  const Four aside_x = start_x - s * along_px.x(), aside_y = start_y - s * along_px.y();
+  const Four radius_px = from_radius_px + s * (to_radius_px - from_radius_px);
+  const Four distance_px = (aside_x.square() + aside_y.square()).sqrt();
+
+  const Four per_radius = radius_px.max(distance_px).inverse();
+  const Four across = distance_px * per_radius;
+  const FourVectors normal{aside_x * per_radius, aside_y * per_radius,
+                           -(1 - across.square()).max(0.0F).sqrt()};
+  const Four radius_m = from_radius_m + s * (to_radius_m - from_radius_m);
+  const FourVectors point_m{from_m.x() + s * along_m.x() + radius_m * normal.x,
+                            from_m.y() + s * along_m.y() + radius_m * normal.y,
+                            from_m.z() + s * along_m.z() + radius_m * normal.z};
+  const float px_per_m = from_radius_px / from_radius_m;
+  const Four before = share(near.before_box_m(point_m) * px_per_m + 0.5F);
+  const Four above_table = share(near.table.above_m(point_m) * px_per_m + 0.5F);
+  return {share(radius_px + 0.5F - distance_px) * above_table *
+              (side == Side::before_box ? before : 1 - before),
+          dot(near.lamp, normal).max(0.0F)};
+}
+
+void Hand::SeenCone::draw(Side side, const Surroundings& near, LightPicture& picture) const {
+  const PixelBox area = box().within(picture.box);
+  const Light dark = solid(material::skin) * Shading::ambient;
+  const Light lit = solid(material::skin) * Shading::lamp_share;
+  for (int y = area.y0; y < area.y1; ++y) {
+    Light* row = picture.row(y) - picture.box.x0;
+    const auto [x0, x1] = columns_in_row(y, area);
+    for (int x = x0; x < x1; x += 4) {
+      const SkinInRow skin = skin_at(x, y, side, near);
+      for (int i = 0; i < std::min(4, x1 - x); ++i)
+        if (skin.coverage[i] > 0)
+          row[x + i] = over(skin.coverage[i] * (dark + skin.lamp[i] * lit), row[x + i]);
+    }
+  }
+}
+
+}  // namespace heft

@@ -1,0 +1,153 @@
+#include "tracking/synthetic/PrintedFaces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/Error.h"
+#include "tracking/BoxFaces.h"
+#include "tracking/TagFamily.h"
+
+namespace heft {
+
+namespace {
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double sheet_margin_m = 0.006;
+constexpr double off_face_m = 0.003;    // how far a badly glued label may be off its face
+constexpr double upright_cosine = 0.9;  // and how well it still faces the same way
+
+// A tag's cells as a grid over its four corners. In between them bilinear, which is exact for
+// parallelograms; cells count from the detected border's top left.
+class CellGrid {
+ public:
+  CellGrid(const Tag& tag, const TagPattern& pattern)
+      : corners_m_(tag.corners_m), cells_(pattern.border_cells), margin_(pattern.margin_cells()) {}
+
+  Vector3d at(int column, int row) const {
+    const double u = static_cast<double>(column - margin_) / cells_;
+    const double v = static_cast<double>(row - margin_) / cells_;
+    return (1 - v) * ((1 - u) * corners_m_[0] + u * corners_m_[1]) +
+           v * ((1 - u) * corners_m_[3] + u * corners_m_[2]);
+  }
+  std::array<Vector3d, 4> rectangle(int column0, int row0, int column1, int row1) const {
+    return {at(column0, row0), at(column1, row0), at(column1, row1), at(column0, row1)};
+  }
+
+ private:
+  std::array<Vector3d, 4> corners_m_;
+  int cells_, margin_;
+};
+
+void add_black_cells(PrintedFace& face, const CellGrid& grid, const TagPattern& pattern) {
+  for (int row = 0; row < pattern.n_cells; ++row)
+    for (int column = 0; column < pattern.n_cells; ++column)
+      if (!pattern.is_white(column, row))
+        face.patches.push_back({grid.rectangle(column, row, column + 1, row + 1),
+                                change(material::paper, material::ink)});
+}
+
+PrintedFace bare_face(const FaceFrame& frame, const Eigen::Array3f& color) {
+  const Vector2d half_m = frame.size_m / 2;
+  const auto corner = [&](double x, double y) {
+    return frame.at(half_m.cwiseProduct(Vector2d(x, y)));
+  };
+  return {frame.center_m,
+          frame.normal(),
+          {{{corner(-1, 1), corner(1, 1), corner(1, -1), corner(-1, -1)}, solid(color)}}};
+}
+
+bool lies_on(const FaceFrame& frame, const Tag& tag) {
+  const Vector3d from_face_m = tag_center_m(tag) - frame.center_m;
+  return tag_normal(tag).dot(frame.normal()) > upright_cosine &&
+         std::abs(from_face_m.dot(frame.normal())) < off_face_m &&
+         (frame.flat(tag_center_m(tag)).cwiseAbs().array() < frame.size_m.array() / 2).all();
+}
+
+// The smallest upright rectangle on a face around everything that its tags print, quiet zones
+// included, and a margin; cut off at the face's edges.
+class Paper {
+ public:
+  void add(const FaceFrame& frame, const CellGrid& grid, int n_cells) {
+    for (const Vector3d& corner : grid.rectangle(0, 0, n_cells, n_cells)) {
+      low_ = low_.cwiseMin(frame.flat(corner));
+      high_ = high_.cwiseMax(frame.flat(corner));
+    }
+  }
+  bool empty() const { return (high_.array() < low_.array()).any(); }
+  std::array<Vector3d, 4> rectangle(const FaceFrame& frame, double margin_m) const {
+    const Vector2d half_m = frame.size_m / 2;
+    const Vector2d low = (low_.array() - margin_m).matrix().cwiseMax(-half_m);
+    const Vector2d high = (high_.array() + margin_m).matrix().cwiseMin(half_m);
+    return {frame.at({low.x(), high.y()}), frame.at(high), frame.at({high.x(), low.y()}),
+            frame.at(low)};
+  }
+
+ private:
+  Vector2d low_ = Vector2d::Constant(1e9), high_ = Vector2d::Constant(-1e9);
+};
+
+PrintedFace effector_face(const FaceFrame& frame, const MarkerBody& effector) {
+  PrintedFace face = bare_face(frame, material::box);
+  PrintedFace cells;
+  Paper label;
+  for (const Tag& tag : effector.tags) {
+    if (!lies_on(frame, tag)) continue;
+    const TagPattern pattern = tag_pattern(effector.family, tag.id);
+    const CellGrid grid(tag, pattern);
+    label.add(frame, grid, pattern.n_cells);
+    add_black_cells(cells, grid, pattern);
+  }
+  if (label.empty()) return face;
+  face.patches.push_back({label.rectangle(frame, 0), change(material::box, material::paper)});
+  face.patches.insert(face.patches.end(), cells.patches.begin(), cells.patches.end());
+  return face;
+}
+
+void check_on_box(const std::vector<FaceFrame>& frames, const Tag& tag) {
+  if (std::ranges::none_of(frames, [&](const FaceFrame& frame) { return lies_on(frame, tag); }))
+    throw Error(
+        fmt::format("the synthetic camera shows tags on the effector's faces, but tag {} "
+                    "lies on none of them; check size_m and the tag's corners",
+                    tag.id));
+}
+
+void check_on_table(const Tag& tag) {
+  for (const Vector3d& corner : tag.corners_m)
+    if (std::abs(corner.z()) > 1e-5)
+      throw Error(
+          fmt::format("the synthetic camera only shows boards that lie on the table, but "
+                      "tag {} is {:.2f} mm off it",
+                      tag.id, 1e3 * corner.z()));
+}
+}  // namespace
+
+PrintedFace printed_board(const MarkerBody& board) {
+  const FaceFrame table{Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY(), {10, 10}};
+  PrintedFace face{Vector3d::Zero(), Vector3d::UnitZ(), {}};
+  Paper sheet;
+  for (const Tag& tag : board.tags) {
+    check_on_table(tag);
+    const TagPattern pattern = tag_pattern(board.family, tag.id);
+    const CellGrid grid(tag, pattern);
+    sheet.add(table, grid, pattern.n_cells);
+    add_black_cells(face, grid, pattern);
+  }
+  if (!sheet.empty())
+    face.patches.insert(face.patches.begin(),
+                        {sheet.rectangle(table, sheet_margin_m), solid(material::paper)});
+  return face;
+}
+
+std::vector<PrintedFace> printed_effector(const MarkerBody& effector) {
+  if (effector.tags.empty() && effector.size_m.isZero()) return {};
+  std::vector<FaceFrame> frames;
+  for (const BoxFace face : box_faces) frames.push_back(face_frame(effector.size_m, face));
+  for (const Tag& tag : effector.tags) check_on_box(frames, tag);
+  std::vector<PrintedFace> faces;
+  for (const FaceFrame& frame : frames) faces.push_back(effector_face(frame, effector));
+  return faces;
+}
+
+}  // namespace heft

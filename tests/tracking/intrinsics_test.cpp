@@ -1,0 +1,172 @@
+// The projection against OpenCV's own, and a camera's file.
+#include "tracking/Intrinsics.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+
+#include "base/Error.h"
+#include "base/Random.h"
+
+namespace heft {
+namespace {
+
+using testing::HasSubstr;
+
+const Intrinsics mild{640, 480, 540, 542, 318, 241, {.06, -.15, .001, -.0008}};
+const Intrinsics rational{
+    1280, 720, 900, 905, 650, 350, {.3, -.1, .002, .001, .02, .25, -.06, .01}};
+const Intrinsics barrel{640, 480, 400, 400, 320, 240, {-.3, .1, 0, 0, -.01}};
+
+cv::Mat matrix_of(const Intrinsics& c) {
+  return (cv::Mat_<double>(3, 3) << c.fx_px, 0, c.cx_px, 0, c.fy_px, c.cy_px, 0, 0, 1);
+}
+
+std::vector<double> distortion_of(const Intrinsics& c) {
+  return {c.distortion.begin(), c.distortion.end()};
+}
+
+TEST(Intrinsics, ProjectsAsOpenCvDoes) {
+  RandomStream random(1, "points");
+  for (const Intrinsics& camera : {mild, rational, barrel}) {
+    std::vector<cv::Point3d> points;
+    for (int i = 0; i < 200; ++i) {
+      const double z = .3 + random.uniform();
+      points.emplace_back((random.uniform() - .5) * z, (random.uniform() - .5) * z, z);
+    }
+    std::vector<cv::Point2d> expected;
+    cv::projectPoints(points, cv::Vec3d(), cv::Vec3d(), matrix_of(camera), distortion_of(camera),
+                      expected);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto pixel = project(camera, {points[i].x, points[i].y, points[i].z});
+      EXPECT_NEAR(pixel.x(), expected[i].x, 1e-9);
+      EXPECT_NEAR(pixel.y(), expected[i].y, 1e-9);
+    }
+  }
+}
+
+TEST(Intrinsics, UndistortsAsOpenCvDoes) {
+  const cv::TermCriteria exact(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-14);
+  std::vector<cv::Point2d> pixels, rays;
+  for (int y = 0; y < 480; y += 60)
+    for (int x = 0; x < 640; x += 60) pixels.emplace_back(x, y);
+  cv::undistortPoints(pixels, rays, matrix_of(mild), distortion_of(mild), cv::noArray(),
+                      cv::noArray(), exact);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto ray = undistort(mild, {pixels[i].x, pixels[i].y});
+    EXPECT_NEAR(ray.x(), rays[i].x, 1e-9);
+    EXPECT_NEAR(ray.y(), rays[i].y, 1e-9);
+  }
+}
+
+TEST(Intrinsics, UndistortIsTheInverseOfDistortInThePicture) {
+  for (const Intrinsics& camera : {mild, rational, barrel})
+    for (int y = 0; y <= camera.height_px; y += 40)
+      for (int x = 0; x <= camera.width_px; x += 40) {
+        const Eigen::Vector2d pixel(x, y);
+        EXPECT_LT((distort(camera, undistort(camera, pixel)) - pixel).norm(), 1e-9 * 1000);
+      }
+}
+
+TEST(Intrinsics, DerivativeIsThatOfDistort) {
+  constexpr double step = 1e-6;
+  for (const Intrinsics& camera : {mild, rational, barrel}) {
+    const Eigen::Vector2d ray(.31, -.22);
+    const auto there = distort_with_derivative(camera, ray);
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d d = step * Eigen::Vector2d::Unit(axis);
+      const Eigen::Vector2d slope =
+          (distort(camera, ray + d) - distort(camera, ray - d)) / (2 * step);
+      EXPECT_LT((slope - there.pixel_by_ray.col(axis)).norm(), 1e-5);
+    }
+  }
+}
+
+void expect_same(const Intrinsics& a, const Intrinsics& b) {
+  EXPECT_EQ(a.width_px, b.width_px);
+  EXPECT_EQ(a.height_px, b.height_px);
+  EXPECT_EQ(a.fx_px, b.fx_px);
+  EXPECT_EQ(a.fy_px, b.fy_px);
+  EXPECT_EQ(a.cx_px, b.cx_px);
+  EXPECT_EQ(a.cy_px, b.cy_px);
+  EXPECT_EQ(a.distortion, b.distortion);
+}
+
+TEST(IntrinsicsFile, WhatIsWrittenIsReadBack) {
+  for (const Intrinsics& camera : {mild, rational, barrel})
+    expect_same(parse_intrinsics(to_yaml(camera, "made by a test\nin two lines"), "c.yaml"),
+                camera);
+}
+
+TEST(IntrinsicsFile, OpenCvReadsWhatIsWritten) {
+  cv::FileStorage file(to_yaml(rational, ""), cv::FileStorage::READ | cv::FileStorage::MEMORY);
+  cv::Mat matrix, distortion;
+  file["camera_matrix"] >> matrix;
+  file["distortion_coefficients"] >> distortion;
+  EXPECT_EQ(matrix.at<double>(1, 1), rational.fy_px);
+  EXPECT_EQ(distortion.total(), 8U);
+}
+
+TEST(IntrinsicsFile, ReadsWhatOpenCvWrites) {
+  for (int n : {4, 5, 8}) {
+    for (bool column : {false, true}) {
+      cv::FileStorage file("c.yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+      Intrinsics camera = rational;
+      std::fill(camera.distortion.begin() + n, camera.distortion.end(), 0);
+      cv::Mat distortion(distortion_of(camera), true);
+      distortion = distortion.rowRange(0, n).clone();
+      file << "image_width" << camera.width_px << "image_height" << camera.height_px
+           << "camera_matrix" << matrix_of(camera) << "distortion_coefficients"
+           << (column ? distortion : cv::Mat(distortion.t()));
+      expect_same(parse_intrinsics(file.releaseAndGetString(), "c.yaml"), camera);
+    }
+  }
+}
+
+TEST(IntrinsicsFile, WorksWithoutOpenCvsFirstLine) {
+  const std::string yaml = to_yaml(mild, "");
+  expect_same(parse_intrinsics(yaml.substr(yaml.find("image_width")), "c.yaml"), mild);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_intrinsics(text, "c.yaml");
+  } catch (const InvalidFile& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string edited(const std::string& from, const std::string& to) {
+  std::string yaml = to_yaml(mild, "");
+  return yaml.replace(yaml.find(from), from.size(), to);
+}
+
+TEST(IntrinsicsFile, RefusesWhatCanNotBe) {
+  EXPECT_THAT(refusal(edited("image_width: 640", "image_width: 0")),
+              HasSubstr("c.yaml: image_width is 0, expected a whole number"));
+  EXPECT_THAT(refusal(edited("image_width: 640\n", "")), HasSubstr("image_width is missing"));
+  EXPECT_THAT(refusal(edited("540", "-540")), HasSubstr("focal lengths -540 and 542"));
+  EXPECT_THAT(refusal(edited("542, 241", "542")), HasSubstr("camera_matrix has 8 numbers"));
+  EXPECT_THAT(refusal(edited("540, 0,", "540, 3,")), HasSubstr("skew"));
+  EXPECT_THAT(refusal(edited("0.06, ", "")), testing::AnyOf(HasSubstr("expected"), "accepted"));
+  EXPECT_THAT(refusal(edited("540", ".Nan")), HasSubstr("camera_matrix is unusable"));
+}
+
+TEST(IntrinsicsFile, RefusesGarbage) {
+  RandomStream random(2, "garbage");
+  for (const std::string text : {"", "\n", "{", "[1, 2", "%YAML:1.0\n---\n", "a: [b: {", "<xml>",
+                                 "\xff\xfe", "%YAML 9\nx", "hello", "a: b\n c\n\td: e"})
+    EXPECT_NE(refusal(text), "accepted") << text;
+  for (int i = 0; i < 300; ++i) {
+    std::string yaml = to_yaml(mild, "");
+    for (int k = 0; k < 4; ++k)
+      yaml[random.below(yaml.size())] = static_cast<char>(random.below(256));
+    refusal(yaml);  // whatever it says, it neither crashes nor throws anything else
+  }
+}
+
+}  // namespace
+}  // namespace heft

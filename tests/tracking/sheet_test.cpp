@@ -1,0 +1,220 @@
+// Sheets, looked at as a printer's raster: what is printed is where the files say, in true
+// millimeters, and the net folds into the box.
+#include "tracking/Sheet.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "Scenes.h"
+#include "base/Error.h"
+#include "tracking/ImageFile.h"
+#include "tracking/TagDetector.h"
+#include "tracking/sheets/EffectorNet.h"
+
+namespace heft {
+namespace {
+
+constexpr double px_per_mm = 300 / 25.4;
+
+// A folder that goes when the test does.
+class Sheets : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("heft_sheet_" + std::to_string(getpid()) + "_" +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  // The first page as poppler draws it, 300 dots an inch, gray.
+  Image first_page(const std::string& pdf) const {
+    const std::string page = path("page");
+    const std::string command =
+        "pdftoppm -r 300 -f 1 -singlefile -gray '" + pdf + "' '" + page + "'";
+    if (std::system(command.c_str()) != 0) throw Error("pdftoppm (poppler-utils) is needed");
+    return read_image(page + ".pgm");
+  }
+
+  std::filesystem::path folder_;
+};
+
+using TagCorners = std::map<int, std::array<Eigen::Vector2d, 4>>;
+
+// Millimeters from the page's upper left corner.
+TagCorners tags_on(const Image& page, const std::string& family) {
+  TagDetector detector(family, 2);
+  TagCorners corners_mm;
+  for (const DetectedTag& tag : detector.detect(page, whole(page)))
+    for (std::size_t c = 0; c < 4; ++c)
+      corners_mm[tag.id][c] = (tag.corners_px[c] + Eigen::Vector2d(0.5, 0.5)) / px_per_mm;
+  return corners_mm;
+}
+
+// Board coordinates of what is printed, in mm, from the mean of all corners.
+void expect_as_designed(const TagCorners& found_mm, const MarkerBody& board) {
+  ASSERT_EQ(found_mm.size(), board.tags.size());
+  Eigen::Vector2d middle(0, 0);
+  for (const auto& [id, corners] : found_mm)
+    for (const auto& corner : corners) middle += corner / (4.0 * double(found_mm.size()));
+  for (const Tag& tag : board.tags)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Eigen::Vector2d from_middle = found_mm.at(tag.id)[c] - middle;
+      const Eigen::Vector2d wanted = tag.corners_m[c].head<2>() * 1000;
+      EXPECT_LT((Eigen::Vector2d(from_middle.x(), -from_middle.y()) - wanted).norm(), 0.05)
+          << "tag " << tag.id << " corner " << c;
+    }
+}
+
+TEST_F(Sheets, BoardIsTrueToSize) {
+  const MarkerBody board = grid_board(6, 4, 0.040, 0.048);
+  write_board_sheet(board, Paper::a4, path("board.pdf"));
+  const Image page = first_page(path("board.pdf"));
+  EXPECT_EQ(page.width, 3508);  // A4 across
+  EXPECT_NEAR(page.height, 2480, 1);
+  expect_as_designed(tags_on(page, "tag36h11"), board);
+}
+
+TEST_F(Sheets, BoardOfAFamilyWithDataAroundIsTrueToSize) {
+  MarkerBody board = grid_board(2, 3, 0.030, 0.056);
+  board.family = "tagStandard41h12";
+  write_board_sheet(board, Paper::letter, path("board.pdf"));
+  expect_as_designed(tags_on(first_page(path("board.pdf")), "tagStandard41h12"), board);
+}
+
+// Whoever measured the ruler and prints again gets the same sheet.
+TEST_F(Sheets, AreDrawnAsDesignedAfterMeasuring) {
+  const MarkerBody board = grid_board(3, 3, 0.040, 0.048);
+  MarkerBody measured = grid_board(3, 3, 0.0392, 0.04704);
+  measured.measured_ruler_m = 0.147;
+  write_board_sheet(measured, Paper::a4, path("board.pdf"));
+  expect_as_designed(tags_on(first_page(path("board.pdf")), "tag36h11"), board);
+}
+
+// Centers of the dark marks in a row, mm.
+std::vector<double> marks_mm(const Image& page, int row) {
+  std::vector<double> marks;
+  double sum = 0, moment = 0;
+  for (int x = 0; x < page.width; ++x) {
+    const double ink =
+        255.0 -
+        page.pixels[static_cast<std::size_t>(row) * page.row_bytes() + static_cast<std::size_t>(x)];
+    sum += ink;
+    moment += ink * (x + 0.5);
+    if (ink > 0 || sum == 0) continue;
+    marks.push_back(moment / sum / px_per_mm);
+    sum = moment = 0;
+  }
+  return marks;
+}
+
+// Only the outermost ticks of the ruler reach this high.
+void expect_ruler(const Image& page) {
+  const int row = page.height - static_cast<int>((5 + 4 + 3.5) * px_per_mm);
+  const std::vector<double> marks = marks_mm(page, row);
+  ASSERT_GE(marks.size(), 2u);
+  EXPECT_NEAR(marks[1] - marks[0], 150.0, 0.03);
+}
+
+TEST_F(Sheets, RulersAre150MillimetersLong) {
+  write_board_sheet(grid_board(2, 2, 0.040, 0.048), Paper::letter, path("b.pdf"));
+  expect_ruler(first_page(path("b.pdf")));
+  write_effector_sheet(box_effector(0.032), Paper::a4, path("e.pdf"));
+  expect_ruler(first_page(path("e.pdf")));
+}
+
+// Where two faces meet on the net they meet on the box, and paper's printed side is outside.
+TEST_F(Sheets, NetFoldsIntoTheBox) {
+  const EffectorNet net = effector_net({0.090, 0.040, 0.036});
+  int n_hinges = 0;
+  for (const auto& fold : net.folds_m) {
+    std::vector<const NetFace*> meeting;
+    for (const NetFace& face : net.faces) {
+      const auto on_it = [&](const NetPoint& p) {
+        const NetPoint off = (p - face.center_m).cwiseAbs() - face.frame.size_m / 2;
+        return off.maxCoeff() < 1e-9;
+      };
+      if (on_it(fold[0]) && on_it(fold[1])) meeting.push_back(&face);
+    }
+    if (meeting.size() < 2) continue;  // a flap
+    ++n_hinges;
+    for (const NetPoint& p : fold)
+      EXPECT_LT((meeting[0]->on_box(p) - meeting[1]->on_box(p)).norm(), 1e-12);
+  }
+  EXPECT_EQ(n_hinges, 5);  // of six faces in one piece
+  for (const NetFace& face : net.faces) {
+    EXPECT_GT(face.frame.normal().dot(face.frame.center_m), 0);
+    EXPECT_NEAR(face.frame.normal().norm(), 1, 1e-12);
+  }
+}
+
+TEST_F(Sheets, FoldedTagsAreWhereTheFileSays) {
+  const MarkerBody effector = box_effector(0.032);
+  write_effector_sheet(effector, Paper::a4, path("effector.pdf"));
+  const TagCorners found_mm = tags_on(first_page(path("effector.pdf")), effector.family);
+  ASSERT_EQ(found_mm.size(), effector.tags.size());
+  const EffectorNet net = effector_net(effector.size_m);
+  const auto face_with = [&](const Tag& tag) { return net.at(face_of(effector.size_m, tag)); };
+  // Where the net's origin is on the page: from one corner of one tag.
+  const Tag& first = effector.tags.front();
+  const NetPoint start = face_with(first).on_net(first.corners_m[0]) * 1000;
+  const Eigen::Vector2d origin_mm =
+      found_mm.at(first.id)[0] - Eigen::Vector2d(start.x(), -start.y());
+  for (const Tag& tag : effector.tags)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Eigen::Vector2d on_page = found_mm.at(tag.id)[c] - origin_mm;
+      const NetPoint on_net = Eigen::Vector2d(on_page.x(), -on_page.y()) / 1000;
+      EXPECT_LT((face_with(tag).on_box(on_net) - tag.corners_m[c]).norm(), 0.00008)
+          << "tag " << tag.id << " corner " << c;
+    }
+}
+
+std::string refusal(const std::function<void()>& draw) {
+  try {
+    draw();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(Sheets, RefuseWhatDoesNotFit) {
+  const MarkerBody board = grid_board(6, 4, 0.040, 0.048);
+  const std::string why = refusal([&] { write_board_sheet(board, Paper::letter, path("x.pdf")); });
+  EXPECT_NE(why.find("280 x 184 mm"), std::string::npos) << why;
+  EXPECT_NE(why.find("letter"), std::string::npos) << why;
+  MarkerBody effector = box_effector(0.032);
+  effector.size_m.x() = 0.300;
+  effector.tags.clear();
+  EXPECT_NE(refusal([&] { write_effector_sheet(effector, Paper::a4, path("x.pdf")); }), "");
+  EXPECT_FALSE(std::filesystem::exists(path("x.pdf")));
+}
+
+TEST_F(Sheets, RefuseTagsThatAreNotOnTheSheet) {
+  MarkerBody board = grid_board(2, 2, 0.040, 0.048);
+  for (Eigen::Vector3d& corner : board.tags[2].corners_m) corner.z() = 0.01;
+  EXPECT_NE(refusal([&] { write_board_sheet(board, Paper::a4, path("x.pdf")); }).find("tag 2 "),
+            std::string::npos);
+  MarkerBody effector = box_effector(0.032);
+  for (Eigen::Vector3d& corner : effector.tags[1].corners_m) corner.z() += 0.01;
+  EXPECT_NE(
+      refusal([&] { write_effector_sheet(effector, Paper::a4, path("x.pdf")); }).find("tag 31 "),
+      std::string::npos);
+}
+
+TEST_F(Sheets, SayWhereTheyCannotBeWritten) {
+  const MarkerBody board = grid_board(2, 2, 0.040, 0.048);
+  const std::string file = path("no_such_folder/x.pdf");
+  EXPECT_NE(refusal([&] { write_board_sheet(board, Paper::a4, file); }).find(file),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace heft

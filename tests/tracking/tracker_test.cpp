@@ -1,0 +1,244 @@
+// From pixels to poses, on pictures of the synthetic camera with exact ground truth.
+#include "tracking/Tracker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/Error.h"
+#include "tracking/Scenes.h"
+
+namespace heft {
+namespace {
+
+using testing::HasSubstr;
+
+const Eigen::Vector3d tip_m(0.045, 0, 0);
+constexpr double degrees = 180 / M_PI;
+
+struct Errors {
+  std::vector<double> board_mm, board_deg, tip_mm, effector_deg;
+  int n_pictures = 0;
+
+  static double p95(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values.at(values.size() * 95 / 100);
+  }
+};
+
+// The held effector at a new random place in each picture.
+Errors errors_at_random_places(int width_px, const TrackerSettings& settings, int n_pictures,
+                               double speed_m_s = 0) {
+  const Apparatus apparatus = default_apparatus(width_px);
+  const SyntheticSettings scene;
+  SyntheticCamera camera(apparatus, scene, 1);
+  Tracker tracker(apparatus, settings);
+  RandomStream random(2, "poses");
+  Errors errors;
+  for (int i = 0; i < n_pictures; ++i) {
+    const Pose pose = random_held_pose(random);
+    const double t_s = i / 30.0, angle = 2 * M_PI * random.uniform();
+    const Eigen::Vector3d velocity =
+        speed_m_s * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+    const auto path = [&](double at_s) -> std::optional<Pose> {
+      return Pose{pose.position_m + (at_s - t_s) * velocity, pose.orientation};
+    };
+    const auto seen = tracker.track(camera.picture(path, t_s, static_cast<std::uint64_t>(i)), t_s);
+    ++errors.n_pictures;
+    if (!seen.camera_from_board) continue;
+    const Pose& board = *seen.camera_from_board;
+    errors.board_mm.push_back(1000 *
+                              (board.position_m - scene.camera_from_board.position_m).norm());
+    errors.board_deg.push_back(
+        degrees * board.orientation.angularDistance(scene.camera_from_board.orientation));
+    if (!seen.board_from_effector) continue;
+    const Pose& effector = *seen.board_from_effector;
+    errors.tip_mm.push_back(1000 * (effector * tip_m - pose * tip_m).norm());
+    errors.effector_deg.push_back(degrees * effector.orientation.angularDistance(pose.orientation));
+  }
+  return errors;
+}
+
+TEST(Tracker, IsAsAccurateAsPromisedAt640) {
+  const Errors errors = errors_at_random_places(640, {}, 120);
+  EXPECT_EQ(errors.board_mm.size(), 120U);
+  EXPECT_LT(Errors::p95(errors.board_mm), 0.06);
+  EXPECT_LT(Errors::p95(errors.board_deg), 0.03);
+  EXPECT_GT(errors.tip_mm.size(), 80U);  // the rest is under the fingers
+  EXPECT_LT(Errors::p95(errors.tip_mm), 0.6);
+  EXPECT_LT(Errors::p95(errors.effector_deg), 0.5);
+  EXPECT_LT(*std::ranges::max_element(errors.effector_deg), 10) << "a flip";
+}
+
+TEST(Tracker, IsAsAccurateAsPromisedAt1280) {
+  const Errors errors = errors_at_random_places(1280, {}, 40);
+  EXPECT_LT(Errors::p95(errors.board_mm), 0.05);
+  EXPECT_LT(Errors::p95(errors.tip_mm), 0.45);
+  EXPECT_LT(Errors::p95(errors.effector_deg), 0.3);
+}
+
+TEST(Tracker, HoldsInMotion) {
+  const Errors errors = errors_at_random_places(640, {}, 60, 0.5);
+  EXPECT_GT(errors.tip_mm.size(), 35U);
+  EXPECT_LT(Errors::p95(errors.tip_mm), 1.2);
+}
+
+TEST(Tracker, IsAnOrderOfMagnitudeBetterThanTheDetectorsCorners) {
+  TrackerSettings plain;
+  plain.refine_edges = plain.remove_bias = plain.region_of_interest = false;
+  const double plain_mm = Errors::p95(errors_at_random_places(640, plain, 50).tip_mm);
+  EXPECT_GT(plain_mm, 8 * Errors::p95(errors_at_random_places(640, {}, 50).tip_mm));
+}
+
+TEST(Tracker, TakesTheBiasOfAnUnknownToneCurveFromTheBoard) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticSettings scene;
+  scene.optics.tone_curve = false;
+  SyntheticCamera camera(apparatus, scene, 1);
+  Tracker tracker(apparatus);
+  const auto seen = tracker.track(
+      camera.picture([](double) -> std::optional<Pose> { return std::nullopt; }, 0, 0), 0);
+  ASSERT_TRUE(seen.camera_from_board);
+  EXPECT_GT(seen.edge_bias_px, 0.2);
+  EXPECT_LT((seen.camera_from_board->position_m - scene.camera_from_board.position_m).norm(),
+            0.0002);
+  EXPECT_EQ(seen.n_board_tags, 24);
+}
+
+class TrackerOverTime : public testing::Test {
+ protected:
+  TrackedPicture see(const std::optional<Pose>& effector, double t_s) {
+    const auto path = [&](double) { return effector; };
+    return tracker.track(camera.picture(path, t_s, number++), t_s);
+  }
+
+  static Pose held_at(double x_m, double y_m) { return upright_pose({x_m, y_m, 0.05}, 1.2); }
+
+  Apparatus apparatus = default_apparatus(640);
+  SyntheticCamera camera{apparatus, {}, 1};
+  Tracker tracker{apparatus};
+  std::uint64_t number = 0;
+};
+
+TEST_F(TrackerOverTime, MotionIsNoJump) {
+  EXPECT_TRUE(see(held_at(0, 0), 0).jump);  // there is nothing that it could continue
+  for (int i = 1; i < 6; ++i) {
+    const auto seen = see(held_at(0.017 * i, 0), i / 30.0);
+    ASSERT_TRUE(seen.board_from_effector) << i;
+    EXPECT_FALSE(seen.jump) << i;
+  }
+}
+
+TEST_F(TrackerOverTime, AnEffectorThatIsSomewhereElseJumped) {
+  see(held_at(-0.1, 0), 0);
+  const auto seen = see(held_at(0.1, 0.03), 1 / 30.0);
+  ASSERT_TRUE(seen.board_from_effector);
+  EXPECT_TRUE(seen.jump);
+  EXPECT_LT((seen.board_from_effector->position_m - held_at(0.1, 0.03).position_m).norm(), 0.002);
+}
+
+TEST_F(TrackerOverTime, OutOfViewIsNoPoseAndComingBackALongTimeLaterIsAJump) {
+  see(held_at(0, 0), 0);
+  const auto gone = see(std::nullopt, 1 / 30.0);
+  EXPECT_TRUE(gone.camera_from_board);
+  EXPECT_FALSE(gone.board_from_effector);
+  EXPECT_EQ(gone.n_effector_tags, 0);
+  EXPECT_FALSE(see(held_at(0.005, 0), 2 / 30.0).jump);
+  see(std::nullopt, 3 / 30.0);
+  EXPECT_TRUE(see(held_at(0.005, 0), 1).jump);
+}
+
+TEST_F(TrackerOverTime, ResetForgets) {
+  see(held_at(0, 0), 0);
+  tracker.reset();
+  EXPECT_TRUE(see(held_at(0, 0), 1 / 30.0).jump);
+}
+
+TEST_F(TrackerOverTime, LostInTheDarkAndFoundAgain) {
+  see(held_at(0, 0), 0);
+  Image dark(640, 480, 3);
+  const auto lost = tracker.track(dark, 1 / 30.0);
+  EXPECT_FALSE(lost.camera_from_board);
+  EXPECT_FALSE(lost.board_from_effector);
+  EXPECT_TRUE(see(held_at(0, 0), 2 / 30.0).board_from_effector);
+}
+
+TEST_F(TrackerOverTime, RefusesAPictureOfAnotherSize) {
+  try {
+    tracker.track(Image(320, 240, 1), 0);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("320 x 240"));
+    EXPECT_THAT(error.what(), HasSubstr("640 x 480"));
+  }
+}
+
+TEST(TrackerApparatus, EveryFamilyCanBeABoard) {
+  for (const char* family : {"tag36h11", "tag25h9", "tag16h5", "tagStandard41h12"}) {
+    Apparatus apparatus{default_camera(640, 480), grid_board(3, 2, 0.060, 0.090), {}};
+    apparatus.board.family = family;
+    if (std::string(family) == "tagStandard41h12")  // its data ring lies outside of the corners
+      apparatus.board = grid_board(3, 2, 0.040, 0.090), apparatus.board.family = family;
+    const SyntheticSettings scene;
+    SyntheticCamera camera(apparatus, scene, 1);
+    Tracker tracker(apparatus);
+    const auto seen = tracker.track(
+        camera.picture([](double) -> std::optional<Pose> { return std::nullopt; }, 0, 0), 0);
+    ASSERT_TRUE(seen.camera_from_board) << family;
+    EXPECT_EQ(seen.n_board_tags, 6) << family;
+    EXPECT_LT((seen.camera_from_board->position_m - scene.camera_from_board.position_m).norm(),
+              0.0003)
+        << family;
+    EXPECT_GT(seen.quality, 0.9) << family;
+  }
+}
+
+TEST(TrackerApparatus, ASingleTagIsEnough) {
+  const Apparatus apparatus{default_camera(640, 480), grid_board(1, 1, 0.080, 0.090), {}};
+  const SyntheticSettings scene;
+  SyntheticCamera camera(apparatus, scene, 1);
+  Tracker tracker(apparatus);
+  for (int i = 0; i < 3; ++i) {
+    const auto seen = tracker.track(
+        camera.picture([](double) -> std::optional<Pose> { return std::nullopt; }, 0, 0), i / 30.0);
+    ASSERT_TRUE(seen.camera_from_board);
+    EXPECT_LT((seen.camera_from_board->position_m - scene.camera_from_board.position_m).norm(),
+              0.001);
+  }
+}
+
+TEST(TrackerApparatus, SharedTagsUnknownFamiliesAndEmptyBoardsAreRefused) {
+  Apparatus shared = default_apparatus(640);
+  shared.effector.tags[0].id = 7;
+  EXPECT_THROW(Tracker{shared}, Error);
+  Apparatus unknown = default_apparatus(640);
+  unknown.board.family = "tag99h1";
+  EXPECT_THROW(Tracker{unknown}, Error);
+  Apparatus beyond = default_apparatus(640);
+  beyond.board.tags[0].id = 587;
+  EXPECT_THROW(Tracker{beyond}, Error);
+  Apparatus empty = default_apparatus(640);
+  empty.board.tags.clear();
+  EXPECT_THROW(Tracker{empty}, Error);
+}
+
+TEST(TrackerApparatus, NoiseAndTinyPicturesHoldNothing) {
+  RandomStream random(3, "pixels");
+  for (const auto& [width, height] : {std::pair{640, 480}, {1, 1}, {3, 200}, {40, 40}, {17, 9}}) {
+    Apparatus apparatus = default_apparatus(640);
+    apparatus.camera = default_camera(width, height);
+    Tracker tracker(apparatus);
+    for (const int channels : {1, 3})
+      for (int i = 0; i < 3; ++i) {
+        Image image(width, height, channels);
+        for (auto& pixel : image.pixels) pixel = static_cast<std::uint8_t>(random.below(256));
+        const auto seen = tracker.track(image, i / 30.0);
+        EXPECT_FALSE(seen.board_from_effector);
+        EXPECT_EQ(seen.camera_from_board.has_value(), seen.n_board_tags > 0);
+      }
+  }
+}
+
+}  // namespace
+}  // namespace heft
