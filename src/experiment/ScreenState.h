@@ -31,9 +31,9 @@ struct EnumNames<Screen> {
 
 struct ScreenState {
   Screen screen = Screen::welcome;
-  Task task = Task::sorting;                 ///< trial and instructions
-  int n_slots = 0;                           ///< trial only
-  std::vector<std::optional<Label>> labels;  ///< sorting: given so far, by slot
+  Task task = Task::sorting;                      ///< trial and instructions
+  int n_slots = 0;                                ///< trial only
+  std::vector<std::optional<Label>> labels = {};  ///< sorting: given so far, by slot
   bool can_answer = true;  ///< false until all that must be done first is done (touch every cube)
   bool can_validate = false;  ///< sorting: all three labels are given
   bool try_again = false;     ///< introduction: the cube chosen last was not the heaviest

@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "experiment/ScreenState.h"
+
 namespace heft {
 
 struct ScreenTexts {
@@ -16,5 +18,13 @@ struct ScreenTexts {
     return pages.at(page).at(key);
   }
 };
+
+/// The page of texts that a screen shows: its name, with the task's where there is a page for each
+/// ("trial_sorting"). Buttons, places and a trial's hints are on pages of their own.
+inline std::string text_page(Screen screen, Task task) {
+  const std::string name(name_of(screen));
+  const bool by_task = screen == Screen::instructions || screen == Screen::trial;
+  return by_task ? name + '_' + std::string(name_of(task)) : name;
+}
 
 }  // namespace heft

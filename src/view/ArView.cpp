@@ -3,6 +3,8 @@
 #include <array>
 
 #include "base/PlugTable.h"
+#include "view/VideoView.h"
+#include "view/window/WindowView.h"
 
 namespace heft {
 
@@ -20,8 +22,13 @@ std::unique_ptr<ArView> make(const ViewSetup& setup) {
   return std::make_unique<View>(setup);
 }
 
-constexpr std::array table{ViewEntry{"headless", "shows nothing; for simulated responders", false,
-                                     false, make<HeadlessView>}};
+constexpr std::array table{
+    ViewEntry{"headless", "shows nothing; for simulated responders", false, false,
+              make<HeadlessView>},
+    ViewEntry{"window", "the participant's screen, for touch, mouse and keys", true, false,
+              make<WindowView>},
+    ViewEntry{"video", "writes what would be seen into a video file: video:session.mp4", false,
+              true, make_video_view}};
 }  // namespace
 
 std::span<const ViewEntry> views() {

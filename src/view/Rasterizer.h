@@ -1,0 +1,81 @@
+// Triangles to pixels: four samples a pixel in a 2 x 2 grid, a depth for each, one solid and one
+// translucent layer, and soft shade on what lies below both. Knows no cameras and no boxes. A dozen
+// boxes don't need a graphics card; touching only the rows and columns that are drawn on makes this
+// faster than reading a picture back from one.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/Image.h"
+#include "view/Layer.h"
+
+namespace heft {
+
+/// How a part of the picture is painted.
+struct Surface {
+  std::array<std::uint8_t, 3> bgr{};
+  double opacity = 1;  ///< less than 1: drawn into the translucent layer
+  int object = 0;      ///< what find_object() answers for a solid surface; 0: nothing
+};
+
+/// A corner of a triangle. Pixel centers are integers.
+struct RasterCorner {
+  Eigen::Vector2d pixel;
+  double value = 0;  ///< fill: 1 / distance, greater is nearer; shade: darkness, 0...1
+};
+
+using RasterTriangle = std::array<RasterCorner, 3>;
+
+class Rasterizer {
+ public:
+  Rasterizer(int width_px, int height_px);
+
+  /// Forgets all triangles and surfaces. Costs what was drawn, not what could be.
+  void clear();
+
+  /// @return the surface's number, for fill()
+  /// @throws Error when there are more than 255
+  std::uint8_t add_surface(const Surface& surface);
+
+  /// Draws a triangle, of either winding, where nothing of its layer is nearer. Triangles with an
+  /// edge in common share no sample and leave none out. Translucent ones are seen in front of solid
+  /// ones, not behind them, in whatever order they come; of several only the nearest.
+  void fill(const RasterTriangle& triangle, std::uint8_t surface);
+
+  /// Darkens the picture below all surfaces. Shades on one another add up as filters do.
+  void shade(const RasterTriangle& triangle);
+
+  /// Paints everything over a picture of blue, green and red of the rasterizer's size.
+  void paint(Image& picture) const;
+
+  /// The object whose solid surface was filled nearest to a pixel, within so many pixels.
+  std::optional<int> find_object(const Eigen::Vector2d& pixel, double reach_px) const;
+
+ private:
+  // A sample holds its nearness above 8 bits of surface number, so that the nearer of two is the
+  // greater number: one comparison tests the depth and takes the color. 0 is nothing.
+  using Sample = std::int32_t;
+  using Four = std::array<Sample, 4>;  // of a pixel
+
+  struct Paint {
+    std::array<std::uint8_t, 3> bgr{};
+    int opacity = 256;  // of 256
+    int object = 0;
+  };
+
+  void shade_row(int y, std::uint8_t* bgr) const;
+  void paint_row(int y, std::uint8_t* bgr) const;
+  Layer<Sample>::Span columns_in(int y) const;
+  void paint_pixel(const Four& solid, const Four& glass, std::uint8_t* bgr) const;
+  std::array<int, 3> color(Sample solid, Sample glass, const std::uint8_t* below) const;
+
+  std::vector<Paint> paints_;     // by surface number; 0 is no surface
+  Layer<Sample> solid_, glass_;   // two rows and columns a pixel
+  Layer<std::uint8_t> darkness_;  // of 255, one a pixel
+};
+
+}  // namespace heft

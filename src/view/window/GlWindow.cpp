@@ -1,0 +1,195 @@
+#include "view/window/GlWindow.h"
+
+#include <SDL_opengl.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "base/Error.h"
+
+namespace heft {
+
+namespace {
+constexpr int windowed_width_px = 1024, windowed_height_px = 600;
+
+Error no_display(const char* what) {
+  return Error(fmt::format("can't open the participant's window: {}: {}; start Heft on a desktop "
+                           "with a display (DISPLAY or WAYLAND_DISPLAY set), or choose another "
+                           "view with --view",
+                           what, SDL_GetError()),
+               ExitCode::device_missing);
+}
+
+// Xlib ends the program when the display's connection breaks, whatever this returns; so at least
+// the person hears what happened. Every answer is in the log before the screen changes.
+int on_lost_display(void*) {
+  std::fputs(
+      "error: the display was closed or its connection broke; answers given so far are "
+      "saved, go on with: heft resume\n",
+      stderr);
+  std::_Exit(static_cast<int>(ExitCode::device_missing));
+}
+
+// SDL loads Xlib by itself, if at all; so its function is looked up, not linked.
+void explain_lost_display() {
+  using Handler = int (*)(void*);
+  using SetHandler = Handler (*)(Handler);
+  const char* driver = SDL_GetCurrentVideoDriver();
+  if (!driver || std::string_view(driver) != "x11") return;
+  void* library = SDL_LoadObject("libX11.so.6");
+  if (!library) return;
+  if (void* function = SDL_LoadFunction(library, "XSetIOErrorHandler"))
+    reinterpret_cast<SetHandler>(function)(on_lost_display);
+}
+
+// Without a display SDL draws into memory, which is fine for who asked for it by name.
+bool nobody_can_look() {
+  const std::string_view driver = SDL_GetCurrentVideoDriver();
+  return (driver == "offscreen" || driver == "dummy") && !SDL_getenv("SDL_VIDEODRIVER");
+}
+
+void set_hints() {
+  SDL_SetHint(SDL_HINT_TOUCH_MOUSE_EVENTS, "0");  // or taps count twice
+  SDL_SetHint(SDL_HINT_MOUSE_TOUCH_EVENTS, "0");
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C is the session's to handle
+  SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "0");
+  SDL_SetHint(SDL_HINT_VIDEO_MINIMIZE_ON_FOCUS_LOSS, "0");
+  SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
+  SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
+  SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
+}
+
+// Of the display's size from the start: where no window manager runs, as on a bare touch display,
+// nobody would enlarge a smaller window to full screen.
+SDL_Window* full_screen_window(const char* title) {
+  SDL_DisplayMode mode{};
+  if (SDL_GetDesktopDisplayMode(0, &mode) != 0) throw no_display("no display");
+  SDL_Window* window =
+      SDL_CreateWindow(title, 0, 0, mode.w, mode.h,
+                       SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_FULLSCREEN_DESKTOP |
+                           SDL_WINDOW_ALLOW_HIGHDPI);
+  if (!window) throw no_display("no window");
+  return window;
+}
+}  // namespace
+
+struct GlWindow::Video {
+  Video() {
+    set_hints();
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS) != 0) throw no_display("no display");
+    if (nobody_can_look()) {
+      SDL_SetError("neither X nor Wayland is running");
+      SDL_QuitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS);
+      throw no_display("no display");
+    }
+    SDL_DisableScreenSaver();
+    explain_lost_display();
+  }
+  ~Video() { SDL_QuitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS); }
+};
+
+struct GlWindow::Graphics {
+  explicit Graphics(SDL_Window* window) : context(SDL_GL_CreateContext(window)) {
+    if (!context) throw no_display("no OpenGL 3");
+    SDL_GL_SetSwapInterval(1);  // may be refused: the session paces its pictures by itself
+    glGenTextures(1, &texture);
+  }
+  ~Graphics() {
+    drop_painter();
+    glDeleteTextures(1, &texture);
+    SDL_GL_DeleteContext(context);
+  }
+
+  void drop_painter() {
+    if (!painter) return;
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext(painter);
+    painter = nullptr;
+  }
+
+  // ImGui keeps to one atlas, so other characters mean another ImGui.
+  void use(std::shared_ptr<ImFontAtlas> new_fonts) {
+    if (painter && fonts == new_fonts) return;
+    drop_painter();
+    fonts = std::move(new_fonts);
+    painter = ImGui::CreateContext(fonts.get());
+    ImGui::GetIO().IniFilename = nullptr;
+    if (!ImGui_ImplOpenGL3_Init()) throw no_display("no OpenGL 3");
+  }
+
+  SDL_GLContext context;
+  GLuint texture = 0;
+  std::shared_ptr<ImFontAtlas> fonts;
+  ImGuiContext* painter = nullptr;
+};
+
+GlWindow::GlWindow(const char* title)
+    : video_(std::make_unique<Video>()),
+      window_(full_screen_window(title), SDL_DestroyWindow),
+      graphics_(std::make_unique<Graphics>(window_.get())) {}
+
+GlWindow::~GlWindow() = default;
+
+Measures GlWindow::measures() const {
+  int width = 0, height = 0;
+  SDL_GL_GetDrawableSize(window_.get(), &width, &height);
+  return {static_cast<float>(std::max(width, 1)), static_cast<float>(std::max(height, 1))};
+}
+
+float GlWindow::scale() const {
+  int width = 0, height = 0;
+  SDL_GetWindowSize(window_.get(), &width, &height);
+  return measures().width / static_cast<float>(std::max(width, 1));
+}
+
+void GlWindow::toggle_full_screen() {
+  const bool full = (SDL_GetWindowFlags(window_.get()) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
+  SDL_SetWindowFullscreen(window_.get(), full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
+  if (full) SDL_SetWindowSize(window_.get(), windowed_width_px, windowed_height_px);
+}
+
+void GlWindow::upload(const Image& picture) {
+  glBindTexture(GL_TEXTURE_2D, graphics_->texture);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, picture.width, picture.height, 0, GL_BGR,
+               GL_UNSIGNED_BYTE, picture.pixels.data());
+  last_picture_ = picture;
+}
+
+unsigned GlWindow::texture() const {
+  return graphics_->texture;
+}
+
+void GlWindow::renew_graphics() {
+  graphics_.reset();
+  graphics_ = std::make_unique<Graphics>(window_.get());
+  if (!last_picture_.empty()) upload(last_picture_);
+}
+
+ImDrawList& GlWindow::begin_frame(std::shared_ptr<ImFontAtlas> fonts) {
+  if (SDL_GL_MakeCurrent(window_.get(), graphics_->context) != 0) renew_graphics();
+  graphics_->use(std::move(fonts));
+  const Measures m = measures();
+  ImGui::GetIO().DisplaySize = {m.width, m.height};
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  return *ImGui::GetBackgroundDrawList();
+}
+
+void GlWindow::end_frame() {
+  ImGui::Render();
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  glViewport(0, 0, static_cast<GLsizei>(size.x), static_cast<GLsizei>(size.y));
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  SDL_GL_SwapWindow(window_.get());
+  glFinish();
+}
+
+}  // namespace heft

@@ -1,0 +1,55 @@
+// The window on the display: SDL's window with an OpenGL context, one texture for the scene's
+// picture, and Dear ImGui's draw list to paint with. What is painted, and what events mean, is for
+// WindowView.
+#pragma once
+
+#include <SDL.h>
+
+#include <memory>
+#include <optional>
+
+#include "base/Image.h"
+#include "view/window/Measures.h"
+
+struct ImDrawList;
+struct ImFontAtlas;
+
+namespace heft {
+
+class GlWindow {
+ public:
+  /// Opens full screen.
+  /// @throws Error (device_missing) saying what to do when there is no display that can draw
+  explicit GlWindow(const char* title);
+  ~GlWindow();
+  GlWindow(const GlWindow&) = delete;
+  GlWindow& operator=(const GlWindow&) = delete;
+
+  /// In pixels, which can be more than the window system's units.
+  Measures measures() const;
+  /// Pixels a unit of the window system.
+  float scale() const;
+  void toggle_full_screen();
+
+  /// Makes the picture's pixels (blue, green, red) the texture.
+  void upload(const Image& picture);
+  unsigned texture() const;
+
+  /// Begins a frame with these characters, to be painted on the list that it gives.
+  /// @throws Error (device_missing) when the graphics are lost and can't be had again
+  ImDrawList& begin_frame(std::shared_ptr<ImFontAtlas> fonts);
+  /// Shows what was painted. Returns once the display has it, as far as the driver tells.
+  void end_frame();
+
+ private:
+  struct Video;     // SDL's video part, while there is a window
+  struct Graphics;  // all that is lost with the OpenGL context
+  void renew_graphics();
+
+  std::unique_ptr<Video> video_;
+  std::unique_ptr<SDL_Window, void (*)(SDL_Window*)> window_;
+  std::unique_ptr<Graphics> graphics_;
+  Image last_picture_;  ///< to upload again when the graphics were lost
+};
+
+}  // namespace heft

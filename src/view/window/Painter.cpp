@@ -1,0 +1,164 @@
+#include "view/window/Painter.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace heft {
+
+namespace {
+namespace colors {
+constexpr ImU32 background = IM_COL32(20, 23, 27, 255);
+constexpr ImU32 button = IM_COL32(49, 56, 65, 255);
+constexpr ImU32 button_pressed = IM_COL32(79, 90, 104, 255);
+constexpr ImU32 button_disabled = IM_COL32(29, 33, 38, 255);
+constexpr ImU32 accent = IM_COL32(94, 177, 255, 255);
+constexpr ImU32 accent_pressed = IM_COL32(158, 209, 255, 255);
+constexpr ImU32 on_accent = IM_COL32(10, 24, 38, 255);
+constexpr ImU32 strong = IM_COL32(243, 245, 247, 255);
+constexpr ImU32 soft = IM_COL32(196, 203, 211, 255);
+constexpr ImU32 disabled = IM_COL32(96, 105, 115, 255);
+constexpr ImU32 flag = IM_COL32(250, 250, 250, 255);
+constexpr ImU32 notice = IM_COL32(20, 23, 27, 225);
+}  // namespace colors
+
+ImVec2 corner(const Rect& area) {
+  return {area.x, area.y};
+}
+
+ImVec2 opposite_corner(const Rect& area) {
+  return {area.right(), area.bottom()};
+}
+
+void write(ImDrawList& list, const Typeface& typeface, const std::string& text, float x, float y,
+           float size_px, ImU32 color) {
+  list.AddText(&typeface.font(size_px), size_px, {x, y}, color, text.c_str());
+}
+
+// Lines centered in an area.
+void write_centered(ImDrawList& list, const Typeface& typeface, const FittedText& text,
+                    const Rect& area, ImU32 color) {
+  const float line_px = Typeface::line_height_px(text.size_px);
+  // A line's letters stand at the top of its height.
+  const float height_px = line_px * static_cast<float>(text.lines.size() - 1) + text.size_px;
+  float y = area.y + (area.height - height_px) / 2;
+  for (const std::string& line : text.lines) {
+    const float x = area.x + (area.width - typeface.width_px(line, text.size_px)) / 2;
+    write(list, typeface, line, x, y, text.size_px, color);
+    y += line_px;
+  }
+}
+
+ImU32 fill_of(const Control& control, bool pressed) {
+  if (!control.enabled) return colors::button_disabled;
+  const bool accented = control.look == Look::primary;
+  if (pressed) return accented ? colors::accent_pressed : colors::button_pressed;
+  return accented ? colors::accent : colors::button;
+}
+
+ImU32 ink_of(const Control& control) {
+  if (!control.enabled) return colors::disabled;
+  return control.look == Look::primary ? colors::on_accent : colors::strong;
+}
+
+void paint_words(ImDrawList& list, const Control& control, const Paint& paint, ImU32 ink) {
+  const Measures& m = paint.measures;
+  const float pad = 0.07f * m.target;
+  Rect inside{control.area.x + pad, control.area.y + pad, control.area.width - 2 * pad,
+              control.area.height - 2 * pad};
+  if (!control.note.empty()) {
+    const float note_px = 0.5f * inside.height;
+    const Rect below{inside.x, inside.bottom() - note_px, inside.width, note_px};
+    inside.height -= note_px;
+    write_centered(list, paint.typeface,
+                   paint.typeface.fitted(control.note, m.small, below.width, below.height), below,
+                   colors::accent);
+  }
+  write_centered(list, paint.typeface,
+                 paint.typeface.fitted(control.text, m.body, inside.width, inside.height), inside,
+                 ink);
+}
+
+void paint_control(ImDrawList& list, const Control& control, const Paint& paint) {
+  const bool pressed = control.enabled && paint.is_pressed(control.name);
+  const float rounding = 0.14f * paint.measures.target;
+  const ImVec2 from = corner(control.area), to = opposite_corner(control.area);
+  list.AddRectFilled(from, to, fill_of(control, pressed), rounding);
+  if (control.chosen)
+    list.AddRect(from, to, colors::accent, rounding, 0, 0.045f * paint.measures.target);
+  paint_words(list, control, paint, ink_of(control));
+}
+
+void paint_picture(ImDrawList& list, const ShownPicture& picture) {
+  const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.texture));
+  list.AddImage(id, corner(picture.area), opposite_corner(picture.area));
+}
+
+bool overlap(const Rect& a, const Rect& b) {
+  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
+// A flag with a label, its tip at the cube; only the tip where no label is given yet. Higher where
+// another flag is in its way.
+void paint_mark(ImDrawList& list, const PlacedMark& placed, const Paint& paint,
+                std::vector<Rect>& flags) {
+  const ImU32 fill = placed.mark.selected ? colors::accent : colors::flag;
+  const float size = paint.measures.small, tip = 0.55f * size;
+  list.AddTriangleFilled({placed.x - tip, placed.y - tip}, {placed.x + tip, placed.y - tip},
+                         {placed.x, placed.y}, fill);
+  if (placed.mark.text.empty()) return;
+  const float width = paint.typeface.width_px(placed.mark.text, size) + 1.2f * size;
+  const float height = 1.7f * size;
+  Rect flag{placed.x - width / 2, placed.y - tip - height + 1, width, height};
+  while (std::ranges::any_of(flags, [&](const Rect& other) { return overlap(flag, other); }))
+    flag.y -= height / 4;
+  flags.push_back(flag);
+  list.AddLine({placed.x, flag.bottom() - 1}, {placed.x, placed.y}, fill, 0.15f * size);
+  list.AddRectFilled(corner(flag), opposite_corner(flag), fill, height / 4);
+  write_centered(list, paint.typeface, {size, {placed.mark.text}}, flag, colors::on_accent);
+}
+
+void paint_notice(ImDrawList& list, const std::string& notice, const Rect& picture,
+                  const Paint& paint) {
+  const Measures& m = paint.measures;
+  const FittedText text =
+      paint.typeface.fitted(notice, m.body, picture.width - 4 * m.margin, 0.25f * picture.height);
+  float width = 0;
+  for (const std::string& line : text.lines)
+    width = std::max(width, paint.typeface.width_px(line, text.size_px));
+  width += 2 * m.margin;
+  const float height =
+      Typeface::line_height_px(text.size_px) * static_cast<float>(text.lines.size()) +
+      1.2f * m.margin;
+  const Rect area{picture.x + (picture.width - width) / 2, picture.bottom() - m.margin - height,
+                  width, height};
+  list.AddRectFilled(corner(area), opposite_corner(area), colors::notice, 0.1f * m.target);
+  write_centered(list, paint.typeface, text, area, colors::strong);
+}
+}  // namespace
+
+void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
+  list.AddRectFilled({0, 0}, {paint.measures.width, paint.measures.height}, colors::background);
+  if (paint.picture) {
+    paint_picture(list, *paint.picture);
+    list.PushClipRect(corner(paint.picture->area), opposite_corner(paint.picture->area), true);
+    std::vector<Rect> flags;
+    for (const PlacedMark& mark : paint.marks) paint_mark(list, mark, paint, flags);
+    list.PopClipRect();
+    if (!page.notice.empty()) paint_notice(list, page.notice, paint.picture->area, paint);
+  }
+  for (const TextLine& line : page.lines)
+    write(list, paint.typeface, line.text, line.x, line.y, line.size_px,
+          line.tone == Tone::strong ? colors::strong : colors::soft);
+  for (const Control& control : page.controls) paint_control(list, control, paint);
+}
+
+Rect fitted_picture(const Rect& room, int width_px, int height_px) {
+  const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
+  const float scale = std::min(room.width / width, room.height / height);
+  return {room.x + (room.width - scale * width) / 2, room.y + (room.height - scale * height) / 2,
+          scale * width, scale * height};
+}
+
+}  // namespace heft

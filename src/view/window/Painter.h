@@ -1,0 +1,44 @@
+// The look of the participant's screens: paints a page. Calm and of high contrast, dark around the
+// picture, one accent color for what leads on.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/window/Measures.h"
+#include "view/window/Page.h"
+#include "view/window/Typeface.h"
+
+struct ImDrawList;
+
+namespace heft {
+
+/// The scene's picture on the screen.
+struct ShownPicture {
+  unsigned texture = 0;
+  Rect area;
+};
+
+/// A mark at its place on the screen: the tip of a small flag above a cube.
+struct PlacedMark {
+  CubeMark mark;
+  float x = 0, y = 0;
+};
+
+/// What a page is painted with besides itself.
+struct Paint {
+  const Typeface& typeface;
+  const Measures& measures;
+  std::optional<ShownPicture> picture;
+  std::vector<PlacedMark> marks;
+  std::function<bool(const std::string& control)> is_pressed;
+};
+
+void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
+
+/// The largest place inside `room`, centered, for a picture of that size.
+Rect fitted_picture(const Rect& room, int width_px, int height_px);
+
+}  // namespace heft

@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "view/window/ScreenPages.h"
+
+namespace heft {
+
+namespace {
+// Controls stand in a column on the side of the hand; what is asked is above the picture.
+Rect column_of(const PageBuilder& builder) {
+  const Measures& m = builder.measures;
+  const float width = 3.55f * m.target;
+  return {builder.left_handed ? m.margin : m.width - m.margin - width, m.margin, width,
+          m.height - 2 * m.margin};
+}
+
+void add_picture(PageBuilder& builder, const std::string& above) {
+  const Measures& m = builder.measures;
+  const Rect column = column_of(builder);
+  const float x = builder.left_handed ? column.right() + m.margin : m.margin;
+  const float width = m.width - column.width - 3 * m.margin;
+  const FittedText words = builder.typeface.fitted(above, m.body, width, 3 * m.body);
+  const float bottom = builder.add_lines(words.lines, x, m.margin, words.size_px);
+  const float y = bottom + m.gap;
+  builder.page.picture = Rect{x, y, width, m.height - m.margin - y};
+}
+
+// A row of the column divided into equal cells.
+Rect cell(const Rect& row, int i, int n, float gap) {
+  const float width = (row.width - gap * static_cast<float>(n - 1)) / static_cast<float>(n);
+  return {row.x + static_cast<float>(i) * (width + gap), row.y, width, row.height};
+}
+
+Rect bottom_row(const PageBuilder& builder) {
+  const Rect column = column_of(builder);
+  const float height = builder.measures.target;
+  return {column.x, column.bottom() - height, column.width, height};
+}
+
+std::string slot_words(const PageBuilder& builder, int slot, int n_slots) {
+  if (n_slots != 2 && n_slots != 3) return fmt::format("{}", slot);
+  if (slot == 1) return builder.text("slots", "left");
+  return builder.text("slots", slot == n_slots ? "right" : "middle");
+}
+
+Touch answer(ActionKind kind, std::optional<int> slot = {}, std::optional<Label> label = {}) {
+  Touch touch;
+  touch.action.kind = kind;
+  touch.action.slot = slot;
+  touch.action.label = label;
+  return touch;
+}
+
+// The words of a label given to a cube; empty: none is given.
+std::string label_words(const PageBuilder& builder, const ScreenState& state, int slot) {
+  const auto i = static_cast<std::size_t>(slot - 1);
+  if (i >= state.labels.size() || !state.labels[i]) return {};
+  return builder.text("trial_sorting", std::string(name_of(*state.labels[i])));
+}
+
+// Buttons that stand for the cubes, in the cubes' order for either hand.
+template <typename EffectOf>
+void add_cubes(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory,
+               const Rect& row, const EffectOf& effect_of) {
+  for (int slot = 1; slot <= state.n_slots; ++slot) {
+    Control& button = builder.add_button(fmt::format("cube_{}", slot),
+                                         cell(row, slot - 1, state.n_slots, builder.measures.gap),
+                                         slot_words(builder, slot, state.n_slots), effect_of(slot),
+                                         slot <= 9 ? static_cast<char>('0' + slot) : '\0');
+    button.note = label_words(builder, state, slot);
+    button.enabled = state.can_answer && memory.cubes_shown;
+    button.chosen = memory.selected == slot;
+  }
+}
+
+void add_put_back(PageBuilder& builder, const ScreenMemory& memory, const Rect& area) {
+  builder
+      .add_button("put_cubes_back", area, builder.text("buttons", "put_cubes_back"),
+                  touch_of(TouchKind::put_cubes_back), key_backspace)
+      .enabled = memory.cubes_shown;
+}
+
+// What must be done before an answer is possible.
+void add_hint(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
+  if (!memory.cubes_shown)
+    builder.page.notice = builder.text("trial", "wait_for_cubes");
+  else if (!state.can_answer)
+    builder.page.notice = builder.text("trial", "touch_every_cube");
+}
+
+bool all_labeled(const ScreenState& state) {
+  return static_cast<int>(std::ranges::count_if(
+             state.labels, [](const auto& label) { return label.has_value(); })) == state.n_slots;
+}
+
+// Gives the selected cube a label, or takes back the one it has.
+void add_label(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory,
+               Label label, const Rect& area, char key) {
+  const int slot = memory.selected.value_or(0);
+  const auto i = static_cast<std::size_t>(slot - 1);
+  const bool given = slot > 0 && i < state.labels.size() && state.labels[i] == label;
+  const std::string name(name_of(label));
+  Control& button = builder.add_button(
+      "label_" + name, area, builder.text("trial_sorting", name),
+      given ? answer(ActionKind::unlabel, slot) : answer(ActionKind::label, slot, label), key);
+  button.enabled = state.can_answer && memory.cubes_shown && slot > 0;
+  button.chosen = given;
+}
+
+void mark_cubes(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
+  for (int slot = 1; slot <= state.n_slots; ++slot) {
+    CubeMark mark{slot, label_words(builder, state, slot), memory.selected == slot};
+    if (mark.selected || !mark.text.empty()) builder.page.marks.push_back(std::move(mark));
+  }
+}
+
+// Two cubes, of which one is chosen with one tap.
+void choice_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
+  add_picture(builder, builder.text(text_page(Screen::trial, state.task), "question"));
+  add_hint(builder, state, memory);
+  const Rect column = column_of(builder);
+  add_cubes(builder, state, memory, {column.x, column.y, column.width, 2 * builder.measures.target},
+            [](int slot) { return answer(ActionKind::select, slot); });
+  add_put_back(builder, memory, bottom_row(builder));
+}
+}  // namespace
+
+void demonstration_screen(PageBuilder& builder, const ScreenState& state) {
+  add_picture(builder, builder.text("demonstration", "title"));
+  const Rect column = column_of(builder);
+  const Rect button = bottom_row(builder);
+  const auto words =
+      builder.typeface.fitted(builder.text("demonstration", "text"), builder.measures.body,
+                              column.width, button.y - column.y - builder.measures.gap);
+  builder.add_lines(words.lines, column.x, builder.page.picture->y, words.size_px, Tone::soft);
+  if (state.wait_s > 0) return;
+  builder
+      .add_button("next", button, builder.text("buttons", "next"), touch_of(TouchKind::next),
+                  key_enter)
+      .look = Look::primary;
+}
+
+void introduction_screen(PageBuilder& builder, const ScreenState& state,
+                         const ScreenMemory& memory) {
+  choice_screen(builder, state, memory);
+  if (state.try_again && builder.page.notice.empty())
+    builder.page.notice = builder.text("trial_introduction", "try_again");
+}
+
+void comparison_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
+  choice_screen(builder, state, memory);
+  const Measures& m = builder.measures;
+  const Rect column = column_of(builder);
+  const Rect area{column.x, column.y + 2 * m.target + m.gap, column.width, 1.25f * m.target};
+  builder
+      .add_button("no_difference", area, builder.text("trial_comparison", "no_difference"),
+                  answer(ActionKind::no_difference), 'n')
+      .enabled = state.can_answer && memory.cubes_shown;
+}
+
+void sorting_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
+  add_picture(builder, builder.text("trial_sorting", "question"));
+  add_hint(builder, state, memory);
+  if (builder.page.notice.empty() && !memory.selected && !all_labeled(state))
+    builder.page.notice = builder.text("trial_sorting", "tap_a_cube");
+  mark_cubes(builder, state, memory);
+
+  constexpr int n_rows = 6;
+  const Measures& m = builder.measures;
+  const Rect column = column_of(builder);
+  const float height = std::min((column.height - (n_rows - 1) * m.gap) / n_rows, 1.2f * m.target);
+  const auto row = [&](int i) {
+    return Rect{column.x, column.y + static_cast<float>(i) * (height + m.gap), column.width,
+                height};
+  };
+  add_cubes(builder, state, memory, row(0), [](int slot) { return SelectCube{slot}; });
+  add_label(builder, state, memory, Label::lightest, row(1), 'l');
+  add_label(builder, state, memory, Label::intermediate, row(2), 'i');
+  add_label(builder, state, memory, Label::heaviest, row(3), 'h');
+  Control& validate =
+      builder.add_button("validate", row(4), builder.text("trial_sorting", "validate"),
+                         answer(ActionKind::validate), key_enter);
+  validate.look = Look::primary;
+  validate.enabled = state.can_validate && memory.cubes_shown;
+  const Rect last{column.x, column.bottom() - height, column.width, height};
+  builder
+      .add_button("dont_know", cell(last, 0, 2, m.gap), builder.text("trial_sorting", "dont_know"),
+                  answer(ActionKind::dont_know), 'd')
+      .enabled = state.can_answer && memory.cubes_shown;
+  add_put_back(builder, memory, cell(last, 1, 2, m.gap));
+}
+
+}  // namespace heft

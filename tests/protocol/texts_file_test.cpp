@@ -1,0 +1,81 @@
+// Text files: the shipped ones, every mistake at its place, and the text that is hashed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "EditedFile.h"
+#include "protocol/FileKind.h"
+#include "protocol/TextsFile.h"
+
+namespace heft {
+namespace {
+
+std::string texts_path(const std::string& language) {
+  return std::string(HEFT_SOURCE_DIR) + "/protocols/texts/" + language + ".toml";
+}
+
+TEST(TextsFile, ShippedLanguagesAreComplete) {
+  for (const std::string language : {"en", "fr"}) {
+    const ScreenTexts texts = load_texts(texts_path(language));
+    EXPECT_EQ(texts.language, language);
+    EXPECT_FALSE(texts.at("trial_comparison", "no_difference").empty());
+    EXPECT_EQ(recognized_kind(content_of(texts_path(language)), "f"), FileKind::texts);
+  }
+}
+
+// The wording sets the criterion: nothing may name what the session studies.
+TEST(TextsFile, ShippedTextsNameNeitherLagNorIllusionNorMassesNorConditions) {
+  for (const std::string language : {"en", "fr"})
+    for (const auto& [page, keys] : load_texts(texts_path(language)).pages)
+      for (const auto& [key, text] : keys)
+        for (const std::string word :
+             {" lag", "delay", "illusion", "decoupl", "gram", " mass", "C1", "C2", "incorrect",
+              "wrong", "retard", "décal", "découpl", "faux", "fausse", "pseudo", "spring"})
+          EXPECT_EQ(text.find(word), std::string::npos) << language << ' ' << page << '.' << key;
+}
+
+TEST(TextsFile, EveryScreenHasItsPage) {
+  const ScreenTexts texts = load_texts(texts_path("en"));
+  for (std::size_t screen = 0; screen < EnumNames<Screen>::names.size(); ++screen)
+    for (const Task task : {Task::introduction, Task::sorting, Task::comparison})
+      EXPECT_TRUE(texts.pages.contains(text_page(static_cast<Screen>(screen), task)));
+}
+
+class BrokenTexts : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenTexts, IsOneMistakeAtItsPlace) {
+  expect_broken(content_of(texts_path("en")), GetParam(),
+                [](auto& text) { parse_texts(text, "x.toml"); });
+}
+
+const std::vector<Broken> broken{
+    {"missing_key", {"[slots]\nleft = \"Left\"", "^[slots]"}, {"[slots] lacks \"left\""}},
+    {"misspelled_key", {"agree =", "^agre ="}, {"\"agre\"", "\"agree\"?"}},
+    {"unknown_key", {"[slots]\n", "[slots]\n^top = \"Top\"\n"}, {"unknown key \"top\""}},
+    {"misspelled_page", {"[paused]", "[^pausd]"}, {"\"pausd\"", "\"paused\"?"}},
+    {"empty_text", {"\"Left\"", "^\"\""}, {"left", "not empty"}},
+    {"blank_lines", {"\"Left\"", "^\"\\n \\n\""}, {"left", "empty"}},
+    {"number", {"\"Left\"", "^1"}, {"left is 1"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, BrokenTexts, testing::ValuesIn(broken), name_of_broken);
+
+TEST(TextsFile, SaysThatTheLanguageIsMissing) {
+  const EditedFile file = edited(content_of(texts_path("en")), {"language = \"en\"", ""});
+  const auto mistakes = mistakes_of([&] { parse_texts(file.text, "x.toml"); });
+  ASSERT_EQ(mistakes.size(), 1u);
+  EXPECT_THAT(mistakes[0].message, testing::HasSubstr("lacks \"language\""));
+}
+
+TEST(PageText, IsTheSameForTheSameWordsWhereverTheyStand) {
+  const std::string text = content_of(texts_path("en"));
+  const EditedFile moved = edited(
+      text, {"left = \"Left\"\nmiddle = \"Middle\"", "middle = \" Middle\"\n\nleft = \"Left\""});
+  const std::string page = page_text(parse_texts(text, "a"), "slots");
+  EXPECT_EQ(page, "language: en\n\nleft: Left\n\nmiddle: Middle\n\nright: Right\n");
+  EXPECT_EQ(page_text(parse_texts(moved.text, "b"), "slots"), page);
+  const EditedFile changed = edited(text, {"\"Middle\"", "\"Center\""});
+  EXPECT_NE(page_text(parse_texts(changed.text, "c"), "slots"), page);
+}
+
+}  // namespace
+}  // namespace heft

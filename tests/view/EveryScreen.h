@@ -1,0 +1,98 @@
+// Every screen of the participant in every state that looks different, for tests of the window.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiment/ScreenState.h"
+#include "protocol/TextsFile.h"
+#include "view/ArView.h"
+
+namespace heft {
+
+struct NamedScreen {
+  std::string name;
+  ScreenState state;
+  bool cubes = true;  ///< in the picture
+};
+
+inline ScreenTexts shipped_texts(const std::string& language) {
+  return load_texts(std::string(HEFT_SOURCE_DIR) + "/protocols/texts/" + language + ".toml");
+}
+
+inline ScreenState trial_state(Task task) {
+  ScreenState state;
+  state.screen = Screen::trial;
+  state.task = task;
+  state.n_slots = task == Task::sorting ? 3 : 2;
+  if (task == Task::sorting) state.labels.assign(3, std::nullopt);
+  return state;
+}
+
+inline ScreenState page_state(Screen screen, Task task = Task::sorting, double wait_s = 0) {
+  ScreenState state;
+  state.screen = screen;
+  state.task = task;
+  state.wait_s = wait_s;
+  return state;
+}
+
+inline std::vector<NamedScreen> page_screens() {
+  return {{"consent", page_state(Screen::consent)},
+          {"welcome", page_state(Screen::welcome)},
+          {"about_you", page_state(Screen::about_you)},
+          {"demonstration_waiting", page_state(Screen::demonstration, Task::sorting, 5)},
+          {"demonstration", page_state(Screen::demonstration)},
+          {"instructions_introduction", page_state(Screen::instructions, Task::introduction)},
+          {"instructions_sorting", page_state(Screen::instructions, Task::sorting)},
+          {"instructions_comparison", page_state(Screen::instructions, Task::comparison)},
+          {"rest_waiting", page_state(Screen::rest, Task::sorting, 64.2)},
+          {"rest", page_state(Screen::rest)},
+          {"paused", page_state(Screen::paused)},
+          {"how_decided", page_state(Screen::how_decided)},
+          {"thanks", page_state(Screen::thanks)}};
+}
+
+inline std::vector<NamedScreen> trial_screens() {
+  ScreenState untouched = trial_state(Task::sorting);
+  untouched.can_answer = false;
+  ScreenState again = trial_state(Task::introduction);
+  again.try_again = true;
+  again.n_choices = 1;
+  ScreenState labeled = trial_state(Task::sorting);
+  labeled.labels = {Label::intermediate, Label::lightest, Label::heaviest};
+  labeled.can_validate = true;
+  labeled.n_choices = 3;
+  return {{"sorting_without_cubes", untouched, false},       {"sorting_untouched", untouched},
+          {"sorting", trial_state(Task::sorting)},           {"sorting_labeled", labeled},
+          {"introduction", trial_state(Task::introduction)}, {"introduction_again", again},
+          {"comparison", trial_state(Task::comparison)}};
+}
+
+inline std::vector<NamedScreen> every_screen() {
+  auto all = page_screens();
+  for (auto& screen : trial_screens()) all.push_back(std::move(screen));
+  return all;
+}
+
+/// The paper's cubes side by side, and the effector before them.
+inline ViewSetup setup_for(const std::string& language, int n_cubes = 3) {
+  ViewSetup setup;
+  setup.texts = shipped_texts(language);
+  for (int i = 0; i < n_cubes; ++i)
+    setup.stage.slots_m.emplace_back(0.07 * (i - 0.5 * (n_cubes - 1)), 0.03, 0.0175);
+  return setup;
+}
+
+inline ViewPicture picture_of(const ViewSetup& setup, bool cubes = true) {
+  ViewPicture picture;
+  const Pose effector = upright_pose({0.02, -0.09, 0.02}, 1.5707963);
+  picture.frame.effector = effector;
+  picture.frame.clone = effector;
+  if (cubes)
+    for (const auto& slot_m : setup.stage.slots_m)
+      picture.frame.cubes.push_back(upright_pose(slot_m, 0));
+  return picture;
+}
+
+}  // namespace heft

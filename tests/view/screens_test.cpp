@@ -1,0 +1,371 @@
+// The participant's screens without a window: what is on each page, whether it fits, and what taps
+// on it mean.
+#include "view/window/Screens.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "EveryScreen.h"
+#include "base/Error.h"
+
+namespace heft {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsSupersetOf;
+using testing::UnorderedElementsAre;
+
+const std::vector<Measures> windows{{1024, 600}, {1280, 800}, {1920, 1080}, {800, 1280}};
+
+bool inside(const Rect& inner, const Rect& outer) {
+  constexpr float rounding = 0.01f;
+  return inner.x >= outer.x - rounding && inner.y >= outer.y - rounding &&
+         inner.right() <= outer.right() + rounding && inner.bottom() <= outer.bottom() + rounding;
+}
+
+bool overlap(const Rect& a, const Rect& b) {
+  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
+std::vector<std::string> names(const Page& page, bool enabled_only = false) {
+  std::vector<std::string> all;
+  for (const Control& control : page.controls)
+    if (control.enabled || !enabled_only) all.push_back(control.name);
+  return all;
+}
+
+// Screens in one language and window, tapped by name.
+struct Fixture {
+  explicit Fixture(const std::string& language = "en", Measures window = {1024, 600},
+                   bool left_handed = false)
+      : measures(window),
+        typeface(shipped_texts(language), window),
+        screens(shipped_texts(language), left_handed) {}
+
+  Page page() const { return screens.page(typeface, measures); }
+  Control control(const std::string& name) const {
+    for (const Control& control : page().controls)
+      if (control.name == name) return control;
+    throw std::out_of_range(name);
+  }
+  std::optional<Touch> tap(const std::string& name) {
+    const Control& tapped = control(name);
+    if (!tapped.enabled) throw std::logic_error(name + " is disabled");
+    return screens.tapped(tapped);
+  }
+
+  Measures measures;
+  Typeface typeface;
+  Screens screens;
+};
+
+Action action(const std::optional<Touch>& touch) {
+  EXPECT_TRUE(touch);
+  EXPECT_EQ(touch->kind, TouchKind::action);
+  return touch->action;
+}
+
+// Visits every screen, every question and every part in a window.
+template <typename Check>
+void on_every_page(const Check& check) {
+  for (const std::string language : {"en", "fr"})
+    for (const Measures& window : windows)
+      for (const bool left_handed : {false, true}) {
+        Fixture fixture(language, window, left_handed);
+        for (const NamedScreen& screen : every_screen()) {
+          fixture.screens.show(screen.state, screen.cubes);
+          SCOPED_TRACE(language + ' ' + screen.name + ' ' + std::to_string(window.height));
+          for (bool more = true; more;) {
+            check(fixture, fixture.page());
+            more = false;
+            for (const Control& control : fixture.page().controls)
+              if (std::holds_alternative<TurnPart>(control.effect) && control.name != "back") {
+                fixture.screens.tapped(control);
+                more = true;
+                break;
+              }
+          }
+        }
+      }
+}
+
+TEST(Screens, ControlsAreLargeApartAndInsideTheWindow) {
+  on_every_page([](const Fixture& fixture, const Page& page) {
+    const Rect window{0, 0, fixture.measures.width, fixture.measures.height};
+    for (const Control& control : page.controls) {
+      EXPECT_TRUE(inside(control.area, window)) << control.name;
+      EXPECT_GE(control.area.width, fixture.measures.target) << control.name;
+      EXPECT_GE(control.area.height, fixture.measures.target - 0.01f) << control.name;
+      EXPECT_FALSE(page.picture && overlap(control.area, *page.picture)) << control.name;
+      for (const Control& other : page.controls)
+        EXPECT_FALSE(&other != &control && overlap(control.area, other.area))
+            << control.name << ' ' << other.name;
+    }
+  });
+}
+
+TEST(Screens, TargetsAreTwelveMillimetersOnASevenInchScreen) {
+  for (const auto& [width, height] :
+       {std::pair{1024.f, 600.f}, {1280.f, 800.f}, {1920.f, 1080.f}}) {
+    const float mm_per_px = 7 * 25.4f / std::hypot(width, height);
+    EXPECT_GE(Measures(width, height).target * mm_per_px, 12.f) << width;
+  }
+}
+
+TEST(Screens, TextStaysInTheWindowAndOffTheControls) {
+  on_every_page([](const Fixture& fixture, const Page& page) {
+    const Rect window{0, 0, fixture.measures.width, fixture.measures.height};
+    for (const TextLine& line : page.lines) {
+      const Rect area{line.x, line.y, fixture.typeface.width_px(line.text, line.size_px),
+                      line.size_px};
+      EXPECT_TRUE(inside(area, window)) << line.text;
+      EXPECT_FALSE(page.picture && overlap(area, *page.picture)) << line.text;
+      for (const Control& control : page.controls)
+        EXPECT_FALSE(overlap(area, control.area)) << line.text << " on " << control.name;
+    }
+  });
+}
+
+TEST(Screens, ButtonsHoldTheirWordsAtAReadableSize) {
+  on_every_page([](const Fixture& fixture, const Page& page) {
+    for (const Control& control : page.controls) {
+      const float inside_px = 0.86f * fixture.measures.target;
+      const FittedText words =
+          fixture.typeface.fitted(control.text, fixture.measures.body,
+                                  control.area.width - 0.14f * fixture.measures.target, inside_px);
+      EXPECT_GE(words.size_px, 0.7f * fixture.measures.body) << control.text;
+      for (const std::string& line : words.lines)
+        EXPECT_LE(fixture.typeface.width_px(line, words.size_px), control.area.width) << line;
+    }
+  });
+}
+
+TEST(Screens, ThePictureTakesMostOfTheWindow) {
+  Fixture fixture;
+  fixture.screens.show(trial_state(Task::sorting), true);
+  const Rect picture = *fixture.page().picture;
+  EXPECT_GT(picture.width, 0.64f * 1024);
+  EXPECT_GT(picture.height, 0.8f * 600);
+}
+
+TEST(Screens, EachOffersItsControls) {
+  Fixture fixture;
+  const auto offered = [&](const std::string& name) {
+    for (const NamedScreen& screen : every_screen())
+      if (screen.name == name) fixture.screens.show(screen.state, screen.cubes);
+    return names(fixture.page());
+  };
+  EXPECT_THAT(offered("consent"), UnorderedElementsAre("next", "decline"));
+  EXPECT_THAT(offered("welcome"), ElementsAre("next"));
+  EXPECT_THAT(offered("demonstration"), ElementsAre("next"));
+  EXPECT_THAT(offered("demonstration_waiting"), ElementsAre());
+  EXPECT_THAT(offered("instructions_sorting"), ElementsAre("next"));
+  EXPECT_THAT(offered("rest_waiting"), ElementsAre());
+  EXPECT_THAT(offered("rest"), ElementsAre("next"));
+  EXPECT_THAT(offered("paused"), ElementsAre());
+  EXPECT_THAT(offered("thanks"), ElementsAre("next"));
+  EXPECT_THAT(offered("introduction"), UnorderedElementsAre("cube_1", "cube_2", "put_cubes_back"));
+  EXPECT_THAT(offered("comparison"),
+              UnorderedElementsAre("cube_1", "cube_2", "no_difference", "put_cubes_back"));
+  EXPECT_THAT(
+      offered("sorting"),
+      UnorderedElementsAre("cube_1", "cube_2", "cube_3", "label_lightest", "label_intermediate",
+                           "label_heaviest", "validate", "dont_know", "put_cubes_back"));
+}
+
+TEST(Screens, NothingCanBeAnsweredTooEarly) {
+  Fixture fixture;
+  for (const Task task : {Task::introduction, Task::sorting, Task::comparison}) {
+    ScreenState state = trial_state(task);
+    state.can_validate = true;
+    fixture.screens.show(state, false);
+    EXPECT_THAT(names(fixture.page(), true), ElementsAre()) << "no cubes yet";
+    state.can_answer = state.can_validate = false;
+    fixture.screens.show(state, true);
+    EXPECT_THAT(names(fixture.page(), true), ElementsAre("put_cubes_back"));
+  }
+}
+
+TEST(Screens, OnlyTheIntroductionSaysTryAgain) {
+  Fixture fixture;
+  for (const Task task : {Task::introduction, Task::sorting, Task::comparison}) {
+    ScreenState state = trial_state(task);
+    state.try_again = true;
+    fixture.screens.show(state, true);
+    EXPECT_EQ(fixture.page().notice == "Please try again.", task == Task::introduction);
+  }
+}
+
+TEST(Screens, AChoiceIsOneTap) {
+  Fixture fixture;
+  fixture.screens.show(trial_state(Task::comparison), true);
+  EXPECT_EQ(action(fixture.tap("cube_2")).kind, ActionKind::select);
+  EXPECT_EQ(action(fixture.tap("cube_2")).slot, 2);
+  EXPECT_EQ(action(fixture.tap("no_difference")).kind, ActionKind::no_difference);
+  EXPECT_FALSE(action(fixture.tap("no_difference")).slot);
+  EXPECT_EQ(fixture.tap("put_cubes_back")->kind, TouchKind::put_cubes_back);
+}
+
+TEST(Screens, ALabelGoesToTheSelectedCubeAndASecondTapTakesItBack) {
+  Fixture fixture;
+  ScreenState state = trial_state(Task::sorting);
+  fixture.screens.show(state, true);
+  EXPECT_FALSE(fixture.control("label_heaviest").enabled) << "no cube is selected";
+  EXPECT_FALSE(fixture.tap("cube_2")) << "selecting is between the screen and the person";
+  EXPECT_TRUE(fixture.control("cube_2").chosen);
+  const Action given = action(fixture.tap("label_heaviest"));
+  EXPECT_EQ(given.kind, ActionKind::label);
+  EXPECT_EQ(given.slot, 2);
+  EXPECT_EQ(given.label, Label::heaviest);
+
+  state.labels[1] = Label::heaviest;
+  state.n_choices = 1;
+  fixture.screens.show(state, true);
+  EXPECT_TRUE(fixture.control("label_heaviest").chosen);
+  EXPECT_EQ(fixture.control("cube_2").note, "Heaviest");
+  const Action back = action(fixture.tap("label_heaviest"));
+  EXPECT_EQ(back.kind, ActionKind::unlabel);
+  EXPECT_EQ(back.slot, 2);
+  EXPECT_FALSE(back.label);
+  EXPECT_EQ(action(fixture.tap("label_lightest")).kind, ActionKind::label) << "corrected at will";
+}
+
+TEST(Screens, LabelsAreShownOverTheirCubes) {
+  Fixture fixture;
+  ScreenState state = trial_state(Task::sorting);
+  state.labels = {Label::heaviest, std::nullopt, Label::lightest};
+  fixture.screens.show(state, true);
+  fixture.tap("cube_2");
+  std::vector<std::tuple<int, std::string, bool>> marks;
+  for (const CubeMark& mark : fixture.page().marks)
+    marks.emplace_back(mark.slot, mark.text, mark.selected);
+  EXPECT_THAT(marks, ElementsAre(std::tuple(1, "Heaviest", false), std::tuple(2, "", true),
+                                 std::tuple(3, "Lightest", false)));
+}
+
+TEST(Screens, ANewTrialBeginsWithNoCubeSelected) {
+  const auto chosen_after = [](const ScreenState& next, bool cubes) {
+    Fixture fixture;
+    ScreenState state = trial_state(Task::sorting);
+    state.n_choices = 2;
+    fixture.screens.show(state, true);
+    fixture.tap("cube_1");
+    fixture.screens.show(next, cubes);
+    return fixture.control("cube_1").chosen;
+  };
+  ScreenState same = trial_state(Task::sorting);
+  same.n_choices = 3;
+  EXPECT_TRUE(chosen_after(same, true));
+  EXPECT_FALSE(chosen_after(same, false)) << "the cubes vanished";
+  EXPECT_FALSE(chosen_after(trial_state(Task::sorting), true)) << "no choices made yet";
+  EXPECT_FALSE(chosen_after(trial_state(Task::comparison), true));
+}
+
+TEST(Screens, ValidationNeedsTheSessionsLeave) {
+  Fixture fixture;
+  ScreenState state = trial_state(Task::sorting);
+  fixture.screens.show(state, true);
+  EXPECT_FALSE(fixture.control("validate").enabled);
+  state.can_validate = true;
+  fixture.screens.show(state, true);
+  EXPECT_EQ(action(fixture.tap("validate")).kind, ActionKind::validate);
+}
+
+TEST(Screens, FormsAskOneQuestionAtATimeAndEachCanBeSkipped) {
+  Fixture fixture;
+  fixture.screens.show(page_state(Screen::about_you), false);
+  EXPECT_THAT(names(fixture.page()), IsSupersetOf({"age_18_24", "next"}));
+  EXPECT_EQ(fixture.control("next").text, "Skip");
+  const auto entry = fixture.tap("age_25_34");
+  EXPECT_EQ(entry->kind, TouchKind::entry);
+  EXPECT_EQ(entry->key, "age");
+  EXPECT_EQ(entry->value, "25_34");
+  EXPECT_TRUE(fixture.control("age_25_34").chosen);
+  EXPECT_EQ(fixture.control("next").text, "Continue");
+  for (int question = 1; question < 5; ++question) EXPECT_FALSE(fixture.tap("next"));
+  EXPECT_EQ(fixture.tap("next")->kind, TouchKind::next);
+  for (int question = 1; question < 5; ++question) EXPECT_FALSE(fixture.tap("back"));
+  EXPECT_TRUE(fixture.control("age_25_34").chosen);
+}
+
+TEST(Screens, ALongTextComesInPartsAndIsAgreedToAtItsEnd) {
+  ScreenTexts texts = shipped_texts("en");
+  std::string& text = texts.pages["consent"]["text"];
+  for (int i = 0; i < 200; ++i) text += (i % 20 ? " word" : "\n\nword") + std::to_string(i);
+  Fixture fixture;
+  fixture.screens = Screens(texts, false);
+  fixture.screens.show(page_state(Screen::consent), false);
+  std::set<std::string> seen;
+  const auto read = [&] {
+    for (const TextLine& line : fixture.page().lines) {
+      EXPECT_LE(line.y + line.size_px, fixture.page().controls.front().area.y);
+      std::istringstream words(line.text);
+      for (std::string word; words >> word;) seen.insert(word);
+    }
+  };
+  int n_parts = 1;
+  for (; testing::Value(names(fixture.page()), testing::Contains("more")); ++n_parts) {
+    ASSERT_LT(n_parts, 20);
+    EXPECT_THAT(names(fixture.page()), testing::Not(testing::Contains("decline")));
+    read();
+    EXPECT_FALSE(fixture.tap("more"));
+  }
+  read();
+  EXPECT_GE(n_parts, 3);
+  for (int i = 0; i < 200; ++i) EXPECT_TRUE(seen.contains("word" + std::to_string(i))) << i;
+  EXPECT_THAT(names(fixture.page()), ElementsAre("back", "next", "decline"));
+}
+
+TEST(Screens, TheLeftHandHasTheControlsOnItsSideAndTheCubesInTheirOrder) {
+  const auto areas = [](bool left_handed) {
+    Fixture fixture("en", {1024, 600}, left_handed);
+    fixture.screens.show(trial_state(Task::sorting), true);
+    return std::tuple(*fixture.page().picture, fixture.control("cube_1").area,
+                      fixture.control("cube_3").area, fixture.control("validate").area);
+  };
+  for (const bool left_handed : {false, true}) {
+    const auto [picture, first, last, validate] = areas(left_handed);
+    EXPECT_EQ(validate.right() <= picture.x, left_handed);
+    EXPECT_EQ(validate.x >= picture.right(), !left_handed);
+    EXPECT_LT(first.x, last.x);
+  }
+  Fixture left("en", {1024, 600}, true), right;
+  for (Fixture* fixture : {&left, &right})
+    fixture->screens.show(page_state(Screen::welcome), false);
+  EXPECT_LT(left.control("next").area.right(), 512);
+  EXPECT_GT(right.control("next").area.x, 512);
+}
+
+TEST(Screens, AllCubesLookTheSame) {
+  Fixture fixture;
+  fixture.screens.show(trial_state(Task::sorting), true);
+  const Control first = fixture.control("cube_1"), last = fixture.control("cube_3");
+  EXPECT_EQ(first.area.width, last.area.width);
+  EXPECT_EQ(first.area.height, last.area.height);
+  EXPECT_EQ(first.look, last.look);
+}
+
+TEST(Typeface, RefusesACharacterThatItLacks) {
+  ScreenTexts texts = shipped_texts("en");
+  texts.pages["welcome"]["title"] = "歓迎";
+  try {
+    Typeface(texts, {1024, 600});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::invalid_file);
+    EXPECT_THAT(error.what(), testing::HasSubstr("U+6B53"));
+  }
+}
+
+TEST(Typeface, HasTheLettersOfOtherAlphabets) {
+  ScreenTexts texts = shipped_texts("en");
+  texts.pages["welcome"]["title"] = "Добро пожаловать Καλώς ήρθατε Vítejte Ťŕíźňę";
+  EXPECT_NO_THROW(Typeface(texts, {1024, 600}));
+}
+
+}  // namespace
+}  // namespace heft

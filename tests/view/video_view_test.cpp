@@ -1,0 +1,91 @@
+// The view into a video file, read back with OpenCV.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "base/Error.h"
+#include "base/TextFile.h"
+#include "record/temporary_folder.h"
+#include "view/Scenes.h"
+#include "view/VideoView.h"
+
+namespace heft {
+namespace {
+
+using ::testing::HasSubstr;
+using namespace heft::test;
+
+constexpr int n_pictures = 8;
+
+ViewPicture picture_number(const ViewSetup& setup, int number) {
+  ViewPicture picture = three_cubes(setup);
+  picture.frame.clone = pointing_away(0.01 * number - 0.04, -0.05);
+  return picture;
+}
+
+void write_video(const ViewSetup& setup) {
+  const auto view = make_video_view(setup);
+  for (int i = 0; i < n_pictures; ++i) {
+    EXPECT_EQ(view->present(picture_number(setup, i), ScreenState{}), std::nullopt);
+    EXPECT_TRUE(view->wait(1).empty());
+  }
+}
+
+double mean_difference(const cv::Mat& read, const Image& drawn) {
+  cv::Mat expected(drawn.height, drawn.width, CV_8UC3);
+  std::ranges::copy(drawn.pixels, expected.data);
+  return cv::norm(read, expected, cv::NORM_L1) / static_cast<double>(drawn.pixels.size());
+}
+
+TEST(VideoView, HoldsEveryPictureAsItIsDrawn) {
+  const TemporaryFolder folder;
+  for (const char* name : {"session.mp4", "session.avi"}) {
+    ViewSetup setup = setup_with(Intrinsics{});
+    setup.file = folder.file(name);
+    write_video(setup);
+    cv::VideoCapture video(setup.file);
+    EXPECT_DOUBLE_EQ(video.get(cv::CAP_PROP_FPS), setup.rate_hz) << name;
+    SceneDrawing drawing(setup);
+    cv::Mat read;
+    for (int i = 0; i < n_pictures; ++i) {
+      ASSERT_TRUE(video.read(read)) << name << " " << i;
+      const Image& drawn = drawing.draw(picture_number(setup, i));
+      ASSERT_EQ(read.size(), cv::Size(drawn.width, drawn.height));
+      EXPECT_LT(mean_difference(read, drawn), 3) << name << " " << i;
+    }
+    EXPECT_FALSE(video.read(read)) << name;
+  }
+}
+
+void expect_refused(const std::string& file, const char* why) {
+  ViewSetup setup = setup_with(std::nullopt);
+  setup.file = file;
+  try {
+    make_video_view(setup);
+    FAIL() << file << " was accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(why));
+    EXPECT_THAT(error.what(), HasSubstr(file));
+  }
+}
+
+TEST(VideoView, RefusesFilesThatItWouldSpoilOrCanNotWrite) {
+  const TemporaryFolder folder;
+  const std::string taken = folder.file("taken.mp4");
+  std::ofstream(taken) << "precious";
+  expect_refused(taken, "exists already");
+  EXPECT_EQ(read_text_file(taken), "precious");
+  expect_refused(folder.file("session.mov"), ".mp4 or .avi");
+  expect_refused(folder.file("session"), ".mp4 or .avi");
+  expect_refused(folder.file("nowhere/session.mp4"), "can't write");
+}
+
+TEST(VideoView, IsInTheTableAsAViewWithAFileAndNoScreen) {
+  EXPECT_TRUE(view_named("video").has_file);
+  EXPECT_FALSE(view_named("video").has_screen);
+}
+
+}  // namespace
+}  // namespace heft

@@ -1,0 +1,248 @@
+// The window with events pushed into SDL, on SDL's offscreen display.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "EveryScreen.h"
+#include "WindowTaps.h"
+#include "base/Clock.h"
+#include "base/Error.h"
+
+namespace heft {
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+
+std::vector<std::string> names_of(const std::vector<Control>& controls) {
+  std::vector<std::string> names;
+  for (const Control& control : controls)
+    if (!std::holds_alternative<TurnPart>(control.effect)) names.push_back(control.name);
+  return names;
+}
+
+class Window : public testing::Test {
+ protected:
+  Window() {
+    setenv("SDL_VIDEODRIVER", "offscreen", 1);
+    open(setup_for("en"));
+  }
+
+  void open(const ViewSetup& new_setup) {
+    view.reset();
+    setup = new_setup;
+    view = std::make_unique<WindowView>(setup);
+  }
+
+  /// Shows a screen, until a tap on it counts.
+  void show(const ScreenState& state, bool cubes = true) {
+    view->present(picture_of(setup, cubes), state);
+    EXPECT_THAT(view->wait(0.25), IsEmpty());
+  }
+
+  std::vector<Touch> touches() { return view->wait(0); }
+
+  std::vector<Touch> after_tap(const std::string& control) {
+    tap(*view, control);
+    return touches();
+  }
+
+  ViewSetup setup;
+  std::unique_ptr<WindowView> view;
+};
+
+TEST_F(Window, EveryControlOfEveryScreenGivesItsTouch) {
+  for (const NamedScreen& screen : every_screen()) {
+    SCOPED_TRACE(screen.name);
+    show(screen.state, screen.cubes);
+    for (const std::string& name : names_of(view->controls())) {
+      const Control control = control_named(*view, name);  // as the taps before left it
+      const auto* expected = control.enabled ? std::get_if<Touch>(&control.effect) : nullptr;
+      const auto touched = after_tap(name);
+      ASSERT_THAT(touched, SizeIs(expected ? 1 : 0)) << name;
+      if (!expected) continue;
+      EXPECT_EQ(touched[0].kind, expected->kind) << name;
+      EXPECT_EQ(touched[0].action.kind, expected->action.kind) << name;
+      EXPECT_EQ(touched[0].action.slot, expected->action.slot) << name;
+      EXPECT_EQ(touched[0].value, expected->value) << name;
+    }
+  }
+}
+
+TEST_F(Window, FrenchAndTheMouseWorkAlike) {
+  open(setup_for("fr", 2));
+  show(trial_state(Task::comparison));
+  EXPECT_EQ(control_named(*view, "no_difference").text, "Pas de différence");
+  const Rect area = control_named(*view, "cube_2").area;
+  tap_with_mouse(center_x(area), center_y(area));
+  const auto touched = touches();
+  ASSERT_THAT(touched, SizeIs(1));
+  EXPECT_EQ(touched[0].action.kind, ActionKind::select);
+  EXPECT_EQ(touched[0].action.slot, 2);
+}
+
+TEST_F(Window, ADoubleTapCountsTwice) {
+  show(trial_state(Task::comparison));
+  tap(*view, "no_difference");
+  tap(*view, "no_difference");
+  const Rect area = control_named(*view, "no_difference").area;
+  push_mouse(SDL_MOUSEBUTTONDOWN, center_x(area), center_y(area), SDL_TOUCH_MOUSEID);
+  push_mouse(SDL_MOUSEBUTTONUP, center_x(area), center_y(area), SDL_TOUCH_MOUSEID);
+  EXPECT_THAT(touches(), SizeIs(2)) << "the mouse that imitates a finger does not count";
+}
+
+TEST_F(Window, ATapIsDownAndUpOnTheSameControl) {
+  show(trial_state(Task::comparison));
+  const Rect one = control_named(*view, "cube_1").area, two = control_named(*view, "cube_2").area;
+  push_finger(SDL_FINGERDOWN, center_x(one), center_y(one));
+  push_finger(SDL_FINGERUP, center_x(two), center_y(two));
+  push_finger(SDL_FINGERDOWN, 1, 1);
+  push_finger(SDL_FINGERUP, center_x(two), center_y(two));
+  EXPECT_THAT(touches(), IsEmpty());
+}
+
+TEST_F(Window, TouchesComeInOrderWithTheTimesOfTheirEvents) {
+  show(trial_state(Task::comparison));
+  constexpr double rounding_s = 0.002;  // SDL counts whole milliseconds
+  const double before_s = monotonic_s();
+  tap(*view, "cube_2");
+  tap(*view, "cube_1");
+  const double pushed_s = monotonic_s();
+  const auto touched = view->wait(100);  // returns early, or the test's time is up
+  ASSERT_THAT(touched, SizeIs(2));
+  EXPECT_EQ(touched[0].action.slot, 2);
+  EXPECT_EQ(touched[1].action.slot, 1);
+  for (const Touch& touch : touched) {
+    EXPECT_GE(touch.monotonic_s, before_s - rounding_s);
+    EXPECT_LE(touch.monotonic_s, pushed_s + rounding_s);
+  }
+}
+
+TEST_F(Window, ATapBegunOnThePageBeforeIsNone) {
+  show(page_state(Screen::welcome));
+  const Rect area = control_named(*view, "next").area;
+  push_finger(SDL_FINGERDOWN, center_x(area), center_y(area));
+  view->wait(0);
+  show(page_state(Screen::thanks));
+  push_finger(SDL_FINGERUP, center_x(area), center_y(area));
+  EXPECT_THAT(touches(), IsEmpty());
+}
+
+TEST_F(Window, TheSecondHalfOfADoubleTapSkipsNoPage) {
+  show(page_state(Screen::welcome));
+  ASSERT_THAT(after_tap("next"), SizeIs(1));
+  view->present(picture_of(setup), page_state(Screen::instructions));
+  EXPECT_THAT(after_tap("next"), IsEmpty());
+  view->wait(0.25);
+  EXPECT_THAT(after_tap("next"), SizeIs(1));
+}
+
+TEST_F(Window, ATapThatCameBeforeTheNextPictureIsForThePageThatWasSeen) {
+  show(trial_state(Task::comparison));
+  tap(*view, "no_difference");
+  view->present(picture_of(setup), page_state(Screen::rest));
+  const auto touched = touches();
+  ASSERT_THAT(touched, SizeIs(1));
+  EXPECT_EQ(touched[0].action.kind, ActionKind::no_difference);
+}
+
+TEST_F(Window, ACubeInThePictureIsAsGoodAsItsButton) {
+  show(trial_state(Task::sorting));
+  for (const std::string cube : {"cube_1", "cube_2", "cube_3"}) {
+    const auto [x, y] = place_in_picture(*view, cube);
+    tap_with_finger(x, y);
+    EXPECT_THAT(touches(), IsEmpty());
+    EXPECT_TRUE(control_named(*view, cube).chosen) << cube;
+  }
+  show(trial_state(Task::comparison));
+  const auto [x, y] = place_in_picture(*view, "cube_2");
+  tap_with_finger(x, y);
+  const auto touched = touches();
+  ASSERT_THAT(touched, SizeIs(1));
+  EXPECT_EQ(touched[0].action.slot, 2);
+}
+
+TEST_F(Window, CubesInThePictureWaitForLeaveToo) {
+  ScreenState state = trial_state(Task::comparison);
+  show(state);
+  const auto [x, y] = place_in_picture(*view, "cube_2");
+  state.can_answer = false;
+  view->present(picture_of(setup), state);
+  tap_with_finger(x, y);
+  EXPECT_THAT(touches(), IsEmpty());
+}
+
+TEST_F(Window, KeysDoWhatButtonsDo) {
+  ScreenState state = trial_state(Task::sorting);
+  show(state);
+  push_key(SDL_SCANCODE_3);
+  push_key(SDL_SCANCODE_H);
+  push_key(SDL_SCANCODE_RETURN);  // validate is not offered yet
+  push_key(SDL_SCANCODE_D);
+  push_key(SDL_SCANCODE_BACKSPACE);
+  const auto touched = touches();
+  ASSERT_THAT(touched, SizeIs(3));
+  EXPECT_EQ(touched[0].action.kind, ActionKind::label);
+  EXPECT_EQ(touched[0].action.slot, 3);
+  EXPECT_EQ(touched[0].action.label, Label::heaviest);
+  EXPECT_EQ(touched[1].action.kind, ActionKind::dont_know);
+  EXPECT_EQ(touched[2].kind, TouchKind::put_cubes_back);
+  state.can_validate = true;
+  view->present(picture_of(setup), state);
+  push_key(SDL_SCANCODE_RETURN);
+  ASSERT_THAT(touches(), SizeIs(1));
+}
+
+TEST_F(Window, ClosingItIsATouch) {
+  show(page_state(Screen::welcome));
+  SDL_Event event{};
+  event.type = SDL_QUIT;
+  SDL_PushEvent(&event);
+  const auto touched = touches();
+  ASSERT_THAT(touched, SizeIs(1));
+  EXPECT_EQ(touched[0].kind, TouchKind::close);
+}
+
+TEST_F(Window, SaysWhenAPictureWasPresented) {
+  const double before_s = monotonic_s();
+  const auto presented_s = view->present(picture_of(setup), trial_state(Task::sorting));
+  ASSERT_TRUE(presented_s);
+  EXPECT_GE(*presented_s, before_s);
+  EXPECT_LE(*presented_s, monotonic_s());
+}
+
+TEST_F(Window, ChangesItsLayoutWithItsSize) {
+  show(trial_state(Task::sorting));
+  SDL_Window* window = SDL_GL_GetCurrentWindow();
+  SDL_SetWindowFullscreen(window, 0);
+  for (const auto& [width, height] : {std::pair{1280, 800}, {800, 600}}) {
+    SDL_SetWindowSize(window, width, height);
+    view->wait(0);
+    const Rect validate = control_named(*view, "validate").area;
+    EXPECT_LE(validate.right(), static_cast<float>(width));
+    EXPECT_GT(validate.right(), 0.9f * static_cast<float>(width));
+  }
+}
+
+TEST_F(Window, OutlivesALostOpenGlContext) {
+  show(trial_state(Task::sorting));
+  SDL_GL_DeleteContext(SDL_GL_GetCurrentContext());
+  EXPECT_NO_THROW(view->present(picture_of(setup), trial_state(Task::sorting)));
+}
+
+TEST(WindowWithoutDisplay, SaysWhatToDo) {
+  setenv("SDL_VIDEODRIVER", "x11", 1);
+  unsetenv("DISPLAY");
+  try {
+    WindowView(setup_for("en"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::device_missing);
+    EXPECT_THAT(error.what(), testing::HasSubstr("DISPLAY"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("--view"));
+  }
+}
+
+}  // namespace
+}  // namespace heft
