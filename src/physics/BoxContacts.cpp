@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "physics/FacePolygon.h"
 
@@ -29,26 +30,76 @@ double reach_m(const Box& box, const Vector3d& direction) {
   return (box.axes.transpose() * direction).cwiseAbs().dot(box.half_m);
 }
 
+// Gottschalk, Lin and Manocha (1996): everything in the first box's axes.
 Axis widest_gap(const Box& a, const Box& b) {
-  const Vector3d between = b.center_m - a.center_m;
+  const Vector3d between = a.axes.transpose() * (b.center_m - a.center_m);
+  const Matrix3d turn = a.axes.transpose() * b.axes;
+  const Matrix3d reach = turn.cwiseAbs();
   Axis best;
-  const auto try_axis = [&](Axis::Kind kind, Vector3d direction, int first, int second,
+  const auto try_axis = [&](Axis::Kind kind, double gap_m, int first, int second,
                             double preference_m) {
-    if (direction.dot(between) < 0) direction = -direction;
-    const double gap_m = direction.dot(between) - reach_m(a, direction) - reach_m(b, direction);
-    if (gap_m > best.gap_m + preference_m) best = {kind, gap_m, direction, first, second};
+    if (gap_m > best.gap_m + preference_m) best = {kind, gap_m, Vector3d::UnitX(), first, second};
   };
-  for (int i = 0; i < 3; ++i) try_axis(Axis::Kind::first_face, a.axes.col(i), i, 0, 0);
+  for (int i = 0; i < 3; ++i)
+    try_axis(Axis::Kind::first_face,
+             std::abs(between[i]) - a.half_m[i] - reach.row(i).dot(b.half_m), i, 0, 0);
   for (int j = 0; j < 3; ++j)
-    try_axis(Axis::Kind::second_face, b.axes.col(j), 0, j, face_preference_m);
+    try_axis(Axis::Kind::second_face,
+             std::abs(turn.col(j).dot(between)) - b.half_m[j] - reach.col(j).dot(a.half_m), 0, j,
+             face_preference_m);
   for (int i = 0; i < 3; ++i) {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
-      const Vector3d cross = a.axes.col(i).cross(b.axes.col(j));
-      const double sine = cross.norm();
-      if (sine > parallel_edges) try_axis(Axis::Kind::edges, cross / sine, i, j, edge_preference_m);
+      const double sine_squared = 1 - turn(i, j) * turn(i, j);
+      if (!(sine_squared > parallel_edges * parallel_edges)) continue;
+      const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      const double apart_m = std::abs(between[i2] * turn(i1, j) - between[i1] * turn(i2, j));
+      const double reaches_m = a.half_m[i1] * reach(i2, j) + a.half_m[i2] * reach(i1, j) +
+                               b.half_m[j1] * reach(i, j2) + b.half_m[j2] * reach(i, j1);
+      try_axis(Axis::Kind::edges, (apart_m - reaches_m) / std::sqrt(sine_squared), i, j,
+               edge_preference_m);
     }
   }
+  switch (best.kind) {
+    case Axis::Kind::first_face:
+      best.direction = a.axes.col(best.first);
+      break;
+    case Axis::Kind::second_face:
+      best.direction = b.axes.col(best.second);
+      break;
+    case Axis::Kind::edges:
+      best.direction = a.axes.col(best.first).cross(b.axes.col(best.second)).normalized();
+  }
+  if (best.direction.dot(b.center_m - a.center_m) < 0) best.direction = -best.direction;
   return best;
+}
+
+// The fraction of travel_m, of `a`, after which the boxes begin to overlap; none if they do not, or
+// do already. Boxes overlap while they do so along every axis.
+std::optional<double> meeting(const Box& a, const Box& b, const Vector3d& travel_m) {
+  const Vector3d between_m = b.center_m - a.center_m;
+  double enter = -1, leave = 1;
+  const auto cut = [&](const Vector3d& axis) {
+    const double squared = axis.squaredNorm();
+    if (squared < parallel_edges * parallel_edges) return;
+    const double reach = reach_m(a, axis) + reach_m(b, axis);
+    const double at = between_m.dot(axis), by = travel_m.dot(axis);
+    if (std::abs(by) < 1e-12) {
+      if (std::abs(at) >= reach) leave = -2;
+      return;
+    }
+    const double in = (at - std::copysign(reach, by)) / by,
+                 out = (at + std::copysign(reach, by)) / by;
+    enter = std::max(enter, in);
+    leave = std::min(leave, out);
+  };
+  for (int i = 0; i < 3; ++i) {
+    cut(a.axes.col(i));
+    cut(b.axes.col(i));
+    for (int j = 0; j < 3; ++j) cut(a.axes.col(i).cross(b.axes.col(j)));
+  }
+  if (enter <= 0 || enter > 1 || enter >= leave) return std::nullopt;
+  return enter;
 }
 
 // The face of `box` that looks most against `normal`, in coordinates of the reference face.
@@ -145,6 +196,21 @@ Contact contact_between(const Box& first, const Box& second, double margin_m) {
       return edge_contact(first, second, axis);
   }
   return {};
+}
+
+Contact contact_on_the_way(const Box& first, const Box& second, const Vector3d& travel_m,
+                           double margin_m) {
+  const auto fraction = meeting(first, second, travel_m);
+  if (!fraction) return contact_between(first, second, margin_m);
+  const Vector3d moved_m = *fraction * travel_m;
+  Box there = first;
+  there.center_m += moved_m;
+  Contact contact = contact_between(there, second, margin_m);
+  for (ContactPoint& point : contact.points) {
+    point.on_first_m -= moved_m;
+    point.distance_m -= contact.normal.dot(moved_m);
+  }
+  return contact;
 }
 
 Contact contact_with_table(const Box& box, double margin_m) {

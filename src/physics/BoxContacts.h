@@ -38,6 +38,13 @@ struct Contact {
 /// can stop the boxes where they meet instead of pushing them apart afterwards.
 Contact contact_between(const Box& first, const Box& second, double margin_m);
 
+/// The same for a first box on its way along travel_m, as seen from the second: if the boxes meet
+/// on the way, the contact is the one there, brought back to where the first box is now. Finds the
+/// face that is hit, however far away or beside the other box it still is; does not look at
+/// turning.
+Contact contact_on_the_way(const Box& first, const Box& second, const Eigen::Vector3d& travel_m,
+                           double margin_m);
+
 /// Contact of a box (first) with the table plane z = 0 (second): its lowest corners.
 Contact contact_with_table(const Box& box, double margin_m);
 

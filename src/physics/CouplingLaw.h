@@ -44,6 +44,15 @@ class CouplingLaw {
   void end(double velocity);
 
  private:
+  // A free oscillator sampled every h seconds: x(h) = (half_trace + z w0 impulse) x(0) + impulse
+  // v(0), and x(h) = 2 half_trace x(0) - d x(-h).
+  struct Sampled {
+    double half_trace = 0, impulse = 0, d = 0, a = 0;
+    double decay = 0;  // z w0
+    double turn = 0;   // radians of oscillation in h; 0 unless underdamped
+  };
+  static Sampled sampled(const CouplingAxis& axis, double h_s);
+  void sample(double h_s);
   double memory(double offset, double h_s) const;
 
   CouplingScheme scheme_ = CouplingScheme::exact;
@@ -51,6 +60,8 @@ class CouplingLaw {
   double velocity_ = 0, target_velocity_ = 0;  ///< over the last step
   double last_h_s_ = 0;                        ///< 0: velocity_ is momentary
   double load_ = 0;                            ///< force on the clone over the last step
+  Sampled now_;  ///< for steps of sampled_h_s_: most steps are as long as the last
+  double sampled_h_s_ = 0;
   // The step under way:
   FreeStep step_;
   double h_s_ = 0, next_target_velocity_ = 0;

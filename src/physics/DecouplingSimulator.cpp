@@ -5,17 +5,41 @@
 #include <vector>
 
 #include "base/PlugTable.h"
+#include "physics/boxes/BoxesSimulator.h"
 #include "physics/bullet/BulletSimulator.h"
+#include "physics/bullet/StockSimulators.h"
+#include "physics/push/PushSimulator.h"
 
 namespace heft {
 
 namespace {
-constexpr std::array<SimulatorEntry, 4> table{{
+constexpr auto table = std::to_array<SimulatorEntry>({
     {"bullet", "the default: bullet-lx", make_bullet_lx},
     {"bullet-lx", "exact coupling, orientation locked to the effector's", make_bullet_lx},
     {"bullet-ea", "coupling by implicit Euler, in translation and rotation", make_bullet_ea},
     {"bullet-x", "exact coupling, in translation and rotation", make_bullet_x},
-}};
+    {"boxes", "our own solver for a few boxes on a table: exact coupling, true friction disk",
+     make_boxes},
+    {"push", "one straight push of one cube in closed form, without rotation", make_push, "",
+     false},
+    {"quasi_static", "the same without inertia: the lag is min(x_hand, mu M g / k)",
+     make_quasi_static, "", false},
+    {"bullet-explicit", "stock Bullet, force and torque once a step as the paper writes them",
+     make_bullet_explicit,
+     "blows up at every display rate: the paper's torsional spring needs steps below 0.1 ms"},
+    {"bullet-explicit-held", "the same, held over Bullet's substeps of 1/240 s",
+     make_bullet_explicit_held,
+     "blows up: the force is set once a step, substeps do not make it fresher"},
+    {"bullet-stable-pd", "stock Bullet, stable PD control", make_bullet_stable_pd,
+     "cubes feel too heavy: the lag is (1 + w h)^2 times too long, 1.7 times at 240 Hz"},
+    {"bullet-exact-velocity", "stock Bullet, velocity set to the free oscillator's",
+     make_bullet_exact_velocity,
+     "cubes feel too heavy: the lag is e^(w h) times too long, 1.3 times at 240 Hz"},
+    {"bullet-soft-rows", "stock Bullet, spring as soft constraint rows (ERP and CFM)",
+     make_bullet_soft_rows, "blows up for small steps: with the paper's spring above 170 Hz"},
+    {"bullet-spring2", "stock Bullet, btGeneric6DofSpring2Constraint", make_bullet_spring2,
+     "quietly lowers the stiffness: the lag is 1.4 times too long at 240 Hz, 20 times at 60 Hz"},
+});
 }  // namespace
 
 std::span<const SimulatorEntry> simulators() {

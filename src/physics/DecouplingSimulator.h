@@ -6,10 +6,17 @@
 #include <span>
 #include <string_view>
 
+#include "base/Error.h"
 #include "physics/Scene.h"
 #include "physics/WorldState.h"
 
 namespace heft {
+
+/// Thrown by a simulator that does not model what a scene or a path asks of it.
+class OutsideModel : public Error {
+ public:
+  using Error::Error;
+};
 
 class DecouplingSimulator {
  public:
@@ -40,6 +47,10 @@ struct SimulatorEntry {
   std::string_view name;
   std::string_view summary;
   std::unique_ptr<DecouplingSimulator> (*make)();
+  /// Where it is known to go wrong, one line; empty for those that do not. Told when it is chosen.
+  std::string_view warning = {};
+  /// Whether it models all that a person may do; others throw OutsideModel.
+  bool for_sessions = true;
 };
 
 std::span<const SimulatorEntry> simulators();

@@ -37,8 +37,9 @@ void check(const TargetSample& sample) {
 }
 }  // namespace
 
-Drive::Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz)
-    : simulator_(std::move(simulator)), scene_(scene), rate_hz_(rate_hz) {
+Drive::Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz,
+             InputMode input)
+    : simulator_(std::move(simulator)), scene_(scene), rate_hz_(rate_hz), input_(input) {
   if (!(rate_hz > 0) || !std::isfinite(rate_hz))
     throw Error(fmt::format("the physics rate is {} Hz, expected more than 0", rate_hz));
 }
@@ -55,8 +56,10 @@ const WorldState& Drive::advance(const TargetSample& sample) {
     }
     const bool continues = sample.tracked && last_.tracked && !sample.jump && dt_s <= longest_gap_s;
     if (!continues) set_solid(false);
-    run(continues ? sample.pose : last_.pose, dt_s);
+    run(continues ? end_of_path(sample) : last_.pose, dt_s);
     if (sample.tracked && !continues) simulator_->teleport_clone(sample.pose, sample.velocity);
+    course_.reset();
+    if (continues) course_ = mean_velocity(last_.pose, sample.pose, dt_s);
   }
   const Pose target = sample.tracked ? sample.pose : last_.pose;
   last_ = sample;
@@ -71,6 +74,15 @@ void Drive::start(const TargetSample& sample) {
   last_.pose = out_of_the_way;
   simulator_->reset(scene_, sample.tracked ? sample.pose : out_of_the_way);
   set_solid(sample.tracked);
+}
+
+// Where the target gets to by the time of a sample that continues the last one.
+Pose Drive::end_of_path(const TargetSample& sample) const {
+  if (input_ == InputMode::path) return sample.pose;
+  if (input_ == InputMode::hold || !course_) return last_.pose;
+  const double dt_s = sample.t_capture_s - last_.t_capture_s;
+  return {last_.pose.position_m + dt_s * course_->linear_m_s,
+          rotation_from_vector(dt_s * course_->angular_rad_s) * last_.pose.orientation};
 }
 
 void Drive::run(const Pose& target, double dt_s) {

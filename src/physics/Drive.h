@@ -5,9 +5,12 @@
 // same numbers and get the same bits.
 #pragma once
 
+#include <array>
 #include <memory>
-#include <vector>
+#include <optional>
+#include <string_view>
 
+#include "base/Names.h"
 #include "physics/DecouplingSimulator.h"
 
 namespace heft {
@@ -21,11 +24,25 @@ struct TargetSample {
   bool jump = false;    ///< the tracker says that the pose is not a continuation of the last one
 };
 
+/// Where the target is between two measured poses.
+enum class InputMode {
+  path,        ///< on the way from the last pose to this one: for what is shown over video
+  hold,        ///< at the last pose until this one is there: for see-through displays
+  extrapolate  ///< on along the line through the last two poses: for see-through displays
+};
+
+template <>
+struct EnumNames<InputMode> {
+  static constexpr std::array<std::string_view, 3> names{"path", "hold", "extrapolate"};
+};
+
 class Drive {
  public:
   /// @param rate_hz physics steps a second, at least; each picture takes ceil(dt * rate) equal
   /// steps
-  Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz);
+  /// @param input hold and extrapolate run a picture's steps with what was known at the last one
+  Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz,
+        InputMode input = InputMode::path);
 
   /// The world at the sample's capture time. The first sample starts the world. A gap above 0.25 s
   /// counts as a jump; a jump teleports the clone. After the effector was out of view, or a jump,
@@ -43,6 +60,7 @@ class Drive {
 
  private:
   void start(const TargetSample& sample);
+  Pose end_of_path(const TargetSample& sample) const;
   void run(const Pose& target, double dt_s);
   void read_state();
   void set_solid(bool solid);
@@ -51,9 +69,11 @@ class Drive {
   std::unique_ptr<DecouplingSimulator> simulator_;
   Scene scene_;
   double rate_hz_;
+  InputMode input_;
   bool started_ = false;
   bool solid_ = true;
   TargetSample last_;
+  std::optional<Velocity> course_;  ///< mean, between the last two samples; none after a jump
   WorldState state_;
 };
 

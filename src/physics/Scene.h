@@ -29,6 +29,10 @@ struct Cube {
 struct Scene {
   double gravity_m_s2 = 9.81;
   double friction = 0.8;  ///< Coulomb coefficient between any two surfaces
+  /// How far a contact point gives under a load; 0: not at all. Rigid boxes share a load among
+  /// their corners in more than one way, so that simulators differ where a cube is pushed off its
+  /// center; with compliance they agree. `boxes` alone knows it.
+  double contact_compliance_m_per_n = 0;
   Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
   Coupling coupling;
   /// Clone from effector at the first sample, released at rest. A coupled clone has none.

@@ -12,6 +12,7 @@
 namespace heft {
 
 inline const std::vector<std::string> every_bullet{"bullet-ea", "bullet-x", "bullet-lx"};
+inline const std::vector<std::string> every_solver{"bullet-ea", "bullet-x", "bullet-lx", "boxes"};
 
 inline Cube cube_of(double mass_kg, double x_m = 0, double y_m = 0) {
   Cube cube;

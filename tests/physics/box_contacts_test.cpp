@@ -51,6 +51,21 @@ TEST(BoxContacts, CrossedEdgesMeetInOnePoint) {
   EXPECT_NEAR(contact.points[0].on_second_m.z(), 0.02 * std::sqrt(2), 1e-12);
 }
 
+// 80 mm away and beside it: the nearest faces now are the sides, but the front is what will be hit.
+TEST(BoxContacts, OnTheWayFindsTheFaceThatWillBeHit) {
+  const Box still = cube_at(0, 0, 0), coming = cube_at(-0.12, -0.045, 0);
+  const Eigen::Vector3d travel_m(0.1, 0.01, 0);
+  const Contact contact = contact_on_the_way(coming, still, travel_m, 0.001);
+  ASSERT_EQ(contact.n_points, 4);
+  EXPECT_TRUE(contact.normal.isApprox(Eigen::Vector3d(-1, 0, 0)));
+  for (const ContactPoint& point : contact.all()) {
+    EXPECT_NEAR(point.distance_m, 0.08, 1e-12);
+    EXPECT_NEAR(point.on_first_m.x(), -0.1, 1e-12);
+  }
+  EXPECT_EQ(contact_on_the_way(coming, still, -travel_m, 0.001).n_points, 0);
+  EXPECT_EQ(contact_on_the_way(coming, still, {0.1, -0.01, 0}, 0.001).n_points, 0);
+}
+
 TEST(BoxContacts, ABoxStandsOnTheTableWithItsLowestCorners) {
   const Contact contact = contact_with_table(cube_at(0.1, 0, 0.0195), 0.001);
   ASSERT_EQ(contact.n_points, 4);

@@ -171,6 +171,52 @@ TEST_F(DriveSteps, ReturnsACubeAndKeepsTheCloneOffUntilItIsClearOfIt) {
   EXPECT_THROW(drive.return_cube(-1), std::exception);
 }
 
+class DriveInput : public testing::Test {
+ protected:
+  // x of every target while these samples come in, a tenth of a second apart, two steps each.
+  std::vector<double> targets(InputMode mode, const std::vector<TargetSample>& seen_samples) {
+    Calls calls;
+    Drive drive(std::make_unique<FakeSimulator>(calls), one_cube(0.2), 20, mode);
+    for (const TargetSample& sample : seen_samples) drive.advance(sample);
+    std::vector<double> x_m;
+    for (const Pose& target : calls.targets) x_m.push_back(target.position_m.x());
+    return x_m;
+  }
+  static auto near(std::vector<double> values) {
+    return testing::Pointwise(testing::DoubleNear(1e-12), std::move(values));
+  }
+  const std::vector<TargetSample> samples{seen(0, -0.50), seen(0.1, -0.48), seen(0.2, -0.44)};
+};
+
+TEST_F(DriveInput, PathGoesToTheNewPose) {
+  EXPECT_THAT(targets(InputMode::path, samples), near({-0.49, -0.48, -0.46, -0.44}));
+}
+
+TEST_F(DriveInput, HoldStaysAtTheLastPose) {
+  EXPECT_THAT(targets(InputMode::hold, samples), near({-0.50, -0.50, -0.48, -0.48}));
+}
+
+TEST_F(DriveInput, ExtrapolateGoesOnAsBetweenTheLastTwo) {
+  EXPECT_THAT(targets(InputMode::extrapolate, samples), near({-0.50, -0.50, -0.47, -0.46}));
+}
+
+TEST_F(DriveInput, ExtrapolateTurnsOn) {
+  Calls calls;
+  Drive drive(std::make_unique<FakeSimulator>(calls), one_cube(0.2), 20, InputMode::extrapolate);
+  for (int i = 0; i < 3; ++i) {
+    TargetSample sample = seen(0.1 * i, -0.5);
+    sample.pose = upright_pose(sample.pose.position_m, 0.2 * i);
+    drive.advance(sample);
+  }
+  EXPECT_NEAR(rotation_vector(calls.targets.back().orientation).z(), 0.4, 1e-12);
+}
+
+TEST_F(DriveInput, ExtrapolateForgetsTheCourseAtAJump) {
+  auto jumped = samples;
+  jumped[1].jump = true;
+  EXPECT_THAT(targets(InputMode::extrapolate, jumped), near({-0.50, -0.50, -0.48, -0.48}));
+}
+
 TEST(Drive, RefusesARateThatIsNoRate) {
   Calls calls;
   for (double rate_hz : {0.0, -240.0, std::numeric_limits<double>::quiet_NaN()})

@@ -83,7 +83,7 @@ TEST(LockedOrientation, IsTheEffectorsAfterOneStep) {
 }
 
 TEST(Clone, DoesNotSag) {
-  for (const std::string& name : every_bullet) {
+  for (const std::string& name : every_solver) {
     const WorldState state = run(*make_simulator(name), Scene{}, held(in_the_air), 2);
     EXPECT_NEAR(state.clone.pose.position_m.z(), 0.2, 1e-12) << name;
   }

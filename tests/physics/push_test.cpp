@@ -72,7 +72,7 @@ TEST(SteadyPush, PressesTheCubeWithFrictionsForceAndTheSpringHoldsIt) {
 }
 
 TEST(HeavyCube, DoesNotMoveWithinATenCentimeterStroke) {
-  for (const std::string& name : every_bullet) {
+  for (const std::string& name : every_solver) {
     for (double rate_hz : {60.0, 240.0}) {
       const Stroke stroke;
       const WorldState state = run(*make_simulator(name), one_cube(0.8), along(stroke),
@@ -93,7 +93,7 @@ TEST(HeavyCube, DoesNotMoveAtTheCamerasRateEither) {
 // The clone must give way: nothing may be inside the cube at any time.
 TEST(Push, TheTipStaysAtTheCubesFace) {
   const Stroke stroke{.speed_m_s = 0.3, .length_m = 0.15};
-  for (const std::string& name : every_bullet) {
+  for (const std::string& name : every_solver) {
     run(*make_simulator(name), one_cube(0.2), along(stroke), stroke.duration_s(), 240,
         [&](double t_s, const Pose&, const WorldState& state) {
           const double gap_m = state.cubes[0].pose.position_m.x() - 0.0175 -

@@ -18,7 +18,7 @@ const Pose away = upright_pose({0, 0, 0.3}, 0);
 TEST(RestingCubes, StayWhereTheyAre) {
   Scene scene;
   for (int i = 0; i < 3; ++i) scene.cubes.push_back(cube_of(i == 0 ? 0.015 : 0.8, 0, 0.08 * i));
-  for (const std::string& name : every_bullet) {
+  for (const std::string& name : every_solver) {
     const WorldState state = run(*make_simulator(name), scene, held(away), 60);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_LE((state.cubes[i].pose.position_m - scene.cubes[i].position_m).norm(), 0.01e-3);
@@ -107,7 +107,7 @@ std::vector<std::string> busy_hashes(DecouplingSimulator& simulator) {
 }
 
 TEST(Determinism, AResetWorldGivesTheSameBitsAsAFreshOne) {
-  for (const std::string& name : every_bullet) {
+  for (const std::string& name : every_solver) {
     const auto expected = busy_hashes(*make_simulator(name));
     const auto used = make_simulator(name);
     run(*used, one_cube(0.4), along(Stroke{}), 0.7);
@@ -183,7 +183,7 @@ class Rate : public testing::TestWithParam<double> {};
 
 // Nothing becomes much faster than the hand or what falls, nor leaves the hand or the table.
 TEST_P(Rate, NothingBlowsUp) {
-  for (const std::string& name : every_bullet) {
+  for (const std::string& name : every_solver) {
     for (bool decoupled : {true, false}) {
       for (RoughScene& rough : rough_scenes()) {
         rough.scene.coupling.decoupled = decoupled;

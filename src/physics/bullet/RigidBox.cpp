@@ -15,11 +15,6 @@ std::unique_ptr<btRigidBody> make_bullet_body() {
   return body;
 }
 
-Eigen::Vector3d box_inertia_kg_m2(double mass_kg, const Eigen::Vector3d& size_m) {
-  const Eigen::Vector3d squares = size_m.cwiseAbs2();
-  return mass_kg / 12 * (Eigen::Vector3d::Constant(squares.sum()) - squares);
-}
-
 void RigidBox::set_mass(double kg, const Eigen::Vector3d& inertia_kg_m2) {
   mass_kg = kg;
   const auto kinematic = btCollisionObject::CF_KINEMATIC_OBJECT;

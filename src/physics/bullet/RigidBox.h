@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/Pose.h"
+#include "physics/BoxInertia.h"
 
 namespace heft {
 
@@ -48,8 +49,5 @@ struct RigidBox {
   /// that otherwise it keeps its bits.
   void read_body();
 };
-
-/// Moment of inertia of a homogeneous box about its own axes, kg m^2.
-Eigen::Vector3d box_inertia_kg_m2(double mass_kg, const Eigen::Vector3d& size_m);
 
 }  // namespace heft

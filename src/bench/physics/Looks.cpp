@@ -1,0 +1,28 @@
+#include "bench/physics/Looks.h"
+
+#include <array>
+#include <utility>
+
+namespace heft {
+
+std::string color_of(std::string_view simulator) {
+  using Look = std::pair<std::string_view, const char*>;
+  constexpr std::array<Look, 13> looks{{{"boxes", "#0b5fb4"},
+                                        {"push", "#2aa1c9"},
+                                        {"quasi_static", "#7cc4dd"},
+                                        {"bullet-lx", "#1b7f3b"},
+                                        {"bullet-x", "#55a845"},
+                                        {"bullet-ea", "#98b92f"},
+                                        {"bullet-stable-pd", "#d95f02"},
+                                        {"bullet-exact-velocity", "#e6a100"},
+                                        {"bullet-spring2", "#8e44ad"},
+                                        {"bullet-soft-rows", "#c2407e"},
+                                        {"bullet-explicit", "#c00000"},
+                                        {"bullet-explicit-held", "#7a0019"},
+                                        {"C1", "#555555"}}};
+  for (const auto& [name, color] : looks)
+    if (name == simulator) return color;
+  return "#888888";
+}
+
+}  // namespace heft

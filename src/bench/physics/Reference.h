@@ -1,0 +1,27 @@
+// The truth that the study measures against: a closed form where there is one; elsewhere our own
+// solver at a tiny step, with the difference to another engine at a tiny step as its uncertainty.
+// Where rigid bodies have more than one answer, contacts give a little and our own solver at half
+// the rate is the other: the engines differ there by what they assume.
+#pragma once
+
+#include <string>
+
+#include "bench/physics/SceneRun.h"
+
+namespace heft {
+
+struct Reference {
+  Track track;                 ///< at reference_rate_hz
+  std::string method;          ///< "closed form", or which two runs agree
+  double uncertainty_mm = 0;   ///< RMS difference of the clone's center between the two
+  double cubes_differ_mm = 0;  ///< the same of the cubes
+  /// How far the engines' cubes are apart where the same scene is rigid; 0 where that has one
+  /// answer.
+  double rigid_cubes_differ_mm = 0;
+};
+
+/// Makes the reference for a scene; a second or so of work.
+/// @param quick a coarser step and no other engine
+Reference reference_of(const BenchScene& scene, bool quick);
+
+}  // namespace heft

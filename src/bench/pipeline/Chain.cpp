@@ -1,0 +1,97 @@
+#include "bench/pipeline/Chain.h"
+
+#include "base/Clock.h"
+#include "bench/CpuClock.h"
+#include "tracking/ImageFile.h"
+
+namespace heft {
+
+namespace {
+TrialPlan three_cubes() {
+  TrialPlan plan;
+  plan.masses_g = {15, 200, 800};
+  return plan;
+}
+
+ViewSetup view_of(const Protocol& protocol, const Intrinsics& camera) {
+  ViewSetup setup;
+  setup.stage = stage_of(protocol, 3);
+  setup.camera = camera;
+  return setup;
+}
+
+double& of(StageTimes& times, PictureStage stage) {
+  return times[static_cast<std::size_t>(stage)];
+}
+
+// Runs the work and returns its processor time.
+template <typename Work>
+double timed_ms(Work work) {
+  const double began_s = thread_cpu_s();
+  work();
+  return 1e3 * (thread_cpu_s() - began_s);
+}
+}  // namespace
+
+Chain::Chain(const Apparatus& apparatus)
+    : plan_(three_cubes()),
+      tracker_(apparatus),
+      drawing_(view_of(protocol_, apparatus.camera)),
+      shown_(apparatus.camera.width_px, apparatus.camera.height_px, 3) {
+  begin_trial();
+}
+
+void Chain::begin_trial() {
+  tracker_.reset();
+  filter_.reset();
+  world_.emplace(protocol_, plan_);
+}
+
+StageTimes Chain::run(const std::string& file, double t_s) {
+  StageTimes times{};
+  std::shared_ptr<const Image> image;
+  of(times, PictureStage::decode) =
+      timed_ms([&] { image = std::make_shared<const Image>(read_image(file)); });
+  track(*image, t_s, times);
+  TargetSample sample;
+  of(times, PictureStage::filter) = timed_ms([&] { sample = smoothed(t_s); });
+  ViewPicture picture;
+  of(times, PictureStage::physics) =
+      timed_ms([&] { picture.frame = world_->advance(sample).frame; });
+  picture.camera = image;
+  picture.camera_from_board = tracked_.camera_from_board;
+  const Image* drawn = nullptr;
+  of(times, PictureStage::draw) = timed_ms([&] { drawn = &drawing_.draw(picture); });
+  // What a window hands to the display, and a video to its encoder.
+  of(times, PictureStage::present) = timed_ms([&] { shown_.pixels = drawn->pixels; });
+  return times;
+}
+
+// The tracker says where its wall time went; the processor time is shared out like it.
+void Chain::track(const Image& image, double t_s, StageTimes& times) {
+  const double began_s = monotonic_s();
+  const double all_ms = timed_ms([&] { tracked_ = tracker_.track(image, t_s); });
+  const double ms_per_wall_s = all_ms / (monotonic_s() - began_s);
+  const TrackerTimes& spent = tracked_.times;
+  of(times, PictureStage::detect) = spent.detect_s * ms_per_wall_s;
+  of(times, PictureStage::refine) = spent.refine_s * ms_per_wall_s;
+  of(times, PictureStage::pose) = spent.pose_s * ms_per_wall_s;
+  of(times, PictureStage::gray) =
+      all_ms - (spent.detect_s + spent.refine_s + spent.pose_s) * ms_per_wall_s;
+}
+
+TargetSample Chain::smoothed(double t_s) {
+  TargetSample sample;
+  sample.t_capture_s = t_s;
+  sample.tracked = tracked_.board_from_effector.has_value();
+  sample.jump = tracked_.jump;
+  if (!sample.tracked || sample.jump) filter_.reset();
+  if (!sample.tracked) return sample;
+  const FilteredPose filtered =
+      filter_.update(t_s, *tracked_.board_from_effector, tracked_.quality);
+  sample.pose = filtered.pose;
+  sample.velocity = filtered.velocity;
+  return sample;
+}
+
+}  // namespace heft

@@ -1,0 +1,105 @@
+#include "bench/tracking/Methods.h"
+
+#include <array>
+
+#include "base/PlugTable.h"
+#include "tracking/comparison/ComparisonTracker.h"
+
+namespace heft {
+
+namespace {
+constexpr std::string_view ours = "heft", plain = "apriltag + solvePnP";
+constexpr std::array decimations{1.0, 1.5, 2.0, 3.0};
+
+struct Refinement {
+  std::string_view name;
+  bool edges, bias;
+};
+constexpr std::array refinements{
+    Refinement{"edges + bias removed", true, true}, Refinement{"edges", true, false},
+    Refinement{"corners + bias removed", false, true}, Refinement{"corners", false, false}};
+
+TrackerSettings settings_of(const MethodName& name) {
+  TrackerSettings settings;
+  settings.decimate = name.decimate;
+  settings.region_of_interest = name.region_of_interest;
+  for (const Refinement& refinement : refinements)
+    if (refinement.name == name.refinement) {
+      settings.refine_edges = refinement.edges;
+      settings.remove_bias = refinement.bias;
+    }
+  return settings;
+}
+
+class OurMethod final : public TrackingMethod {
+ public:
+  OurMethod(const Apparatus& apparatus, const MethodName& name)
+      : tracker_(apparatus, settings_of(name)) {}
+
+  MethodPoses track(const Image& image, double t_s) override {
+    const TrackedPicture seen = tracker_.track(image, t_s);
+    return {seen.camera_from_board, seen.board_from_effector, seen.quality};
+  }
+  void reset() override { tracker_.reset(); }
+
+ private:
+  Tracker tracker_;
+};
+
+Pose board_from(const Pose& camera_from_board, const Pose& camera_from_effector) {
+  const Eigen::Quaterniond back = camera_from_board.orientation.conjugate();
+  return {back * (camera_from_effector.position_m - camera_from_board.position_m),
+          (back * camera_from_effector.orientation).normalized()};
+}
+
+class ComparisonMethod final : public TrackingMethod {
+ public:
+  ComparisonMethod(const Apparatus& apparatus, const MethodName& name)
+      : tracker_(entry_named("comparison", name.detector, comparison_trackers())
+                     .make(apparatus, name.decimate)) {}
+
+  MethodPoses track(const Image& image, double) override {
+    const ComparisonPoses seen = tracker_->track(image);
+    MethodPoses poses{seen.camera_from_board, std::nullopt};
+    if (seen.camera_from_board && seen.camera_from_effector)
+      poses.board_from_effector = board_from(*seen.camera_from_board, *seen.camera_from_effector);
+    return poses;
+  }
+  void reset() override {}
+
+ private:
+  std::unique_ptr<ComparisonTracker> tracker_;
+};
+
+void add_ours(std::vector<MethodName>& methods, double decimate) {
+  for (const Refinement& refinement : refinements)
+    methods.push_back({std::string(ours), std::string(refinement.name), decimate, true});
+  methods.push_back({std::string(ours), std::string(refinements[0].name), decimate, false});
+}
+}  // namespace
+
+std::unique_ptr<TrackingMethod> make_method(const MethodName& name, const Apparatus& apparatus) {
+  if (name.detector == ours) return std::make_unique<OurMethod>(apparatus, name);
+  return std::make_unique<ComparisonMethod>(apparatus, name);
+}
+
+MethodName our_method(int width_px) {
+  return {std::string(ours), std::string(refinements[0].name), width_px <= 640 ? 1.5 : 2.0, true};
+}
+
+MethodName plain_method(int width_px) {
+  return {std::string(plain), "corners", our_method(width_px).decimate, false};
+}
+
+std::vector<MethodName> all_methods(int width_px, bool quick) {
+  std::vector<MethodName> methods;
+  if (quick) return {our_method(width_px), plain_method(width_px)};
+  for (const double decimate : decimations) add_ours(methods, decimate);
+  for (const ComparisonEntry& entry : comparison_trackers())
+    for (const double decimate : decimations)
+      if (entry.can_decimate || decimate == 1)
+        methods.push_back({std::string(entry.name), "corners", decimate, false});
+  return methods;
+}
+
+}  // namespace heft

@@ -1,0 +1,128 @@
+#include "bench/tracking/Readme.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace heft {
+
+namespace {
+constexpr double found_enough = 0.9;
+
+const MethodResult* result_of(const std::vector<MethodResult>& all, int width_px,
+                              const MethodName& name) {
+  const auto at = std::ranges::find_if(
+      all, [&](const MethodResult& r) { return r.width_px == width_px && r.name == name; });
+  return at == all.end() ? nullptr : &*at;
+}
+
+std::string rounded(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2g}", *value) : "-";
+}
+
+std::string method_row(const MethodResult* result, std::string_view what) {
+  if (!result) return "";
+  const ErrorSummary& s = result->summary;
+  return fmt::format("| {} | {} | {} / {} | {} / {} | {:.0f} % | {:.1f} |\n", what,
+                     size_name(result->width_px), rounded(s.tip_median_mm), rounded(s.tip_p95_mm),
+                     rounded(s.board_median_mm), rounded(s.board_p95_mm), 100 * s.effector_found,
+                     s.time_median_ms);
+}
+
+std::string method_table(const std::vector<MethodResult>& accuracy) {
+  std::string text =
+      "| | picture | tip, median / p95 mm | board, median / p95 mm | effector found | ms a picture "
+      "|\n|---|---|---|---|---|---|\n";
+  for (const int width_px : picture_widths_px) {
+    MethodName edges = our_method(width_px), corners = our_method(width_px);
+    edges.refinement = "edges";
+    corners.refinement = "corners";
+    MethodName aruco{"aruco + solvePnP", "corners", 1, false};
+    text +=
+        method_row(result_of(accuracy, width_px, our_method(width_px)), "**heft**") +
+        method_row(result_of(accuracy, width_px, edges), "heft, edge bias left in") +
+        method_row(result_of(accuracy, width_px, corners), "heft on AprilTag's corners") +
+        method_row(result_of(accuracy, width_px, plain_method(width_px)), "AprilTag + solvePnP") +
+        method_row(result_of(accuracy, width_px, aruco), "OpenCV's aruco + solvePnP");
+  }
+  return text;
+}
+
+// Between which values the share of pictures falls below found_enough.
+std::string where_lost(const std::vector<LimitPoint>& points, const std::string& limit,
+                       ErrorSummary LimitPoint::*who) {
+  const LimitPoint* last = nullptr;
+  std::string text = "-";
+  for (const LimitPoint& point : points) {
+    if (point.limit != limit) continue;
+    if ((point.*who).effector_found < found_enough)
+      return last ? fmt::format("{:g} (p95 {} mm)", last->value, rounded((last->*who).tip_p95_mm))
+                  : std::string("never");
+    last = &point;
+    text = fmt::format("{:g}, the worst tried (p95 {} mm)", point.value,
+                       rounded((point.*who).tip_p95_mm));
+  }
+  return text;
+}
+
+std::string limit_table(const std::vector<LimitPoint>& points) {
+  std::string text = "| | heft | AprilTag + solvePnP |\n|---|---|---|\n";
+  for (const Limit& limit : limits())
+    text += fmt::format("| {} | {} | {} |\n", limit.label,
+                        where_lost(points, limit.name, &LimitPoint::ours),
+                        where_lost(points, limit.name, &LimitPoint::plain));
+  return text;
+}
+
+std::string filter_table(const std::vector<FilterResult>& filters) {
+  std::string text =
+      "| filter | jitter at rest, mm | lag, ms | tip at 0.5 m/s, p95 mm |\n|---|---|---|---|\n";
+  for (const FilterResult& f : filters)
+    text += fmt::format("| {} | {:.3f} | {:.1f} | {} |\n", f.name(), f.jitter_mm, f.lag_ms,
+                        std::isnan(f.swipe_p95_mm) ? "-" : fmt::format("{:.2f}", f.swipe_p95_mm));
+  return text;
+}
+
+std::string goal_table(const std::vector<Goal>& goals) {
+  std::string text = "| | goal | reached | |\n|---|---|---|---|\n";
+  for (const Goal& goal : goals)
+    text += fmt::format("| {} | {} {} | {} | {} |\n", goal.what, goal.at_least ? "≥" : "≤",
+                        figure_text(goal.goal, goal.unit), figure_text(goal.reached, goal.unit),
+                        goal.met() ? "met" : "**missed**");
+  return text;
+}
+}  // namespace
+
+std::string tracking_readme(const std::vector<MethodResult>& accuracy,
+                            const std::vector<LimitPoint>& limit_points,
+                            const std::vector<FilterResult>& filters,
+                            const std::vector<Goal>& goals, const StudyOptions& options) {
+  return fmt::format(
+      "# Tracking: what to choose when\n\n"
+      "Written by the study itself ({}). Everything is filmed by the synthetic camera, so the "
+      "truth "
+      "is known; times are one thread's processor time, and differ between machines, while their "
+      "ratios hardly do.{}\n\n"
+      "## Which tracker\n\n{}\n"
+      "![error against time](accuracy.svg)\n\n"
+      "Leave `heft`'s settings as they are: picture searched at two thirds of its size up to 640 "
+      "pixels across and at half its size above. More pixels help more than any setting: choose "
+      "1280x720 where the computer keeps up. `accuracy.csv` has every combination.\n\n"
+      "## How far it goes\n\n"
+      "The last value at which the effector is still found in nine of ten pictures, each on its "
+      "own:\n\n{}\n"
+      "![limits](limits.svg)\n\n"
+      "So: tags as large as the effector allows and well clear of the fingers, a short exposure in "
+      "much light rather than a bright picture by a long one, a focus that stays, and no "
+      "overexposed paper.\n\n"
+      "## Which filter\n\n{}\n"
+      "![filters](filters.svg)\n\n"
+      "Over video every millisecond of lag pulls the clone off the filmed effector, which people "
+      "feel as mass; so none but a filter without lag.\n\n"
+      "## Goals\n\n{}",
+      provenance(options),
+      options.quick ? " **This was a quick run to see that it works: its figures mean nothing.**"
+                    : "",
+      method_table(accuracy), limit_table(limit_points), filter_table(filters), goal_table(goals));
+}
+
+}  // namespace heft

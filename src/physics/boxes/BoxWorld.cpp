@@ -1,0 +1,220 @@
+#include "physics/boxes/BoxWorld.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace heft::boxes {
+
+using Eigen::Vector3d;
+
+namespace {
+constexpr double calm_speed_m_s = 1e-4, calm_turn_rad_s = 5e-3, calm_for_s = 0.25;
+// Contacts are looked for this far ahead, beside what the boxes can cover in a step.
+constexpr double near_m = 0.1e-3;
+// A travel that is worth finding out where on the way boxes meet.
+constexpr double far_m = 0.1e-3;
+constexpr double exactly_m = 1e-9;
+constexpr int most_sweeps = 500;
+constexpr double enough_m_s = 2e-6;    // sweeps end when no velocity changes by more
+constexpr double squeezed_m_s = 0.01;  // what never ends has no answer
+}  // namespace
+
+BoxWorld::BoxWorld(const Surface& surface, double gravity_m_s2, std::size_t n_bodies)
+    : surface_(surface), gravity_m_s2_(gravity_m_s2) {
+  bodies_.reserve(n_bodies);
+  pairs_.reserve(n_bodies * (n_bodies + 1) / 2);
+  table_.solid = false;  // not one of the boxes
+}
+
+std::size_t BoxWorld::add(const Body& body) {
+  const std::size_t index = bodies_.size();
+  bodies_.push_back(body);
+  for (std::size_t i = 0; i <= index; ++i) pairs_.push_back({index, i, {}});
+  touching_.reserve(pairs_.size());
+  return index;
+}
+
+void BoxWorld::settle_at_start() {
+  for (Body& body : bodies_) {
+    const Contact standing = contact_with_table(body.shape, near_m);
+    body.asleep = body.has_weight && standing.n_points == 4;
+    for (const ContactPoint& point : standing.all())
+      if (std::abs(point.distance_m) > exactly_m) body.asleep = false;
+  }
+  for (const Pair& pair : pairs_) {
+    if (pair.with_table() || contact(pair, 0, near_m).n_points == 0) continue;
+    bodies_[pair.first].asleep = bodies_[pair.second].asleep = false;
+  }
+}
+
+// Any body may become as fast as the fastest within a step, by being hit.
+double BoxWorld::look_ahead_m(double h_s) const {
+  double fastest_m_s = 0;
+  for (const Body& body : bodies_)
+    if (moves(body)) fastest_m_s = std::max(fastest_m_s, body.tip_speed_m_s());
+  return near_m + 2 * h_s * fastest_m_s;
+}
+
+bool BoxWorld::near(const Pair& pair, double margin_m) const {
+  const Body& first = bodies_[pair.first];
+  const Body& second = bodies_[pair.second];
+  const double reach_m = (first.size_m.norm() + second.size_m.norm()) / 2 + margin_m;
+  return (first.pose.position_m - second.pose.position_m).squaredNorm() < reach_m * reach_m;
+}
+
+Contact BoxWorld::contact(const Pair& pair, double h_s, double margin_m) const {
+  const Body& first = bodies_[pair.first];
+  const Body& second = bodies_[pair.second];
+  if (pair.with_table()) return contact_with_table(first.shape, margin_m);
+  if (!near(pair, margin_m)) return {};
+  const Vector3d travel_m = h_s * (first.velocity.linear_m_s - second.velocity.linear_m_s);
+  if (pair.manifold.touches() || travel_m.squaredNorm() < far_m * far_m)
+    return contact_between(first.shape, second.shape, margin_m);
+  return contact_on_the_way(first.shape, second.shape, travel_m, margin_m);
+}
+
+void BoxWorld::wake_reached(double h_s) {
+  const double margin_m = look_ahead_m(h_s);
+  for (bool woken = true; woken;) {
+    woken = false;
+    for (const Pair& pair : pairs_) {
+      Body& first = bodies_[pair.first];
+      Body& second = bodies_[pair.second];
+      if (first.asleep == second.asleep || !first.solid || !second.solid) continue;
+      if (!near(pair, margin_m) || contact(pair, h_s, margin_m).n_points == 0) continue;
+      first.wake();
+      second.wake();
+      woken = true;
+    }
+  }
+}
+
+// A velocity is a mean over a step. Weight, and with it friction, adds to it from the middle of the
+// last step to the middle of this one, but from the start of this one where the body is momentarily
+// at rest. What the clone pushes follows the coupling law, which counts whole steps.
+void BoxWorld::add_weight(double h_s) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    if (!body.has_weight || body.asleep) continue;
+    const double last_s = body.fresh ? 0 : last_h_s_;
+    const double fall_s = pushed_by_driven(i) ? h_s : (last_s + h_s) / 2;
+    body.velocity.linear_m_s.z() -= fall_s * gravity_m_s2_;
+    body.tumble(h_s);
+    body.fresh = false;
+  }
+  last_h_s_ = h_s;
+}
+
+bool BoxWorld::pushed_by_driven(std::size_t i) const {
+  for (std::size_t j = 0; j < i; ++j)
+    if (!bodies_[j].has_weight && pairs_[i * (i + 1) / 2 + j].manifold.touches()) return true;
+  return false;
+}
+
+bool BoxWorld::can_push(const Pair& pair) const {
+  const Body& first = bodies_[pair.first];
+  const Body& second = bodies_[pair.second];
+  const bool gives = first.inverse_mass_per_kg > 0 || second.inverse_mass_per_kg > 0;
+  return gives && moves(first) && moves(second);
+}
+
+void BoxWorld::find_contacts(double h_s) {
+  const double margin_m = look_ahead_m(h_s);
+  touching_.clear();
+  if (squeezed_)
+    for (Pair& pair : pairs_) pair.manifold.forget_impulses();
+  for (const bool with_table : {false, true}) {
+    for (Pair& pair : pairs_) {
+      if (pair.with_table() != with_table) continue;
+      Body& first = bodies_[pair.first];
+      Body& second = with_table ? table_ : bodies_[pair.second];
+      if (first.asleep && (with_table || second.asleep)) continue;  // keep their impulses
+      pair.manifold.prepare(can_push(pair) ? contact(pair, h_s, margin_m) : Contact{}, first,
+                            second, surface_, h_s);
+      if (!pair.manifold.empty()) touching_.push_back(&pair.manifold);
+    }
+  }
+}
+
+// The table comes last in a sweep: where a coupled clone squeezes a cube against it there is no
+// answer, and the cube should stay above the table. The impulses grow without end then and are no
+// start for the next step.
+void BoxWorld::relax() {
+  for (Manifold* manifold : touching_) manifold->warm_start();
+  double change_m_s = 2 * enough_m_s;
+  for (int sweep = 0; sweep < most_sweeps && change_m_s > enough_m_s; ++sweep) {
+    change_m_s = 0;
+    for (Manifold* manifold : touching_) change_m_s = std::max(change_m_s, manifold->relax());
+  }
+  squeezed_ = change_m_s > squeezed_m_s;
+}
+
+void BoxWorld::solve(double h_s) {
+  wake_reached(h_s);
+  add_weight(h_s);
+  find_contacts(h_s);
+  relax();
+}
+
+void BoxWorld::move(double h_s) {
+  for (Body& body : bodies_)
+    if (!body.asleep) body.move(h_s);
+  bool pushed = false;
+  for (Manifold* manifold : touching_) pushed = manifold->push_apart() || pushed;
+  if (pushed && surface_.compliance_m_per_n == 0) lift_from_table();
+  settle(h_s);
+}
+
+// The table has the last word: a coupled clone may have pushed a cube into it.
+void BoxWorld::lift_from_table() {
+  for (Body& body : bodies_) {
+    if (!body.has_weight || body.asleep) continue;
+    const Contact standing = contact_with_table(body.shape, 0);
+    double deepest_m = 0;
+    for (const ContactPoint& point : standing.all())
+      deepest_m = std::max(deepest_m, -point.distance_m);
+    if (deepest_m > 0) body.shift({0, 0, deepest_m}, Vector3d::Zero());
+  }
+}
+
+void BoxWorld::settle(double h_s) {
+  for (Body& body : bodies_) {
+    const bool calm = body.has_weight && body.velocity.linear_m_s.norm() < calm_speed_m_s &&
+                      body.velocity.angular_rad_s.norm() < calm_turn_rad_s;
+    body.calm_s = calm ? body.calm_s + h_s : 0;
+  }
+  for (const Pair& pair : pairs_) {
+    if (pair.with_table() || !pair.manifold.touches()) continue;
+    double& first_s = bodies_[pair.first].calm_s;
+    double& second_s = bodies_[pair.second].calm_s;
+    first_s = second_s = std::min(first_s, second_s);
+  }
+  for (Body& body : bodies_) {
+    if (body.asleep || body.calm_s < calm_for_s) continue;
+    body.asleep = true;
+    body.velocity = {};
+  }
+}
+
+bool BoxWorld::crowded(double reach_m) const {
+  return std::ranges::any_of(pairs_, [&](const Pair& pair) {
+    const Body& first = bodies_[pair.first];
+    const Body& second = bodies_[pair.second];
+    return !pair.with_table() && !(first.asleep && second.asleep) && first.solid && second.solid &&
+           near(pair, reach_m);
+  });
+}
+
+Vector3d BoxWorld::impulse_n_s(std::size_t pusher, std::size_t pushed) const {
+  const auto [low, high] = std::minmax(pusher, pushed);
+  const Vector3d on_high = pairs_[high * (high + 1) / 2 + low].manifold.impulse_n_s();
+  return pushed == high ? on_high : Vector3d(-on_high);
+}
+
+void BoxWorld::forget_contacts(std::size_t i) {
+  for (Body& body : bodies_) body.wake();
+  for (Pair& pair : pairs_)
+    if (pair.first == i || pair.second == i) pair.manifold.clear();
+}
+
+}  // namespace heft::boxes

@@ -1,0 +1,75 @@
+// Boxes on a table. One step, in order: sleeping boxes that something could reach wake; weight is
+// added; contacts are found, where boxes would meet within the step too; projected Gauss-Seidel,
+// started from the last step's impulses, finds velocities at which nothing overlaps at the end of
+// the step; boxes move; those that overlapped are shifted apart; boxes that stay calm fall asleep.
+// Velocities are means over a step. Nothing is
+// allocated after the last add().
+#pragma once
+
+#include <vector>
+
+#include "physics/boxes/Manifold.h"
+
+namespace heft::boxes {
+
+class BoxWorld {
+ public:
+  BoxWorld(const Surface& surface, double gravity_m_s2, std::size_t n_bodies);
+
+  /// @return its index
+  std::size_t add(const Body& body);
+  Body& body(std::size_t i) { return bodies_[i]; }
+  const Body& body(std::size_t i) const { return bodies_[i]; }
+  std::size_t size() const { return bodies_.size(); }
+
+  /// Puts to sleep what stands on the table and touches nothing else.
+  void settle_at_start();
+
+  /// Changes velocities so that nothing overlaps at the end of a step of h_s seconds.
+  void solve(double h_s);
+
+  /// Moves all bodies to the end of the step that was solved.
+  void move(double h_s);
+
+  /// Whether any two bodies that are not both asleep are nearer than reach_m, at most: their
+  /// surrounding spheres are compared.
+  bool crowded(double reach_m) const;
+
+  /// Mean impulse of `pusher` on `pushed` in the last step, N s; zero if they don't touch.
+  Eigen::Vector3d impulse_n_s(std::size_t pusher, std::size_t pushed) const;
+
+  /// Forgets the contacts that a body has had, and wakes all.
+  void forget_contacts(std::size_t i);
+
+ private:
+  // Two bodies, or a body (first) and the table.
+  struct Pair {
+    std::size_t first, second;
+    Manifold manifold;
+    bool with_table() const { return first == second; }
+  };
+
+  bool moves(const Body& body) const { return body.solid && !body.asleep; }
+  double look_ahead_m(double h_s) const;
+  Contact contact(const Pair& pair, double h_s, double margin_m) const;
+  bool near(const Pair& pair, double margin_m) const;
+  bool can_push(const Pair& pair) const;
+  void wake_reached(double h_s);
+  void add_weight(double h_s);
+  bool pushed_by_driven(std::size_t i) const;
+  void find_contacts(double h_s);
+  void relax();
+  void lift_from_table();
+  void settle(double h_s);
+
+  Surface surface_;
+  double gravity_m_s2_;
+  double last_h_s_ = 0;
+  std::vector<Body> bodies_;
+  Body table_;
+  std::vector<Pair> pairs_;          ///< each body with the bodies before it, then with the table
+  std::vector<Manifold*> touching_;  ///< of this step; the table's last
+  bool squeezed_ = false;            ///< in the last step a box had no room
+};
+
+}  // namespace heft::boxes

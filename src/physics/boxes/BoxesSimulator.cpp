@@ -1,0 +1,157 @@
+#include "physics/boxes/BoxesSimulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "physics/BoxInertia.h"
+#include "physics/boxes/BoxWorld.h"
+#include "physics/boxes/CloneCoupling.h"
+
+namespace heft {
+
+namespace {
+using boxes::Body;
+using boxes::BoxWorld;
+using Eigen::Vector3d;
+
+// Where boxes are near each other and one goes farther than this in a step, the step is cut: a box
+// that is hit turns within the step, and contacts know only how it stood before.
+constexpr double longest_travel_m = 1.5e-3;
+constexpr double most_pieces = 64;
+
+class BoxesSimulator : public DecouplingSimulator {
+ public:
+  void reset(const Scene& scene, const Pose& target) override;
+  void step(const Pose& target, double h_s) override;
+  void teleport_clone(const Pose& target, const Velocity& velocity) override;
+  void set_clone_solid(bool solid) override { clone().solid = solid; }
+  void place_cube(int cube, const Pose& pose) override;
+  WorldState state() const override;
+
+ private:
+  static constexpr std::size_t clone_index = 0;
+
+  Body& clone() { return world_->body(clone_index); }
+  static std::size_t index_of(std::size_t cube) { return cube + 1; }
+
+  void add_clone(const Scene& scene, const Pose& target);
+  double n_pieces(const Pose& target, double h_s) const;
+  void piece(const Pose& target, double h_s);
+  void note_impulses();
+
+  bool decoupled_ = true;
+  std::size_t n_cubes_ = 0;
+  std::optional<BoxWorld> world_;
+  boxes::CloneCoupling coupling_;
+  Pose target_;
+  std::vector<Vector3d> impulse_n_s_;  // of the clone on each cube, over the last step
+  double last_h_s_ = 0;
+};
+
+void BoxesSimulator::reset(const Scene& scene, const Pose& target) {
+  decoupled_ = scene.coupling.decoupled;
+  n_cubes_ = scene.cubes.size();
+  target_ = target;
+  last_h_s_ = 0;
+  impulse_n_s_.assign(n_cubes_, Vector3d::Zero());
+  world_.emplace(boxes::Surface{scene.friction, scene.contact_compliance_m_per_n},
+                 scene.gravity_m_s2, n_cubes_ + 1);
+  add_clone(scene, target);
+  for (const Cube& cube : scene.cubes) {
+    Body body;
+    body.size_m = cube.size_m;
+    body.set_mass(cube.mass_kg, box_inertia_kg_m2(cube.mass_kg, cube.size_m));
+    body.put(upright_pose(cube.position_m, cube.yaw_rad), {});
+    world_->add(body);
+  }
+  if (scene.contact_compliance_m_per_n == 0) world_->settle_at_start();  // else they sink first
+}
+
+void BoxesSimulator::add_clone(const Scene& scene, const Pose& target) {
+  const Pose offset = decoupled_ ? scene.clone_offset : Pose{};
+  Body body;
+  body.size_m = scene.effector_size_m;
+  body.has_weight = false;
+  body.put({target * offset.position_m, target.orientation * offset.orientation}, {});
+  world_->add(body);
+  coupling_ = boxes::CloneCoupling(scene);
+  coupling_.restart(body, {}, {});
+}
+
+double BoxesSimulator::n_pieces(const Pose& target, double h_s) const {
+  const Body& of_clone = world_->body(clone_index);
+  Body to_target = of_clone;  // the clone may become as fast as the target within the step
+  to_target.velocity = mean_velocity(target_, target, h_s);
+  double fastest_m_s = std::max(of_clone.tip_speed_m_s(), to_target.tip_speed_m_s());
+  for (std::size_t i = 1; i < world_->size(); ++i)
+    fastest_m_s = std::max(fastest_m_s, world_->body(i).tip_speed_m_s());
+  const double travel_m = h_s * fastest_m_s;
+  if (travel_m <= longest_travel_m || !world_->crowded(2 * travel_m)) return 1;
+  return std::min(most_pieces, std::ceil(travel_m / longest_travel_m));
+}
+
+void BoxesSimulator::step(const Pose& target, double h_s) {
+  const double n = n_pieces(target, h_s);
+  const Pose from = target_;
+  for (Vector3d& impulse_n_s : impulse_n_s_) impulse_n_s.setZero();
+  for (double i = 1; i < n; ++i) piece(interpolate(from, target, i / n), h_s / n);
+  piece(target, h_s / n);
+  last_h_s_ = h_s;
+}
+
+void BoxesSimulator::piece(const Pose& target, double h_s) {
+  if (decoupled_)
+    coupling_.begin(clone(), target_, target, h_s);
+  else
+    clone().velocity = mean_velocity(clone().pose, target, h_s);
+  world_->solve(h_s);
+  world_->move(h_s);
+  if (decoupled_)
+    coupling_.end(clone(), target);
+  else
+    clone().place(target);
+  target_ = target;
+  note_impulses();
+}
+
+void BoxesSimulator::note_impulses() {
+  for (std::size_t cube = 0; cube < n_cubes_; ++cube)
+    if (!world_->body(index_of(cube)).asleep)
+      impulse_n_s_[cube] += world_->impulse_n_s(clone_index, index_of(cube));
+}
+
+void BoxesSimulator::teleport_clone(const Pose& target, const Velocity& velocity) {
+  target_ = target;
+  clone().put(target, velocity);
+  world_->forget_contacts(clone_index);
+  coupling_.restart(clone(), velocity, velocity);
+}
+
+void BoxesSimulator::place_cube(int cube, const Pose& pose) {
+  const std::size_t i = index_of(static_cast<std::size_t>(cube));
+  world_->body(i).put(pose, {});
+  world_->forget_contacts(i);
+}
+
+WorldState BoxesSimulator::state() const {
+  const auto state_of = [&](std::size_t i) {
+    return BodyState{world_->body(i).pose, world_->body(i).velocity};
+  };
+  WorldState state;
+  state.clone = state_of(clone_index);
+  state.cubes.reserve(n_cubes_);
+  for (std::size_t cube = 0; cube < n_cubes_; ++cube) {
+    state.cubes.push_back(state_of(index_of(cube)));
+    if (!impulse_n_s_[cube].isZero(0))
+      state.contacts.push_back({static_cast<int>(cube), impulse_n_s_[cube] / last_h_s_});
+  }
+  return state;
+}
+}  // namespace
+
+std::unique_ptr<DecouplingSimulator> make_boxes() {
+  return std::make_unique<BoxesSimulator>();
+}
+
+}  // namespace heft

@@ -1,0 +1,299 @@
+#include "physics/boxes/Manifold.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace heft::boxes {
+
+using Eigen::Vector3d;
+
+namespace {
+constexpr double firmness = 1e-5;    // of a block's diagonal, so that it can be solved
+constexpr double flat_m = 1e-6;      // gaps and overlaps below this are none
+constexpr double recovery = 0.5;     // share of an overlap that one step takes away
+constexpr double recovery_m = 1e-3;  // and at most this much
+}  // namespace
+
+Manifold::Row Manifold::row(const Vector3d& arm_first_m, const Vector3d& arm_second_m,
+                            const Vector3d& direction) const {
+  Row row;
+  row.turn_first = arm_first_m.cross(direction);
+  row.response_first = first_->response(row.turn_first);
+  if (alone_) return row;
+  row.turn_second = -arm_second_m.cross(direction);
+  row.response_second = second_->response(row.turn_second);
+  return row;
+}
+
+// Velocity that a unit impulse along b makes along a; `cosine` is that between their directions.
+double Manifold::inverse_mass(const Row& a, const Row& b, double cosine) const {
+  return cosine * (first_->inverse_mass_per_kg + second_->inverse_mass_per_kg) +
+         a.turn_first.dot(b.response_first) + a.turn_second.dot(b.response_second);
+}
+
+double Manifold::speed(const Row& row, const Vector3d& direction) const {
+  const Velocity& first = first_->velocity;
+  const double alone = direction.dot(first.linear_m_s) + row.turn_first.dot(first.angular_rad_s);
+  if (alone_) return alone;
+  const Velocity& second = second_->velocity;
+  return alone - direction.dot(second.linear_m_s) + row.turn_second.dot(second.angular_rad_s);
+}
+
+void Manifold::apply(const Row& row, const Vector3d& direction, double impulse) {
+  first_->velocity.linear_m_s += (impulse * first_->inverse_mass_per_kg) * direction;
+  first_->velocity.angular_rad_s += impulse * row.response_first;
+  if (alone_) return;
+  second_->velocity.linear_m_s -= (impulse * second_->inverse_mass_per_kg) * direction;
+  second_->velocity.angular_rad_s += impulse * row.response_second;
+}
+
+void Manifold::prepare(const Contact& contact, Body& first, Body& second, const Surface& surface,
+                       double h_s) {
+  struct Known {
+    int feature;
+    double impulse;
+    Vector3d friction;
+  };
+  std::array<Known, 4> old;
+  const int n_old = n_;
+  const double scale = h_s_ > 0 ? h_s / h_s_ : 1;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n_old); ++i) {
+    const Point& point = points_[i];
+    old[i] = {point.feature, scale * point.impulse,
+              scale * (point.impulse_u * u_ + point.impulse_v * v_)};
+  }
+  first_ = &first;
+  second_ = &second;
+  alone_ = second.inverse_mass_per_kg == 0 && !second.solid;
+  friction_ = surface.friction;
+  h_s_ = h_s;
+  n_ = contact.n_points;
+  if (n_ == 0) return;
+  if (contact.normal != normal_ || u_ == v_) {
+    normal_ = contact.normal;
+    u_ = normal_.unitOrthogonal();
+    v_ = normal_.cross(u_);
+  }
+  for (int i = 0; i < n_; ++i) {
+    Point& point = points_[static_cast<std::size_t>(i)];
+    const ContactPoint& at = contact.points[static_cast<std::size_t>(i)];
+    point.impulse = point.impulse_u = point.impulse_v = 0;
+    prepare_point(point, at, surface, h_s);
+    const auto before = std::find_if(old.begin(), old.begin() + n_old,
+                                     [&](const Known& o) { return o.feature == at.feature; });
+    if (before == old.begin() + n_old) continue;
+    point.impulse = before->impulse;
+    point.impulse_u = before->friction.dot(u_);
+    point.impulse_v = before->friction.dot(v_);
+  }
+  couple_points();
+  prepare_patch(contact);
+  balance_.fill(0);
+  if (n_ == 4 && surface.compliance_m_per_n == 0) find_balance(contact);
+}
+
+void Manifold::prepare_point(Point& point, const ContactPoint& at, const Surface& surface,
+                             double h_s) {
+  const Vector3d arm_first_m = at.on_first_m - first_->pose.position_m;
+  const Vector3d arm_second_m = at.on_second_m - second_->pose.position_m;
+  point.feature = at.feature;
+  point.gap_m = at.distance_m;
+  point.normal = row(arm_first_m, arm_second_m, normal_);
+  point.arm_first_m = arm_first_m;
+  point.arm_second_m = arm_second_m;
+  point.friction_mass_kg = 0;
+  const double inverse_kg = inverse_mass(point.normal, point.normal, 1);
+  // A compliant point: gap at the end of the step = -compliance (force) - (damping time) (speed),
+  // with the damping time that is critical for the mass behind the point.
+  const double c = surface.compliance_m_per_n;
+  const double damping_s = c > 0 && at.distance_m < 0 ? 2 * std::sqrt(c / inverse_kg) : 0;
+  point.softness = c / (h_s * (h_s + damping_s));
+  // Between rigid boxes an overlap is for push_apart, and a gap that is not worth closing is none.
+  const double gap_m = c > 0 || at.distance_m > flat_m ? at.distance_m : 0;
+  point.speed_m_s = gap_m / (h_s + damping_s);
+  point.mass_kg = 1 / (inverse_kg + point.softness);
+}
+
+// Four points on a plane hold a body in more than one way: impulses in the proportions of the
+// triangles that the other three points span, with alternating signs, cancel. Real surfaces give a
+// little and share the load as evenly as they can; so do we, see balance().
+void Manifold::find_balance(const Contact& contact) {
+  std::array<double, 4> u_m{}, v_m{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    u_m[i] = contact.points[i].on_first_m.dot(u_);
+    v_m[i] = contact.points[i].on_first_m.dot(v_);
+  }
+  const auto area = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return (u_m[b] - u_m[a]) * (v_m[c] - v_m[a]) - (v_m[b] - v_m[a]) * (u_m[c] - u_m[a]);
+  };
+  balance_ = {area(1, 2, 3), -area(0, 2, 3), area(0, 1, 3), -area(0, 1, 2)};
+  double squares = 0;
+  for (double share : balance_) squares += share * share;
+  const double scale = squares > 1e-16 ? 1 / std::sqrt(squares) : 0;  // 1e-16 m^4: all on a line
+  for (double& share : balance_) share *= scale;
+}
+
+void Manifold::warm_start() {
+  double sum_u = 0, sum_v = 0, moment = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
+    const Point& point = points_[i];
+    if (point.impulse == 0) continue;
+    apply(point.normal, normal_, point.impulse);
+    sum_u += point.impulse_u;
+    sum_v += point.impulse_v;
+    moment += patch_.at_u_m[i] * point.impulse_v - patch_.at_v_m[i] * point.impulse_u;
+  }
+  if (sum_u == 0 && sum_v == 0 && moment == 0) return;
+  apply(patch_.u, u_, sum_u);
+  apply(patch_.v, v_, sum_v);
+  apply(patch_.spin, Vector3d::Zero(), moment);
+}
+
+void Manifold::couple_points() {
+  factored_ = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      response_[i][j] = response_[j][i] = inverse_mass(points_[i].normal, points_[j].normal, 1);
+    response_[i][i] = (1 + firmness) / points_[i].mass_kg;
+  }
+}
+
+// Cholesky's factor over the active points, kept while the same points are active.
+void Manifold::factor(unsigned active) {
+  if (active == factored_) return;
+  factored_ = active;
+  const std::size_t n = static_cast<std::size_t>(n_);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(active >> i & 1)) continue;
+    double left = response_[i][i];
+    for (std::size_t j = 0; j < i; ++j) {
+      factor_[i][j] = 0;
+      if (!(active >> j & 1)) continue;
+      double sum = response_[i][j];
+      for (std::size_t k = 0; k < j; ++k)
+        if (active >> k & 1) sum -= factor_[i][k] * factor_[j][k];
+      factor_[i][j] = sum * factor_[j][j];
+      left -= factor_[i][j] * factor_[i][j];
+    }
+    factor_[i][i] = 1 / std::sqrt(left);
+  }
+}
+
+// Solves for the active points; the others' changes are given.
+void Manifold::solve_block(unsigned active, std::array<double, 4>& change) const {
+  const std::size_t n = static_cast<std::size_t>(n_);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(active >> i & 1)) continue;
+    for (std::size_t j = 0; j < i; ++j)
+      if (active >> j & 1) change[i] -= factor_[i][j] * change[j];
+    change[i] *= factor_[i][i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    if (!(active >> i & 1)) continue;
+    for (std::size_t k = i + 1; k < n; ++k)
+      if (active >> k & 1) change[i] -= factor_[k][i] * change[k];
+    change[i] *= factor_[i][i];
+  }
+}
+
+// All points at once: a light clone before a heavy cube feels the sum of its points' impulses, the
+// cube how they are spread, and one point after the other would find the spread only slowly.
+double Manifold::relax_normals() {
+  const std::size_t n = static_cast<std::size_t>(n_);
+  std::array<double, 4> missing, change{};
+  unsigned active = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point& point = points_[i];
+    missing[i] = -speed(point.normal, normal_) - point.speed_m_s - point.softness * point.impulse;
+    if (point.impulse > 0 || missing[i] > 0) active |= 1u << i;
+  }
+  if (active == 0) return 0;
+  while (active != 0) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!(active >> i & 1)) continue;
+      change[i] = missing[i];
+      for (std::size_t j = 0; j < n; ++j)
+        if (!(active >> j & 1)) change[i] -= response_[i][j] * change[j];
+    }
+    factor(active);
+    solve_block(active, change);
+    std::size_t worst = 0;
+    double lowest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!(active >> i & 1) || points_[i].impulse + change[i] >= lowest) continue;
+      lowest = points_[i].impulse + change[i];
+      worst = i;
+    }
+    if (lowest >= 0) break;
+    active &= ~(1u << worst);  // it lets go
+    change[worst] = -points_[worst].impulse;
+  }
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (change[i] == 0) continue;
+    largest = std::max(largest, std::abs(missing[i]));
+    points_[i].impulse = std::max(0.0, points_[i].impulse + change[i]);
+    apply(points_[i].normal, normal_, change[i]);
+  }
+  return largest;
+}
+
+// Of all normal impulses that do the same, those with the smallest sum of squares: the limit of
+// equally stiff points as they become rigid.
+void Manifold::balance() {
+  double uneven = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!(points_[i].impulse > 0)) return;
+    uneven += balance_[i] * points_[i].impulse;
+  }
+  for (std::size_t i = 0; i < 4; ++i)  // no further than to zero
+    if (uneven * balance_[i] > points_[i].impulse) uneven = points_[i].impulse / balance_[i];
+  for (std::size_t i = 0; i < 4; ++i)
+    points_[i].impulse = std::max(0.0, points_[i].impulse - uneven * balance_[i]);
+}
+
+double Manifold::relax() {
+  double largest = 0;
+  largest = relax_normals();
+  if (n_ == 4) balance();
+  if (patch_.usable) {
+    const double held = hold_patch();
+    if (held >= 0) return std::max(largest, held);
+  }
+  for (Point& point : points()) largest = std::max(largest, relax_friction(point));
+  return largest;
+}
+
+bool Manifold::push_apart() {
+  bool pushed = false;
+  for (Point& point : points()) {
+    if (point.softness > 0) continue;
+    if (point.gap_m >= -flat_m || point.mass_kg == 0) continue;
+    pushed = true;
+    const double by_m = std::min(recovery_m, recovery * -(point.gap_m + flat_m)) / n_;
+    const double impulse = by_m * point.mass_kg;
+    first_->shift(impulse * first_->inverse_mass_per_kg * normal_,
+                  impulse * point.normal.response_first);
+    if (!alone_)
+      second_->shift(-impulse * second_->inverse_mass_per_kg * normal_,
+                     impulse * point.normal.response_second);
+  }
+  return pushed;
+}
+
+bool Manifold::touches() const {
+  return std::ranges::any_of(points(), [](const Point& point) { return point.impulse > 0; });
+}
+
+Vector3d Manifold::impulse_n_s() const {
+  Vector3d sum = Vector3d::Zero();
+  for (const Point& point : points())
+    sum += point.impulse * normal_ + point.impulse_u * u_ + point.impulse_v * v_;
+  return sum;
+}
+
+void Manifold::forget_impulses() {
+  for (Point& point : points()) point.impulse = point.impulse_u = point.impulse_v = 0;
+}
+
+}  // namespace heft::boxes

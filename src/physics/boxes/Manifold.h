@@ -1,0 +1,104 @@
+// One pair of bodies that touch or are about to, in the form that the solver iterates over: at most
+// four points that share a normal, each with a normal impulse and a friction impulse in the plane.
+#pragma once
+
+#include <array>
+
+#include "physics/boxes/Body.h"
+
+namespace heft::boxes {
+
+struct Surface {
+  double friction = 0.8;
+  double compliance_m_per_n = 0;  ///< of each point; 0: rigid
+};
+
+class Manifold {
+ public:
+  /// Takes this step's contact; points that were there in the last step start from its impulses.
+  /// @param second the table is a body without mass
+  void prepare(const Contact& contact, Body& first, Body& second, const Surface& surface,
+               double h_s);
+
+  /// Applies the impulses known so far.
+  void warm_start();
+
+  /// One sweep of projected Gauss-Seidel.
+  /// @return the largest change of a velocity at a point, m/s
+  double relax();
+
+  /// Moves overlapping bodies apart by half the overlap, without a change of velocity.
+  /// @return whether there was any
+  bool push_apart();
+
+  bool touches() const;
+  bool empty() const { return n_ == 0; }
+  /// Impulse on the first body over the step, N s.
+  Eigen::Vector3d impulse_n_s() const;
+  void clear() { n_ = 0; }
+  void forget_impulses();
+
+ private:
+  // Along `direction`, unit; the responses are the bodies' changes of angular velocity per impulse.
+  struct Row {
+    Eigen::Vector3d turn_first = Eigen::Vector3d::Zero(), turn_second = turn_first;
+    Eigen::Vector3d response_first = turn_first, response_second = turn_first;
+  };
+  struct Point {
+    Eigen::Vector3d arm_first_m = Eigen::Vector3d::Zero(),
+                    arm_second_m = arm_first_m;  // from the bodies' centers
+    Row normal, u, v;
+    double gap_m = 0;
+    double speed_m_s = 0;  // at which the points may close in: gap / h
+    double softness = 0;   // m/s per N s
+    double mass_kg = 0;
+    double friction_mass_kg = 0;                       // 0: u and v are not there yet
+    double impulse = 0, impulse_u = 0, impulse_v = 0;  // N s
+    int feature = 0;
+  };
+
+  // The points as one patch that sticks: it neither shifts along u and v nor spins.
+  struct Patch {
+    Row u, v, spin;
+    Eigen::Matrix3d mass = Eigen::Matrix3d::Zero();  // impulses that stop a unit velocity
+    std::array<double, 4> at_u_m{}, at_v_m{};        // from the middle
+    double squares_m2 = 0;
+    bool usable = false;  // more than one point, on bodies that can turn
+  };
+
+  std::span<Point> points() { return {points_.data(), static_cast<std::size_t>(n_)}; }
+  std::span<const Point> points() const { return {points_.data(), static_cast<std::size_t>(n_)}; }
+  Row row(const Eigen::Vector3d& arm_first_m, const Eigen::Vector3d& arm_second_m,
+          const Eigen::Vector3d& direction) const;
+  double inverse_mass(const Row& a, const Row& b, double cosine) const;
+  double speed(const Row& row, const Eigen::Vector3d& direction) const;
+  void apply(const Row& row, const Eigen::Vector3d& direction, double impulse);
+  void prepare_point(Point& point, const ContactPoint& at, const Surface& surface, double h_s);
+  void prepare_friction(Point& point);
+  void find_balance(const Contact& contact);
+  void balance();
+  double relax_normals();
+  void couple_points();
+  void factor(unsigned active);
+  void solve_block(unsigned active, std::array<double, 4>& change) const;
+  double relax_friction(Point& point);
+  void prepare_patch(const Contact& contact);
+  double hold_patch();
+  bool share_friction(const Eigen::Vector3d& change);
+
+  Body* first_ = nullptr;
+  Body* second_ = nullptr;
+  bool alone_ = false;  // the second is the table
+  double friction_ = 0, h_s_ = 0;
+  Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ(), u_ = normal_, v_ = normal_;
+  std::array<Point, 4> points_;
+  int n_ = 0;
+  Patch patch_;
+  // Velocity at one point per normal impulse at another, m/s per N s.
+  std::array<std::array<double, 4>, 4> response_{}, factor_{};
+  unsigned factored_ = 0;
+  // Normal impulses in these proportions push nothing anywhere; all zero unless four points touch.
+  std::array<double, 4> balance_{};
+};
+
+}  // namespace heft::boxes

@@ -1,0 +1,98 @@
+#include "physics/bullet/StockSimulators.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+#include "base/Error.h"
+#include "physics/bullet/StockCoupling.h"
+
+namespace heft {
+
+namespace {
+// Faster than any hand or cube; a diverging coupling passes these within a few steps.
+constexpr double impossible_speed_m_s = 100, impossible_turn_rad_s = 1e4;
+
+class StockSimulator : public DecouplingSimulator {
+ public:
+  StockSimulator(std::string name, MakeStockCoupling make_coupling)
+      : name_(std::move(name)), make_coupling_(make_coupling) {}
+
+  void reset(const Scene& scene, const Pose& target) override {
+    coupling_.reset();
+    const Pose offset = scene.coupling.decoupled ? scene.clone_offset : Pose{};
+    world_.emplace(scene,
+                   Pose{target * offset.position_m, target.orientation * offset.orientation});
+    if (scene.coupling.decoupled) coupling_ = make_coupling_(*world_, scene.coupling);
+    target_ = target;
+    t_s_ = 0;
+  }
+
+  void step(const Pose& target, double h_s) override {
+    refuse_impossible();  // Bullet's trees are not made for what is not finite
+    if (coupling_) {
+      coupling_->step(*world_, {target_, target, h_s});
+    } else {
+      world_->clone().setCenterOfMassTransform(to_bullet(target));
+      world_->step(h_s);
+    }
+    target_ = target;
+    t_s_ += h_s;
+    refuse_impossible();
+  }
+
+  void teleport_clone(const Pose& target, const Velocity& velocity) override {
+    world_->put_clone(target, velocity);
+    target_ = target;
+  }
+
+  void set_clone_solid(bool solid) override { world_->set_clone_solid(solid); }
+  void place_cube(int cube, const Pose& pose) override {
+    world_->put_cube(static_cast<std::size_t>(cube), pose);
+  }
+  WorldState state() const override { return world_->state(); }
+
+ private:
+  void refuse_impossible() const {
+    if (world_->slower_than(impossible_speed_m_s, impossible_turn_rad_s)) return;
+    throw Error(fmt::format(
+        "{} blew up {:.4g} s after its start; results/physics/README.md shows where it does. Take "
+        "another simulator (boxes, bullet) or a higher rate",
+        name_, t_s_));
+  }
+
+  std::string name_;
+  MakeStockCoupling make_coupling_;
+  std::optional<StockWorld> world_;
+  std::unique_ptr<StockCoupling> coupling_;  ///< none in condition C1; goes before its world
+  Pose target_;
+  double t_s_ = 0;
+};
+}  // namespace
+
+std::unique_ptr<DecouplingSimulator> make_bullet_explicit() {
+  return std::make_unique<StockSimulator>("bullet-explicit", explicit_force);
+}
+
+std::unique_ptr<DecouplingSimulator> make_bullet_explicit_held() {
+  return std::make_unique<StockSimulator>("bullet-explicit-held", held_force);
+}
+
+std::unique_ptr<DecouplingSimulator> make_bullet_stable_pd() {
+  return std::make_unique<StockSimulator>("bullet-stable-pd", stable_pd);
+}
+
+std::unique_ptr<DecouplingSimulator> make_bullet_exact_velocity() {
+  return std::make_unique<StockSimulator>("bullet-exact-velocity", exact_velocity);
+}
+
+std::unique_ptr<DecouplingSimulator> make_bullet_soft_rows() {
+  return std::make_unique<StockSimulator>("bullet-soft-rows", soft_rows);
+}
+
+std::unique_ptr<DecouplingSimulator> make_bullet_spring2() {
+  return std::make_unique<StockSimulator>("bullet-spring2", six_dof_spring);
+}
+
+}  // namespace heft

@@ -1,0 +1,27 @@
+// A damped oscillator about its rest point, in closed form: m y'' + c y' + k y = 0.
+#pragma once
+
+namespace heft {
+
+class Oscillation {
+ public:
+  struct At {
+    double y, speed, acceleration;
+  };
+
+  Oscillation() = default;
+  /// @param mass m, kg; damping c, N s/m; stiffness k, N/m; all above zero
+  Oscillation(double mass, double damping, double stiffness);
+
+  /// t_s seconds after it was at y with this speed.
+  At after(double t_s, double y, double speed) const;
+
+  double omega_rad_s() const { return omega_; }
+
+ private:
+  double omega_ = 1, decay_ = 1;  ///< sqrt(k / m), c / (2 m)
+  double split_ = 0;              ///< |decay^2 - omega^2|^(1/2)
+  bool rings_ = false;            ///< underdamped
+};
+
+}  // namespace heft

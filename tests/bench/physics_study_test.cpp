@@ -1,0 +1,135 @@
+// The physics study, its quick part: every file is there, and says what the charts are to show.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <map>
+
+#include "base/TextFile.h"
+#include "bench/Study.h"
+#include "bench/physics/Measurements.h"
+#include "bench/physics/Stability.h"
+
+namespace heft {
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+// Cells have no commas in these files but for the last one, the command.
+std::vector<Row> rows_of(const std::string& path) {
+  const std::string text = read_text_file(path);
+  const auto lines = lines_of(text);
+  const auto names = cells_of(lines.front());
+  std::vector<Row> rows;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto cells = cells_of(lines[i]);
+    EXPECT_EQ(cells.size(), names.size()) << path << " line " << i + 1;
+    Row& row = rows.emplace_back();
+    for (std::size_t c = 0; c < std::min(cells.size(), names.size()); ++c)
+      row[std::string(names[c])] = cells[c];
+  }
+  return rows;
+}
+
+class QuickStudy : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = testing::TempDir() + "heft_physics_study_" + std::to_string(::getpid());
+    std::filesystem::create_directories(folder);
+    study_named("physics").run({folder, "heft bench physics --quick", true});
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(folder); }
+  static std::vector<Row> rows(const std::string& name) { return rows_of(folder + "/" + name); }
+
+  static inline std::string folder;
+};
+
+TEST_F(QuickStudy, MakesEveryFileAndSaysWhereItIsFrom) {
+  for (const char* name :
+       {"work_precision", "errors", "references", "stability", "input", "lag_vs_mass", "c1_leak"}) {
+    const auto table = rows(std::string(name) + ".csv");
+    EXPECT_FALSE(table.empty()) << name;
+    for (const Row& row : table) {
+      EXPECT_EQ(row.at("command"), "heft bench physics --quick") << name;
+      EXPECT_FALSE(row.at("commit").empty()) << name;
+      for (const auto& [column, cell] : row) {
+        EXPECT_EQ(cell.find("nan"), std::string::npos) << name << ' ' << column;
+        EXPECT_EQ(cell.find("inf"), std::string::npos) << name << ' ' << column;
+      }
+    }
+  }
+}
+
+TEST_F(QuickStudy, DrawsEveryChart) {
+  for (const char* name : {"work_precision", "stability", "input", "lag_vs_mass", "c1_leak"}) {
+    const std::string path = folder + "/" + name + ".svg";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "gnuplot is not installed";
+    EXPECT_THAT(read_text_file(path), testing::HasSubstr("heft bench physics --quick")) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder + "/" + name + ".gnuplot"));
+  }
+}
+
+TEST_F(QuickStudy, HasEverySimulatorAtEveryRateInEveryScene) {
+  std::map<std::string, int> n;
+  for (const Row& row : rows("work_precision.csv")) ++n[row.at("simulator")];
+  for (const SimulatorEntry& simulator : measured_simulators())
+    EXPECT_EQ(n[std::string(simulator.name)], 6) << simulator.name;  // 2 rates, 3 scenes
+}
+
+TEST_F(QuickStudy, KnowsThatTheExplicitForceBlowsUpAndThatBoxesDoNot) {
+  for (const Row& row : rows("errors.csv")) {
+    if (row.at("scene_class") != "push") continue;
+    if (row.at("simulator") == "bullet-explicit") {
+      EXPECT_EQ(row.at("n_blew_up"), row.at("n_scenes"));
+      EXPECT_EQ(row.at("worst_clone_rms_mm"), "");
+    }
+    if (row.at("simulator") == "boxes") {
+      EXPECT_EQ(row.at("n_blew_up"), "0");
+      EXPECT_LT(std::stod(row.at("worst_clone_rms_mm")), 0.25);
+    }
+  }
+}
+
+TEST_F(QuickStudy, ShowsWhatInputHandlingCosts) {
+  std::map<std::string, double> at_picture, at_present, kick;
+  for (const Row& row : rows("input.csv")) {
+    if (row.at("camera_hz") != "15" || row.at("fault") != "clean") continue;
+    const std::string& mode = row.at("mode");
+    if (row.at("condition") == "C1") kick[mode] = std::stod(row.at("fastest_cube_m_s"));
+    if (row.at("condition") == "C1") continue;
+    at_picture[mode] = std::stod(row.at("clone_at_picture_rms_mm"));
+    at_present[mode] = std::stod(row.at("clone_at_present_rms_mm"));
+  }
+  EXPECT_LT(at_picture["path"], 0.3 * at_picture["hold"]);
+  EXPECT_LT(at_present["extrapolate"], 0.5 * at_present["path"]);
+  EXPECT_LT(kick["path"], 0.2);  // the hand's own speed
+  EXPECT_GT(kick["hold"], 1);
+}
+
+TEST_F(QuickStudy, ShowsThatC1HidesMassesUntilCubesTouchCubes) {
+  for (const Row& row : rows("c1_leak.csv")) {
+    const double apart_mm = std::stod(row.at("cubes_apart_max_mm"));
+    if (row.at("case").starts_with("one_")) {
+      EXPECT_LT(apart_mm, 1e-6) << row.at("case");
+    } else if (row.at("case") == "two_aside") {
+      EXPECT_GT(apart_mm, 1) << row.at("case");
+    }
+  }
+}
+
+TEST(Stability, KnowsAStableMethodFromOthers) {
+  const BenchScene scene = stability_scene(Varied::cube_mass, 0.2);
+  const Track reference =
+      run_scene(make_simulator("boxes"), scene, 4 * reference_rate_hz, reference_rate_hz).track;
+  const auto verdict = [&](const char* name, int rate_hz) {
+    return judge(simulator_named(name), scene, reference, rate_hz);
+  };
+  EXPECT_EQ(verdict("boxes", 240), Verdict::stable);
+  EXPECT_EQ(verdict("bullet-stable-pd", 240), Verdict::wrong_lag);
+  EXPECT_EQ(verdict("bullet-explicit", 240), Verdict::blows_up);
+  EXPECT_EQ(verdict("bullet-soft-rows", 960), Verdict::blows_up);
+}
+
+}  // namespace
+}  // namespace heft
