@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/Error.h"
@@ -27,7 +28,7 @@ std::string SessionData::participant() const {
 }
 
 SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
-  SessionData data{session, {}, rows.estimates};
+  SessionData data{session, {}, rows.estimates, {}};
   std::map<int, std::size_t> place;  // attempt index -> its place in data.attempts
   for (const TrialRow& trial : rows.trials) {
     place[trial.attempt_index] = data.attempts.size();
@@ -47,6 +48,19 @@ SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
   return data;
 }
 
+PictureCounts count_pictures(const std::vector<LoggedEvent>& events) {
+  PictureCounts counts;
+  for (const LoggedEvent& logged : events) {
+    if (logged.event.kind != EventKind::camera) continue;
+    const auto json = nlohmann::json::parse(logged.event.detail, nullptr, false);
+    if (!json.is_object()) continue;
+    counts.shown += json.value("shown", 0);
+    counts.dropped += json.value("dropped", 0);
+    counts.late += json.value("late", 0);
+  }
+  return counts;
+}
+
 Dataset read_dataset(const std::string& database, const std::vector<std::int64_t>& session_ids) {
   const LogReader log(database);
   std::vector<SessionRow> sessions;
@@ -58,6 +72,8 @@ Dataset read_dataset(const std::string& database, const std::vector<std::int64_t
     const std::int64_t id = session.session_id;
     dataset.sessions.push_back(join_rows(session, {log.trials(id), log.cubes(id), log.answers(id),
                                                    log.reversals(id), log.estimates(id)}));
+    SessionData& data = dataset.sessions.back();
+    if (!data.simulated()) data.pictures = count_pictures(log.events(id));
   }
   return dataset;
 }

@@ -22,10 +22,16 @@ struct Attempt {
   std::vector<double> masses_g() const;  ///< by slot
 };
 
+/// What became of the camera's pictures, over a session of a person.
+struct PictureCounts {
+  int shown = 0, dropped = 0, late = 0;
+};
+
 struct SessionData {
   SessionRow session;
   std::vector<Attempt> attempts;
   std::vector<EstimateRow> estimates;
+  PictureCounts pictures;
 
   /// No person answered: of that purpose, or the responder is not a human.
   bool simulated() const;
@@ -33,6 +39,9 @@ struct SessionData {
   std::string participant() const;
   bool finished() const { return session.state == SessionState::finished; }
 };
+
+/// The sum of a session's `camera` events.
+PictureCounts count_pictures(const std::vector<LoggedEvent>& events);
 
 /// The rows of one session as the log holds them.
 struct SessionRows {

@@ -76,6 +76,20 @@ std::string simulated_note(const Summary& summary) {
   return "Figures of persons and of simulated responders are mixed here.";
 }
 
+std::string pictures_note(const Dataset& dataset) {
+  PictureCounts all;
+  for (const SessionData& data : dataset.sessions) {
+    all.shown += data.pictures.shown;
+    all.dropped += data.pictures.dropped;
+    all.late += data.pictures.late;
+  }
+  if (all.dropped == 0 && all.late == 0) return "";
+  return fmt::format(
+      "Of {} pictures shown to persons {} came late, and {} of the camera's were never shown; the "
+      "log's frames say which.",
+      all.shown, all.late, all.dropped);
+}
+
 std::string missing_note(const Summary& summary) {
   if (summary.sessions.empty()) return fmt::format("{} holds no sessions.", summary.database);
   const bool any = std::ranges::any_of(summary.sessions,
@@ -87,7 +101,8 @@ std::string missing_note(const Summary& summary) {
 std::vector<std::string> notes_on(const Dataset& dataset, const Summary& summary) {
   std::vector<std::string> notes{simulated_note(summary),  missing_note(summary),
                                  unfinished_note(summary), repeated_note(dataset),
-                                 protocols_note(dataset),  other_methods_note(dataset)};
+                                 protocols_note(dataset),  other_methods_note(dataset),
+                                 pictures_note(dataset)};
   std::erase(notes, "");
   return notes;
 }

@@ -11,6 +11,7 @@ namespace heft::cli {
 
 void add_analyse(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_calibrate(CLI::App& app);
 void add_demo(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_procedure(CLI::App& app);
@@ -18,7 +19,9 @@ void add_replay(CLI::App& app);
 void add_resume(CLI::App& app);
 void add_run(CLI::App& app);
 void add_scene(CLI::App& app);
+void add_sheet(CLI::App& app);
 void add_simulate(CLI::App& app);
+void add_track(CLI::App& app);
 void add_validate(CLI::App& app);
 
 /// Adds a subcommand whose --help ends with examples, a line each.

@@ -13,6 +13,7 @@
 #include "cli/MissingCharts.h"
 #include "cli/Output.h"
 #include "cli/SessionCommand.h"
+#include "cli/SessionOptions.h"
 #include "cli/Talk.h"
 
 namespace heft::cli {
@@ -27,6 +28,10 @@ struct Options {
 SessionRequest demo_session(const Options& options) {
   SessionRequest request;
   request.protocol = load_protocol(installed_file("protocols/paper.toml"));
+  GivenOptions given;
+  given.responder = "simulated";
+  given.tracker = "synthetic";
+  request.options = with_defaults(given);
   complete(request.options);
   request.participant = "demo";
   request.db = options.out + "/demo.db";
@@ -39,12 +44,12 @@ void demo(const Options& options) {
   std::filesystem::create_directories(options.out);
   const SessionRequest request = demo_session(options);
   const auto started = std::chrono::steady_clock::now();
-  say("The paper's session (demonstration, introduction, 10 sorting trials, three "
-      "interleaved staircases)\nwith a simulated participant, rigid-body physics and a "
-      "complete log; seed {}.\n",
+  say("The paper's session: demonstration, introduction, 10 sorting trials, three interleaved "
+      "staircases.\nA rendered camera films a simulated participant's hand, the effector's tags "
+      "are found in its\npictures, physics pushes back, and everything is logged; seed {}.\n",
       request.seed);
   const SessionResult result =
-      run_session(request.protocol, request.db,
+      run_session({request.protocol, request.options, request.db},
                   [&](const RunnerOptions& runner) { return start_session(request, runner); });
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
 

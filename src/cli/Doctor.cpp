@@ -18,17 +18,19 @@
 #include "base/TextFile.h"
 #include "cli/Commands.h"
 #include "cli/Installation.h"
+#include "cli/SessionOptions.h"
 #include "physics/DecouplingSimulator.h"
 #include "record/Integrity.h"
 #include "responders/Responder.h"
+#include "session/ApparatusCheck.h"
+#include "session/PictureSource.h"
 #include "session/Session.h"
+#include "tracking/Camera.h"
 #include "view/ArView.h"
 
 namespace heft::cli {
 
 namespace {
-
-enum class Verdict { ok, warning, failed };
 
 // Prints one line a check and remembers the worst.
 class Report {
@@ -135,9 +137,42 @@ void check_log(Report& report, const std::string& db) {
   for (const std::string& fault : faults) report.line(Verdict::failed, "log", fault);
 }
 
+// The camera, its calibration, the light, the board: with pictures from it.
+void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
+  RunOptions options = with_defaults(given);
+  options.view = "headless";
+  options.responder = "simulated";
+  complete(options);
+  const TrackerEntry& entry = tracker_named(options.tracker);
+  if (!entry.has_camera || entry.name == "synthetic")
+    throw Error("--tracker: expected camera:N, video:FILE or frames:FOLDER", ExitCode::usage);
+  const Apparatus apparatus = apparatus_of(options);
+  CameraRequest request;
+  request.width_px = apparatus.camera.width_px;
+  request.height_px = apparatus.camera.height_px;
+  const auto camera = open_camera(options.tracker, request);
+  for (const CheckResult& result : check_camera(*camera, apparatus, rate_hz))
+    report.line(result.verdict, result.name, result.finding);
+}
+
+void list_cameras() {
+  fmt::print("\ncameras:\n");
+  int n = 0;
+  for (int i = 0; i < 64; ++i)
+    if (std::filesystem::exists(fmt::format("/dev/video{}", i)) && ++n > 0)
+      fmt::print("  camera:{:<9} /dev/video{}\n", i, i);
+  if (n == 0) fmt::print("  none is attached\n");
+  fmt::print("check one: heft doctor --tracker camera:0 --camera-file camera.yaml\n");
+}
+
 void list_plugs() {
   fmt::print("\nsimulators:\n");
-  for (const SimulatorEntry& entry : simulators())
+  for (const SimulatorEntry& entry : simulators()) {
+    fmt::print("  {:<22} {}\n", entry.name, entry.summary);
+    if (!entry.warning.empty()) fmt::print("  {:<22} warning: {}\n", "", entry.warning);
+  }
+  fmt::print("trackers:\n");
+  for (const TrackerEntry& entry : trackers())
     fmt::print("  {:<16} {}\n", entry.name, entry.summary);
   fmt::print("views:\n");
   for (const ViewEntry& entry : views()) fmt::print("  {:<16} {}\n", entry.name, entry.summary);
@@ -147,7 +182,7 @@ void list_plugs() {
   fmt::print("the parameters of a responder: heft doctor --responder NAME\n");
 }
 
-void diagnose(const std::string& db) {
+void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) {
   refuse_special_file(db);
   Report report;
   report.line(Verdict::ok, "program", fmt::format("heft {}, {}", HEFT_VERSION, build_name()));
@@ -158,6 +193,10 @@ void diagnose(const std::string& db) {
   check_file_system(report, folder);
   check_commit(report, folder);
   check_log(report, db);
+  if (given.tracker)
+    check_tracker(report, given, rate_hz);
+  else
+    list_cameras();
   list_plugs();
   if (report.failed()) throw Error("this machine is not ready; see the lines marked FAILED");
 }
@@ -167,16 +206,25 @@ void diagnose(const std::string& db) {
 void add_doctor(CLI::App& app) {
   struct Options {
     std::string db = "heft.db", responder;
+    GivenOptions given;
+    double rate_hz = 15;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      add_command(app, "doctor", "check this machine, and list what can be plugged in",
-                  {"heft doctor", "heft doctor --db lab.db", "heft doctor --responder simulated"});
+  CLI::App* command = add_command(
+      app, "doctor", "check this machine, a camera too, and list what can be plugged in",
+      {"heft doctor", "heft doctor --db lab.db",
+       "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
+       "heft doctor --responder simulated"});
   command->add_option("--db", options->db, "the log to check, and whose folder")
+      ->capture_default_str();
+  command->add_option("--tracker", options->given.tracker,
+                      "look through this camera: camera:N, video:FILE, frames:FOLDER");
+  add_apparatus_options(command, options->given);
+  command->add_option("--display-rate", options->rate_hz, "pictures a second that are wanted")
       ->capture_default_str();
   command->add_option("--responder", options->responder, "only describe its parameters");
   command->callback([options] {
-    if (options->responder.empty()) return diagnose(options->db);
+    if (options->responder.empty()) return diagnose(options->db, options->given, options->rate_hz);
     const std::string text = describe_parameters(responder_named(options->responder));
     fmt::print("{}", text.empty() ? "it has no parameters\n" : text);
   });

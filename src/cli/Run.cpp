@@ -7,6 +7,7 @@
 #include "cli/Commands.h"
 #include "cli/ParticipantId.h"
 #include "cli/SessionCommand.h"
+#include "cli/SessionOptions.h"
 #include "cli/Talk.h"
 #include "cli/WholeNumber.h"
 
@@ -17,17 +18,11 @@ namespace {
 struct Options {
   std::string protocol, participant, db = "heft.db";
   std::optional<std::uint64_t> seed;
-  std::string responder = "human";
-  std::optional<std::string> tracker, view;
-  std::string simulator;
-  bool again = false;
+  GivenOptions given;
+  std::optional<std::string> language;
+  std::string purpose = "main", record_camera;
+  bool left_handed = false, unblind = false, again = false;
 };
-
-constexpr auto responder_help = "human, or a model: NAME or NAME:FILE (heft doctor lists them)";
-constexpr auto tracker_help =
-    "where effector poses come from: hand (the responder's own, no pixels); not in this version: "
-    "camera:N, video:F, frames:DIR, synthetic";
-constexpr auto view_help = "what shows the session: headless; not in this version: window, video:F";
 
 void say_finished(const SessionResult& result, const std::string& db) {
   say("session {} is finished: {} trials, {:.0f} minutes of session time, all saved in {}\n"
@@ -36,38 +31,44 @@ void say_finished(const SessionResult& result, const std::string& db) {
       result.session_id, result.n_completed, result.duration_s / 60, db, db, db, result.session_id);
 }
 
-void run(const Options& options) {
-  check_participant(options.participant);
+SessionRequest request_of(const Options& options) {
   SessionRequest request;
   request.protocol = load_protocol(options.protocol);
-  request.options.responder = options.responder;
-  request.options.tracker = options.tracker.value_or("hand");
-  request.options.view = options.view.value_or("headless");
-  request.options.simulator = options.simulator;
+  request.options = with_defaults(options.given);
+  request.options.texts_file =
+      texts_file(options.language.value_or(request.protocol.screens.language));
+  request.options.handed = options.left_handed ? "left" : "right";
+  request.options.record_camera = options.record_camera;
   complete(request.options);
   request.participant = options.participant;
   request.db = options.db;
   request.seed = options.seed.value_or(fresh_seed());
+  request.purpose = options.purpose;
   request.again = options.again;
+  return request;
+}
+
+void run(const Options& options) {
+  check_participant(options.participant);
+  const SessionRequest request = request_of(options);
   say("participant {}, protocol {}, responder {}, seed {}\n", request.participant,
       request.protocol.name, request.options.responder, request.seed);
-  say_finished(
-      run_session(request.protocol, request.db,
-                  [&](const RunnerOptions& runner) { return start_session(request, runner); }),
-      request.db);
+  const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
+  say_finished(run_session({request.protocol, request.options, request.db, options.unblind}, start),
+               request.db);
 }
 
 void resume(const std::string& db, std::optional<std::int64_t> session_id,
-            const OptionsAgain& again) {
+            const GivenOptions& again, bool unblind) {
   LoggedSession session = session_to_resume(db, session_id);
   give_again(session, again);
   say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
       session.row.header.participant, session.protocol->name);
   for (const OptionChange& change : session.changes)
-    if (change.option != "responder_text")
+    if (!change.option.ends_with("_text"))
       say("from here on with {} {} instead of {}\n", change.option, change.to, change.from);
   say_finished(
-      run_session(*session.protocol, db,
+      run_session({*session.protocol, session.options, db, unblind},
                   [&](const RunnerOptions& runner) { return resume_session(session, runner); }),
       db);
 }
@@ -85,7 +86,9 @@ void add_run(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = add_command(
       app, "run", "run one participant's session of a protocol",
-      {"heft run protocols/quick.toml --participant 07 --responder simulated",
+      {"heft run protocols/paper.toml --participant 07 --camera-file camera.yaml --db lab.db",
+       "heft run protocols/quick.toml --participant 07 --tracker synthetic",
+       "heft run protocols/quick.toml --participant 07 --responder simulated",
        "heft run protocols/paper.toml --participant 07 --responder simulated --seed 42 --db lab.db",
        "heft run protocols/jnd.toml --participant 07 --responder scripted:recorded/07 --db "
        "lab.db"});
@@ -97,10 +100,21 @@ void add_run(CLI::App& app) {
   command->add_option("--db", options->db, "the log; an existing one gets one more session")
       ->capture_default_str();
   add_seed(command, options->seed);
-  command->add_option("--responder", options->responder, responder_help)->capture_default_str();
-  command->add_option("--tracker", options->tracker, tracker_help);
-  command->add_option("--view", options->view, view_help);
-  command->add_option("--simulator", options->simulator, "instead of the protocol's");
+  add_session_options(command, options->given);
+  command->add_option("--simulator", options->given.simulator, "instead of the protocol's");
+  command->add_option("--language", options->language,
+                      "of the participant's screens: en, fr, or a text FILE.toml; default: the "
+                      "protocol's");
+  command->add_flag("--left-handed", options->left_handed,
+                    "mirror the controls (the cubes stay where they are)");
+  command
+      ->add_option("--purpose", options->purpose, "of a person's session; analyse keeps them apart")
+      ->check(CLI::IsMember({"main", "pilot", "test"}))
+      ->capture_default_str();
+  command->add_option("--record-camera", options->record_camera,
+                      "keep the camera's pictures in this folder; without it none are kept");
+  command->add_flag("--unblind", options->unblind,
+                    "show the experimenter masses and conditions; it is logged");
   command->add_flag("--again", options->again,
                     "run once more a protocol that the participant has finished");
   command->callback([options] { run(*options); });
@@ -110,8 +124,8 @@ void add_resume(CLI::App& app) {
   struct ResumeOptions {
     std::string db = "heft.db";
     std::optional<std::int64_t> session;
-    OptionsAgain again;
-    bool end = false;
+    GivenOptions again;
+    bool end = false, unblind = false;
   };
   const auto options = std::make_shared<ResumeOptions>();
   CLI::App* command = add_command(
@@ -123,16 +137,16 @@ void add_resume(CLI::App& app) {
   command->add_option("--db", options->db, "the log")->capture_default_str();
   command->add_option("--session", options->session, "default: the newest unfinished one")
       ->check(session_number());
-  command->add_option("--responder", options->again.responder, responder_help);
-  command->add_option("--tracker", options->again.tracker, tracker_help);
-  command->add_option("--view", options->again.view, view_help);
+  add_session_options(command, options->again);
   command->add_option("--simulator", options->again.simulator,
                       "only the one the session was started with: replay needs one for all of it");
+  command->add_flag("--unblind", options->unblind,
+                    "show the experimenter masses and conditions; it is logged");
   command->add_flag("--end", options->end,
                     "don't go on: end the session as it is, for somebody who will not come back");
   command->callback([options] {
     if (options->end) return end(options->db, options->session);
-    resume(options->db, options->session, options->again);
+    resume(options->db, options->session, options->again, options->unblind);
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/Error.h"
 #include "cli/Commands.h"
+#include "cli/Talk.h"
 #include "experiment/Trajectory.h"
 #include "physics/Drive.h"
 #include "protocol/SceneFile.h"
@@ -29,6 +30,15 @@ std::string header(std::size_t n_cubes) {
   add_body("clone");
   for (std::size_t i = 1; i <= n_cubes; ++i) add_body(fmt::format("cube{}", i));
   return line;
+}
+
+// The names, and which of them are known to go wrong and how.
+std::string simulator_help() {
+  std::string text = "one of";
+  for (const SimulatorEntry& entry : simulators()) text += fmt::format(" {}", entry.name);
+  for (const SimulatorEntry& entry : simulators())
+    if (!entry.warning.empty()) text += fmt::format("\n{} {}", entry.name, entry.warning);
+  return text;
 }
 
 // Shortest digits that read back as the same doubles.
@@ -60,7 +70,9 @@ void run_scene(const Options& options) {
   if (!(options.rate_hz >= 4 && options.rate_hz <= 1e6))
     throw Error(fmt::format("--rate {}: expected 4 to 1000000 Hz", options.rate_hz),
                 ExitCode::usage);
-  auto simulator = make_simulator(options.simulator);
+  const SimulatorEntry& entry = simulator_named(options.simulator);
+  if (!entry.warning.empty()) say("heft: {} {}\n", entry.name, entry.warning);
+  auto simulator = entry.make();
   const Scene scene = load_scene(options.scene);
   const Trajectory trajectory = load_trajectory(options.trajectory);
   Drive drive(std::move(simulator), scene, options.rate_hz);
@@ -86,7 +98,7 @@ void add_scene(CLI::App& app) {
       ->add_option("--trajectory", options->trajectory,
                    "effector path: CSV t_s,x_m,y_m,z_m,qw,qx,qy,qz")
       ->required();
-  command->add_option("--simulator", options->simulator, "simulator")->capture_default_str();
+  command->add_option("--simulator", options->simulator, simulator_help())->capture_default_str();
   command->add_option("--rate", options->rate_hz, "physics steps and rows a second")
       ->capture_default_str();
   command->callback([options] { run_scene(*options); });

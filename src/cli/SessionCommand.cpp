@@ -5,28 +5,43 @@
 #include "base/Error.h"
 #include "cli/Progress.h"
 #include "cli/StopOnSignal.h"
+#include "cli/TerminalDesk.h"
 #include "protocol/ExpectedLength.h"
 
 namespace heft::cli {
 
-SessionResult run_session(const Protocol& protocol, const std::string& db,
-                          const std::function<SessionResult(const RunnerOptions&)>& run) {
-  const StopOnSignal stop_on_signal;
-  ProgressBar bar("session");
-  const double expected = expected_length(protocol).trials;
-  RunnerOptions options;
-  options.stop = &stop_on_signal.requested();
+namespace {
+void add_progress(RunnerOptions& options, ProgressBar& bar, double expected) {
   // Nothing that would unblind whoever watches: no mass, level, condition or correctness.
-  options.progress = [&](const Engine& engine) {
+  options.progress = [&bar, expected](const Engine& engine) {
     bar.update(engine.n_completed() / expected,
                fmt::format("{} of about {:.0f} trials, {:.0f} min", engine.n_completed(), expected,
                            engine.last_s() / 60));
   };
+}
+}  // namespace
+
+SessionResult run_session(const CommandedSession& session,
+                          const std::function<SessionResult(const RunnerOptions&)>& run) {
+  const StopOnSignal stop_on_signal;
+  ProgressBar bar("session");
+  std::optional<TerminalDesk> desk;
+  const double expected = expected_length(session.protocol).trials;
+  RunnerOptions options;
+  options.stop = &stop_on_signal.requested();
+  if (runs_on_wall_clock(session.options))
+    options.desk = &desk.emplace(expected, session.unblind);
+  else
+    add_progress(options, bar, expected);
   const SessionResult result = run(options);
-  const std::string resume = fmt::format("heft resume --db {} --session {}", db, result.session_id);
+  desk.reset();
+  const std::string resume =
+      fmt::format("heft resume --db {} --session {}", session.db, result.session_id);
   if (result.end == RunEnd::stopped)
     throw Error("stopped; everything up to the last answer is saved. Go on with: " + resume,
                 ExitCode::interrupted);
+  if (result.end == RunEnd::declined)
+    throw Error("the participant did not agree to take part; the session is ended");
   if (result.end == RunEnd::paused)
     throw Error(
         fmt::format("the session paused itself: one trial was void {} times. Look at the "

@@ -7,10 +7,18 @@
 
 namespace heft::cli {
 
-/// Runs `run` with Ctrl-C turned into a clean stop and a progress bar.
+struct CommandedSession {
+  const Protocol& protocol;
+  const RunOptions& options;
+  std::string db;
+  bool unblind = false;
+};
+
+/// Runs `run` with Ctrl-C turned into a clean stop, and with a progress bar, or the experimenter's
+/// desk where the session keeps the time of day.
 /// @throws Error (interrupted) when stopped, with how to go on; Error when the session paused
 /// itself
-SessionResult run_session(const Protocol& protocol, const std::string& db,
+SessionResult run_session(const CommandedSession& session,
                           const std::function<SessionResult(const RunnerOptions&)>& run);
 
 }  // namespace heft::cli

@@ -1,5 +1,5 @@
-// heft validate: checks protocols, procedure files and scene files, and reports every mistake of
-// every file.
+// heft validate: checks protocols, procedure, scene, board, effector and text files, and reports
+// every mistake of every file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +11,10 @@
 #include "cli/Talk.h"
 #include "protocol/ExpectedLength.h"
 #include "protocol/FileKind.h"
+#include "protocol/MarkerFile.h"
 #include "protocol/ProcedureFile.h"
 #include "protocol/SceneFile.h"
+#include "protocol/TextsFile.h"
 
 namespace heft::cli {
 
@@ -29,6 +31,10 @@ std::string described(const Protocol& protocol) {
                      length.minutes, assumed);
 }
 
+std::string described(const ScreenTexts& texts) {
+  return fmt::format("{} page(s) in the language \"{}\"", texts.pages.size(), texts.language);
+}
+
 std::string checked(FileKind kind, const std::string& text, const std::string& path) {
   switch (kind) {
     case FileKind::protocol:
@@ -37,8 +43,18 @@ std::string checked(FileKind kind, const std::string& text, const std::string& p
       return fmt::format("{} staircase(s)", parse_procedure(text, path).staircases.size());
     case FileKind::scene:
       return fmt::format("{} cube(s)", parse_scene(text, path).cubes.size());
+    case FileKind::board:
+      return described(parse_board(text, path));
+    case FileKind::effector:
+      return described(parse_effector(text, path));
+    case FileKind::texts:
+      return described(parse_texts(text, path));
   }
   return {};
+}
+
+std::string with_article(FileKind kind) {
+  return fmt::format("{} {}", kind == FileKind::effector ? "an" : "a", name_of(kind));
 }
 
 // Checks one file and says how it went.
@@ -48,9 +64,9 @@ ExitCode validate(const std::string& path) {
     const FileKind kind = recognized_kind(text, path);
     try {
       const std::string summary = checked(kind, text, path);
-      fmt::print("{}: ok, a {}: {}\n", path, name_of(kind), summary);
+      fmt::print("{}: ok, {}: {}\n", path, with_article(kind), summary);
     } catch (const InvalidFile& error) {
-      say("{}\n{}: not valid as a {}: {} mistake(s)\n", error.what(), path, name_of(kind),
+      say("{}\n{}: not valid as {}: {} mistake(s)\n", error.what(), path, with_article(kind),
           error.mistakes().size());
       return error.exit_code();
     }
@@ -76,9 +92,9 @@ void validate_all(const std::vector<std::string>& paths) {
 }  // namespace
 
 void add_validate(CLI::App& app) {
-  auto* command =
-      add_command(app, "validate", "check protocols, procedure files and scene files",
-                  {"heft validate protocols/paper.toml", "heft validate my_study/*.toml"});
+  auto* command = add_command(
+      app, "validate", "check protocols, procedure, scene, board, effector and text files",
+      {"heft validate protocols/paper.toml", "heft validate my_study/*.toml"});
   auto paths = std::make_shared<std::vector<std::string>>();
   command->add_option("FILE", *paths, "files to check; their kind is recognized")->required();
   command->callback([paths] { validate_all(*paths); });

@@ -45,6 +45,9 @@ void add_commands(CLI::App& app) {
   add_validate(app);
   add_procedure(app);
   add_scene(app);
+  add_sheet(app);
+  add_calibrate(app);
+  add_track(app);
   add_bench(app);
   add_doctor(app);
 }

@@ -15,15 +15,19 @@ struct KindKeys {
   std::vector<std::string_view> keys;
 };
 
-// A scene may have nothing but keys that a protocol has too, so it comes first.
+// A scene may have nothing but keys that a protocol has too, so it comes first; a board likewise
+// before the effector.
 const std::vector<KindKeys>& kinds() {
   static const std::vector<KindKeys> table{
       {FileKind::scene, "cube", {"clone", "friction", "gravity_m_s2", "coupling", "effector"}},
       {FileKind::protocol,
        "block",
        {"title", "display_rate_hz", "void_after_s", "require_contact", "physics", "layout",
-        "coupling", "effector"}},
-      {FileKind::procedure, "staircase", {"seed", "interleave", "max_lag"}}};
+        "screens", "coupling", "effector"}},
+      {FileKind::procedure, "staircase", {"seed", "interleave", "max_lag"}},
+      {FileKind::board, "grid", {"tag", "family", "ruler_measured_m"}},
+      {FileKind::effector, "box", {"tag", "family", "ruler_measured_m", "size_m"}},
+      {FileKind::texts, "language", {"buttons", "slots", "consent", "welcome", "trial", "thanks"}}};
   return table;
 }
 
@@ -44,7 +48,8 @@ FileKind recognized_kind(const std::string& text, const std::string& file) {
   Mistakes mistakes(file);
   mistakes.add({},
                "no key of this file belongs to a protocol (it has [[block]]), a procedure file "
-               "([[staircase]]) or a scene file ([[cube]])");
+               "([[staircase]]), a scene file ([[cube]]), a board file ([grid] or [[tag]]), an "
+               "effector file ([box] or [[tag]]) or a text file (language)");
   throw mistakes.as_error();
 }
 

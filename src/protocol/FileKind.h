@@ -7,11 +7,11 @@
 
 namespace heft {
 
-enum class FileKind { protocol, procedure, scene };
+enum class FileKind { protocol, procedure, scene, board, effector, texts };
 template <>
 struct EnumNames<FileKind> {
-  static constexpr std::array<std::string_view, 3> names{"protocol", "procedure file",
-                                                         "scene file"};
+  static constexpr std::array<std::string_view, 6> names{
+      "protocol", "procedure file", "scene file", "board file", "effector file", "text file"};
 };
 
 /// The kind whose tables the text has, or else most of whose keys.

@@ -48,6 +48,14 @@ struct EnumNames<PositiveAnswer> {
   static constexpr std::array<std::string_view, 2> names{"any_choice", "correct_choice"};
 };
 
+/// What a person's screens show besides the tasks.
+struct ScreensChosen {
+  std::string language = "en";  ///< of protocols/texts/, unless the session's options say another
+  bool consent = false;
+  bool about_you = false;
+  bool how_decided = false;
+};
+
 struct SimulatorChoice {
   std::string name = "bullet";
   double rate_hz = 240;
@@ -122,6 +130,7 @@ struct Protocol {
   double gravity_m_s2 = 9.81;
   SimulatorChoice simulator;
   Layout layout;
+  ScreensChosen screens;
   std::vector<Block> blocks;
 };
 

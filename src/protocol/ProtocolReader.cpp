@@ -30,6 +30,16 @@ void read_physics(TableReader& reader, Protocol& protocol) {
   table->close();
 }
 
+void read_screens(TableReader& reader, ScreensChosen& screens) {
+  auto table = reader.table("screens");
+  if (!table) return;
+  table->read("language", screens.language);
+  table->read("consent", screens.consent);
+  table->read("about_you", screens.about_you);
+  table->read("how_decided", screens.how_decided);
+  table->close();
+}
+
 // How many cubes the block with most of them shows.
 int most_cubes(const std::vector<Block>& blocks) {
   const bool sorting = std::ranges::any_of(
@@ -95,6 +105,7 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
     table->close();
   }
   read_physics(reader, protocol);
+  read_screens(reader, protocol.screens);
   protocol.blocks = read_blocks(reader);
   read_layout(reader, protocol.layout, most_cubes(protocol.blocks));
   reader.close();

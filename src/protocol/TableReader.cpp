@@ -166,24 +166,29 @@ std::optional<std::string> TableReader::read_nearest_name(std::string_view key,
   return written ? nearest_name(*written, names) : std::nullopt;
 }
 
-std::optional<std::vector<double>> TableReader::numbers(std::string_view key, const Range& range,
-                                                        std::size_t count) {
-  const TomlEntry* entry = take(key);
-  if (!entry) return std::nullopt;
-  const auto* array = std::get_if<TomlArray>(&entry->node.value);
+std::optional<std::vector<double>> TableReader::numbers(const TomlNode& node, std::string_view key,
+                                                        const Range& range, std::size_t count) {
+  const auto* array = std::get_if<TomlArray>(&node.value);
   if (!array) {
-    refuse(entry->node, key,
-           count ? fmt::format("{} numbers in brackets", count) : "numbers in brackets");
+    refuse(node, key, count ? fmt::format("{} numbers in brackets", count) : "numbers in brackets");
     return std::nullopt;
   }
   std::vector<double> values;
-  for (const TomlNode& node : *array)
-    if (const auto value = number(node, key, range)) values.push_back(*value);
-  if (count ? array->size() != count : array->empty())
-    mistake(key, fmt::format("{} has {} numbers, expected {}", key, array->size(),
-                             count ? fmt::format("{}", count) : "at least 1"));
+  for (const TomlNode& element : *array)
+    if (const auto value = number(element, key, range)) values.push_back(*value);
+  if (count ? array->size() != count : array->empty()) {
+    mistaken_.emplace(key);
+    mistakes_->add(node.place, fmt::format("{} has {} numbers, expected {}", key, array->size(),
+                                           count ? fmt::format("{}", count) : "at least 1"));
+  }
   if (!good({key})) return std::nullopt;
   return values;
+}
+
+std::optional<std::vector<double>> TableReader::numbers(std::string_view key, const Range& range,
+                                                        std::size_t count) {
+  const TomlEntry* entry = take(key);
+  return entry ? numbers(entry->node, key, range, count) : std::nullopt;
 }
 
 void TableReader::read(std::string_view key, std::vector<double>& field, const Range& range) {
@@ -196,6 +201,18 @@ void TableReader::read(std::string_view key, Eigen::Vector2d& field, const Range
 
 void TableReader::read(std::string_view key, Eigen::Vector3d& field, const Range& range) {
   if (const auto values = numbers(key, range, 3)) field = Eigen::Vector3d(values->data());
+}
+
+void TableReader::read(std::string_view key, std::span<Eigen::Vector3d> points) {
+  const TomlEntry* entry = take(key);
+  if (!entry) return;
+  const auto* array = std::get_if<TomlArray>(&entry->node.value);
+  if (!array || array->size() != points.size())
+    return refuse(entry->node, key,
+                  fmt::format("{} points [x, y, z], each in brackets", points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const auto values = numbers((*array)[i], key, any_number, 3))
+      points[i] = Eigen::Vector3d(values->data());
 }
 
 void TableReader::read_size(std::string_view key, Eigen::Vector3d& field) {

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,8 @@ class TableReader {
   void read(std::string_view key, std::vector<double>& field, const Range& range = any_number);
   void read(std::string_view key, Eigen::Vector2d& field, const Range& range = any_number);
   void read(std::string_view key, Eigen::Vector3d& field, const Range& range = any_number);
+  /// As many points [x, y, z] as the field has.
+  void read(std::string_view key, std::span<Eigen::Vector3d> points);
   /// One number for all three, or three numbers.
   void read_size(std::string_view key, Eigen::Vector3d& field);
   template <typename Enum>
@@ -84,6 +87,8 @@ class TableReader {
   std::optional<std::int64_t> whole(std::string_view key, const WholeRange& range);
   std::optional<std::vector<double>> numbers(std::string_view key, const Range& range,
                                              std::size_t count);
+  std::optional<std::vector<double>> numbers(const TomlNode& node, std::string_view key,
+                                             const Range& range, std::size_t count);
 
   const TomlTable* table_;
   TomlPlace place_;

@@ -1,17 +1,86 @@
 #include "session/PictureSource.h"
 
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "base/PlugTable.h"
+#include "session/CameraPictures.h"
+#include "session/SyntheticPictures.h"
+
 namespace heft {
 
-void HandPictures::begin_attempt() {
-  count_ = 0;
+namespace {
+
+std::unique_ptr<PictureSource> make_hand(const PictureParts& parts) {
+  return std::make_unique<HandPictures>(parts.hand, parts.protocol.display_rate_hz);
+}
+
+std::unique_ptr<PictureSource> make_synthetic(const PictureParts& parts) {
+  return std::make_unique<SyntheticPictures>(parts);
+}
+
+// What a camera is asked for: its calibration's size, the display's rate or the next above.
+CameraRequest request_for(const PictureParts& parts) {
+  CameraRequest request;
+  request.width_px = parts.apparatus.camera.width_px;
+  request.height_px = parts.apparatus.camera.height_px;
+  request.rate_hz = std::max(request.rate_hz, parts.protocol.display_rate_hz);
+  return request;
+}
+
+std::unique_ptr<PictureSource> open(const std::string& kind, const PictureParts& parts) {
+  return std::make_unique<CameraPictures>(open_camera(kind + ":" + parts.what, request_for(parts)),
+                                          parts);
+}
+
+constexpr std::array table{
+    TrackerEntry{"hand", "the responder's own effector pose; no pixels", false, false, false,
+                 make_hand},
+    TrackerEntry{"synthetic", "a rendered camera that films the responder's hand", true, false,
+                 false, make_synthetic},
+    TrackerEntry{"camera", "camera:N, a live camera", true, true, true,
+                 [](const PictureParts& parts) { return open("camera", parts); }},
+    TrackerEntry{"video", "video:FILE, a video", true, false, true,
+                 [](const PictureParts& parts) { return open("video", parts); }},
+    TrackerEntry{"frames", "frames:FOLDER, images in the order of their names", true, false, true,
+                 [](const PictureParts& parts) { return open("frames", parts); }}};
+
+}  // namespace
+
+std::span<const TrackerEntry> trackers() {
+  return table;
+}
+
+const TrackerEntry& tracker_named(const std::string& tracker) {
+  const auto colon = tracker.find(':');
+  const std::string name = tracker.substr(0, colon);
+  const TrackerEntry& entry = entry_named("tracker", name, trackers());
+  const bool has_what = colon != std::string::npos && colon + 1 < tracker.size();
+  if (entry.needs_what && !has_what)
+    throw Error(fmt::format("tracker \"{}\" needs to know which: {}", name, entry.summary),
+                ExitCode::usage);
+  if (!entry.needs_what && colon != std::string::npos)
+    throw Error(fmt::format("tracker \"{}\" takes nothing after it", name), ExitCode::usage);
+  return entry;
+}
+
+void PictureCount::skip_to(double t_s) {
+  const double due = std::floor(t_s * rate_hz_);
+  if (due > static_cast<double>(next_)) next_ = static_cast<std::uint64_t>(due);
+}
+
+void HandPictures::begin_attempt(const AttemptStart&) {
+  count_.restart();
   last_ = {};
   last_.tracked = false;
 }
 
-Picture HandPictures::next() {
+std::optional<Picture> HandPictures::next() {
   Picture picture;
   TargetSample& sample = picture.sample;
-  sample.t_capture_s = count_++ / rate_hz_;  // no accumulated rounding
+  sample.t_capture_s = count_.time_s(count_.take());
   const HandSample hand = responder_.hand(sample.t_capture_s);
   sample.pose = hand.pose;
   sample.tracked = hand.in_view;

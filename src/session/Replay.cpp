@@ -47,7 +47,7 @@ class Verifier {
   void fold() {
     const SessionHeader& header = session_.header;
     const RunOptions options = run_options_from_json(header.run_options);
-    virtual_clock_ = options.tracker == "hand";
+    virtual_clock_ = !runs_on_wall_clock(options) && split_name(options.tracker).file.empty();
     protocol_ = protocol_for(parse_protocol(header.protocol_text, header.protocol_name), options);
     fold_ = fold_session(protocol_, header.seed, reader_.events(session_.session_id));
     result_.n_events = fold_.n_events;

@@ -11,53 +11,45 @@
 #include "base/Random.h"
 #include "base/TextFile.h"
 #include "physics/DecouplingSimulator.h"
+#include "protocol/MarkerFile.h"
 #include "protocol/ParameterFile.h"
+#include "protocol/TextsFile.h"
+#include "session/PictureSource.h"
+#include "tracking/Camera.h"
 #include "view/ArView.h"
 
 namespace heft {
 
-namespace {
-
-struct NameAndFile {
-  std::string name, file;
-};
-
-NameAndFile split(const std::string& responder) {
-  const auto colon = responder.find(':');
-  if (colon == std::string::npos) return {responder, ""};
-  return {responder.substr(0, colon), responder.substr(colon + 1)};
+NameAndFile split_name(const std::string& option) {
+  const auto colon = option.find(':');
+  if (colon == std::string::npos) return {option, ""};
+  return {option.substr(0, colon), option.substr(colon + 1)};
 }
+
+namespace {
 
 // Every option and where it is kept, by its name in session.run_options.
 struct Field {
   const char* name;
   std::string RunOptions::*value;
 };
-constexpr std::array fields{
-    Field{"responder", &RunOptions::responder},
-    Field{"responder_text", &RunOptions::responder_text}, Field{"tracker", &RunOptions::tracker},
-    Field{"view", &RunOptions::view}, Field{"simulator", &RunOptions::simulator}};
+constexpr std::array fields{Field{"responder", &RunOptions::responder},
+                            Field{"responder_text", &RunOptions::responder_text},
+                            Field{"tracker", &RunOptions::tracker},
+                            Field{"view", &RunOptions::view},
+                            Field{"simulator", &RunOptions::simulator},
+                            Field{"camera_file", &RunOptions::camera_file},
+                            Field{"camera_text", &RunOptions::camera_text},
+                            Field{"board_file", &RunOptions::board_file},
+                            Field{"board_text", &RunOptions::board_text},
+                            Field{"effector_file", &RunOptions::effector_file},
+                            Field{"effector_text", &RunOptions::effector_text},
+                            Field{"texts_file", &RunOptions::texts_file},
+                            Field{"texts_text", &RunOptions::texts_text},
+                            Field{"handed", &RunOptions::handed},
+                            Field{"record_camera", &RunOptions::record_camera}};
 
-using Names = std::vector<std::string_view>;
-
-// A device that this version has, one that is still to come, or a slip of the pen.
-void check_device(const char* kind, const std::string& given, const Names& present,
-                  const Names& to_come) {
-  if (std::ranges::find(present, given) != present.end()) return;
-  const std::string name = split(given).name;
-  if (std::ranges::find(to_come, name) != to_come.end())
-    throw Error(fmt::format("this version does not have the {0} \"{1}\" yet; run with --{0} {2}",
-                            kind, given, present.front()),
-                ExitCode::device_missing);
-  Names known = present;
-  known.insert(known.end(), to_come.begin(), to_come.end());
-  throw unknown_name(kind, name, known);
-}
-
-void check_devices(const RunOptions& options) {
-  check_device("tracker", options.tracker, {"hand"}, {"camera", "video", "frames", "synthetic"});
-  check_device("view", options.view, names_in(views()), {"window", "video"});
-}
+constexpr std::string_view person = "human";
 
 // A session may be resumed from another folder than it was started in.
 std::string absolute_path(const std::string& file) {
@@ -67,14 +59,19 @@ std::string absolute_path(const std::string& file) {
   return path.lexically_normal().string();
 }
 
+// The part after the colon as an absolute path.
+std::string with_absolute_path(const std::string& name_and_file) {
+  const auto [name, file] = split_name(name_and_file);
+  return file.empty() ? name : name + ":" + absolute_path(file);
+}
+
+void read_file(std::string& file, std::string& text) {
+  file = absolute_path(file);
+  text = read_text_file(file);
+}
+
 const ResponderEntry& checked_responder(const std::string& responder) {
-  const auto [name, file] = split(responder);
-  if (name == "human") {
-    throw Error(
-        "a human participant needs the window view, which this version does not have; "
-        "run with --responder simulated to try the protocol",
-        ExitCode::device_missing);
-  }
+  const auto [name, file] = split_name(responder);
   const ResponderEntry& entry = responder_named(name);
   if (entry.file == ResponderFile::none && !file.empty())
     throw Error(fmt::format("responder \"{}\" takes no file", name), ExitCode::usage);
@@ -83,7 +80,70 @@ const ResponderEntry& checked_responder(const std::string& responder) {
   return entry;
 }
 
+void complete_responder(RunOptions& options) {
+  options.responder_text.clear();
+  if (has_person(options)) return;
+  const ResponderEntry& entry = checked_responder(options.responder);
+  if (auto [name, file] = split_name(options.responder); !file.empty()) {
+    file = absolute_path(file);
+    options.responder = name + ":" + file;
+    if (entry.file == ResponderFile::parameters) options.responder_text = read_text_file(file);
+  }
+}
+
+void complete_apparatus(RunOptions& options) {
+  const TrackerEntry& tracker = tracker_named(options.tracker);
+  if (tracker.needs_what && !tracker.is_live) options.tracker = with_absolute_path(options.tracker);
+  if (!tracker.has_camera) {
+    options.camera_file = options.camera_text = options.board_file = options.board_text =
+        options.effector_file = options.effector_text = "";
+    return;
+  }
+  if (options.camera_file.empty()) {
+    if (tracker.is_live) open_camera(options.tracker);  // one that is not there is told first
+    throw Error(fmt::format("tracker \"{}\" needs the camera's calibration: --camera-file "
+                            "CAMERA.yaml; make one with heft calibrate camera",
+                            tracker.name),
+                ExitCode::usage);
+  }
+  read_file(options.camera_file, options.camera_text);
+  read_file(options.board_file, options.board_text);
+  read_file(options.effector_file, options.effector_text);
+}
+
+void check_view(const RunOptions& options) {
+  const auto [name, file] = split_name(options.view);
+  const ViewEntry& view = view_named(name);
+  if (view.has_file && file.empty())
+    throw Error(fmt::format("view \"{0}\" needs a file: {0}:FILE", name), ExitCode::usage);
+  if (!view.has_file && !file.empty())
+    throw Error(fmt::format("view \"{}\" takes nothing after it", name), ExitCode::usage);
+  if (has_person(options) && !view.has_screen)
+    throw Error(fmt::format("a person can't see or touch the view \"{}\"; expected --view window, "
+                            "or a model as --responder",
+                            name),
+                ExitCode::usage);
+}
+
 }  // namespace
+
+bool has_person(const RunOptions& options) {
+  return options.responder == person;
+}
+
+bool runs_on_wall_clock(const RunOptions& options) {
+  return has_person(options) || tracker_named(options.tracker).is_live ||
+         view_named(split_name(options.view).name).has_screen;
+}
+
+Apparatus apparatus_of(const RunOptions& options) {
+  if (!tracker_named(options.tracker).has_camera) return {};
+  Apparatus apparatus{parse_intrinsics(options.camera_text, options.camera_file),
+                      parse_board(options.board_text, options.board_file),
+                      parse_effector(options.effector_text, options.effector_file)};
+  require_different_tags(apparatus.board, apparatus.effector);
+  return apparatus;
+}
 
 std::string to_json(const RunOptions& options) {
   nlohmann::ordered_json json;
@@ -95,7 +155,9 @@ RunOptions run_options_from_json(const std::string& text) {
   try {
     const auto json = nlohmann::json::parse(text);
     RunOptions options;
-    for (const Field& field : fields) options.*field.value = json.at(field.name);
+    // An option that a log does not have came after it was written: it was not in force.
+    for (const Field& field : fields)
+      if (json.contains(field.name)) options.*field.value = json.at(field.name);
     return options;
   } catch (const nlohmann::json::exception& error) {
     throw Error(fmt::format("session.run_options can't be read: {}", error.what()));
@@ -103,19 +165,22 @@ RunOptions run_options_from_json(const std::string& text) {
 }
 
 void complete(RunOptions& options) {
-  const ResponderEntry& entry = checked_responder(options.responder);
-  options.responder_text.clear();
-  if (auto [name, file] = split(options.responder); !file.empty()) {
-    file = absolute_path(file);
-    options.responder = name + ":" + file;
-    if (entry.file == ResponderFile::parameters) options.responder_text = read_text_file(file);
-  }
+  complete_responder(options);
+  complete_apparatus(options);
+  options.view = with_absolute_path(options.view);
+  if (!options.record_camera.empty()) options.record_camera = absolute_path(options.record_camera);
+  if (has_person(options))
+    read_file(options.texts_file, options.texts_text);
+  else
+    options.texts_file = options.texts_text = "";
   check(options);
 }
 
 void check(const RunOptions& options) {
-  checked_responder(options.responder);
-  check_devices(options);
+  if (!has_person(options)) checked_responder(options.responder);
+  check_view(options);
+  apparatus_of(options);
+  if (has_person(options)) parse_texts(options.texts_text, options.texts_file);
   if (!options.simulator.empty()) simulator_named(options.simulator);
   make_responder(options, 0);  // says what is wrong with its parameters before anything is logged
 }
@@ -145,7 +210,8 @@ void apply_deviation(RunOptions& options, const std::string& detail) {
 }
 
 std::unique_ptr<Responder> make_responder(const RunOptions& options, std::uint64_t seed) {
-  const auto [name, file] = split(options.responder);
+  // Of a person only the hand is a model's, where no camera films theirs.
+  const auto [name, file] = split_name(has_person(options) ? "simulated" : options.responder);
   const ResponderEntry& entry = responder_named(name);
   ResponderOptions made_with;
   // A seed of its own: nobody could draw the session's trials from it.

@@ -10,6 +10,7 @@
 
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
+#include "tracking/MarkerBody.h"
 
 namespace heft {
 
@@ -19,15 +20,47 @@ struct RunOptions {
   std::string tracker = "hand";
   std::string view = "headless";
   std::string simulator;  ///< instead of the protocol's; empty: the protocol's
+  // Files of the apparatus and the texts as they were when the session started; empty where neither
+  // a camera nor a person takes part.
+  std::string camera_file, camera_text;
+  std::string board_file, board_text;
+  std::string effector_file, effector_text;
+  std::string texts_file, texts_text;
+  std::string handed = "right";  ///< "left" mirrors the controls
+  std::string record_camera;     ///< a folder for the camera's pictures; empty: they are not kept
 };
+
+/// Options as somebody gives them; for what is not given there is a default, or it stays as it was.
+struct GivenOptions {
+  std::optional<std::string> responder, tracker, view, simulator;
+  std::optional<std::string> camera_file, board_file, effector_file;
+};
+
+/// A person answers, at a screen.
+bool has_person(const RunOptions& options);
+
+/// Whether the session keeps the time of day: with a live camera, a screen or a person. Otherwise
+/// it runs as fast as it can, and no result depends on how fast that is.
+bool runs_on_wall_clock(const RunOptions& options);
+
+/// The camera's calibration and the marker bodies that the options hold; empty without a camera.
+/// @throws InvalidFile naming what is wrong in which file; Error where board and effector share a
+///   tag
+Apparatus apparatus_of(const RunOptions& options);
+
+/// "video:session.mp4": the name of a plug and what follows its colon.
+struct NameAndFile {
+  std::string name, file;
+};
+NameAndFile split_name(const std::string& option);
 
 std::string to_json(const RunOptions& options);
 
 /// @throws Error when the text is not what to_json writes
 RunOptions run_options_from_json(const std::string& text);
 
-/// Makes the responder's FILE absolute, reads it if it holds parameters, and checks everything.
-/// @throws Error (usage) for unknown names; device_missing for what this version does not have
+/// Makes the files' names absolute, reads what the session needs of them, and checks everything.
+/// @throws Error (usage) for unknown names and combinations that can't work
 void complete(RunOptions& options);
 
 /// As complete(), for options from a log: the parameters stay those that were read then.

@@ -9,6 +9,7 @@
 #include "base/Error.h"
 #include "record/LogReader.h"
 #include "record/SessionLog.h"
+#include "session/Equipment.h"
 
 namespace heft {
 
@@ -39,15 +40,10 @@ void refuse_repetition(const SessionRequest& request) {
   }
 }
 
-// The parts that the options name, put together around an engine and a sink.
-RunEnd run_with(Engine& engine, EventSink& sink, const RunOptions& options,
-                const RunnerOptions& runner, double start_s) {
-  const auto responder = make_responder(options, engine.seed());
-  const auto view = view_named(options.view).make({});
-  HandPictures pictures(*responder, engine.protocol().display_rate_hz);
-  const RunEnd end = Runner({engine, sink, pictures, *responder, *view}, runner, start_s).run();
-  sink.flush();
-  return end;
+RunEnd run_with(Equipment& equipment, Engine& engine, EventSink& sink, const RunnerOptions& runner,
+                double start_s) {
+  equipment.clock.restart(start_s);
+  return Runner(equipment.parts(engine, sink), runner).run();
 }
 
 SessionResult result_of(const Engine& engine, RunEnd end, std::int64_t session_id) {
@@ -118,7 +114,7 @@ SessionHeader header_of(const SessionRequest& request) {
   header.heft_version = HEFT_VERSION;
   header.build = build_name();
   header.run_options = to_json(request.options);
-  header.purpose = "simulated";  // no responder of this version is a person
+  header.purpose = has_person(request.options) ? request.purpose : "simulated";
   header.responder = request.options.responder;
   header.started_utc = utc_now();
   return header;
@@ -126,9 +122,11 @@ SessionHeader header_of(const SessionRequest& request) {
 
 SessionResult start_session(const SessionRequest& request, const RunnerOptions& runner) {
   refuse_repetition(request);
+  const auto protocol = protocol_for(request.protocol, request.options);
+  Equipment equipment(protocol, request.options, request.seed);
   SessionLog log = SessionLog::start(request.db, header_of(request));
-  Engine engine(protocol_for(request.protocol, request.options), request.seed);
-  const RunEnd end = run_with(engine, log, request.options, runner, 0);
+  Engine engine(protocol, request.seed);
+  const RunEnd end = run_with(equipment, engine, log, runner, 0);
   return result_of(engine, end, log.session_id());
 }
 
@@ -163,7 +161,7 @@ LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_
                   db, db));
 }
 
-void give_again(LoggedSession& session, const OptionsAgain& again) {
+void give_again(LoggedSession& session, const GivenOptions& again) {
   const std::string& simulator = session.protocol->simulator.name;
   if (again.simulator && !is_same_simulator(*again.simulator, simulator))
     throw Error(fmt::format("session {} runs with the simulator {}, and replay checks a whole "
@@ -173,17 +171,22 @@ void give_again(LoggedSession& session, const OptionsAgain& again) {
   RunOptions options = session.options;
   if (again.tracker) options.tracker = *again.tracker;
   if (again.view) options.view = *again.view;
-  if (again.responder) {
-    options.responder = *again.responder;
-    complete(options);
-  } else {
+  if (again.camera_file) options.camera_file = *again.camera_file;
+  if (again.board_file) options.board_file = *again.board_file;
+  if (again.effector_file) options.effector_file = *again.effector_file;
+  if (again.responder) options.responder = *again.responder;
+  const bool as_before = !again.responder && !again.tracker && !again.camera_file &&
+                         !again.board_file && !again.effector_file;
+  if (as_before)
     check(options);
-  }
+  else
+    complete(options);
   session.changes = changes_between(session.options, options);
   session.options = options;
 }
 
 SessionResult resume_session(const LoggedSession& session, const RunnerOptions& runner) {
+  Equipment equipment(session.protocol, session.options, session.row.header.seed);
   Reopened reopened(session);
   const double last_s = reopened.engine.last_s();
   reopened.close_attempt(std::string(void_interrupted));
@@ -194,7 +197,7 @@ SessionResult resume_session(const LoggedSession& session, const RunnerOptions& 
   for (const OptionChange& change : session.changes)
     reopened.append(plain_event(now_s, EventKind::deviation, to_json(change)));
   reopened.log.flush();  // all of the return or nothing of it
-  const RunEnd end = run_with(reopened.engine, reopened.log, session.options, runner, now_s);
+  const RunEnd end = run_with(equipment, reopened.engine, reopened.log, runner, now_s);
   return result_of(reopened.engine, end, session.row.session_id);
 }
 
@@ -207,8 +210,10 @@ void abort_session(const LoggedSession& session) {
 
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {
   RecordedSession recorded(header_of(request));
-  Engine engine(protocol_for(request.protocol, request.options), request.seed);
-  run_with(engine, recorded, request.options, runner, 0);
+  const auto protocol = protocol_for(request.protocol, request.options);
+  Equipment equipment(protocol, request.options, request.seed);
+  Engine engine(protocol, request.seed);
+  run_with(equipment, engine, recorded, runner, 0);
   return recorded;
 }
 

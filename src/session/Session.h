@@ -18,7 +18,8 @@ struct SessionRequest {
   std::string participant;
   std::string db = "heft.db";
   std::uint64_t seed = 0;
-  bool again = false;  ///< one more session of a participant who finished this protocol
+  std::string purpose = "main";  ///< of a person's session: main, pilot or test
+  bool again = false;            ///< one more session of a participant who finished this protocol
 };
 
 /// @throws Error when there is a device, a pipe or a socket where the log should be: opening one
@@ -56,14 +57,9 @@ LoggedSession load_session(const LogReader& reader, const std::string& db, std::
 /// @throws Error when there is none, or it is over
 LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_t> session_id);
 
-/// Options given again for the rest of a session; what is not given stays.
-struct OptionsAgain {
-  std::optional<std::string> responder, tracker, view, simulator;
-};
-
 /// Puts them in force and checks everything the session will run with.
 /// @throws Error as complete(); Error (usage) for another simulator, as a log is replayed with one
-void give_again(LoggedSession& session, const OptionsAgain& again);
+void give_again(LoggedSession& session, const GivenOptions& again);
 
 /// Goes on with an unfinished session: an attempt that was open is void ("interrupted") and runs
 /// again with the same draws. Each of `session.changes` is logged as a deviation.

@@ -123,5 +123,17 @@ TEST_F(LogFile, PurposesAreMixedOnlyOnDemandAndSessionsCanBeNamed) {
   EXPECT_THROW(analyze({path(), {3}, false, ""}), Error);
 }
 
+TEST(Dataset, pictures_are_counted_over_a_sessions_camera_events) {
+  std::vector<LoggedEvent> events(3);
+  events[0].event.kind = events[1].event.kind = EventKind::camera;
+  events[0].event.detail = R"({"shown":100,"dropped":2,"late":1})";
+  events[1].event.detail = R"({"shown":50,"dropped":0,"late":3})";
+  events[2].event.detail = R"({"shown":9})";  // of another kind
+  const PictureCounts counts = count_pictures(events);
+  EXPECT_EQ(counts.shown, 150);
+  EXPECT_EQ(counts.dropped, 2);
+  EXPECT_EQ(counts.late, 4);
+}
+
 }  // namespace
 }  // namespace heft

@@ -71,15 +71,20 @@ class Mistakes(CommandLine):
         self.assertEqual([p for (p,) in query(self.folder / "s.db",
                                               "select participant from session")], kept)
 
-    def test_devices_to_come_are_missing_and_not_unknown(self):
-        for option, value in (("--tracker", "camera:0"), ("--tracker", "video:a.mp4"),
-                              ("--tracker", "frames:d"), ("--tracker", "synthetic"),
-                              ("--view", "window"), ("--view", "video:a.mp4")):
-            said = self.says(4, *self.run_words("--participant", "1", option, value))
-            self.assertIn(f'does not have the {option[2:]} "{value}" yet', said)
+    def test_devices_that_are_not_there_and_options_that_do_not_fit(self):
+        self.says(4, *self.run_words("--participant", "1", "--tracker", "camera:63"))
         for option, value, hint in (("--tracker", "camra:0", "camera"), ("--view", "windw", "window"),
-                                    ("--tracker", "hnd", "hand"), ("--view", "zzzzzzz", "headless")):
+                                    ("--tracker", "hnd", "hand"), ("--view", "zzzzzzz", "headless"),
+                                    ("--tracker", "camera", "camera:N"), ("--tracker", "hand:1", "nothing"),
+                                    ("--tracker", "frames:d", "--camera-file"),
+                                    ("--view", "video", "video:FILE"), ("--view", "window:1", "nothing"),
+                                    ("--purpose", "fun", "pilot")):
             self.assertIn(hint, self.says(2, *self.run_words("--participant", "1", option, value)))
+        self.assertIn("--view window", self.says(2, "run", QUICK, "--participant", "1", "--responder",
+                                                 "human", "--tracker", "hand", "--view", "headless",
+                                                 "--db", self.folder / "s.db"))
+        self.assertIn("fr", self.says(2, *self.run_words("--participant", "1", "--language", "frr")))
+        self.assertFalse((self.folder / "s.db").exists())
 
     def test_a_log_must_be_a_file(self):
         pipe, folder = self.folder / "pipe", self.folder / "folder"

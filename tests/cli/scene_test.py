@@ -176,6 +176,25 @@ class ClosedForms(Files):
                     self.assertAlmostEqual(row["cube1_z_m"], 0.0175, delta=1e-3)
 
 
+class OtherPeoplesSetUps(Files):
+    def test_a_failing_simulator_warns_when_chosen_and_stops_when_it_blows_up(self):
+        run = heft_scene(SCENES / "push_200g.toml", SCENES / "push.csv",
+                         "--simulator", "bullet-explicit")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("heft: bullet-explicit blows up", run.stderr)
+        self.assertIn("bullet-explicit blew up", run.stderr)
+        self.assertNotIn("nan", run.stdout)
+
+    def test_help_says_which_go_wrong(self):
+        run = subprocess.run([HEFT, "scene", "--help"], capture_output=True, text=True)
+        words = " ".join(run.stdout.split())
+        self.assertIn("bullet-spring2 quietly lowers the stiffness", words)
+
+    def test_the_default_warns_of_nothing(self):
+        run = heft_scene(SCENES / "push_15g.toml", SCENES / "push.csv")
+        self.assertEqual(run.stderr, "")
+
+
 class SameBits(Files):
     def test_fresh_processes_agree_to_the_last_bit(self):
         for scene in ("push_200g.toml", "three_cubes_c1.toml"):

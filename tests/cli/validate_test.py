@@ -65,6 +65,21 @@ class Validate(unittest.TestCase):
              f"{scene}: ok, a scene file: 1 cube(s)"],
         )
 
+    def test_every_shipped_text_file_is_ok(self):
+        for path in sorted((PROTOCOLS / "texts").glob("*.toml")):
+            run = self.validate(path)
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+            self.assertRegex(
+                run.stdout,
+                rf'^{re.escape(str(path))}: ok, a text file: \d+ page\(s\) in the language "{path.stem}"$',
+            )
+
+    def test_a_text_file_says_which_word_is_missing(self):
+        english = (PROTOCOLS / "texts" / "en.toml").read_text(encoding="utf-8")
+        run = self.validate(self.file("a.toml", english.replace("agree =", "agre =", 1)))
+        self.assertEqual(run.returncode, 3)
+        self.assertIn('"agree"?', run.stderr)
+
     def test_reports_every_mistake_of_every_file(self):
         procedure = self.file("a.toml", PROCEDURE.replace("175", "-175").replace("50", "0"))
         good = self.file("good.toml", PROCEDURE)

@@ -6,6 +6,7 @@
 
 #include "EditedFile.h"
 #include "protocol/ExpectedLength.h"
+#include "protocol/MarkerFile.h"
 #include "protocol/ProcedureFile.h"
 #include "protocol/SceneFile.h"
 
@@ -91,6 +92,18 @@ RC_GTEST_PROP(DamagedFile, IsTakenOrRefusedWithPlaces, ()) {
   expect_taken_or_refused([&] { parse_protocol(text, "x.toml"); });
   expect_taken_or_refused([&] { parse_procedure(text, "x.toml"); });
   expect_taken_or_refused([&] { parse_scene(text, "x.toml"); });
+}
+
+RC_GTEST_PROP(DamagedFile, OfTagsIsTakenOrRefusedWithPlaces, ()) {
+  const std::string folder = std::string(HEFT_SOURCE_DIR) + "/protocols/apparatus/";
+  const std::string effector = content_of(folder + "effector.toml");
+  std::string text = *rc::gen::element(
+      content_of(folder + "board.toml"), effector,
+      effector_to_toml(parse_effector(effector, "effector.toml"), "with a [[tag]] each"));
+  const int n = *rc::gen::inRange(1, 6);
+  for (int i = 0; i < n; ++i) damage(text);
+  expect_taken_or_refused([&] { parse_board(text, "x.toml"); });
+  expect_taken_or_refused([&] { parse_effector(text, "x.toml"); });
 }
 
 // A protocol that is taken can be used: its length is finite and its trials fit the area.

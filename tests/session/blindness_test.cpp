@@ -49,10 +49,10 @@ Answer sort_cubes(
   TrialWorld world(protocol, plan);
   RunningAttempt attempt(1, plan, 0, false);
   HandPictures pictures(*responder, protocol.display_rate_hz);
-  pictures.begin_attempt();
+  pictures.begin_attempt({});
   Answer answer;
   for (;;) {
-    ShownPicture shown = world.advance(pictures.next().sample);
+    ShownPicture shown = world.advance(pictures.next()->sample);
     for (const Event& event : shown.events)
       if (event.kind == EventKind::cubes_shown) attempt.show(event);
     change(shown.frame);

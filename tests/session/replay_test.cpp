@@ -77,7 +77,8 @@ class Replay : public ::testing::Test {
     Engine engine(std::make_shared<const Protocol>(protocol), header.seed);
     HandPictures pictures(responder, protocol.display_rate_hz);
     const auto view = view_named("headless").make({});
-    Runner({engine, recorded, pictures, responder, *view}, {}, 0).run();
+    SessionClock clock = SessionClock::virtual_from(0);
+    Runner({engine, recorded, pictures, responder, *view, clock}, {}).run();
     const std::int64_t id = SessionArchive(path.string()).store(recorded);
     return verify_session(LogReader(path.string()), id, [](double) {});
   }

@@ -61,12 +61,12 @@ class MadeUpPictures final : public PictureSource {
   using Change = std::function<void(int attempt, double t_s, Picture&)>;
   MadeUpPictures(Responder& responder, Change change)
       : hand_(responder, rate_hz), change_(std::move(change)) {}
-  void begin_attempt() override {
+  void begin_attempt(const AttemptStart& attempt) override {
     ++attempt_;
-    hand_.begin_attempt();
+    hand_.begin_attempt(attempt);
   }
-  Picture next() override {
-    Picture picture = hand_.next();
+  std::optional<Picture> next() override {
+    Picture picture = *hand_.next();
     change_(attempt_, picture.sample.t_capture_s, picture);
     return picture;
   }
@@ -104,7 +104,7 @@ struct Bench {
         pictures(*responder, std::move(change)) {}
 
   RunEnd run(RunnerOptions options = {}) {
-    return Runner({engine, sink, pictures, *responder, view}, options, 0).run();
+    return Runner({engine, sink, pictures, *responder, view, clock}, options).run();
   }
   std::vector<Event> events(EventKind kind) const {
     std::vector<Event> found;
@@ -134,6 +134,7 @@ struct Bench {
   std::shared_ptr<const Protocol> protocol;
   Engine engine{protocol, 7};
   RecordedSession sink{SessionHeader{}};
+  SessionClock clock = SessionClock::virtual_from(0);
   std::unique_ptr<Responder> responder;
   MadeUpPictures pictures;
   Nothing view;
@@ -290,10 +291,7 @@ TEST(Runner, a_stop_leaves_a_session_that_can_be_resumed) {
   resumed.t_s = bench.engine.last_s();
   resumed.kind = EventKind::resumed;
   bench.engine.apply(resumed);
-  EXPECT_EQ(Runner({bench.engine, bench.sink, bench.pictures, *bench.responder, bench.view},
-                   options, bench.engine.last_s())
-                .run(),
-            RunEnd::finished);
+  EXPECT_EQ(bench.run(options), RunEnd::finished);
   EXPECT_EQ(bench.engine.n_completed(), 2);
 }
 

@@ -1,0 +1,162 @@
+#include "cli/TerminalDesk.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <utility>
+
+#include "cli/Talk.h"
+
+namespace heft::cli {
+
+namespace {
+constexpr auto redraw_every = std::chrono::milliseconds(200);
+constexpr char escape = 27, backspace = 127;
+
+// Reason codes of a veto, by their key.
+constexpr std::array<std::pair<char, std::string_view>, 4> veto_reasons{
+    {{'1', "equipment"}, {'2', "disturbance"}, {'3', "participant"}, {'4', "experimenter"}}};
+
+bool key_waits() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  return poll(&input, 1, 0) > 0 && (input.revents & POLLIN) != 0;
+}
+}  // namespace
+
+std::string status_line(const DeskStatus& status, double expected_trials) {
+  const auto seconds = static_cast<long>(status.session_s);
+  std::string line =
+      fmt::format("{}:{:02}  {} of about {:.0f} trials  {}", seconds / 60, seconds % 60,
+                  status.n_completed, expected_trials, name_of(status.screen.screen));
+  if (status.pictures_per_s > 0) line += fmt::format("  {:.1f} pictures/s", status.pictures_per_s);
+  if (!status.trouble.empty())
+    line += "  " + status.trouble;
+  else if (status.quality)
+    line += fmt::format("  {} {:.2f}", status.tracked ? "tracked" : "not tracked", *status.quality);
+  line += fmt::format("  {} dropped, {} late", status.n_dropped, status.n_late);
+  if (status.paused) line += "  PAUSED";
+  if (status.plan) {
+    line += fmt::format("  [{}", name_of(status.plan->condition));
+    for (const double mass_g : status.plan->masses_g) line += fmt::format(" {:g} g", mass_g);
+    line += "]";
+  }
+  return line;
+}
+
+TerminalDesk::TerminalDesk(double expected_trials, bool unblind)
+    : is_terminal_(isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1),
+      expected_trials_(expected_trials) {
+  if (unblind) commands_.push_back({DeskCommandKind::unblind, {}});
+  if (!is_terminal_) return;
+  tcgetattr(STDIN_FILENO, &before_);
+  termios raw = before_;
+  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // single keys; Ctrl-C stays a signal
+  tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+}
+
+TerminalDesk::~TerminalDesk() {
+  if (!is_terminal_) return;
+  tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  cli::say("\r\033[K");
+}
+
+std::optional<DeskCommand> TerminalDesk::command() {
+  if (is_terminal_) take_keys();
+  if (commands_.empty()) return std::nullopt;
+  DeskCommand next = std::move(commands_.front());
+  commands_.pop_front();
+  return next;
+}
+
+void TerminalDesk::take_keys() {
+  char key = 0;
+  while (key_waits() && read(STDIN_FILENO, &key, 1) == 1) take_key(key);
+}
+
+void TerminalDesk::take_key(char key) {
+  drawn_ = {};
+  if (asking_ == Asking::note) return take_note_key(key);
+  if (asking_ != Asking::nothing) return take_choice(key);
+  switch (key) {
+    case 'p':
+      return give(paused_ ? DeskCommandKind::go_on : DeskCommandKind::pause);
+    case 'v':
+      return ask(Asking::veto_reason);
+    case 'n':
+      return ask(Asking::note);
+    case 'b':
+      return give(DeskCommandKind::rest);
+    case 'e':
+      return ask(Asking::end);
+    case 'u':
+      return ask(Asking::unblind);
+    default:
+      return;
+  }
+}
+
+// A veto's reason, or yes to what can't be undone; any other key takes the question back.
+void TerminalDesk::take_choice(char key) {
+  const Asking asked = std::exchange(asking_, Asking::nothing);
+  if (asked == Asking::veto_reason) return choose_veto(key);
+  if (key != 'y') return;
+  give(asked == Asking::end ? DeskCommandKind::end : DeskCommandKind::unblind);
+}
+
+void TerminalDesk::choose_veto(char key) {
+  for (const auto& [code, reason] : veto_reasons)
+    if (code == key) give(DeskCommandKind::veto, std::string(reason));
+}
+
+void TerminalDesk::take_note_key(char key) {
+  if (key == '\n' || key == '\r' || key == escape) {
+    if (key != escape && !note_.empty()) give(DeskCommandKind::note, note_);
+    note_.clear();
+    asking_ = Asking::nothing;
+  } else if (key == backspace) {
+    // A letter of several bytes goes as a whole.
+    while (!note_.empty() && (note_.back() & 0xC0) == 0x80) note_.pop_back();
+    if (!note_.empty()) note_.pop_back();
+  } else if (static_cast<unsigned char>(key) >= ' ') {
+    note_ += key;
+  }
+}
+
+void TerminalDesk::give(DeskCommandKind kind, const std::string& text) {
+  commands_.push_back({kind, text});
+}
+
+std::string TerminalDesk::prompt() const {
+  switch (asking_) {
+    case Asking::veto_reason: {
+      std::string text = "void this trial because of:";
+      for (const auto& [code, reason] : veto_reasons) text += fmt::format(" {} {}", code, reason);
+      return text;
+    }
+    case Asking::note:
+      return "note: " + note_ + "_  (Enter keeps it, Esc drops it)";
+    case Asking::end:
+      return "leave the session? everything is saved; heft resume goes on. y/n";
+    case Asking::unblind:
+      return "show masses and condition from now on? it is logged. y/n";
+    case Asking::nothing:
+      break;
+  }
+  return paused_ ? "p go on  v veto  n note  e end"
+                 : "p pause  v veto  n note  b break  e end  u unblind";
+}
+
+void TerminalDesk::show(const DeskStatus& status) {
+  paused_ = status.paused;
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_terminal_ || now - drawn_ < redraw_every) return;
+  drawn_ = now;
+  cli::say("\r\033[K{}\n\r\033[K{}\033[A\r", status_line(status, expected_trials_), prompt());
+}
+
+void TerminalDesk::say(const std::string& text) {
+  cli::say("{}{}\n", is_terminal_ ? "\r\033[K" : "", text);
+}
+
+}  // namespace heft::cli

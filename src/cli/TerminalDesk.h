@@ -1,0 +1,52 @@
+// The experimenter's desk on a terminal: one line that tells how the session goes and keeps them
+// blind, and single keys to act on it. Without a terminal it shows and hears nothing.
+#pragma once
+
+#include <termios.h>
+
+#include <chrono>
+#include <deque>
+#include <string>
+
+#include "session/Desk.h"
+
+namespace heft::cli {
+
+class TerminalDesk final : public Desk {
+ public:
+  /// @param expected_trials of the session  @param unblind from the start
+  TerminalDesk(double expected_trials, bool unblind);
+  ~TerminalDesk() override;
+  TerminalDesk(const TerminalDesk&) = delete;
+  TerminalDesk& operator=(const TerminalDesk&) = delete;
+
+  std::optional<DeskCommand> command() override;
+  void show(const DeskStatus& status) override;
+  void say(const std::string& text) override;
+
+ private:
+  enum class Asking { nothing, veto_reason, note, end, unblind };
+
+  void take_keys();
+  void take_key(char key);
+  void take_choice(char key);
+  void take_note_key(char key);
+  void choose_veto(char key);
+  void ask(Asking what) { asking_ = what; }
+  void give(DeskCommandKind kind, const std::string& text = {});
+  std::string prompt() const;
+
+  bool is_terminal_;
+  termios before_{};
+  double expected_trials_;
+  std::deque<DeskCommand> commands_;
+  Asking asking_ = Asking::nothing;
+  std::string note_;
+  bool paused_ = false;
+  std::chrono::steady_clock::time_point drawn_{};
+};
+
+/// The status in one line; for the terminal and for tests.
+std::string status_line(const DeskStatus& status, double expected_trials);
+
+}  // namespace heft::cli

@@ -1,0 +1,121 @@
+// heft track: tracking alone. Pictures of a board and an effector in, their poses out, as CSV on
+// stdout.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/Error.h"
+#include "cli/Commands.h"
+#include "protocol/MarkerFile.h"
+#include "tracking/Camera.h"
+#include "tracking/ImageFile.h"
+#include "tracking/Tracker.h"
+
+namespace heft::cli {
+
+namespace {
+struct Options {
+  std::string camera, board, effector;
+  std::vector<std::string> frames;
+  double rate_hz = 30;
+};
+
+constexpr const char* header =
+    "frame,t_s,board_found,effector_found,x_m,y_m,z_m,qw,qx,qy,qz,camera_x_m,camera_y_m,camera_z_m,"
+    "camera_qw,camera_qx,camera_qy,camera_qz,n_tags,reprojection_px,quality";
+
+// Shortest digits that read back as the same doubles; empty cells for a pose that there is not.
+std::string cells(const std::optional<Pose>& pose) {
+  if (!pose) return std::string(7, ',');
+  const auto& p = pose->position_m;
+  const auto& q = pose->orientation;
+  return fmt::format(",{},{},{},{},{},{},{}", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
+}
+
+// The last three columns are the effector's, or the board's where no effector was asked for.
+std::string row(long frame, double t_s, const TrackedPicture& seen, bool with_effector) {
+  const bool found =
+      with_effector ? seen.board_from_effector.has_value() : seen.camera_from_board.has_value();
+  const int n_tags = with_effector ? seen.n_effector_tags : seen.n_board_tags;
+  const double off_px = with_effector ? seen.effector_reprojection_px : seen.board_reprojection_px;
+  return fmt::format("{},{},{:d},{:d}{}{},{},{},{}", frame, t_s, seen.camera_from_board.has_value(),
+                     seen.board_from_effector.has_value(), cells(seen.board_from_effector),
+                     cells(seen.camera_from_board), n_tags, found ? fmt::format("{}", off_px) : "",
+                     found ? seen.quality : 0);
+}
+
+using TakePicture = std::function<void(const Image&, double t_s, const std::string& name)>;
+
+void each_of_camera(const std::string& source, const TakePicture& take) {
+  const auto camera = open_camera(source);
+  constexpr double patience_s = 5;
+  while (!camera->ended()) {
+    const auto picture = camera->next(patience_s);
+    if (!picture) break;
+    take(picture->image, picture->capture_s, picture->name.empty() ? source : picture->name);
+  }
+}
+
+void each_picture(const Options& options, const TakePicture& take) {
+  const std::vector<std::string>& frames = options.frames;
+  const bool one = frames.size() == 1;
+  if (one && std::filesystem::is_directory(frames[0]))
+    return each_of_camera("frames:" + frames[0], take);
+  if (one && !is_image_file(frames[0])) return each_of_camera("video:" + frames[0], take);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    take(read_image(frames[i]), static_cast<double>(i) / options.rate_hz, frames[i]);
+}
+
+TrackedPicture track_named(Tracker& tracker, const Image& image, double t_s,
+                           const std::string& name) {
+  try {
+    return tracker.track(image, t_s);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", name, error.what()), error.exit_code());
+  }
+}
+
+void run_track(const Options& options) {
+  if (!(options.rate_hz > 0 && options.rate_hz <= 1e6))
+    throw Error(fmt::format("--rate {}: expected more than 0 and at most 1000000 pictures a second",
+                            options.rate_hz),
+                ExitCode::usage);
+  Apparatus apparatus;
+  apparatus.camera = load_intrinsics(options.camera);
+  apparatus.board = load_board(options.board);
+  const bool with_effector = !options.effector.empty();
+  if (with_effector) apparatus.effector = load_effector(options.effector);
+  if (with_effector) require_different_tags(apparatus.board, apparatus.effector);
+  Tracker tracker(apparatus);
+  fmt::print("{}\n", header);
+  long frame = 0;
+  each_picture(options, [&](const Image& image, double t_s, const std::string& name) {
+    const TrackedPicture seen = track_named(tracker, image, t_s, name);
+    fmt::print("{}\n", row(frame++, t_s, seen, with_effector));
+  });
+}
+}  // namespace
+
+void add_track(CLI::App& app) {
+  CLI::App* command = add_command(
+      app, "track", "tracking alone: pictures in, poses of board and effector out, as CSV",
+      {"heft track --camera-file camera.yaml --board board.toml --effector effector.toml frames/",
+       "heft track --camera-file camera.yaml --board board.toml one.png two.png",
+       "heft track --camera-file camera.yaml --board board.toml film.mp4 > poses.csv"});
+  const auto options = std::make_shared<Options>();
+  command->add_option("--camera-file", options->camera, "the camera's calibration, OpenCV's YAML")
+      ->required();
+  command->add_option("--board", options->board, "a board file")->required();
+  command->add_option("--effector", options->effector, "an effector file");
+  command->add_option("--rate", options->rate_hz, "pictures a second, for single picture files")
+      ->capture_default_str();
+  command->add_option("FRAMES", options->frames, "picture files, a folder of them, or a video")
+      ->required();
+  command->callback([options] { run_track(*options); });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,279 @@
+#include "session/AttemptRun.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/Error.h"
+
+namespace heft {
+
+namespace {
+constexpr double look_up_s = 0.004;  // a live camera is asked for its next picture this often
+constexpr double longest_wait_s = 0.02;
+constexpr double late_pictures = 2;  // a picture is late when it is shown so many pictures after it
+
+// What a picture's row of the log takes over from its effector sample.
+FrameRow row_of(const Picture& picture, double start_s) {
+  const TargetSample& sample = picture.sample;
+  FrameRow row;
+  row.t_s = row.capture_s = start_s + log_time(sample.t_capture_s);
+  row.trial_t_s = sample.t_capture_s;
+  row.tracked = sample.tracked;
+  row.jump = sample.jump;
+  row.quality = picture.quality;
+  row.effector = sample.pose;
+  row.effector_velocity = sample.velocity;
+  return row;
+}
+
+Event event_of(const Action& action, double t_s) {
+  Event event;
+  event.t_s = t_s;
+  event.kind = EventKind::action;
+  event.detail = name_of(action.kind);
+  event.slot = action.slot;
+  event.label = action.label;
+  return event;
+}
+}  // namespace
+
+AttemptRun::AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,
+                       Attendant& attendant, Pages& pages)
+    : parts_(parts), options_(options), journal_(journal), attendant_(attendant), pages_(pages) {}
+
+void AttemptRun::run(const TrialPlan& plan) {
+  const Protocol& protocol = engine().protocol();
+  journal_.emit_now(EventKind::trial_started);
+  start_s_ = engine().last_s();
+  pages_.note_text(engine().screen());
+  parts_.responder.begin_trial(
+      {plan.trial_number, plan.attempt, plan.task, stage_of(protocol, plan.n_slots())});
+  parts_.pictures.begin_attempt({start_s_, plan.trial_number, plan.attempt});
+  world_.emplace(protocol, plan);
+  while (run_picture()) {
+  }
+  report_pictures();
+}
+
+bool AttemptRun::trial_goes_on() const {
+  return engine().next().kind == Next::Kind::act;
+}
+
+// One picture. @return whether the attempt goes on.
+bool AttemptRun::run_picture() {
+  const auto picture = next_picture();
+  if (!picture) return false;
+  FrameRow row = row_of(*picture, start_s_);
+  if (parts_.clock.is_wall()) row.detected_s = journal_.now_s();
+  parts_.clock.advance_to(row.t_s);
+  if (!picture->trouble.empty() || trouble_since_s_) {
+    if (!wait_for_camera(*picture)) return false;
+    if (!picture->trouble.empty()) return true;
+  }
+  row.after_event = engine().n_events();
+  const ShownPicture shown = world_->advance(picture->sample);
+  if (parts_.clock.is_wall()) row.simulated_s = journal_.now_s();
+  show(shown, *picture, row);
+  take_actions(shown);
+  if (!trial_goes_on()) return false;
+  if (!parts_.texts && !parts_.responder.has_more(picture->sample.t_capture_s)) {
+    journal_.leave("the responder has nothing more to do");
+    throw Error(
+        fmt::format("the responder has nothing more to do in trial {}, but the trial is "
+                    "still open; everything so far is saved",
+                    engine().next().plan->trial_number));
+  }
+  return true;
+}
+
+// The next picture, at its time. None: the attempt is over, or the session is to be left.
+std::optional<Picture> AttemptRun::next_picture() {
+  for (;;) {
+    if (attendant_.leaving()) return std::nullopt;
+    if (parts_.clock.is_wall()) parts_.pictures.skip_to(parts_.clock.now_s() - start_s_);
+    if (auto picture = parts_.pictures.next()) {
+      if (!wait_until(start_s_ + picture->sample.t_capture_s)) return std::nullopt;
+      return picture;
+    }
+    if (parts_.pictures.ended()) {
+      journal_.leave("there are no more pictures");
+      throw Error("the pictures have ended but the session has not; everything so far is saved");
+    }
+    take_touches(attendant_.wait(look_up_s));
+    if (!engine().trial_is_open()) return std::nullopt;
+  }
+}
+
+// On a wall clock. @return whether the attempt goes on
+bool AttemptRun::wait_until(double t_s) {
+  if (!parts_.clock.is_wall()) return true;
+  do {
+    take_touches(attendant_.wait(std::clamp(t_s - parts_.clock.now_s(), 0.0, longest_wait_s)));
+    if (!engine().trial_is_open() || attendant_.leaving()) return false;
+  } while (parts_.clock.now_s() < t_s);
+  return true;
+}
+
+// A dead camera or lost board pauses the trial at once and voids it after void_after_s; the session
+// goes on when pictures return. @return whether the attempt goes on.
+bool AttemptRun::wait_for_camera(const Picture& picture) {
+  const bool open = engine().trial_is_open();
+  attendant_.status.trouble = picture.trouble;
+  if (!trouble_since_s_) {
+    trouble_since_s_ = journal_.now_s();
+    journal_.emit_now(EventKind::paused, picture.trouble);
+    parts_.sink.flush();
+  } else if (picture.trouble.empty()) {
+    trouble_since_s_.reset();
+    journal_.emit_now(EventKind::continued);
+    return open;
+  }
+  if (open && journal_.now_s() - *trouble_since_s_ > engine().protocol().void_after_s)
+    journal_.emit_now(EventKind::voided, picture.trouble);
+  ViewPicture nothing;
+  nothing.frame.t_s = picture.sample.t_capture_s;
+  nothing.frame.tracked = false;
+  parts_.view.present(nothing, engine().screen());
+  return !engine().needs_somebody();
+}
+
+void AttemptRun::show(const ShownPicture& shown, const Picture& picture, FrameRow& row) {
+  const auto is_cubes_shown = [](const Event& e) { return e.kind == EventKind::cubes_shown; };
+  std::vector<Event> events = shown.events;
+  const bool cubes_appear = std::erase_if(events, is_cubes_shown) > 0;
+  log_events(events);
+  shown_ = {shown.frame, picture.camera, picture.camera_from_board};
+  const auto presented = parts_.view.present(shown_, engine().screen());
+  row.present_s = presented && parts_.clock.is_wall() ? log_time(parts_.clock.session_s(*presented))
+                                                      : journal_.now_s();
+  if (cubes_appear) {
+    Event appeared;
+    appeared.t_s = row.present_s;
+    appeared.kind = EventKind::cubes_shown;
+    journal_.emit(appeared, Durability::acknowledged);
+    if (parts_.has_screen)
+      parts_.view.present(shown_, engine().screen());  // answers can be given from here on
+  }
+  row.attempt_index = engine().n_attempts();
+  row.contact_slot = shown.contact_slot;
+  row.state_hash = shown.state_hash;
+  row.clone = shown.frame.clone;
+  row.cubes = shown.frame.cubes;
+  if (parts_.clock.is_wall()) row.n_dropped = picture.n_dropped;
+  count_picture(picture, row);
+  if (options_.keep_frames) parts_.sink.add_frame(row);
+}
+
+// What happened in the world, in session time.
+void AttemptRun::log_events(const std::vector<Event>& events) {
+  for (Event event : events) {
+    event.t_s += start_s_;
+    journal_.emit(event, Durability::buffered);
+  }
+}
+
+void AttemptRun::count_picture(const Picture& picture, const FrameRow& row) {
+  const double late_s = late_pictures / engine().protocol().display_rate_hz;
+  const int late = row.present_s - row.capture_s > late_s ? 1 : 0;
+  ++n_shown_;
+  n_dropped_ += picture.n_dropped;
+  n_late_ += late;
+  DeskStatus& status = attendant_.status;
+  status.trouble.clear();
+  status.tracked = row.tracked;
+  status.quality = row.quality;
+  status.n_dropped += picture.n_dropped;
+  status.n_late += late;
+  if (presented_s_ && row.present_s > *presented_s_) {
+    const double rate = 1 / (row.present_s - *presented_s_);
+    status.pictures_per_s =
+        status.pictures_per_s > 0 ? 0.9 * status.pictures_per_s + 0.1 * rate : rate;
+  }
+  presented_s_ = row.present_s;
+}
+
+// On a virtual clock no picture can be dropped or late.
+void AttemptRun::report_pictures() {
+  if (!parts_.clock.is_wall()) return;
+  journal_.emit_now(
+      EventKind::camera,
+      nlohmann::ordered_json{{"shown", n_shown_}, {"dropped", n_dropped_}, {"late", n_late_}}
+          .dump());
+}
+
+void AttemptRun::take_touches(const std::vector<Touch>& touches) {
+  if (!parts_.texts) return;  // a model answers; who looks on has no say
+  if (!presented_s_) return;  // meant for the screen before
+  bool changed = false;
+  for (const Touch& touch : touches) {
+    if (!trial_goes_on()) break;  // meant for a screen that is not there any more
+    changed = take_touch(touch) || changed;
+  }
+  if (changed && trial_goes_on()) parts_.view.present(shown_, engine().screen());
+}
+
+// @return whether the screen may look different now
+bool AttemptRun::take_touch(const Touch& touch) {
+  if (touch.kind == TouchKind::put_cubes_back) {
+    put_cubes_back();
+    return false;
+  }
+  if (touch.kind != TouchKind::action) return false;
+  const Event event =
+      event_of(touch.action,
+               std::max(log_time(parts_.clock.session_s(touch.monotonic_s)), engine().last_s()));
+  if (const auto why = engine().refusal(event)) {
+    journal_.emit_now(EventKind::note,
+                      fmt::format("a touch was not taken: {}: {}", event.detail, *why));
+    return false;
+  }
+  answer(event);
+  return true;
+}
+
+void AttemptRun::put_cubes_back() {
+  Event event;
+  event.t_s = journal_.now_s();
+  event.kind = EventKind::cubes_reset;
+  event.detail = "button";
+  if (engine().refusal(event)) return;  // they are not there yet
+  journal_.emit(event, Durability::acknowledged);
+  world_->request_reset();
+}
+
+void AttemptRun::take_actions(const ShownPicture& shown) {
+  const std::vector<Action> actions = parts_.responder.see(shown.frame, engine().screen());
+  if (parts_.texts) return;  // a person answers; of the model only the hand is wanted
+  for (const Action& action : actions) {
+    // Its own time, which may lie before the newest picture's, but not before an event.
+    const Event event =
+        event_of(action, std::max(start_s_ + log_time(action.t_s), engine().last_s()));
+    if (const auto why = engine().refusal(event)) refuse_model(action, *why);
+    answer(event);
+    if (!trial_goes_on()) return;
+  }
+}
+
+// What a model does wrong is a mistake in it, not in an answer.
+void AttemptRun::refuse_model(const Action& action, const std::string& why) {
+  const int trial_number = engine().next().plan->trial_number;
+  journal_.leave("the responder's action was refused");
+  throw Error(fmt::format("trial {}: the responder's \"{}\"{} at {:.3f} s can't be taken: {}",
+                          trial_number, name_of(action.kind),
+                          action.slot ? fmt::format(" of cube {}", *action.slot) : "", action.t_s,
+                          why));
+}
+
+void AttemptRun::answer(const Event& event) {
+  const TrialPlan before = *engine().next().plan;
+  // What is still being touched is let go of before an answer can close the trial.
+  if (engine().ends_trial(event)) log_events(world_->end_contacts(event.t_s - start_s_));
+  journal_.emit(event, Durability::acknowledged);
+  const Next& after = engine().next();
+  if (after.kind == Next::Kind::act && after.plan->n_reshuffles > before.n_reshuffles)
+    world_->rearrange(*after.plan);
+}
+
+}  // namespace heft

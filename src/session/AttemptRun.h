@@ -1,0 +1,55 @@
+// One attempt at a trial, from its start to its end: poses in, physics, the picture shown, and what
+// the participant does.
+#pragma once
+
+#include "session/Pages.h"
+#include "session/SessionParts.h"
+#include "session/TrialWorld.h"
+
+namespace heft {
+
+class AttemptRun {
+ public:
+  AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,
+             Attendant& attendant, Pages& pages);
+
+  /// Returns when the attempt is over, the session pauses itself or is to be left; an attempt that
+  /// was left is void ("interrupted") once the session is.
+  /// @throws Error as Runner::run
+  void run(const TrialPlan& plan);
+
+ private:
+  const Engine& engine() const { return parts_.engine; }
+  bool trial_goes_on() const;
+
+  bool run_picture();
+  std::optional<Picture> next_picture();
+  bool wait_until(double t_s);
+  bool wait_for_camera(const Picture& picture);
+  void show(const ShownPicture& shown, const Picture& picture, FrameRow& row);
+  void log_events(const std::vector<Event>& events);
+  void count_picture(const Picture& picture, const FrameRow& row);
+  void report_pictures();
+
+  void take_touches(const std::vector<Touch>& touches);
+  bool take_touch(const Touch& touch);
+  void put_cubes_back();
+  void take_actions(const ShownPicture& shown);
+  void refuse_model(const Action& action, const std::string& why);
+  void answer(const Event& event);
+
+  const SessionParts& parts_;
+  const RunnerOptions& options_;
+  Journal& journal_;
+  Attendant& attendant_;
+  Pages& pages_;
+
+  double start_s_ = 0;  // session time
+  std::optional<TrialWorld> world_;
+  std::optional<double> trouble_since_s_;
+  ViewPicture shown_;
+  std::optional<double> presented_s_;  // session time of the last picture
+  int n_shown_ = 0, n_dropped_ = 0, n_late_ = 0;
+};
+
+}  // namespace heft

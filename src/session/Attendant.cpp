@@ -1,0 +1,97 @@
+#include "session/Attendant.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+namespace heft {
+
+namespace {
+constexpr double holding_step_s = 0.05;
+}  // namespace
+
+std::vector<Touch> Attendant::wait(double seconds) {
+  if (!journal_.clock().is_wall()) return {};
+  std::vector<Touch> touches = view_.wait(seconds);
+  if (!has_screen_) std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  if (std::ranges::any_of(touches, [](const Touch& t) { return t.kind == TouchKind::close; }))
+    leaving_ = true;
+  journal_.flush_now_and_then();
+  if (!desk_) return touches;
+  while (const auto command = desk_->command()) obey(*command);
+  show();
+  if (holding_) hold();
+  return touches;
+}
+
+void Attendant::show() {
+  const Engine& engine = journal_.engine();
+  status.session_s = journal_.now_s();
+  status.n_completed = engine.n_completed();
+  status.paused = engine.state() == SessionState::paused;
+  status.screen = engine.screen();
+  status.plan = unblinded_ && engine.trial_is_open() ? engine.next().plan : std::nullopt;
+  desk_->show(status);
+}
+
+// Until the experimenter lets it go on. What is touched meanwhile means nothing.
+void Attendant::hold() {
+  while (holding_ && !leaving()) {
+    view_.present({}, journal_.engine().screen());
+    for (const Touch& touch : view_.wait(holding_step_s))
+      if (touch.kind == TouchKind::close) leaving_ = true;
+    if (!has_screen_) std::this_thread::sleep_for(std::chrono::duration<double>(holding_step_s));
+    journal_.flush_now_and_then();
+    while (const auto command = desk_->command()) obey(*command);
+    show();
+  }
+}
+
+void Attendant::obey(const DeskCommand& command) {
+  switch (command.kind) {
+    case DeskCommandKind::pause:
+      if (journal_.engine().state() == SessionState::paused)
+        return desk_->say("the session is paused already");
+      journal_.emit_now(EventKind::paused, "experimenter");
+      holding_ = true;
+      return;
+    case DeskCommandKind::go_on:
+      if (!holding_) return desk_->say("the session is not held; it goes on by itself");
+      journal_.emit_now(EventKind::continued);
+      holding_ = false;
+      return;
+    case DeskCommandKind::veto:
+      return veto(command.text);
+    case DeskCommandKind::note:
+      journal_.emit_now(EventKind::note, command.text);
+      return desk_->say("noted");
+    case DeskCommandKind::rest:
+      rest_wanted_ = true;
+      return desk_->say("a break comes before the next trial");
+    case DeskCommandKind::end:
+      leaving_ = true;
+      return;
+    case DeskCommandKind::unblind:
+      return unblind();
+  }
+}
+
+void Attendant::veto(const std::string& why) {
+  if (!journal_.engine().trial_is_open())
+    return desk_->say("no trial is open; an answered trial stays as it is");
+  journal_.emit_now(EventKind::voided, "veto: " + why);
+  desk_->say("the trial is void and will be presented again");
+}
+
+void Attendant::unblind() {
+  if (unblinded_) return;
+  unblinded_ = true;
+  journal_.emit_now(EventKind::unblinding, "experimenter");
+}
+
+bool Attendant::take_rest_wish() {
+  return std::exchange(rest_wanted_, false);
+}
+
+}  // namespace heft

@@ -1,0 +1,50 @@
+// Attends to a session while it waits: keeps the screen alive, listens to the experimenter, holds
+// the session while they want it held, and puts what waits in memory on disk.
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "session/Desk.h"
+#include "session/Journal.h"
+#include "view/ArView.h"
+
+namespace heft {
+
+class Attendant {
+ public:
+  /// @param desk may be null  @param stop set from a signal handler; may be null
+  /// @param has_screen whether `view` can wait; otherwise this waits by itself
+  Attendant(Journal& journal, ArView& view, Desk* desk, const std::atomic<bool>* stop,
+            bool has_screen)
+      : journal_(journal), view_(view), desk_(desk), stop_(stop), has_screen_(has_screen) {}
+
+  /// Waits up to `seconds`, or as long as the experimenter holds the session; returns early with
+  /// what the participant touched. On a virtual clock it returns at once.
+  std::vector<Touch> wait(double seconds);
+
+  /// Whether the session is to be left: a signal, the experimenter, a closed window.
+  bool leaving() const { return leaving_ || (stop_ && stop_->load()); }
+
+  /// Whether the experimenter asked for a break since the last time.
+  bool take_rest_wish();
+
+  /// What the experimenter is shown with the next wait().
+  DeskStatus status;
+
+ private:
+  void obey(const DeskCommand& command);
+  void veto(const std::string& why);
+  void unblind();
+  void hold();
+  void show();
+
+  Journal& journal_;
+  ArView& view_;
+  Desk* desk_;
+  const std::atomic<bool>* stop_;
+  bool has_screen_;
+  bool leaving_ = false, holding_ = false, rest_wanted_ = false, unblinded_ = false;
+};
+
+}  // namespace heft

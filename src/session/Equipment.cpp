@@ -1,0 +1,65 @@
+#include "session/Equipment.h"
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "protocol/TextsFile.h"
+
+namespace heft {
+
+namespace {
+constexpr double same_size_m = 0.0005;
+
+// What people hold must be what the simulated one looks like.
+void require_size(const Protocol& protocol, const MarkerBody& effector, const RunOptions& options) {
+  const Eigen::Vector3d& size_m = protocol.effector_size_m;
+  if ((effector.size_m - size_m).cwiseAbs().maxCoeff() < same_size_m) return;
+  throw Error(fmt::format("{} is {:.4g} x {:.4g} x {:.4g} m, but the protocol's [effector] size_m "
+                          "is [{:.4g}, {:.4g}, {:.4g}]; make them the same",
+                          options.effector_file, effector.size_m.x(), effector.size_m.y(),
+                          effector.size_m.z(), size_m.x(), size_m.y(), size_m.z()),
+              ExitCode::invalid_file);
+}
+
+Apparatus fitting_apparatus(const Protocol& protocol, const RunOptions& options) {
+  Apparatus apparatus = apparatus_of(options);
+  if (!apparatus.effector.tags.empty()) require_size(protocol, apparatus.effector, options);
+  return apparatus;
+}
+
+ViewSetup view_setup(const Protocol& protocol, const RunOptions& options,
+                     const Apparatus& apparatus) {
+  ViewSetup setup;
+  setup.stage = stage_of(protocol, 3);
+  if (!apparatus.board.tags.empty()) setup.camera = apparatus.camera;
+  if (has_person(options)) setup.texts = parse_texts(options.texts_text, options.texts_file);
+  setup.left_handed = options.handed == "left";
+  setup.file = split_name(options.view).file;
+  setup.rate_hz = protocol.display_rate_hz;
+  return setup;
+}
+}  // namespace
+
+Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const RunOptions& options,
+                     std::uint64_t seed)
+    : clock(runs_on_wall_clock(options) ? SessionClock::wall_from(0)
+                                        : SessionClock::virtual_from(0)),
+      protocol_(std::move(protocol)),
+      has_person_(has_person(options)),
+      responder_(make_responder(options, seed)) {
+  const Apparatus apparatus = fitting_apparatus(*protocol_, options);
+  setup_ = view_setup(*protocol_, options, apparatus);
+  pictures_ = tracker_named(options.tracker)
+                  .make({*protocol_, *responder_, apparatus, split_name(options.tracker).file,
+                         clock, seed, options.record_camera});
+  const ViewEntry& view = view_named(split_name(options.view).name);
+  has_screen_ = view.has_screen;
+  view_ = view.make(setup_);
+}
+
+SessionParts Equipment::parts(Engine& engine, EventSink& sink) {
+  return {engine, sink,  *pictures_,  *responder_,
+          *view_, clock, has_screen_, has_person_ ? &setup_.texts : nullptr};
+}
+
+}  // namespace heft

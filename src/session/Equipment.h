@@ -1,0 +1,34 @@
+// What a session is run with, made from its options: the view, the camera, the responder, the
+// clock. Made before the log is touched, so that a missing camera or display leaves no session
+// behind.
+#pragma once
+
+#include <memory>
+
+#include "session/RunOptions.h"
+#include "session/SessionParts.h"
+
+namespace heft {
+
+class Equipment {
+ public:
+  /// @throws Error (device_missing) when a camera or display is not there; Error as complete()
+  Equipment(std::shared_ptr<const Protocol> protocol, const RunOptions& options,
+            std::uint64_t seed);
+  Equipment(const Equipment&) = delete;
+
+  SessionParts parts(Engine& engine, EventSink& sink);
+
+  SessionClock clock;
+
+ private:
+  std::shared_ptr<const Protocol> protocol_;
+  ViewSetup setup_;
+  bool has_person_;
+  bool has_screen_;
+  std::unique_ptr<Responder> responder_;
+  std::unique_ptr<ArView> view_;
+  std::unique_ptr<PictureSource> pictures_;
+};
+
+}  // namespace heft

@@ -1,0 +1,43 @@
+// Session time: seconds since the session started. On a virtual clock it goes as fast as the
+// pictures do and no result depends on the time of day; on a wall clock it is the machine's
+// monotonic clock, for people and cameras.
+#pragma once
+
+#include <algorithm>
+
+#include "base/Clock.h"
+
+namespace heft {
+
+class SessionClock {
+ public:
+  static SessionClock virtual_from(double start_s) { return {false, start_s}; }
+  static SessionClock wall_from(double start_s) { return {true, start_s}; }
+
+  bool is_wall() const { return is_wall_; }
+
+  double now_s() const { return is_wall_ ? session_s(monotonic_s()) : now_s_; }
+
+  /// Session time of a time on the machine's monotonic clock; wall clock only.
+  double session_s(double at_monotonic_s) const {
+    return start_s_ + (at_monotonic_s - started_monotonic_s_);
+  }
+
+  /// Goes on from this session time, now.
+  void restart(double start_s) { *this = is_wall_ ? wall_from(start_s) : virtual_from(start_s); }
+
+  /// Puts a virtual clock forward; a wall clock goes by itself.
+  void advance_to(double t_s) { now_s_ = std::max(now_s_, t_s); }
+
+ private:
+  SessionClock(bool is_wall, double start_s)
+      : is_wall_(is_wall),
+        start_s_(start_s),
+        started_monotonic_s_(is_wall ? monotonic_s() : 0),
+        now_s_(start_s) {}
+
+  bool is_wall_;
+  double start_s_, started_monotonic_s_, now_s_;
+};
+
+}  // namespace heft

@@ -1,0 +1,36 @@
+// What a session is run with.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "record/EventSink.h"
+#include "responders/Responder.h"
+#include "session/Desk.h"
+#include "session/Engine.h"
+#include "session/PictureSource.h"
+#include "view/ArView.h"
+
+namespace heft {
+
+struct SessionParts {
+  Engine& engine;
+  EventSink& sink;
+  PictureSource& pictures;
+  Responder& responder;  ///< its mind answers, unless a person does
+  ArView& view;
+  SessionClock& clock;
+  bool has_screen = false;             ///< the view can be looked at and touched
+  const ScreenTexts* texts = nullptr;  ///< of the person who answers; null: the responder answers
+};
+
+struct RunnerOptions {
+  bool keep_frames = true;
+  /// Called after every event, for a progress bar.
+  std::function<void(const Engine&)> progress = [](const Engine&) {};
+  /// Set from a signal handler to stop at the next picture; the session can be resumed.
+  const std::atomic<bool>* stop = nullptr;
+  Desk* desk = nullptr;  ///< the experimenter's; only on a wall clock
+};
+
+}  // namespace heft

@@ -1,0 +1,46 @@
+#include "session/SyntheticPictures.h"
+
+#include "base/Random.h"
+
+namespace heft {
+
+namespace {
+SyntheticSettings settings_for(const Protocol& protocol) {
+  SyntheticSettings settings;
+  // A slow display's camera could, but a lab's should not, expose longer.
+  settings.optics.exposure_s = std::min(settings.optics.exposure_s, 0.5 / protocol.display_rate_hz);
+  return settings;
+}
+}  // namespace
+
+SyntheticPictures::SyntheticPictures(const PictureParts& parts)
+    : hand_(parts.hand),
+      camera_(parts.apparatus, settings_for(parts.protocol),
+              RandomStream(parts.seed, "camera").bits()),
+      tracker_(parts.apparatus),
+      count_(parts.protocol.display_rate_hz) {
+  if (!parts.record_to.empty()) recording_.emplace(parts.record_to);
+}
+
+// Every attempt's pictures are its own, so that one that a crash cut short runs again exactly.
+void SyntheticPictures::begin_attempt(const AttemptStart& attempt) {
+  attempt_ = attempt;
+  count_.restart();
+  tracker_.reset();
+}
+
+std::optional<Picture> SyntheticPictures::next() {
+  const std::uint64_t count = count_.take();
+  const double t_s = count_.time_s(count);
+  const auto number = (static_cast<std::uint64_t>(attempt_.trial_number) << 40) |
+                      (static_cast<std::uint64_t>(attempt_.attempt) << 32) | count;
+  const auto path = [&](double at_s) -> std::optional<Pose> {
+    const HandSample sample = hand_.hand(std::max(at_s, 0.0));
+    return sample.in_view ? std::optional(sample.pose) : std::nullopt;
+  };
+  auto image = std::make_shared<const Image>(camera_.picture(path, t_s, number));
+  if (recording_) recording_->keep(*image, attempt_.start_s + t_s);
+  return tracker_.track(std::move(image), t_s);
+}
+
+}  // namespace heft

@@ -1,0 +1,27 @@
+// Pictures of a synthetic camera that films the responder's hand, tracked like any other.
+#pragma once
+
+#include "session/PictureRecording.h"
+#include "session/PictureTracker.h"
+#include "tracking/SyntheticCamera.h"
+
+namespace heft {
+
+class SyntheticPictures final : public PictureSource {
+ public:
+  explicit SyntheticPictures(const PictureParts& parts);
+
+  void begin_attempt(const AttemptStart& attempt) override;
+  std::optional<Picture> next() override;
+  void skip_to(double t_s) override { count_.skip_to(t_s); }
+
+ private:
+  Responder& hand_;
+  SyntheticCamera camera_;
+  PictureTracker tracker_;
+  std::optional<PictureRecording> recording_;
+  AttemptStart attempt_;
+  PictureCount count_;
+};
+
+}  // namespace heft

@@ -1,0 +1,188 @@
+"""A person's whole session in the window: a real X server, real clicks and keys, a real log.
+
+Run: python3 tests/cli/window_test.py path/to/heft
+"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from session_harness import PROTOCOLS, query
+
+HEFT = sys.argv.pop(1) if len(sys.argv) > 1 else "build/heft"
+SIZE = (1024, 600)
+# Middles of buttons on such a screen, right-handed.
+BUTTONS = {"no_difference": (860, 245), "validate": (860, 445)}
+
+
+class Screen:
+    """An X server without a display, and hands on it."""
+
+    def __init__(self):
+        read_end, write_end = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24"],
+            pass_fds=[write_end], stderr=subprocess.DEVNULL)
+        os.close(write_end)
+        with os.fdopen(read_end) as told:
+            self.display = ":" + told.readline().strip()
+
+    def environment(self):
+        return dict(os.environ, DISPLAY=self.display, LIBGL_ALWAYS_SOFTWARE="1")
+
+    def do(self, *command):
+        subprocess.run(["xdotool", *map(str, command)], env=self.environment(), check=True,
+                       capture_output=True, timeout=30)
+
+    def key(self, name):
+        self.do("key", name)
+
+    def click(self, button):
+        x, y = BUTTONS[button]
+        self.do("mousemove", x, y, "click", 1)
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+class Person:
+    """Does what the log says is on the screen."""
+
+    def __init__(self, screen, db, program):
+        self.screen, self.db, self.program = screen, db, program
+        self.pages = []
+
+    def log(self, sql):
+        try:
+            return query(self.db, sql)
+        except Exception:  # not there yet
+            return []
+
+    def open_trial(self):
+        rows = self.log("select trial_id, task, shown_s from trial where status = 'open'")
+        return rows[0] if rows else None
+
+    def page(self):
+        rows = self.log("select event_id, json_extract(detail, '$.page') from event "
+                        "where kind = 'text_shown' order by event_id desc limit 1")
+        return rows[0] if rows else None
+
+    def n_answers(self, trial_id):
+        return self.log(f"select count(*) from answer where trial_id = {trial_id}")[0][0]
+
+    def take_part(self, seconds):
+        """For so many seconds, or until the program ends."""
+        deadline = time.time() + seconds
+        while self.program.poll() is None and time.time() < deadline:
+            page = self.page()
+            trial = self.open_trial()
+            if page and page not in self.pages:
+                self.pages.append(page)
+            if trial and trial[2] is not None:
+                self.answer(*trial[:2])
+            elif page and not page[1].startswith("trial") and not trial:
+                time.sleep(0.3)  # the first moments of a page take no taps
+                self.screen.key("Return")
+            time.sleep(0.1)
+
+    def answer(self, trial_id, task):
+        if task == "introduction":
+            self.screen.key(1 + self.n_answers(trial_id) % 2)
+        elif task == "comparison":
+            self.screen.click("no_difference")
+        else:
+            given = dict(self.log(f"select slot, label from answer where trial_id = {trial_id} "
+                                  "and action = 'label' order by answer_id"))
+            for cube, label in ((1, "lightest"), (2, "intermediate"), (3, "heaviest")):
+                if given.get(cube) != label:  # the first moments of a page take no keys
+                    self.screen.key(cube)
+                    self.screen.key(label[0])
+            self.screen.click("validate")
+
+
+@unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
+class Window(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.db = str(Path(self.folder.name) / "window.db")
+        self.screen = Screen()
+        self.program = None
+
+    def tearDown(self):
+        if self.program and self.program.poll() is None:
+            self.program.kill()
+            self.program.wait()
+        self.screen.close()
+        self.folder.cleanup()
+
+    def start(self, *options):
+        command = [HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07", "--db", self.db,
+                   "--seed", "5", "--purpose", "test", *options]
+        self.program = subprocess.Popen(command, env=self.screen.environment(), text=True,
+                                        stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        return Person(self.screen, self.db, self.program)
+
+    def finish(self):
+        _, talk = self.program.communicate(timeout=60)
+        self.assertEqual(self.program.returncode, 0, talk)
+
+    def test_a_whole_session_by_touch_and_keys(self):
+        person = self.start("--tracker", "hand")
+        person.take_part(240)
+        self.finish()
+        self.assertEqual(query(self.db, "select state, purpose, responder from session"),
+                         [("finished", "test", "human")])
+        pages = [page for _, page in person.pages]
+        for page in ("welcome", "instructions_sorting", "instructions_comparison"):
+            self.assertIn(page, pages)
+        self.assertEqual(query(self.db, "select count(*) from trial where status = 'completed' "
+                                        "and task = 'sorting'"), [(2,)])
+        self.assertEqual(query(self.db, "select count(*) from trial where outcome = "
+                                        "'no_difference' and task = 'comparison'")[0][0] > 3, True)
+        late = query(self.db, "select count(*) from frame where present_s < simulated_s or "
+                              "simulated_s < detected_s or detected_s < capture_s")
+        self.assertEqual(late, [(0,)])
+        replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+
+    def test_a_filmed_hand_is_tracked_under_the_participants_answers(self):
+        person = self.start("--tracker", "synthetic", "--language", "fr")
+        deadline = time.time() + 120
+        while person.program.poll() is None and time.time() < deadline:
+            person.take_part(2)
+            if person.log("select trial_id from trial where status = 'completed'"):
+                break
+        self.program.terminate()
+        self.program.wait(timeout=60)
+        languages = query(self.db, "select distinct json_extract(detail, '$.language') from event "
+                                   "where kind = 'text_shown'")
+        self.assertEqual(languages, [("fr",)])
+        self.assertGreater(query(self.db, "select avg(tracked) from frame")[0][0], 0.9)
+        replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+
+    def test_without_a_display_nothing_is_begun(self):
+        environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        run = subprocess.run([HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07",
+                              "--db", self.db, "--tracker", "hand"], env=environment, text=True,
+                             capture_output=True, timeout=60)
+        self.assertEqual(run.returncode, 4, run.stderr)
+        self.assertFalse(Path(self.db).exists())
+
+    def test_without_a_camera_nothing_is_begun(self):
+        run = subprocess.run([HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07",
+                              "--db", self.db, "--tracker", "camera:63"],
+                             env=self.screen.environment(), text=True, capture_output=True,
+                             timeout=60)
+        self.assertEqual(run.returncode, 4, run.stderr)
+        self.assertIn("camera", run.stderr)
+        self.assertFalse(Path(self.db).exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,331 @@
+// A person's session on a wall clock: a made-up screen is touched, an experimenter sits at a
+// made-up desk.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "Protocols.h"
+#include "protocol/TextsFile.h"
+#include "record/RecordedSession.h"
+#include "session/Runner.h"
+
+namespace heft {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::shared;
+using testing::small_protocol;
+
+// What somebody does about each screen they are shown; presented screens are kept.
+class MadeUpScreen final : public ArView {
+ public:
+  using Person = std::function<std::vector<Touch>(const ViewPicture&, const ScreenState&)>;
+  explicit MadeUpScreen(Person person) : person_(std::move(person)) {}
+
+  std::optional<double> present(const ViewPicture& picture, const ScreenState& screen) override {
+    picture_ = picture;
+    screen_ = screen;
+    screens.push_back(screen);
+    return monotonic_s();
+  }
+  std::vector<Touch> wait(double seconds) override {
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(seconds, 0.002)));
+    std::vector<Touch> touches = person_(picture_, screen_);
+    for (Touch& touch : touches) touch.monotonic_s = monotonic_s();
+    return touches;
+  }
+
+  std::vector<ScreenState> screens;
+
+ private:
+  Person person_;
+  ViewPicture picture_;
+  ScreenState screen_;
+};
+
+Touch touch(TouchKind kind) {
+  Touch made;
+  made.kind = kind;
+  return made;
+}
+
+Touch touch(ActionKind kind, std::optional<int> slot = {}, std::optional<Label> label = {}) {
+  Touch made;
+  made.action = {0, kind, slot, label};
+  return made;
+}
+
+// Turns pages, labels the cubes from left to right, sees no differences.
+std::vector<Touch> patient(const ViewPicture& picture, const ScreenState& screen) {
+  if (screen.screen != Screen::trial)
+    return screen.wait_s > 0 ? std::vector<Touch>{} : std::vector{touch(TouchKind::next)};
+  if (picture.frame.cubes.empty() || !screen.can_answer) return {};
+  if (screen.task == Task::introduction)
+    return {touch(ActionKind::select, 1 + screen.n_choices % 2)};
+  if (screen.task == Task::comparison) return {touch(ActionKind::no_difference)};
+  if (screen.can_validate) return {touch(ActionKind::validate)};
+  return {touch(ActionKind::label, 1, Label::lightest),
+          touch(ActionKind::label, 2, Label::intermediate),
+          touch(ActionKind::label, 3, Label::heaviest)};
+}
+
+class MadeUpDesk : public Desk {
+ public:
+  std::optional<DeskCommand> command() override {
+    if (commands.empty()) return std::nullopt;
+    DeskCommand next = commands.front();
+    commands.pop_front();
+    return next;
+  }
+  void show(const DeskStatus& status) override {
+    shown.push_back(status);
+    if (on_show) on_show(status);
+  }
+  void say(const std::string& text) override { said.push_back(text); }
+
+  std::deque<DeskCommand> commands;
+  std::vector<DeskStatus> shown;
+  std::vector<std::string> said;
+  std::function<void(const DeskStatus&)> on_show;
+};
+
+// Two sorting trials, at a display fast enough for a test.
+Protocol quick_protocol() {
+  Protocol protocol = small_protocol();
+  protocol.display_rate_hz = 200;
+  protocol.blocks = {SortingBlock{"sorting", {15, 200, 800}, 2, 0}};
+  return protocol;
+}
+
+std::unique_ptr<Responder> some_hand() {
+  return responder_named("simulated").make({});
+}
+
+struct Session {
+  explicit Session(Protocol made, MadeUpScreen::Person person = patient)
+      : protocol(shared(std::move(made))), screen(std::move(person)) {}
+
+  RunEnd run(Desk* desk = nullptr) {
+    RunnerOptions options;
+    options.desk = desk;
+    return Runner({engine, sink, pictures, *hand, screen, clock, true, &texts}, options).run();
+  }
+  std::vector<Event> events(EventKind kind) const {
+    std::vector<Event> found;
+    for (const RecordedEntry& entry : sink.entries())
+      if (const auto* recorded = std::get_if<RecordedEvent>(&entry);
+          recorded && recorded->event.kind == kind)
+        found.push_back(recorded->event);
+    return found;
+  }
+  std::vector<FrameRow> frames() const {
+    std::vector<FrameRow> found;
+    for (const RecordedEntry& entry : sink.entries())
+      if (const auto* frame = std::get_if<FrameRow>(&entry)) found.push_back(*frame);
+    return found;
+  }
+
+  std::shared_ptr<const Protocol> protocol;
+  Engine engine{protocol, 7};
+  RecordedSession sink{SessionHeader{}};
+  SessionClock clock = SessionClock::wall_from(0);
+  std::unique_ptr<Responder> hand = some_hand();
+  HandPictures pictures{*hand, protocol->display_rate_hz};
+  MadeUpScreen screen;
+  ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/fr.toml");
+};
+
+std::vector<std::string> pages_shown(const Session& session) {
+  std::vector<std::string> pages;
+  for (const Event& event : session.events(EventKind::text_shown))
+    pages.push_back(nlohmann::json::parse(event.detail).at("page"));
+  return pages;
+}
+
+TEST(Person, goes_through_all_pages_and_trials) {
+  Protocol protocol = quick_protocol();
+  protocol.screens = {"fr", true, true, true};
+  protocol.blocks.insert(protocol.blocks.begin(), DemonstrationBlock{"demonstration", 0.1});
+  protocol.blocks.push_back(BreakBlock{"break", 0.1});
+  protocol.blocks.push_back(small_protocol().blocks[1]);  // the introduction
+  Session session(protocol);
+  EXPECT_EQ(session.run(), RunEnd::finished);
+  EXPECT_THAT(pages_shown(session), ElementsAre("consent", "welcome", "about_you", "demonstration",
+                                                "instructions_sorting", "trial_sorting", "rest",
+                                                "instructions_introduction", "trial_introduction",
+                                                "how_decided", "thanks"));
+  const auto consent = nlohmann::json::parse(session.events(EventKind::consent).at(0).detail);
+  EXPECT_EQ(consent.at("agreed"), true);
+  EXPECT_EQ(consent.at("language"), "fr");
+  EXPECT_EQ(std::string(consent.at("sha256")).size(), 64U);
+  EXPECT_EQ(session.engine.n_completed(), 3);
+  EXPECT_GE(session.events(EventKind::rest).at(0).value, 0.1);
+}
+
+TEST(Person, who_does_not_agree_takes_no_part) {
+  Protocol protocol = quick_protocol();
+  protocol.screens.consent = true;
+  Session session(protocol, [](const ViewPicture&, const ScreenState&) {
+    return std::vector{touch(TouchKind::decline)};
+  });
+  EXPECT_EQ(session.run(), RunEnd::declined);
+  EXPECT_EQ(session.engine.state(), SessionState::aborted);
+  EXPECT_EQ(session.engine.n_attempts(), 0);
+}
+
+TEST(Person, answers_are_logged_at_the_time_of_the_touch_and_shown_at_once) {
+  Session session(quick_protocol());
+  session.run();
+  const auto actions = session.events(EventKind::action);
+  ASSERT_EQ(actions.size(), 8U);
+  EXPECT_THAT(session.screen.screens,
+              Contains(Field(&ScreenState::labels,
+                             ElementsAre(Label::lightest, Label::intermediate, Label::heaviest))));
+  for (std::size_t i = 1; i < actions.size(); ++i) EXPECT_GE(actions[i].t_s, actions[i - 1].t_s);
+}
+
+TEST(Person, a_touch_that_can_not_be_taken_is_noted_and_ends_nothing) {
+  bool tried = false;
+  Session session(quick_protocol(), [&](const ViewPicture& picture, const ScreenState& screen) {
+    if (screen.screen == Screen::trial && screen.can_answer && !tried) {
+      tried = true;
+      return std::vector{touch(ActionKind::validate)};
+    }
+    return patient(picture, screen);
+  });
+  EXPECT_EQ(session.run(), RunEnd::finished);
+  ASSERT_EQ(session.events(EventKind::note).size(), 1U);
+  EXPECT_THAT(session.events(EventKind::note)[0].detail, HasSubstr("validate"));
+}
+
+TEST(Person, what_they_tell_about_themselves_is_kept) {
+  Protocol protocol = quick_protocol();
+  protocol.screens.about_you = true;
+  bool told = false;
+  Session session(protocol, [&](const ViewPicture& picture, const ScreenState& screen) {
+    if (screen.screen == Screen::about_you && !told) {
+      told = true;
+      Touch entry = touch(TouchKind::entry);
+      entry.key = "handedness";
+      entry.value = "left";
+      return std::vector{entry};
+    }
+    return patient(picture, screen);
+  });
+  session.run();
+  EXPECT_EQ(session.sink.header().participant_info.at("handedness"), "left");
+}
+
+TEST(Person, the_cubes_go_back_at_a_touch) {
+  bool asked = false;
+  Session session(quick_protocol(), [&](const ViewPicture& picture, const ScreenState& screen) {
+    if (screen.screen == Screen::trial && screen.can_answer && !asked) {
+      asked = true;
+      return std::vector{touch(TouchKind::put_cubes_back)};
+    }
+    return patient(picture, screen);
+  });
+  EXPECT_EQ(session.run(), RunEnd::finished);
+  ASSERT_EQ(session.events(EventKind::cubes_reset).size(), 1U);
+  EXPECT_EQ(session.events(EventKind::cubes_reset)[0].detail, "button");
+}
+
+TEST(Person, who_closes_the_window_can_come_back) {
+  Session session(quick_protocol(), [](const ViewPicture& picture, const ScreenState& screen) {
+    return screen.screen == Screen::trial && !picture.frame.cubes.empty()
+               ? std::vector{touch(TouchKind::close)}
+               : patient(picture, screen);
+  });
+  EXPECT_EQ(session.run(), RunEnd::stopped);
+  EXPECT_EQ(session.engine.state(), SessionState::paused);
+  EXPECT_EQ(session.events(EventKind::voided).at(0).detail, void_interrupted);
+}
+
+TEST(Person, every_picture_has_its_times) {
+  Session session(quick_protocol());
+  session.run();
+  ASSERT_THAT(session.frames(), Not(IsEmpty()));
+  for (const FrameRow& frame : session.frames()) {
+    EXPECT_LE(frame.capture_s, frame.detected_s.value());
+    EXPECT_LE(*frame.detected_s, frame.simulated_s.value());
+    EXPECT_LE(*frame.simulated_s, frame.present_s);
+    EXPECT_TRUE(frame.n_dropped);
+  }
+  EXPECT_EQ(session.events(EventKind::camera).size(), 2U);
+}
+
+// Commands come when a trial's screen is up, one after the other.
+struct AtTheDesk : MadeUpDesk {
+  explicit AtTheDesk(std::deque<DeskCommand> made) : to_come(std::move(made)) {
+    on_show = [this](const DeskStatus& status) {
+      if (to_come.empty() || (status.screen.screen != Screen::trial && !status.paused)) return;
+      commands.push_back(to_come.front());
+      to_come.pop_front();
+    };
+  }
+  std::deque<DeskCommand> to_come;
+};
+
+TEST(Experimenter, holds_the_session_and_lets_it_go_on) {
+  AtTheDesk desk({{DeskCommandKind::pause, {}}, {DeskCommandKind::go_on, {}}});
+  Session session(quick_protocol());
+  EXPECT_EQ(session.run(&desk), RunEnd::finished);
+  EXPECT_EQ(session.events(EventKind::paused).at(0).detail, "experimenter");
+  EXPECT_EQ(session.events(EventKind::continued).size(), 1U);
+  EXPECT_THAT(session.screen.screens, Contains(Field(&ScreenState::screen, Screen::paused)));
+  EXPECT_THAT(session.events(EventKind::voided), IsEmpty());
+}
+
+TEST(Experimenter, vetoes_a_trial_and_it_comes_again) {
+  AtTheDesk desk({{DeskCommandKind::veto, "disturbance"}});
+  Session session(quick_protocol());
+  EXPECT_EQ(session.run(&desk), RunEnd::finished);
+  ASSERT_EQ(session.events(EventKind::voided).size(), 1U);
+  EXPECT_EQ(session.events(EventKind::voided)[0].detail, "veto: disturbance");
+  EXPECT_EQ(session.engine.n_attempts(), 3);
+  EXPECT_EQ(session.engine.n_completed(), 2);
+}
+
+TEST(Experimenter, notes_takes_a_break_and_ends) {
+  AtTheDesk desk({{DeskCommandKind::note, "door slammed"},
+                  {DeskCommandKind::rest, {}},
+                  {DeskCommandKind::end, {}}});
+  Session session(quick_protocol());
+  EXPECT_EQ(session.run(&desk), RunEnd::stopped);
+  EXPECT_EQ(session.events(EventKind::note).at(0).detail, "door slammed");
+  EXPECT_EQ(session.engine.state(), SessionState::paused);
+}
+
+TEST(Experimenter, gets_the_break_that_was_asked_for) {
+  AtTheDesk desk({{DeskCommandKind::rest, {}}});
+  Session session(quick_protocol());
+  EXPECT_EQ(session.run(&desk), RunEnd::finished);
+  EXPECT_EQ(session.events(EventKind::rest).at(0).detail, "asked for");
+}
+
+TEST(Experimenter, is_blind_until_they_unblind_themselves) {
+  AtTheDesk desk({{DeskCommandKind::unblind, {}}});
+  Session session(quick_protocol());
+  session.run(&desk);
+  EXPECT_EQ(session.events(EventKind::unblinding).size(), 1U);
+  EXPECT_FALSE(desk.shown.front().plan);
+  bool saw_plan = false;
+  for (const DeskStatus& status : desk.shown) saw_plan = saw_plan || status.plan.has_value();
+  EXPECT_TRUE(saw_plan);
+
+  MadeUpDesk blind;
+  Session other(quick_protocol());
+  other.run(&blind);
+  for (const DeskStatus& status : blind.shown) EXPECT_FALSE(status.plan);
+}
+
+}  // namespace
+}  // namespace heft
