@@ -53,6 +53,7 @@ void run(const Options& options) {
   const SessionRequest request = request_of(options);
   say("participant {}, protocol {}, responder {}, seed {}\n", request.participant,
       request.protocol.name, request.options.responder, request.seed);
+  warn_of_simulator(protocol_for(request.protocol, request.options)->simulator.name);
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
   say_finished(run_session({request.protocol, request.options, request.db, options.unblind}, start),
                request.db);

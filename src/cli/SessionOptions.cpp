@@ -7,6 +7,8 @@
 
 #include "base/PlugTable.h"
 #include "cli/Installation.h"
+#include "cli/Talk.h"
+#include "physics/DecouplingSimulator.h"
 
 namespace heft::cli {
 
@@ -46,6 +48,11 @@ RunOptions with_defaults(const GivenOptions& given) {
   options.effector_file =
       given.effector_file.value_or(installed_file("protocols/apparatus/effector.toml"));
   return options;
+}
+
+void warn_of_simulator(const std::string& name) {
+  const SimulatorEntry& entry = simulator_named(name);
+  if (!entry.warning.empty()) say("heft: {} {}\n", entry.name, entry.warning);
 }
 
 std::string texts_file(const std::string& language) {

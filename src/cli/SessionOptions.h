@@ -19,6 +19,9 @@ void add_session_options(CLI::App* command, GivenOptions& given);
 /// apparatus that are not given are the shipped ones; a real camera's calibration never is.
 RunOptions with_defaults(const GivenOptions& given);
 
+/// Says on stderr what is known to be wrong with a simulator, if anything.
+void warn_of_simulator(const std::string& name);
+
 /// A file of protocols/texts/ by its language, or any other by its path.
 /// @throws Error (usage) naming the languages that there are
 std::string texts_file(const std::string& language);

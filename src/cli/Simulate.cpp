@@ -8,6 +8,7 @@
 #include "base/Error.h"
 #include "cli/Commands.h"
 #include "cli/Progress.h"
+#include "cli/SessionOptions.h"
 #include "cli/StopOnSignal.h"
 #include "cli/Talk.h"
 #include "cli/WholeNumber.h"
@@ -38,6 +39,7 @@ void simulate_participants(const Options& options) {
   request.keep_frames = options.frames;
   say("{} participants, protocol {}, responder {}, seed {}\n", request.participants,
       request.protocol.name, request.options.responder, request.seed);
+  warn_of_simulator(protocol_for(request.protocol, request.options)->simulator.name);
 
   const StopOnSignal stop;
   const auto started = std::chrono::steady_clock::now();

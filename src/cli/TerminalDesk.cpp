@@ -22,6 +22,19 @@ bool key_waits() {
   pollfd input{STDIN_FILENO, POLLIN, 0};
   return poll(&input, 1, 0) > 0 && (input.revents & POLLIN) != 0;
 }
+
+std::optional<char> next_key() {
+  char key = 0;
+  if (!key_waits() || read(STDIN_FILENO, &key, 1) != 1) return std::nullopt;
+  return key;
+}
+
+// What terminals send for one key after Esc: "[" or "O", parameters, and a letter or "~".
+void swallow_sequence() {
+  const auto introducer = next_key();
+  if (introducer != '[' && introducer != 'O') return;
+  for (auto key = next_key(); key && (*key < '@' || *key > '~');) key = next_key();
+}
 }  // namespace
 
 std::string status_line(const DeskStatus& status, double expected_trials) {
@@ -70,8 +83,12 @@ std::optional<DeskCommand> TerminalDesk::command() {
 }
 
 void TerminalDesk::take_keys() {
-  char key = 0;
-  while (key_waits() && read(STDIN_FILENO, &key, 1) == 1) take_key(key);
+  while (const auto key = next_key()) {
+    if (*key == escape && key_waits())
+      swallow_sequence();  // an arrow or function key
+    else
+      take_key(*key);
+  }
 }
 
 void TerminalDesk::take_key(char key) {

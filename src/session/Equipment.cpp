@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "physics/DecouplingSimulator.h"
 #include "protocol/TextsFile.h"
 
 namespace heft {
@@ -19,6 +20,17 @@ void require_size(const Protocol& protocol, const MarkerBody& effector, const Ru
                           options.effector_file, effector.size_m.x(), effector.size_m.y(),
                           effector.size_m.z(), size_m.x(), size_m.y(), size_m.z()),
               ExitCode::invalid_file);
+}
+
+// People reach around corners; these would stop in the middle of a trial.
+void require_general_simulator(const std::string& name) {
+  if (simulator_named(name).for_sessions) return;
+  throw Error(
+      fmt::format("the simulator \"{}\" knows straight strokes at one cube only, and people "
+                  "do more; expected another --simulator, or one in the protocol's "
+                  "[physics]",
+                  name),
+      ExitCode::usage);
 }
 
 Apparatus fitting_apparatus(const Protocol& protocol, const RunOptions& options) {
@@ -47,6 +59,7 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const RunOptions&
       protocol_(std::move(protocol)),
       has_person_(has_person(options)),
       responder_(make_responder(options, seed)) {
+  if (has_person_) require_general_simulator(protocol_->simulator.name);
   const Apparatus apparatus = fitting_apparatus(*protocol_, options);
   setup_ = view_setup(*protocol_, options, apparatus);
   pictures_ = tracker_named(options.tracker)

@@ -94,6 +94,11 @@ void complete_responder(RunOptions& options) {
 void complete_apparatus(RunOptions& options) {
   const TrackerEntry& tracker = tracker_named(options.tracker);
   if (tracker.needs_what && !tracker.is_live) options.tracker = with_absolute_path(options.tracker);
+  if (!tracker.has_camera && !options.record_camera.empty())
+    throw Error(
+        fmt::format("tracker \"{}\" has no camera whose pictures --record-camera could keep",
+                    tracker.name),
+        ExitCode::usage);
   if (!tracker.has_camera) {
     options.camera_file = options.camera_text = options.board_file = options.board_text =
         options.effector_file = options.effector_text = "";

@@ -9,6 +9,7 @@ SyntheticSettings settings_for(const Protocol& protocol) {
   SyntheticSettings settings;
   // A slow display's camera could, but a lab's should not, expose longer.
   settings.optics.exposure_s = std::min(settings.optics.exposure_s, 0.5 / protocol.display_rate_hz);
+  settings.motion_samples = 1;  // more only where something moves
   return settings;
 }
 }  // namespace

@@ -67,9 +67,9 @@ class SessionTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def run_heft(self, *words, expect=0, **options):
+    def run_heft(self, *words, expect=0, timeout=300, **options):
         done = subprocess.run([self.heft, *map(str, words)], capture_output=True, text=True,
-                              timeout=300, **options)
+                              timeout=timeout, **options)
         if expect is not None:
             self.assertEqual(done.returncode, expect, f"{words}\n{done.stdout}\n{done.stderr}")
         return done

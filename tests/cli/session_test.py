@@ -46,10 +46,10 @@ class Running(SessionTest):
         change(db, "update session set state = 'running'")
         self.assertIn("heft resume", self.session(db, "--again", expect=2).stderr)
 
-    def test_a_person_needs_the_window_and_is_never_faked(self):
-        done = self.run_heft("run", PROTOCOLS / "quick.toml", "--participant", "1", "--db",
-                             self.folder / "s.db", expect=4)
-        self.assertIn("needs the window view", done.stderr)
+    def test_a_person_needs_a_camera_and_is_never_faked(self):
+        done = self.run_heft("run", PROTOCOLS / "quick.toml", "--participant", "1", "--tracker",
+                             "camera:63", "--db", self.folder / "s.db", expect=4)
+        self.assertIn("there is no camera /dev/video63", done.stderr)
         self.assertFalse((self.folder / "s.db").exists())
 
     def test_unknown_names_are_refused_with_the_nearest(self):
@@ -103,7 +103,7 @@ class Running(SessionTest):
         self.run_heft("replay", "--db", self.folder / "3.db")
 
     def test_a_demo_leaves_a_log_and_a_report(self):
-        done = self.run_heft("demo", "--seed", 1, cwd=self.folder)
+        done = self.run_heft("demo", "--seed", 1, cwd=self.folder, timeout=1000)
         self.assertIn("published", done.stdout)
         self.assertTrue((self.folder / "heft-demo/report/report.html").exists())
         self.run_heft("replay", "--db", self.folder / "heft-demo/demo.db")

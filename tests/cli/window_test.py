@@ -174,6 +174,14 @@ class Window(unittest.TestCase):
         self.assertEqual(run.returncode, 4, run.stderr)
         self.assertFalse(Path(self.db).exists())
 
+    def test_people_get_no_simulator_that_knows_one_stroke_only(self):
+        run = subprocess.run([HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07",
+                              "--db", self.db, "--tracker", "hand", "--simulator", "push"],
+                             env=self.screen.environment(), text=True, capture_output=True,
+                             timeout=60)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertFalse(Path(self.db).exists())
+
     def test_without_a_camera_nothing_is_begun(self):
         run = subprocess.run([HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07",
                               "--db", self.db, "--tracker", "camera:63"],

@@ -16,7 +16,7 @@ std::string comment(const std::string& text) {
   while (words >> word) {
     if (line.size() + 1 + word.size() > 100) {
       lines += line + '\n';
-      line = "#";
+      line.assign(1, '#');
     }
     line += ' ' + word;
   }

@@ -11,7 +11,7 @@ constexpr std::string_view columns =
 FilmPlan plan_for(int width_px, bool quick) {
   FilmPlan plan;
   plan.width_px = width_px;
-  plan.n_takes = quick ? 2 : width_px == 640 ? 28 : 20;
+  plan.n_takes = quick ? 2 : width_px == 640 ? 24 : 20;
   plan.n_pictures = quick ? 4 : 6;
   return plan;
 }

@@ -34,7 +34,7 @@ bool well_seen(const Intrinsics& camera, const Tag& tag, const Pose& camera_from
   const Eigen::Vector3d center = camera_from_board * (board_from_effector * tag_center_m(tag));
   const Eigen::Vector3d normal =
       camera_from_board.orientation * (board_from_effector.orientation * tag_normal(tag));
-  if (-normal.dot(center.normalized()) < std::cos(70 * M_PI / 180)) return false;
+  if (-normal.dot(center.normalized()) < std::cos(75 * M_PI / 180)) return false;
   return std::ranges::all_of(tag.corners_m, [&](const Eigen::Vector3d& corner_m) {
     const Eigen::Vector3d p = camera_from_board * (board_from_effector * corner_m);
     const Eigen::Vector2d pixel = project(camera, p);

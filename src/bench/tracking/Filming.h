@@ -68,7 +68,7 @@ struct ErrorSummary {
 ErrorSummary summary_of(const std::vector<TrackedError>& errors);
 
 /// How many tags of the effector the camera sees well enough to read, by geometry alone: from less
-/// than 70 deg off their front, all corners in the picture. Hands are not looked at.
+/// than 75 deg off their front, all corners in the picture. Hands are not looked at.
 int tags_in_view(const Apparatus& apparatus, const Pose& camera_from_board,
                  const Pose& board_from_effector);
 

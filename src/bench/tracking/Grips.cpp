@@ -59,11 +59,11 @@ Pose random_grip(std::uint64_t seed, std::uint64_t number, Grip grip) {
   RandomStream random(seed, "grip", number);
   const auto within = [&](double half) { return half * (2 * random.uniform() - 1); };
   const double share = within(1);
-  const double roll = grip == Grip::any ? 0.6 * share : std::copysign(0.5, share) + 0.3 * share;
+  const double roll = grip == Grip::any ? 0.6 * share : std::copysign(0.7, share) + 0.3 * share;
   using Eigen::AngleAxisd, Eigen::Vector3d;
-  const Eigen::Quaterniond turn = AngleAxisd(M_PI / 2 + within(0.7), Vector3d::UnitZ()) *
-                                  AngleAxisd(0.1 + within(0.15), Vector3d::UnitY()) *
-                                  AngleAxisd(roll, Vector3d::UnitX());
+  const Eigen::Quaterniond turn =
+      AngleAxisd(M_PI / 2 + within(grip == Grip::any ? 0.7 : 0.3), Vector3d::UnitZ()) *
+      AngleAxisd(0.1 + within(0.15), Vector3d::UnitY()) * AngleAxisd(roll, Vector3d::UnitX());
   const double x_m = within(0.05), y_m = -0.02 + within(0.03), z_m = 0.04 + within(0.015);
   return {{x_m, y_m, z_m}, turn};
 }

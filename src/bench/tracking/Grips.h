@@ -23,7 +23,7 @@ Apparatus bench_apparatus(int width_px, const EffectorPrint& print = {});
 /// above the table.
 enum class Grip {
   any,       ///< rolled by up to 34 deg; often the top face alone is seen
-  two_faces  ///< rolled by 29 to 46 deg to either side
+  two_faces  ///< rolled by 40 to 57 deg to either side, the tip away within 17 deg
 };
 Pose random_grip(std::uint64_t seed, std::uint64_t number, Grip grip = Grip::any);
 

@@ -60,6 +60,8 @@ Sensor::Sensor(const Optics& optics, int width_px, int height_px, std::uint64_t 
       width_(width_px),
       height_(height_px),
       seed_(seed),
+      lost_per_px2_(optics.exposure * optics.vignetting * 4 /
+                    ((width_ - 1.0) * (width_ - 1) + (height_ - 1.0) * (height_ - 1))),
       kernel_(half_kernel(optics.blur_px)),
       curve_(tone_curve(optics.tone_curve)),
       noise_(noise_row(optics.noise, seed)) {}
@@ -101,9 +103,8 @@ void Sensor::blur(const LightPicture& sharp, const PixelBox& box, LightPicture& 
 // Vignetting takes light with the square of the distance from the middle.
 float Sensor::gain_at(int x, int y) const {
   const double from_middle_x = x - (width_ - 1) / 2.0, from_middle_y = y - (height_ - 1) / 2.0;
-  const double corner2 = ((width_ - 1) * (width_ - 1) + (height_ - 1) * (height_ - 1)) / 4.0;
-  const double share2 = (from_middle_x * from_middle_x + from_middle_y * from_middle_y) / corner2;
-  return static_cast<float>(optics_.exposure * (1 - optics_.vignetting * share2));
+  const double away2 = from_middle_x * from_middle_x + from_middle_y * from_middle_y;
+  return static_cast<float>(optics_.exposure - lost_per_px2_ * away2);
 }
 
 std::int16_t Sensor::level_of(float light) const {

@@ -39,6 +39,7 @@ class Sensor {
   Optics optics_;
   int width_, height_;
   std::uint64_t seed_;
+  double lost_per_px2_;              ///< light, with the square of the distance from the middle
   std::vector<float> kernel_;        ///< half of a symmetric one: from its middle outwards
   std::vector<float> curve_;         ///< levels at equally spaced light
   std::vector<std::int16_t> noise_;  ///< a long row of independent draws, in 1/64 level
