@@ -42,15 +42,20 @@ bool takes(const CameraControls& controls, int property, double value) {
   return controls.set(property, value) && std::abs(controls.get(property) - value) < 0.5;
 }
 
+constexpr std::string_view exposure_drifts =
+    "exposure: the camera chooses it, so in dim light it gets long and fast movements smear; add "
+    "light";
+constexpr std::string_view focus_moves =
+    "focus: if the lens refocuses, the calibration no longer holds; cameras without autofocus are "
+    "fine";
+
 void lock_exposure(const CameraControls& controls, double exposure_s, CameraMode& mode) {
   const double wanted = std::max(1.0, std::round(exposure_s / driver_exposure_s));
   const bool manual = takes(controls, cv::CAP_PROP_AUTO_EXPOSURE, manual_exposure);
   const bool set = manual && controls.set(cv::CAP_PROP_EXPOSURE, wanted);
   const double got_s = controls.get(cv::CAP_PROP_EXPOSURE) * driver_exposure_s;
   if (!manual)
-    mode.not_locked.push_back(
-        "exposure: the camera chooses it, so in dim light it gets long and "
-        "fast movements smear; add light");
+    mode.not_locked.emplace_back(exposure_drifts);
   else if (!set || got_s > 1.5 * exposure_s)
     mode.not_locked.push_back(
         fmt::format("exposure: fixed at {:.1f} ms instead of {:.1f} ms, so "
@@ -69,13 +74,11 @@ double capture_time_s(double driver_s, double arrival_s, double exposure_s) {
 void lock_controls(const CameraControls& controls, double exposure_s, CameraMode& mode) {
   lock_exposure(controls, exposure_s, mode);
   if (takes(controls, cv::CAP_PROP_AUTOFOCUS, 0))
-    mode.locked.emplace_back("focus");
+    mode.locked.push_back("focus");
   else
-    mode.not_locked.emplace_back(
-        "focus: if the lens refocuses, the calibration no longer holds; "
-        "cameras without autofocus are fine");
+    mode.not_locked.emplace_back(focus_moves);
   if (takes(controls, cv::CAP_PROP_AUTO_WB, 0))
-    mode.locked.emplace_back("white balance");
+    mode.locked.push_back("white balance");
   else
     mode.not_locked.emplace_back("white balance: colors may drift; tracking does not mind");
 }

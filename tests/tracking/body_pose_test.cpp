@@ -11,10 +11,6 @@ namespace {
 const Intrinsics camera = default_camera(640, 480);
 const Pose from_board = SyntheticSettings().camera_from_board;
 
-Pose turned(double x, double y, double z, double angle, const Eigen::Vector3d& axis) {
-  return {{x, y, z}, Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()))};
-}
-
 // A tag's edges where they are, moved outwards by bias_px.
 MeasuredTag exact(const Tag& tag, const Pose& pose, double bias_px = 0) {
   std::array<Eigen::Vector2d, 4> corners;
