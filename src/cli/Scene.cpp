@@ -11,6 +11,7 @@
 #include "cli/Talk.h"
 #include "experiment/Trajectory.h"
 #include "physics/Drive.h"
+#include "physics/auto/Choice.h"
 #include "protocol/SceneFile.h"
 
 namespace heft::cli {
@@ -19,6 +20,7 @@ namespace {
 struct Options {
   std::string scene, trajectory, simulator = "bullet";
   double rate_hz = 240;
+  bool explain = false;
 };
 
 std::string header(std::size_t n_cubes) {
@@ -65,25 +67,64 @@ TargetSample sample_at(const Trajectory& trajectory, double t_s) {
   return sample;
 }
 
-void run_scene(const Options& options) {
-  // Drive takes a longer pause between two poses for a gap in tracking.
-  if (!(options.rate_hz >= 4 && options.rate_hz <= 1e6))
-    throw Error(fmt::format("--rate {}: expected 4 to 1000000 Hz", options.rate_hz),
-                ExitCode::usage);
+// Drive takes a longer pause between two poses for a gap in tracking.
+void check(const Options& options) {
+  if (options.rate_hz >= 4 && options.rate_hz <= 1e6) return;
+  throw Error(fmt::format("--rate {}: expected 4 to 1000000 Hz", options.rate_hz), ExitCode::usage);
+}
+
+// Gives a row for every 1 / rate seconds to `take`.
+template <typename Take>
+void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take& take) {
+  const double start_s = trajectory.start_s();
+  const auto last = static_cast<long>(std::floor((trajectory.end_s() - start_s) * rate_hz + 1e-6));
+  for (long n = 0; n <= last; ++n) {
+    const double t_s = start_s + static_cast<double>(n) / rate_hz;
+    take(row(t_s, drive.advance(sample_at(trajectory, t_s))));
+  }
+}
+
+// Climbs the ladder until a simulator models all of the path; only its rows are shown.
+void run_auto(const Options& options, const Scene& scene, const Trajectory& trajectory) {
+  const auto explain = [&](const std::string& what) {
+    if (options.explain) say("heft: {}\n", what);
+  };
+  const std::vector<SimulatorPick> ladder = simulator_ladder(scene, options.rate_hz);
+  for (const SimulatorPick& pick : ladder) {
+    explain(fmt::format("auto takes {} at {:g} Hz: it {}", pick.simulator, pick.rate_hz, pick.why));
+    std::string rows;
+    try {
+      Drive drive(make_simulator(pick.simulator), scene, pick.rate_hz);
+      run(drive, trajectory, options.rate_hz,
+          [&](const std::string& line) { rows += line + '\n'; });
+    } catch (const OutsideModel& outside) {
+      if (&pick == &ladder.back()) throw;
+      explain(fmt::format("{} does not model this: {}; the run starts over", pick.simulator,
+                          outside.what()));
+      continue;
+    }
+    fmt::print("{}\n{}", header(scene.cubes.size()), rows);
+    return;
+  }
+}
+
+void run_named(const Options& options, const Scene& scene, const Trajectory& trajectory) {
   const SimulatorEntry& entry = simulator_named(options.simulator);
   if (!entry.warning.empty()) say("heft: {} {}\n", entry.name, entry.warning);
-  auto simulator = entry.make();
+  if (options.explain)
+    say("heft: {} at {:g} Hz, as asked for: {}\n", entry.name, options.rate_hz, entry.summary);
+  Drive drive(entry.make(), scene, options.rate_hz);
+  fmt::print("{}\n", header(scene.cubes.size()));
+  run(drive, trajectory, options.rate_hz,
+      [](const std::string& line) { fmt::print("{}\n", line); });
+}
+
+void run_scene(const Options& options) {
+  check(options);
+  simulator_named(options.simulator);  // says so if there is none of that name
   const Scene scene = load_scene(options.scene);
   const Trajectory trajectory = load_trajectory(options.trajectory);
-  Drive drive(std::move(simulator), scene, options.rate_hz);
-  fmt::print("{}\n", header(scene.cubes.size()));
-  const double start_s = trajectory.start_s();
-  const auto last =
-      static_cast<long>(std::floor((trajectory.end_s() - start_s) * options.rate_hz + 1e-6));
-  for (long n = 0; n <= last; ++n) {
-    const double t_s = start_s + static_cast<double>(n) / options.rate_hz;
-    fmt::print("{}\n", row(t_s, drive.advance(sample_at(trajectory, t_s))));
-  }
+  (options.simulator == "auto" ? run_auto : run_named)(options, scene, trajectory);
 }
 }  // namespace
 
@@ -91,7 +132,8 @@ void add_scene(CLI::App& app) {
   CLI::App* command = add_command(
       app, "scene", "physics alone: effector poses in, clone and cube poses out, as CSV",
       {"heft scene tests/scenes/push_200g.toml --trajectory tests/scenes/push.csv > out.csv",
-       "heft scene SCENE.toml --trajectory T.csv --simulator bullet-ea --rate 60"});
+       "heft scene SCENE.toml --trajectory T.csv --simulator bullet-ea --rate 60",
+       "heft scene SCENE.toml --trajectory T.csv --simulator auto --rate 60 --explain > out.csv"});
   const auto options = std::make_shared<Options>();
   command->add_option("SCENE.toml", options->scene, "a scene file")->required();
   command
@@ -101,6 +143,8 @@ void add_scene(CLI::App& app) {
   command->add_option("--simulator", options->simulator, simulator_help())->capture_default_str();
   command->add_option("--rate", options->rate_hz, "physics steps and rows a second")
       ->capture_default_str();
+  command->add_flag("--explain", options->explain,
+                    "say on stderr which simulator and step were taken, and why");
   command->callback([options] { run_scene(*options); });
 }
 

@@ -31,7 +31,8 @@ double reach_m(const Box& box, const Vector3d& direction) {
 }
 
 // Gottschalk, Lin and Manocha (1996): everything in the first box's axes.
-Axis widest_gap(const Box& a, const Box& b) {
+// Stops looking where a gap is wider than enough_m.
+Axis widest_gap(const Box& a, const Box& b, double enough_m) {
   const Vector3d between = a.axes.transpose() * (b.center_m - a.center_m);
   const Matrix3d turn = a.axes.transpose() * b.axes;
   const Matrix3d reach = turn.cwiseAbs();
@@ -47,6 +48,7 @@ Axis widest_gap(const Box& a, const Box& b) {
     try_axis(Axis::Kind::second_face,
              std::abs(turn.col(j).dot(between)) - b.half_m[j] - reach.col(j).dot(a.half_m), 0, j,
              face_preference_m);
+  if (best.gap_m >= enough_m) return best;
   for (int i = 0; i < 3; ++i) {
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
@@ -74,31 +76,42 @@ Axis widest_gap(const Box& a, const Box& b) {
   return best;
 }
 
-// The fraction of travel_m, of `a`, after which the boxes begin to overlap; none if they do not, or
-// do already. Boxes overlap while they do so along every axis.
-std::optional<double> meeting(const Box& a, const Box& b, const Vector3d& travel_m) {
+// The fractions of travel_m, of `a`, between which the boxes overlap: they do while they overlap
+// along every axis. Leave is before enter where they never do.
+struct Passage {
+  double enter = -1, leave = 2;
+};
+
+Passage passage(const Box& a, const Box& b, const Vector3d& travel_m) {
   const Vector3d between_m = b.center_m - a.center_m;
-  double enter = -1, leave = 1;
+  Passage passage;
   const auto cut = [&](const Vector3d& axis) {
     const double squared = axis.squaredNorm();
     if (squared < parallel_edges * parallel_edges) return;
     const double reach = reach_m(a, axis) + reach_m(b, axis);
     const double at = between_m.dot(axis), by = travel_m.dot(axis);
     if (std::abs(by) < 1e-12) {
-      if (std::abs(at) >= reach) leave = -2;
+      if (std::abs(at) >= reach) passage.leave = -2;
       return;
     }
     const double in = (at - std::copysign(reach, by)) / by,
                  out = (at + std::copysign(reach, by)) / by;
-    enter = std::max(enter, in);
-    leave = std::min(leave, out);
+    passage.enter = std::max(passage.enter, in);
+    passage.leave = std::min(passage.leave, out);
   };
   for (int i = 0; i < 3; ++i) {
     cut(a.axes.col(i));
     cut(b.axes.col(i));
     for (int j = 0; j < 3; ++j) cut(a.axes.col(i).cross(b.axes.col(j)));
   }
-  if (enter <= 0 || enter > 1 || enter >= leave) return std::nullopt;
+  return passage;
+}
+
+// The fraction of travel_m, of `a`, after which the boxes begin to overlap; none if they do not, or
+// do already.
+std::optional<double> meeting(const Box& a, const Box& b, const Vector3d& travel_m) {
+  const auto [enter, leave] = passage(a, b, travel_m);
+  if (enter <= 0 || enter > 1 || enter >= std::min(leave, 1.0)) return std::nullopt;
   return enter;
 }
 
@@ -185,7 +198,7 @@ Box box_at(const Pose& pose, const Vector3d& size_m) {
 Contact contact_between(const Box& first, const Box& second, double margin_m) {
   const double reach_m = first.half_m.norm() + second.half_m.norm() + margin_m;
   if ((first.center_m - second.center_m).squaredNorm() > reach_m * reach_m) return {};
-  const Axis axis = widest_gap(first, second);
+  const Axis axis = widest_gap(first, second, margin_m);
   if (axis.gap_m >= margin_m) return {};
   switch (axis.kind) {
     case Axis::Kind::first_face:
@@ -213,8 +226,15 @@ Contact contact_on_the_way(const Box& first, const Box& second, const Vector3d& 
   return contact;
 }
 
+std::optional<double> parting(const Box& first, const Box& second, const Vector3d& travel_m) {
+  const auto [enter, leave] = passage(first, second, travel_m);
+  if (leave <= enter || leave <= 0 || leave >= 1) return std::nullopt;
+  return leave;
+}
+
 Contact contact_with_table(const Box& box, double margin_m) {
-  if (box.center_m.z() - reach_m(box, Vector3d::UnitZ()) >= margin_m) return {};
+  const double half_height_m = box.axes.row(2).cwiseAbs().dot(box.half_m);
+  if (box.center_m.z() - half_height_m >= margin_m) return {};
   std::array<ContactPoint, 8> corners;
   for (int i = 0; i < 8; ++i) {
     const Vector3d signs(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
 
 #include "base/Pose.h"
@@ -44,6 +45,10 @@ Contact contact_between(const Box& first, const Box& second, double margin_m);
 /// turning.
 Contact contact_on_the_way(const Box& first, const Box& second, const Eigen::Vector3d& travel_m,
                            double margin_m);
+
+/// The share of travel_m, of the first box, after which the boxes no longer overlap; none if they
+/// do not overlap or still do at its end. Does not look at turning.
+std::optional<double> parting(const Box& first, const Box& second, const Eigen::Vector3d& travel_m);
 
 /// Contact of a box (first) with the table plane z = 0 (second): its lowest corners.
 Contact contact_with_table(const Box& box, double margin_m);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/PlugTable.h"
+#include "physics/auto/Choice.h"
 #include "physics/boxes/BoxesSimulator.h"
 #include "physics/bullet/BulletSimulator.h"
 #include "physics/bullet/StockSimulators.h"
@@ -24,6 +25,8 @@ constexpr auto table = std::to_array<SimulatorEntry>({
      false},
     {"quasi_static", "the same without inertia: the lag is min(x_hand, mu M g / k)",
      make_quasi_static, "", false},
+    {"auto", "the cheapest of push, boxes, bullet-lx that stays within 0.1 mm and half a gram",
+     make_auto},
     {"bullet-explicit", "stock Bullet, force and torque once a step as the paper writes them",
      make_bullet_explicit,
      "blows up at every display rate: the paper's torsional spring needs steps below 0.1 ms"},

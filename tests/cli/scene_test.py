@@ -203,6 +203,34 @@ class SameBits(Files):
             self.assertEqual(first.stdout, second.stdout)
 
 
+class Auto(unittest.TestCase):
+    def auto(self, scene, path, *options):
+        return heft_scene(SCENES / scene, SCENES / path, "--simulator", "auto", "--rate", "60",
+                          *options)
+
+    def test_a_straight_push_is_the_cheapest_simulators(self):
+        run = self.auto("push_200g.toml", "push.csv", "--explain")
+        self.assertIn("auto takes push at 60 Hz", run.stderr)
+        push = heft_scene(SCENES / "push_200g.toml", SCENES / "push.csv", "--simulator", "push",
+                          "--rate", "60")
+        self.assertEqual(run.stdout, push.stdout)
+
+    def test_what_leaves_its_model_starts_over_with_one_that_models_everything(self):
+        run = self.auto("cube_into_cube.toml", "push.csv", "--explain")
+        self.assertIn("a second cube is touched", run.stderr)
+        self.assertIn("auto takes boxes", run.stderr)
+        rows = rows_of(run)
+        self.assertEqual(len(rows), 241)
+        self.assertEqual(rows[0]["t_s"], 0)
+        self.assertGreater(rows[-1]["cube2_x_m"], 0.06)
+        self.assertEqual(self.auto("cube_into_cube.toml", "push.csv").stderr, "")
+
+    def test_explain_names_a_chosen_simulator_too(self):
+        run = heft_scene(SCENES / "push_200g.toml", SCENES / "push.csv", "--simulator", "boxes",
+                         "--explain")
+        self.assertIn("boxes at 240 Hz, as asked for", run.stderr)
+
+
 class Refusals(Files):
     def refused(self, run, code, *words):
         self.assertEqual(run.returncode, code, run.stderr)

@@ -13,7 +13,6 @@ struct ContactScene {
   Scene scene;
   std::function<Pose(double t_s)> path;
   double duration_s = 1.5;
-  double worst_120_m = 0.25e-3, worst_240_m = 0.1e-3;  ///< RMS error of the clone that is allowed
 };
 
 namespace contact_scenes {
@@ -100,15 +99,6 @@ inline std::vector<ContactScene> all() {
   return list;
 }
 
-/// Where `boxes` misses the goal of 0.25 mm at 120 Hz and 0.1 mm at 240 Hz: an impact of cubes, and
-/// a clone that snaps back, fall anywhere within a step, and a step later they are told apart.
-inline void allow_for_events(std::vector<ContactScene>& list) {
-  for (ContactScene& contact : list) {
-    if (contact.name == "press and slide off") contact.worst_120_m = 0.35e-3;
-    if (contact.name == "cube into cube") contact.worst_240_m = 0.16e-3;
-  }
-}
-
 /// Those whose motion is determined: rigid corners share the load of the others in many ways, see
 /// Scene::contact_compliance_m_per_n, and small differences grow.
 inline std::vector<ContactScene> well_posed() {
@@ -117,7 +107,6 @@ inline std::vector<ContactScene> well_posed() {
     return contact.name == "far off center" || contact.name == "corner with yaw" ||
            contact.name == "three cubes one after another";
   });
-  allow_for_events(list);
   return list;
 }
 

@@ -95,5 +95,18 @@ RC_GTEST_PROP(BoxContacts, PointsDistancesAndNormalsAgree, ()) {
   RC_ASSERT((swapped.n_points > 0) == (contact.n_points > 0));
 }
 
+TEST(Parting, IsWhereTheBoxesNoLongerOverlap) {
+  const Box still = box_at(Pose{}, {0.04, 0.04, 0.04});
+  const Box beside =
+      box_at({{-0.039, 0.03, 0}, Eigen::Quaterniond::Identity()}, {0.04, 0.04, 0.04});
+  const auto share = parting(beside, still, {0, 0.02, 0});
+  ASSERT_TRUE(share.has_value());
+  EXPECT_NEAR(*share, 0.5, 1e-12);
+  EXPECT_FALSE(parting(beside, still, {0, 0.005, 0}).has_value());  // not within the travel
+  EXPECT_FALSE(parting(beside, still, {0, 0, 0}).has_value());
+  const Box apart = box_at({{-0.05, 0.03, 0}, Eigen::Quaterniond::Identity()}, {0.04, 0.04, 0.04});
+  EXPECT_FALSE(parting(apart, still, {0, 0.02, 0}).has_value());
+}
+
 }  // namespace
 }  // namespace heft

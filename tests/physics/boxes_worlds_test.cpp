@@ -32,8 +32,8 @@ TEST_P(WellPosed, IsNearItsLimitAndNoFartherThanBullet) {
   const auto limit_m = clone_path_m("boxes", GetParam(), 3840);
   const double at_240_m = rms_m(clone_path_m("boxes", GetParam(), 240), limit_m);
   const double at_120_m = rms_m(clone_path_m("boxes", GetParam(), 120), limit_m);
-  EXPECT_LE(at_240_m, GetParam().worst_240_m);
-  EXPECT_LE(at_120_m, GetParam().worst_120_m);
+  EXPECT_LE(at_240_m, 0.1e-3);
+  EXPECT_LE(at_120_m, 0.25e-3);
   const double bullet_m = rms_m(clone_path_m("bullet-lx", GetParam(), 240), limit_m);
   EXPECT_LE(at_240_m, bullet_m + 1e-6);
 }

@@ -6,10 +6,10 @@
 namespace heft::boxes {
 
 struct Body {
-  Eigen::Vector3d size_m = Eigen::Vector3d::Ones();
   Pose pose;
-  Velocity velocity;  ///< mean over the last step
-  Box shape;          ///< `pose` and `size_m` as the contact finder wants them
+  Velocity velocity;    ///< mean over the last step
+  Box shape;            ///< its size, and `pose` as the contact finder wants it
+  double radius_m = 0;  ///< of the sphere around it
 
   double inverse_mass_per_kg = 0;                             ///< 0: nothing pushes it
   Eigen::Vector3d inertia_kg_m2 = Eigen::Vector3d::Zero();    ///< own axes; 0: nothing turns it
@@ -21,6 +21,7 @@ struct Body {
   bool has_weight = true;  ///< false: driven by the coupling; never sleeps
   bool asleep = false;
   bool fresh = false;  ///< its velocity is momentary, not the mean over a step
+  double owed_s = 0;   ///< of weight, in the next step
   double calm_s = 0;   ///< for how long it has not moved noticeably
 
   /// Change of angular velocity by a unit impulse's moment.
@@ -28,6 +29,7 @@ struct Body {
     if (!turns_alike) return inverse_inertia * moment;
     return inverse_inertia(0, 0) * moment;
   }
+  void set_size(const Eigen::Vector3d& size);
   /// @param inertia own axes; zero where nothing turns it
   void set_mass(double mass_kg, const Eigen::Vector3d& inertia);
   void put(const Pose& to, const Velocity& at);
@@ -43,13 +45,16 @@ struct Body {
     asleep = false;
     calm_s = 0;
   }
-  /// Upper bound of the speed of any of its points, m/s.
-  double tip_speed_m_s() const {
-    return velocity.linear_m_s.norm() + velocity.angular_rad_s.norm() * size_m.norm() / 2;
+  /// Upper bound of the speed of any of its points at a velocity, m/s.
+  double tip_speed_m_s(const Velocity& at) const {
+    const double turn_rad_s = at.angular_rad_s.isZero(0) ? 0 : at.angular_rad_s.norm();
+    return at.linear_m_s.norm() + turn_rad_s * radius_m;
   }
+  double tip_speed_m_s() const { return tip_speed_m_s(velocity); }
 
  private:
-  void refresh();
+  void turned();
+  void refresh_inertia();
 };
 
 }  // namespace heft::boxes

@@ -13,16 +13,23 @@ constexpr double calm_speed_m_s = 1e-4, calm_turn_rad_s = 5e-3, calm_for_s = 0.2
 constexpr double near_m = 0.1e-3;
 // A travel that is worth finding out where on the way boxes meet.
 constexpr double far_m = 0.1e-3;
+// A travel in a step that is too short for it to matter when in the step boxes meet.
+constexpr double short_m = 0.02e-3;
+constexpr double clear_m = 1e-6;  // boxes that slid off each other are so far apart
 constexpr double exactly_m = 1e-9;
+constexpr double rounding = 1e-10;  // m or rad
 constexpr int most_sweeps = 500;
 constexpr double enough_m_s = 2e-6;    // sweeps end when no velocity changes by more
 constexpr double squeezed_m_s = 0.01;  // what never ends has no answer
 }  // namespace
 
-BoxWorld::BoxWorld(const Surface& surface, double gravity_m_s2, std::size_t n_bodies)
-    : surface_(surface), gravity_m_s2_(gravity_m_s2) {
+BoxWorld::BoxWorld(const Surface& surface, double gravity_m_s2, std::size_t n_bodies,
+                   bool mass_blind)
+    : surface_(surface), gravity_m_s2_(gravity_m_s2), mass_blind_(mass_blind) {
+  if (mass_blind) surface_.same_place = rounding;
   bodies_.reserve(n_bodies);
   pairs_.reserve(n_bodies * (n_bodies + 1) / 2);
+  course_.reserve(n_bodies);
   table_.solid = false;  // not one of the boxes
 }
 
@@ -49,16 +56,20 @@ void BoxWorld::settle_at_start() {
 
 // Any body may become as fast as the fastest within a step, by being hit.
 double BoxWorld::look_ahead_m(double h_s) const {
+  return near_m + 2 * h_s * fastest_m_s();
+}
+
+double BoxWorld::fastest_m_s() const {
   double fastest_m_s = 0;
   for (const Body& body : bodies_)
     if (moves(body)) fastest_m_s = std::max(fastest_m_s, body.tip_speed_m_s());
-  return near_m + 2 * h_s * fastest_m_s;
+  return fastest_m_s;
 }
 
 bool BoxWorld::near(const Pair& pair, double margin_m) const {
   const Body& first = bodies_[pair.first];
   const Body& second = bodies_[pair.second];
-  const double reach_m = (first.size_m.norm() + second.size_m.norm()) / 2 + margin_m;
+  const double reach_m = first.radius_m + second.radius_m + margin_m;
   return (first.pose.position_m - second.pose.position_m).squaredNorm() < reach_m * reach_m;
 }
 
@@ -97,12 +108,44 @@ void BoxWorld::add_weight(double h_s) {
     Body& body = bodies_[i];
     if (!body.has_weight || body.asleep) continue;
     const double last_s = body.fresh ? 0 : last_h_s_;
-    const double fall_s = pushed_by_driven(i) ? h_s : (last_s + h_s) / 2;
+    double fall_s = pushed_by_driven(i) ? h_s : (last_s + h_s) / 2;
+    fall_s += body.owed_s;
+    body.owed_s = 0;
+    if (const auto hit = share_before_hit(i, h_s)) {
+      // Friction acts on the mean velocity of this step by (moving_s)^2 / 2 h, on that of the next
+      // by what is left until its middle.
+      const double moving_s = (1 - *hit) * h_s;
+      fall_s = moving_s * moving_s / (2 * h_s);
+      body.owed_s = moving_s - fall_s - h_s / 2;
+    }
     body.velocity.linear_m_s.z() -= fall_s * gravity_m_s2_;
     body.tumble(h_s);
     body.fresh = false;
   }
   last_h_s_ = h_s;
+}
+
+// The share of the step after which another cube hits this one, which stood still until then; none
+// if that does not happen.
+std::optional<double> BoxWorld::share_before_hit(std::size_t i, double h_s) const {
+  if (!bodies_[i].velocity.linear_m_s.isZero(calm_speed_m_s)) return std::nullopt;
+  std::optional<double> soonest;
+  for (const Pair& pair : pairs_) {
+    if (pair.first != i && pair.second != i) continue;
+    if (pair.manifold.touches() != pair.with_table()) return std::nullopt;
+    const Body& first = bodies_[pair.first];
+    const Body& second = bodies_[pair.second];
+    if (pair.with_table() || !first.has_weight || !second.has_weight) continue;
+    const Vector3d travel_m = h_s * (first.velocity.linear_m_s - second.velocity.linear_m_s);
+    const double length_m = travel_m.norm();
+    if (length_m < short_m || !near(pair, length_m)) continue;
+    const Contact contact = contact_between(first.shape, second.shape, length_m);
+    const double closing_m = -contact.normal.dot(travel_m);
+    for (const ContactPoint& point : contact.all())
+      if (point.distance_m >= 0 && point.distance_m < closing_m)
+        soonest = std::min(soonest.value_or(1), point.distance_m / closing_m);
+  }
+  return soonest;
 }
 
 bool BoxWorld::pushed_by_driven(std::size_t i) const {
@@ -129,8 +172,12 @@ void BoxWorld::find_contacts(double h_s) {
       Body& first = bodies_[pair.first];
       Body& second = with_table ? table_ : bodies_[pair.second];
       if (first.asleep && (with_table || second.asleep)) continue;  // keep their impulses
-      pair.manifold.prepare(can_push(pair) ? contact(pair, h_s, margin_m) : Contact{}, first,
-                            second, surface_, h_s);
+      if (!can_push(pair))
+        pair.manifold.clear();
+      else if (pair.manifold.still_fits(margin_m))
+        pair.manifold.prepare_again(h_s);
+      else
+        pair.manifold.prepare(contact(pair, h_s, margin_m), first, second, surface_, h_s, margin_m);
       if (!pair.manifold.empty()) touching_.push_back(&pair.manifold);
     }
   }
@@ -141,10 +188,13 @@ void BoxWorld::find_contacts(double h_s) {
 // start for the next step.
 void BoxWorld::relax() {
   for (Manifold* manifold : touching_) manifold->warm_start();
-  double change_m_s = 2 * enough_m_s;
-  for (int sweep = 0; sweep < most_sweeps && change_m_s > enough_m_s; ++sweep) {
+  course_.begin(bodies_, touching_);
+  double change_m_s = 0;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     change_m_s = 0;
     for (Manifold* manifold : touching_) change_m_s = std::max(change_m_s, manifold->relax());
+    if (change_m_s <= enough_m_s) break;
+    if (!mass_blind_) course_.go_on(bodies_, touching_);
   }
   squeezed_ = change_m_s > squeezed_m_s;
 }
@@ -179,8 +229,10 @@ void BoxWorld::lift_from_table() {
 
 void BoxWorld::settle(double h_s) {
   for (Body& body : bodies_) {
-    const bool calm = body.has_weight && body.velocity.linear_m_s.norm() < calm_speed_m_s &&
-                      body.velocity.angular_rad_s.norm() < calm_turn_rad_s;
+    if (body.asleep) continue;
+    const bool calm = body.has_weight &&
+                      body.velocity.linear_m_s.squaredNorm() < calm_speed_m_s * calm_speed_m_s &&
+                      body.velocity.angular_rad_s.squaredNorm() < calm_turn_rad_s * calm_turn_rad_s;
     body.calm_s = calm ? body.calm_s + h_s : 0;
   }
   for (const Pair& pair : pairs_) {
@@ -203,6 +255,24 @@ bool BoxWorld::crowded(double reach_m) const {
     return !pair.with_table() && !(first.asleep && second.asleep) && first.solid && second.solid &&
            near(pair, reach_m);
   });
+}
+
+std::optional<double> BoxWorld::share_before_sliding_off(std::size_t i, double h_s) const {
+  for (const Pair& pair : pairs_) {
+    if (pair.with_table() || (pair.first != i && pair.second != i)) continue;
+    if (!pair.manifold.touches()) continue;
+    const Body& second = bodies_[pair.second];
+    const Vector3d& normal = pair.manifold.normal();
+    Vector3d travel_m =
+        h_s * (bodies_[pair.first].velocity.linear_m_s - second.velocity.linear_m_s);
+    travel_m -= travel_m.dot(normal) * normal;
+    if (travel_m.squaredNorm() < clear_m * clear_m) continue;
+    Box first = bodies_[pair.first].shape;
+    first.center_m -= near_m * normal;  // so that they overlap
+    const auto share = parting(first, second.shape, travel_m);
+    if (share) return std::min(1.0, *share + clear_m / travel_m.norm());
+  }
+  return std::nullopt;
 }
 
 Vector3d BoxWorld::impulse_n_s(std::size_t pusher, std::size_t pushed) const {

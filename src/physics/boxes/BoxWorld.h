@@ -1,20 +1,23 @@
 // Boxes on a table. One step, in order: sleeping boxes that something could reach wake; weight is
-// added; contacts are found, where boxes would meet within the step too; projected Gauss-Seidel,
-// started from the last step's impulses, finds velocities at which nothing overlaps at the end of
-// the step; boxes move; those that overlapped are shifted apart; boxes that stay calm fall asleep.
-// Velocities are means over a step. Nothing is
-// allocated after the last add().
+// added; contacts are found, where boxes would meet within the step too, or taken over from the
+// last step where nothing moved against each other; projected Gauss-Seidel, started from the last
+// step's impulses and hastened (SweepCourse), finds velocities at which nothing overlaps at the end
+// of the step; boxes move; those that overlapped are shifted apart; boxes that stay calm fall
+// asleep. Velocities are means over a step. Nothing is allocated after the last add().
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "physics/boxes/Manifold.h"
+#include "physics/boxes/SweepCourse.h"
 
 namespace heft::boxes {
 
 class BoxWorld {
  public:
-  BoxWorld(const Surface& surface, double gravity_m_s2, std::size_t n_bodies);
+  /// @param mass_blind where masses change no motion they change none by more than 1e-9 m: no
+  /// shortcut that rounding could decide. Slower.
+  BoxWorld(const Surface& surface, double gravity_m_s2, std::size_t n_bodies, bool mass_blind);
 
   /// @return its index
   std::size_t add(const Body& body);
@@ -31,9 +34,16 @@ class BoxWorld {
   /// Moves all bodies to the end of the step that was solved.
   void move(double h_s);
 
+  /// Upper bound of the speed of any point of a body that moves and is solid.
+  double fastest_m_s() const;
+
   /// Whether any two bodies that are not both asleep are nearer than reach_m, at most: their
   /// surrounding spheres are compared.
   bool crowded(double reach_m) const;
+
+  /// The share of a step of h_s seconds after which a body slides off one that it presses on, if it
+  /// goes on as it does; none if it does not.
+  std::optional<double> share_before_sliding_off(std::size_t i, double h_s) const;
 
   /// Mean impulse of `pusher` on `pushed` in the last step, N s; zero if they don't touch.
   Eigen::Vector3d impulse_n_s(std::size_t pusher, std::size_t pushed) const;
@@ -57,6 +67,7 @@ class BoxWorld {
   void wake_reached(double h_s);
   void add_weight(double h_s);
   bool pushed_by_driven(std::size_t i) const;
+  std::optional<double> share_before_hit(std::size_t i, double h_s) const;
   void find_contacts(double h_s);
   void relax();
   void lift_from_table();
@@ -64,12 +75,14 @@ class BoxWorld {
 
   Surface surface_;
   double gravity_m_s2_;
+  bool mass_blind_;
   double last_h_s_ = 0;
   std::vector<Body> bodies_;
   Body table_;
   std::vector<Pair> pairs_;          ///< each body with the bodies before it, then with the table
   std::vector<Manifold*> touching_;  ///< of this step; the table's last
-  bool squeezed_ = false;            ///< in the last step a box had no room
+  SweepCourse course_;
+  bool squeezed_ = false;  ///< in the last step a box had no room
 };
 
 }  // namespace heft::boxes

@@ -19,6 +19,7 @@ using Eigen::Vector3d;
 // that is hit turns within the step, and contacts know only how it stood before.
 constexpr double longest_travel_m = 1.5e-3;
 constexpr double most_pieces = 64;
+constexpr int most_cuts = 4;  // until the clone has slid off: it may be slower than foreseen
 
 class BoxesSimulator : public DecouplingSimulator {
  public:
@@ -37,6 +38,7 @@ class BoxesSimulator : public DecouplingSimulator {
 
   void add_clone(const Scene& scene, const Pose& target);
   double n_pieces(const Pose& target, double h_s) const;
+  void pieces(const Pose& target, double h_s);
   void piece(const Pose& target, double h_s);
   void note_impulses();
 
@@ -56,11 +58,11 @@ void BoxesSimulator::reset(const Scene& scene, const Pose& target) {
   last_h_s_ = 0;
   impulse_n_s_.assign(n_cubes_, Vector3d::Zero());
   world_.emplace(boxes::Surface{scene.friction, scene.contact_compliance_m_per_n},
-                 scene.gravity_m_s2, n_cubes_ + 1);
+                 scene.gravity_m_s2, n_cubes_ + 1, !decoupled_);
   add_clone(scene, target);
   for (const Cube& cube : scene.cubes) {
     Body body;
-    body.size_m = cube.size_m;
+    body.set_size(cube.size_m);
     body.set_mass(cube.mass_kg, box_inertia_kg_m2(cube.mass_kg, cube.size_m));
     body.put(upright_pose(cube.position_m, cube.yaw_rad), {});
     world_->add(body);
@@ -71,7 +73,7 @@ void BoxesSimulator::reset(const Scene& scene, const Pose& target) {
 void BoxesSimulator::add_clone(const Scene& scene, const Pose& target) {
   const Pose offset = decoupled_ ? scene.clone_offset : Pose{};
   Body body;
-  body.size_m = scene.effector_size_m;
+  body.set_size(scene.effector_size_m);
   body.has_weight = false;
   body.put({target * offset.position_m, target.orientation * offset.orientation}, {});
   world_->add(body);
@@ -80,31 +82,46 @@ void BoxesSimulator::add_clone(const Scene& scene, const Pose& target) {
 }
 
 double BoxesSimulator::n_pieces(const Pose& target, double h_s) const {
-  const Body& of_clone = world_->body(clone_index);
-  Body to_target = of_clone;  // the clone may become as fast as the target within the step
-  to_target.velocity = mean_velocity(target_, target, h_s);
-  double fastest_m_s = std::max(of_clone.tip_speed_m_s(), to_target.tip_speed_m_s());
-  for (std::size_t i = 1; i < world_->size(); ++i)
-    fastest_m_s = std::max(fastest_m_s, world_->body(i).tip_speed_m_s());
+  // The clone may become as fast as the target within the step.
+  const Velocity of_target = boxes::mean_velocity_of(target_, target, h_s);
+  const double fastest_m_s =
+      std::max(world_->fastest_m_s(), world_->body(clone_index).tip_speed_m_s(of_target));
   const double travel_m = h_s * fastest_m_s;
   if (travel_m <= longest_travel_m || !world_->crowded(2 * travel_m)) return 1;
   return std::min(most_pieces, std::ceil(travel_m / longest_travel_m));
 }
 
+// A drawn clone that slides off a cube snaps back; a step later it would be millimeters elsewhere.
+// So the step is cut there, and the clone is free from then on, at the velocity that it has.
 void BoxesSimulator::step(const Pose& target, double h_s) {
+  for (Vector3d& impulse_n_s : impulse_n_s_) impulse_n_s.setZero();
+  const Pose from = target_;
+  const Velocity of_target = boxes::mean_velocity_of(from, target, h_s);
+  double done = 0;
+  for (int cut = 0; decoupled_ && cut < most_cuts; ++cut) {
+    const auto share = world_->share_before_sliding_off(clone_index, (1 - done) * h_s);
+    if (!share || *share >= 1) break;
+    const double until = done + *share * (1 - done);
+    pieces(interpolate(from, target, until), (until - done) * h_s);
+    coupling_.restart(clone(), clone().velocity, of_target);
+    done = until;
+  }
+  pieces(target, (1 - done) * h_s);
+  last_h_s_ = h_s;
+}
+
+void BoxesSimulator::pieces(const Pose& target, double h_s) {
   const double n = n_pieces(target, h_s);
   const Pose from = target_;
-  for (Vector3d& impulse_n_s : impulse_n_s_) impulse_n_s.setZero();
   for (double i = 1; i < n; ++i) piece(interpolate(from, target, i / n), h_s / n);
   piece(target, h_s / n);
-  last_h_s_ = h_s;
 }
 
 void BoxesSimulator::piece(const Pose& target, double h_s) {
   if (decoupled_)
     coupling_.begin(clone(), target_, target, h_s);
   else
-    clone().velocity = mean_velocity(clone().pose, target, h_s);
+    clone().velocity = boxes::mean_velocity_of(clone().pose, target, h_s);
   world_->solve(h_s);
   world_->move(h_s);
   if (decoupled_)

@@ -19,6 +19,11 @@ bool is_locked(const Scene& scene) {
 }
 }  // namespace
 
+Velocity mean_velocity_of(const Pose& from, const Pose& to, double dt_s) {
+  if (from.orientation.coeffs() != to.orientation.coeffs()) return mean_velocity(from, to, dt_s);
+  return {(to.position_m - from.position_m) / dt_s, Vector3d::Zero()};
+}
+
 CloneCoupling::CloneCoupling(const Scene& scene) : locked_(is_locked(scene)) {
   const Coupling& coupling = scene.coupling;
   const double m = coupling.clone_mass_kg, z = coupling.damping_ratio;
@@ -44,7 +49,7 @@ void CloneCoupling::restart(const Body& clone, const Velocity& clone_velocity,
 }
 
 void CloneCoupling::begin(Body& clone, const Pose& from, const Pose& to, double h_s) {
-  const Velocity of_target = mean_velocity(from, to, h_s);
+  const Velocity of_target = mean_velocity_of(from, to, h_s);
   const Vector3d offset_m = clone.pose.position_m - from.position_m;
   double solver_mass_kg = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -54,7 +59,7 @@ void CloneCoupling::begin(Body& clone, const Pose& from, const Pose& to, double 
     clone.velocity.linear_m_s[e] = free.velocity;
   }
   if (locked_)
-    clone.velocity.angular_rad_s = mean_velocity(clone.pose, to, h_s).angular_rad_s;
+    clone.velocity.angular_rad_s = mean_velocity_of(clone.pose, to, h_s).angular_rad_s;
   else
     begin_turn(clone, from, of_target, h_s);
   clone.set_mass(solver_mass_kg, solver_inertia_kg_m2_);

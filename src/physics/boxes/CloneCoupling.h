@@ -10,6 +10,9 @@
 
 namespace heft::boxes {
 
+/// mean_velocity (base/Pose.h), quicker where nothing turns.
+Velocity mean_velocity_of(const Pose& from, const Pose& to, double dt_s);
+
 class CloneCoupling {
  public:
   CloneCoupling() = default;

@@ -8,8 +8,10 @@ namespace heft::boxes {
 using Eigen::Vector3d;
 
 namespace {
-constexpr double firmness = 1e-5;    // of a block's diagonal, so that it can be solved
-constexpr double flat_m = 1e-6;      // gaps and overlaps below this are none
+constexpr double firmness = 1e-5;  // of a block's diagonal, so that it can be solved
+constexpr double flat_m = 1e-6;    // gaps and overlaps below this are none
+// A contact is looked for anew when masses changed by more, as with another step's length.
+constexpr double mass_share_is_new = 1e-9;
 constexpr double recovery = 0.5;     // share of an overlap that one step takes away
 constexpr double recovery_m = 1e-3;  // and at most this much
 }  // namespace
@@ -25,30 +27,8 @@ Manifold::Row Manifold::row(const Vector3d& arm_first_m, const Vector3d& arm_sec
   return row;
 }
 
-// Velocity that a unit impulse along b makes along a; `cosine` is that between their directions.
-double Manifold::inverse_mass(const Row& a, const Row& b, double cosine) const {
-  return cosine * (first_->inverse_mass_per_kg + second_->inverse_mass_per_kg) +
-         a.turn_first.dot(b.response_first) + a.turn_second.dot(b.response_second);
-}
-
-double Manifold::speed(const Row& row, const Vector3d& direction) const {
-  const Velocity& first = first_->velocity;
-  const double alone = direction.dot(first.linear_m_s) + row.turn_first.dot(first.angular_rad_s);
-  if (alone_) return alone;
-  const Velocity& second = second_->velocity;
-  return alone - direction.dot(second.linear_m_s) + row.turn_second.dot(second.angular_rad_s);
-}
-
-void Manifold::apply(const Row& row, const Vector3d& direction, double impulse) {
-  first_->velocity.linear_m_s += (impulse * first_->inverse_mass_per_kg) * direction;
-  first_->velocity.angular_rad_s += impulse * row.response_first;
-  if (alone_) return;
-  second_->velocity.linear_m_s -= (impulse * second_->inverse_mass_per_kg) * direction;
-  second_->velocity.angular_rad_s += impulse * row.response_second;
-}
-
 void Manifold::prepare(const Contact& contact, Body& first, Body& second, const Surface& surface,
-                       double h_s) {
+                       double h_s, double margin_m) {
   struct Known {
     int feature;
     double impulse;
@@ -67,8 +47,12 @@ void Manifold::prepare(const Contact& contact, Body& first, Body& second, const 
   alone_ = second.inverse_mass_per_kg == 0 && !second.solid;
   friction_ = surface.friction;
   h_s_ = h_s;
+  rigid_ = surface.compliance_m_per_n == 0;
+  same_place_ = surface.same_place;
   n_ = contact.n_points;
   if (n_ == 0) return;
+  seen_ = {first.pose, second.pose, first.inverse_mass_per_kg, second.inverse_mass_per_kg,
+           margin_m};
   if (contact.normal != normal_ || u_ == v_) {
     normal_ = contact.normal;
     u_ = normal_.unitOrthogonal();
@@ -97,7 +81,7 @@ void Manifold::prepare_point(Point& point, const ContactPoint& at, const Surface
   const Vector3d arm_first_m = at.on_first_m - first_->pose.position_m;
   const Vector3d arm_second_m = at.on_second_m - second_->pose.position_m;
   point.feature = at.feature;
-  point.gap_m = at.distance_m;
+  point.prepared_gap_m = at.distance_m;
   point.normal = row(arm_first_m, arm_second_m, normal_);
   point.arm_first_m = arm_first_m;
   point.arm_second_m = arm_second_m;
@@ -108,10 +92,51 @@ void Manifold::prepare_point(Point& point, const ContactPoint& at, const Surface
   const double c = surface.compliance_m_per_n;
   const double damping_s = c > 0 && at.distance_m < 0 ? 2 * std::sqrt(c / inverse_kg) : 0;
   point.softness = c / (h_s * (h_s + damping_s));
-  // Between rigid boxes an overlap is for push_apart, and a gap that is not worth closing is none.
-  const double gap_m = c > 0 || at.distance_m > flat_m ? at.distance_m : 0;
-  point.speed_m_s = gap_m / (h_s + damping_s);
+  set_gap(point, at.distance_m);
+  if (c > 0) point.speed_m_s = at.distance_m / (h_s + damping_s);
   point.mass_kg = 1 / (inverse_kg + point.softness);
+}
+
+// Between rigid boxes an overlap is for push_apart, and a gap that is not worth closing is none.
+void Manifold::set_gap(Point& point, double gap_m) {
+  point.gap_m = gap_m;
+  point.speed_m_s = gap_m > flat_m ? gap_m / h_s_ : 0;
+}
+
+// The first against the second since prepare(). Along the table there is nothing new.
+Vector3d Manifold::moved_m() const {
+  const Vector3d moved_m = first_->pose.position_m - seen_.first.position_m;
+  if (alone_) return {0, 0, moved_m.z()};
+  return moved_m - (second_->pose.position_m - seen_.second.position_m);
+}
+
+bool Manifold::still_fits(double margin_m) const {
+  if (n_ == 0 || !rigid_ || (n_ < 4 && margin_m > seen_.margin_m)) return false;
+  if (!alone_ && !touches()) return false;  // it may be the contact of another way
+  const auto as_heavy = [](const Body& body, double per_kg) {
+    return std::abs(body.inverse_mass_per_kg - per_kg) <= mass_share_is_new * per_kg;
+  };
+  const double same = same_place_;
+  const auto turned = [same](const Pose& now,
+                             const Pose& before) {  // half the angle is the difference
+    const double half_rad_2 =
+        (now.orientation.coeffs() - before.orientation.coeffs()).squaredNorm();
+    return 4 * half_rad_2 > same * same;
+  };
+  return moved_m().squaredNorm() < same * same && as_heavy(*first_, seen_.first_per_kg) &&
+         as_heavy(*second_, seen_.second_per_kg) && !turned(first_->pose, seen_.first) &&
+         !turned(second_->pose, seen_.second);
+}
+
+void Manifold::prepare_again(double h_s) {
+  const double closer_m = normal_.dot(moved_m()), scale = h_s / h_s_;
+  h_s_ = h_s;
+  for (Point& point : points()) {
+    set_gap(point, point.prepared_gap_m + closer_m);
+    point.impulse *= scale;
+    point.impulse_u *= scale;
+    point.impulse_v *= scale;
+  }
 }
 
 // Four points on a plane hold a body in more than one way: impulses in the proportions of the
@@ -179,8 +204,22 @@ void Manifold::factor(unsigned active) {
   }
 }
 
+// Most blocks are of this kind.
+void Manifold::solve_all_four(std::array<double, 4>& change) const {
+  const auto& f = factor_;
+  const double a = change[0] * f[0][0];
+  const double b = (change[1] - f[1][0] * a) * f[1][1];
+  const double c = (change[2] - f[2][0] * a - f[2][1] * b) * f[2][2];
+  const double d = (change[3] - f[3][0] * a - f[3][1] * b - f[3][2] * c) * f[3][3];
+  change[3] = d * f[3][3];
+  change[2] = (c - f[3][2] * change[3]) * f[2][2];
+  change[1] = (b - f[2][1] * change[2] - f[3][1] * change[3]) * f[1][1];
+  change[0] = (a - f[1][0] * change[1] - f[2][0] * change[2] - f[3][0] * change[3]) * f[0][0];
+}
+
 // Solves for the active points; the others' changes are given.
 void Manifold::solve_block(unsigned active, std::array<double, 4>& change) const {
+  if (active == 0b1111) return solve_all_four(change);
   const std::size_t n = static_cast<std::size_t>(n_);
   for (std::size_t i = 0; i < n; ++i) {
     if (!(active >> i & 1)) continue;
@@ -205,7 +244,7 @@ double Manifold::relax_normals() {
   for (std::size_t i = 0; i < n; ++i) {
     const Point& point = points_[i];
     missing[i] = -speed(point.normal, normal_) - point.speed_m_s - point.softness * point.impulse;
-    if (point.impulse > 0 || missing[i] > 0) active |= 1u << i;
+    if (point.impulse != 0 || missing[i] > 0) active |= 1u << i;
   }
   if (active == 0) return 0;
   while (active != 0) {
@@ -253,15 +292,31 @@ void Manifold::balance() {
 }
 
 double Manifold::relax() {
-  double largest = 0;
-  largest = relax_normals();
+  double largest = relax_normals();
   if (n_ == 4) balance();
-  if (patch_.usable) {
+  if (patch_.usable && touches()) {
     const double held = hold_patch();
     if (held >= 0) return std::max(largest, held);
   }
   for (Point& point : points()) largest = std::max(largest, relax_friction(point));
   return largest;
+}
+
+void Manifold::begin_course() {
+  for (Point& point : points()) point.end = {point.impulse, point.impulse_u, point.impulse_v};
+}
+
+void Manifold::go_on(double share) {
+  const auto go_on = [share](double& now, double& end) {
+    const double next = now + share * (now - end);
+    end = now;
+    now = next;
+  };
+  for (Point& point : points()) {
+    go_on(point.impulse, point.end[0]);
+    go_on(point.impulse_u, point.end[1]);
+    go_on(point.impulse_v, point.end[2]);
+  }
 }
 
 bool Manifold::push_apart() {

@@ -11,14 +11,26 @@ namespace heft::boxes {
 struct Surface {
   double friction = 0.8;
   double compliance_m_per_n = 0;  ///< of each point; 0: rigid
+  /// Bodies that moved or turned against each other by less, m or rad, keep their contact: no lever
+  /// changes noticeably.
+  double same_place = 1e-6;
 };
 
 class Manifold {
  public:
   /// Takes this step's contact; points that were there in the last step start from its impulses.
   /// @param second the table is a body without mass
+  /// @param margin_m with which the contact was looked for
   void prepare(const Contact& contact, Body& first, Body& second, const Surface& surface,
-               double h_s);
+               double h_s, double margin_m);
+
+  /// Whether the contact of the last prepare() still holds: the bodies have the masses they had,
+  /// and did not move against each other noticeably.
+  /// @param margin_m of a contact that would be looked for now
+  bool still_fits(double margin_m) const;
+
+  /// Takes the last step's contact once more, with the gaps of now.
+  void prepare_again(double h_s);
 
   /// Applies the impulses known so far.
   void warm_start();
@@ -27,12 +39,20 @@ class Manifold {
   /// @return the largest change of a velocity at a point, m/s
   double relax();
 
+  /// Remembers the impulses, before the first sweep.
+  void begin_course();
+  /// Goes on by a share of how far the last sweep's end is from the one before. The bodies'
+  /// velocities have to follow: see SweepCourse.
+  void go_on(double share);
+
   /// Moves overlapping bodies apart by half the overlap, without a change of velocity.
   /// @return whether there was any
   bool push_apart();
 
   bool touches() const;
   bool empty() const { return n_ == 0; }
+  /// From the second to the first, unit.
+  const Eigen::Vector3d& normal() const { return normal_; }
   /// Impulse on the first body over the step, N s.
   Eigen::Vector3d impulse_n_s() const;
   void clear() { n_ = 0; }
@@ -48,12 +68,13 @@ class Manifold {
     Eigen::Vector3d arm_first_m = Eigen::Vector3d::Zero(),
                     arm_second_m = arm_first_m;  // from the bodies' centers
     Row normal, u, v;
-    double gap_m = 0;
+    double gap_m = 0, prepared_gap_m = 0;
     double speed_m_s = 0;  // at which the points may close in: gap / h
     double softness = 0;   // m/s per N s
     double mass_kg = 0;
     double friction_mass_kg = 0;                       // 0: u and v are not there yet
     double impulse = 0, impulse_u = 0, impulse_v = 0;  // N s
+    Eigen::Vector3d end = Eigen::Vector3d::Zero();     // of the last sweep: the same three
     int feature = 0;
   };
 
@@ -66,6 +87,13 @@ class Manifold {
     bool usable = false;  // more than one point, on bodies that can turn
   };
 
+  // What prepare() saw.
+  struct Seen {
+    Pose first, second;
+    double first_per_kg = 0, second_per_kg = 0;
+    double margin_m = 0;
+  };
+
   std::span<Point> points() { return {points_.data(), static_cast<std::size_t>(n_)}; }
   std::span<const Point> points() const { return {points_.data(), static_cast<std::size_t>(n_)}; }
   Row row(const Eigen::Vector3d& arm_first_m, const Eigen::Vector3d& arm_second_m,
@@ -73,6 +101,8 @@ class Manifold {
   double inverse_mass(const Row& a, const Row& b, double cosine) const;
   double speed(const Row& row, const Eigen::Vector3d& direction) const;
   void apply(const Row& row, const Eigen::Vector3d& direction, double impulse);
+  void set_gap(Point& point, double gap_m);
+  Eigen::Vector3d moved_m() const;
   void prepare_point(Point& point, const ContactPoint& at, const Surface& surface, double h_s);
   void prepare_friction(Point& point);
   void find_balance(const Contact& contact);
@@ -80,6 +110,7 @@ class Manifold {
   double relax_normals();
   void couple_points();
   void factor(unsigned active);
+  void solve_all_four(std::array<double, 4>& change) const;
   void solve_block(unsigned active, std::array<double, 4>& change) const;
   double relax_friction(Point& point);
   void prepare_patch(const Contact& contact);
@@ -93,6 +124,9 @@ class Manifold {
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ(), u_ = normal_, v_ = normal_;
   std::array<Point, 4> points_;
   int n_ = 0;
+  bool rigid_ = true;
+  double same_place_ = 0;
+  Seen seen_;
   Patch patch_;
   // Velocity at one point per normal impulse at another, m/s per N s.
   std::array<std::array<double, 4>, 4> response_{}, factor_{};
@@ -100,5 +134,29 @@ class Manifold {
   // Normal impulses in these proportions push nothing anywhere; all zero unless four points touch.
   std::array<double, 4> balance_{};
 };
+
+// Here, to be inlined: sweeps consist of these.
+
+// Velocity that a unit impulse along b makes along a; `cosine` is that between their directions.
+inline double Manifold::inverse_mass(const Row& a, const Row& b, double cosine) const {
+  return cosine * (first_->inverse_mass_per_kg + second_->inverse_mass_per_kg) +
+         a.turn_first.dot(b.response_first) + a.turn_second.dot(b.response_second);
+}
+
+inline double Manifold::speed(const Row& row, const Eigen::Vector3d& direction) const {
+  const Velocity& first = first_->velocity;
+  const double alone = direction.dot(first.linear_m_s) + row.turn_first.dot(first.angular_rad_s);
+  if (alone_) return alone;
+  const Velocity& second = second_->velocity;
+  return alone - direction.dot(second.linear_m_s) + row.turn_second.dot(second.angular_rad_s);
+}
+
+inline void Manifold::apply(const Row& row, const Eigen::Vector3d& direction, double impulse) {
+  first_->velocity.linear_m_s += (impulse * first_->inverse_mass_per_kg) * direction;
+  first_->velocity.angular_rad_s += impulse * row.response_first;
+  if (alone_) return;
+  second_->velocity.linear_m_s -= (impulse * second_->inverse_mass_per_kg) * direction;
+  second_->velocity.angular_rad_s += impulse * row.response_second;
+}
 
 }  // namespace heft::boxes

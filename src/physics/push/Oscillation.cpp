@@ -11,24 +11,25 @@ Oscillation::Oscillation(double mass, double damping, double stiffness)
   rings_ = squared < 0;
 }
 
-Oscillation::At Oscillation::after(double t_s, double y, double speed) const {
-  const double slope = speed + decay_ * y;
+Oscillation::Passed Oscillation::passed(double t_s) const {
   const double x = split_ * t_s;
-  double even, odd;  // e^(-decay t) times cos or cosh(x), and sin or sinh(x) / split
   if (x < 1e-5) {
-    even = std::exp(-decay_ * t_s);
-    odd = even * t_s;
-  } else if (rings_) {
-    const double e = std::exp(-decay_ * t_s);
-    even = e * std::cos(x);
-    odd = e * std::sin(x) / split_;
-  } else {
-    const double slow = std::exp(x - decay_ * t_s), fast = std::exp(-x - decay_ * t_s);
-    even = (slow + fast) / 2;
-    odd = (slow - fast) / 2 / split_;
+    const double even = std::exp(-decay_ * t_s);
+    return {t_s, even, even * t_s};
   }
-  const double now = y * even + slope * odd;
-  const double now_speed = speed * even - (decay_ * speed + omega_ * omega_ * y) * odd;
+  if (rings_) {
+    const double e = std::exp(-decay_ * t_s);
+    return {t_s, e * std::cos(x), e * std::sin(x) / split_};
+  }
+  const double slow = std::exp(x - decay_ * t_s), fast = std::exp(-x - decay_ * t_s);
+  return {t_s, (slow + fast) / 2, (slow - fast) / 2 / split_};
+}
+
+Oscillation::At Oscillation::after(double t_s, double y, double speed) const {
+  constexpr double same = 1e-13;  // a difference of two times rounds
+  if (std::abs(t_s - last_.t_s) > same * t_s) last_ = passed(t_s);
+  const double now = y * last_.even + (speed + decay_ * y) * last_.odd;
+  const double now_speed = speed * last_.even - (decay_ * speed + omega_ * omega_ * y) * last_.odd;
   return {now, now_speed, -2 * decay_ * now_speed - omega_ * omega_ * now};
 }
 

@@ -20,8 +20,16 @@ class Oscillation {
 
  private:
   double omega_ = 1, decay_ = 1;  ///< sqrt(k / m), c / (2 m)
-  double split_ = 0;              ///< |decay^2 - omega^2|^(1/2)
-  bool rings_ = false;            ///< underdamped
+  // Of the time asked for last: most steps are as long as the one before.
+  struct Passed {
+    double t_s = -1;
+    double even = 1, odd = 0;  // e^(-decay t) times cos or cosh(x), and sin or sinh(x) / split
+  };
+  Passed passed(double t_s) const;
+
+  mutable Passed last_;
+  double split_ = 0;    ///< |decay^2 - omega^2|^(1/2)
+  bool rings_ = false;  ///< underdamped
 };
 
 }  // namespace heft

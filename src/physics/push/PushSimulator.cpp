@@ -17,7 +17,8 @@ constexpr int most_events = 1000;       // in one step; a cube cannot start and 
 
 // How often a motion has to be looked at so that no event between two looks goes unseen.
 int looks(double omega_rad_s, double h_s) {
-  return std::clamp(static_cast<int>(std::ceil(2 * omega_rad_s * h_s)), 1, 1000);
+  const double n = 2 * omega_rad_s * h_s;
+  return n <= 1 ? 1 : static_cast<int>(std::min(std::ceil(n), 1000.0));
 }
 
 struct Fall {
@@ -95,7 +96,7 @@ class PushSimulator : public DecouplingSimulator {
   bool started_ = false;
   // Along the line: the target and its speed in this step, the clone, the cube.
   double target_ = 0, u_ = 0, clone_ = 0, v_ = 0, cube_v_ = 0;
-  double impulse_n_s_ = 0, force_n_ = 0;  // of the clone on the cube: in this step, mean
+  double impulse_n_s_ = 0, step_s_ = 0;  // of the clone on the cube over the last step; its length
 };
 
 void PushSimulator::reset(const Scene& scene, const Pose& target) {
@@ -110,7 +111,7 @@ void PushSimulator::reset(const Scene& scene, const Pose& target) {
   solid_ = true;
   start_velocity_.setZero();
   started_ = stroke_.has_direction();
-  target_ = u_ = v_ = cube_v_ = force_n_ = 0;
+  target_ = u_ = v_ = cube_v_ = impulse_n_s_ = 0;
   clone_ = stroke_.clone_start();
   take_cube();
 }
@@ -135,7 +136,7 @@ void PushSimulator::step(const Pose& target, double h_s) {
   if (left_s > 0) throw OutsideModel("clone and cube part and meet too often");
   target_ = to;
   if (!decoupled_) clone_ = to;
-  force_n_ = impulse_n_s_ / h_s;
+  step_s_ = h_s;
   stroke_.check(clone_, solid_ && (impulse_n_s_ > 0 || touching()));
 }
 
@@ -272,17 +273,17 @@ void PushSimulator::teleport_clone(const Pose& target, const Velocity& velocity)
   stroke_.restart(target);
   start_velocity_ = velocity.linear_m_s;
   started_ = false;
-  target_ = u_ = clone_ = v_ = cube_v_ = force_n_ = 0;
+  target_ = u_ = clone_ = v_ = cube_v_ = impulse_n_s_ = 0;
 }
 
 void PushSimulator::place_cube(int cube, const Pose& pose) {
   stroke_.place_cube(static_cast<std::size_t>(cube), pose);
-  cube_v_ = force_n_ = 0;
+  cube_v_ = impulse_n_s_ = 0;
   take_cube();
 }
 
 WorldState PushSimulator::state() const {
-  return stroke_.state(clone_, v_, cube_v_, force_n_);
+  return stroke_.state(clone_, v_, cube_v_, impulse_n_s_ > 0 ? impulse_n_s_ / step_s_ : 0);
 }
 }  // namespace
 

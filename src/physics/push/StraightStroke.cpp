@@ -12,6 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double straight_m = 0.05e-3, straight_rad = 1e-3;
 constexpr double still_m = 1e-9;  // below this a direction would be rounding
+const double still_cosine = std::cos(straight_rad / 2);
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double half_width(const Pose& pose, const Vector3d& size_m, const Vector3d& axis) {
@@ -74,12 +75,12 @@ double StraightStroke::follow(const Pose& target) {
     set_direction(moved_m);
   }
   const double along = moved_m.dot(*direction_);
-  const double off_m = (moved_m - along * *direction_).norm();
-  if (off_m > straight_m)
+  const double off_m2 = (moved_m - along * *direction_).squaredNorm();
+  if (off_m2 > straight_m * straight_m)
     throw OutsideModel(
-        fmt::format("the effector moved {:.2g} mm off its straight line", off_m * 1e3));
+        fmt::format("the effector moved {:.2g} mm off its straight line", std::sqrt(off_m2) * 1e3));
   const double turned = std::abs(start_.orientation.dot(target.orientation));
-  if (turned < std::cos(straight_rad / 2)) throw OutsideModel("the effector turned");
+  if (turned < still_cosine) throw OutsideModel("the effector turned");
   return along;
 }
 

@@ -1,0 +1,41 @@
+// The rule behind the simulator `auto`: the cheapest simulator and step that stay within a
+// tolerance as far as the error table knows. What a hand will do is not known beforehand, so there
+// is a ladder: first what models a straight push at one cube alone, then what models everything.
+// Whoever runs a scene climbs when a simulator throws OutsideModel, and starts over, so that all
+// output is of one simulator; nobody ever climbs down.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "physics/DecouplingSimulator.h"
+
+namespace heft {
+
+struct Tolerance {
+  double clone_rms_m = 0.1e-3;
+  double lag_g = 0.5;  ///< how much heavier or lighter a cube may seem
+};
+
+struct SimulatorPick {
+  std::string simulator;
+  double rate_hz = 240;  ///< steps a second, at least
+  std::string why;       ///< one line for people
+};
+
+/// At least one; the last models everything. Where no rate stays within the tolerance, the last is
+/// the most accurate there is, and says so.
+/// @param at_least_hz poses a second; fewer steps are never made
+std::vector<SimulatorPick> simulator_ladder(const Scene& scene, double at_least_hz,
+                                            const Tolerance& tolerance = {});
+
+/// For sessions, where a person may do anything: the ladder's first that models everything. Depends
+/// on nothing that happens later.
+SimulatorPick resolve_auto(const Scene& scene, double at_least_hz, const Tolerance& tolerance = {});
+
+/// What resolve_auto picks for a scene with the paper's springs. It steps as it is told: whoever
+/// wants the rate too asks resolve_auto.
+std::unique_ptr<DecouplingSimulator> make_auto();
+
+}  // namespace heft

@@ -1,0 +1,85 @@
+// The rule that picks the cheapest simulator that is accurate enough.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "physics/ContactScenes.h"
+#include "physics/auto/Choice.h"
+#include "physics/auto/ErrorTable.h"
+
+namespace heft {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<SimulatorPick>& ladder) {
+  std::vector<std::string> names;
+  for (const SimulatorPick& pick : ladder) names.push_back(pick.simulator);
+  return names;
+}
+
+double worst_known_mm(const SimulatorPick& pick) {
+  double worst_mm = -1;
+  for (const KnownError& error : known_errors())
+    if (error.simulator == pick.simulator && error.rate_hz == pick.rate_hz)
+      worst_mm = std::max(worst_mm, error.clone_rms_mm);
+  return worst_mm;
+}
+
+TEST(Auto, BeginsWithAStraightPushAndEndsWithWhatModelsEverything) {
+  const auto ladder = simulator_ladder(one_cube(0.2), 30);
+  EXPECT_THAT(names_of(ladder), testing::ElementsAre("push", "boxes"));
+  for (const SimulatorPick& pick : ladder) EXPECT_FALSE(pick.why.empty());
+}
+
+TEST(Auto, StaysWithinTheToleranceAsFarAsTheTableKnows) {
+  const SimulatorPick pick = resolve_auto(one_cube(0.2), 15);
+  EXPECT_LE(worst_known_mm(pick), 0.1);
+  EXPECT_GE(worst_known_mm(pick), 0);
+  EXPECT_EQ(pick.why.find("MISSES"), std::string::npos);
+}
+
+TEST(Auto, TakesAtLeastAsManyStepsAsThereArePoses) {
+  for (double rate_hz : {15.0, 45.0, 240.0, 5000.0})
+    for (const SimulatorPick& pick : simulator_ladder(one_cube(0.2), rate_hz))
+      EXPECT_GE(pick.rate_hz, rate_hz);
+}
+
+TEST(Auto, TakesMoreStepsForATighterToleranceAndForAFasterSpring) {
+  const double usual_hz = resolve_auto(one_cube(0.2), 15).rate_hz;
+  EXPECT_LT(resolve_auto(one_cube(0.2), 15, {1e-3, 5}).rate_hz, usual_hz);
+  Scene fast = one_cube(0.2);
+  fast.coupling.stiffness_n_per_m *= 16;
+  EXPECT_NEAR(resolve_auto(fast, 15).rate_hz, 4 * usual_hz, 1);
+  Scene slow = one_cube(0.2);
+  slow.coupling.stiffness_n_per_m /= 16;
+  EXPECT_EQ(resolve_auto(slow, 15).rate_hz, usual_hz);
+}
+
+TEST(Auto, SaysSoWhereNothingIsAccurateEnough) {
+  const auto ladder = simulator_ladder(one_cube(0.2), 15, {1e-9, 1e-9});
+  ASSERT_EQ(ladder.size(), 1u);
+  EXPECT_NE(ladder[0].why.find("MISSES the tolerance"), std::string::npos) << ladder[0].why;
+  EXPECT_TRUE(simulator_named(ladder[0].simulator).for_sessions);
+}
+
+TEST(Auto, LeavesContactsThatGiveToBoxes) {
+  Scene scene = one_cube(0.2);
+  scene.contact_compliance_m_per_n = 1e-4;
+  EXPECT_THAT(names_of(simulator_ladder(scene, 60)), testing::ElementsAre("boxes"));
+}
+
+TEST(Auto, IsOneSimulatorForASessionWhateverIsInTheScene) {
+  Scene three =
+      contact_scenes::cubes({cube_of(0.015, 0, -0.08), cube_of(0.2), cube_of(0.8, 0, 0.08)});
+  const SimulatorPick pick = resolve_auto(three, 60);
+  EXPECT_TRUE(simulator_named(pick.simulator).for_sessions);
+  three.cubes[0].mass_kg = 1.5;
+  EXPECT_EQ(resolve_auto(three, 60).rate_hz, pick.rate_hz);
+}
+
+TEST(Auto, IsASimulatorItself) {
+  const auto simulator = make_simulator("auto");
+  simulator->reset(one_cube(0.2), Pose{});
+  EXPECT_EQ(simulator->state().cubes.size(), 1u);
+}
+
+}  // namespace
+}  // namespace heft
