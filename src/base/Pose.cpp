@@ -27,8 +27,11 @@ Eigen::Quaterniond rotation_from_vector(const Eigen::Vector3d& vector_rad) {
 }
 
 Velocity mean_velocity(const Pose& from, const Pose& to, double dt_s) {
-  return {(to.position_m - from.position_m) / dt_s,
-          rotation_vector(to.orientation * from.orientation.conjugate()) / dt_s};
+  const Eigen::Vector3d linear_m_s = (to.position_m - from.position_m) / dt_s;
+  // Most steps turn nothing, and finding that out by its angle costs more than all the rest.
+  if (from.orientation.coeffs() == to.orientation.coeffs())
+    return {linear_m_s, Eigen::Vector3d::Zero()};
+  return {linear_m_s, rotation_vector(to.orientation * from.orientation.conjugate()) / dt_s};
 }
 
 Pose upright_pose(const Eigen::Vector3d& position_m, double yaw_rad) {

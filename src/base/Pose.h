@@ -14,6 +14,15 @@ struct Pose {
   Eigen::Vector3d operator*(const Eigen::Vector3d& point_m) const {
     return position_m + orientation * point_m;
   }
+  /// a_from_c of a_from_b and b_from_c.
+  Pose operator*(const Pose& then) const {
+    return {*this * then.position_m, orientation * then.orientation};
+  }
+  /// source_from_target.
+  Pose inverse() const {
+    const Eigen::Quaterniond back = orientation.conjugate();
+    return {-(back * position_m), back};
+  }
 };
 
 /// Linear and angular velocity in the world frame.

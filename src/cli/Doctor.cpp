@@ -147,10 +147,7 @@ void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
   if (!entry.has_camera || entry.name == "synthetic")
     throw Error("--tracker: expected camera:N, video:FILE or frames:FOLDER", ExitCode::usage);
   const Apparatus apparatus = apparatus_of(options);
-  CameraRequest request;
-  request.width_px = apparatus.camera.width_px;
-  request.height_px = apparatus.camera.height_px;
-  const auto camera = open_camera(options.tracker, request);
+  const auto camera = open_camera(options.tracker, request_for(apparatus.camera, rate_hz));
   for (const CheckResult& result : check_camera(*camera, apparatus, rate_hz))
     report.line(result.verdict, result.name, result.finding);
 }

@@ -8,6 +8,7 @@
 
 #include "base/Error.h"
 #include "cli/Commands.h"
+#include "cli/SessionOptions.h"
 #include "cli/Talk.h"
 #include "experiment/Trajectory.h"
 #include "physics/Drive.h"
@@ -58,15 +59,6 @@ std::string row(double t_s, const WorldState& state) {
   return line;
 }
 
-TargetSample sample_at(const Trajectory& trajectory, double t_s) {
-  const auto pose = trajectory.at(t_s);
-  TargetSample sample;
-  sample.t_capture_s = t_s;
-  sample.tracked = pose.has_value();
-  if (pose) sample.pose = *pose;
-  return sample;
-}
-
 // Drive takes a longer pause between two poses for a gap in tracking.
 void check(const Options& options) {
   if (options.rate_hz >= 4 && options.rate_hz <= 1e6) return;
@@ -80,7 +72,7 @@ void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take&
   const auto last = static_cast<long>(std::floor((trajectory.end_s() - start_s) * rate_hz + 1e-6));
   for (long n = 0; n <= last; ++n) {
     const double t_s = start_s + static_cast<double>(n) / rate_hz;
-    take(row(t_s, drive.advance(sample_at(trajectory, t_s))));
+    take(row(t_s, drive.advance(sample_of(t_s, trajectory.at(t_s)))));
   }
 }
 
@@ -110,7 +102,7 @@ void run_auto(const Options& options, const Scene& scene, const Trajectory& traj
 
 void run_named(const Options& options, const Scene& scene, const Trajectory& trajectory) {
   const SimulatorEntry& entry = simulator_named(options.simulator);
-  if (!entry.warning.empty()) say("heft: {} {}\n", entry.name, entry.warning);
+  warn_of_simulator(options.simulator);
   if (options.explain)
     say("heft: {} at {:g} Hz, as asked for: {}\n", entry.name, options.rate_hz, entry.summary);
   Drive drive(entry.make(), scene, options.rate_hz);

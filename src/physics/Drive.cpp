@@ -37,6 +37,14 @@ void check(const TargetSample& sample) {
 }
 }  // namespace
 
+TargetSample sample_of(double t_capture_s, const std::optional<Pose>& pose) {
+  TargetSample sample;
+  sample.t_capture_s = t_capture_s;
+  sample.tracked = pose.has_value();
+  if (pose) sample.pose = *pose;
+  return sample;
+}
+
 Drive::Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz,
              InputMode input)
     : simulator_(std::move(simulator)), scene_(scene), rate_hz_(rate_hz), input_(input) {

@@ -36,6 +36,9 @@ struct EnumNames<InputMode> {
   static constexpr std::array<std::string_view, 3> names{"path", "hold", "extrapolate"};
 };
 
+/// A pose of a made-up path, at rest; none: out of view.
+TargetSample sample_of(double t_capture_s, const std::optional<Pose>& pose);
+
 class Drive {
  public:
   /// @param rate_hz physics steps a second, at least; each picture takes ceil(dt * rate) equal

@@ -40,4 +40,9 @@ struct Scene {
   std::vector<Cube> cubes;
 };
 
+/// Where the clone starts when the target is there.
+inline Pose clone_start(const Scene& scene, const Pose& target) {
+  return scene.coupling.decoupled ? target * scene.clone_offset : target;
+}
+
 }  // namespace heft

@@ -13,6 +13,15 @@ constexpr double holding_step_s = 0.05;
 
 std::vector<Touch> Attendant::wait(double seconds) {
   if (!journal_.clock().is_wall()) return {};
+  std::vector<Touch> touches = attend(seconds);
+  while (holding_ && !leaving()) {  // what is touched meanwhile means nothing
+    view_.present({}, journal_.engine().screen());
+    attend(holding_step_s);
+  }
+  return touches;
+}
+
+std::vector<Touch> Attendant::attend(double seconds) {
   std::vector<Touch> touches = view_.wait(seconds);
   if (!has_screen_) std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   if (std::ranges::any_of(touches, [](const Touch& t) { return t.kind == TouchKind::close; }))
@@ -21,7 +30,6 @@ std::vector<Touch> Attendant::wait(double seconds) {
   if (!desk_) return touches;
   while (const auto command = desk_->command()) obey(*command);
   show();
-  if (holding_) hold();
   return touches;
 }
 
@@ -33,19 +41,6 @@ void Attendant::show() {
   status.screen = engine.screen();
   status.plan = unblinded_ && engine.trial_is_open() ? engine.next().plan : std::nullopt;
   desk_->show(status);
-}
-
-// Until the experimenter lets it go on. What is touched meanwhile means nothing.
-void Attendant::hold() {
-  while (holding_ && !leaving()) {
-    view_.present({}, journal_.engine().screen());
-    for (const Touch& touch : view_.wait(holding_step_s))
-      if (touch.kind == TouchKind::close) leaving_ = true;
-    if (!has_screen_) std::this_thread::sleep_for(std::chrono::duration<double>(holding_step_s));
-    journal_.flush_now_and_then();
-    while (const auto command = desk_->command()) obey(*command);
-    show();
-  }
 }
 
 void Attendant::obey(const DeskCommand& command) {

@@ -33,10 +33,10 @@ class Attendant {
   DeskStatus status;
 
  private:
+  std::vector<Touch> attend(double seconds);
   void obey(const DeskCommand& command);
   void veto(const std::string& why);
   void unblind();
-  void hold();
   void show();
 
   Journal& journal_;

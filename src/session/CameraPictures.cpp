@@ -23,14 +23,15 @@ void CameraPictures::begin_attempt(const AttemptStart& attempt) {
 }
 
 std::optional<Picture> CameraPictures::next() {
-  const auto taken = camera_->next(0);
+  auto taken = camera_->next(0);
   if (!taken) return camera_->is_live() ? picture_of_silence() : std::nullopt;
   const double t_s = time_of(*taken);
   const int n_dropped = last_number_ ? static_cast<int>(taken->number - *last_number_ - 1) : 0;
   last_number_ = taken->number;
   heard_s_ = clock_.now_s();
   if (recording_) recording_->keep(taken->image, taken->capture_s);
-  Picture picture = tracker_.track(std::make_shared<const Image>(taken->image), taken->capture_s);
+  Picture picture =
+      tracker_.track(std::make_shared<const Image>(std::move(taken->image)), taken->capture_s);
   if (t_s < 0) return std::nullopt;  // taken before the attempt started
   picture.sample.t_capture_s = t_s;
   picture.n_dropped = n_dropped;

@@ -31,12 +31,10 @@ Demonstration::Demonstration(const Protocol& protocol, std::uint64_t seed)
 
 ViewPicture Demonstration::at(double t_s) {
   for (; count_ * step_s_ <= t_s; ++count_) {
-    TargetSample sample;
-    sample.t_capture_s = count_ * step_s_;
-    const HandSample hand = hand_->hand(sample.t_capture_s);
-    sample.pose = hand.pose;
-    sample.tracked = hand.in_view;
-    last_.frame = world_.advance(sample).frame;
+    const double picture_s = count_ * step_s_;
+    const HandSample hand = hand_->hand(picture_s);
+    const auto pose = hand.in_view ? std::optional(hand.pose) : std::nullopt;
+    last_.frame = world_.advance(sample_of(picture_s, pose)).frame;
     // It looks again and again: what it would answer is not taken.
     ScreenState screen;
     screen.screen = Screen::trial;

@@ -21,18 +21,11 @@ std::unique_ptr<PictureSource> make_synthetic(const PictureParts& parts) {
   return std::make_unique<SyntheticPictures>(parts);
 }
 
-// What a camera is asked for: its calibration's size, the display's rate or the next above.
-CameraRequest request_for(const PictureParts& parts) {
-  CameraRequest request;
-  request.width_px = parts.apparatus.camera.width_px;
-  request.height_px = parts.apparatus.camera.height_px;
-  request.rate_hz = std::max(request.rate_hz, parts.protocol.display_rate_hz);
-  return request;
-}
-
 std::unique_ptr<PictureSource> open(const std::string& kind, const PictureParts& parts) {
-  return std::make_unique<CameraPictures>(open_camera(kind + ":" + parts.what, request_for(parts)),
-                                          parts);
+  return std::make_unique<CameraPictures>(
+      open_camera(kind + ":" + parts.what,
+                  request_for(parts.apparatus.camera, parts.protocol.display_rate_hz)),
+      parts);
 }
 
 constexpr std::array table{

@@ -9,6 +9,19 @@ namespace {
 constexpr double board_patience_s = 0.5;
 }  // namespace
 
+TargetSample smoothed(PoseFilter& filter, const TrackedPicture& tracked, double t_s) {
+  TargetSample sample;
+  sample.t_capture_s = t_s;
+  sample.tracked = tracked.board_from_effector.has_value();
+  if (!sample.tracked || tracked.jump) filter.reset();
+  if (!sample.tracked) return sample;
+  const FilteredPose filtered = filter.update(t_s, *tracked.board_from_effector, tracked.quality);
+  sample.pose = filtered.pose;
+  sample.velocity = filtered.velocity;
+  sample.jump = tracked.jump;
+  return sample;
+}
+
 void PictureTracker::reset() {
   tracker_.reset();
   filter_.reset();
@@ -21,9 +34,6 @@ Picture PictureTracker::track(std::shared_ptr<const Image> image, double t_s) {
   Picture picture;
   picture.camera = std::move(image);
   picture.quality = tracked.quality;
-  TargetSample& sample = picture.sample;
-  sample.t_capture_s = t_s;
-  sample.tracked = tracked.board_from_effector.has_value();
   if (!board_seen_s_) board_seen_s_ = t_s;
   if (tracked.camera_from_board) {
     camera_from_board_ = tracked.camera_from_board;
@@ -32,12 +42,7 @@ Picture PictureTracker::track(std::shared_ptr<const Image> image, double t_s) {
     picture.trouble = "board_lost";
   }
   picture.camera_from_board = camera_from_board_;
-  if (!sample.tracked || tracked.jump) filter_.reset();
-  if (!sample.tracked) return picture;
-  const FilteredPose filtered = filter_.update(t_s, *tracked.board_from_effector, tracked.quality);
-  sample.pose = filtered.pose;
-  sample.velocity = filtered.velocity;
-  sample.jump = tracked.jump;
+  picture.sample = smoothed(filter_, tracked, t_s);
   return picture;
 }
 

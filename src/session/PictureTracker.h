@@ -8,6 +8,9 @@
 
 namespace heft {
 
+/// What was seen of the effector, smoothed, as Drive wants it.
+TargetSample smoothed(PoseFilter& filter, const TrackedPicture& tracked, double t_s);
+
 class PictureTracker {
  public:
   explicit PictureTracker(const Apparatus& apparatus) : tracker_(apparatus) {}

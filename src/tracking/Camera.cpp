@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "base/Error.h"
@@ -20,6 +21,14 @@ constexpr std::array table{
 
 std::span<const CameraEntry> cameras() {
   return table;
+}
+
+CameraRequest request_for(const Intrinsics& camera, double display_rate_hz) {
+  CameraRequest request;
+  request.width_px = camera.width_px;
+  request.height_px = camera.height_px;
+  request.rate_hz = std::max(request.rate_hz, display_rate_hz);
+  return request;
 }
 
 std::unique_ptr<Camera> open_camera(const std::string& source, const CameraRequest& request) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/Image.h"
+#include "tracking/Intrinsics.h"
 
 namespace heft {
 
@@ -56,6 +57,9 @@ struct CameraRequest {
   double rate_hz = 30;
   double exposure_s = 0.004;
 };
+
+/// The mode that the camera was calibrated in, at the display's rate or the usual one above it.
+CameraRequest request_for(const Intrinsics& camera, double display_rate_hz);
 
 /// A row of the table of cameras: "camera:N", "video:F", "frames:DIR".
 struct CameraEntry {

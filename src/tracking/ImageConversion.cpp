@@ -1,12 +1,21 @@
 #include "tracking/ImageConversion.h"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 
 namespace heft {
 
 cv::Mat mat_of(const Image& image) {
   return {image.height, image.width, CV_8UC(image.channels),
           const_cast<std::uint8_t*>(image.pixels.data())};
+}
+
+Image gray_of(const Image& image) {
+  if (image.channels == 1) return image;
+  Image gray(image.width, image.height, 1);
+  cv::Mat to(image.height, image.width, CV_8UC1, gray.pixels.data());
+  cv::cvtColor(mat_of(image), to, cv::COLOR_BGR2GRAY);
+  return gray;
 }
 
 Image image_from(const cv::Mat& mat) {

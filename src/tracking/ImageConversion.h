@@ -10,6 +10,9 @@ namespace heft {
 /// The image's own pixels, not to be written to.
 cv::Mat mat_of(const Image& image);
 
+/// In 1 channel.
+Image gray_of(const Image& image);
+
 /// A copy. @param mat 8 bits, 1 or 3 channels
 Image image_from(const cv::Mat& mat);
 

@@ -64,4 +64,11 @@ Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel
   return ray;
 }
 
+Pose camera_above_board(double distance_m, double below_horizon_rad) {
+  const double across = std::cos(below_horizon_rad), down = std::sin(below_horizon_rad);
+  Eigen::Matrix3d rotation;  // rows: the camera's right, down and forward
+  rotation << 1, 0, 0, 0, -down, -across, 0, across, -down;
+  return {{0, 0, distance_m}, Eigen::Quaterniond(rotation)};
+}
+
 }  // namespace heft

@@ -7,6 +7,8 @@
 #include <array>
 #include <string>
 
+#include "base/Pose.h"
+
 namespace heft {
 
 struct Intrinsics {
@@ -30,6 +32,10 @@ DistortedRay distort_with_derivative(const Intrinsics& camera, const Eigen::Vect
 
 /// Ray (x/z, y/z) of a pixel: the inverse of distort to 1e-9, within the picture.
 Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel);
+
+/// Where a camera stands on the participant's side that looks at the board's center:
+/// camera_from_board. @param below_horizon_rad how steeply it looks down
+Pose camera_above_board(double distance_m, double below_horizon_rad);
 
 /// Reads OpenCV's YAML: image_width, image_height, camera_matrix, distortion_coefficients (4, 5 or
 /// 8 of them).

@@ -40,13 +40,8 @@ Intrinsics default_camera(int width_px, int height_px) {
   return camera;
 }
 
-SyntheticSettings::SyntheticSettings() {
-  constexpr double distance_m = 0.45, pitch_rad = 52 * M_PI / 180;
-  const double across = std::cos(pitch_rad), down = std::sin(pitch_rad);
-  Eigen::Matrix3d rotation;  // rows: the camera's right, down and forward
-  rotation << 1, 0, 0, 0, -down, -across, 0, across, -down;
-  camera_from_board = {{0, 0, distance_m}, Eigen::Quaterniond(rotation)};
-}
+SyntheticSettings::SyntheticSettings()
+    : camera_from_board(camera_above_board(0.45, 52 * M_PI / 180)) {}
 
 struct SyntheticCamera::Parts {
   Parts(const Apparatus& apparatus, const SyntheticSettings& with, std::uint64_t seed);

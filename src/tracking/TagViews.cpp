@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <limits>
 #include <map>
-#include <opencv2/imgproc.hpp>
 
 #include "tracking/ImageConversion.h"
 #include "tracking/TagDetector.h"
@@ -15,13 +14,6 @@ namespace {
 constexpr double least_quality = 0.85;
 constexpr double usual_blur_px = 0.7;
 constexpr int most_edge_pixels = 1000;  // all of an edge: time does not count here
-
-Image gray_copy(const Image& image) {
-  if (image.channels == 1) return image;
-  cv::Mat gray;
-  cv::cvtColor(mat_of(image), gray, cv::COLOR_BGR2GRAY);
-  return image_from(gray);
-}
 
 // A corner that edge refinement took far from where the detector read the tag is no better.
 bool near_detected(const MeasuredTag& measured, const DetectedTag& detected) {
@@ -48,7 +40,7 @@ TagViewer::TagViewer(TagViewer&&) noexcept = default;
 TagViewer& TagViewer::operator=(TagViewer&&) noexcept = default;
 
 TagView TagViewer::view(const Image& image, const Intrinsics& camera) {
-  const Image gray = gray_copy(image);
+  const Image gray = gray_of(image);
   TagView view;
   for (const DetectedTag& detected : parts_->detector.detect(gray, whole(gray))) {
     const auto known = parts_->place.find(detected.id);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "base/Clock.h"
 #include "base/Error.h"
@@ -26,21 +25,10 @@ constexpr double longest_gap_s = 0.25;  // Drive takes a longer one for a jump, 
 constexpr double fastest_m_s = 5, fastest_rad_s = 30;
 constexpr double jitter_m = 0.01, jitter_rad = 0.2;
 
-Pose inverse(const Pose& pose) {
-  const Eigen::Quaterniond back = pose.orientation.conjugate();
-  return {-(back * pose.position_m), back};
-}
-
-Pose after(const Pose& first, const Pose& then) {
-  return {first * then.position_m, (first.orientation * then.orientation).normalized()};
-}
-
-Image gray_of(const Image& image) {
-  if (image.channels == 1) return image;
-  Image gray(image.width, image.height, 1);
-  cv::Mat to(image.height, image.width, CV_8UC1, gray.pixels.data());
-  cv::cvtColor(mat_of(image), to, cv::COLOR_BGR2GRAY);
-  return gray;
+// Poses come out of one another picture by picture: rounding must not add up.
+Pose normalized(Pose pose) {
+  pose.orientation.normalize();
+  return pose;
 }
 
 struct SeenEffector {
@@ -144,7 +132,7 @@ struct Tracker::Parts {
     if (seen_board.n_tags >= tags_that_tell_bias) prior = {seen_board.bias_px, bias_differs_px};
     std::optional<Pose> expected;
     if (seen && t_s - seen->t_s <= longest_gap_s)
-      expected = after(seen_board.camera_from_body, seen->expected_at(t_s));
+      expected = normalized(seen_board.camera_from_body * seen->expected_at(t_s));
     if (settings.region_of_interest && expected && !board_family_tags) {
       const Region region = region_around(camera, effector.body(), *expected);
       const auto fit =
@@ -165,7 +153,7 @@ struct Tracker::Parts {
   }
 
   void take_effector(const BodyFit& fit, double t_s) {
-    const Pose pose = after(inverse(*result.camera_from_board), fit.camera_from_body);
+    const Pose pose = normalized(result.camera_from_board->inverse() * fit.camera_from_body);
     const double dt_s = seen ? t_s - seen->t_s : 0;
     result.jump = !seen || !could_have_moved(*seen, pose, dt_s);
     const bool moves_on = !result.jump && dt_s > 0;

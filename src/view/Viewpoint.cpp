@@ -131,10 +131,7 @@ void Viewpoint::cut_at(std::size_t limit, Polygon& polygon) const {
 }
 
 Pose default_camera_from_board() {
-  constexpr double distance_m = 0.45, below_horizon_rad = 55 * M_PI / 180;
-  // From z up and y away to z forward and y down: a turn about x, which both frames share.
-  const Eigen::AngleAxisd turn(M_PI / 2 + below_horizon_rad, Vector3d::UnitX());
-  return {Vector3d(0, 0, distance_m), Eigen::Quaterniond(turn)};
+  return camera_above_board(0.45, 55 * M_PI / 180);
 }
 
 }  // namespace heft

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "Protocols.h"
+#include "Recorded.h"
 #include "protocol/TextsFile.h"
-#include "record/RecordedSession.h"
 #include "session/Runner.h"
 
 namespace heft {
@@ -118,20 +118,8 @@ struct Session {
     options.desk = desk;
     return Runner({engine, sink, pictures, *hand, screen, clock, true, &texts}, options).run();
   }
-  std::vector<Event> events(EventKind kind) const {
-    std::vector<Event> found;
-    for (const RecordedEntry& entry : sink.entries())
-      if (const auto* recorded = std::get_if<RecordedEvent>(&entry);
-          recorded && recorded->event.kind == kind)
-        found.push_back(recorded->event);
-    return found;
-  }
-  std::vector<FrameRow> frames() const {
-    std::vector<FrameRow> found;
-    for (const RecordedEntry& entry : sink.entries())
-      if (const auto* frame = std::get_if<FrameRow>(&entry)) found.push_back(*frame);
-    return found;
-  }
+  std::vector<Event> events(EventKind kind) const { return testing::events_of(sink, kind); }
+  std::vector<FrameRow> frames() const { return testing::frames_of(sink); }
 
   std::shared_ptr<const Protocol> protocol;
   Engine engine{protocol, 7};

@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "Protocols.h"
+#include "Recorded.h"
 #include "base/Error.h"
-#include "record/RecordedSession.h"
 
 namespace heft {
 namespace {
@@ -106,20 +106,8 @@ struct Bench {
   RunEnd run(RunnerOptions options = {}) {
     return Runner({engine, sink, pictures, *responder, view, clock}, options).run();
   }
-  std::vector<Event> events(EventKind kind) const {
-    std::vector<Event> found;
-    for (const RecordedEntry& entry : sink.entries())
-      if (const auto* recorded = std::get_if<RecordedEvent>(&entry);
-          recorded && recorded->event.kind == kind)
-        found.push_back(recorded->event);
-    return found;
-  }
-  std::vector<FrameRow> frames() const {
-    std::vector<FrameRow> found;
-    for (const RecordedEntry& entry : sink.entries())
-      if (const auto* frame = std::get_if<FrameRow>(&entry)) found.push_back(*frame);
-    return found;
-  }
+  std::vector<Event> events(EventKind kind) const { return testing::events_of(sink, kind); }
+  std::vector<FrameRow> frames() const { return testing::frames_of(sink); }
   std::vector<TrialRow> trials() const {
     std::map<int, TrialRow> rows;
     for (const RecordedEntry& entry : sink.entries())

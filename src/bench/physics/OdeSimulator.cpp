@@ -139,9 +139,7 @@ void OdeSimulator::reset(const Scene& scene, const Pose& target) {
   dWorldSetContactSurfaceLayer(world_, 1e-7);
 
   const Coupling& coupling = scene.coupling;
-  const Pose offset = coupling.decoupled ? scene.clone_offset : Pose{};
-  add(scene.effector_size_m, {target * offset.position_m, target.orientation * offset.orientation},
-      coupling.clone_mass_kg);
+  add(scene.effector_size_m, clone_start(scene, target), coupling.clone_mass_kg);
   dMass mass;
   dBodyGetMass(bodies_[0], &mass);
   inertia_kg_m2_ = {mass.I[0], mass.I[5], mass.I[10]};

@@ -10,15 +10,6 @@
 namespace heft {
 
 namespace {
-TargetSample sample_at(const Trajectory& path, double t_s) {
-  const auto pose = path.at(t_s);
-  TargetSample sample;
-  sample.t_capture_s = t_s;
-  sample.tracked = pose.has_value();
-  if (pose) sample.pose = *pose;
-  return sample;
-}
-
 double time_of(const Trajectory& path, int n, int rate_hz) {
   return path.start_s() + n / static_cast<double>(rate_hz);
 }
@@ -67,7 +58,8 @@ SceneRun run_scene(std::unique_ptr<DecouplingSimulator> simulator, const BenchSc
   try {
     Drive drive(std::move(simulator), scene.scene, step_rate_hz);
     for (int n = 0; n <= n_steps(scene, step_rate_hz); ++n) {
-      const WorldState& state = drive.advance(sample_at(path, time_of(path, n, step_rate_hz)));
+      const double t_s = time_of(path, n, step_rate_hz);
+      const WorldState& state = drive.advance(sample_of(t_s, path.at(t_s)));
       if (n % every == 0) run.track.states.push_back(state);
     }
   } catch (const OutsideModel& error) {

@@ -54,7 +54,7 @@ StageTimes Chain::run(const std::string& file, double t_s) {
       timed_ms([&] { image = std::make_shared<const Image>(read_image(file)); });
   track(*image, t_s, times);
   TargetSample sample;
-  of(times, PictureStage::filter) = timed_ms([&] { sample = smoothed(t_s); });
+  of(times, PictureStage::filter) = timed_ms([&] { sample = smoothed(filter_, tracked_, t_s); });
   ViewPicture picture;
   of(times, PictureStage::physics) =
       timed_ms([&] { picture.frame = world_->advance(sample).frame; });
@@ -78,20 +78,6 @@ void Chain::track(const Image& image, double t_s, StageTimes& times) {
   of(times, PictureStage::pose) = spent.pose_s * ms_per_wall_s;
   of(times, PictureStage::gray) =
       all_ms - (spent.detect_s + spent.refine_s + spent.pose_s) * ms_per_wall_s;
-}
-
-TargetSample Chain::smoothed(double t_s) {
-  TargetSample sample;
-  sample.t_capture_s = t_s;
-  sample.tracked = tracked_.board_from_effector.has_value();
-  sample.jump = tracked_.jump;
-  if (!sample.tracked || sample.jump) filter_.reset();
-  if (!sample.tracked) return sample;
-  const FilteredPose filtered =
-      filter_.update(t_s, *tracked_.board_from_effector, tracked_.quality);
-  sample.pose = filtered.pose;
-  sample.velocity = filtered.velocity;
-  return sample;
 }
 
 }  // namespace heft

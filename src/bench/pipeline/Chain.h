@@ -8,9 +8,8 @@
 
 #include "base/Names.h"
 #include "protocol/Protocol.h"
+#include "session/PictureTracker.h"
 #include "session/TrialWorld.h"
-#include "tracking/PoseFilter.h"
-#include "tracking/Tracker.h"
 #include "view/SceneDrawing.h"
 
 namespace heft {
@@ -38,7 +37,6 @@ class Chain {
 
  private:
   void track(const Image& image, double t_s, StageTimes& times);
-  TargetSample smoothed(double t_s);
 
   Protocol protocol_;  // all defaults: three cubes, the default simulator
   TrialPlan plan_;

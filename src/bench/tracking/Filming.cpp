@@ -83,8 +83,7 @@ class Studio {
  private:
   static SyntheticSettings placed(const Place& place) {
     SyntheticSettings settings;
-    settings.camera_from_board =
-        camera_from_board_at(place.distance_m, place.pitch_deg * M_PI / 180);
+    settings.camera_from_board = camera_above_board(place.distance_m, place.pitch_deg * M_PI / 180);
     return settings;
   }
 
@@ -136,13 +135,6 @@ TrackedError error_of(const MethodPoses& poses, const Pose& camera_from_board,
         degrees_between(poses.board_from_effector->orientation, board_from_effector.orientation);
   }
   return error;
-}
-
-Pose camera_from_board_at(double distance_m, double pitch_rad) {
-  const double across = std::cos(pitch_rad), down = std::sin(pitch_rad);
-  Eigen::Matrix3d rotation;  // rows: the camera's right, down and forward
-  rotation << 1, 0, 0, 0, -down, -across, 0, across, -down;
-  return {{0, 0, distance_m}, Eigen::Quaterniond(rotation)};
 }
 
 std::vector<MethodFilm> film(const FilmPlan& plan, const std::vector<MethodName>& names) {

@@ -51,10 +51,6 @@ struct MethodFilm {
 /// @return one for each method
 std::vector<MethodFilm> film(const FilmPlan& plan, const std::vector<MethodName>& methods);
 
-/// The camera looks at the board's middle from the participant's side.
-/// @param pitch_rad below the horizon
-Pose camera_from_board_at(double distance_m, double pitch_rad);
-
 /// What many pictures come to.
 struct ErrorSummary {
   int n = 0;

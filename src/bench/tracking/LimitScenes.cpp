@@ -104,7 +104,7 @@ std::vector<Limit> limits() {
            false,
            {0.3, 0.4, 0.5, 0.65, 0.8, 1, 1.25, 1.5},
            changed([](LimitScene& s, double distance_m) {
-             s.settings.camera_from_board = camera_from_board_at(distance_m, usual_pitch_rad);
+             s.settings.camera_from_board = camera_above_board(distance_m, usual_pitch_rad);
            })}};
 }
 

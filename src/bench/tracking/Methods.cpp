@@ -46,12 +46,6 @@ class OurMethod final : public TrackingMethod {
   Tracker tracker_;
 };
 
-Pose board_from(const Pose& camera_from_board, const Pose& camera_from_effector) {
-  const Eigen::Quaterniond back = camera_from_board.orientation.conjugate();
-  return {back * (camera_from_effector.position_m - camera_from_board.position_m),
-          (back * camera_from_effector.orientation).normalized()};
-}
-
 class ComparisonMethod final : public TrackingMethod {
  public:
   ComparisonMethod(const Apparatus& apparatus, const MethodName& name)
@@ -62,7 +56,7 @@ class ComparisonMethod final : public TrackingMethod {
     const ComparisonPoses seen = tracker_->track(image);
     MethodPoses poses{seen.camera_from_board, std::nullopt};
     if (seen.camera_from_board && seen.camera_from_effector)
-      poses.board_from_effector = board_from(*seen.camera_from_board, *seen.camera_from_effector);
+      poses.board_from_effector = seen.camera_from_board->inverse() * *seen.camera_from_effector;
     return poses;
   }
   void reset() override {}

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "physics/BoxInertia.h"
+#include "physics/CloneCoupling.h"
 #include "physics/boxes/BoxWorld.h"
-#include "physics/boxes/CloneCoupling.h"
 
 namespace heft {
 
@@ -20,6 +20,19 @@ using Eigen::Vector3d;
 constexpr double longest_travel_m = 1.5e-3;
 constexpr double most_pieces = 64;
 constexpr int most_cuts = 4;  // until the clone has slid off: it may be slower than foreseen
+
+// How many times more a push at the tip moves the clone than it turns the tip aside, at least.
+constexpr double locked_ratio = 100;
+
+// Where the torsional spring is so much stiffer than the other that turning adds nothing to the
+// lag, unless the clone is released turned away.
+bool turns_as_target(const Scene& scene) {
+  const Coupling& coupling = scene.coupling;
+  const double lever_m = scene.effector_size_m.norm() / 2;
+  const bool stiff = coupling.torsional_stiffness_nm_per_rad >=
+                     locked_ratio * coupling.stiffness_n_per_m * lever_m * lever_m;
+  return stiff && rotation_vector(scene.clone_offset.orientation).norm() < 1e-9;
+}
 
 class BoxesSimulator : public DecouplingSimulator {
  public:
@@ -40,12 +53,14 @@ class BoxesSimulator : public DecouplingSimulator {
   double n_pieces(const Pose& target, double h_s) const;
   void pieces(const Pose& target, double h_s);
   void piece(const Pose& target, double h_s);
+  void begin_coupled(const Pose& target, double h_s);
+  void end_coupled(const Pose& target);
   void note_impulses();
 
   bool decoupled_ = true;
   std::size_t n_cubes_ = 0;
   std::optional<BoxWorld> world_;
-  boxes::CloneCoupling coupling_;
+  CloneCoupling coupling_;
   Pose target_;
   std::vector<Vector3d> impulse_n_s_;  // of the clone on each cube, over the last step
   double last_h_s_ = 0;
@@ -71,19 +86,18 @@ void BoxesSimulator::reset(const Scene& scene, const Pose& target) {
 }
 
 void BoxesSimulator::add_clone(const Scene& scene, const Pose& target) {
-  const Pose offset = decoupled_ ? scene.clone_offset : Pose{};
   Body body;
   body.set_size(scene.effector_size_m);
   body.has_weight = false;
-  body.put({target * offset.position_m, target.orientation * offset.orientation}, {});
+  body.put(clone_start(scene, target), {});
   world_->add(body);
-  coupling_ = boxes::CloneCoupling(scene);
-  coupling_.restart(body, {}, {});
+  coupling_ = CloneCoupling(CouplingScheme::exact, scene, turns_as_target(scene));
+  coupling_.restart({body.pose, {}}, {});
 }
 
 double BoxesSimulator::n_pieces(const Pose& target, double h_s) const {
   // The clone may become as fast as the target within the step.
-  const Velocity of_target = boxes::mean_velocity_of(target_, target, h_s);
+  const Velocity of_target = mean_velocity(target_, target, h_s);
   const double fastest_m_s =
       std::max(world_->fastest_m_s(), world_->body(clone_index).tip_speed_m_s(of_target));
   const double travel_m = h_s * fastest_m_s;
@@ -96,14 +110,14 @@ double BoxesSimulator::n_pieces(const Pose& target, double h_s) const {
 void BoxesSimulator::step(const Pose& target, double h_s) {
   for (Vector3d& impulse_n_s : impulse_n_s_) impulse_n_s.setZero();
   const Pose from = target_;
-  const Velocity of_target = boxes::mean_velocity_of(from, target, h_s);
+  const Velocity of_target = mean_velocity(from, target, h_s);
   double done = 0;
   for (int cut = 0; decoupled_ && cut < most_cuts; ++cut) {
     const auto share = world_->share_before_sliding_off(clone_index, (1 - done) * h_s);
     if (!share || *share >= 1) break;
     const double until = done + *share * (1 - done);
     pieces(interpolate(from, target, until), (until - done) * h_s);
-    coupling_.restart(clone(), clone().velocity, of_target);
+    coupling_.restart({clone().pose, clone().velocity}, of_target);
     done = until;
   }
   pieces(target, (1 - done) * h_s);
@@ -119,17 +133,29 @@ void BoxesSimulator::pieces(const Pose& target, double h_s) {
 
 void BoxesSimulator::piece(const Pose& target, double h_s) {
   if (decoupled_)
-    coupling_.begin(clone(), target_, target, h_s);
+    begin_coupled(target, h_s);
   else
-    clone().velocity = boxes::mean_velocity_of(clone().pose, target, h_s);
+    clone().velocity = mean_velocity(clone().pose, target, h_s);
   world_->solve(h_s);
   world_->move(h_s);
   if (decoupled_)
-    coupling_.end(clone(), target);
+    end_coupled(target);
   else
     clone().place(target);
   target_ = target;
   note_impulses();
+}
+
+// Gives the clone its solver mass and the velocity at which it moves if nothing touches it.
+void BoxesSimulator::begin_coupled(const Pose& target, double h_s) {
+  const CoupledClone free = coupling_.begin(clone().pose, target_, target, h_s);
+  clone().velocity = free.velocity;
+  clone().set_mass(free.mass_kg, free.inertia_kg_m2);
+}
+
+void BoxesSimulator::end_coupled(const Pose& target) {
+  coupling_.end({clone().pose, clone().velocity});
+  if (coupling_.locked()) clone().place({clone().pose.position_m, target.orientation});
 }
 
 void BoxesSimulator::note_impulses() {
@@ -142,7 +168,7 @@ void BoxesSimulator::teleport_clone(const Pose& target, const Velocity& velocity
   target_ = target;
   clone().put(target, velocity);
   world_->forget_contacts(clone_index);
-  coupling_.restart(clone(), velocity, velocity);
+  coupling_.restart({clone().pose, velocity}, velocity);
 }
 
 void BoxesSimulator::place_cube(int cube, const Pose& pose) {

@@ -21,9 +21,7 @@ class StockSimulator : public DecouplingSimulator {
 
   void reset(const Scene& scene, const Pose& target) override {
     coupling_.reset();
-    const Pose offset = scene.coupling.decoupled ? scene.clone_offset : Pose{};
-    world_.emplace(scene,
-                   Pose{target * offset.position_m, target.orientation * offset.orientation});
+    world_.emplace(scene, clone_start(scene, target));
     if (scene.coupling.decoupled) coupling_ = make_coupling_(*world_, scene.coupling);
     target_ = target;
     t_s_ = 0;

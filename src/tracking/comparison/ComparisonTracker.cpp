@@ -1,7 +1,7 @@
 #include "tracking/comparison/ComparisonTracker.h"
 
 #include <array>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core/utility.hpp>
 
 #include "tracking/ImageConversion.h"
 #include "tracking/comparison/ArucoDetector.h"
@@ -10,14 +10,6 @@
 namespace heft {
 
 namespace {
-Image gray_of(const Image& image) {
-  if (image.channels == 1) return image;
-  Image gray(image.width, image.height, 1);
-  cv::Mat to(image.height, image.width, CV_8UC1, gray.pixels.data());
-  cv::cvtColor(mat_of(image), to, cv::COLOR_BGR2GRAY);
-  return gray;
-}
-
 // libapriltag as our own tracker calls it, on the whole picture.
 class AprilTags {
  public:
