@@ -9,7 +9,7 @@ namespace heft {
 namespace {
 using Corners = std::array<Eigen::Vector2d, 4>;
 
-constexpr double usual_blur_px = 0.7;
+constexpr double usual_blur_px = 0.65;
 constexpr double least_expected_edge_px = 9;
 constexpr double least_agreement = 0.85;  // of the data cells of a tag that no detector read
 
@@ -153,7 +153,8 @@ std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,
 MeasuredTag BodyFinder::measure(const Image& gray, std::size_t tag, const Corners& corners_px) {
   const MeasuredTag seen =
       measure_tag(gray, camera_, looks_[tag], corners_px, blur_px_, most_edge_pixels_);
-  if (seen.quality < settings_.least_quality) return seen;
+  // Clipped edges look more blurred than they are: learning from them, the blur would grow.
+  if (seen.quality < settings_.least_quality || seen.saturated > 0) return seen;
   double sum = 0;
   for (const FittedEdge& edge : seen.edges) sum += edge.blur_px;
   constexpr double memory = 0.95;

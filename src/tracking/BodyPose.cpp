@@ -11,10 +11,12 @@ namespace heft {
 
 namespace {
 constexpr std::size_t most_start_tags = 3, most_adjusted = 3;
-constexpr double capped_px = 8;       // a corner that is further off says no more
-constexpr double worst_rms_px = 3;    // no pose of this body
-constexpr double apart_rad = 0.14;    // poses that differ by less are one
-constexpr double undecided = 12;      // difference of costs, in variances of the better fit
+constexpr double capped_px = 8;     // a corner that is further off says no more
+constexpr double worst_rms_px = 3;  // no pose of this body
+constexpr double apart_rad = 0.14;  // poses that differ by less are one
+constexpr double undecided = 12;    // difference of costs, in variances of the better fit
+// White that is clipped may be any brightness: on a single tag that is millimeters of depth.
+constexpr double saturated_quality = 0.4;
 constexpr double halved_at_px = 1.0;  // residual that halves the quality
 
 TagObservation::Edge observe_edge(const Intrinsics& camera, const FittedEdge& edge) {
@@ -129,7 +131,8 @@ std::vector<TagObservation> without_outliers(const std::vector<TagObservation>& 
 
 double quality_of(const std::vector<TagObservation>& tags, const BodyFit& fit) {
   double sum = 0;
-  for (const TagObservation& tag : tags) sum += tag.quality;
+  for (const TagObservation& tag : tags)
+    sum += tag.quality * (1 - tag.saturated * (1 - saturated_quality));
   const double relative = fit.rms_px / halved_at_px;
   return sum / static_cast<double>(tags.size()) * (fit.ambiguous ? 0.5 : 1) /
          (1 + relative * relative);
@@ -142,6 +145,7 @@ TagObservation observe(const Intrinsics& camera, const Tag& tag, const MeasuredT
   seen.corners_m = tag.corners_m;
   seen.outward = bright_outside ? 1 : -1;
   seen.quality = measured.quality;
+  seen.saturated = measured.saturated;
   seen.area_px2 = area_of(measured.corners_px);
   for (std::size_t i = 0; i < 4; ++i) {
     seen.rays[i] = undistort(camera, measured.corners_px[i]);

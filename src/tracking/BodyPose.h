@@ -29,6 +29,7 @@ struct TagObservation {
   std::array<Edge, 4> edges;
   double outward = 1;  ///< -1 where the detected border is white within black
   double quality = 0;
+  double saturated = 0;  ///< share of its edges
   double area_px2 = 0;
 };
 
@@ -42,13 +43,15 @@ struct BiasPrior {
 
 struct BodyFit {
   Pose camera_from_body;
-  double bias_px = 0;
-  double rms_px = 0;  ///< distance of measured points from their edges
-  double cost = 0;    ///< robust, in variances
-  int n_tags = 0;     ///< used
+  double bias_px = 0, bias_sd_px = 0;  ///< and its standard deviation, noise alone
+  double rms_px = 0;                   ///< distance of measured points from their edges
+  double cost = 0;                     ///< robust, in variances
+  int n_tags = 0;                      ///< used
   /// A second pose, far from this one, fits nearly as well: a flat body seen from afar.
   bool ambiguous = false;
-  double quality = 0;  ///< mean of its tags', halved where ambiguous, less where rms_px is large
+  /// Mean of its tags', halved where ambiguous or where their white is clipped, less where rms_px
+  /// is large.
+  double quality = 0;
 };
 
 /// @param previous where the body was expected; wins where the picture can't decide

@@ -15,6 +15,7 @@ constexpr double degrees = 180 / M_PI;
 constexpr std::size_t enough_views = 15;
 constexpr double enough_coverage = 0.7;
 constexpr double enough_tilt_rad = 40 / degrees;
+constexpr double enough_distance_ratio = 1.15;
 constexpr double good_rms_px = 0.15;
 constexpr double good_focal_share = 0.001;
 }  // namespace
@@ -72,6 +73,16 @@ double CameraCalibration::tilt_range_rad() const {
   return widest;
 }
 
+double CameraCalibration::distance_ratio() const {
+  double nearest_m = 0, farthest_m = 0;
+  for (const CalibratedView& view : views) {
+    if (!view.used) continue;
+    nearest_m = nearest_m > 0 ? std::min(nearest_m, view.distance_m) : view.distance_m;
+    farthest_m = std::max(farthest_m, view.distance_m);
+  }
+  return nearest_m > 0 ? farthest_m / nearest_m : 1;
+}
+
 std::vector<std::string> doubts(const CameraCalibration& calibration) {
   std::vector<std::string> list;
   const auto doubt = [&](bool when, const std::string& text) {
@@ -87,6 +98,8 @@ std::vector<std::string> doubts(const CameraCalibration& calibration) {
         fmt::format("views differ by {:.0f} degrees at most; tilt the board (or the camera) to all "
                     "sides, by 30 degrees or so",
                     calibration.tilt_range_rad() * degrees));
+  doubt(calibration.distance_ratio() < enough_distance_ratio,
+        "all views are from one distance; bring the board nearer and farther away");
   doubt(calibration.rms_px > good_rms_px,
         fmt::format("corners are {:.2f} px off (rms), expected {} or less; is the board flat, the "
                     "picture sharp, the exposure short, the focus locked?",

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/Error.h"
 #include "base/Image.h"
 #include "tracking/Intrinsics.h"
 
@@ -23,6 +24,14 @@ struct CameraPicture {
   double capture_s = 0;
   std::int64_t number = 0;  ///< from 0; of a live camera pictures that were never asked for count
   std::string name;         ///< of its file, where it has one
+};
+
+/// A picture of a file that can't be read; the camera goes on with the one after it.
+struct DamagedPicture : Error {
+  DamagedPicture(const std::string& message, std::string of, double at_s)
+      : Error(message), name(std::move(of)), capture_s(at_s) {}
+  std::string name;
+  double capture_s = 0;
 };
 
 /// What a camera was asked to do and does.
@@ -40,6 +49,7 @@ class Camera {
 
   /// The newest picture that was not given yet; a file's next one, at once. None when nothing came
   /// for timeout_s (a frozen or unplugged camera) or at the end of a file.
+  /// @throws DamagedPicture
   virtual std::optional<CameraPicture> next(double timeout_s) = 0;
 
   /// No picture will come any more: the end of a file.

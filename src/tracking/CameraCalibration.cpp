@@ -11,7 +11,6 @@
 namespace heft {
 
 namespace {
-constexpr std::size_t least_tags = 4;
 constexpr int most_bias_rounds = 6;
 constexpr double settled_bias_px = 0.002;
 
@@ -111,6 +110,7 @@ double judge(View& view, const Points& points, const Solution& solution, std::si
   cv::Mat rotation;
   cv::Rodrigues(solution.turns[i], rotation);
   for (int row = 0; row < 3; ++row) view.result.normal[row] = rotation.at<double>(row, 2);
+  view.result.distance_m = cv::norm(solution.shifts[i]);
   return std::abs(along / squares);
 }
 
@@ -163,14 +163,14 @@ std::vector<View> views_of(const MarkerBody& board, const std::vector<Image>& pi
     View view{viewer.view(pictures[i], camera), {}};
     view.result.name = names.at(i);
     view.result.n_tags = view.tags.tags.size();
-    if (view.result.n_tags >= least_tags) views.push_back(std::move(view));
+    if (view.result.n_tags >= least_tags_of_a_view) views.push_back(std::move(view));
   }
   if (views.size() < least_views)
     throw Error(
         fmt::format("{} of {} picture(s) show {} or more of the board's tags clearly, "
                     "expected at least {} and better 20; is it the right board file, is "
                     "the board sharp and evenly lit?",
-                    views.size(), pictures.size(), least_tags, least_views));
+                    views.size(), pictures.size(), least_tags_of_a_view, least_views));
   return views;
 }
 
@@ -190,17 +190,20 @@ Intrinsics guessed_camera(int width_px, int height_px) {
   return {width_px, height_px, focal_px, focal_px, (width_px - 1) / 2.0, (height_px - 1) / 2.0, {}};
 }
 
-std::optional<Eigen::Vector3d> rough_normal(const MarkerBody& board, const Intrinsics& camera,
-                                            const TagView& view) {
+std::optional<Pose> rough_pose(const MarkerBody& board, const Intrinsics& camera,
+                               const TagView& view) {
   const Points points = points_of({view, {}}, board);
   cv::Mat turn, shift, rotation;
-  if (points.on_board.size() < 4 * least_tags ||
+  if (points.on_board.size() < 4 * least_tags_of_a_view ||
       !cv::solvePnP(points.on_board, points.in_picture, matrix_of(camera), cv::noArray(), turn,
                     shift))
     return std::nullopt;
   cv::Rodrigues(turn, rotation);
-  return Eigen::Vector3d(rotation.at<double>(0, 2), rotation.at<double>(1, 2),
-                         rotation.at<double>(2, 2));
+  Eigen::Matrix3d axes;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) axes(row, column) = rotation.at<double>(row, column);
+  return Pose{{shift.at<double>(0), shift.at<double>(1), shift.at<double>(2)},
+              Eigen::Quaterniond(axes)};
 }
 
 CameraCalibration calibrate_camera(const MarkerBody& board, const std::vector<Image>& pictures,

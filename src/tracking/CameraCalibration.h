@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/Pose.h"
 #include "tracking/TagViews.h"
 
 namespace heft {
@@ -33,6 +34,7 @@ struct CalibratedView {
   std::size_t n_tags = 0;
   double reprojection_px = 0;        ///< rms
   Eigen::Vector3d normal{0, 0, -1};  ///< of the board, in the camera frame
+  double distance_m = 0;             ///< of the board's origin
   double bias_px = 0;                ///< its edges seem moved outwards by as much
   bool used = true;                  ///< false: it does not fit the others
 };
@@ -48,6 +50,8 @@ struct CameraCalibration {
   std::size_t n_used() const;
   /// How far used views are tilted against each other: the widest angle between two board normals.
   double tilt_range_rad() const;
+  /// The farthest used view's distance over the nearest one's.
+  double distance_ratio() const;
 };
 
 /// Why a calibration should not be trusted and what to do about it; empty: it can be.
@@ -59,12 +63,16 @@ std::string summary(const CameraCalibration& calibration);
 /// The smallest number of views that a camera can be calibrated from.
 inline constexpr std::size_t least_views = 5;
 
+/// The smallest number of the board's tags that makes a picture a view of it.
+inline constexpr std::size_t least_tags_of_a_view = 4;
+
 /// Of a camera that nothing is known of: 60 degrees across, no distortion.
 Intrinsics guessed_camera(int width_px, int height_px);
 
-/// The board's normal in the camera frame, good to some degrees; none where it can't be told.
-std::optional<Eigen::Vector3d> rough_normal(const MarkerBody& board, const Intrinsics& camera,
-                                            const TagView& view);
+/// Where the board is (camera_from_board), good to some degrees and percent; none where it can't be
+/// told.
+std::optional<Pose> rough_pose(const MarkerBody& board, const Intrinsics& camera,
+                               const TagView& view);
 
 /// @param pictures all of one size; at least least_views with four tags or more
 /// @throws Error when there are too few, or no camera fits them

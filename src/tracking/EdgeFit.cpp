@@ -18,7 +18,8 @@ enum Unknown { offset, slope, dark, contrast, gain, blur };
 
 constexpr double least_contrast = 20;  // gray levels between black and white
 constexpr double least_light_contrast = 0.002;
-constexpr double most_light = 3, saturated_light = 0.97, saturated_blur_sd_px = 0.02;
+constexpr double most_light = 3, saturated_light = 0.97, saturated_blur_sd_px = 0.01;
+constexpr double least_seen_noise = 0.7, clipped_noise_share = 0.4;  // gray levels; of black's
 constexpr double window_cells = 0.5, least_window_px = 1.0, most_window_px = 5;
 constexpr double corner_px = 2, most_corner_share = 0.2;  // left out: two edges blur together there
 constexpr int least_pixels = 12;
@@ -132,6 +133,30 @@ class Band {
   int major_ = 0, minor_ = 1;
 };
 
+// How much the pixels of one side vary that are furthest from the edge, gray levels.
+double plateau_noise(const std::vector<Sample>& samples, bool outside) {
+  double furthest = 0;
+  for (const Sample& sample : samples) furthest = std::max(furthest, std::abs(sample.outward));
+  const auto is_plateau = [&](const Sample& sample) {
+    return (sample.outward > 0) == outside && std::abs(sample.outward) > 0.6 * furthest;
+  };
+  double sum = 0, deviation = 0;
+  int n = 0;
+  for (const Sample& sample : samples)
+    if (is_plateau(sample)) sum += sample.value, ++n;
+  for (const Sample& sample : samples)
+    if (is_plateau(sample)) deviation += std::abs(sample.value - sum / n);
+  return deviation / std::max(1, n);
+}
+
+// White at the end of the scale may be clipped: a noisy camera's then has lost its noise, which
+// black still has. Where nothing has noise (a drawing) the white is what it says.
+bool is_clipped(const std::vector<Sample>& samples, bool bright_outside) {
+  const double black_noise = plateau_noise(samples, !bright_outside);
+  return black_noise > least_seen_noise &&
+         plateau_noise(samples, bright_outside) < clipped_noise_share * black_noise;
+}
+
 // The step model on one band of pixels.
 class StepFit {
  public:
@@ -146,8 +171,11 @@ class StepFit {
     }
     const double inside = light[0] / weights[0], outside = light[1] / weights[1];
     unknowns << 0, 0, inside, outside - inside, 0, guess.blur_px;
+    saturated =
+        std::max(inside, outside) > saturated_light && is_clipped(samples, outside > inside);
     // Above saturation the light, the blur and the place can't all be told from one flank.
-    if (std::max(inside, outside) > saturated_light) blur_sd_px_ = saturated_blur_sd_px;
+    if (saturated) blur_sd_px_ = saturated_blur_sd_px;
+    most_light_ = saturated ? most_light : std::max({1.0, inside, outside});
     has_contrast =
         (guess.bright_outside ? outside - inside : inside - outside) > least_light_contrast;
   }
@@ -178,7 +206,7 @@ class StepFit {
     if (!change.allFinite()) return 1e9;
     unknowns += change;
     unknowns(blur) = std::clamp(unknowns(blur), least_blur_px, most_blur_px);
-    unknowns(contrast) = std::min(unknowns(contrast), most_light - unknowns(dark));
+    unknowns(contrast) = std::min(unknowns(contrast), most_light_ - unknowns(dark));
     information = normal_matrix;
     return std::abs(change(offset)) + std::abs(change(slope));
   }
@@ -203,7 +231,7 @@ class StepFit {
   Vector6 unknowns;
   Matrix6 information = Matrix6::Zero();
   double noise = 6;
-  bool has_contrast = false;
+  bool has_contrast = false, saturated = false;
 
  private:
   // What is known before: the blur. The rest is damped.
@@ -229,7 +257,7 @@ class StepFit {
 
   const std::vector<Sample>& samples_;
   const EdgeGuess& guess_;
-  double blur_sd_px_;
+  double blur_sd_px_, most_light_ = 1;
 };
 
 // Two points at which a straight line's errors are independent: at its best known place, plus and
@@ -272,6 +300,7 @@ FittedEdge described(const Frame& frame, const StepFit& fit, double cell_px) {
   edge.bright = std::max(fit.inside_value(), fit.outside_value());
   edge.blur_px = fit.unknowns(blur);
   edge.noise = fit.noise;
+  edge.saturated = fit.saturated;
   const bool usable = fit.levels() >= least_contrast && std::isfinite(edge.sd_px);
   edge.quality = usable ? fit.explained() : 0;
   return edge;
@@ -302,6 +331,8 @@ FittedEdge fit_edge(const Image& gray, const EdgeGuess& first_guess, int most_pi
     if (moved_px(fit) < recenter_px) break;
     guess.start_px = edge.start_px;
     guess.end_px = edge.end_px;
+    // What a saturated edge seems to be blurred by is a guess, and must not grow on itself.
+    if (fit.saturated) continue;
     guess.blur_px = std::clamp(edge.blur_px, 0.5 * guess.blur_px, 2 * guess.blur_px);
   }
   return edge;

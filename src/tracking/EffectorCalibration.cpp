@@ -1,6 +1,7 @@
 #include "tracking/EffectorCalibration.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,19 +83,14 @@ std::vector<Tag> tags_of(const TagBundle& bundle, const MarkerBody& effector) {
   return tags;
 }
 
-// Turns and shifts all tags together to lie best on where the file had them. Only tags that were
-// measured take part.
-void back_to_axes(std::vector<Tag>& tags, const std::vector<Tag>& nominal,
-                  const std::vector<CalibratedTag>& measured) {
-  Eigen::Matrix3Xd from(3, 0), to(3, 0);
-  for (std::size_t i = 0; i < tags.size(); ++i) {
-    if (measured[i].n_views == 0) continue;
-    from.conservativeResize(3, from.cols() + 4);
-    to.conservativeResize(3, to.cols() + 4);
-    for (std::size_t c = 0; c < 4; ++c) {
-      from.col(from.cols() - 4 + static_cast<Eigen::Index>(c)) = tags[i].corners_m[c];
-      to.col(to.cols() - 4 + static_cast<Eigen::Index>(c)) = nominal[i].corners_m[c];
-    }
+// Turns and shifts all tags together to lie best on where the file had them.
+void back_to_axes(std::vector<Tag>& tags, const std::vector<Tag>& nominal) {
+  const auto n = static_cast<Eigen::Index>(4 * tags.size());
+  Eigen::Matrix3Xd from(3, n), to(3, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto tag = static_cast<std::size_t>(i / 4), corner = static_cast<std::size_t>(i % 4);
+    from.col(i) = tags[tag].corners_m[corner];
+    to.col(i) = nominal[tag].corners_m[corner];
   }
   const Eigen::Isometry3d rigid(Eigen::umeyama(from, to, false));
   for (Tag& tag : tags)
@@ -109,15 +105,33 @@ std::vector<CalibratedTag> counted(const MarkerBody& effector, const std::vector
   return tags;
 }
 
+// "33, 34 (in 0 and 2 pictures)" of the tags that were seen beside another one too seldom.
+std::string seldom_seen(const std::vector<CalibratedTag>& tags) {
+  std::vector<int> ids, counts;
+  for (const CalibratedTag& tag : tags)
+    if (tag.n_views < least_views_of_a_tag) {
+      ids.push_back(tag.id);
+      counts.push_back(tag.n_views);
+    }
+  if (ids.empty()) return "";
+  return fmt::format("{} (in {} picture(s))", fmt::join(ids, ", "), fmt::join(counts, ", "));
+}
+
 void require_enough(const std::vector<CalibratedTag>& tags, std::size_t n_views) {
   constexpr std::size_t least = 10;
-  const auto n_seen = std::ranges::count_if(tags, [](const auto& t) { return t.n_views > 0; });
-  if (n_views >= least && n_seen >= 2) return;
-  throw Error(
-      fmt::format("{} picture(s) show two or more of the effector's tags clearly, expected "
-                  "at least {} and better 40; turn it slowly in front of the camera, near, "
-                  "in good light",
-                  n_views, least));
+  const std::string seldom = seldom_seen(tags);
+  if (n_views < least)
+    throw Error(
+        fmt::format("{} picture(s) show two or more of the effector's tags clearly, expected at "
+                    "least {} and better 40; seen beside another one too seldom: tag {}. Turn it "
+                    "slowly in front of "
+                    "the camera, near, in good light; is it the right effector file?",
+                    n_views, least, seldom));
+  if (!seldom.empty())
+    throw Error(fmt::format(
+        "too little was seen, beside another tag, of tag {}; expected {} pictures or more of each. "
+        "Show them with their neighbors, or take a tag that is not on the effector out of its file",
+        seldom, least_views_of_a_tag));
 }
 }  // namespace
 
@@ -133,7 +147,7 @@ EffectorCalibration calibrate_effector(const MarkerBody& effector, const Intrins
   result.rms_px = adjust(bundle, camera, useful);
   result.bias_px = bundle.bias_px;
   result.effector.tags = tags_of(bundle, effector);
-  back_to_axes(result.effector.tags, effector.tags, result.tags);
+  back_to_axes(result.effector.tags, effector.tags);
   for (std::size_t i = 0; i < result.tags.size(); ++i)
     for (std::size_t c = 0; c < 4; ++c)
       result.tags[i].moved_m +=
@@ -145,11 +159,6 @@ std::vector<std::string> doubts(const EffectorCalibration& calibration) {
   constexpr double good_rms_px = 0.3, far_m = 0.005;
   std::vector<std::string> list;
   for (const CalibratedTag& tag : calibration.tags) {
-    if (tag.n_views < least_views_of_a_tag)
-      list.push_back(
-          fmt::format("tag {} was seen beside another one in {} picture(s) only; show it "
-                      "more, with its neighbors",
-                      tag.id, tag.n_views));
     if (tag.moved_m > far_m)
       list.push_back(
           fmt::format("tag {} is {:.1f} mm from where the file has it; is it on the "

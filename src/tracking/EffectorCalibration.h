@@ -30,7 +30,8 @@ struct EffectorCalibration {
 inline constexpr int least_views_of_a_tag = 6;
 
 /// @param views of the effector; those with fewer than two tags don't count
-/// @throws Error when there are too few
+/// @throws Error when there are too few, or a tag is in fewer than least_views_of_a_tag of them,
+///   naming it
 EffectorCalibration calibrate_effector(const MarkerBody& effector, const Intrinsics& camera,
                                        const std::vector<TagView>& views);
 

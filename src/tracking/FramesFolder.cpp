@@ -122,8 +122,9 @@ class FramesFolder : public Camera {
   std::optional<CameraPicture> next(double) override {
     if (ended()) return std::nullopt;
     const std::size_t i = next_++;
-    return CameraPicture{i == 0 ? first_ : read_image(path_of(i)), times_s_[i] - times_s_[0],
-                         static_cast<std::int64_t>(i), names_[i]};
+    const double t_s = times_s_[i] - times_s_[0];
+    return CameraPicture{i == 0 ? first_ : read(i, t_s), t_s, static_cast<std::int64_t>(i),
+                         names_[i]};
   }
   bool ended() const override { return next_ == names_.size(); }
   bool is_live() const override { return false; }
@@ -135,6 +136,13 @@ class FramesFolder : public Camera {
   }
 
  private:
+  Image read(std::size_t i, double t_s) const {
+    try {
+      return read_image(path_of(i));
+    } catch (const Error& error) {
+      throw DamagedPicture(error.what(), names_[i], t_s);
+    }
+  }
   std::string path_of(std::size_t i) const { return (fs::path(folder_) / names_[i]).string(); }
 
   std::string folder_;

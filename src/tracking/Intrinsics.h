@@ -40,10 +40,14 @@ Pose camera_above_board(double distance_m, double below_horizon_rad);
 /// Reads OpenCV's YAML: image_width, image_height, camera_matrix, distortion_coefficients (4, 5 or
 /// 8 of them).
 /// @param text contents  @param file its name, for messages
-/// @throws InvalidFile naming what is missing or impossible
+/// @throws InvalidFile naming what is missing or impossible, at its line where that is known
 Intrinsics parse_intrinsics(const std::string& text, const std::string& file);
 
-/// @throws Error when the file can't be read, InvalidFile as parse_intrinsics
+/// The text of a camera file.
+/// @throws Error when it can't be read, saying how such a file is made
+std::string read_camera_file(const std::string& path);
+
+/// @throws Error as read_camera_file, InvalidFile as parse_intrinsics
 Intrinsics load_intrinsics(const std::string& path);
 
 /// The YAML that parse_intrinsics and OpenCV's FileStorage read. @param comment put on top, may be

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <sstream>
@@ -18,11 +19,12 @@ constexpr int largest_side_px = 20000;
 
 class Reader {
  public:
-  Reader(const std::string& text, const std::string& file) : file_(file) {
+  Reader(const std::string& text, const std::string& file) : file_(file), text_(text) {
     try {
-      storage_.open(with_heading(text), cv::FileStorage::READ | cv::FileStorage::MEMORY);
+      const std::string whole = has_heading(text) ? text : heading + text;
+      storage_.open(whole, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     } catch (const cv::Exception& error) {
-      refuse(fmt::format("this is no YAML that OpenCV can read ({})", error.err));
+      refuse_syntax(error);
     }
     if (!storage_.isOpened() || !storage_.root().isMap())
       refuse(
@@ -69,7 +71,11 @@ class Reader {
     std::ranges::copy(d, camera.distortion.begin());
   }
 
-  void mistake(std::string message) { mistakes_.push_back({{file_}, std::move(message)}); }
+  // Its message begins with the key.
+  void mistake(std::string message) {
+    const std::string key = message.substr(0, message.find(' '));
+    mistakes_.push_back({place_of(key), std::move(message)});
+  }
 
   void finish() {
     if (!mistakes_.empty()) throw InvalidFile(std::move(mistakes_));
@@ -77,11 +83,39 @@ class Reader {
 
  private:
   // Files written by hand often lack the first line that OpenCV insists on.
-  static std::string with_heading(const std::string& text) {
+  static constexpr const char* heading = "%YAML:1.0\n---\n";
+  static constexpr int heading_lines = 2;
+
+  static bool has_heading(const std::string& text) {
     const auto start = text.find_first_not_of(" \t\r\n");
-    const bool has_heading = start != std::string::npos &&
-                             (text[start] == '%' || text[start] == '<' || text[start] == '{');
-    return has_heading ? text : "%YAML:1.0\n---\n" + text;
+    return start != std::string::npos &&
+           (text[start] == '%' || text[start] == '<' || text[start] == '{');
+  }
+
+  // OpenCV 4.6 puts "(LINE): what" where an exception has its function's name.
+  [[noreturn]] void refuse_syntax(const cv::Exception& error) {
+    int line = 0, length = 0;
+    const bool told = std::sscanf(error.func.c_str(), "(%d): %n", &line, &length) == 1;
+    const std::string what = told && length > 0
+                                 ? error.func.substr(static_cast<std::size_t>(length))
+                                 : "it does not look like one";
+    SourcePlace place{file_};
+    if (told) place.line = std::max(1, line - (has_heading(text_) ? 0 : heading_lines));
+    mistakes_.push_back({place, fmt::format("this is no YAML that OpenCV can read: {}; expected a "
+                                            "camera file as heft calibrate camera writes it",
+                                            what)});
+    throw InvalidFile(std::move(mistakes_));
+  }
+
+  // Where a key is; no line where it is not.
+  SourcePlace place_of(std::string_view key) const {
+    const std::vector<std::string_view> lines = lines_of(text_);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto start = lines[i].find_first_not_of(" \t\"");
+      if (start != std::string_view::npos && lines[i].substr(start).starts_with(key))
+        return {file_, static_cast<int>(i) + 1, static_cast<int>(start) + 1};
+    }
+    return {file_};
   }
 
   // The numbers of a scalar, a list, or a matrix (a map with a list named data).
@@ -106,11 +140,11 @@ class Reader {
   }
 
   [[noreturn]] void refuse(std::string message) {
-    mistake(std::move(message));
+    mistakes_.push_back({{file_}, std::move(message)});
     throw InvalidFile(std::move(mistakes_));
   }
 
-  std::string file_;
+  std::string file_, text_;
   cv::FileStorage storage_;
   std::vector<Mistake> mistakes_;
 };
@@ -140,8 +174,19 @@ Intrinsics parse_intrinsics(const std::string& text, const std::string& file) {
   return camera;
 }
 
+std::string read_camera_file(const std::string& path) {
+  try {
+    return read_text_file(path);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}; it is the camera's calibration, which is made with heft calibrate "
+                            "camera --camera camera:0 --board BOARD.toml --out {}",
+                            error.what(), path),
+                error.exit_code());
+  }
+}
+
 Intrinsics load_intrinsics(const std::string& path) {
-  return parse_intrinsics(read_text_file(path), path);
+  return parse_intrinsics(read_camera_file(path), path);
 }
 
 std::string to_yaml(const Intrinsics& camera, const std::string& comment) {

@@ -10,7 +10,6 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "tracking/CameraSources.h"
-#include "tracking/GrabThread.h"
 #include "tracking/ImageConversion.h"
 #include "tracking/VideoDevices.h"
 
@@ -146,10 +145,8 @@ CameraMode Device::mode() {
 
 class LiveCamera : public Camera {
  public:
-  explicit LiveCamera(std::unique_ptr<Device> device)
-      : mode_(device->mode()),
-        device_(std::move(device)),
-        thread_([this] { return device_->grab(); }) {}
+  LiveCamera(GrabThread::Grab grab, CameraMode mode)
+      : mode_(std::move(mode)), thread_(std::move(grab)) {}
 
   std::optional<CameraPicture> next(double timeout_s) override { return thread_.next(timeout_s); }
   bool ended() const override { return false; }
@@ -158,25 +155,28 @@ class LiveCamera : public Camera {
 
  private:
   CameraMode mode_;
-  std::unique_ptr<Device> device_;
   GrabThread thread_;
 };
 
 }  // namespace
+
+std::unique_ptr<Camera> live_camera(GrabThread::Grab grab, CameraMode mode) {
+  return std::make_unique<LiveCamera>(std::move(grab), std::move(mode));
+}
 
 std::unique_ptr<Camera> open_live_camera(const std::string& number, const CameraRequest& request) {
   const int n = device_number(number);
   check_device(n);
   // OpenCV waits 10 s for a frozen camera, and a program that ends has to wait with it.
   setenv("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "1", 0);
-  auto device = std::make_unique<Device>(n, request);
+  const auto device = std::make_shared<Device>(n, request);
   if (!device->is_open())
     throw Error(fmt::format("the camera /dev/video{} can't be opened: another program may be using "
                             "it, or it is no camera (many have a second device for their data); "
                             "cameras here: {}",
                             n, list_of(video_devices())),
                 ExitCode::device_missing);
-  auto camera = std::make_unique<LiveCamera>(std::move(device));
+  auto camera = live_camera([device] { return device->grab(); }, device->mode());
   if (!camera->next(first_picture_s))
     throw Error(fmt::format("the camera /dev/video{} is there but gives no pictures in {:.0f} s: "
                             "unplug it and plug it in again, on another port if need be",

@@ -1,11 +1,17 @@
-// What a live camera's times and locks are worked out from, apart from any device.
+// A live camera apart from any device: how its pictures are handed on, and what its times and locks
+// are worked out from.
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "tracking/Camera.h"
+#include "tracking/GrabThread.h"
 
 namespace heft {
+
+/// A live camera of whatever grabs its pictures: a V4L2 device, or in tests what plays one.
+std::unique_ptr<Camera> live_camera(GrabThread::Grab grab, CameraMode mode);
 
 /// Middle of the exposure on the monotonic clock.
 /// @param driver_s when the driver says that the picture was taken; it is believed where it lies in

@@ -90,10 +90,15 @@ class Axes {
         dt_s, noise_of(noise_, liveliness_.update(surprise, velocity.norm(), noise_, dt_s)));
     const auto gain = covariance_.correct(sd * sd);
     velocity += gain.velocity * off;
+    now = velocity + (gain.position - gain.velocity * dt_s / 2) / dt_s * off;
     return gain.position * off;
   }
 
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  // What is told outside. A filter of constant velocity follows a steady acceleration with a
+  // velocity that is late by this much of what each measurement surprises it with (the alpha-beta
+  // filter's lag: (alpha - beta / 2) / dt); half a picture, which a hand that turns around shows.
+  Eigen::Vector3d now = Eigen::Vector3d::Zero();
 
  private:
   double measured_sd_;
@@ -135,7 +140,7 @@ FilteredPose PoseFilter::update(double t_s, const Pose& measured, double quality
       predicted_m + position.update(measured.position_m - predicted_m, dt_s, quality);
   state.pose.orientation =
       (rotation_from_vector(turn.update(off_rad, dt_s, quality)) * predicted).normalized();
-  return {state.pose, {position.velocity, turn.velocity}};
+  return {state.pose, {position.now, turn.now}};
 }
 
 void PoseFilter::reset() {

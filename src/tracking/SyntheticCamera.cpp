@@ -1,10 +1,12 @@
 #include "tracking/SyntheticCamera.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tracking/synthetic/FaceDrawing.h"
-#include "tracking/synthetic/Hand.h"
+#include "tracking/synthetic/FilmedHand.h"
 #include "tracking/synthetic/Sensor.h"
 #include "tracking/synthetic/StillScene.h"
 
@@ -54,20 +56,20 @@ struct SyntheticCamera::Parts {
   PixelBox extent(const Pose& pose) const;
   void draw_hand_and_effector(const Pose& pose);
   void draw_moving(const std::vector<std::optional<Pose>>& poses, const PixelBox& box);
-  void put_before_still();
+  void put_before_still(const RowSpans& spans);
+  void forget(const RowSpans& changed);
 
   SyntheticSettings settings;
   Lens lens;
   std::vector<PrintedFace> effector;
-  Hand hand;
+  FilmedHand hand;
   Sensor sensor;
   LightPicture still;   ///< table and board, sharp
   Levels still_levels;  ///< the same, as the sensor has it
-  Levels levels;        ///< this picture's
+  Levels levels;        ///< the same, between pictures
   AreaRaster raster;
   LightPicture instant;  ///< hand and effector at one moment
   LightPicture moving;   ///< their mean over the exposure, then before the still scene
-  LightPicture blurred;
 };
 
 SyntheticCamera::Parts::Parts(const Apparatus& apparatus, const SyntheticSettings& with,
@@ -78,8 +80,7 @@ SyntheticCamera::Parts::Parts(const Apparatus& apparatus, const SyntheticSetting
       hand(apparatus.effector.size_m),
       sensor(with.optics, apparatus.camera.width_px, apparatus.camera.height_px, seed),
       still(still_scene(apparatus.board, with.camera_from_board, lens)) {
-  sensor.blur(still, still.box, blurred);
-  sensor.expose(blurred, still_levels);
+  sensor.expose(still, RowSpans::whole(still.box), still_levels);
   levels = still_levels;
 }
 
@@ -114,33 +115,48 @@ void SyntheticCamera::Parts::draw_hand_and_effector(const Pose& pose) {
   const SeenBody body = seen(pose);
   const auto extent = extent_of(effector, body, lens);
   if (!extent) return;
-  if (settings.hand) hand.draw(Hand::Side::behind_box, body, lens, instant);
+  if (settings.hand) hand.draw(FilmedHand::Side::before_box, body, lens, instant);
   raster.begin(extent->within(instant.box));
   for (const PrintedFace& face : effector)
     if (is_seen(face, body)) draw_face(face, body, lens, raster);
-  raster.draw_over(instant);
-  if (settings.hand) hand.draw(Hand::Side::before_box, body, lens, instant);
+  raster.draw_behind(instant);
+  if (settings.hand) hand.draw(FilmedHand::Side::behind_box, body, lens, instant);
 }
 
 void SyntheticCamera::Parts::draw_moving(const std::vector<std::optional<Pose>>& poses,
                                          const PixelBox& box) {
+  if (poses.size() == 1) {
+    instant.reset(box);
+    draw_hand_and_effector(*poses[0]);
+    return std::swap(moving, instant);
+  }
   moving.reset(box);
   const float share = 1 / static_cast<float>(poses.size());
   for (const std::optional<Pose>& pose : poses) {
     if (!pose) continue;
     instant.reset(box);
     draw_hand_and_effector(*pose);
-    for (std::size_t i = 0; i < moving.light.size(); ++i)
-      moving.light[i] += share * instant.light[i];
+    const RowSpans drawn = RowSpans::covered(instant);
+    for (int y = box.y0; y < box.y1; ++y)
+      for (int x = drawn.at(y).begin; x < drawn.at(y).end; ++x)
+        moving.row(y)[x - box.x0] += share * instant.row(y)[x - box.x0];
   }
 }
 
-void SyntheticCamera::Parts::put_before_still() {
-  const PixelBox& box = moving.box;
-  for (int y = box.y0; y < box.y1; ++y) {
-    Light* row = moving.row(y);
-    const Light* behind = still.row(y) + box.x0;
-    for (int x = 0; x < box.width(); ++x) row[x] = over(row[x], behind[x]);
+void SyntheticCamera::Parts::put_before_still(const RowSpans& spans) {
+  for (int y = moving.box.y0; y < moving.box.y1; ++y) {
+    Light* row = moving.row(y) - moving.box.x0;
+    const Light* behind = still.row(y);
+    const Span& span = spans.at(y);
+    for (int x = span.begin; x < span.end; ++x) row[x] = over(row[x], behind[x]);
+  }
+}
+
+void SyntheticCamera::Parts::forget(const RowSpans& changed) {
+  for (int y = changed.box().y0; y < changed.box().y1; ++y) {
+    const Span& span = changed.at(y);
+    const auto begin = sensor.place_of(span.begin, y), end = sensor.place_of(span.end, y);
+    std::copy(still_levels.begin() + begin, still_levels.begin() + end, levels.begin() + begin);
   }
 }
 
@@ -161,15 +177,16 @@ Image SyntheticCamera::picture(const EffectorPath& board_from_effector, double t
   for (const auto& pose : poses)
     if (pose) reached = reached.around(p.extent(*pose));
   const int blur_px = p.sensor.blur_reach_px();
-  const PixelBox changed = reached.empty() ? reached : reached.grown(blur_px).within(p.still.box);
-  if (changed.empty()) return p.sensor.develop(p.still_levels, number);
+  if (!reached.empty()) reached = reached.grown(2 * blur_px).within(p.still.box);
+  if (reached.empty()) return p.sensor.develop(p.levels, number);
 
-  p.draw_moving(poses, changed.grown(blur_px).within(p.still.box));
-  p.put_before_still();
-  p.sensor.blur(p.moving, changed, p.blurred);
-  p.levels = p.still_levels;
-  p.sensor.expose(p.blurred, p.levels);
-  return p.sensor.develop(p.levels, number);
+  p.draw_moving(poses, reached);
+  const RowSpans drawn = RowSpans::covered(p.moving), changed = drawn.grown(blur_px, blur_px);
+  p.put_before_still(drawn.grown(2 * blur_px, 2 * blur_px));
+  p.sensor.expose(p.moving, changed, p.levels);
+  Image picture = p.sensor.develop(p.levels, number);
+  p.forget(changed);
+  return picture;
 }
 
 }  // namespace heft

@@ -14,6 +14,13 @@ namespace {
 constexpr int bits_corrected = 1;
 // libapriltag's own thresholding works in tiles and needs a few of them.
 constexpr int least_side_px = 16;
+// Tiles with less contrast than this are not searched for edges. The library's own 5 levels lie
+// within a camera's noise: it then follows the edges of noise everywhere, which takes most of its
+// time and finds no tag more. Dim pictures, and pale prints, are searched as closely as their noise
+// allows.
+constexpr int usual_contrast = 30, library_contrast = 5;
+constexpr double contrast_share = 0.25;  // of the whole picture's
+constexpr double noise_range_sd = 8;     // between the extremes of a tile and its neighbors
 // Its pixels' centers lie at halves.
 constexpr double center_offset_px = 0.5;
 
@@ -31,6 +38,32 @@ Region clipped(const Region& region, const Image& image) {
   const int right = std::clamp(region.x + region.width, left, image.width);
   const int bottom = std::clamp(region.y + region.height, top, image.height);
   return {left, top, right - left, bottom - top};
+}
+
+// The value below which a share of them lies.
+int quantile_of(std::vector<int>& values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
+// From the spread of pixels on a coarse grid, and from how neighbors differ.
+int searched_contrast(const Image& gray) {
+  constexpr int every_px = 8;
+  constexpr double sd_per_median_difference = 1 / 0.954;  // of two normal numbers
+  std::vector<int> values, differences;
+  for (int y = 0; y < gray.height; y += every_px)
+    for (int x = 0; x + 1 < gray.width; x += every_px) {
+      const std::uint8_t* p = &gray.pixels[static_cast<std::size_t>(y) * gray.row_bytes() +
+                                           static_cast<std::size_t>(x)];
+      values.push_back(p[0]);
+      differences.push_back(std::abs(p[1] - p[0]));
+    }
+  const double contrast = quantile_of(values, 0.99) - quantile_of(values, 0.01);
+  const double noise_sd = sd_per_median_difference * quantile_of(differences, 0.5);
+  const double wanted = std::max(contrast_share * contrast, noise_range_sd * noise_sd);
+  return std::clamp(static_cast<int>(wanted), library_contrast, usual_contrast);
 }
 
 // The library lists them from the bottom left, counter-clockwise.
@@ -67,7 +100,8 @@ TagDetector::~TagDetector() = default;
 TagDetector::TagDetector(TagDetector&&) noexcept = default;
 TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 
-std::vector<DetectedTag> TagDetector::detect(const Image& gray, const Region& wanted) {
+std::vector<DetectedTag> TagDetector::detect(const Image& gray, const Region& wanted,
+                                             EdgeSearch search) {
   const Region region = clipped(wanted, gray);
   const double smallest = least_side_px * static_cast<double>(parts_->detector->quad_decimate);
   if (std::min(region.width, region.height) < smallest) return {};
@@ -78,6 +112,8 @@ std::vector<DetectedTag> TagDetector::detect(const Image& gray, const Region& wa
                 &gray.pixels[static_cast<std::size_t>(region.y + y) * gray.row_bytes() +
                              static_cast<std::size_t>(region.x)],
                 row);
+  parts_->detector->qtp.min_white_black_diff =
+      search == EdgeSearch::everywhere ? library_contrast : searched_contrast(gray);
   image_u8_t picture{region.width, region.height, region.width, parts_->pixels.data()};
   const std::unique_ptr<zarray_t, DestroyDetections> found(
       apriltag_detector_detect(parts_->detector.get(), &picture));

@@ -65,8 +65,8 @@ Eigen::Vector2d crossing(const FittedEdge& one, const FittedEdge& other) {
   return one.start_px + t * a;
 }
 
-bool is_there(const FittedEdge& edge) {
-  return edge.quality > 0;
+bool tells_blur(const FittedEdge& edge) {
+  return edge.quality > 0 && !edge.saturated;
 }
 
 // Keeps the guess where the fit found no edge.
@@ -134,11 +134,14 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagLo
     guess.bright_outside = look.bright_outside;
     take_edge(tag.edges[i], fit_edge(gray, guess, most_pixels));
   }
-  if (std::ranges::all_of(tag.edges, is_there))
+  if (std::ranges::all_of(tag.edges, tells_blur))
     for (std::size_t i = 0; i < 4; ++i)
       take_edge(tag.edges[i], fit_edge(gray, informed(guesses[i], tag.edges, i), most_pixels));
   tag.quality = 0;
-  for (const FittedEdge& edge : tag.edges) tag.quality += edge.quality / 4;
+  for (const FittedEdge& edge : tag.edges) {
+    tag.quality += edge.quality / 4;
+    tag.saturated += edge.saturated ? 0.25 : 0;
+  }
   for (std::size_t i = 0; i < 4; ++i)
     tag.corners_px[i] = crossing(tag.edges[(i + 3) % 4], tag.edges[i]);
   tag.agreement = agreement(gray, look, tag);

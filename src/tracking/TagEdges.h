@@ -30,6 +30,7 @@ struct MeasuredTag {
   std::array<FittedEdge, 4> edges;            ///< from top left to top right and on, clockwise
   /// Share of the pixels around its edges that look like an edge, 0 for edges that are not there.
   double quality = 0;
+  double saturated = 0;  ///< share of its edges whose white is clipped
   double agreement = 0;  ///< share of its data cells that are black or white as they should
 };
 

@@ -16,14 +16,34 @@ namespace heft {
 namespace {
 constexpr int board_edge_pixels = 120, effector_edge_pixels = 500;
 constexpr BiasPrior unknown_bias{0, 0.1};
+// A board tells the bias no better than to this: its print and the lens' blur are not quite what
+// the model of edges takes them for.
+constexpr double least_bias_sd_px = 0.006;
 // The effector's edges are in another light and at another slant than the board's.
-constexpr double bias_differs_px = 0.02;
+constexpr double bias_differs_px = 0.005, bias_differs_share = 0.15;
 constexpr int tags_that_tell_bias = 4;
+
+// An effector that was not found in so many pictures is out of view: from then on it is looked for
+// in one half of the picture at a time.
+constexpr int pictures_searched_whole = 3;
 
 constexpr double longest_gap_s = 0.25;  // Drive takes a longer one for a jump, too
 // What no hand with a light box in it does.
 constexpr double fastest_m_s = 5, fastest_rad_s = 30;
 constexpr double jitter_m = 0.01, jitter_rad = 0.2;
+
+// What the board's bias tells about the effector's. A bias is there where the camera's tone curve
+// is not sRGB; most cameras' is, and then what the board seems to have is noise, which would push a
+// single tag away or closer by tenths of a millimeter. So what exceeds a standard deviation counts,
+// the more the further it does (empirical Bayes: the positive-part estimator of James & Stein,
+// 1961).
+BiasPrior bias_of_effector(const BodyFit& board) {
+  if (board.n_tags < tags_that_tell_bias) return unknown_bias;
+  const double sd_px = std::hypot(board.bias_sd_px, least_bias_sd_px);
+  const double size = std::max(std::abs(board.bias_px) / sd_px, 1.0);
+  const double mean_px = board.bias_px * (1 - 1 / (size * size));
+  return {mean_px, bias_differs_px + bias_differs_share * std::abs(mean_px)};
+}
 
 // Poses come out of one another picture by picture: rounding must not add up.
 Pose normalized(Pose pose) {
@@ -69,6 +89,12 @@ Region region_around(const Intrinsics& camera, const MarkerBody& body,
           bound(high.y() - low.y() + 2 * margin)};
 }
 
+// Left or right; both reach beyond the middle, so that no tag falls between them.
+Region half_of(const Image& gray, bool left) {
+  const int width_px = gray.width * 13 / 20;
+  return {left ? 0 : gray.width - width_px, 0, width_px, gray.height};
+}
+
 void require_own_tags(const MarkerBody& board, const MarkerBody& effector) {
   if (board.tags.empty()) throw Error("the board has no tags, so nothing says where the table is");
   if (board.family != effector.family) return;
@@ -87,7 +113,7 @@ struct Tracker::Parts {
         settings(how),
         board(camera, apparatus.board, how, board_edge_pixels),
         effector(camera, apparatus.effector, how, effector_edge_pixels) {
-    const double decimate = how.decimate > 0 ? how.decimate : camera.width_px <= 640 ? 1.5 : 2;
+    const double decimate = how.decimate > 0 ? how.decimate : camera.width_px <= 640 ? 1 : 1.5;
     detectors.emplace_back(apparatus.board.family, decimate);
     if (has_effector() && apparatus.effector.family != apparatus.board.family)
       detectors.emplace_back(apparatus.effector.family, decimate);
@@ -95,9 +121,10 @@ struct Tracker::Parts {
 
   bool has_effector() const { return !effector.body().tags.empty(); }
 
-  std::vector<DetectedTag> detect(TagDetector& detector, const Region& region) {
+  std::vector<DetectedTag> detect(TagDetector& detector, const Region& region,
+                                  EdgeSearch search = EdgeSearch::above_noise) {
     const double start_s = monotonic_s();
-    std::vector<DetectedTag> tags = detector.detect(gray, region);
+    std::vector<DetectedTag> tags = detector.detect(gray, region, search);
     // Of two tags with one id the one that was read more clearly counts.
     std::ranges::sort(tags, std::greater{}, &DetectedTag::decision_margin);
     std::ranges::stable_sort(tags, {}, &DetectedTag::id);
@@ -114,7 +141,10 @@ struct Tracker::Parts {
   }
 
   std::vector<DetectedTag> all_effector_tags() {
-    return detectors.size() == 1 ? all_board_tags() : detect(detectors.back(), whole(gray));
+    if (detectors.size() == 1 && board_family_tags) return *board_family_tags;
+    if (n_unseen < pictures_searched_whole || !settings.region_of_interest)
+      return detectors.size() == 1 ? all_board_tags() : detect(detectors.back(), whole(gray));
+    return detect(detectors.back(), half_of(gray, n_unseen % 2 == 0));
   }
 
   std::optional<BodyFit> find_board() {
@@ -124,12 +154,15 @@ struct Tracker::Parts {
       // A single tag tells too little to go on without reading it.
       if (fit && fit->n_tags > 1) return fit;
     }
-    return board.find(gray, all_board_tags(), last_board, unknown_bias, result.times);
+    const auto fit = board.find(gray, all_board_tags(), last_board, unknown_bias, result.times);
+    if (fit) return fit;
+    // Nothing goes on without the board, so a shadow over it is worth the time.
+    board_family_tags = detect(detectors.front(), whole(gray), EdgeSearch::everywhere);
+    return board.find(gray, *board_family_tags, last_board, unknown_bias, result.times);
   }
 
   std::optional<BodyFit> find_effector(const BodyFit& seen_board, double t_s) {
-    BiasPrior prior = unknown_bias;
-    if (seen_board.n_tags >= tags_that_tell_bias) prior = {seen_board.bias_px, bias_differs_px};
+    const BiasPrior prior = bias_of_effector(seen_board);
     std::optional<Pose> expected;
     if (seen && t_s - seen->t_s <= longest_gap_s)
       expected = normalized(seen_board.camera_from_body * seen->expected_at(t_s));
@@ -156,6 +189,7 @@ struct Tracker::Parts {
     const Pose pose = normalized(result.camera_from_board->inverse() * fit.camera_from_body);
     const double dt_s = seen ? t_s - seen->t_s : 0;
     result.jump = !seen || !could_have_moved(*seen, pose, dt_s);
+    n_unseen = 0;
     const bool moves_on = !result.jump && dt_s > 0;
     seen = SeenEffector{
         t_s, pose, moves_on ? mean_velocity(seen->board_from_effector, pose, dt_s) : Velocity{}};
@@ -179,6 +213,7 @@ struct Tracker::Parts {
   std::optional<Pose> last_board;
   int last_n_board_tags = 0;
   std::optional<SeenEffector> seen;
+  int n_unseen = 0;  ///< pictures since, or since the start
 };
 
 Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings) {
@@ -203,14 +238,19 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
   parts.result = {};
   const auto board = parts.find_board();
   parts.take_board(board);
-  if (board && parts.has_effector())
-    if (const auto effector = parts.find_effector(*board, t_s)) parts.take_effector(*effector, t_s);
+  if (board && parts.has_effector()) {
+    if (const auto effector = parts.find_effector(*board, t_s))
+      parts.take_effector(*effector, t_s);
+    else
+      ++parts.n_unseen;
+  }
   return parts.result;
 }
 
 void Tracker::reset() {
   parts_->last_board.reset();
   parts_->seen.reset();
+  parts_->n_unseen = 0;
 }
 
 }  // namespace heft

@@ -12,7 +12,7 @@
 namespace heft {
 
 struct TrackerSettings {
-  /// Detection on a picture smaller by this factor; 0: 1.5 up to 640 pixels wide, 2 above.
+  /// Detection on a picture smaller by this factor; 0: 1 up to 640 pixels wide, 1.5 above.
   double decimate = 0;
   bool refine_edges = true;  ///< false: the detector's own corners
   bool remove_bias = true;   ///< the edge bias that blur and the tone curve cause
@@ -34,7 +34,8 @@ struct TrackedPicture {
   double board_reprojection_px = 0, effector_reprojection_px = 0;
   /// 0...1: how far the effector's pose can be trusted (the board's where there is no effector):
   /// the share of pixels around its tags' edges that look like edges; halved where two poses fit
-  /// about equally well, and where the reprojection error is 1 pixel.
+  /// about equally well, and where the reprojection error is 1 pixel; less than half where the
+  /// picture is overexposed.
   double quality = 0;
   /// The effector is not where motion could have taken it since it was last seen, or was not seen
   /// for so long that nothing can be said.

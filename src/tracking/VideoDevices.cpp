@@ -1,10 +1,16 @@
 #include "tracking/VideoDevices.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <linux/videodev2.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -29,7 +35,58 @@ std::string driver_name(int number) {
   std::getline(file, name);
   return name;
 }
+
+// V4L2 lists formats, sizes and rates by their index, until it has no more.
+template <typename Item, typename Take>
+void each_listed(int file, unsigned long request, Item item, const Take& take) {
+  for (item.index = 0; ioctl(file, request, &item) == 0; ++item.index) take(item);
+}
+
+std::vector<double> rates_hz(int file, const v4l2_frmsizeenum& size) {
+  std::vector<double> rates;
+  v4l2_frmivalenum interval{};
+  interval.pixel_format = size.pixel_format;
+  interval.width = size.discrete.width;
+  interval.height = size.discrete.height;
+  each_listed(file, VIDIOC_ENUM_FRAMEINTERVALS, interval, [&](const v4l2_frmivalenum& one) {
+    if (one.type == V4L2_FRMIVAL_TYPE_DISCRETE && one.discrete.numerator > 0)
+      rates.push_back(std::round(10.0 * one.discrete.denominator / one.discrete.numerator) / 10);
+  });
+  return rates;
+}
+
+std::string letters_of(std::uint32_t format) {
+  std::string letters;
+  for (int i = 0; i < 4; ++i) letters += static_cast<char>(format >> (8 * i) & 0x7f);
+  return letters;
+}
+
+std::vector<std::string> modes_of(int file) {
+  std::vector<std::string> modes;
+  v4l2_fmtdesc format{};
+  format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  each_listed(file, VIDIOC_ENUM_FMT, format, [&](const v4l2_fmtdesc& one) {
+    v4l2_frmsizeenum size{};
+    size.pixel_format = one.pixelformat;
+    each_listed(file, VIDIOC_ENUM_FRAMESIZES, size, [&](const v4l2_frmsizeenum& of) {
+      if (of.type == V4L2_FRMSIZE_TYPE_DISCRETE)
+        modes.push_back(fmt::format("{} {} x {}: {} pictures a second", letters_of(one.pixelformat),
+                                    of.discrete.width, of.discrete.height,
+                                    fmt::join(rates_hz(file, of), ", ")));
+    });
+  });
+  return modes;
+}
 }  // namespace
+
+std::vector<std::string> device_modes(const VideoDevice& device, const std::string& folder) {
+  const std::string path = fmt::format("{}/video{}", folder, device.number);
+  const int file = open(path.c_str(), O_RDWR | O_NONBLOCK);
+  if (file < 0) return {};
+  std::vector<std::string> modes = modes_of(file);
+  close(file);
+  return modes;
+}
 
 std::vector<VideoDevice> video_devices(const std::string& folder) {
   constexpr std::string_view prefix = "video";

@@ -14,6 +14,11 @@ struct VideoDevice {
 /// Sorted by number. @param folder where device files are
 std::vector<VideoDevice> video_devices(const std::string& folder = "/dev");
 
+/// What the driver offers, a line a pixel format and size: "YUYV 640 x 480: 30, 15 pictures a
+/// second". Empty for what is no camera, or can't be opened.
+std::vector<std::string> device_modes(const VideoDevice& device,
+                                      const std::string& folder = "/dev");
+
 /// The number in "camera:N".
 /// @throws Error (usage) when it is none
 int device_number(const std::string& text);

@@ -11,9 +11,9 @@
 namespace heft {
 
 namespace {
-constexpr std::size_t least_tags = 4;
 constexpr int enough_tilted = 2;
 constexpr double enough_coverage = 0.75;
+constexpr double enough_distance_ratio = 1.2;
 constexpr double steady_px = 1.5;     // between one picture and the next
 constexpr double tilted_sine = 0.26;  // 15 degrees
 }  // namespace
@@ -31,46 +31,76 @@ bool ViewCollector::offer(const Image& image, const std::string& name) {
         fmt::format("{} is {} x {} pixels, but the first picture was {} x {}; calibrate "
                     "from pictures of one size",
                     name, image.width, image.height, guess_.width_px, guess_.height_px));
+  ++n_offered_;
   const TagView before = std::move(last_);
   last_ = viewer_.view(image, guess_);
   const TagView& view = last_;
-  if (full() || view.tags.size() < least_tags) return false;
-  if (live_ && difference_px(view, before) > steady_px) return false;
+  const auto passed_over = [](std::size_t& count) { return ++count, false; };
+  if (full()) return false;
+  if (view.tags.size() < least_tags_of_a_view) return passed_over(n_without_board_);
+  if (live_ && difference_px(view, before) > steady_px) return passed_over(n_moving_);
   for (const TagView& kept : views_)
-    if (difference_px(view, kept) < least_difference_px_) return false;
+    if (difference_px(view, kept) < least_difference_px_) return passed_over(n_alike_);
   views_.push_back(view);
   pictures_.push_back(image);
   names_.push_back(name);
   coverage_.add(view, guess_.width_px, guess_.height_px);
-  count_tilt(view);
+  count_pose(view);
   return true;
 }
 
-void ViewCollector::count_tilt(const TagView& view) {
-  const auto normal = rough_normal(board_, guess_, view);
-  if (!normal) return;
+void ViewCollector::count_pose(const TagView& view) {
+  const auto pose = rough_pose(board_, guess_, view);
+  if (!pose) return;
+  const Eigen::Vector3d normal = pose->orientation * Eigen::Vector3d::UnitZ();
   // The board's front looks to where the nearer side is not.
-  if (normal->x() > tilted_sine) ++tilted_[right];
-  if (normal->x() < -tilted_sine) ++tilted_[left];
-  if (normal->y() > tilted_sine) ++tilted_[lower];
-  if (normal->y() < -tilted_sine) ++tilted_[upper];
+  if (normal.x() > tilted_sine) ++tilted_[right];
+  if (normal.x() < -tilted_sine) ++tilted_[left];
+  if (normal.y() > tilted_sine) ++tilted_[lower];
+  if (normal.y() < -tilted_sine) ++tilted_[upper];
+  const double distance_m = pose->position_m.norm();
+  nearest_m_ = nearest_m_ > 0 ? std::min(nearest_m_, distance_m) : distance_m;
+  farthest_m_ = std::max(farthest_m_, distance_m);
 }
 
 bool ViewCollector::complete() const {
   return size() >= enough && wanted().empty();
 }
 
-std::string ViewCollector::wanted() const {
+std::vector<std::string> ViewCollector::missing() const {
   constexpr std::array<const char*, 4> sides{"left", "right", "upper", "lower"};
+  std::vector<std::string> list;
+  // The side that was tilted least; the next one follows when that is done.
   const auto least = std::ranges::min_element(tilted_);
-  if (*least < enough_tilted && size() >= enough / 4)
-    return fmt::format("tilt the board: its {} side away from the camera",
-                       sides[static_cast<std::size_t>(least - tilted_.begin())]);
+  if (*least < enough_tilted)
+    list.push_back(fmt::format("tilt the board: its {} side away from the camera",
+                               sides[static_cast<std::size_t>(least - tilted_.begin())]));
   if (coverage_.share() < enough_coverage)
-    return fmt::format("bring the board into {} of the picture, and hold it still",
-                       coverage_.emptiest());
-  if (size() < enough) return "show it from other sides and distances";
-  return "";
+    list.push_back(fmt::format("bring the board into {} of the picture, and hold it still",
+                               coverage_.emptiest()));
+  if (farthest_m_ < enough_distance_ratio * nearest_m_)
+    list.push_back("bring the board nearer and farther away");
+  if (size() < enough)
+    list.push_back(fmt::format("{} more views, from other sides and distances", enough - size()));
+  return list;
+}
+
+// The first ones need no direction: any view is new.
+std::string ViewCollector::wanted() const {
+  const std::vector<std::string> list = missing();
+  if (list.empty()) return "";
+  return size() < enough / 4 ? list.back() : list.front();
+}
+
+std::string ViewCollector::tally() const {
+  std::string text = fmt::format("of {} picture(s) {} were kept", n_offered_, size());
+  const auto add = [&](std::size_t n, const char* why) {
+    if (n > 0) text += fmt::format("; {} {}", n, why);
+  };
+  add(n_without_board_, "don't show the board clearly (4 tags or more)");
+  add(n_moving_, "were taken while it moved");
+  add(n_alike_, "are too much like one that was kept");
+  return text;
 }
 
 }  // namespace heft

@@ -26,6 +26,11 @@ class ViewCollector {
   bool full() const { return names_.size() >= most; }
   /// What to do next, for the person with the board; empty when all is there.
   std::string wanted() const;
+  /// All that is still to be shown, one after the other; empty when nothing is.
+  std::vector<std::string> missing() const;
+  /// Why so few pictures were kept: how many there were, in how many the board was not seen, moved,
+  /// or was seen so before.
+  std::string tally() const;
 
   std::size_t size() const { return names_.size(); }
   const Coverage& coverage() const { return coverage_; }
@@ -34,7 +39,7 @@ class ViewCollector {
 
  private:
   enum Side { left, right, upper, lower };
-  void count_tilt(const TagView& view);
+  void count_pose(const TagView& view);
 
   MarkerBody board_;
   Intrinsics guess_;
@@ -47,6 +52,8 @@ class ViewCollector {
   std::vector<std::string> names_;
   Coverage coverage_;
   std::array<int, 4> tilted_{};  ///< views in which that side of the board is farther away
+  double nearest_m_ = 0, farthest_m_ = 0;
+  std::size_t n_offered_ = 0, n_without_board_ = 0, n_moving_ = 0, n_alike_ = 0;
 };
 
 }  // namespace heft

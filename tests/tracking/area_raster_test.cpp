@@ -20,7 +20,7 @@ LightPicture drawn(const Triangle& triangle, const PixelBox& box) {
   raster.begin(box);
   raster.add(triangle, white);
   LightPicture picture(box);
-  raster.draw_over(picture);
+  raster.draw_behind(picture);
   return picture;
 }
 
@@ -88,7 +88,7 @@ TEST(AreaRaster, PiecesThatMeetLeaveNoSeam) {
                                 Triangle{c, d, middle}, Triangle{d, a, middle}})
     raster.add(piece, white);
   LightPicture picture(raster.box());
-  raster.draw_over(picture);
+  raster.draw_behind(picture);
   for (int y = 4; y < 9; ++y)
     for (int x = 4; x < 8; ++x) EXPECT_NEAR(picture.row(y)[x][3], 1, 1e-5) << x << " " << y;
 }

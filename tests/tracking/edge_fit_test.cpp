@@ -34,7 +34,7 @@ Image picture_of(const Step& step, RandomStream& random) {
       const double light =
           step.dark + (step.bright - step.dark) * std::erfc(-q / std::sqrt(2.0)) / 2;
       const double value =
-          255 * (step.srgb ? srgb_of(std::min(light, 1.0)) : light) + step.noise * random.normal();
+          255 * (step.srgb ? srgb_of(light) : light) + step.noise * random.normal();
       image.pixels[static_cast<std::size_t>(y * image.width + x)] =
           static_cast<std::uint8_t>(std::clamp(std::round(value), 0.0, 255.0));
     }
@@ -103,9 +103,23 @@ TEST(EdgeFit, ErrorsAreAsLargeAsItSays) {
 TEST(EdgeFit, SaturatedWhiteDoesNotPull) {
   Step step;
   step.bright = 1.5;
+  step.noise = 3;
   RandomStream random(4, "edge");
   const FittedEdge edge = fit_edge(picture_of(step, random), guess_off_by(step, 0.2, 0.2), 500);
+  EXPECT_TRUE(edge.saturated);
   EXPECT_LT(furthest_off_px(step, edge), 0.2);  // a plain half-way crossing is .3 px off
+}
+
+TEST(EdgeFit, WhiteOfADrawingIsNotSaturated) {
+  RandomStream random(4, "edge");
+  for (const double noise : {0.0, 3.0})
+    for (const double blur_px : {0.3, 0.5, 1.0}) {
+      Step step{.dark = 0, .bright = 1, .blur_px = blur_px, .noise = noise};
+      const FittedEdge edge = fit_edge(picture_of(step, random), guess_off_by(step, 0.3, 0.2), 500);
+      EXPECT_FALSE(edge.saturated) << noise << ' ' << blur_px;
+      EXPECT_LT(furthest_off_px(step, edge), noise > 0 ? 0.06 : 0.03) << noise << ' ' << blur_px;
+      EXPECT_GT(edge.quality, 0.97) << noise << ' ' << blur_px;
+    }
 }
 
 TEST(EdgeFit, SomethingOverAPartOfTheEdgeIsLeftOut) {

@@ -23,16 +23,11 @@ class FakeDevice {
   void give(std::uint8_t level, double capture_s) { push({gray(level), capture_s}); }
   void fail() { push({}); }
 
-  // All that was given has been taken: the thread asks for more.
+  // All that was given has been taken and put down: the thread asks for more.
   void wait_until_taken() {
-    const int asked_before = n_asked_;
-    for (;;) {
-      {
-        const std::scoped_lock lock(mutex_);
-        if (given_.empty() && n_asked_ > asked_before) return;
-      }
-      std::this_thread::yield();
-    }
+    while (!is_empty()) std::this_thread::yield();
+    const int asked = n_asked_;
+    while (n_asked_ == asked) std::this_thread::yield();
   }
 
   GrabThread::Grab grab() {
@@ -48,6 +43,11 @@ class FakeDevice {
   }
 
  private:
+  bool is_empty() {
+    const std::scoped_lock lock(mutex_);
+    return given_.empty();
+  }
+
   void push(GrabbedPicture picture) {
     const std::scoped_lock lock(mutex_);
     given_.push(std::move(picture));

@@ -146,13 +146,31 @@ std::string edited(const std::string& from, const std::string& to) {
 
 TEST(IntrinsicsFile, RefusesWhatCanNotBe) {
   EXPECT_THAT(refusal(edited("image_width: 640", "image_width: 0")),
-              HasSubstr("c.yaml: image_width is 0, expected a whole number"));
+              HasSubstr("c.yaml:3:1: image_width is 0, expected a whole number"));
   EXPECT_THAT(refusal(edited("image_width: 640\n", "")), HasSubstr("image_width is missing"));
   EXPECT_THAT(refusal(edited("540", "-540")), HasSubstr("focal lengths -540 and 542"));
   EXPECT_THAT(refusal(edited("542, 241", "542")), HasSubstr("camera_matrix has 8 numbers"));
   EXPECT_THAT(refusal(edited("540, 0,", "540, 3,")), HasSubstr("skew"));
   EXPECT_THAT(refusal(edited("0.06, ", "")), testing::AnyOf(HasSubstr("expected"), "accepted"));
   EXPECT_THAT(refusal(edited("540", ".Nan")), HasSubstr("camera_matrix is unusable"));
+}
+
+TEST(IntrinsicsFile, NamesTheLineOfABrokenOne) {
+  const std::string broken = edited("image_height:", "image_height");
+  EXPECT_THAT(refusal(broken), HasSubstr("c.yaml:4: this is no YAML"));
+  EXPECT_THAT(refusal(broken.substr(broken.find("image_width"))), HasSubstr("c.yaml:2: this is"));
+  EXPECT_THAT(refusal("hello"), HasSubstr("c.yaml:1: this is"));
+  EXPECT_THAT(refusal("\x89PNG"), HasSubstr("heft calibrate camera"));
+}
+
+TEST(IntrinsicsFile, SaysHowAMissingOneIsMade) {
+  try {
+    load_intrinsics("no/such/camera.yaml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no/such/camera.yaml"));
+    EXPECT_THAT(error.what(), HasSubstr("heft calibrate camera"));
+  }
 }
 
 TEST(IntrinsicsFile, RefusesGarbage) {

@@ -99,6 +99,13 @@ TEST(VideoDevices, AMissingOneNamesThoseThatAreThere) {
   EXPECT_NO_THROW(check_device(9731, folder.path()));
 }
 
+TEST(VideoDevices, WhatIsNoCameraHasNoModes) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.file("video3")).put('x');
+  EXPECT_THAT(device_modes({3, ""}, folder.path()), IsEmpty());
+  EXPECT_THAT(device_modes({4, ""}, folder.path()), IsEmpty());
+}
+
 TEST(VideoDevices, ANumberIsAWholeOne) {
   EXPECT_EQ(device_number("0"), 0);
   EXPECT_EQ(device_number("12"), 12);

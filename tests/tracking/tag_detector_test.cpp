@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/Error.h"
+#include "base/Random.h"
 #include "tracking/TagDetector.h"
 #include "tracking/TagFamily.h"
 
@@ -12,17 +14,17 @@ namespace {
 
 constexpr int cell_px = 8, left = 60, top = 40;
 
-Image drawn(const std::string& family, int id) {
+Image drawn(const std::string& family, int id, std::uint8_t black = 25, std::uint8_t white = 230) {
   const TagPattern pattern = tag_pattern(family, id);
   Image image(240, 200, 1);
-  std::ranges::fill(image.pixels, std::uint8_t{130});
+  std::ranges::fill(image.pixels, static_cast<std::uint8_t>((black + white) / 2));
   const int outer_white = 8;  // some families have none of their own around
   for (int y = -outer_white; y < pattern.n_cells * cell_px + outer_white; ++y)
     for (int x = -outer_white; x < pattern.n_cells * cell_px + outer_white; ++x) {
       const int column = x / cell_px, row = y / cell_px;
       const bool inside = x >= 0 && y >= 0 && column < pattern.n_cells && row < pattern.n_cells;
       image.pixels[static_cast<std::size_t>((top + y) * image.width + left + x)] =
-          !inside || pattern.is_white(column, row) ? 230 : 25;
+          !inside || pattern.is_white(column, row) ? white : black;
     }
   return image;
 }
@@ -58,6 +60,43 @@ TEST(TagDetector, ARegionGivesThePicturesCoordinates) {
   EXPECT_TRUE(detector.detect(image, {0, 0, 60, 200}).empty());
   EXPECT_TRUE(detector.detect(image, {500, 500, 60, 200}).empty());
   EXPECT_TRUE(detector.detect(image, {-500, -500, 60, 200}).empty());
+}
+
+TEST(TagDetector, FindsAPalePrint) {
+  const Image image = drawn("tag36h11", 7, 110, 128);
+  EXPECT_EQ(TagDetector("tag36h11", 1).detect(image, whole(image)).size(), 1U);
+}
+
+// A dim tag in the corner of a bright, noisy picture.
+Image shaded_scene() {
+  Image image(640, 480, 1);
+  RandomStream random(1, "noise");
+  for (auto& pixel : image.pixels)
+    pixel = static_cast<std::uint8_t>(
+        std::clamp(std::lround(120 + 60 * random.uniform() + 3 * random.normal()), 0L, 255L));
+  const Image tag = drawn("tag36h11", 7, 30, 50);
+  for (int y = 0; y < tag.height; ++y)
+    std::copy_n(&tag.pixels[static_cast<std::size_t>(y) * tag.row_bytes()], tag.width,
+                &image.pixels[static_cast<std::size_t>(y) * image.row_bytes()]);
+  return image;
+}
+
+TEST(TagDetector, EverywhereIsInDeepShadowToo) {
+  const Image image = shaded_scene();
+  TagDetector detector("tag36h11", 1);
+  EXPECT_TRUE(detector.detect(image, whole(image)).empty());  // what the quick search leaves out
+  EXPECT_EQ(detector.detect(image, whole(image), EdgeSearch::everywhere).size(), 1U);
+}
+
+TEST(TagDetector, FindsAClearTagInNoiseEitherWay) {
+  Image image = drawn("tag36h11", 7);
+  RandomStream random(1, "noise");
+  for (auto& pixel : image.pixels)
+    pixel =
+        static_cast<std::uint8_t>(std::clamp(std::lround(pixel + 10 * random.normal()), 0L, 255L));
+  TagDetector detector("tag36h11", 1);
+  for (const EdgeSearch search : {EdgeSearch::above_noise, EdgeSearch::everywhere})
+    EXPECT_EQ(detector.detect(image, whole(image), search).size(), 1U);
 }
 
 TEST(TagDetector, OneDetectorGoesOnWhenAnotherOfItsFamilyEnds) {

@@ -84,6 +84,35 @@ TEST(Tracker, HoldsInMotion) {
   EXPECT_LT(Errors::p95(errors.tip_mm), 1.2);
 }
 
+TEST(Tracker, FindsMoreThanADecimatedSearch) {
+  TrackerSettings coarse;
+  coarse.decimate = 2;
+  const auto found = [](const TrackerSettings& settings) {
+    return errors_at_random_places(640, settings, 60).tip_mm.size();
+  };
+  EXPECT_GE(found({}), found(coarse) + 5);
+}
+
+TEST(Tracker, RemovingABiasThatIsNotThereDoesNoHarm) {
+  TrackerSettings kept;
+  kept.remove_bias = false;
+  EXPECT_LE(Errors::p95(errors_at_random_places(640, {}, 120).tip_mm),
+            1.03 * Errors::p95(errors_at_random_places(640, kept, 120).tip_mm));
+}
+
+TEST(Tracker, KnowsThatAnOverexposedPictureTellsLittle) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticSettings scene;
+  scene.optics.exposure = 1.5;
+  SyntheticCamera camera(apparatus, scene, 1);
+  Tracker tracker(apparatus);
+  const Pose pose = upright_pose({0, 0, 0.05}, 1.2);
+  const auto seen = tracker.track(camera.picture([&](double) { return pose; }, 0, 0), 0);
+  ASSERT_TRUE(seen.board_from_effector);
+  EXPECT_LT(seen.quality, 0.5);
+  EXPECT_LT((*seen.board_from_effector * tip_m - pose * tip_m).norm(), 0.004);
+}
+
 TEST(Tracker, IsAnOrderOfMagnitudeBetterThanTheDetectorsCorners) {
   TrackerSettings plain;
   plain.refine_edges = plain.remove_bias = plain.region_of_interest = false;
@@ -147,6 +176,18 @@ TEST_F(TrackerOverTime, OutOfViewIsNoPoseAndComingBackALongTimeLaterIsAJump) {
   EXPECT_FALSE(see(held_at(0.005, 0), 2 / 30.0).jump);
   see(std::nullopt, 3 / 30.0);
   EXPECT_TRUE(see(held_at(0.005, 0), 1).jump);
+}
+
+TEST_F(TrackerOverTime, OutOfViewForLongItIsFoundWithinTwoPictures) {
+  int picture = 0;
+  for (const double x_m : {-0.1, 0.0, 0.1}) {
+    for (int i = 0; i < 5; ++i, ++picture)
+      EXPECT_FALSE(see(std::nullopt, picture / 30.0).board_from_effector);
+    const bool at_once = see(held_at(x_m, 0), picture++ / 30.0).board_from_effector.has_value();
+    const auto next = see(held_at(x_m, 0), picture++ / 30.0);
+    EXPECT_TRUE(next.board_from_effector) << x_m;
+    EXPECT_EQ(next.jump, !at_once) << x_m;
+  }
 }
 
 TEST_F(TrackerOverTime, ResetForgets) {

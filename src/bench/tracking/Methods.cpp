@@ -78,11 +78,11 @@ std::unique_ptr<TrackingMethod> make_method(const MethodName& name, const Appara
 }
 
 MethodName our_method(int width_px) {
-  return {std::string(ours), std::string(refinements[0].name), width_px <= 640 ? 1.5 : 2.0, true};
+  return {std::string(ours), std::string(refinements[0].name), width_px <= 640 ? 1.0 : 1.5, true};
 }
 
 MethodName plain_method(int width_px) {
-  return {std::string(plain), "corners", our_method(width_px).decimate, false};
+  return {std::string(plain), "corners", width_px <= 640 ? 1.5 : 2.0, false};
 }
 
 std::vector<MethodName> all_methods(int width_px, bool quick) {

@@ -38,7 +38,7 @@ std::unique_ptr<TrackingMethod> make_method(const MethodName& name, const Appara
 
 /// What our tracker does unless it is told otherwise.
 MethodName our_method(int width_px);
-/// AprilTag's corners and cv::solvePnP, at the same decimation as ours: what most people build.
+/// AprilTag's corners and cv::solvePnP, decimated so that it keeps up: what most people build.
 MethodName plain_method(int width_px);
 
 /// Every detector, refinement and decimation; fewer where `quick`.

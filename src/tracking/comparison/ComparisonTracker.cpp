@@ -10,11 +10,13 @@
 namespace heft {
 
 namespace {
-// libapriltag as our own tracker calls it, on the whole picture.
+// libapriltag as it comes, on the whole picture.
 class AprilTags {
  public:
   AprilTags(const std::string& family, double decimate) : detector_(family, decimate) {}
-  std::vector<DetectedTag> detect(const Image& gray) { return detector_.detect(gray, whole(gray)); }
+  std::vector<DetectedTag> detect(const Image& gray) {
+    return detector_.detect(gray, whole(gray), EdgeSearch::everywhere);
+  }
 
  private:
   TagDetector detector_;

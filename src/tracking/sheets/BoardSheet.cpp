@@ -63,10 +63,11 @@ PointMm chosen_paper(const MarkerBody& board, Paper paper) {
   const PointMm size = extent_mm(board).sizes(), upright = paper_mm(paper);
   if (const auto fits = fitting(upright, size, margin_mm(board))) return *fits;
   const PointMm room = room_mm({upright.y(), upright.x()}, margin_mm(board));
-  throw Error(
-      fmt::format("the board's tags span {:.4g} x {:.4g} mm, but a sheet of {} has room for "
-                  "{:.4g} x {:.4g}; take fewer or smaller tags, or other paper (--paper)",
-                  size.x(), size.y(), name_of(paper), std::floor(room.x()), std::floor(room.y())));
+  throw Error(fmt::format(
+      "the board's tags span {:.4g} x {:.4g} mm, but a sheet of {} has room for "
+      "{:.4g} x {:.4g}; take other paper (--paper), or fewer or smaller tags (the shipped "
+      "protocols/apparatus/board_letter.toml fits US letter)",
+      size.x(), size.y(), name_of(paper), std::floor(room.x()), std::floor(room.y())));
 }
 
 const std::array<std::string, 6> steps{

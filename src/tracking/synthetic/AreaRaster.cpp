@@ -80,14 +80,14 @@ void AreaRaster::add_in_row(Light* row, double x0, double x1, double height,
   }
 }
 
-void AreaRaster::draw_over(LightPicture& picture) const {
+void AreaRaster::draw_behind(LightPicture& picture) const {
   for (int y = 0; y < box_.height(); ++y) {
     const Light* step = steps_.data() + y * (box_.width() + 1);
     Light* out = picture.row(box_.y0 + y) + (box_.x0 - picture.box.x0);
     Light sum = Light::Zero();
     for (int x = 0; x < box_.width(); ++x) {
       sum += step[x];
-      if (sum[3] > 1e-5F) out[x] = over(sum, out[x]);
+      if (sum[3] > 1e-5F) out[x] = over(out[x], sum);
     }
   }
 }

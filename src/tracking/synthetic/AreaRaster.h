@@ -36,6 +36,20 @@ struct PixelBox {
 /// The pixels that hold any part of these points' bounding box.
 PixelBox pixels_around(std::span<const Eigen::Vector2d> points_px);
 
+/// Columns begin <= x < end of a row.
+struct Span {
+  int begin = 0, end = 0;
+
+  int width() const { return end - begin; }
+  bool empty() const { return end <= begin; }
+  /// The shortest that holds both.
+  Span around(const Span& other) const {
+    if (empty()) return other;
+    if (other.empty()) return *this;
+    return {std::min(begin, other.begin), std::max(end, other.end)};
+  }
+};
+
 /// A piece of a picture in linear light.
 struct LightPicture {
   PixelBox box;
@@ -49,9 +63,13 @@ struct LightPicture {
   }
   Light* row(int y) { return light.data() + (y - box.y0) * box.width(); }
   const Light* row(int y) const { return light.data() + (y - box.y0) * box.width(); }
+  std::span<Light> part(int y, const Span& span) {
+    return {row(y) + (span.begin - box.x0), static_cast<std::size_t>(span.width())};
+  }
 };
 
-/// `top` in front of `under`.
+/// `top` in front of `under`. Pictures are drawn from the front to the back, so that what is hidden
+/// can be left out.
 inline Light over(const Light& top, const Light& under) {
   return top + (1 - top[3]) * under;
 }
@@ -64,8 +82,8 @@ class AreaRaster {
   /// Adds a simple polygon; clockwise in the picture (y down) counts positive.
   void add(std::span<const Eigen::Vector2d> polygon_px, const Light& light);
 
-  /// Puts what was added in front of what the picture holds. Its box holds this one's.
-  void draw_over(LightPicture& picture) const;
+  /// Puts what was added behind what the picture holds. Its box holds this one's.
+  void draw_behind(LightPicture& picture) const;
 
   const PixelBox& box() const { return box_; }
 

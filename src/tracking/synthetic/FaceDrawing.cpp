@@ -69,7 +69,7 @@ void draw_face(const PrintedFace& face, const SeenBody& body, const Lens& lens,
       body.camera_from_board.orientation * body.board_from_body.orientation;
   const Light light =
       Shading(body.camera_from_board).on((camera_from_body * face.normal).cast<float>());
-  for (const Patch& patch : face.patches) {
+  for (const PrintedPatch& patch : face.patches) {
     std::array<Vector3d, 4> corners_m;
     for (std::size_t i = 0; i < corners_m.size(); ++i)
       corners_m[i] = body.in_board(patch.corners_m[i]);

@@ -12,7 +12,7 @@
 namespace heft {
 
 /// A quadrilateral, clockwise as seen from its front, and what it adds to what it lies on.
-struct Patch {
+struct PrintedPatch {
   std::array<Eigen::Vector3d, 4> corners_m;
   Light light;
 };
@@ -20,7 +20,7 @@ struct Patch {
 /// A flat convex piece of a body. Patches come after what they lie on.
 struct PrintedFace {
   Eigen::Vector3d center_m, normal;  ///< normal outwards
-  std::vector<Patch> patches;
+  std::vector<PrintedPatch> patches;
 };
 
 /// A white sheet on the table with a margin around the tags. Of a board without tags: nothing.

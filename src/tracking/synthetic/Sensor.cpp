@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "base/Random.h"
 #include "tracking/ToneCurve.h"
@@ -9,7 +10,12 @@
 namespace heft {
 
 namespace {
-constexpr int curve_intervals = 4096;
+// Seen over the root of light, the curve is steep nowhere: the nearest of so many values is within
+// 1/300 level.
+constexpr int curve_intervals = 65535;
+// Noise comes before the clipping of white, so levels go on above it until no noise brings them
+// back.
+constexpr double most_light = 1.4, most_level = 300;
 constexpr std::size_t noise_length = 1 << 20;
 
 // The Gaussian at whole pixels, of sum 1.
@@ -25,33 +31,69 @@ std::vector<float> half_kernel(double sd_px) {
   return kernel;
 }
 
-std::vector<float> tone_curve(bool srgb) {
-  std::vector<float> curve;
+int place_in_curve(float light) {
+  constexpr float share = static_cast<float>(1 / most_light);
+  return static_cast<int>(std::sqrt(share * light) * curve_intervals + 0.5F);
+}
+
+double level_of(double light, bool srgb) {
+  if (!srgb) return 255 * light;
+  constexpr double slope_at_white = 255 * 1.055 / 2.4;
+  return stored_of_light(light).value + slope_at_white * std::max(0.0, light - 1);
+}
+
+std::vector<std::int16_t> tone_curve(bool srgb) {
+  std::vector<std::int16_t> curve;
   for (int i = 0; i <= curve_intervals; ++i) {
-    const double light = static_cast<double>(i) / curve_intervals;
-    const double stored = srgb ? stored_of_light(light).value : 255 * light;
-    curve.push_back(static_cast<float>(level_steps * stored));
+    const double light = most_light * std::pow(static_cast<double>(i) / curve_intervals, 2);
+    const double level = std::min(level_of(light, srgb), most_level);
+    curve.push_back(static_cast<std::int16_t>(std::lround(level_steps * level)));
   }
   return curve;
 }
 
 // Nearly normal from whole numbers alone, so that every machine draws the same: the sum of eight
-// uniform 16-bit numbers, cut off at 4.9 sd.
+// uniform 16-bit numbers, cut off at 4.9 sd, and at what 16 bits hold above the highest level. Each
+// three times, for a pixel's channels.
 std::vector<std::int16_t> noise_row(double sd, std::uint64_t seed) {
-  std::vector<std::int16_t> row(sd > 0 ? noise_length : 0);
+  constexpr double most = 208 * level_steps;
+  std::vector<std::int16_t> row;
+  if (sd <= 0) return row;
+  row.reserve(3 * noise_length);
   RandomStream draws(seed, "camera noise");
   const double scale = sd * level_steps / (65536 * std::sqrt(8.0 / 12));
-  for (std::int16_t& value : row) {
+  for (std::size_t i = 0; i < noise_length; ++i) {
     std::int64_t sum = -8 * 65535 / 2;
     for (int half = 0; half < 2; ++half) {
       const std::uint64_t bits = draws.bits();
       for (int part = 0; part < 4; ++part)
         sum += static_cast<std::int64_t>(bits >> (16 * part) & 0xffff);
     }
-    value = static_cast<std::int16_t>(
-        std::clamp<double>(std::floor(scale * static_cast<double>(sum) + 0.5), -32768, 32767));
+    const double value = std::floor(scale * static_cast<double>(sum) + 0.5);
+    row.insert(row.end(), 3, static_cast<std::int16_t>(std::clamp(value, -most, most)));
   }
   return row;
+}
+
+// A row of light, blurred: row_at(n) is the same row n steps away.
+template <typename RowAt>
+void blur_row(std::span<const float> kernel, std::span<Light> sums, RowAt row_at) {
+  const Light* middle = row_at(0);
+  for (std::size_t x = 0; x < sums.size(); ++x) sums[x] = kernel[0] * middle[x];
+  for (std::size_t i = 1; i < kernel.size(); ++i) {
+    const float weight = kernel[i];
+    const Light *before = row_at(-static_cast<int>(i)), *after = row_at(static_cast<int>(i));
+    for (std::size_t x = 0; x < sums.size(); ++x) sums[x] += weight * (before[x] + after[x]);
+  }
+}
+
+// 16 bits hold every level and its noise, so that eight are done at a time.
+void develop_row(const std::int16_t* levels, const std::int16_t* noise,
+                 std::span<std::uint8_t> out) {
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto noisy = static_cast<std::int16_t>(levels[i] + noise[i] + level_steps / 2);
+    out[i] = static_cast<std::uint8_t>(std::clamp(noisy >> 6, 0, 255));
+  }
 }
 }  // namespace
 
@@ -64,66 +106,64 @@ Sensor::Sensor(const Optics& optics, int width_px, int height_px, std::uint64_t 
                     ((width_ - 1.0) * (width_ - 1) + (height_ - 1.0) * (height_ - 1))),
       kernel_(half_kernel(optics.blur_px)),
       curve_(tone_curve(optics.tone_curve)),
-      noise_(noise_row(optics.noise, seed)) {}
+      noise_(noise_row(optics.noise, seed)) {
+  for (int x = 0; x < width_; ++x) lost_by_column_.push_back(lost_light(x, width_));
+}
 
-void Sensor::blur(const LightPicture& sharp, const PixelBox& box, LightPicture& blurred) {
+// Vignetting takes light with the square of the distance from the middle: so much of it for the
+// distance one way.
+float Sensor::lost_light(int place, int n_places) const {
+  const double from_middle = place - (n_places - 1) / 2.0;
+  return static_cast<float>(lost_per_px2_ * from_middle * from_middle);
+}
+
+void Sensor::blur_along_rows(const LightPicture& sharp, const RowSpans& spans) {
   const int reach = blur_reach_px();
   const PixelBox& all = sharp.box;
-  const PixelBox rows = PixelBox{box.x0, box.y0 - reach, box.x1, box.y1 + reach}.within(all);
-  blurred_along_rows_.reset(rows);
-  for (int y = rows.y0; y < rows.y1; ++y) {
+  along_rows_.reset(all);
+  for (int y = all.y0; y < all.y1; ++y) {
+    const Span& span = spans.at(y);
+    if (span.empty()) continue;
     const Light* in = sharp.row(y) - all.x0;
-    Light* out = blurred_along_rows_.row(y) - rows.x0;
-    for (int x = rows.x0; x < rows.x1; ++x) {
-      Light sum = kernel_[0] * in[x];
-      for (int i = 1; i <= reach; ++i)
-        sum += kernel_[static_cast<std::size_t>(i)] *
-               (in[std::max(x - i, all.x0)] + in[std::min(x + i, all.x1 - 1)]);
-      out[x] = sum;
-    }
-  }
-  blurred.reset(box);
-  for (int y = box.y0; y < box.y1; ++y) {
-    Light* out = blurred.row(y);
-    const auto n = static_cast<std::size_t>(box.width());
-    const auto row_at = [&](int row) {
-      return blurred_along_rows_.row(std::clamp(row, all.y0, all.y1 - 1));
-    };
-    const Light* middle = row_at(y);
-    for (std::size_t x = 0; x < n; ++x) out[x] = kernel_[0] * middle[x];
-    for (int i = 1; i <= reach; ++i) {
-      const float weight = kernel_[static_cast<std::size_t>(i)];
-      const Light* above = row_at(y - i);
-      const Light* below = row_at(y + i);
-      for (std::size_t x = 0; x < n; ++x) out[x] += weight * (above[x] + below[x]);
-    }
+    padded_row_.clear();
+    for (int x = span.begin - reach; x < span.end + reach; ++x)
+      padded_row_.push_back(in[std::clamp(x, all.x0, all.x1 - 1)]);
+    const Light* middle = padded_row_.data() + reach;
+    blur_row(kernel_, along_rows_.part(y, span), [&](int steps) { return middle + steps; });
   }
 }
 
-// Vignetting takes light with the square of the distance from the middle.
-float Sensor::gain_at(int x, int y) const {
-  const double from_middle_x = x - (width_ - 1) / 2.0, from_middle_y = y - (height_ - 1) / 2.0;
-  const double away2 = from_middle_x * from_middle_x + from_middle_y * from_middle_y;
-  return static_cast<float>(optics_.exposure - lost_per_px2_ * away2);
+void Sensor::blur_across_rows(int y, const Span& span) {
+  const PixelBox& all = along_rows_.box;
+  row_.resize(static_cast<std::size_t>(span.width()));
+  blur_row(kernel_, row_, [&](int steps) {
+    return along_rows_.part(std::clamp(y + steps, all.y0, all.y1 - 1), span).data();
+  });
 }
 
-std::int16_t Sensor::level_of(float light) const {
-  const float place = std::clamp(light, 0.0F, 1.0F) * curve_intervals;
-  const auto i = std::min(static_cast<std::size_t>(place), std::size_t{curve_intervals - 1});
-  const float value = curve_[i] + (place - static_cast<float>(i)) * (curve_[i + 1] - curve_[i]);
-  return static_cast<std::int16_t>(value + 0.5F);
+// Blurred light to levels.
+void Sensor::expose_row(int y, const Span& span, std::int16_t* levels) {
+  const std::size_t n = row_.size();
+  const float gain = static_cast<float>(optics_.exposure) - lost_light(y, height_);
+  const float* lost = lost_by_column_.data() + span.begin;
+  constexpr auto most = static_cast<float>(most_light);
+  for (std::size_t x = 0; x < n; ++x) row_[x] = ((gain - lost[x]) * row_[x]).max(0.0F).min(most);
+  const float* light = row_.data()->data();
+  places_.resize(4 * n);
+  for (std::size_t i = 0; i < 4 * n; ++i) places_[i] = place_in_curve(light[i]);
+  for (std::size_t x = 0; x < n; ++x)
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      levels[3 * x + channel] = curve_[static_cast<std::size_t>(places_[4 * x + channel])];
 }
 
-void Sensor::expose(const LightPicture& blurred, Levels& levels) const {
-  levels.resize(static_cast<std::size_t>(width_ * height_) * 3);
-  const PixelBox& box = blurred.box;
-  for (int y = box.y0; y < box.y1; ++y) {
-    const Light* in = blurred.row(y);
-    std::int16_t* out = levels.data() + (static_cast<std::ptrdiff_t>(y) * width_ + box.x0) * 3;
-    for (int x = box.x0; x < box.x1; ++x, ++in, out += 3) {
-      const Light light = gain_at(x, y) * *in;
-      for (int channel = 0; channel < 3; ++channel) out[channel] = level_of(light[channel]);
-    }
+void Sensor::expose(const LightPicture& sharp, const RowSpans& spans, Levels& levels) {
+  levels.resize(static_cast<std::size_t>(place_of(0, height_)));
+  blur_along_rows(sharp, spans.grown(0, blur_reach_px()));
+  for (int y = sharp.box.y0; y < sharp.box.y1; ++y) {
+    const Span& span = spans.at(y);
+    if (span.empty()) continue;
+    blur_across_rows(y, span);
+    expose_row(y, span, levels.data() + place_of(span.begin, y));
   }
 }
 
@@ -131,19 +171,14 @@ void Sensor::expose(const LightPicture& blurred, Levels& levels) const {
 Image Sensor::develop(const Levels& levels, std::uint64_t number) const {
   Image image(width_, height_, 3);
   RandomStream places(seed_, "camera noise place", number);
-  const std::vector<std::int16_t> none(static_cast<std::size_t>(width_), 0);
-  const std::int16_t* in = levels.data();
-  std::uint8_t* out = image.pixels.data();
+  const std::size_t n = image.row_bytes();
+  const std::vector<std::int16_t> none(n, 0);
   for (int y = 0; y < height_; ++y) {
     const std::int16_t* noise = none.data();
     if (!noise_.empty())
-      noise = noise_.data() + places.below(noise_.size() - static_cast<std::size_t>(width_));
-    for (int x = 0; x < width_; ++x, in += 3, out += 3) {
-      for (int channel = 0; channel < 3; ++channel) {
-        const int level = (in[channel] + noise[x] + level_steps / 2) >> 6;
-        out[channel] = static_cast<std::uint8_t>(std::clamp(level, 0, 255));
-      }
-    }
+      noise = noise_.data() + 3 * places.below(noise_length - static_cast<std::size_t>(width_));
+    const auto start = static_cast<std::size_t>(place_of(0, y));
+    develop_row(levels.data() + start, noise, {image.pixels.data() + start, n});
   }
   return image;
 }

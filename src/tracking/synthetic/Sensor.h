@@ -6,7 +6,7 @@
 
 #include "base/Image.h"
 #include "tracking/SyntheticCamera.h"
-#include "tracking/synthetic/AreaRaster.h"
+#include "tracking/synthetic/RowSpans.h"
 
 namespace heft {
 
@@ -22,28 +22,36 @@ class Sensor {
   /// How far the blur reaches.
   int blur_reach_px() const { return static_cast<int>(kernel_.size()) - 1; }
 
-  /// Blurs the part of a picture within `box` (and its own); light from beyond its edges is like
-  /// that at its edges. @return a picture of that box
-  void blur(const LightPicture& sharp, const PixelBox& box, LightPicture& blurred);
+  /// Writes these parts of a picture, blurred, into the levels of the whole picture. They need the
+  /// light around them as far as the blur reaches; beyond the picture's edges it is like there.
+  /// @param spans of the picture's box
+  void expose(const LightPicture& sharp, const RowSpans& spans, Levels& levels);
 
-  /// Writes the levels of a blurred picture into those of the whole picture.
-  void expose(const LightPicture& blurred, Levels& levels) const;
+  /// Where a pixel's first channel is in the levels.
+  std::ptrdiff_t place_of(int x, int y) const {
+    return (static_cast<std::ptrdiff_t>(y) * width_ + x) * 3;
+  }
 
   /// Adds the noise of that picture and rounds.
   Image develop(const Levels& levels, std::uint64_t number) const;
 
  private:
-  float gain_at(int x, int y) const;
-  std::int16_t level_of(float light) const;
+  float lost_light(int place, int n_places) const;
+  void blur_along_rows(const LightPicture& sharp, const RowSpans& spans);
+  void blur_across_rows(int y, const Span& span);
+  void expose_row(int y, const Span& span, std::int16_t* levels);
 
   Optics optics_;
   int width_, height_;
   std::uint64_t seed_;
-  double lost_per_px2_;              ///< light, with the square of the distance from the middle
+  double lost_per_px2_;  ///< light, with the square of the distance from the middle
+  std::vector<float> lost_by_column_;
   std::vector<float> kernel_;        ///< half of a symmetric one: from its middle outwards
-  std::vector<float> curve_;         ///< levels at equally spaced light
-  std::vector<std::int16_t> noise_;  ///< a long row of independent draws, in 1/64 level
-  LightPicture blurred_along_rows_;
+  std::vector<std::int16_t> curve_;  ///< levels at equally spaced roots of light
+  std::vector<std::int16_t> noise_;  ///< a long row of independent draws for three channels each
+  LightPicture along_rows_;          ///< blurred that way
+  std::vector<Light> row_, padded_row_;
+  std::vector<int> places_;  ///< of a row's light in the curve
 };
 
 }  // namespace heft

@@ -28,7 +28,7 @@ Eigen::Array3f behind_the_board(const Vector3d& eye_m, const Vector3d& ray) {
   return material::table * grain(point_m.x(), point_m.y());
 }
 
-void fill_with_table(LightPicture& picture, const Pose& camera_from_board, const Lens& lens) {
+void put_before_table(LightPicture& picture, const Pose& camera_from_board, const Lens& lens) {
   const Eigen::Quaterniond board_from_camera = camera_from_board.orientation.conjugate();
   const Vector3d eye_m = -(board_from_camera * camera_from_board.position_m);
   for (int y = picture.box.y0; y < picture.box.y1; ++y) {
@@ -39,7 +39,7 @@ void fill_with_table(LightPicture& picture, const Pose& camera_from_board, const
         ray = undistort(lens.camera(), {x, y});
         step = (undistort(lens.camera(), {x + undistorted_px, y}) - ray) / undistorted_px;
       }
-      row[x] = solid(behind_the_board(eye_m, board_from_camera * ray.homogeneous()));
+      row[x] = over(row[x], solid(behind_the_board(eye_m, board_from_camera * ray.homogeneous())));
       ray += step;
     }
   }
@@ -48,14 +48,15 @@ void fill_with_table(LightPicture& picture, const Pose& camera_from_board, const
 
 LightPicture still_scene(const MarkerBody& board, const Pose& camera_from_board, const Lens& lens) {
   LightPicture picture(lens.picture());
-  fill_with_table(picture, camera_from_board, lens);
   const PrintedFace sheet = printed_board(board);
   const SeenBody on_table{camera_from_board, {}};
-  if (sheet.patches.empty() || !is_seen(sheet, on_table)) return picture;
-  AreaRaster raster;
-  raster.begin(picture.box);
-  draw_face(sheet, on_table, lens, raster);
-  raster.draw_over(picture);
+  if (!sheet.patches.empty() && is_seen(sheet, on_table)) {
+    AreaRaster raster;
+    raster.begin(picture.box);
+    draw_face(sheet, on_table, lens, raster);
+    raster.draw_behind(picture);
+  }
+  put_before_table(picture, camera_from_board, lens);
   return picture;
 }
 

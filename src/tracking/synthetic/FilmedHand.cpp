@@ -1,7 +1,8 @@
-#include "tracking/synthetic/Hand.h"
+#include "tracking/synthetic/FilmedHand.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace heft {
 
@@ -25,6 +26,13 @@ inline Four share(const Four& value) {
   return value.max(0.0F).min(1.0F);
 }
 
+// Eigen's is an approximation that differs from processor to processor.
+inline Four root(const Four& value) {
+  Four roots;
+  for (int i = 0; i < 4; ++i) roots[i] = std::sqrt(value[i]);
+  return roots;
+}
+
 struct Plane {
   Vector3f normal;
   float offset_m;
@@ -34,7 +42,7 @@ struct Plane {
 }  // namespace
 
 // All that the skin has to be compared with, in the camera's frame; float is plenty.
-struct Hand::Surroundings {
+struct FilmedHand::Surroundings {
   Plane table;
   std::array<Plane, 3> seen_faces;  // of the box; those that are not seen have a zero normal
   Vector3f lamp;
@@ -59,7 +67,7 @@ Plane plane_through(const Vector3d& point_m, const Vector3d& normal) {
 }
 }  // namespace
 
-Hand::Surroundings::Surroundings(const SeenBody& effector, const Vector3d& half_m)
+FilmedHand::Surroundings::Surroundings(const SeenBody& effector, const Vector3d& half_m)
     : table(plane_through(effector.camera_from_board.position_m,
                           effector.camera_from_board.orientation * Vector3d::UnitZ())),
       lamp(Shading(effector.camera_from_board).towards_lamp()) {
@@ -77,11 +85,11 @@ Hand::Surroundings::Surroundings(const SeenBody& effector, const Vector3d& half_
 }
 
 // Of four pixels: how much of them the skin covers, and how much of the lamp falls on it.
-struct Hand::SkinInRow {
+struct FilmedHand::SkinInRow {
   Four coverage, lamp;
 };
 
-struct Hand::SeenCone {
+struct FilmedHand::SeenCone {
   Vector3f from_m, to_m;
   float from_radius_m, to_radius_m;
   Vector2f from_px, to_px;
@@ -95,7 +103,7 @@ struct Hand::SeenCone {
   void draw(Side side, const Surroundings& near, LightPicture& picture) const;
 };
 
-PixelBox Hand::SeenCone::box() const {
+PixelBox FilmedHand::SeenCone::box() const {
   const auto reach = [](const Vector2f& center, float radius) {
     const Vector2d middle = center.cast<double>(), r = Vector2d::Constant(radius + 1);
     const std::array<Vector2d, 2> corners{middle - r, middle + r};
@@ -106,7 +114,7 @@ PixelBox Hand::SeenCone::box() const {
 
 // Of a slanted cone a row has much less than its box: what lies between the two lines beside its
 // axis.
-std::pair<int, int> Hand::SeenCone::columns_in_row(int y, const PixelBox& area) const {
+std::pair<int, int> FilmedHand::SeenCone::columns_in_row(int y, const PixelBox& area) const {
   const Vector2f along = to_px - from_px;
   if (std::abs(along.y()) < 1) return {area.x0, area.x1};
   const float middle = from_px.x() + (static_cast<float>(y) - from_px.y()) * along.x() / along.y();
@@ -120,7 +128,7 @@ std::pair<int, int> Hand::SeenCone::columns_in_row(int y, const PixelBox& area) 
 }
 
 // Spares most cones one of the two drawings.
-bool Hand::SeenCone::may_be(Side side, const Surroundings& surroundings) const {
+bool FilmedHand::SeenCone::may_be(Side side, const Surroundings& surroundings) const {
   const float from = surroundings.before_box_m(from_m), to = surroundings.before_box_m(to_m);
   if (side == Side::before_box) return from > -from_radius_m || to > -to_radius_m;
   return !std::ranges::any_of(surroundings.seen_faces, [&](const auto& face) {
@@ -129,7 +137,7 @@ bool Hand::SeenCone::may_be(Side side, const Surroundings& surroundings) const {
 }
 
 // x from the box's back end towards the tip; the thumb on top, the fingers around the right side.
-Hand::Hand(const Vector3d& box_size_m) : half_m_(box_size_m / 2) {
+FilmedHand::FilmedHand(const Vector3d& box_size_m) : half_m_(box_size_m / 2) {
   const double y = half_m_.y(), z = half_m_.z();
   const double grip = std::min(0.034, 0.36 * box_size_m.x());  // how far fingers reach over the box
   const auto add = [&](const Vector3d& from, const Vector3d& to, double from_radius,
@@ -151,7 +159,8 @@ Hand::Hand(const Vector3d& box_size_m) : half_m_(box_size_m / 2) {
   }
 }
 
-std::vector<Hand::SeenCone> Hand::seen(const SeenBody& effector, const Lens& lens) const {
+std::vector<FilmedHand::SeenCone> FilmedHand::seen(const SeenBody& effector,
+                                                   const Lens& lens) const {
   std::vector<SeenCone> all;
   for (const Cone& cone : cones_) {
     const Vector3d from_m = effector.in_camera(cone.from_m), to_m = effector.in_camera(cone.to_m);
@@ -162,18 +171,18 @@ std::vector<Hand::SeenCone> Hand::seen(const SeenBody& effector, const Lens& len
                    static_cast<float>(cone.from_radius_m * lens.px_per_m(from_m.z())),
                    static_cast<float>(cone.to_radius_m * lens.px_per_m(to_m.z()))});
   }
-  std::ranges::stable_sort(all, std::greater{}, &SeenCone::distance_m);
+  std::ranges::stable_sort(all, std::less{}, &SeenCone::distance_m);
   return all;
 }
 
-PixelBox Hand::extent(const SeenBody& effector, const Lens& lens) const {
+PixelBox FilmedHand::extent(const SeenBody& effector, const Lens& lens) const {
   PixelBox box;
   for (const SeenCone& cone : seen(effector, lens)) box = box.around(cone.box());
   return box;
 }
 
-void Hand::draw(Side side, const SeenBody& effector, const Lens& lens,
-                LightPicture& picture) const {
+void FilmedHand::draw(Side side, const SeenBody& effector, const Lens& lens,
+                      LightPicture& picture) const {
   const Surroundings surroundings(effector, half_m_);
   for (const SeenCone& cone : seen(effector, lens))
     if (cone.may_be(side, surroundings)) cone.draw(side, surroundings, picture);
@@ -181,8 +190,8 @@ void Hand::draw(Side side, const SeenBody& effector, const Lens& lens,
 
 // Of each pixel: the nearest point of the axis, how far across the cone it is, and from that the
 // skin's point and normal. What is not to be drawn here gets no coverage.
-inline Hand::SkinInRow Hand::SeenCone::skin_at(int x, int y, Side side,
-                                               const Surroundings& near) const {
+inline FilmedHand::SkinInRow FilmedHand::SeenCone::skin_at(int x, int y, Side side,
+                                                           const Surroundings& near) const {
   const Vector2f along_px = to_px - from_px;
   const Vector3f along_m = to_m - from_m;
   const Four start_x = Four(0, 1, 2, 3) + (static_cast<float>(x) - from_px.x());
@@ -191,12 +200,14 @@ inline Hand::SkinInRow Hand::SeenCone::skin_at(int x, int y, Side side,
   const Four s = share((start_x * along_px.x() + start_y * along_px.y()) * per_length2);
   const Four aside_x = start_x - s * along_px.x(), aside_y = start_y - s * along_px.y();
   const Four radius_px = from_radius_px + s * (to_radius_px - from_radius_px);
-  const Four distance_px = (aside_x.square() + aside_y.square()).sqrt();
+  const Four distance_px = root(aside_x.square() + aside_y.square());
+  const Four within = share(radius_px + 0.5F - distance_px);
+  if ((within <= 0).all()) return {Four::Zero(), Four::Zero()};
 
   const Four per_radius = radius_px.max(distance_px).inverse();
   const Four across = distance_px * per_radius;
   const FourVectors normal{aside_x * per_radius, aside_y * per_radius,
-                           -(1 - across.square()).max(0.0F).sqrt()};
+                           -root((1 - across.square()).max(0.0F))};
   const Four radius_m = from_radius_m + s * (to_radius_m - from_radius_m);
   const FourVectors point_m{from_m.x() + s * along_m.x() + radius_m * normal.x,
                             from_m.y() + s * along_m.y() + radius_m * normal.y,
@@ -204,12 +215,16 @@ inline Hand::SkinInRow Hand::SeenCone::skin_at(int x, int y, Side side,
   const float px_per_m = from_radius_px / from_radius_m;
   const Four before = share(near.before_box_m(point_m) * px_per_m + 0.5F);
   const Four above_table = share(near.table.above_m(point_m) * px_per_m + 0.5F);
-  return {share(radius_px + 0.5F - distance_px) * above_table *
-              (side == Side::before_box ? before : 1 - before),
+  return {within * above_table * (side == Side::before_box ? before : 1 - before),
           dot(near.lamp, normal).max(0.0F)};
 }
 
-void Hand::SeenCone::draw(Side side, const Surroundings& near, LightPicture& picture) const {
+// Much of the hand is hidden by the rest of it.
+inline bool all_covered(std::span<const Light> pixels) {
+  return std::ranges::all_of(pixels, [](const Light& light) { return light[3] >= 1; });
+}
+
+void FilmedHand::SeenCone::draw(Side side, const Surroundings& near, LightPicture& picture) const {
   const PixelBox area = box().within(picture.box);
   const Light dark = solid(material::skin) * Shading::ambient;
   const Light lit = solid(material::skin) * Shading::lamp_share;
@@ -217,10 +232,12 @@ void Hand::SeenCone::draw(Side side, const Surroundings& near, LightPicture& pic
     Light* row = picture.row(y) - picture.box.x0;
     const auto [x0, x1] = columns_in_row(y, area);
     for (int x = x0; x < x1; x += 4) {
+      const int n = std::min(4, x1 - x);
+      if (all_covered({row + x, static_cast<std::size_t>(n)})) continue;
       const SkinInRow skin = skin_at(x, y, side, near);
-      for (int i = 0; i < std::min(4, x1 - x); ++i)
+      for (int i = 0; i < n; ++i)
         if (skin.coverage[i] > 0)
-          row[x + i] = over(skin.coverage[i] * (dark + skin.lamp[i] * lit), row[x + i]);
+          row[x + i] = over(row[x + i], skin.coverage[i] * (dark + skin.lamp[i] * lit));
     }
   }
 }

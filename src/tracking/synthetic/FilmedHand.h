@@ -9,18 +9,18 @@
 
 namespace heft {
 
-class Hand {
+class FilmedHand {
  public:
   /// @param box_size_m of the effector that it holds
-  explicit Hand(const Eigen::Vector3d& box_size_m);
+  explicit FilmedHand(const Eigen::Vector3d& box_size_m);
 
   /// The pixels that the hand reaches; empty where it comes too near to the camera to be drawn.
   PixelBox extent(const SeenBody& effector, const Lens& lens) const;
 
   enum class Side { behind_box, before_box };
 
-  /// Puts that part of the hand in front of what the picture holds, within its box. A point that
-  /// lies outside of a face that the camera sees can't be behind the box, and all others can't be
+  /// Puts that part of the hand behind what the picture holds, within its box. A point that lies
+  /// outside of a face that the camera sees can't be behind the box, and all others can't be
   /// before it.
   void draw(Side side, const SeenBody& effector, const Lens& lens, LightPicture& picture) const;
 
