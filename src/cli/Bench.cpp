@@ -34,7 +34,7 @@ void bench(const StudyEntry& study, const Options& options) {
 void add_bench(CLI::App& app) {
   CLI::App* command =
       add_command(app, "bench", "measure: the studies that results/ holds, each with its charts",
-                  {"heft bench physics", "heft bench tracking --quick --out /tmp/tracking"});
+                  {"heft bench physics", "heft bench tracking --quick --out try/tracking"});
   command->require_subcommand(1);
   for (const StudyEntry& study : studies()) {
     const auto options = std::make_shared<Options>();

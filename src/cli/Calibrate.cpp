@@ -69,6 +69,22 @@ ViewCollector board_views(Camera& camera, const MarkerBody& board) {
   return views;
 }
 
+// What can't become a camera file, and what to film to make it one.
+void require_views(const ViewCollector& views) {
+  if (views.size() >= least_views) return;
+  std::string missing;
+  for (const std::string& what : views.missing()) missing += "\n  " + what;
+  if (views.size() == 0)
+    throw Error(
+        fmt::format("no picture shows the board: {}. Is it the right board file, is the "
+                    "board in view, sharp and evenly lit?",
+                    views.tally()));
+  throw Error(
+      fmt::format("too few views of the board that differ: {}; expected at least {} and "
+                  "better {}. What is missing:{}",
+                  views.tally(), least_views, ViewCollector::enough, missing));
+}
+
 void say_views(const CameraCalibration& result) {
   for (const CalibratedView& view : result.views)
     say("{}: {} tags, {:.3f} px{}\n", view.name, view.n_tags, view.reprojection_px,
@@ -80,15 +96,20 @@ void calibrate_the_camera(const Options& options) {
   const MarkerBody board = load_board(options.board);
   const auto camera = open_camera(options.source);
   const ViewCollector views = board_views(*camera, board);
-  say("{} view(s) that differ; computing...\n", views.size());
+  require_views(views);
+  say("{}; computing...\n", views.tally());
   const CameraCalibration result = calibrate_camera(board, views.pictures(), views.names());
   say_views(result);
   const std::string text = summary(result);
   write_file(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));
   fmt::print("{}", text);
-  say("{} is written. Next: heft calibrate effector --camera camera:0 --camera-file {} "
-      "--effector EFFECTOR.toml --out MEASURED.toml\n",
-      options.out, options.out);
+  if (!doubts(result).empty())
+    say("{} is written, but should not be trusted: see above, and calibrate once more\n",
+        options.out);
+  else
+    say("{} is written. Next: heft calibrate effector --camera camera:0 --camera-file {} "
+        "--effector EFFECTOR.toml --out MEASURED.toml\n",
+        options.out, options.out);
 }
 
 // Views with two tags or more that differ from each other.

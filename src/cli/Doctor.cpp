@@ -26,6 +26,7 @@
 #include "session/PictureSource.h"
 #include "session/Session.h"
 #include "tracking/Camera.h"
+#include "tracking/VideoDevices.h"
 #include "view/ArView.h"
 
 namespace heft::cli {
@@ -35,15 +36,15 @@ namespace {
 // Prints one line a check and remembers the worst.
 class Report {
  public:
-  void line(Verdict verdict, const std::string& what, const std::string& found) {
+  void line(CheckVerdict verdict, const std::string& what, const std::string& found) {
     constexpr std::array<const char*, 3> marks{"ok     ", "warning", "FAILED "};
-    fmt::print("{}  {:<12} {}\n", marks[static_cast<std::size_t>(verdict)], what, found);
+    fmt::print("{}  {:<14} {}\n", marks[static_cast<std::size_t>(verdict)], what, found);
     worst_ = std::max(worst_, verdict);
   }
-  bool failed() const { return worst_ == Verdict::failed; }
+  bool failed() const { return worst_ == CheckVerdict::failed; }
 
  private:
-  Verdict worst_ = Verdict::ok;
+  CheckVerdict worst_ = CheckVerdict::ok;
 };
 
 // What a command prints; nothing if it can't be run.
@@ -69,24 +70,25 @@ void check_packages(Report& report) {
       missing += " " + package;
   }
   if (missing.empty())
-    report.line(Verdict::ok, "packages", fmt::format("all {} are installed", n));
+    report.line(CheckVerdict::ok, "packages", fmt::format("all {} are installed", n));
   else
-    report.line(Verdict::failed, "packages",
+    report.line(CheckVerdict::failed, "packages",
                 fmt::format("missing; install them: sudo apt-get install{}", missing));
 }
 
 void check_space(Report& report, const std::string& folder) {
   struct statvfs space {};
   if (statvfs(folder.c_str(), &space) != 0)
-    return report.line(Verdict::failed, "disk",
+    return report.line(CheckVerdict::failed, "disk",
                        fmt::format("{} can't be looked at; is the folder there?", folder));
   const double free_gb =
       static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize) / 1e9;
   const std::string found = fmt::format("{:.1f} GB free in {}", free_gb, folder);
   if (free_gb < 0.1)
-    report.line(Verdict::failed, "disk", found + ": too little for a session (about 20 MB each)");
+    report.line(CheckVerdict::failed, "disk",
+                found + ": too little for a session (about 20 MB each)");
   else
-    report.line(free_gb < 1 ? Verdict::warning : Verdict::ok, "disk", found);
+    report.line(free_gb < 1 ? CheckVerdict::warning : CheckVerdict::ok, "disk", found);
 }
 
 // SQLite's write-ahead log needs shared memory, which network file systems do not give.
@@ -96,7 +98,7 @@ void check_file_system(Report& report, const std::string& folder) {
   if (statfs(folder.c_str(), &system) != 0) return;
   const bool remote = system.f_type == nfs || system.f_type == smb || system.f_type == smb2 ||
                       system.f_type == cifs;
-  report.line(remote ? Verdict::failed : Verdict::ok, "file system",
+  report.line(remote ? CheckVerdict::failed : CheckVerdict::ok, "file system",
               remote ? "a network file system: keep the log on a local disk and copy it afterwards"
                      : "local");
 }
@@ -107,7 +109,7 @@ void check_commit(Report& report, const std::string& folder) {
   const int file = mkstemp(path.data());
   if (file < 0)
     return report.line(
-        Verdict::failed, "writing",
+        CheckVerdict::failed, "writing",
         fmt::format("no file can be made in {}; choose another folder with --db", folder));
   std::vector<double> times_ms;
   const std::string page(4096, 'x');
@@ -121,20 +123,21 @@ void check_commit(Report& report, const std::string& folder) {
   close(file);
   unlink(path.c_str());
   if (times_ms.empty())
-    return report.line(Verdict::failed, "writing", "nothing can be written; is the disk full?");
+    return report.line(CheckVerdict::failed, "writing",
+                       "nothing can be written; is the disk full?");
   std::ranges::sort(times_ms);
   const double median_ms = times_ms[times_ms.size() / 2], worst_ms = times_ms.back();
-  report.line(worst_ms > 100 ? Verdict::warning : Verdict::ok, "writing",
+  report.line(worst_ms > 100 ? CheckVerdict::warning : CheckVerdict::ok, "writing",
               fmt::format("an answer is safe on disk in {:.1f} ms (worst of 20: {:.1f} ms)",
                           median_ms, worst_ms));
 }
 
 void check_log(Report& report, const std::string& db) {
   if (!std::filesystem::exists(db))
-    return report.line(Verdict::ok, "log", fmt::format("{} is not there yet", db));
+    return report.line(CheckVerdict::ok, "log", fmt::format("{} is not there yet", db));
   const std::vector<std::string> faults = check_integrity(db);
-  if (faults.empty()) return report.line(Verdict::ok, "log", fmt::format("{} is sound", db));
-  for (const std::string& fault : faults) report.line(Verdict::failed, "log", fault);
+  if (faults.empty()) return report.line(CheckVerdict::ok, "log", fmt::format("{} is sound", db));
+  for (const std::string& fault : faults) report.line(CheckVerdict::failed, "log", fault);
 }
 
 // The camera, its calibration, the light, the board: with pictures from it.
@@ -144,7 +147,7 @@ void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
   options.responder = "simulated";
   complete(options);
   const TrackerEntry& entry = tracker_named(options.tracker);
-  if (!entry.has_camera || entry.name == "synthetic")
+  if (!entry.has_camera || !entry.needs_what)
     throw Error("--tracker: expected camera:N, video:FILE or frames:FOLDER", ExitCode::usage);
   const Apparatus apparatus = apparatus_of(options);
   const auto camera = open_camera(options.tracker, request_for(apparatus.camera, rate_hz));
@@ -154,11 +157,11 @@ void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
 
 void list_cameras() {
   fmt::print("\ncameras:\n");
-  int n = 0;
-  for (int i = 0; i < 64; ++i)
-    if (std::filesystem::exists(fmt::format("/dev/video{}", i)) && ++n > 0)
-      fmt::print("  camera:{:<9} /dev/video{}\n", i, i);
-  if (n == 0) fmt::print("  none is attached\n");
+  for (const VideoDevice& device : video_devices()) {
+    fmt::print("  camera:{:<9} /dev/video{} {}\n", device.number, device.number, device.name);
+    for (const std::string& mode : device_modes(device)) fmt::print("  {:<16}   {}\n", "", mode);
+  }
+  if (video_devices().empty()) fmt::print("  none is attached\n");
   fmt::print("check one: heft doctor --tracker camera:0 --camera-file camera.yaml\n");
 }
 
@@ -182,7 +185,7 @@ void list_plugs() {
 void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) {
   refuse_special_file(db);
   Report report;
-  report.line(Verdict::ok, "program", fmt::format("heft {}, {}", HEFT_VERSION, build_name()));
+  report.line(CheckVerdict::ok, "program", fmt::format("heft {}, {}", HEFT_VERSION, build_name()));
   check_packages(report);
   const auto parent = std::filesystem::path(db).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
@@ -190,10 +193,8 @@ void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) 
   check_file_system(report, folder);
   check_commit(report, folder);
   check_log(report, db);
-  if (given.tracker)
-    check_tracker(report, given, rate_hz);
-  else
-    list_cameras();
+  if (given.tracker) check_tracker(report, given, rate_hz);
+  list_cameras();
   list_plugs();
   if (report.failed()) throw Error("this machine is not ready; see the lines marked FAILED");
 }

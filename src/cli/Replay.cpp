@@ -114,6 +114,7 @@ void ask_what_if(const LogReader& reader, const Options& options) {
     if (!options.simulator.empty()) {
       simulator_named(options.simulator);  // says so if there is none of that name
       changed.simulator = options.simulator;
+      changed.auto_simulator.clear();
     }
     if (!options.responder.empty()) {
       changed.responder = options.responder;
@@ -121,7 +122,8 @@ void ask_what_if(const LogReader& reader, const Options& options) {
     }
     Protocol protocol = parse_protocol(session.row.header.protocol_text,
                                        session.row.header.protocol_name, options.set);
-    if (!changed.simulator.empty()) protocol.simulator.name = changed.simulator;
+    changed = with_auto_resolved(changed, protocol);
+    protocol = *protocol_for(std::move(protocol), changed);
     fmt::print("session {}, participant {}:\n", session_id, session.row.header.participant);
     if (options.responder.empty()) {
       print_paths(compare_paths(reader, session, protocol));

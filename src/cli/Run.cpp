@@ -10,6 +10,7 @@
 #include "cli/SessionOptions.h"
 #include "cli/Talk.h"
 #include "cli/WholeNumber.h"
+#include "session/NextPart.h"
 
 namespace heft::cli {
 
@@ -24,7 +25,15 @@ struct Options {
   bool left_handed = false, unblind = false, again = false;
 };
 
+// Not to take part is everybody's right, and no error.
+void say_declined(const SessionResult& result, const std::string& db) {
+  say("the participant declined to take part: session {} is ended as aborted, before its first "
+      "trial; that is saved in {}\n",
+      result.session_id, db);
+}
+
 void say_finished(const SessionResult& result, const std::string& db) {
+  if (result.end == RunEnd::declined) return say_declined(result, db);
   say("session {} is finished: {} trials, {:.0f} minutes of session time, all saved in {}\n"
       "what was found: heft analyse --db {}\n"
       "check the log: heft replay --db {} --session {}\n",
@@ -53,10 +62,17 @@ void run(const Options& options) {
   const SessionRequest request = request_of(options);
   say("participant {}, protocol {}, responder {}, seed {}\n", request.participant,
       request.protocol.name, request.options.responder, request.seed);
-  warn_of_simulator(protocol_for(request.protocol, request.options)->simulator.name);
+  tell_simulator(request.protocol, request.options);
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
   say_finished(run_session({request.protocol, request.options, request.db, options.unblind}, start),
                request.db);
+}
+
+void say_next_parts(const RunOptions& before) {
+  const RunOptions now = with_next_parts(before);
+  for (const auto option : {&RunOptions::view, &RunOptions::record_camera})
+    if (now.*option != before.*option)
+      say("{} is there already; from here on it is {}\n", before.*option, now.*option);
 }
 
 void resume(const std::string& db, std::optional<std::int64_t> session_id,
@@ -68,6 +84,7 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
   for (const OptionChange& change : session.changes)
     if (!change.option.ends_with("_text"))
       say("from here on with {} {} instead of {}\n", change.option, change.to, change.from);
+  say_next_parts(session.options);
   say_finished(
       run_session({*session.protocol, session.options, db, unblind},
                   [&](const RunnerOptions& runner) { return resume_session(session, runner); }),

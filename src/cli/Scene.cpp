@@ -83,7 +83,7 @@ void run_auto(const Options& options, const Scene& scene, const Trajectory& traj
   };
   const std::vector<SimulatorPick> ladder = simulator_ladder(scene, options.rate_hz);
   for (const SimulatorPick& pick : ladder) {
-    explain(fmt::format("auto takes {} at {:g} Hz: it {}", pick.simulator, pick.rate_hz, pick.why));
+    explain(described(pick));
     std::string rows;
     try {
       Drive drive(make_simulator(pick.simulator), scene, pick.rate_hz);

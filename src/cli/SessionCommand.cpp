@@ -40,8 +40,6 @@ SessionResult run_session(const CommandedSession& session,
   if (result.end == RunEnd::stopped)
     throw Error("stopped; everything up to the last answer is saved. Go on with: " + resume,
                 ExitCode::interrupted);
-  if (result.end == RunEnd::declined)
-    throw Error("the participant did not agree to take part; the session is ended");
   if (result.end == RunEnd::paused)
     throw Error(
         fmt::format("the session paused itself: one trial was void {} times. Look at the "

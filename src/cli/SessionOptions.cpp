@@ -9,6 +9,7 @@
 #include "cli/Installation.h"
 #include "cli/Talk.h"
 #include "physics/DecouplingSimulator.h"
+#include "physics/auto/Choice.h"
 
 namespace heft::cli {
 
@@ -53,6 +54,14 @@ RunOptions with_defaults(const GivenOptions& given) {
 void warn_of_simulator(const std::string& name) {
   const SimulatorEntry& entry = simulator_named(name);
   if (!entry.warning.empty()) say("heft: {} {}\n", entry.name, entry.warning);
+}
+
+void tell_simulator(const Protocol& protocol, const RunOptions& options) {
+  const RunOptions resolved = with_auto_resolved(options, protocol);
+  const SimulatorChoice simulator = protocol_for(protocol, resolved)->simulator;
+  if (!resolved.auto_simulator.empty())
+    say("heft: {}\n", described({simulator.name, simulator.rate_hz, resolved.auto_why}));
+  warn_of_simulator(simulator.name);
 }
 
 std::string texts_file(const std::string& language) {

@@ -39,7 +39,7 @@ void simulate_participants(const Options& options) {
   request.keep_frames = options.frames;
   say("{} participants, protocol {}, responder {}, seed {}\n", request.participants,
       request.protocol.name, request.options.responder, request.seed);
-  warn_of_simulator(protocol_for(request.protocol, request.options)->simulator.name);
+  tell_simulator(request.protocol, request.options);
 
   const StopOnSignal stop;
   const auto started = std::chrono::steady_clock::now();

@@ -10,6 +10,7 @@
 
 #include "base/Error.h"
 #include "cli/Commands.h"
+#include "cli/Talk.h"
 #include "protocol/MarkerFile.h"
 #include "tracking/Camera.h"
 #include "tracking/ImageFile.h"
@@ -23,6 +24,19 @@ struct Options {
   std::vector<std::string> frames;
   double rate_hz = 30;
 };
+
+constexpr const char* columns_explained = R"(
+Columns: frame (from 0), t_s (seconds), board_found and effector_found (1 or 0);
+x_m...qz: the effector's center in the board's frame (origin at the board's
+center, z up, x to the participant's right); camera_x_m...camera_qz: the board
+in the camera's frame (x right, y down, z forward). Poses are unfiltered, and
+blank where nothing was found.
+n_tags, reprojection_px and quality are the effector's; without --effector the
+board's. reprojection_px: rms distance of tag edges from where the pose puts
+them. quality: 0 (none) to 1, how far the pose can be trusted.
+A picture that can't be read has a row in which nothing is found, and is named
+on stderr; the program then ends with exit code 1.
+)";
 
 constexpr const char* header =
     "frame,t_s,board_found,effector_found,x_m,y_m,z_m,qw,qx,qy,qz,camera_x_m,camera_y_m,camera_z_m,"
@@ -48,15 +62,33 @@ std::string row(long frame, double t_s, const TrackedPicture& seen, bool with_ef
                      found ? seen.quality : 0);
 }
 
-using TakePicture = std::function<void(const Image&, double t_s, const std::string& name)>;
+// One of the pictures; where it can't be read, without an image but with why.
+struct TakenPicture {
+  Image image;
+  double t_s = 0;
+  std::string name, damage;
+};
+using TakePicture = std::function<void(const TakenPicture&)>;
+
+TakenPicture read_picture(const std::string& file, double t_s) {
+  try {
+    return {read_image(file), t_s, file, ""};
+  } catch (const Error& error) {
+    return {{}, t_s, file, error.what()};
+  }
+}
 
 void each_of_camera(const std::string& source, const TakePicture& take) {
   const auto camera = open_camera(source);
-  constexpr double patience_s = 5;
   while (!camera->ended()) {
-    const auto picture = camera->next(patience_s);
-    if (!picture) break;
-    take(picture->image, picture->capture_s, picture->name.empty() ? source : picture->name);
+    try {
+      const auto picture = camera->next(0);
+      if (!picture) break;
+      take(
+          {picture->image, picture->capture_s, picture->name.empty() ? source : picture->name, ""});
+    } catch (const DamagedPicture& damaged) {
+      take({{}, damaged.capture_s, damaged.name, damaged.what()});
+    }
   }
 }
 
@@ -67,15 +99,15 @@ void each_picture(const Options& options, const TakePicture& take) {
     return each_of_camera("frames:" + frames[0], take);
   if (one && !is_image_file(frames[0])) return each_of_camera("video:" + frames[0], take);
   for (std::size_t i = 0; i < frames.size(); ++i)
-    take(read_image(frames[i]), static_cast<double>(i) / options.rate_hz, frames[i]);
+    take(read_picture(frames[i], static_cast<double>(i) / options.rate_hz));
 }
 
-TrackedPicture track_named(Tracker& tracker, const Image& image, double t_s,
-                           const std::string& name) {
+TrackedPicture track_named(Tracker& tracker, const TakenPicture& picture) {
+  if (!picture.damage.empty()) return {};
   try {
-    return tracker.track(image, t_s);
+    return tracker.track(picture.image, picture.t_s);
   } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}", name, error.what()), error.exit_code());
+    throw Error(fmt::format("{}: {}", picture.name, error.what()), error.exit_code());
   }
 }
 
@@ -92,11 +124,17 @@ void run_track(const Options& options) {
   if (with_effector) require_different_tags(apparatus.board, apparatus.effector);
   Tracker tracker(apparatus);
   fmt::print("{}\n", header);
-  long frame = 0;
-  each_picture(options, [&](const Image& image, double t_s, const std::string& name) {
-    const TrackedPicture seen = track_named(tracker, image, t_s, name);
-    fmt::print("{}\n", row(frame++, t_s, seen, with_effector));
+  long frame = 0, n_damaged = 0;
+  each_picture(options, [&](const TakenPicture& picture) {
+    if (!picture.damage.empty()) {
+      ++n_damaged;
+      say("frame {}: {}\n", frame, picture.damage);
+    }
+    fmt::print("{}\n", row(frame++, picture.t_s, track_named(tracker, picture), with_effector));
   });
+  if (n_damaged > 0)
+    throw Error(fmt::format("{} of {} picture(s) can't be read; in their rows nothing is found",
+                            n_damaged, frame));
 }
 }  // namespace
 
@@ -106,6 +144,7 @@ void add_track(CLI::App& app) {
       {"heft track --camera-file camera.yaml --board board.toml --effector effector.toml frames/",
        "heft track --camera-file camera.yaml --board board.toml one.png two.png",
        "heft track --camera-file camera.yaml --board board.toml film.mp4 > poses.csv"});
+  command->footer(command->get_footer() + columns_explained);
   const auto options = std::make_shared<Options>();
   command->add_option("--camera-file", options->camera, "the camera's calibration, OpenCV's YAML")
       ->required();

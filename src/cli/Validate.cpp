@@ -15,6 +15,7 @@
 #include "protocol/ProcedureFile.h"
 #include "protocol/SceneFile.h"
 #include "protocol/TextsFile.h"
+#include "session/AutoSimulator.h"
 
 namespace heft::cli {
 
@@ -27,8 +28,10 @@ std::string described(const Protocol& protocol) {
   if (length.staircases > 0)
     assumed += fmt::format(", {:.1f} trials a staircase as simulated observers take",
                            length.staircase_trials / length.staircases);
-  return fmt::format("about {:.0f} trials and {:.0f} minutes (assuming {})", length.trials,
-                     length.minutes, assumed);
+  std::string text = fmt::format("about {:.0f} trials and {:.0f} minutes (assuming {})",
+                                 length.trials, length.minutes, assumed);
+  if (protocol.simulator.name == "auto") text += "; " + described(resolve_auto(protocol));
+  return text;
 }
 
 std::string described(const ScreenTexts& texts) {

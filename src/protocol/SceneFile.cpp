@@ -80,6 +80,14 @@ Pose read_clone_offset(TableReader& reader) {
   offset.orientation = rotation_from_vector(rotation_rad);
   return offset;
 }
+
+void read_tolerance(TableReader& reader, Tolerance& tolerance) {
+  auto table = reader.table("tolerance");
+  if (!table) return;
+  table->read("clone_rms_m", tolerance.clone_rms_m, above_zero);
+  table->read("lag_g", tolerance.lag_g, above_zero);
+  table->close();
+}
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::string& file) {
@@ -100,6 +108,7 @@ Scene parse_scene(const std::string& text, const std::string& file) {
   }
   scene.clone_offset = read_clone_offset(reader);
   scene.cubes = read_cubes(reader);
+  read_tolerance(reader, scene.tolerance);
   reader.close();
   mistakes.throw_if_any();
   return scene;

@@ -61,6 +61,12 @@ bool AttemptRun::trial_goes_on() const {
   return engine().next().kind == Next::Kind::act;
 }
 
+// A trial that was voided while the camera gave nothing is waited in until it does: the session is
+// paused, and the next attempt could not start.
+bool AttemptRun::is_over() const {
+  return !engine().trial_is_open() && !trouble_since_s_;
+}
+
 // One picture. @return whether the attempt goes on.
 bool AttemptRun::run_picture() {
   const auto picture = next_picture();
@@ -102,7 +108,7 @@ std::optional<Picture> AttemptRun::next_picture() {
       throw Error("the pictures have ended but the session has not; everything so far is saved");
     }
     take_touches(attendant_.wait(look_up_s));
-    if (!engine().trial_is_open()) return std::nullopt;
+    if (is_over()) return std::nullopt;
   }
 }
 
@@ -111,7 +117,7 @@ bool AttemptRun::wait_until(double t_s) {
   if (!parts_.clock.is_wall()) return true;
   do {
     take_touches(attendant_.wait(std::clamp(t_s - parts_.clock.now_s(), 0.0, longest_wait_s)));
-    if (!engine().trial_is_open() || attendant_.leaving()) return false;
+    if (is_over() || attendant_.leaving()) return false;
   } while (parts_.clock.now_s() < t_s);
   return true;
 }

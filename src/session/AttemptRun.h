@@ -21,6 +21,7 @@ class AttemptRun {
  private:
   const Engine& engine() const { return parts_.engine; }
   bool trial_goes_on() const;
+  bool is_over() const;
 
   bool run_picture();
   std::optional<Picture> next_picture();

@@ -8,18 +8,19 @@ namespace {
 constexpr double silence_s = 0.5;
 }  // namespace
 
-CameraPictures::CameraPictures(std::unique_ptr<Camera> camera, const PictureParts& parts)
-    : camera_(std::move(camera)),
+CameraPictures::CameraPictures(OpenCamera open, const PictureParts& parts)
+    : open_(std::move(open)),
+      camera_(open_()),
       apparatus_(parts.apparatus),
       tracker_(parts.apparatus),
       clock_(parts.clock) {
   if (!parts.record_to.empty()) recording_.emplace(parts.record_to);
-  heard_s_ = clock_.now_s();
 }
 
 void CameraPictures::begin_attempt(const AttemptStart& attempt) {
   attempt_start_s_ = attempt.start_s;
   attempt_capture_s_ = last_capture_s_;
+  heard_s_ = clock_.now_s();  // nobody listened between attempts
 }
 
 std::optional<Picture> CameraPictures::next() {
@@ -39,8 +40,8 @@ std::optional<Picture> CameraPictures::next() {
 }
 
 std::vector<CheckResult> CameraPictures::check(double wanted_rate_hz) {
-  if (!camera_->is_live()) return {};  // a file's pictures are the session's
-  return check_camera(*camera_, apparatus_, wanted_rate_hz);
+  if (camera_->is_live()) return check_camera(*camera_, apparatus_, wanted_rate_hz);
+  return check_camera(*open_(), apparatus_, wanted_rate_hz);
 }
 
 // Since the attempt's start.

@@ -1,6 +1,7 @@
 // Pictures of a camera, a video file or a folder of images, tracked.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "session/PictureRecording.h"
@@ -11,8 +12,12 @@ namespace heft {
 
 class CameraPictures final : public PictureSource {
  public:
-  /// @param camera open; @param clock the session's, for a live camera
-  CameraPictures(std::unique_ptr<Camera> camera, const PictureParts& parts);
+  using OpenCamera = std::function<std::unique_ptr<Camera>()>;
+
+  /// @param open called once here, and for a file once more by each check(): what is looked at
+  ///   before the session must not be missing from it
+  /// @throws Error as open_camera
+  CameraPictures(OpenCamera open, const PictureParts& parts);
 
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
@@ -23,6 +28,7 @@ class CameraPictures final : public PictureSource {
   double time_of(const CameraPicture& taken);
   std::optional<Picture> picture_of_silence();
 
+  OpenCamera open_;
   std::unique_ptr<Camera> camera_;
   Apparatus apparatus_;
   PictureTracker tracker_;

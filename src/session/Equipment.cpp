@@ -9,7 +9,7 @@
 namespace heft {
 
 namespace {
-constexpr double same_size_m = 0.0005;
+constexpr double same_size_m = 0.0015;  // a printer's 1 % off, measured and written down
 
 // What people hold must be what the simulated one looks like.
 void require_size(const Protocol& protocol, const MarkerBody& effector, const RunOptions& options) {

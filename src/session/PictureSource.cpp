@@ -22,10 +22,12 @@ std::unique_ptr<PictureSource> make_synthetic(const PictureParts& parts) {
 }
 
 std::unique_ptr<PictureSource> open(const std::string& kind, const PictureParts& parts) {
-  return std::make_unique<CameraPictures>(
-      open_camera(kind + ":" + parts.what,
-                  request_for(parts.apparatus.camera, parts.protocol.display_rate_hz)),
-      parts);
+  const auto open_it = [source = kind + ":" + parts.what,
+                        request =
+                            request_for(parts.apparatus.camera, parts.protocol.display_rate_hz)] {
+    return open_camera(source, request);
+  };
+  return std::make_unique<CameraPictures>(open_it, parts);
 }
 
 constexpr std::array table{
@@ -61,7 +63,10 @@ const TrackerEntry& tracker_named(const std::string& tracker) {
 
 void PictureCount::skip_to(double t_s) {
   const double due = std::floor(t_s * rate_hz_);
-  if (due > static_cast<double>(next_)) next_ = static_cast<std::uint64_t>(due);
+  if (due <= static_cast<double>(next_)) return;
+  const auto number = static_cast<std::uint64_t>(due);
+  n_skipped_ += static_cast<int>(number - next_);
+  next_ = number;
 }
 
 void HandPictures::begin_attempt(const AttemptStart&) {
@@ -72,6 +77,7 @@ void HandPictures::begin_attempt(const AttemptStart&) {
 
 std::optional<Picture> HandPictures::next() {
   Picture picture;
+  picture.n_dropped = count_.skipped();
   TargetSample& sample = picture.sample;
   sample.t_capture_s = count_.time_s(count_.take());
   const HandSample hand = responder_.hand(sample.t_capture_s);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/Image.h"
@@ -50,7 +51,7 @@ class PictureSource {
   /// waited for. Only on a wall clock; a camera does so by itself.
   virtual void skip_to(double) {}
 
-  /// Looks at the camera before a session; nothing where none is live.
+  /// Looks at the camera before a session; nothing where there is none.
   /// @param wanted_rate_hz of the display
   virtual std::vector<CheckResult> check(double wanted_rate_hz [[maybe_unused]]) { return {}; }
 
@@ -91,17 +92,20 @@ class PictureCount {
  public:
   explicit PictureCount(double rate_hz) : rate_hz_(rate_hz) {}
 
-  void restart() { next_ = 0; }
+  void restart() { next_ = 0, n_skipped_ = 0; }
   std::uint64_t take() { return next_++; }
   double time_s(std::uint64_t number) const {
     return static_cast<double>(number) / rate_hz_;  // no accumulated rounding
   }
   /// The next one is not earlier than this time; nothing happens where it is not.
   void skip_to(double t_s);
+  /// How many were skipped since the last time.
+  int skipped() { return std::exchange(n_skipped_, 0); }
 
  private:
   double rate_hz_;
   std::uint64_t next_ = 0;
+  int n_skipped_ = 0;
 };
 
 /// Tracker "hand": the responder's effector pose as it is, at the display's rate. No pixels.

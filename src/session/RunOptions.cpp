@@ -14,6 +14,7 @@
 #include "protocol/MarkerFile.h"
 #include "protocol/ParameterFile.h"
 #include "protocol/TextsFile.h"
+#include "session/AutoSimulator.h"
 #include "session/PictureSource.h"
 #include "tracking/Camera.h"
 #include "view/ArView.h"
@@ -38,6 +39,9 @@ constexpr std::array fields{Field{"responder", &RunOptions::responder},
                             Field{"tracker", &RunOptions::tracker},
                             Field{"view", &RunOptions::view},
                             Field{"simulator", &RunOptions::simulator},
+                            Field{"auto_simulator", &RunOptions::auto_simulator},
+                            Field{"auto_rate_hz", &RunOptions::auto_rate_hz},
+                            Field{"auto_why", &RunOptions::auto_why},
                             Field{"camera_file", &RunOptions::camera_file},
                             Field{"camera_text", &RunOptions::camera_text},
                             Field{"board_file", &RunOptions::board_file},
@@ -49,7 +53,20 @@ constexpr std::array fields{Field{"responder", &RunOptions::responder},
                             Field{"handed", &RunOptions::handed},
                             Field{"record_camera", &RunOptions::record_camera}};
 
-constexpr std::string_view person = "human";
+constexpr std::string_view person = "human", automatic = "auto";
+
+const std::string& simulator_asked_for(const RunOptions& options, const Protocol& protocol) {
+  return options.simulator.empty() ? protocol.simulator.name : options.simulator;
+}
+
+double rate_hz_in(const std::string& text) {
+  const auto rate_hz = number_in(text);
+  if (rate_hz && *rate_hz > 0) return *rate_hz;
+  throw Error(
+      fmt::format("session.run_options can't be read: auto_rate_hz is \"{}\", expected "
+                  "steps a second",
+                  text));
+}
 
 // A session may be resumed from another folder than it was started in.
 std::string absolute_path(const std::string& file) {
@@ -111,9 +128,19 @@ void complete_apparatus(RunOptions& options) {
                             tracker.name),
                 ExitCode::usage);
   }
-  read_file(options.camera_file, options.camera_text);
+  options.camera_file = absolute_path(options.camera_file);
+  options.camera_text = read_camera_file(options.camera_file);
   read_file(options.board_file, options.board_text);
   read_file(options.effector_file, options.effector_text);
+}
+
+// A file that was named must be sound, whoever takes part; a model reads none of it.
+void complete_texts(RunOptions& options) {
+  if (!options.texts_file.empty()) {
+    read_file(options.texts_file, options.texts_text);
+    parse_texts(options.texts_text, options.texts_file);
+  }
+  if (!has_person(options)) options.texts_file = options.texts_text = "";
 }
 
 void check_view(const RunOptions& options) {
@@ -174,10 +201,7 @@ void complete(RunOptions& options) {
   complete_apparatus(options);
   options.view = with_absolute_path(options.view);
   if (!options.record_camera.empty()) options.record_camera = absolute_path(options.record_camera);
-  if (has_person(options))
-    read_file(options.texts_file, options.texts_text);
-  else
-    options.texts_file = options.texts_text = "";
+  complete_texts(options);
   check(options);
 }
 
@@ -227,8 +251,22 @@ std::unique_ptr<Responder> make_responder(const RunOptions& options, std::uint64
   return entry.make(made_with);
 }
 
+RunOptions with_auto_resolved(RunOptions options, const Protocol& protocol) {
+  if (simulator_asked_for(options, protocol) != automatic) {
+    options.auto_simulator = options.auto_rate_hz = options.auto_why = "";
+  } else if (options.auto_simulator.empty()) {
+    const SimulatorPick pick = resolve_auto(protocol);
+    options.auto_simulator = pick.simulator;
+    options.auto_rate_hz = fmt::format("{}", pick.rate_hz);
+    options.auto_why = pick.why;
+  }
+  return options;
+}
+
 std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const RunOptions& options) {
-  if (!options.simulator.empty()) protocol.simulator.name = options.simulator;
+  protocol.simulator.name = simulator_asked_for(options, protocol);
+  if (protocol.simulator.name == automatic && !options.auto_simulator.empty())
+    protocol.simulator = {options.auto_simulator, rate_hz_in(options.auto_rate_hz)};
   return std::make_shared<const Protocol>(std::move(protocol));
 }
 

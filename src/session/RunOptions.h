@@ -20,6 +20,9 @@ struct RunOptions {
   std::string tracker = "hand";
   std::string view = "headless";
   std::string simulator;  ///< instead of the protocol's; empty: the protocol's
+  /// What `auto` was resolved to before the first trial: a simulator, its steps a second, and why.
+  /// Empty where nobody asked for `auto`.
+  std::string auto_simulator, auto_rate_hz, auto_why;
   // Files of the apparatus and the texts as they were when the session started; empty where neither
   // a camera nor a person takes part.
   std::string camera_file, camera_text;
@@ -86,7 +89,12 @@ void apply_deviation(RunOptions& options, const std::string& detail);
 
 std::unique_ptr<Responder> make_responder(const RunOptions& options, std::uint64_t seed);
 
-/// The protocol with the options' simulator in place of its own.
+/// The options with what `auto` is for this protocol, if it is asked for and not resolved yet. A
+/// choice that a log holds stays, whatever the error table says now.
+RunOptions with_auto_resolved(RunOptions options, const Protocol& protocol);
+
+/// The protocol with the options' simulator in place of its own; for `auto` what it was resolved
+/// to, at its own rate.
 std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const RunOptions& options);
 
 }  // namespace heft

@@ -10,6 +10,7 @@
 #include "record/LogReader.h"
 #include "record/SessionLog.h"
 #include "session/Equipment.h"
+#include "session/NextPart.h"
 
 namespace heft {
 
@@ -38,6 +39,10 @@ void refuse_repetition(const SessionRequest& request) {
                               request.protocol.name, request.db, session.session_id),
                   ExitCode::usage);
   }
+}
+
+std::shared_ptr<const Protocol> protocol_of(const SessionRequest& request) {
+  return protocol_for(request.protocol, with_auto_resolved(request.options, request.protocol));
 }
 
 RunEnd run_with(Equipment& equipment, Engine& engine, EventSink& sink, const RunnerOptions& runner,
@@ -113,7 +118,7 @@ SessionHeader header_of(const SessionRequest& request) {
   header.seed = request.seed;
   header.heft_version = HEFT_VERSION;
   header.build = build_name();
-  header.run_options = to_json(request.options);
+  header.run_options = to_json(with_auto_resolved(request.options, request.protocol));
   header.purpose = has_person(request.options) ? request.purpose : "simulated";
   header.responder = request.options.responder;
   header.started_utc = utc_now();
@@ -122,7 +127,7 @@ SessionHeader header_of(const SessionRequest& request) {
 
 SessionResult start_session(const SessionRequest& request, const RunnerOptions& runner) {
   refuse_repetition(request);
-  const auto protocol = protocol_for(request.protocol, request.options);
+  const auto protocol = protocol_of(request);
   Equipment equipment(protocol, request.options, request.seed);
   SessionLog log = SessionLog::start(request.db, header_of(request));
   Engine engine(protocol, request.seed);
@@ -163,7 +168,9 @@ LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_
 
 void give_again(LoggedSession& session, const GivenOptions& again) {
   const std::string& simulator = session.protocol->simulator.name;
-  if (again.simulator && !is_same_simulator(*again.simulator, simulator))
+  const bool as_asked_for = again.simulator && !session.options.auto_simulator.empty() &&
+                            is_same_simulator(*again.simulator, "auto");
+  if (again.simulator && !as_asked_for && !is_same_simulator(*again.simulator, simulator))
     throw Error(fmt::format("session {} runs with the simulator {}, and replay checks a whole "
                             "session with one; go on without --simulator {}",
                             session.row.session_id, simulator, *again.simulator),
@@ -186,7 +193,7 @@ void give_again(LoggedSession& session, const GivenOptions& again) {
 }
 
 SessionResult resume_session(const LoggedSession& session, const RunnerOptions& runner) {
-  Equipment equipment(session.protocol, session.options, session.row.header.seed);
+  Equipment equipment(session.protocol, with_next_parts(session.options), session.row.header.seed);
   Reopened reopened(session);
   const double last_s = reopened.engine.last_s();
   reopened.close_attempt(std::string(void_interrupted));
@@ -210,7 +217,7 @@ void abort_session(const LoggedSession& session) {
 
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {
   RecordedSession recorded(header_of(request));
-  const auto protocol = protocol_for(request.protocol, request.options);
+  const auto protocol = protocol_of(request);
   Equipment equipment(protocol, request.options, request.seed);
   Engine engine(protocol, request.seed);
   run_with(equipment, engine, recorded, runner, 0);

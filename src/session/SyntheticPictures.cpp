@@ -16,6 +16,7 @@ SyntheticSettings settings_for(const Protocol& protocol) {
 
 SyntheticPictures::SyntheticPictures(const PictureParts& parts)
     : hand_(parts.hand),
+      apparatus_(parts.apparatus),
       camera_(parts.apparatus, settings_for(parts.protocol),
               RandomStream(parts.seed, "camera").bits()),
       tracker_(parts.apparatus),
@@ -41,7 +42,25 @@ std::optional<Picture> SyntheticPictures::next() {
   };
   auto image = std::make_shared<const Image>(camera_.picture(path, t_s, number));
   if (recording_) recording_->keep(*image, attempt_.start_s + t_s);
-  return tracker_.track(std::move(image), t_s);
+  Picture picture = tracker_.track(std::move(image), t_s);
+  picture.n_dropped = count_.skipped();
+  return picture;
+}
+
+// As of a real camera, with the effector held still over the board.
+std::vector<CheckResult> SyntheticPictures::check(double wanted_rate_hz) {
+  constexpr std::uint64_t n_looked_at = 15;
+  const auto held = [](double) -> std::optional<Pose> {
+    return Pose{{0, -0.04, 0.06}, Eigen::Quaterniond::Identity()};
+  };
+  ApparatusCheck check(apparatus_);
+  for (std::uint64_t i = 0; i < n_looked_at; ++i) {
+    const double t_s = static_cast<double>(i) / wanted_rate_hz;
+    check.see({camera_.picture(held, t_s, i), t_s, static_cast<std::int64_t>(i), ""}, -1);
+  }
+  const Intrinsics& camera = apparatus_.camera;
+  return check.results({camera.width_px, camera.height_px, wanted_rate_hz, "(rendered)", {}, {}},
+                       wanted_rate_hz, false);
 }
 
 }  // namespace heft

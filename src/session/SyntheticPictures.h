@@ -14,9 +14,11 @@ class SyntheticPictures final : public PictureSource {
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { count_.skip_to(t_s); }
+  std::vector<CheckResult> check(double wanted_rate_hz) override;
 
  private:
   Responder& hand_;
+  Apparatus apparatus_;
   SyntheticCamera camera_;
   PictureTracker tracker_;
   std::optional<PictureRecording> recording_;

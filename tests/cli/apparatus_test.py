@@ -58,10 +58,28 @@ class Apparatus(unittest.TestCase):
             self.assertIn("100 %", words.stdout)
             self.assertIn("ruler_measured_m", words.stdout)
 
+    def test_the_letter_board_fits_letter_paper_in_true_millimeters(self):
+        out = self.folder / "letter.pdf"
+        run = self.heft("sheet", "board", "--board", APPARATUS / "board_letter.toml", "--paper",
+                        "letter", "--out", out)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        info = subprocess.run(["pdfinfo", out], capture_output=True, text=True, check=True)
+        self.assertIn("792 x 612", info.stdout)
+        # At 127 dots an inch a millimeter is 5 dots: the black squares' rows and columns.
+        subprocess.run(["pdftoppm", "-r", "127", "-f", "1", "-singlefile", "-gray", out,
+                        self.folder / "letter"], check=True)
+        header, pixels = (self.folder / "letter.pgm").read_bytes().split(b"\n255\n", 1)
+        width, height = map(int, header.split()[1:3])
+        self.assertAlmostEqual(width, 279.4 * 5, delta=2)
+        row = pixels[int(0.35 * height) * width:][:width]
+        dark = [x for x in range(width) if row[x] < 128]
+        self.assertAlmostEqual(dark[-1] + 1 - dark[0], (5 * 45.6 + 38) * 5, delta=2)
+
     def test_sheets_refuse_paper_that_is_too_small_or_unknown(self):
         run, out = self.sheet("board", "--paper", "letter")
         self.assertEqual(run.returncode, 1)
         self.assertIn("280 x 184 mm", run.stderr)
+        self.assertIn("board_letter.toml", run.stderr)
         self.assertFalse(out.exists())
         run, _ = self.sheet("board", "--paper", "leter")
         self.assertEqual(run.returncode, 2)
@@ -88,8 +106,19 @@ class Apparatus(unittest.TestCase):
                             frames / name], check=True)
         run = self.calibrate_camera(f"frames:{frames}")
         self.assertEqual((run.returncode, run.stdout), (1, ""))
-        self.assertIn("1 of 1 picture(s)", run.stderr)
+        self.assertIn("of 8 picture(s) 1 were kept; 7 are too much like one", run.stderr)
         self.assertIn("at least 5", run.stderr)
+        for missing in ("tilt the board", "nearer and farther", "19 more views"):
+            self.assertIn(missing, run.stderr)
+        self.assertNotIn("right board file", run.stderr)
+
+    def test_calibrating_needs_pictures_of_the_board(self):
+        frames = self.folder / "frames"
+        frames.mkdir()
+        (frames / "a.pgm").write_bytes(b"P5 64 48 255\n" + bytes(64 * 48))
+        run = self.calibrate_camera(f"frames:{frames}")
+        self.assertEqual((run.returncode, run.stdout), (1, ""))
+        self.assertIn("right board file", run.stderr)
 
     def test_calibrating_the_effector_needs_its_tags_and_the_cameras_size(self):
         frames = self.folder / "frames"
@@ -103,6 +132,8 @@ class Apparatus(unittest.TestCase):
         run = self.heft(*arguments)
         self.assertEqual(run.returncode, 1)
         self.assertIn("0 picture(s) show two or more", run.stderr)
+        self.assertIn("tag 30, 31, 32, 33, 34", run.stderr)
+        self.assertFalse((self.folder / "e.toml").exists())
         subprocess.run(["pdftoppm", "-r", "60", "-f", "1", "-singlefile", "-png", pdf,
                         frames / "a"], check=True)
         run = self.heft(*arguments)

@@ -5,6 +5,7 @@ Run as: python3 scene_test.py PATH_TO_HEFT
 import csv
 import math
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -224,6 +225,22 @@ class Auto(unittest.TestCase):
         self.assertEqual(rows[0]["t_s"], 0)
         self.assertGreater(rows[-1]["cube2_x_m"], 0.06)
         self.assertEqual(self.auto("cube_into_cube.toml", "push.csv").stderr, "")
+
+    def test_the_scenes_tolerance_decides_and_is_explained(self):
+        scene = (SCENES / "cube_into_cube.toml").read_text()
+        with tempfile.TemporaryDirectory() as folder:
+            def rate_hz(tolerance):
+                path = pathlib.Path(folder) / "scene.toml"
+                path.write_text(f"{scene}\n[tolerance]\n{tolerance}\n")
+                run = heft_scene(path, SCENES / "push.csv", "--simulator", "auto", "--rate", "15",
+                                 "--explain")
+                self.assertEqual(run.returncode, 0, run.stderr)
+                return float(re.findall(r"auto takes boxes at (\S+) Hz", run.stderr)[-1]), run.stderr
+            loose, said = rate_hz("clone_rms_m = 0.002\nlag_g = 20")
+            self.assertIn("asked for: 2 mm and 20 g", said)
+            tight, said = rate_hz("clone_rms_m = 1e-9")
+            self.assertIn("MISSES the tolerance", said)
+            self.assertLess(loose, tight)
 
     def test_explain_names_a_chosen_simulator_too(self):
         run = heft_scene(SCENES / "push_200g.toml", SCENES / "push.csv", "--simulator", "boxes",

@@ -107,6 +107,25 @@ class Track(unittest.TestCase):
         self.assertEqual(rows[1]["n_tags"], "0")
         self.assertEqual(rows[1]["reprojection_px"], "")
 
+    def test_a_damaged_picture_has_a_row_and_is_named(self):
+        good = [self.write(f"frames/{i}.pgm", picture(110, 70)) for i in (1, 3)]
+        bad = self.write("frames/2.pgm", "no picture")
+        for frames in ([good[0], bad, good[1]], [str(self.folder / "frames")]):
+            run = self.track(*frames)
+            self.assertEqual(run.returncode, 1)
+            rows = list(csv.DictReader(run.stdout.splitlines()))
+            self.assertEqual([row["frame"] for row in rows], ["0", "1", "2"])
+            self.assertEqual([row["board_found"] for row in rows], ["1", "0", "1"])
+            self.assertEqual((rows[1]["camera_x_m"], rows[1]["n_tags"]), ("", "0"))
+            self.assertAlmostEqual(float(rows[1]["t_s"]), 1 / 30, delta=1e-9)
+            self.assertIn("2.pgm", run.stderr)
+            self.assertIn("1 of 3 picture(s)", run.stderr)
+
+    def test_help_says_whose_the_columns_are(self):
+        run = subprocess.run([HEFT, "track", "--help"], capture_output=True, text=True, timeout=60)
+        for word in ("n_tags, reprojection_px and quality are the effector's", "unfiltered"):
+            self.assertIn(word, run.stdout)
+
     def refused(self, code, *words, run):
         self.assertEqual(run.returncode, code, run.stderr)
         for word in words:

@@ -120,8 +120,8 @@ class Window(unittest.TestCase):
         self.screen.close()
         self.folder.cleanup()
 
-    def start(self, *options):
-        command = [HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07", "--db", self.db,
+    def start(self, *options, protocol=PROTOCOLS / "quick.toml"):
+        command = [HEFT, "run", str(protocol), "--participant", "07", "--db", self.db,
                    "--seed", "5", "--purpose", "test", *options]
         self.program = subprocess.Popen(command, env=self.screen.environment(), text=True,
                                         stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
@@ -163,6 +163,10 @@ class Window(unittest.TestCase):
                                    "where kind = 'text_shown'")
         self.assertEqual(languages, [("fr",)])
         self.assertGreater(query(self.db, "select avg(tracked) from frame")[0][0], 0.9)
+        checks = dict(query(self.db, "select json_extract(detail, '$.name'), json_extract(detail, "
+                                     "'$.verdict') from event where kind = 'check'"))
+        self.assertEqual({name: checks[name] for name in ("board", "light", "print scale")},
+                         {"board": "ok", "light": "ok", "print scale": "warning"})
         replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
 
@@ -173,6 +177,25 @@ class Window(unittest.TestCase):
                              capture_output=True, timeout=60)
         self.assertEqual(run.returncode, 4, run.stderr)
         self.assertFalse(Path(self.db).exists())
+
+    def test_who_declines_ends_the_session_and_that_is_no_error(self):
+        text = (PROTOCOLS / "quick.toml").read_text(encoding="utf-8")
+        self.assertNotIn("[screens]", text)
+        protocol = Path(self.folder.name) / "asking.toml"
+        protocol.write_text(text + "\n[screens]\nconsent = true\n", encoding="utf-8")
+        person = self.start("--tracker", "hand", protocol=protocol)
+        deadline = time.time() + 60
+        while person.program.poll() is None and time.time() < deadline:
+            if person.page():
+                self.screen.key("n")
+            time.sleep(0.5)
+        _, talk = person.program.communicate(timeout=60)
+        self.assertEqual(person.program.returncode, 0, talk)
+        self.assertIn("declined", talk)
+        self.assertEqual(query(self.db, "select state from session"), [("aborted",)])
+        self.assertEqual(query(self.db, "select json_extract(detail, '$.agreed') from event where "
+                                        "kind = 'consent'"), [(0,)])
+        self.assertEqual(query(self.db, "select count(*) from trial"), [(0,)])
 
     def test_people_get_no_simulator_that_knows_one_stroke_only(self):
         run = subprocess.run([HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07",

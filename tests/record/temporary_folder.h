@@ -13,7 +13,7 @@ namespace heft::test {
 
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(testing::TempDir() + "heft-record-XXXXXX") {
+  TemporaryFolder() : path_(::testing::TempDir() + "heft-record-XXXXXX") {
     if (::mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no temporary folder");
   }
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -35,6 +35,14 @@ inline Protocol small_protocol() {
   return protocol;
 }
 
+/// Two sorting trials, at a display fast enough for a test.
+inline Protocol quick_protocol() {
+  Protocol protocol = small_protocol();
+  protocol.display_rate_hz = 200;
+  protocol.blocks = {SortingBlock{"sorting", {15, 200, 800}, 2, 0}};
+  return protocol;
+}
+
 inline std::shared_ptr<const Protocol> shared(Protocol protocol) {
   return std::make_shared<const Protocol>(std::move(protocol));
 }

@@ -90,7 +90,7 @@ void paint_control(ImDrawList& list, const Control& control, const Paint& paint)
   paint_words(list, control, paint, ink_of(control));
 }
 
-void paint_picture(ImDrawList& list, const ShownPicture& picture) {
+void paint_picture(ImDrawList& list, const PaintedPicture& picture) {
   const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.texture));
   list.AddImage(id, corner(picture.area), opposite_corner(picture.area));
 }

@@ -16,7 +16,7 @@ struct ImDrawList;
 namespace heft {
 
 /// The scene's picture on the screen.
-struct ShownPicture {
+struct PaintedPicture {
   unsigned texture = 0;
   Rect area;
 };
@@ -31,7 +31,7 @@ struct PlacedMark {
 struct Paint {
   const Typeface& typeface;
   const Measures& measures;
-  std::optional<ShownPicture> picture;
+  std::optional<PaintedPicture> picture;
   std::vector<PlacedMark> marks;
   std::function<bool(const std::string& control)> is_pressed;
 };

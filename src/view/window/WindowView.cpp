@@ -100,8 +100,8 @@ void WindowView::Parts::lay_out() {
 }
 
 void WindowView::Parts::draw() {
-  std::optional<ShownPicture> picture;
-  if (scene.area()) picture = ShownPicture{window.texture(), *scene.area()};
+  std::optional<PaintedPicture> picture;
+  if (scene.area()) picture = PaintedPicture{window.texture(), *scene.area()};
   ImDrawList& list = window.begin_frame(typeface->atlas());
   paint_page(list, page,
              {*typeface, measures, picture, scene.placed(page.marks),

@@ -1,0 +1,135 @@
+"""The experimenter's terminal during a person's session: what it shows, and what its keys do.
+
+Run: python3 tests/cli/desk_test.py path/to/heft
+"""
+import os
+import pty
+import re
+import select
+import shutil
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+from session_harness import PROTOCOLS, query
+from window_test import HEFT, Person, Screen
+
+# What would tell the experimenter what the participant feels, or whether they were right.
+TELLTALE = re.compile(r"\d\s?(g|kg|mg)\b|\bC[12]\b|correct|heaviest|lightest|staircase|level|catch",
+                      re.I)
+
+
+class Terminal:
+    """A program at a terminal of its own; what it prints is kept."""
+
+    def __init__(self, command, environment):
+        self.keyboard, theirs = pty.openpty()
+        self.program = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs,
+                                        env=dict(environment, NO_COLOR="1"))
+        os.close(theirs)
+        self.shown = ""
+        self.reader = threading.Thread(target=self.read, daemon=True)
+        self.reader.start()
+
+    def read(self):
+        while True:
+            ready, _, _ = select.select([self.keyboard], [], [], 0.2)
+            if not ready:
+                if self.program.poll() is not None:
+                    return
+                continue
+            try:
+                part = os.read(self.keyboard, 4096)
+            except OSError:  # the program has ended
+                return
+            self.shown += part.decode("utf-8", "replace")
+
+    def press(self, keys):
+        os.write(self.keyboard, keys.encode())
+
+    def wait_for(self, condition, seconds=60):
+        deadline = time.time() + seconds
+        while time.time() < deadline:
+            if condition():
+                return True
+            time.sleep(0.1)
+        return False
+
+
+@unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
+class Desk(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.db = str(Path(folder.name) / "desk.db")
+        self.screen = Screen()
+        self.addCleanup(self.screen.close)
+        self.terminal = Terminal(
+            [HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07", "--db", self.db,
+             "--seed", "5", "--purpose", "test", "--tracker", "hand"], self.screen.environment())
+        self.addCleanup(self.end)
+        self.person = Person(self.screen, self.db, self.terminal.program)
+
+    def end(self):
+        if self.terminal.program.poll() is None:
+            self.terminal.program.kill()
+        self.terminal.program.wait()
+        self.terminal.reader.join()
+        os.close(self.terminal.keyboard)
+
+    def n(self, kind, more=""):
+        rows = self.person.log(f"select count(*) from event where kind = '{kind}' {more}")
+        return rows[0][0] if rows else 0
+
+    def until_a_sorting_trial_is_open(self):
+        def is_open():
+            self.person.take_part(1)
+            trial = self.person.log("select 1 from trial where status = 'open' and "
+                                    "task = 'sorting' and shown_s is not null")
+            return bool(trial) or self.n("trial_started") > 2
+        self.assertTrue(self.terminal.wait_for(is_open, 120), self.terminal.shown)
+
+    def test_it_keeps_them_blind_until_they_ask_and_that_is_logged(self):
+        self.until_a_sorting_trial_is_open()
+        self.terminal.press("nthe door slammed at 5 o'clock\n")
+        self.assertTrue(self.terminal.wait_for(lambda: self.n("note") == 1))
+        before = self.terminal.shown
+        self.assertIn("trials", before)
+        self.assertIn("pictures/s", before)
+        self.assertIsNone(TELLTALE.search(before), TELLTALE.search(before))
+        self.assertEqual(self.n("unblinding"), 0)
+        self.terminal.press("un")  # a question first: any key but y takes it back
+        time.sleep(0.5)
+        self.assertEqual(self.n("unblinding"), 0)
+        self.terminal.press("uy")
+        self.assertTrue(self.terminal.wait_for(lambda: self.n("unblinding") == 1))
+        shows_masses = lambda: TELLTALE.search(self.terminal.shown[len(before):])
+        def sees():
+            self.person.take_part(1)
+            return shows_masses()
+        self.assertTrue(self.terminal.wait_for(sees, 60), self.terminal.shown[len(before):])
+
+    def test_its_keys_hold_the_session_void_a_trial_and_end_it(self):
+        self.until_a_sorting_trial_is_open()
+        self.terminal.press("p")
+        self.assertTrue(self.terminal.wait_for(
+            lambda: self.n("paused", "and detail = 'experimenter'") == 1))
+        self.terminal.press("p")
+        self.assertTrue(self.terminal.wait_for(lambda: self.n("continued") == 1))
+        self.terminal.press("v2")
+        self.assertTrue(self.terminal.wait_for(
+            lambda: self.n("void", "and detail = 'veto: disturbance'") == 1 or
+            "no trial is open" in self.terminal.shown))
+        self.terminal.press("ey")
+        self.assertTrue(self.terminal.wait_for(lambda: self.terminal.program.poll() is not None))
+        self.assertEqual(self.terminal.program.returncode, 130)
+        self.terminal.reader.join()
+        self.assertIn("heft resume", self.terminal.shown)
+        self.assertEqual(query(self.db, "select state from session"), [("paused",)])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,89 @@
+// Somebody at a made-up screen, and somebody at a made-up desk.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "base/Clock.h"
+#include "session/Desk.h"
+#include "view/ArView.h"
+
+namespace heft::testing {
+
+// What somebody does about each screen they are shown; presented screens are kept.
+class MadeUpScreen final : public ArView {
+ public:
+  using Person = std::function<std::vector<Touch>(const ViewPicture&, const ScreenState&)>;
+  explicit MadeUpScreen(Person person) : person_(std::move(person)) {}
+
+  std::optional<double> present(const ViewPicture& picture, const ScreenState& screen) override {
+    picture_ = picture;
+    screen_ = screen;
+    screens.push_back(screen);
+    return monotonic_s();
+  }
+  std::vector<Touch> wait(double seconds) override {
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(seconds, 0.002)));
+    std::vector<Touch> touches = person_(picture_, screen_);
+    for (Touch& touch : touches) touch.monotonic_s = monotonic_s();
+    return touches;
+  }
+
+  std::vector<ScreenState> screens;
+
+ private:
+  Person person_;
+  ViewPicture picture_;
+  ScreenState screen_;
+};
+
+inline Touch touch(TouchKind kind) {
+  Touch made;
+  made.kind = kind;
+  return made;
+}
+
+inline Touch touch(ActionKind kind, std::optional<int> slot = {}, std::optional<Label> label = {}) {
+  Touch made;
+  made.action = {0, kind, slot, label};
+  return made;
+}
+
+// Turns pages, labels the cubes from left to right, sees no differences.
+inline std::vector<Touch> patient(const ViewPicture& picture, const ScreenState& screen) {
+  if (screen.screen != Screen::trial)
+    return screen.wait_s > 0 ? std::vector<Touch>{} : std::vector{touch(TouchKind::next)};
+  if (picture.frame.cubes.empty() || !screen.can_answer) return {};
+  if (screen.task == Task::introduction)
+    return {touch(ActionKind::select, 1 + screen.n_choices % 2)};
+  if (screen.task == Task::comparison) return {touch(ActionKind::no_difference)};
+  if (screen.can_validate) return {touch(ActionKind::validate)};
+  return {touch(ActionKind::label, 1, Label::lightest),
+          touch(ActionKind::label, 2, Label::intermediate),
+          touch(ActionKind::label, 3, Label::heaviest)};
+}
+
+class MadeUpDesk : public Desk {
+ public:
+  std::optional<DeskCommand> command() override {
+    if (commands.empty()) return std::nullopt;
+    DeskCommand next = commands.front();
+    commands.pop_front();
+    return next;
+  }
+  void show(const DeskStatus& status) override {
+    shown.push_back(status);
+    if (on_show) on_show(status);
+  }
+  void say(const std::string& text) override { said.push_back(text); }
+
+  std::deque<DeskCommand> commands;
+  std::vector<DeskStatus> shown;
+  std::vector<std::string> said;
+  std::function<void(const DeskStatus&)> on_show;
+};
+
+}  // namespace heft::testing

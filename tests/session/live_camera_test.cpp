@@ -1,0 +1,299 @@
+// A person's session at a live camera: a made-up device gives rendered pictures, freezes, dies and
+// comes back, on a real grabbing thread and a real clock.
+#include <gmock/gmock.h>
+
+#include <atomic>
+
+#include "MadeUpPeople.h"
+#include "Protocols.h"
+#include "Recorded.h"
+#include "protocol/MarkerFile.h"
+#include "protocol/TextsFile.h"
+#include "record/temporary_folder.h"
+#include "session/CameraPictures.h"
+#include "session/Runner.h"
+#include "tracking/ImageFile.h"
+#include "tracking/LiveCamera.h"
+#include "tracking/SyntheticCamera.h"
+
+namespace heft {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Field;
+using ::testing::IsEmpty;
+using testing::MadeUpScreen;
+using ::testing::Not;
+using testing::patient;
+using testing::quick_protocol;
+using testing::shared;
+using ::testing::SizeIs;
+
+constexpr double rate_hz = 30;
+constexpr int n_pictures = 4;  // that differ by their noise
+
+const Apparatus& apparatus() {
+  static const std::string folder = HEFT_SOURCE_DIR "/protocols/apparatus/";
+  static const Apparatus shipped{load_intrinsics(folder + "synthetic_camera.yaml"),
+                                 load_board(folder + "board.toml"),
+                                 load_effector(folder + "effector.toml")};
+  return shipped;
+}
+
+std::vector<Image> rendered(std::optional<Pose> effector) {
+  SyntheticCamera camera(apparatus(), {}, 1);
+  std::vector<Image> pictures;
+  for (std::uint64_t i = 0; i < n_pictures; ++i)
+    pictures.push_back(camera.picture([&](double) { return effector; }, 0, i));
+  return pictures;
+}
+
+// High above the table, so that cubes appear.
+const std::vector<Image>& with_effector() {
+  static const auto pictures = rendered(Pose{{0, -0.05, 0.12}, Eigen::Quaterniond::Identity()});
+  return pictures;
+}
+const std::vector<Image>& without_effector() {
+  static const auto pictures = rendered({});
+  return pictures;
+}
+
+enum class Does { film, film_no_effector, freeze, fail };
+
+class MadeUpDevice {
+ public:
+  std::optional<GrabbedPicture> grab() {
+    std::this_thread::sleep_for(std::chrono::duration<double>(1 / rate_hz));
+    if (does == Does::fail) return std::nullopt;
+    if (does != Does::freeze) ++number_;
+    const auto& pictures = does == Does::film_no_effector ? without_effector() : with_effector();
+    return GrabbedPicture{pictures[number_ % n_pictures], monotonic_s()};
+  }
+  std::atomic<Does> does = Does::film;
+
+ private:
+  std::size_t number_ = 0;
+};
+
+struct LiveSession {
+  LiveSession(double void_after_s, MadeUpScreen::Person person) : screen(std::move(person)) {
+    with_effector(), without_effector();  // rendered before the clock runs
+    Protocol made = quick_protocol();
+    made.display_rate_hz = rate_hz;
+    made.void_after_s = void_after_s;
+    protocol = shared(std::move(made));
+  }
+
+  RunEnd run() {
+    Engine engine(protocol, 7);
+    const auto open = [&] {
+      return live_camera([this] { return device.grab(); },
+                         {640, 480, rate_hz, "YUYV", {"exposure 4.0 ms"}, {}});
+    };
+    CameraPictures pictures(open, {*protocol, *hand, apparatus(), "", clock, 0, ""});
+    const RunEnd end =
+        Runner({engine, sink, pictures, *hand, screen, clock, true, &texts}, {}).run();
+    n_attempts = engine.n_attempts();
+    n_completed = engine.n_completed();
+    return end;
+  }
+  std::vector<Event> events(EventKind kind) const { return testing::events_of(sink, kind); }
+
+  std::shared_ptr<const Protocol> protocol;
+  RecordedSession sink{SessionHeader{}};
+  SessionClock clock = SessionClock::wall_from(0);
+  std::unique_ptr<Responder> hand = responder_named("simulated").make({});
+  MadeUpDevice device;
+  MadeUpScreen screen;
+  ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+  int n_attempts = 0, n_completed = 0;
+};
+
+bool can_answer(const ScreenState& screen) {
+  return screen.screen == Screen::trial && screen.can_answer;
+}
+
+// Answers as soon as they can, but once, in the first trial, something happens to the camera, and
+// they wait until that is over.
+class Incident {
+ public:
+  using IsOver = std::function<bool(LiveSession&)>;
+  Incident(Does what, IsOver is_over) : what_(what), is_over_(std::move(is_over)) {}
+
+  std::vector<Touch> operator()(const ViewPicture& picture, const ScreenState& screen) {
+    if (!began_ && can_answer(screen)) {
+      began_ = true;
+      session->device.does = what_;
+    }
+    if (began_ && !over_) over_ = is_over_(*session);
+    if (began_ && !over_) return {};
+    return patient(picture, screen);
+  }
+  LiveSession* session = nullptr;
+
+ private:
+  Does what_;
+  IsOver is_over_;
+  bool began_ = false, over_ = false;
+};
+
+std::unique_ptr<LiveSession> session_with(Does what, Incident::IsOver is_over,
+                                          double void_after_s) {
+  const auto incident = std::make_shared<Incident>(what, std::move(is_over));
+  auto session = std::make_unique<LiveSession>(
+      void_after_s, [incident](const ViewPicture& picture, const ScreenState& screen) {
+        return (*incident)(picture, screen);
+      });
+  incident->session = session.get();
+  return session;
+}
+
+// Films again once this has happened; that ends the incident.
+Incident::IsOver films_again_after(EventKind kind) {
+  return [kind](LiveSession& session) {
+    if (session.events(kind).empty()) return false;
+    session.device.does = Does::film;
+    return true;
+  };
+}
+
+std::vector<FrameRow> frames_between(const LiveSession& session, double from_s, double to_s) {
+  std::vector<FrameRow> found;
+  for (const FrameRow& frame : testing::frames_of(session.sink))
+    if (frame.t_s > from_s && frame.t_s < to_s) found.push_back(frame);
+  return found;
+}
+
+void expect_void_and_again(Does what) {
+  const auto session = session_with(what, films_again_after(EventKind::voided), 0.3);
+  EXPECT_EQ(session->run(), RunEnd::finished);
+  const auto paused = session->events(EventKind::paused),
+             continued = session->events(EventKind::continued),
+             voided = session->events(EventKind::voided);
+  ASSERT_THAT(paused, SizeIs(1));
+  ASSERT_THAT(continued, SizeIs(1));
+  ASSERT_THAT(voided, SizeIs(1));
+  EXPECT_EQ(paused[0].detail, "camera_lost");
+  EXPECT_EQ(voided[0].detail, "camera_lost");
+  EXPECT_GE(voided[0].t_s - paused[0].t_s, 0.3);
+  EXPECT_GE(continued[0].t_s, voided[0].t_s);
+  EXPECT_THAT(frames_between(*session, paused[0].t_s, continued[0].t_s), IsEmpty());
+  EXPECT_THAT(session->screen.screens, Contains(Field(&ScreenState::screen, Screen::paused)));
+  EXPECT_EQ(session->n_completed, 2);
+  EXPECT_EQ(session->n_attempts, 3);
+}
+
+TEST(LiveCamera, that_freezes_pauses_the_trial_then_voids_it_and_it_comes_again) {
+  expect_void_and_again(Does::freeze);
+}
+
+TEST(LiveCamera, that_is_unplugged_does_the_same) {
+  expect_void_and_again(Does::fail);
+}
+
+TEST(LiveCamera, that_is_back_soon_voids_nothing) {
+  const auto session = session_with(Does::freeze, films_again_after(EventKind::paused), 5);
+  EXPECT_EQ(session->run(), RunEnd::finished);
+  EXPECT_THAT(session->events(EventKind::paused), SizeIs(1));
+  EXPECT_THAT(session->events(EventKind::continued), SizeIs(1));
+  EXPECT_THAT(session->events(EventKind::voided), IsEmpty());
+  EXPECT_EQ(session->n_attempts, 2);
+}
+
+TEST(LiveCamera, that_does_not_see_the_effector_pauses_nothing) {
+  const auto lost_and_found = [](LiveSession& session) {
+    if (!session.events(EventKind::effector_lost).empty()) session.device.does = Does::film;
+    return !session.events(EventKind::effector_found).empty();
+  };
+  const auto session = session_with(Does::film_no_effector, lost_and_found, 0.3);
+  EXPECT_EQ(session->run(), RunEnd::finished);
+  EXPECT_THAT(session->events(EventKind::effector_found), SizeIs(1));
+  EXPECT_THAT(session->events(EventKind::paused), IsEmpty());
+  EXPECT_THAT(session->events(EventKind::voided), IsEmpty());
+  EXPECT_EQ(session->n_attempts, 2);
+}
+
+// Nobody asked for pictures while pages were read, or while the session lay still until it was
+// resumed; that is no silence of the camera's.
+TEST(LiveCamera, is_not_lost_because_nobody_asked_it) {
+  LiveSession session(5, patient);
+  session.clock.restart(1000);
+  EXPECT_EQ(session.run(), RunEnd::finished);
+  EXPECT_THAT(session.events(EventKind::paused), IsEmpty());
+}
+
+std::vector<std::string> names_of(const std::vector<CheckResult>& results) {
+  std::vector<std::string> names;
+  for (const CheckResult& result : results) names.push_back(result.name);
+  return names;
+}
+
+TEST(LiveCamera, is_checked_before_the_session_and_that_is_logged) {
+  LiveSession session(5, patient);
+  session.run();
+  std::vector<std::string> checks;
+  for (const Event& event : session.events(EventKind::check)) checks.push_back(event.detail);
+  for (const char* what : {"\"camera\"", "\"frame rate\"", "\"exposure\"", "\"print scale\"",
+                           "\"light\"", "\"board\"", "\"effector\"", "\"latency\""})
+    EXPECT_THAT(checks, Contains(::testing::HasSubstr(what)));
+}
+
+// A file is looked at in full before the session, which then has all of its pictures.
+TEST(FileOfPictures, is_checked_before_the_session_too) {
+  const test::TemporaryFolder folder;
+  for (std::size_t i = 0; i < n_pictures; ++i)
+    write_image(folder.file(std::to_string(i) + ".png"), with_effector()[i]);
+  const auto protocol = shared(quick_protocol());
+  const SessionClock clock = SessionClock::wall_from(0);
+  const auto hand = responder_named("simulated").make({});
+  const auto pictures = tracker_named("frames:" + folder.path())
+                            .make({*protocol, *hand, apparatus(), folder.path(), clock, 0, ""});
+  const auto names = names_of(pictures->check(15));
+  EXPECT_THAT(names, Contains("board"));
+  EXPECT_THAT(names, Contains("effector"));
+  EXPECT_THAT(names, Not(Contains("frame rate")));  // of a file it says nothing of a camera's
+  pictures->begin_attempt({});
+  for (int i = 0; i < n_pictures; ++i) {
+    const auto picture = pictures->next();
+    ASSERT_TRUE(picture) << i;
+    EXPECT_NEAR(picture->sample.t_capture_s, i / 30.0, 1e-9);
+  }
+  EXPECT_TRUE(pictures->ended());
+}
+
+TEST(RenderedPictures, are_checked_as_a_cameras) {
+  const auto protocol = shared(quick_protocol());
+  const SessionClock clock = SessionClock::wall_from(0);
+  const auto hand = responder_named("simulated").make({});
+  const auto pictures =
+      tracker_named("synthetic").make({*protocol, *hand, apparatus(), "", clock, 0, ""});
+  for (const CheckResult& result : pictures->check(15))
+    if (result.name == "board" || result.name == "effector" || result.name == "light") {
+      EXPECT_EQ(result.verdict, CheckVerdict::ok) << result.finding;
+    }
+}
+
+TEST(PicturesOfAModelsHand, count_those_that_came_too_late_to_be_made) {
+  const Protocol protocol = quick_protocol();
+  const auto hand = responder_named("simulated").make({});
+  hand->begin_trial({1, 1, Task::sorting, stage_of(protocol, 3)});
+  HandPictures pictures(*hand, 10);
+  pictures.begin_attempt({});
+  EXPECT_EQ(pictures.next()->n_dropped, 0);
+  pictures.skip_to(0.15);  // the next one, of 0.1 s, is not over yet
+  EXPECT_EQ(pictures.next()->n_dropped, 0);
+  pictures.skip_to(0.55);
+  const auto after = pictures.next();
+  EXPECT_DOUBLE_EQ(after->sample.t_capture_s, 0.5);
+  EXPECT_EQ(after->n_dropped, 3);
+  EXPECT_EQ(pictures.next()->n_dropped, 0);
+}
+
+// Names of verdicts reach the log as they are called here.
+TEST(Check, is_logged_by_its_verdicts_name) {
+  EXPECT_EQ(to_json({CheckVerdict::warning, "light", "too dark"}),
+            R"({"name":"light","verdict":"warning","finding":"too dark"})");
+}
+
+}  // namespace
+}  // namespace heft
