@@ -74,6 +74,18 @@ class Structure(unittest.TestCase):
                         self.assertTrue(other == room or other in MAY_INCLUDE[room],
                                         f"{room} may not include {other}")
 
+    def test_a_name_is_one_type(self):
+        """Two rooms with one name make one program with two meanings of it, and no error."""
+        defined = re.compile(r"^(?:class|struct|enum class)\s+(\w+)(?:\s+final)?\s*(?::[^;{]*)?\{", re.M)
+        where = {}
+        for path in sources():
+            if path.suffix == ".h" and "namespace heft {" in path.read_text(encoding="utf-8"):
+                for name in defined.findall(path.read_text(encoding="utf-8")):
+                    where.setdefault(name, []).append(str(path.relative_to(ROOT)))
+        for name, paths in where.items():
+            with self.subTest(name=name):
+                self.assertEqual(len(paths), 1, f"{name} is defined in {paths}")
+
     def test_libraries_stay_in_their_rooms(self):
         for path in sources():
             for quote, target in includes(path):

@@ -90,11 +90,11 @@ TEST(Reference, OfAFreeReturnIsTheOscillatorsFormula) {
 
 TEST(TrackError, IsZeroForTheReferenceAndAMillimeterForAMillimeter) {
   const BenchScene scene = bench_scene("push_200g");
-  Track reference = reference_of(scene, true).track;
+  SceneTrack reference = reference_of(scene, true).track;
   const TrackError none = error_of(reference, reference, scene);
   EXPECT_EQ(none.clone_rms_mm, 0);
   EXPECT_EQ(none.lag_error_g, 0);
-  Track shifted = reference;
+  SceneTrack shifted = reference;
   for (WorldState& state : shifted.states) state.clone.pose.position_m.x() -= 1e-3;
   const TrackError one = error_of(shifted, reference, scene);
   EXPECT_NEAR(one.clone_rms_mm, 1, 1e-9);

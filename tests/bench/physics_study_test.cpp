@@ -120,7 +120,7 @@ TEST_F(QuickStudy, ShowsThatC1HidesMassesUntilCubesTouchCubes) {
 
 TEST(Stability, KnowsAStableMethodFromOthers) {
   const BenchScene scene = stability_scene(Varied::cube_mass, 0.2);
-  const Track reference =
+  const SceneTrack reference =
       run_scene(make_simulator("boxes"), scene, 4 * reference_rate_hz, reference_rate_hz).track;
   const auto verdict = [&](const char* name, int rate_hz) {
     return judge(simulator_named(name), scene, reference, rate_hz);

@@ -23,6 +23,12 @@ double worst_known_mm(const SimulatorPick& pick) {
   return worst_mm;
 }
 
+Scene with_tolerance(const Tolerance& tolerance) {
+  Scene scene = one_cube(0.2);
+  scene.tolerance = tolerance;
+  return scene;
+}
+
 TEST(Auto, BeginsWithAStraightPushAndEndsWithWhatModelsEverything) {
   const auto ladder = simulator_ladder(one_cube(0.2), 30);
   EXPECT_THAT(names_of(ladder), testing::ElementsAre("push", "boxes"));
@@ -44,7 +50,7 @@ TEST(Auto, TakesAtLeastAsManyStepsAsThereArePoses) {
 
 TEST(Auto, TakesMoreStepsForATighterToleranceAndForAFasterSpring) {
   const double usual_hz = resolve_auto(one_cube(0.2), 15).rate_hz;
-  EXPECT_LT(resolve_auto(one_cube(0.2), 15, {1e-3, 5}).rate_hz, usual_hz);
+  EXPECT_LT(resolve_auto(with_tolerance({1e-3, 5}), 15).rate_hz, usual_hz);
   Scene fast = one_cube(0.2);
   fast.coupling.stiffness_n_per_m *= 16;
   EXPECT_NEAR(resolve_auto(fast, 15).rate_hz, 4 * usual_hz, 1);
@@ -54,7 +60,7 @@ TEST(Auto, TakesMoreStepsForATighterToleranceAndForAFasterSpring) {
 }
 
 TEST(Auto, SaysSoWhereNothingIsAccurateEnough) {
-  const auto ladder = simulator_ladder(one_cube(0.2), 15, {1e-9, 1e-9});
+  const auto ladder = simulator_ladder(with_tolerance({1e-9, 1e-9}), 15);
   ASSERT_EQ(ladder.size(), 1u);
   EXPECT_NE(ladder[0].why.find("MISSES the tolerance"), std::string::npos) << ladder[0].why;
   EXPECT_TRUE(simulator_named(ladder[0].simulator).for_sessions);

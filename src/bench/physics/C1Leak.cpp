@@ -49,7 +49,7 @@ SceneRun run_with(const Case& one, const std::vector<double>& masses_kg) {
 }
 
 // The largest distance between two runs' cubes at any time.
-double apart_mm(const Track& a, const Track& b) {
+double apart_mm(const SceneTrack& a, const SceneTrack& b) {
   double most_mm = 0;
   for (std::size_t i = 0; i < std::min(a.states.size(), b.states.size()); ++i)
     for (std::size_t c = 0; c < a.states[i].cubes.size(); ++c)

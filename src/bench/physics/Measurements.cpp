@@ -21,7 +21,7 @@ std::vector<int> rates_to_measure(bool quick) {
 }
 
 Measurement measure_one(const SimulatorEntry& simulator, const BenchScene& scene, int rate_hz,
-                        const Track& reference, bool quick) {
+                        const SceneTrack& reference, bool quick) {
   Measurement one{std::string(simulator.name), rate_hz, scene, Fate::ran, "", {}, nothing};
   const SceneRun run = run_scene(simulator.make(), scene, rate_hz, rate_hz);
   one.fate = run.fate;

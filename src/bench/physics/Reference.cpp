@@ -14,7 +14,7 @@ constexpr const char* our_solver = "boxes";
 constexpr int fine_rate_hz = 16 * reference_rate_hz, coarse_rate_hz = 4 * reference_rate_hz;
 
 // A clone released from an offset along one direction and about one axis, the effector still.
-Track free_return(const BenchScene& scene) {
+SceneTrack free_return(const BenchScene& scene) {
   const Coupling& coupling = scene.scene.coupling;
   const Pose& offset = scene.scene.clone_offset;
   const Eigen::Vector3d turn_rad = rotation_vector(offset.orientation);
@@ -26,7 +26,7 @@ Track free_return(const BenchScene& scene) {
                          coupling.damping_ratio);
   const FreeReturn turn(coupling.torsional_stiffness_nm_per_rad, inertia_kg_m2,
                         coupling.damping_ratio);
-  Track track{reference_rate_hz, {}};
+  SceneTrack track{reference_rate_hz, {}};
   const Pose hand = *scene.path.front().pose;
   for (int n = 0; n <= static_cast<int>(scene.duration_s() * reference_rate_hz); ++n) {
     const double t_s = n / static_cast<double>(reference_rate_hz);
@@ -38,8 +38,8 @@ Track free_return(const BenchScene& scene) {
   return track;
 }
 
-Track converged(std::unique_ptr<DecouplingSimulator> simulator, const BenchScene& scene,
-                int rate_hz) {
+SceneTrack converged(std::unique_ptr<DecouplingSimulator> simulator, const BenchScene& scene,
+                     int rate_hz) {
   SceneRun run = run_scene(std::move(simulator), scene, rate_hz, reference_rate_hz);
   if (run.fate != Fate::ran)
     throw Error(
@@ -49,7 +49,7 @@ Track converged(std::unique_ptr<DecouplingSimulator> simulator, const BenchScene
 
 // Two runs, the second against the first.
 struct Pair {
-  Track first;
+  SceneTrack first;
   TrackError between;
   std::string method;
 };

@@ -11,7 +11,7 @@
 namespace heft {
 
 struct Reference {
-  Track track;                 ///< at reference_rate_hz
+  SceneTrack track;            ///< at reference_rate_hz
   std::string method;          ///< "closed form", or which two runs agree
   double uncertainty_mm = 0;   ///< RMS difference of the clone's center between the two
   double cubes_differ_mm = 0;  ///< the same of the cubes

@@ -72,7 +72,7 @@ SceneRun run_scene(std::unique_ptr<DecouplingSimulator> simulator, const BenchSc
   return run;
 }
 
-TrackError error_of(const Track& track, const Track& reference, const BenchScene& scene) {
+TrackError error_of(const SceneTrack& track, const SceneTrack& reference, const BenchScene& scene) {
   const auto every = static_cast<std::size_t>(reference.rate_hz / track.rate_hz);
   const Trajectory path(scene.path);
   const Coupling& coupling = scene.scene.coupling;

@@ -19,7 +19,7 @@ inline constexpr std::array<int, 7> bench_rates_hz{15, 30, 60, 120, 240, 480, 96
 inline constexpr int reference_rate_hz = 960;
 
 /// States at path start + n / rate_hz.
-struct Track {
+struct SceneTrack {
   int rate_hz = 0;
   std::vector<WorldState> states;
 };
@@ -37,8 +37,8 @@ struct EnumNames<Fate> {
 
 struct SceneRun {
   Fate fate = Fate::ran;
-  std::string why;  ///< in the simulator's words, unless it ran
-  Track track;      ///< until then
+  std::string why;   ///< in the simulator's words, unless it ran
+  SceneTrack track;  ///< until then
 };
 
 /// Steps along the scene's path at step_rate_hz and keeps states at keep_rate_hz, a divisor of it.
@@ -55,7 +55,7 @@ struct TrackError {
 };
 
 /// @param track at a rate that divides the reference's
-TrackError error_of(const Track& track, const Track& reference, const BenchScene& scene);
+TrackError error_of(const SceneTrack& track, const SceneTrack& reference, const BenchScene& scene);
 
 /// CPU time of this thread per simulated second, the best of several repeats: steps alone, without
 /// reading states. Up to the blow-up where there is one.

@@ -22,7 +22,7 @@ bool penetrates(const WorldState& state, const Scene& scene) {
 }
 
 // At the last step within the stroke.
-bool has_wrong_lag(const Track& track, const Track& reference, const BenchScene& scene) {
+bool has_wrong_lag(const SceneTrack& track, const SceneTrack& reference, const BenchScene& scene) {
   const double stroke_s = scene.duration_s() - 1;
   const auto i = static_cast<std::size_t>(stroke_s * track.rate_hz + 1e-6);
   const auto every = static_cast<std::size_t>(reference.rate_hz / track.rate_hz);
@@ -75,7 +75,7 @@ BenchScene stability_scene(Varied varied, double value) {
   return scene;
 }
 
-Verdict judge(const SimulatorEntry& simulator, const BenchScene& scene, const Track& reference,
+Verdict judge(const SimulatorEntry& simulator, const BenchScene& scene, const SceneTrack& reference,
               int rate_hz) {
   const SceneRun run = run_scene(simulator.make(), scene, rate_hz, rate_hz);
   if (run.fate == Fate::outside_model) return Verdict::outside_model;
@@ -113,7 +113,7 @@ void study_stability(const StudyOptions& options) {
     progress.next(fmt::format("stability: {}", name_of(varied)));
     for (double value : values_of(varied, options.quick)) {
       const BenchScene scene = stability_scene(varied, value);
-      const Track reference =
+      const SceneTrack reference =
           run_scene(make_simulator("boxes"), scene, 16 * reference_rate_hz, reference_rate_hz)
               .track;
       for (const SimulatorEntry& simulator : measured_simulators()) {

@@ -44,7 +44,7 @@ BenchScene stability_scene(Varied varied, double value);
 
 /// The gravest fault of a run through a stability_scene.
 /// @param reference at reference_rate_hz
-Verdict judge(const SimulatorEntry& simulator, const BenchScene& scene, const Track& reference,
+Verdict judge(const SimulatorEntry& simulator, const BenchScene& scene, const SceneTrack& reference,
               int rate_hz);
 
 struct StabilityCell {
