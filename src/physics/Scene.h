@@ -26,6 +26,12 @@ struct Cube {
   double yaw_rad = 0;
 };
 
+/// How far off a simulator may be that nobody chose by name: see auto/Choice.h.
+struct Tolerance {
+  double clone_rms_m = 0.1e-3;
+  double lag_g = 0.5;  ///< how much heavier or lighter a cube may seem
+};
+
 struct Scene {
   double gravity_m_s2 = 9.81;
   double friction = 0.8;  ///< Coulomb coefficient between any two surfaces
@@ -38,6 +44,7 @@ struct Scene {
   /// Clone from effector at the first sample, released at rest. A coupled clone has none.
   Pose clone_offset;
   std::vector<Cube> cubes;
+  Tolerance tolerance;
 };
 
 /// Where the clone starts when the target is there.

@@ -69,9 +69,11 @@ struct Rung {
   bool general = true;
 };
 
-std::string what_is_known(const Worst& worst) {
-  return fmt::format("known to be within {:.2g} mm RMS and {:.2g} g", 1e3 * worst.clone_rms_m,
-                     worst.lag_g);
+std::string what_is_known(const Worst& worst, const Tolerance& tolerance) {
+  return fmt::format(
+      "known to be within {:.2g} mm RMS and {:.2g} g (asked for: {:.2g} mm and "
+      "{:.2g} g)",
+      1e3 * worst.clone_rms_m, worst.lag_g, 1e3 * tolerance.clone_rms_m, tolerance.lag_g);
 }
 
 // Every rate of a simulator that is fast enough for the poses, or else its highest.
@@ -86,7 +88,7 @@ std::vector<Rung> rungs_of(std::string_view simulator, const Scene& scene, doubl
     if (!worst || (scaled_hz < at_least_hz && rate_hz != rates_hz.back())) continue;
     const std::string model = general ? "models everything" : "models a straight push at one cube";
     rungs.push_back({{std::string(simulator), std::max(scaled_hz, at_least_hz),
-                      model + ", " + what_is_known(*worst)},
+                      model + ", " + what_is_known(*worst, scene.tolerance)},
                      *worst,
                      general});
   }
@@ -108,26 +110,29 @@ SimulatorPick most_accurate(std::vector<Rung> rungs, const Tolerance& tolerance)
 }
 }  // namespace
 
-std::vector<SimulatorPick> simulator_ladder(const Scene& scene, double at_least_hz,
-                                            const Tolerance& tolerance) {
+std::string described(const SimulatorPick& pick) {
+  return fmt::format("auto takes {} at {:g} Hz: it {}", pick.simulator, pick.rate_hz, pick.why);
+}
+
+std::vector<SimulatorPick> simulator_ladder(const Scene& scene, double at_least_hz) {
   std::vector<SimulatorPick> ladder;
   std::vector<Rung> general;
   for (std::string_view simulator : ladder_of_simulators) {
     if (!models_contacts(simulator, scene)) continue;
     const std::vector<Rung> rungs = rungs_of(simulator, scene, at_least_hz);
-    const auto cheapest =
-        std::ranges::find_if(rungs, [&](const Rung& rung) { return rung.worst.within(tolerance); });
+    const auto cheapest = std::ranges::find_if(
+        rungs, [&](const Rung& rung) { return rung.worst.within(scene.tolerance); });
     if (cheapest != rungs.end()) ladder.push_back(cheapest->pick);
     if (cheapest != rungs.end() && cheapest->general) return ladder;
     for (const Rung& rung : rungs)
       if (rung.general) general.push_back(rung);
   }
-  ladder.push_back(most_accurate(std::move(general), tolerance));
+  ladder.push_back(most_accurate(std::move(general), scene.tolerance));
   return ladder;
 }
 
-SimulatorPick resolve_auto(const Scene& scene, double at_least_hz, const Tolerance& tolerance) {
-  return simulator_ladder(scene, at_least_hz, tolerance).back();
+SimulatorPick resolve_auto(const Scene& scene, double at_least_hz) {
+  return simulator_ladder(scene, at_least_hz).back();
 }
 
 std::unique_ptr<DecouplingSimulator> make_auto() {

@@ -13,26 +13,23 @@
 
 namespace heft {
 
-struct Tolerance {
-  double clone_rms_m = 0.1e-3;
-  double lag_g = 0.5;  ///< how much heavier or lighter a cube may seem
-};
-
 struct SimulatorPick {
   std::string simulator;
   double rate_hz = 240;  ///< steps a second, at least
-  std::string why;       ///< one line for people
+  std::string why;       ///< one line for people: it ...
 };
 
-/// At least one; the last models everything. Where no rate stays within the tolerance, the last is
-/// the most accurate there is, and says so.
+/// One line for people: "auto takes boxes at 240 Hz: it models everything, known to be ...".
+std::string described(const SimulatorPick& pick);
+
+/// At least one; the last models everything. Where no rate stays within the scene's tolerance, the
+/// last is the most accurate there is, and says so.
 /// @param at_least_hz poses a second; fewer steps are never made
-std::vector<SimulatorPick> simulator_ladder(const Scene& scene, double at_least_hz,
-                                            const Tolerance& tolerance = {});
+std::vector<SimulatorPick> simulator_ladder(const Scene& scene, double at_least_hz);
 
 /// For sessions, where a person may do anything: the ladder's first that models everything. Depends
 /// on nothing that happens later.
-SimulatorPick resolve_auto(const Scene& scene, double at_least_hz, const Tolerance& tolerance = {});
+SimulatorPick resolve_auto(const Scene& scene, double at_least_hz);
 
 /// What resolve_auto picks for a scene with the paper's springs. It steps as it is told: whoever
 /// wants the rate too asks resolve_auto.
