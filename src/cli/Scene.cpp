@@ -19,7 +19,7 @@ namespace heft::cli {
 
 namespace {
 struct Options {
-  std::string scene, trajectory, simulator = "bullet";
+  std::string scene, trajectory, simulator = "boxes";
   double rate_hz = 240;
   bool explain = false;
 };

@@ -15,12 +15,13 @@ namespace heft {
 
 namespace {
 constexpr auto table = std::to_array<SimulatorEntry>({
-    {"bullet", "the default: bullet-lx", make_bullet_lx},
+    {"boxes",
+     "the default: our own solver for a few boxes on a table, exact coupling, true friction disk",
+     make_boxes},
+    {"bullet", "the same as bullet-lx", make_bullet_lx},
     {"bullet-lx", "exact coupling, orientation locked to the effector's", make_bullet_lx},
     {"bullet-ea", "coupling by implicit Euler, in translation and rotation", make_bullet_ea},
     {"bullet-x", "exact coupling, in translation and rotation", make_bullet_x},
-    {"boxes", "our own solver for a few boxes on a table: exact coupling, true friction disk",
-     make_boxes},
     {"push", "one straight push of one cube in closed form, without rotation", make_push, "",
      false},
     {"quasi_static", "the same without inertia: the lag is min(x_hand, mu M g / k)",

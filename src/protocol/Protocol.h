@@ -57,7 +57,7 @@ struct ScreensChosen {
 };
 
 struct SimulatorChoice {
-  std::string name = "bullet";
+  std::string name = "boxes";
   double rate_hz = 240;
 };
 

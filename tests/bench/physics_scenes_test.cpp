@@ -2,11 +2,13 @@
 // HEFT_WRITE_SCENES=1 in the environment writes the files anew.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <set>
 
 #include "base/TextFile.h"
+#include "bench/physics/OdeSimulator.h"
 #include "bench/physics/Reference.h"
 #include "physics/Oracles.h"
 #include "protocol/SceneFile.h"
@@ -77,6 +79,44 @@ TEST(Reference, TwoEnginesAgree) {
     EXPECT_LT(reference.uncertainty_mm, 0.02) << name;
     EXPECT_GT(reference.uncertainty_mm, 0) << name;
   }
+}
+
+double yaw_deg(const Pose& pose) {
+  const Eigen::Vector3d x = pose.orientation * Eigen::Vector3d::UnitX();
+  return std::atan2(x.y(), x.x()) * 180 / M_PI;
+}
+
+// Contacts that give: nothing is left open about how a cube turns, here by 80, 12 and 54
+// degrees. The last has a clone that turns with the cube.
+TEST(Reference, TwoEnginesAgreeHowACubeTurns) {
+  for (const char* name : {"offcenter_push", "corner_push", "offcenter_push_kappa0.015"}) {
+    const BenchScene scene = bench_scene(name);
+    auto other = make_ode_simulator();
+    if (!other) GTEST_SKIP() << "built without ODE";
+    const SceneTrack ode = run_scene(std::move(other), scene, 24000, reference_rate_hz).track;
+    const SceneTrack ours =
+        run_scene(make_simulator("boxes"), scene, 16 * reference_rate_hz, reference_rate_hz).track;
+    const TrackError between = error_of(ode, ours, scene);
+    EXPECT_LT(between.clone_rms_mm, 0.06) << name;
+    EXPECT_LT(between.cubes_rms_mm, 0.05) << name;
+    double apart_deg = 0;
+    ASSERT_EQ(ode.states.size(), ours.states.size()) << name;
+    for (std::size_t i = 0; i < ode.states.size(); ++i)
+      apart_deg = std::max(apart_deg, std::abs(yaw_deg(ode.states[i].cubes[0].pose) -
+                                               yaw_deg(ours.states[i].cubes[0].pose)));
+    EXPECT_LT(apart_deg, 0.1) << name;
+    const double turned_deg =
+        yaw_deg(ours.states.back().cubes[0].pose) - yaw_deg(ours.states.front().cubes[0].pose);
+    EXPECT_GT(std::abs(turned_deg), 10) << name;
+  }
+}
+
+TEST(Reference, OfATurnIsTheOtherEnginesTooAndTellsHowOpenRigidBodiesLeaveIt) {
+  const Reference reference = reference_of(bench_scene("corner_push"), false);
+  if (reference.method.find("ODE") == std::string::npos) GTEST_SKIP() << "built without ODE";
+  EXPECT_LT(reference.uncertainty_mm, 0.02);
+  EXPECT_LT(reference.cubes_differ_mm, 0.02);
+  EXPECT_GT(reference.rigid_cubes_differ_mm, 1);
 }
 
 TEST(Reference, OfAFreeReturnIsTheOscillatorsFormula) {

@@ -173,7 +173,7 @@ class GoingOn(CommandLine):
         db = self.folder / "s.db"
         self.start_and_stop(db, "--responder", "simulated")
         said = self.run_heft("resume", "--db", db, "--responder", "coin", "--tracker", "hand",
-                             "--view", "headless", "--simulator", "bullet-lx").stderr
+                             "--view", "headless", "--simulator", "boxes").stderr
         self.assertIn("coin instead of simulated", said)
         self.assertEqual(self.deviations(db),
                          [{"option": "responder", "from": "simulated", "to": "coin"}])

@@ -269,7 +269,7 @@ class Replaying(SessionTest):
         self.run_heft("replay", "--db", db)
 
     def test_what_would_have_been(self):
-        same = self.run_heft("replay", "--db", self.whole, "--simulator", "bullet-lx").stdout
+        same = self.run_heft("replay", "--db", self.whole, "--simulator", "boxes").stdout
         self.assertIn("0.0000", same)
         softer = self.run_heft("replay", "--db", self.whole, "--set",
                                "coupling.stiffness_n_per_m=25").stdout

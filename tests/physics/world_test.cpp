@@ -218,7 +218,7 @@ TEST_P(Rate, NothingBlowsUp) {
 INSTANTIATE_TEST_SUITE_P(Hz, Rate, testing::Values(15, 30, 60, 120, 240, 500, 1000));
 
 TEST(Simulators, AreFoundByNameAndTheNearestNameIsOffered) {
-  EXPECT_EQ(simulators().front().name, "bullet");
+  EXPECT_EQ(simulators().front().name, "boxes");
   for (const SimulatorEntry& entry : simulators()) EXPECT_NE(make_simulator(entry.name), nullptr);
   try {
     make_simulator("bulet-x");

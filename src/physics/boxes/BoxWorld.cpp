@@ -11,6 +11,8 @@ namespace {
 constexpr double calm_speed_m_s = 1e-4, calm_turn_rad_s = 5e-3, calm_for_s = 0.25;
 // Contacts are looked for this far ahead, beside what the boxes can cover in a step.
 constexpr double near_m = 0.1e-3;
+// How much faster than in the last step boxes may become before contacts are looked for again.
+constexpr double hurry = 1.2, hurry_m_s = 0.01;
 // A travel that is worth finding out where on the way boxes meet.
 constexpr double far_m = 0.1e-3;
 // A travel in a step that is too short for it to matter when in the step boxes meet.
@@ -20,16 +22,24 @@ constexpr double exactly_m = 1e-9;
 constexpr double rounding = 1e-10;  // m or rad
 constexpr int most_sweeps = 500;
 constexpr double enough_m_s = 2e-6;    // sweeps end when no velocity changes by more
+constexpr double settled_m_s = 2e-7;   // a contact that a sweep changed by less has settled
 constexpr double squeezed_m_s = 0.01;  // what never ends has no answer
+
+// Any body may become as fast as the fastest within a step, by being hit.
+double look_ahead_m(double h_s, double up_to_m_s) {
+  return near_m + 2 * h_s * up_to_m_s;
+}
 }  // namespace
 
-BoxWorld::BoxWorld(const Surface& surface, double gravity_m_s2, std::size_t n_bodies,
+BoxWorld::BoxWorld(const ContactSurface& surface, double gravity_m_s2, std::size_t n_bodies,
                    bool mass_blind)
     : surface_(surface), gravity_m_s2_(gravity_m_s2), mass_blind_(mass_blind) {
   if (mass_blind) surface_.same_place = rounding;
+  surface_.foresees = !mass_blind;
   bodies_.reserve(n_bodies);
   pairs_.reserve(n_bodies * (n_bodies + 1) / 2);
   course_.reserve(n_bodies);
+  velocities_.reserve(n_bodies);
   table_.solid = false;  // not one of the boxes
 }
 
@@ -52,11 +62,6 @@ void BoxWorld::settle_at_start() {
     if (pair.with_table() || contact(pair, 0, near_m).n_points == 0) continue;
     bodies_[pair.first].asleep = bodies_[pair.second].asleep = false;
   }
-}
-
-// Any body may become as fast as the fastest within a step, by being hit.
-double BoxWorld::look_ahead_m(double h_s) const {
-  return near_m + 2 * h_s * fastest_m_s();
 }
 
 double BoxWorld::fastest_m_s() const {
@@ -84,8 +89,8 @@ Contact BoxWorld::contact(const Pair& pair, double h_s, double margin_m) const {
   return contact_on_the_way(first.shape, second.shape, travel_m, margin_m);
 }
 
-void BoxWorld::wake_reached(double h_s) {
-  const double margin_m = look_ahead_m(h_s);
+void BoxWorld::wake_reached(double h_s, double up_to_m_s) {
+  const double margin_m = look_ahead_m(h_s, up_to_m_s);
   for (bool woken = true; woken;) {
     woken = false;
     for (const Pair& pair : pairs_) {
@@ -161,12 +166,12 @@ bool BoxWorld::can_push(const Pair& pair) const {
   return gives && moves(first) && moves(second);
 }
 
-void BoxWorld::find_contacts(double h_s) {
-  const double margin_m = look_ahead_m(h_s);
+void BoxWorld::find_contacts(double h_s, double up_to_m_s) {
   touching_.clear();
   if (squeezed_)
     for (Pair& pair : pairs_) pair.manifold.forget_impulses();
   for (const bool with_table : {false, true}) {
+    const double margin_m = look_ahead_m(h_s, with_table ? up_to_m_s / 2 : up_to_m_s);
     for (Pair& pair : pairs_) {
       if (pair.with_table() != with_table) continue;
       Body& first = bodies_[pair.first];
@@ -185,25 +190,49 @@ void BoxWorld::find_contacts(double h_s) {
 
 // The table comes last in a sweep: where a coupled clone squeezes a cube against it there is no
 // answer, and the cube should stay above the table. The impulses grow without end then and are no
-// start for the next step.
+// start for the next step. Sweeps leave out contacts that have settled, but never the last one.
 void BoxWorld::relax() {
   for (Manifold* manifold : touching_) manifold->warm_start();
   course_.begin(bodies_, touching_);
   double change_m_s = 0;
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    change_m_s = 0;
-    for (Manifold* manifold : touching_) change_m_s = std::max(change_m_s, manifold->relax());
-    if (change_m_s <= enough_m_s) break;
+  bool all = true;
+  for (int i = 0; i < most_sweeps; ++i) {
+    change_m_s = sweep(all);
+    if (change_m_s <= enough_m_s && all) break;
+    all = mass_blind_ || change_m_s <= enough_m_s;
     if (!mass_blind_) course_.go_on(bodies_, touching_);
   }
   squeezed_ = change_m_s > squeezed_m_s;
 }
 
+double BoxWorld::sweep(bool all) {
+  double change_m_s = 0;
+  for (Manifold* manifold : touching_)
+    if (all || manifold->changed_m_s() > settled_m_s)
+      change_m_s = std::max(change_m_s, manifold->relax());
+  return change_m_s;
+}
+
+// A clone that is held back would be much faster if it were not: contacts are looked for as far as
+// boxes can go at about the speeds of the last step, and farther only if they turn out to be
+// faster.
 void BoxWorld::solve(double h_s) {
-  wake_reached(h_s);
+  const double free_m_s = fastest_m_s();
+  const double foreseen_m_s = std::min(free_m_s, hurry * reached_m_s_ + hurry_m_s);
+  wake_reached(h_s, free_m_s);
   add_weight(h_s);
-  find_contacts(h_s);
+  velocities_.clear();
+  for (const Body& body : bodies_) velocities_.push_back(body.velocity);
+  solve_contacts(h_s, foreseen_m_s);
+  if (reached_m_s_ <= foreseen_m_s || foreseen_m_s == free_m_s) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].velocity = velocities_[i];
+  solve_contacts(h_s, free_m_s);
+}
+
+void BoxWorld::solve_contacts(double h_s, double up_to_m_s) {
+  find_contacts(h_s, up_to_m_s);
   relax();
+  reached_m_s_ = fastest_m_s();
 }
 
 void BoxWorld::move(double h_s) {

@@ -17,7 +17,8 @@ class BoxWorld {
  public:
   /// @param mass_blind where masses change no motion they change none by more than 1e-9 m: no
   /// shortcut that rounding could decide. Slower.
-  BoxWorld(const Surface& surface, double gravity_m_s2, std::size_t n_bodies, bool mass_blind);
+  BoxWorld(const ContactSurface& surface, double gravity_m_s2, std::size_t n_bodies,
+           bool mass_blind);
 
   /// @return its index
   std::size_t add(const Body& body);
@@ -60,20 +61,21 @@ class BoxWorld {
   };
 
   bool moves(const Body& body) const { return body.solid && !body.asleep; }
-  double look_ahead_m(double h_s) const;
   Contact contact(const Pair& pair, double h_s, double margin_m) const;
   bool near(const Pair& pair, double margin_m) const;
   bool can_push(const Pair& pair) const;
-  void wake_reached(double h_s);
+  void wake_reached(double h_s, double up_to_m_s);
   void add_weight(double h_s);
   bool pushed_by_driven(std::size_t i) const;
   std::optional<double> share_before_hit(std::size_t i, double h_s) const;
-  void find_contacts(double h_s);
+  void find_contacts(double h_s, double up_to_m_s);
+  void solve_contacts(double h_s, double up_to_m_s);
   void relax();
+  double sweep(bool all);
   void lift_from_table();
   void settle(double h_s);
 
-  Surface surface_;
+  ContactSurface surface_;
   double gravity_m_s2_;
   bool mass_blind_;
   double last_h_s_ = 0;
@@ -82,7 +84,9 @@ class BoxWorld {
   std::vector<Pair> pairs_;          ///< each body with the bodies before it, then with the table
   std::vector<Manifold*> touching_;  ///< of this step; the table's last
   SweepCourse course_;
-  bool squeezed_ = false;  ///< in the last step a box had no room
+  std::vector<Velocity> velocities_;  ///< before this step's contacts
+  double reached_m_s_ = 0;            ///< by the fastest in the last step
+  bool squeezed_ = false;             ///< in the last step a box had no room
 };
 
 }  // namespace heft::boxes

@@ -72,7 +72,7 @@ void BoxesSimulator::reset(const Scene& scene, const Pose& target) {
   target_ = target;
   last_h_s_ = 0;
   impulse_n_s_.assign(n_cubes_, Vector3d::Zero());
-  world_.emplace(boxes::Surface{scene.friction, scene.contact_compliance_m_per_n},
+  world_.emplace(boxes::ContactSurface{scene.friction, scene.contact_compliance_m_per_n},
                  scene.gravity_m_s2, n_cubes_ + 1, !decoupled_);
   add_clone(scene, target);
   for (const Cube& cube : scene.cubes) {

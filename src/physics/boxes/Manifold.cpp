@@ -12,8 +12,11 @@ constexpr double firmness = 1e-5;  // of a block's diagonal, so that it can be s
 constexpr double flat_m = 1e-6;    // gaps and overlaps below this are none
 // A contact is looked for anew when masses changed by more, as with another step's length.
 constexpr double mass_share_is_new = 1e-9;
-constexpr double recovery = 0.5;     // share of an overlap that one step takes away
-constexpr double recovery_m = 1e-3;  // and at most this much
+constexpr double steady = 0.25;        // share of a change that was foreseen wrongly
+constexpr double bent = 0.5;           // the same, of what a line foresaw wrongly
+constexpr double unmoved_m_s = 1e-10;  // a nanometer in ten seconds
+constexpr double recovery = 0.5;       // share of an overlap that one step takes away
+constexpr double recovery_m = 1e-3;    // and at most this much
 }  // namespace
 
 Manifold::Row Manifold::row(const Vector3d& arm_first_m, const Vector3d& arm_second_m,
@@ -27,20 +30,20 @@ Manifold::Row Manifold::row(const Vector3d& arm_first_m, const Vector3d& arm_sec
   return row;
 }
 
-void Manifold::prepare(const Contact& contact, Body& first, Body& second, const Surface& surface,
-                       double h_s, double margin_m) {
+void Manifold::prepare(const Contact& contact, Body& first, Body& second,
+                       const ContactSurface& surface, double h_s, double margin_m) {
   struct Known {
     int feature;
     double impulse;
-    Vector3d friction;
+    Vector3d friction, before, line, curve;
   };
   std::array<Known, 4> old;
   const int n_old = n_;
-  const double scale = h_s_ > 0 ? h_s / h_s_ : 1;
+  foresee(h_s_ > 0 ? h_s / h_s_ : 1);
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_old); ++i) {
     const Point& point = points_[i];
-    old[i] = {point.feature, scale * point.impulse,
-              scale * (point.impulse_u * u_ + point.impulse_v * v_)};
+    old[i] = {point.feature, point.impulse, point.impulse_u * u_ + point.impulse_v * v_,
+              point.before,  point.line,    point.curve};
   }
   first_ = &first;
   second_ = &second;
@@ -49,6 +52,7 @@ void Manifold::prepare(const Contact& contact, Body& first, Body& second, const 
   h_s_ = h_s;
   rigid_ = surface.compliance_m_per_n == 0;
   same_place_ = surface.same_place;
+  foresees_ = surface.foresees;
   n_ = contact.n_points;
   if (n_ == 0) return;
   seen_ = {first.pose, second.pose, first.inverse_mass_per_kg, second.inverse_mass_per_kg,
@@ -62,11 +66,17 @@ void Manifold::prepare(const Contact& contact, Body& first, Body& second, const 
     Point& point = points_[static_cast<std::size_t>(i)];
     const ContactPoint& at = contact.points[static_cast<std::size_t>(i)];
     point.impulse = point.impulse_u = point.impulse_v = 0;
+    point.before.setZero();
+    point.line.setZero();
+    point.curve.setZero();
     prepare_point(point, at, surface, h_s);
     const auto before = std::find_if(old.begin(), old.begin() + n_old,
                                      [&](const Known& o) { return o.feature == at.feature; });
     if (before == old.begin() + n_old) continue;
     point.impulse = before->impulse;
+    point.before = before->before;
+    point.line = before->line;
+    point.curve = before->curve;
     point.impulse_u = before->friction.dot(u_);
     point.impulse_v = before->friction.dot(v_);
   }
@@ -76,7 +86,7 @@ void Manifold::prepare(const Contact& contact, Body& first, Body& second, const 
   if (n_ == 4 && surface.compliance_m_per_n == 0) find_balance(contact);
 }
 
-void Manifold::prepare_point(Point& point, const ContactPoint& at, const Surface& surface,
+void Manifold::prepare_point(Point& point, const ContactPoint& at, const ContactSurface& surface,
                              double h_s) {
   const Vector3d arm_first_m = at.on_first_m - first_->pose.position_m;
   const Vector3d arm_second_m = at.on_second_m - second_->pose.position_m;
@@ -131,12 +141,8 @@ bool Manifold::still_fits(double margin_m) const {
 void Manifold::prepare_again(double h_s) {
   const double closer_m = normal_.dot(moved_m()), scale = h_s / h_s_;
   h_s_ = h_s;
-  for (Point& point : points()) {
-    set_gap(point, point.prepared_gap_m + closer_m);
-    point.impulse *= scale;
-    point.impulse_u *= scale;
-    point.impulse_v *= scale;
-  }
+  foresee(scale);
+  for (Point& point : points()) set_gap(point, point.prepared_gap_m + closer_m);
 }
 
 // Four points on a plane hold a body in more than one way: impulses in the proportions of the
@@ -158,6 +164,33 @@ void Manifold::find_balance(const Contact& contact) {
   for (double& share : balance_) share *= scale;
 }
 
+// From the last step's impulses to those to start the next one from, `scale` times as long: the
+// same again, or on along the line or the parabola through the last ones, as far as that would have
+// been right for the last step.
+void Manifold::foresee(double scale) {
+  double off_before = 0, off_line = 0, off_curve = 0;  // squared
+  for (const Point& point : points()) {
+    const Vector3d last(point.impulse, point.impulse_u, point.impulse_v);
+    off_before += (last - point.before).squaredNorm();
+    off_line += (last - point.line).squaredNorm();
+    off_curve += (last - point.curve).squaredNorm();
+  }
+  const bool grows = foresees_ && off_line < steady * steady * off_before;
+  const bool bends = grows && off_curve < bent * bent * off_line;
+  for (Point& point : points()) {
+    const Vector3d last(point.impulse, point.impulse_u, point.impulse_v);
+    const Vector3d line = 2 * last - point.before, curve = line + last - point.line;
+    point.before = scale * last;
+    point.line = scale * line;
+    point.curve = scale * curve;
+    const Vector3d& foreseen = bends ? point.curve : point.line;
+    const Vector3d& start = grows && foreseen[0] > 0 ? foreseen : point.before;
+    point.impulse = start[0];
+    point.impulse_u = start[1];
+    point.impulse_v = start[2];
+  }
+}
+
 void Manifold::warm_start() {
   double sum_u = 0, sum_v = 0, moment = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
@@ -171,7 +204,7 @@ void Manifold::warm_start() {
   if (sum_u == 0 && sum_v == 0 && moment == 0) return;
   apply(patch_.u, u_, sum_u);
   apply(patch_.v, v_, sum_v);
-  apply(patch_.spin, Vector3d::Zero(), moment);
+  turn(patch_.spin, moment);
 }
 
 void Manifold::couple_points() {
@@ -235,18 +268,28 @@ void Manifold::solve_block(unsigned active, std::array<double, 4>& change) const
   }
 }
 
+// Whether all active points are as fast as they should be.
+bool Manifold::unmoved(const std::array<double, 4>& missing, unsigned active) const {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i)
+    if ((active >> i & 1) && std::abs(missing[i]) > unmoved_m_s) return false;
+  return true;
+}
+
 // All points at once: a light clone before a heavy cube feels the sum of its points' impulses, the
 // cube how they are spread, and one point after the other would find the spread only slowly.
 double Manifold::relax_normals() {
   const std::size_t n = static_cast<std::size_t>(n_);
   std::array<double, 4> missing, change{};
   unsigned active = 0;
+  const double closing_m_s = shift_speed(normal_);
   for (std::size_t i = 0; i < n; ++i) {
     const Point& point = points_[i];
-    missing[i] = -speed(point.normal, normal_) - point.speed_m_s - point.softness * point.impulse;
+    missing[i] =
+        -closing_m_s - turn_speed(point.normal) - point.speed_m_s - point.softness * point.impulse;
     if (point.impulse != 0 || missing[i] > 0) active |= 1u << i;
   }
   if (active == 0) return 0;
+  if (foresees_ && unmoved(missing, active)) return 0;
   while (active != 0) {
     for (std::size_t i = 0; i < n; ++i) {
       if (!(active >> i & 1)) continue;
@@ -267,13 +310,15 @@ double Manifold::relax_normals() {
     active &= ~(1u << worst);  // it lets go
     change[worst] = -points_[worst].impulse;
   }
-  double largest = 0;
+  double largest = 0, sum = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (change[i] == 0) continue;
     largest = std::max(largest, std::abs(missing[i]));
     points_[i].impulse = std::max(0.0, points_[i].impulse + change[i]);
-    apply(points_[i].normal, normal_, change[i]);
+    sum += change[i];
+    turn(points_[i].normal, change[i]);
   }
+  shift(normal_, sum);
   return largest;
 }
 
@@ -292,14 +337,11 @@ void Manifold::balance() {
 }
 
 double Manifold::relax() {
-  double largest = relax_normals();
+  changed_m_s_ = relax_normals();
   if (n_ == 4) balance();
-  if (patch_.usable && touches()) {
-    const double held = hold_patch();
-    if (held >= 0) return std::max(largest, held);
-  }
-  for (Point& point : points()) largest = std::max(largest, relax_friction(point));
-  return largest;
+  const double held = patch_.usable && touches() ? hold_patch() : -1;
+  changed_m_s_ = std::max(changed_m_s_, held >= 0 ? held : slide());
+  return changed_m_s_;
 }
 
 void Manifold::begin_course() {

@@ -8,12 +8,13 @@
 
 namespace heft::boxes {
 
-struct Surface {
+struct ContactSurface {
   double friction = 0.8;
   double compliance_m_per_n = 0;  ///< of each point; 0: rigid
   /// Bodies that moved or turned against each other by less, m or rad, keep their contact: no lever
   /// changes noticeably.
   double same_place = 1e-6;
+  bool foresees = true;  ///< a step may start from where its impulses seem to go
 };
 
 class Manifold {
@@ -21,7 +22,7 @@ class Manifold {
   /// Takes this step's contact; points that were there in the last step start from its impulses.
   /// @param second the table is a body without mass
   /// @param margin_m with which the contact was looked for
-  void prepare(const Contact& contact, Body& first, Body& second, const Surface& surface,
+  void prepare(const Contact& contact, Body& first, Body& second, const ContactSurface& surface,
                double h_s, double margin_m);
 
   /// Whether the contact of the last prepare() still holds: the bodies have the masses they had,
@@ -38,6 +39,8 @@ class Manifold {
   /// One sweep of projected Gauss-Seidel.
   /// @return the largest change of a velocity at a point, m/s
   double relax();
+  /// What the last relax() returned.
+  double changed_m_s() const { return changed_m_s_; }
 
   /// Remembers the impulses, before the first sweep.
   void begin_course();
@@ -72,10 +75,12 @@ class Manifold {
     double speed_m_s = 0;  // at which the points may close in: gap / h
     double softness = 0;   // m/s per N s
     double mass_kg = 0;
-    double friction_mass_kg = 0;                       // 0: u and v are not there yet
+    double friction_mass_kg = 0, friction_per_kg = 0;  // 0: u and v are not there yet
     double impulse = 0, impulse_u = 0, impulse_v = 0;  // N s
     Eigen::Vector3d end = Eigen::Vector3d::Zero();     // of the last sweep: the same three
     int feature = 0;
+    // Of the step before, and as a line or a parabola through earlier ones foresaw: the same three.
+    Eigen::Vector3d before = Eigen::Vector3d::Zero(), line = before, curve = before;
   };
 
   // The points as one patch that sticks: it neither shifts along u and v nor spins.
@@ -100,19 +105,26 @@ class Manifold {
           const Eigen::Vector3d& direction) const;
   double inverse_mass(const Row& a, const Row& b, double cosine) const;
   double speed(const Row& row, const Eigen::Vector3d& direction) const;
+  double shift_speed(const Eigen::Vector3d& direction) const;
+  double turn_speed(const Row& row) const;
   void apply(const Row& row, const Eigen::Vector3d& direction, double impulse);
+  void shift(const Eigen::Vector3d& direction, double impulse);
+  void turn(const Row& row, double impulse);
   void set_gap(Point& point, double gap_m);
+  void foresee(double scale);
   Eigen::Vector3d moved_m() const;
-  void prepare_point(Point& point, const ContactPoint& at, const Surface& surface, double h_s);
+  void prepare_point(Point& point, const ContactPoint& at, const ContactSurface& surface,
+                     double h_s);
   void prepare_friction(Point& point);
   void find_balance(const Contact& contact);
   void balance();
+  bool unmoved(const std::array<double, 4>& missing, unsigned active) const;
   double relax_normals();
   void couple_points();
   void factor(unsigned active);
   void solve_all_four(std::array<double, 4>& change) const;
   void solve_block(unsigned active, std::array<double, 4>& change) const;
-  double relax_friction(Point& point);
+  double slide();
   void prepare_patch(const Contact& contact);
   double hold_patch();
   bool share_friction(const Eigen::Vector3d& change);
@@ -125,7 +137,9 @@ class Manifold {
   std::array<Point, 4> points_;
   int n_ = 0;
   bool rigid_ = true;
+  double changed_m_s_ = 0;
   double same_place_ = 0;
+  bool foresees_ = true;
   Seen seen_;
   Patch patch_;
   // Velocity at one point per normal impulse at another, m/s per N s.
@@ -143,20 +157,33 @@ inline double Manifold::inverse_mass(const Row& a, const Row& b, double cosine) 
          a.turn_first.dot(b.response_first) + a.turn_second.dot(b.response_second);
 }
 
+inline double Manifold::shift_speed(const Eigen::Vector3d& direction) const {
+  const double alone = direction.dot(first_->velocity.linear_m_s);
+  return alone_ ? alone : alone - direction.dot(second_->velocity.linear_m_s);
+}
+
+inline double Manifold::turn_speed(const Row& row) const {
+  const double alone = row.turn_first.dot(first_->velocity.angular_rad_s);
+  return alone_ ? alone : alone + row.turn_second.dot(second_->velocity.angular_rad_s);
+}
+
 inline double Manifold::speed(const Row& row, const Eigen::Vector3d& direction) const {
-  const Velocity& first = first_->velocity;
-  const double alone = direction.dot(first.linear_m_s) + row.turn_first.dot(first.angular_rad_s);
-  if (alone_) return alone;
-  const Velocity& second = second_->velocity;
-  return alone - direction.dot(second.linear_m_s) + row.turn_second.dot(second.angular_rad_s);
+  return shift_speed(direction) + turn_speed(row);
+}
+
+inline void Manifold::shift(const Eigen::Vector3d& direction, double impulse) {
+  first_->velocity.linear_m_s += (impulse * first_->inverse_mass_per_kg) * direction;
+  if (!alone_) second_->velocity.linear_m_s -= (impulse * second_->inverse_mass_per_kg) * direction;
+}
+
+inline void Manifold::turn(const Row& row, double impulse) {
+  first_->velocity.angular_rad_s += impulse * row.response_first;
+  if (!alone_) second_->velocity.angular_rad_s += impulse * row.response_second;
 }
 
 inline void Manifold::apply(const Row& row, const Eigen::Vector3d& direction, double impulse) {
-  first_->velocity.linear_m_s += (impulse * first_->inverse_mass_per_kg) * direction;
-  first_->velocity.angular_rad_s += impulse * row.response_first;
-  if (alone_) return;
-  second_->velocity.linear_m_s -= (impulse * second_->inverse_mass_per_kg) * direction;
-  second_->velocity.angular_rad_s += impulse * row.response_second;
+  shift(direction, impulse);
+  turn(row, impulse);
 }
 
 }  // namespace heft::boxes

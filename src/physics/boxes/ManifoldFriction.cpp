@@ -49,13 +49,12 @@ void Manifold::prepare_patch(const Contact& contact) {
 // in proportion to their loads.
 // @return the velocity that it had, m/s; negative where friction is too weak: nothing is changed
 double Manifold::hold_patch() {
-  const Vector3d no_shift = Vector3d::Zero();
-  const Vector3d moving(speed(patch_.u, u_), speed(patch_.v, v_), speed(patch_.spin, no_shift));
+  const Vector3d moving(speed(patch_.u, u_), speed(patch_.v, v_), turn_speed(patch_.spin));
   const Vector3d change = -(patch_.mass * moving);
   if (!share_friction(change)) return -1;
   apply(patch_.u, u_, change[0]);
   apply(patch_.v, v_, change[1]);
-  apply(patch_.spin, no_shift, change[2]);
+  turn(patch_.spin, change[2]);
   return std::max({std::abs(moving[0]), std::abs(moving[1]),
                    std::abs(moving[2]) * std::sqrt(patch_.squares_m2 / n_)});
 }
@@ -78,13 +77,17 @@ bool Manifold::share_friction(const Vector3d& change) {
     moment += at_u_m * point.impulse_v - at_v_m * point.impulse_u;
   }
   if (!(load > 0)) return false;
-  const double center_u_m = load_u / load, center_v_m = load_v / load;
-  const double spread_m2 = load_squares / load - center_u_m * center_u_m - center_v_m * center_v_m;
+  // Points that share the load cannot hold more than all of it would.
+  if (sum_u * sum_u + sum_v * sum_v > friction_ * friction_ * load * load) return false;
+  const double per_load = 1 / load;
+  const double center_u_m = load_u * per_load, center_v_m = load_v * per_load;
+  const double spread_m2 =
+      load_squares * per_load - center_u_m * center_u_m - center_v_m * center_v_m;
   if (!(spread_m2 > least_squares_m2)) return false;
   const double turn = (moment - center_u_m * sum_v + center_v_m * sum_u) / spread_m2;
   std::array<double, 4> u, v;
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
-    const double share = points_[i].impulse / load, limit = friction_ * points_[i].impulse;
+    const double share = points_[i].impulse * per_load, limit = friction_ * points_[i].impulse;
     u[i] = share * (sum_u - turn * (patch_.at_v_m[i] - center_v_m));
     v[i] = share * (sum_v + turn * (patch_.at_u_m[i] - center_u_m));
     if (u[i] * u[i] + v[i] * v[i] > limit * limit) return false;
@@ -103,29 +106,46 @@ void Manifold::prepare_friction(Point& point) {
   const double uu = inverse_mass(point.u, point.u, 1), vv = inverse_mass(point.v, point.v, 1);
   const double uv = inverse_mass(point.u, point.v, 0);
   const double half = (uu - vv) / 2;
-  point.friction_mass_kg = 1 / ((uu + vv) / 2 + std::sqrt(half * half + uv * uv));
+  point.friction_per_kg = (uu + vv) / 2 + std::sqrt(half * half + uv * uv);
+  point.friction_mass_kg = 1 / point.friction_per_kg;
 }
 
-// Projected gradient on Coulomb's disk: the impulse ends on the disk's rim, exactly against the
-// sliding, or inside it, where nothing slides.
-double Manifold::relax_friction(Point& point) {
-  const double limit = friction_ * point.impulse;
-  if (limit == 0 && point.impulse_u == 0 && point.impulse_v == 0) return 0;
-  if (point.friction_mass_kg == 0) prepare_friction(point);
-  double u = point.impulse_u - point.friction_mass_kg * speed(point.u, u_);
-  double v = point.impulse_v - point.friction_mass_kg * speed(point.v, v_);
-  const double squared = u * u + v * v;
-  if (squared > limit * limit) {
-    const double scale = limit / std::sqrt(squared);
-    u *= scale;
-    v *= scale;
+// One point after the other, by projected gradient on Coulomb's disk: the impulse ends on the
+// disk's rim, exactly against the sliding, or inside it, where nothing slides. All points' impulses
+// are along u and v: how fast the bodies shift along these is all that matters of their linear
+// velocities.
+// @return the largest change of a velocity at a point, m/s
+double Manifold::slide() {
+  const double per_kg = first_->inverse_mass_per_kg + second_->inverse_mass_per_kg;
+  double along_u_m_s = shift_speed(u_), along_v_m_s = shift_speed(v_);
+  double sum_u = 0, sum_v = 0, largest = 0;
+  for (Point& point : points()) {
+    const double limit = friction_ * point.impulse;
+    if (limit == 0 && point.impulse_u == 0 && point.impulse_v == 0) continue;
+    if (point.friction_mass_kg == 0) prepare_friction(point);
+    double u = point.impulse_u - point.friction_mass_kg * (along_u_m_s + turn_speed(point.u));
+    double v = point.impulse_v - point.friction_mass_kg * (along_v_m_s + turn_speed(point.v));
+    const double squared = u * u + v * v;
+    if (squared > limit * limit) {
+      const double scale = limit / std::sqrt(squared);
+      u *= scale;
+      v *= scale;
+    }
+    const double change_u = u - point.impulse_u, change_v = v - point.impulse_v;
+    point.impulse_u = u;
+    point.impulse_v = v;
+    along_u_m_s += per_kg * change_u;
+    along_v_m_s += per_kg * change_v;
+    sum_u += change_u;
+    sum_v += change_v;
+    turn(point.u, change_u);
+    turn(point.v, change_v);
+    largest =
+        std::max(largest, std::max(std::abs(change_u), std::abs(change_v)) * point.friction_per_kg);
   }
-  const double change_u = u - point.impulse_u, change_v = v - point.impulse_v;
-  point.impulse_u = u;
-  point.impulse_v = v;
-  apply(point.u, u_, change_u);
-  apply(point.v, v_, change_v);
-  return std::max(std::abs(change_u), std::abs(change_v)) / point.friction_mass_kg;
+  shift(u_, sum_u);
+  shift(v_, sum_v);
+  return largest;
 }
 
 }  // namespace heft::boxes

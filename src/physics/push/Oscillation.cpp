@@ -25,12 +25,4 @@ Oscillation::Passed Oscillation::passed(double t_s) const {
   return {t_s, (slow + fast) / 2, (slow - fast) / 2 / split_};
 }
 
-Oscillation::At Oscillation::after(double t_s, double y, double speed) const {
-  constexpr double same = 1e-13;  // a difference of two times rounds
-  if (std::abs(t_s - last_.t_s) > same * t_s) last_ = passed(t_s);
-  const double now = y * last_.even + (speed + decay_ * y) * last_.odd;
-  const double now_speed = speed * last_.even - (decay_ * speed + omega_ * omega_ * y) * last_.odd;
-  return {now, now_speed, -2 * decay_ * now_speed - omega_ * omega_ * now};
-}
-
 }  // namespace heft

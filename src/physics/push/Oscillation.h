@@ -1,6 +1,8 @@
 // A damped oscillator about its rest point, in closed form: m y'' + c y' + k y = 0.
 #pragma once
 
+#include <cmath>
+
 namespace heft {
 
 class Oscillation {
@@ -31,5 +33,14 @@ class Oscillation {
   double split_ = 0;    ///< |decay^2 - omega^2|^(1/2)
   bool rings_ = false;  ///< underdamped
 };
+
+// Here, to be inlined: it is most of a step.
+inline Oscillation::At Oscillation::after(double t_s, double y, double speed) const {
+  constexpr double same = 1e-13;  // a difference of two times rounds
+  if (std::abs(t_s - last_.t_s) > same * t_s) last_ = passed(t_s);
+  const double now = y * last_.even + (speed + decay_ * y) * last_.odd;
+  const double now_speed = speed * last_.even - (decay_ * speed + omega_ * omega_ * y) * last_.odd;
+  return {now, now_speed, -2 * decay_ * now_speed - omega_ * omega_ * now};
+}
 
 }  // namespace heft

@@ -52,7 +52,7 @@ template <typename F>
 Fall first_fall(const F& f, double end_s, int n) {
   double from_s = 0, at_from = 0;
   for (int i = 1; i <= n; ++i) {
-    const double to_s = end_s * i / n, at_to = f(to_s);
+    const double to_s = i == n ? end_s : end_s * i / n, at_to = f(to_s);
     if (at_to <= 0) return {narrowed(f, from_s, at_from, to_s, at_to), true};
     from_s = to_s;
     at_from = at_to;
@@ -92,11 +92,13 @@ class PushSimulator : public DecouplingSimulator {
   double mass_ = 0, stiffness_ = 0, damping_ = 0, deceleration_ = 0;
   Oscillation free_, together_;
   double cube_kg_ = 0;
+  double rest_ = 0;  // of a clone that slides with the cube, from the target
   Eigen::Vector3d start_velocity_ = Eigen::Vector3d::Zero();  // until the line has a direction
   bool started_ = false;
   // Along the line: the target and its speed in this step, the clone, the cube.
   double target_ = 0, u_ = 0, clone_ = 0, v_ = 0, cube_v_ = 0;
-  double impulse_n_s_ = 0, step_s_ = 0;  // of the clone on the cube over the last step; its length
+  double impulse_n_s_ = 0;            // of the clone on the cube over the last step
+  double step_s_ = 0, per_step_ = 0;  // the last step's length, and one over it
 };
 
 void PushSimulator::reset(const Scene& scene, const Pose& target) {
@@ -120,6 +122,7 @@ void PushSimulator::take_cube() {
   if (!stroke_.cube()) return;
   cube_kg_ = stroke_.scene().cubes[*stroke_.cube()].mass_kg;
   together_ = Oscillation(mass_ + cube_kg_, damping_, stiffness_);
+  rest_ = -slide_n() / stiffness_;
 }
 
 void PushSimulator::step(const Pose& target, double h_s) {
@@ -129,14 +132,15 @@ void PushSimulator::step(const Pose& target, double h_s) {
     started_ = true;
     take_cube();
   }
-  u_ = (to - target_) / h_s;
+  if (h_s != step_s_) per_step_ = 1 / h_s;
+  step_s_ = h_s;
+  u_ = (to - target_) * per_step_;
   impulse_n_s_ = 0;
   double left_s = h_s;
   for (int event = 0; left_s > 0 && event < most_events; ++event) left_s -= go_on(left_s);
   if (left_s > 0) throw OutsideModel("clone and cube part and meet too often");
   target_ = to;
   if (!decoupled_) clone_ = to;
-  step_s_ = h_s;
   stroke_.check(clone_, solid_ && (impulse_n_s_ > 0 || touching()));
 }
 
@@ -234,23 +238,21 @@ double PushSimulator::sticking(double left_s) {
 // One oscillator of both masses under friction's load, until it stops or friction alone slows the
 // cube more than the spring slows the clone.
 double PushSimulator::sliding(double left_s) {
-  const double rest = -slide_n() / stiffness_;
-  const double y = clone_ - target_ - rest, speed = v_ - u_;
-  Oscillation::At now{};
-  double now_s = -1;
-  const double t_s =
-      first_fall(
-          [&](double at_s) {
-            now = together_.after(at_s, y, speed);
-            now_s = at_s;
-            return std::min(now.speed + u_ + still_m_s, now.acceleration + deceleration_);
-          },
-          left_s, looks(together_.omega_rad_s(), left_s))
-          .t_s;
-  if (now_s != t_s) now = together_.after(t_s, y, speed);
+  const double y = clone_ - target_ - rest_, speed = v_ - u_;
+  const auto after = [&](double at_s) { return together_.after(at_s, y, speed); };
+  const auto hold_together = [&](const Oscillation::At& at) {
+    return std::min(at.speed + u_ + still_m_s, at.acceleration + deceleration_);
+  };
+  const int n = looks(together_.omega_rad_s(), left_s);
+  Oscillation::At now = after(left_s);
+  double t_s = left_s;
+  if (n > 1 || hold_together(now) <= 0) {
+    t_s = first_fall([&](double at_s) { return hold_together(after(at_s)); }, left_s, n).t_s;
+    now = after(t_s);
+  }
   const double before = v_;
   target_ += u_ * t_s;
-  clone_ = target_ + rest + now.y;
+  clone_ = target_ + rest_ + now.y;
   v_ = std::max(0.0, now.speed + u_);
   impulse_n_s_ += cube_kg_ * (v_ - before) + slide_n() * t_s;
   cube_v_ = v_;

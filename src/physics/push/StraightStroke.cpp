@@ -10,9 +10,6 @@ namespace heft {
 namespace {
 using Eigen::Vector3d;
 
-constexpr double straight_m = 0.05e-3, straight_rad = 1e-3;
-constexpr double still_m = 1e-9;  // below this a direction would be rounding
-const double still_cosine = std::cos(straight_rad / 2);
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double half_width(const Pose& pose, const Vector3d& size_m, const Vector3d& axis) {
@@ -24,8 +21,8 @@ Vector3d across(const Vector3d& direction) {
 }
 
 // Whether one of the box's own axes is along the direction.
-bool is_square(const Pose& pose, const Vector3d& direction) {
-  return (pose.orientation.conjugate() * direction).cwiseAbs().maxCoeff() > std::cos(straight_rad);
+bool is_square(const Pose& pose, const Vector3d& direction, double within_rad) {
+  return (pose.orientation.conjugate() * direction).cwiseAbs().maxCoeff() > std::cos(within_rad);
 }
 }  // namespace
 
@@ -68,20 +65,11 @@ void StraightStroke::set_direction(const Vector3d& direction) {
   look_ahead();
 }
 
-double StraightStroke::follow(const Pose& target) {
-  const Vector3d moved_m = target.position_m - start_.position_m;
-  if (!direction_) {
-    if (moved_m.norm() < still_m) return 0;
-    set_direction(moved_m);
-  }
-  const double along = moved_m.dot(*direction_);
-  const double off_m2 = (moved_m - along * *direction_).squaredNorm();
+void StraightStroke::refuse(double off_m2) const {
   if (off_m2 > straight_m * straight_m)
     throw OutsideModel(
         fmt::format("the effector moved {:.2g} mm off its straight line", std::sqrt(off_m2) * 1e3));
-  const double turned = std::abs(start_.orientation.dot(target.orientation));
-  if (turned < still_cosine) throw OutsideModel("the effector turned");
-  return along;
+  throw OutsideModel("the effector turned");
 }
 
 double StraightStroke::half_along(const Pose& pose, const Vector3d& size_m) const {
@@ -136,19 +124,9 @@ void StraightStroke::look_ahead() {
   }
 }
 
-void StraightStroke::move_cube_to(double contact) {
-  cubes_[*cube_].position_m += (contact - contact_) * *direction_;
-  contact_ = contact;
-}
-
-void StraightStroke::check(double clone, bool touching) {
-  if (!direction_) return;
+void StraightStroke::refuse_place(double clone) const {
   if (clone < behind_) throw OutsideModel("the clone backs into a cube");
-  if (clone > blocked_ || (cube_ && contact_ > cube_blocked_))
-    throw OutsideModel("a second cube is touched");
-  if (!touching || square_) return;
-  check_square();
-  square_ = true;
+  throw OutsideModel("a second cube is touched");
 }
 
 // Friction acts below the cube's center: the clone must push there, between the cube's sides, and
@@ -157,7 +135,7 @@ void StraightStroke::check_square() const {
   const Pose& cube = cubes_[*cube_];
   const Vector3d& size_m = scene_.cubes[*cube_].size_m;
   const auto name = [&] { return fmt::format("cube {}", *cube_ + 1); };
-  if (!is_square(cube, *direction_) || !is_square(start_, *direction_))
+  if (!is_square(cube, *direction_, straight_rad) || !is_square(start_, *direction_, straight_rad))
     throw OutsideModel(name() + " is not pushed squarely, face against face: it may turn");
   const Vector3d side = across(*direction_);
   const double aside_m = std::abs((cube.position_m - start_.position_m).dot(side));

@@ -4,6 +4,7 @@
 // of the clone's center, in meters from where the effector was when the line began.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -51,6 +52,12 @@ class StraightStroke {
   WorldState state(double clone, double clone_m_s, double cube_m_s, double force_n) const;
 
  private:
+  static constexpr double straight_m = 0.05e-3, straight_rad = 1e-3;
+  static constexpr double still_m = 1e-9;  ///< below this a direction would be rounding
+  static constexpr double still_cosine = 1 - straight_rad * straight_rad / 8;  ///< of half of it
+
+  [[noreturn]] void refuse(double off_m2) const;
+  [[noreturn]] void refuse_place(double clone) const;
   void look_ahead();
   void set_direction(const Eigen::Vector3d& direction);
   void check_square() const;
@@ -70,5 +77,34 @@ class StraightStroke {
   // `blocked_`; the pushed cube would touch another when `contact_` is above `cube_blocked_`.
   double behind_ = 0, blocked_ = 0, cube_blocked_ = 0;
 };
+
+// Here, to be inlined: a step is hardly more.
+
+inline double StraightStroke::follow(const Pose& target) {
+  const Eigen::Vector3d moved_m = target.position_m - start_.position_m;
+  if (!direction_) {
+    if (moved_m.norm() < still_m) return 0;
+    set_direction(moved_m);
+  }
+  const double along = moved_m.dot(*direction_);
+  const double off_m2 = (moved_m - along * *direction_).squaredNorm();
+  const double turned = std::abs(start_.orientation.dot(target.orientation));
+  if (off_m2 > straight_m * straight_m || turned < still_cosine) refuse(off_m2);
+  return along;
+}
+
+inline void StraightStroke::move_cube_to(double contact) {
+  cubes_[*cube_].position_m += (contact - contact_) * *direction_;
+  contact_ = contact;
+}
+
+inline void StraightStroke::check(double clone, bool touching) {
+  if (!direction_) return;
+  if (clone < behind_ || clone > blocked_ || (cube_ && contact_ > cube_blocked_))
+    refuse_place(clone);
+  if (!touching || square_) return;
+  check_square();
+  square_ = true;
+}
 
 }  // namespace heft
