@@ -1,6 +1,7 @@
 // The same law on another engine, Open Dynamics Engine 0.16: the independent half of a converged
-// reference. Forces are explicit, as the paper writes them, so it needs steps of some 20 us. Only
-// where the library was there at build time.
+// reference. Forces are explicit, as the paper writes them, so it needs steps of some 20 us.
+// Contacts may give: ODE's own springs and dampers then, as stiff as the scene says and critically
+// damped. Only where the library was there at build time.
 #pragma once
 
 #include <memory>

@@ -54,6 +54,7 @@ struct Pair {
   std::string method;
 };
 
+// The other is ours at half the rate where there is no other engine, or none is wanted.
 Pair ours_and_other(const BenchScene& scene, int rate_hz, bool other_engine) {
   auto other = other_engine ? make_ode_simulator() : nullptr;
   const int other_hz = other ? ode_rate_hz : rate_hz / 2;
@@ -70,7 +71,7 @@ Pair ours_and_other(const BenchScene& scene, int rate_hz, bool other_engine) {
 Reference reference_of(const BenchScene& scene, bool quick) {
   if (scene.kind == SceneClass::free_air) return {free_return(scene), "closed form", 0, 0, 0};
   const int rate_hz = quick ? coarse_rate_hz : fine_rate_hz;
-  Pair pair = ours_and_other(scene, rate_hz, !quick && scene.unique_if_rigid());
+  Pair pair = ours_and_other(scene, rate_hz, !quick);
   Reference reference{std::move(pair.first), pair.method, pair.between.clone_rms_mm,
                       pair.between.cubes_rms_mm, 0};
   if (!scene.unique_if_rigid() && !quick) {

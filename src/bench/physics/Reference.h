@@ -1,7 +1,7 @@
 // The truth that the study measures against: a closed form where there is one; elsewhere our own
 // solver at a tiny step, with the difference to another engine at a tiny step as its uncertainty.
-// Where rigid bodies have more than one answer, contacts give a little and our own solver at half
-// the rate is the other: the engines differ there by what they assume.
+// Where rigid bodies have more than one answer, contacts give a little, in both. Without the other
+// engine our own solver at half the rate takes its place; `method` says so.
 #pragma once
 
 #include <string>
