@@ -36,7 +36,7 @@ std::string provenance(const StudyOptions& options) {
 }
 
 CsvFile::CsvFile(const StudyOptions& options, const std::string& name, std::string_view columns)
-    : out_(options.out + '/' + name), end_(this_commit() + ',' + cell(options.command)) {
+    : end_(this_commit() + ',' + cell(options.command)), out_(options.out + '/' + name) {
   if (!out_)
     throw Error(fmt::format("{}/{} can't be written; is the folder yours?", options.out, name));
   out_ << columns << ",commit,command\n";

@@ -33,8 +33,8 @@ class CsvFile {
   static std::string cell(std::string_view text);
   static std::string cell(double value);
 
+  std::string end_;  ///< before the file opens: an open file makes the tree a changed one
   std::ofstream out_;
-  std::string end_;
 };
 
 /// "3 of 20: boxes" on stderr where that is a terminal; gone when the work is done.

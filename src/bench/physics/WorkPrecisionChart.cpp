@@ -131,7 +131,7 @@ void draw_work_precision(const StudyOptions& options, std::span<const Measuremen
           "set xlabel 'CPU time per simulated second (\u00b5s, one core)'\n"
           "set ylabel 'error of the clone (mm RMS)'\n"
           "set label 99 'blows up' at 0.7, 1400 font ',10' textcolor '#c00000'\n"
-          "set multiplot layout 1,2 margins screen 0.065, screen 0.985, screen caption_top + "
+          "set multiplot layout 1,2 margins screen 0.085, screen 0.985, screen caption_top + "
           "70*pixel, screen 1-88*pixel spacing screen 0.09\n",
           smallest_mm, 5 * blown_up_mm) +
       panel(lines, &Point::median_mm, 2, "the median scene") +
