@@ -157,11 +157,12 @@ void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
 
 void list_cameras() {
   fmt::print("\ncameras:\n");
-  for (const VideoDevice& device : video_devices()) {
+  const std::vector<VideoDevice> devices = video_devices();
+  for (const VideoDevice& device : devices) {
     fmt::print("  camera:{:<9} /dev/video{} {}\n", device.number, device.number, device.name);
     for (const std::string& mode : device_modes(device)) fmt::print("  {:<16}   {}\n", "", mode);
   }
-  if (video_devices().empty()) fmt::print("  none is attached\n");
+  if (devices.empty()) fmt::print("  none is attached\n");
   fmt::print("check one: heft doctor --tracker camera:0 --camera-file camera.yaml\n");
 }
 

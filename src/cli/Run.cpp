@@ -49,6 +49,7 @@ SessionRequest request_of(const Options& options) {
   request.options.handed = options.left_handed ? "left" : "right";
   request.options.record_camera = options.record_camera;
   complete(request.options);
+  request.options = with_auto_resolved(std::move(request.options), request.protocol);
   request.participant = options.participant;
   request.db = options.db;
   request.seed = options.seed.value_or(fresh_seed());

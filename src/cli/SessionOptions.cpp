@@ -57,10 +57,9 @@ void warn_of_simulator(const std::string& name) {
 }
 
 void tell_simulator(const Protocol& protocol, const RunOptions& options) {
-  const RunOptions resolved = with_auto_resolved(options, protocol);
-  const SimulatorChoice simulator = protocol_for(protocol, resolved)->simulator;
-  if (!resolved.auto_simulator.empty())
-    say("heft: {}\n", described({simulator.name, simulator.rate_hz, resolved.auto_why}));
+  const SimulatorChoice simulator = protocol_for(protocol, options)->simulator;
+  if (!options.auto_simulator.empty())
+    say("heft: {}\n", described({simulator.name, simulator.rate_hz, options.auto_why}));
   warn_of_simulator(simulator.name);
 }
 

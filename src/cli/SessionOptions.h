@@ -22,7 +22,8 @@ RunOptions with_defaults(const GivenOptions& given);
 /// Says on stderr what is known to be wrong with a simulator, if anything.
 void warn_of_simulator(const std::string& name);
 
-/// The same of the simulator that a session starts with; of `auto`, what it is and why.
+/// The same of the simulator that a session starts with; of `auto`, which the options have
+/// resolved, what it is and why.
 void tell_simulator(const Protocol& protocol, const RunOptions& options);
 
 /// A file of protocols/texts/ by its language, or any other by its path.

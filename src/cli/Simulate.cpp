@@ -32,6 +32,7 @@ void simulate_participants(const Options& options) {
   request.options.responder = options.responder;
   request.options.simulator = options.simulator;
   complete(request.options);
+  request.options = with_auto_resolved(std::move(request.options), request.protocol);
   request.db = options.db;
   request.seed = options.seed.value_or(fresh_seed());
   request.participants = options.participants;

@@ -41,8 +41,27 @@ void refuse_repetition(const SessionRequest& request) {
   }
 }
 
-std::shared_ptr<const Protocol> protocol_of(const SessionRequest& request) {
-  return protocol_for(request.protocol, with_auto_resolved(request.options, request.protocol));
+// What `auto` is, once: the header says it and the trials run with it.
+SessionRequest resolved(SessionRequest request) {
+  request.options = with_auto_resolved(std::move(request.options), request.protocol);
+  return request;
+}
+
+// The `session` row of a request that starts now.
+SessionHeader header_of(const SessionRequest& request) {
+  SessionHeader header;
+  header.participant = request.participant;
+  header.protocol_name = request.protocol.name;
+  header.protocol_text = request.protocol.text;
+  header.protocol_sha256 = request.protocol.sha256;
+  header.seed = request.seed;
+  header.heft_version = HEFT_VERSION;
+  header.build = build_name();
+  header.run_options = to_json(request.options);
+  header.purpose = has_person(request.options) ? request.purpose : "simulated";
+  header.responder = request.options.responder;
+  header.started_utc = utc_now();
+  return header;
 }
 
 RunEnd run_with(Equipment& equipment, Engine& engine, EventSink& sink, const RunnerOptions& runner,
@@ -109,25 +128,10 @@ void refuse_special_file(const std::string& db) {
                   db));
 }
 
-SessionHeader header_of(const SessionRequest& request) {
-  SessionHeader header;
-  header.participant = request.participant;
-  header.protocol_name = request.protocol.name;
-  header.protocol_text = request.protocol.text;
-  header.protocol_sha256 = request.protocol.sha256;
-  header.seed = request.seed;
-  header.heft_version = HEFT_VERSION;
-  header.build = build_name();
-  header.run_options = to_json(with_auto_resolved(request.options, request.protocol));
-  header.purpose = has_person(request.options) ? request.purpose : "simulated";
-  header.responder = request.options.responder;
-  header.started_utc = utc_now();
-  return header;
-}
-
-SessionResult start_session(const SessionRequest& request, const RunnerOptions& runner) {
-  refuse_repetition(request);
-  const auto protocol = protocol_of(request);
+SessionResult start_session(const SessionRequest& asked_for, const RunnerOptions& runner) {
+  refuse_repetition(asked_for);
+  const SessionRequest request = resolved(asked_for);
+  const auto protocol = protocol_for(request.protocol, request.options);
   Equipment equipment(protocol, request.options, request.seed);
   SessionLog log = SessionLog::start(request.db, header_of(request));
   Engine engine(protocol, request.seed);
@@ -215,9 +219,10 @@ void abort_session(const LoggedSession& session) {
   reopened.log.flush();
 }
 
-RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {
+RecordedSession compute_session(const SessionRequest& asked_for, const RunnerOptions& runner) {
+  const SessionRequest request = resolved(asked_for);
   RecordedSession recorded(header_of(request));
-  const auto protocol = protocol_of(request);
+  const auto protocol = protocol_for(request.protocol, request.options);
   Equipment equipment(protocol, request.options, request.seed);
   Engine engine(protocol, request.seed);
   run_with(equipment, engine, recorded, runner, 0);

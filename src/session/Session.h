@@ -72,7 +72,4 @@ void abort_session(const LoggedSession& session);
 /// A simulated session that is kept in memory.
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner);
 
-/// The `session` row of a request that starts now.
-SessionHeader header_of(const SessionRequest& request);
-
 }  // namespace heft
