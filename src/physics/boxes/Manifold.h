@@ -1,5 +1,11 @@
 // One pair of bodies that touch or are about to, in the form that the solver iterates over: at most
-// four points that share a normal, each with a normal impulse and a friction impulse in the plane.
+// four points in one plane across a normal, each with a normal impulse and a friction impulse.
+//
+// How rigid bodies move against each other at any of the points follows from six numbers, how they
+// do at the points' middle; and what the points' impulses do to the bodies from their six sums
+// there. So a sweep fetches the motion at the middle once, works on these six numbers, and hands
+// the sum of its impulses to the bodies once. All points are worked on at once, as the rows of
+// small matrices; a row without a point is zero and never touches.
 #pragma once
 
 #include <array>
@@ -52,44 +58,24 @@ class Manifold {
   /// @return whether there was any
   bool push_apart();
 
-  bool touches() const;
+  bool touches() const { return n_ > 0 && impulses_.col(0).maxCoeff() > 0; }
   bool empty() const { return n_ == 0; }
   /// From the second to the first, unit.
   const Eigen::Vector3d& normal() const { return normal_; }
   /// Impulse on the first body over the step, N s.
   Eigen::Vector3d impulse_n_s() const;
   void clear() { n_ = 0; }
-  void forget_impulses();
+  void forget_impulses() { impulses_.setZero(); }
 
  private:
-  // Along `direction`, unit; the responses are the bodies' changes of angular velocity per impulse.
-  struct Row {
-    Eigen::Vector3d turn_first = Eigen::Vector3d::Zero(), turn_second = turn_first;
-    Eigen::Vector3d response_first = turn_first, response_second = turn_first;
-  };
-  struct Point {
-    Eigen::Vector3d arm_first_m = Eigen::Vector3d::Zero(),
-                    arm_second_m = arm_first_m;  // from the bodies' centers
-    Row normal, u, v;
-    double gap_m = 0, prepared_gap_m = 0;
-    double speed_m_s = 0;  // at which the points may close in: gap / h
-    double softness = 0;   // m/s per N s
-    double mass_kg = 0;
-    double friction_mass_kg = 0, friction_per_kg = 0;  // 0: u and v are not there yet
-    double impulse = 0, impulse_u = 0, impulse_v = 0;  // N s
-    Eigen::Vector3d end = Eigen::Vector3d::Zero();     // of the last sweep: the same three
-    int feature = 0;
-    // Of the step before, and as a line or a parabola through earlier ones foresaw: the same three.
-    Eigen::Vector3d before = Eigen::Vector3d::Zero(), line = before, curve = before;
-  };
+  using Points = Eigen::Vector4d;                // a number for each
+  using Impulses = Eigen::Matrix<double, 4, 3>;  // N s: along the normal, u and v, of each
 
-  // The points as one patch that sticks: it neither shifts along u and v nor spins.
+  // At the middle of the points, in the frame (normal, u, v): how the first body moves against the
+  // second, or impulses on it. Normal impulses press, friction drags.
   struct Patch {
-    Row u, v, spin;
-    Eigen::Matrix3d mass = Eigen::Matrix3d::Zero();  // impulses that stop a unit velocity
-    std::array<double, 4> at_u_m{}, at_v_m{};        // from the middle
-    double squares_m2 = 0;
-    bool usable = false;  // more than one point, on bodies that can turn
+    Eigen::Vector3d press = Eigen::Vector3d::Zero();  // along the normal, about u, about v
+    Eigen::Vector3d drag = Eigen::Vector3d::Zero();   // along u, along v, about the normal
   };
 
   // What prepare() saw.
@@ -99,91 +85,73 @@ class Manifold {
     double margin_m = 0;
   };
 
-  std::span<Point> points() { return {points_.data(), static_cast<std::size_t>(n_)}; }
-  std::span<const Point> points() const { return {points_.data(), static_cast<std::size_t>(n_)}; }
-  Row row(const Eigen::Vector3d& arm_first_m, const Eigen::Vector3d& arm_second_m,
-          const Eigen::Vector3d& direction) const;
-  double inverse_mass(const Row& a, const Row& b, double cosine) const;
-  double speed(const Row& row, const Eigen::Vector3d& direction) const;
-  double shift_speed(const Eigen::Vector3d& direction) const;
-  double turn_speed(const Row& row) const;
-  void apply(const Row& row, const Eigen::Vector3d& direction, double impulse);
-  void shift(const Eigen::Vector3d& direction, double impulse);
-  void turn(const Row& row, double impulse);
-  void set_gap(Point& point, double gap_m);
+  void take_points(const Contact& contact);
+  void take_frame(const Contact& contact);
+  void couple_bodies();
+  void prepare_points(const ContactSurface& surface);
+  void set_speeds();
+  void find_balance();
   void foresee(double scale);
   Eigen::Vector3d moved_m() const;
-  void prepare_point(Point& point, const ContactPoint& at, const ContactSurface& surface,
-                     double h_s);
-  void prepare_friction(Point& point);
-  void find_balance(const Contact& contact);
+
+  Patch moving() const;
+  Patch sum_n_s() const;
+  Eigen::Vector3d dragged_n_s() const;
+  void apply(const Patch& impulses_n_s);
+
+  double press(Patch& moving, Patch& change);
+  Points release(unsigned active, const Points& missing);
+  const Eigen::Matrix4d& stopping(unsigned active);
   void balance();
-  bool unmoved(const std::array<double, 4>& missing, unsigned active) const;
-  double relax_normals();
-  void couple_points();
-  void factor(unsigned active);
-  void solve_all_four(std::array<double, 4>& change) const;
-  void solve_block(unsigned active, std::array<double, 4>& change) const;
-  double slide();
-  void prepare_patch(const Contact& contact);
-  double hold_patch();
-  bool share_friction(const Eigen::Vector3d& change);
+
+  double hold(const Patch& moving, Patch& change);
+  bool share_friction(const Eigen::Vector3d& more);
+  double slide(const Patch& moving, Patch& change);
 
   Body* first_ = nullptr;
   Body* second_ = nullptr;
   bool alone_ = false;  // the second is the table
   double friction_ = 0, h_s_ = 0;
-  Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ(), u_ = normal_, v_ = normal_;
-  std::array<Point, 4> points_;
-  int n_ = 0;
   bool rigid_ = true;
-  double changed_m_s_ = 0;
   double same_place_ = 0;
   bool foresees_ = true;
+  double changed_m_s_ = 0;
   Seen seen_;
-  Patch patch_;
-  // Velocity at one point per normal impulse at another, m/s per N s.
-  std::array<std::array<double, 4>, 4> response_{}, factor_{};
-  unsigned factored_ = 0;
+
+  Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ(), u_ = normal_, v_ = normal_;
+  Eigen::Vector3d arm_first_m_ = Eigen::Vector3d::Zero(),
+                  arm_second_m_ = arm_first_m_;  // from the bodies' centers to the middle
+  // Changes of the motion per impulse, and the impulse that stops a unit drag motion.
+  Eigen::Matrix3d press_by_press_, drag_by_press_, drag_by_drag_, drag_mass_;
+  bool can_stick_ = false;  // more than one point, on bodies that can turn
+  double spread_m_ = 0;     // of the points around the middle, root mean square
+
+  int n_ = 0;
+  std::array<int, 4> features_{};
+  Points at_u_m_ = Points::Zero(), at_v_m_ = at_u_m_;  // from the middle
+  Points squares_m2_ = Points::Zero();                 // of their distances to it
+  // What a unit normal impulse at a point presses, and what the motion's press is there.
+  Eigen::Matrix<double, 4, 3> levers_ = Impulses::Zero();
+  Points gaps_m_ = Points::Zero(), prepared_gaps_m_ = gaps_m_;
+  Points speeds_m_s_ = Points::Zero();   // at which the points may close in: gap / h
+  Points softness_ = Points::Zero();     // m/s per N s
+  Points drag_per_kg_ = Points::Zero();  // the most that a friction impulse changes the drag by
+
+  Impulses impulses_ = Impulses::Zero(), end_ = impulses_;  // the end of the last sweep
+  // Of the step before, and as a line or a parabola through earlier ones foresaw.
+  Impulses before_ = impulses_, line_ = impulses_, curve_ = impulses_;
+
+  // Velocities along the normal per normal impulse at each point, and what stopping() knows.
+  Eigen::Matrix4d response_ = Eigen::Matrix4d::Zero();
+  std::array<Eigen::Matrix4d, 16> stopping_;
+  unsigned known_ = 0;  // a bit for each
   // Normal impulses in these proportions push nothing anywhere; all zero unless four points touch.
-  std::array<double, 4> balance_{};
+  Points balance_ = Points::Zero();
 };
 
-// Here, to be inlined: sweeps consist of these.
-
-// Velocity that a unit impulse along b makes along a; `cosine` is that between their directions.
-inline double Manifold::inverse_mass(const Row& a, const Row& b, double cosine) const {
-  return cosine * (first_->inverse_mass_per_kg + second_->inverse_mass_per_kg) +
-         a.turn_first.dot(b.response_first) + a.turn_second.dot(b.response_second);
-}
-
-inline double Manifold::shift_speed(const Eigen::Vector3d& direction) const {
-  const double alone = direction.dot(first_->velocity.linear_m_s);
-  return alone_ ? alone : alone - direction.dot(second_->velocity.linear_m_s);
-}
-
-inline double Manifold::turn_speed(const Row& row) const {
-  const double alone = row.turn_first.dot(first_->velocity.angular_rad_s);
-  return alone_ ? alone : alone + row.turn_second.dot(second_->velocity.angular_rad_s);
-}
-
-inline double Manifold::speed(const Row& row, const Eigen::Vector3d& direction) const {
-  return shift_speed(direction) + turn_speed(row);
-}
-
-inline void Manifold::shift(const Eigen::Vector3d& direction, double impulse) {
-  first_->velocity.linear_m_s += (impulse * first_->inverse_mass_per_kg) * direction;
-  if (!alone_) second_->velocity.linear_m_s -= (impulse * second_->inverse_mass_per_kg) * direction;
-}
-
-inline void Manifold::turn(const Row& row, double impulse) {
-  first_->velocity.angular_rad_s += impulse * row.response_first;
-  if (!alone_) second_->velocity.angular_rad_s += impulse * row.response_second;
-}
-
-inline void Manifold::apply(const Row& row, const Eigen::Vector3d& direction, double impulse) {
-  shift(direction, impulse);
-  turn(row, impulse);
+inline Eigen::Vector3d Manifold::dragged_n_s() const {
+  const auto u = impulses_.col(1), v = impulses_.col(2);
+  return {u.sum(), v.sum(), at_u_m_.dot(v) - at_v_m_.dot(u)};
 }
 
 }  // namespace heft::boxes

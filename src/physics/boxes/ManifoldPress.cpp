@@ -1,0 +1,101 @@
+// The normal impulses of a Manifold: all points at once.
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "physics/boxes/Manifold.h"
+
+namespace heft::boxes {
+
+using Eigen::Matrix4d;
+using Eigen::Vector3d;
+
+namespace {
+constexpr double firmness = 1e-5;       // of a block's diagonal, so that it can be solved
+constexpr double least_area_m2 = 1e-8;  // of points that are not on a line
+constexpr double unmoved_m_s = 1e-10;   // a nanometer in ten seconds
+
+bool has(unsigned set, int i) {
+  return (set >> i & 1) != 0;
+}
+}  // namespace
+
+// The normal impulses at the points of a set that change their velocities as wanted, per velocity;
+// zero for the other points. Kept: few of the sixteen sets are ever asked for.
+const Matrix4d& Manifold::stopping(unsigned set) {
+  Matrix4d& inverse = stopping_[set];
+  if (known_ >> set & 1) return inverse;
+  known_ |= 1u << set;
+  Matrix4d block = Matrix4d::Identity();
+  Points in_set;
+  for (int i = 0; i < 4; ++i) {
+    in_set[i] = has(set, i);
+    for (int j = 0; j < 4; ++j)
+      if (has(set, i) && has(set, j)) block(i, j) = response_(i, j);
+    if (has(set, i)) block(i, i) = (1 + firmness) * (response_(i, i) + softness_[i]);
+  }
+  inverse = block.llt().solve(Matrix4d(in_set.asDiagonal()));
+  return inverse;
+}
+
+// All points at once: a light clone before a heavy cube feels the sum of its points' impulses, the
+// cube how they are spread, and one point after the other would find the spread only slowly.
+// @return the largest change of a velocity at a point, m/s
+double Manifold::press(Patch& moving, Patch& change) {
+  const Points now = impulses_.col(0);
+  const Points missing = -(levers_ * moving.press) - speeds_m_s_ - softness_.cwiseProduct(now);
+  unsigned active = 0;
+  double largest = 0;
+  for (int i = 0; i < 4; ++i) {
+    if (now[i] == 0 && !(missing[i] > 0)) continue;
+    active |= 1u << i;
+    largest = std::max(largest, std::abs(missing[i]));
+  }
+  if (active == 0 || (foresees_ && largest <= unmoved_m_s)) return 0;
+  Points more = stopping(active) * missing;
+  if ((now + more).minCoeff() < 0) more = release(active, missing);
+  impulses_.col(0) = (now + more).cwiseMax(0);
+  change.press = levers_.transpose() * more;
+  moving.press += press_by_press_ * change.press;
+  moving.drag += drag_by_press_ * change.press;
+  return largest;
+}
+
+// Lets go of one point after the other that would have to pull.
+// @return changes of the normal impulses
+Manifold::Points Manifold::release(unsigned active, const Points& missing) {
+  const Points now = impulses_.col(0);
+  Points more, given = Points::Zero();
+  for (;;) {
+    more = stopping(active) * (missing - response_ * given) + given;
+    int worst = 0;
+    if ((now + more).minCoeff(&worst) >= 0 || !has(active, worst)) return more;
+    active &= ~(1u << worst);
+    given[worst] = -now[worst];
+  }
+}
+
+// Four points on a plane hold a body in more than one way: impulses in the proportions of the
+// triangles that the other three points span, with alternating signs, cancel. Real surfaces give a
+// little and share the load as evenly as they can; so do we, see balance().
+void Manifold::find_balance() {
+  const auto area = [this](int a, int b, int c) {
+    return (at_u_m_[b] - at_u_m_[a]) * (at_v_m_[c] - at_v_m_[a]) -
+           (at_v_m_[b] - at_v_m_[a]) * (at_u_m_[c] - at_u_m_[a]);
+  };
+  const Points areas(area(1, 2, 3), -area(0, 2, 3), area(0, 1, 3), -area(0, 1, 2));
+  const double length = areas.norm();
+  if (length > least_area_m2) balance_ = areas / length;
+}
+
+// Of all normal impulses that do the same, those with the smallest sum of squares: the limit of
+// equally stiff points as they become rigid.
+void Manifold::balance() {
+  const Points now = impulses_.col(0);
+  if (!(now.minCoeff() > 0)) return;
+  double uneven = balance_.dot(now);
+  for (int i = 0; i < 4; ++i)  // no further than to zero
+    if (uneven * balance_[i] > now[i]) uneven = now[i] / balance_[i];
+  impulses_.col(0) = (now - uneven * balance_).cwiseMax(0);
+}
+
+}  // namespace heft::boxes

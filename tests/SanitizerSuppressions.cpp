@@ -1,0 +1,14 @@
+// What sanitizers find in libraries that we call and do not build; part of sanitizer builds alone.
+
+// fontconfig keeps its cache until the process ends.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig\n";
+}
+
+// OpenCV loads GDAL for its picture formats; GDAL takes two locks of its own in both orders when it
+// starts.
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions() {
+  return "deadlock:libgdal\n";
+}
