@@ -107,14 +107,6 @@ Passage passage(const Box& a, const Box& b, const Vector3d& travel_m) {
   return passage;
 }
 
-// The fraction of travel_m, of `a`, after which the boxes begin to overlap; none if they do not, or
-// do already.
-std::optional<double> meeting(const Box& a, const Box& b, const Vector3d& travel_m) {
-  const auto [enter, leave] = passage(a, b, travel_m);
-  if (enter <= 0 || enter > 1 || enter >= std::min(leave, 1.0)) return std::nullopt;
-  return enter;
-}
-
 // The face of `box` that looks most against `normal`, in coordinates of the reference face.
 FacePolygon facing_face(const Box& box, const Vector3d& normal, const Vector3d& face_center_m,
                         const Vector3d& u, const Vector3d& v) {
@@ -209,6 +201,12 @@ Contact contact_between(const Box& first, const Box& second, double margin_m) {
       return edge_contact(first, second, axis);
   }
   return {};
+}
+
+std::optional<double> meeting(const Box& first, const Box& second, const Vector3d& travel_m) {
+  const auto [enter, leave] = passage(first, second, travel_m);
+  if (enter <= 0 || enter > 1 || enter >= std::min(leave, 1.0)) return std::nullopt;
+  return enter;
 }
 
 Contact contact_on_the_way(const Box& first, const Box& second, const Vector3d& travel_m,

@@ -46,6 +46,10 @@ Contact contact_between(const Box& first, const Box& second, double margin_m);
 Contact contact_on_the_way(const Box& first, const Box& second, const Eigen::Vector3d& travel_m,
                            double margin_m);
 
+/// The share of travel_m, of the first box, after which the boxes begin to overlap; none if they do
+/// not, or do from the start. Does not look at turning.
+std::optional<double> meeting(const Box& first, const Box& second, const Eigen::Vector3d& travel_m);
+
 /// The share of travel_m, of the first box, after which the boxes no longer overlap; none if they
 /// do not overlap or still do at its end. Does not look at turning.
 std::optional<double> parting(const Box& first, const Box& second, const Eigen::Vector3d& travel_m);

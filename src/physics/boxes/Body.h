@@ -21,8 +21,10 @@ struct Body {
   bool has_weight = true;  ///< false: driven by the coupling; never sleeps
   bool asleep = false;
   bool fresh = false;  ///< its velocity is momentary, not the mean over a step
-  double owed_s = 0;   ///< of weight, in the next step
-  double calm_s = 0;   ///< for how long it has not moved noticeably
+  Eigen::Vector3d rate_m_s2 = Eigen::Vector3d::Zero();  ///< at which the last step changed it
+  bool steady = false;                                  ///< the step before changed it alike
+  double owed_s = 0;                                    ///< of weight, in the next step
+  double calm_s = 0;  ///< for how long it has not moved noticeably
 
   /// Change of angular velocity by a unit impulse's moment.
   Eigen::Vector3d response(const Eigen::Vector3d& moment) const {

@@ -15,8 +15,6 @@ constexpr double near_m = 0.1e-3;
 constexpr double hurry = 1.2, hurry_m_s = 0.01;
 // A travel that is worth finding out where on the way boxes meet.
 constexpr double far_m = 0.1e-3;
-// A travel in a step that is too short for it to matter when in the step boxes meet.
-constexpr double short_m = 0.02e-3;
 constexpr double clear_m = 1e-6;  // boxes that slid off each other are so far apart
 constexpr double exactly_m = 1e-9;
 constexpr double rounding = 1e-10;  // m or rad
@@ -39,6 +37,7 @@ BoxWorld::BoxWorld(const ContactSurface& surface, double gravity_m_s2, std::size
   bodies_.reserve(n_bodies);
   pairs_.reserve(n_bodies * (n_bodies + 1) / 2);
   course_.reserve(n_bodies);
+  starts_.reserve(n_bodies);
   velocities_.reserve(n_bodies);
   table_.solid = false;  // not one of the boxes
 }
@@ -105,60 +104,6 @@ void BoxWorld::wake_reached(double h_s, double up_to_m_s) {
   }
 }
 
-// A velocity is a mean over a step. Weight, and with it friction, adds to it from the middle of the
-// last step to the middle of this one, but from the start of this one where the body is momentarily
-// at rest. What the clone pushes follows the coupling law, which counts whole steps.
-void BoxWorld::add_weight(double h_s) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    if (!body.has_weight || body.asleep) continue;
-    const double last_s = body.fresh ? 0 : last_h_s_;
-    double fall_s = pushed_by_driven(i) ? h_s : (last_s + h_s) / 2;
-    fall_s += body.owed_s;
-    body.owed_s = 0;
-    if (const auto hit = share_before_hit(i, h_s)) {
-      // Friction acts on the mean velocity of this step by (moving_s)^2 / 2 h, on that of the next
-      // by what is left until its middle.
-      const double moving_s = (1 - *hit) * h_s;
-      fall_s = moving_s * moving_s / (2 * h_s);
-      body.owed_s = moving_s - fall_s - h_s / 2;
-    }
-    body.velocity.linear_m_s.z() -= fall_s * gravity_m_s2_;
-    body.tumble(h_s);
-    body.fresh = false;
-  }
-  last_h_s_ = h_s;
-}
-
-// The share of the step after which another cube hits this one, which stood still until then; none
-// if that does not happen.
-std::optional<double> BoxWorld::share_before_hit(std::size_t i, double h_s) const {
-  if (!bodies_[i].velocity.linear_m_s.isZero(calm_speed_m_s)) return std::nullopt;
-  std::optional<double> soonest;
-  for (const Pair& pair : pairs_) {
-    if (pair.first != i && pair.second != i) continue;
-    if (pair.manifold.touches() != pair.with_table()) return std::nullopt;
-    const Body& first = bodies_[pair.first];
-    const Body& second = bodies_[pair.second];
-    if (pair.with_table() || !first.has_weight || !second.has_weight) continue;
-    const Vector3d travel_m = h_s * (first.velocity.linear_m_s - second.velocity.linear_m_s);
-    const double length_m = travel_m.norm();
-    if (length_m < short_m || !near(pair, length_m)) continue;
-    const Contact contact = contact_between(first.shape, second.shape, length_m);
-    const double closing_m = -contact.normal.dot(travel_m);
-    for (const ContactPoint& point : contact.all())
-      if (point.distance_m >= 0 && point.distance_m < closing_m)
-        soonest = std::min(soonest.value_or(1), point.distance_m / closing_m);
-  }
-  return soonest;
-}
-
-bool BoxWorld::pushed_by_driven(std::size_t i) const {
-  for (std::size_t j = 0; j < i; ++j)
-    if (!bodies_[j].has_weight && pairs_[i * (i + 1) / 2 + j].manifold.touches()) return true;
-  return false;
-}
-
 bool BoxWorld::can_push(const Pair& pair) const {
   const Body& first = bodies_[pair.first];
   const Body& second = bodies_[pair.second];
@@ -168,7 +113,8 @@ bool BoxWorld::can_push(const Pair& pair) const {
 
 void BoxWorld::find_contacts(double h_s, double up_to_m_s) {
   touching_.clear();
-  if (squeezed_)
+  const bool as_long = h_s < 100 * last_h_s_ && last_h_s_ < 100 * h_s;
+  if (squeezed_ || !as_long)  // they tell nothing about this step's
     for (Pair& pair : pairs_) pair.manifold.forget_impulses();
   for (const bool with_table : {false, true}) {
     const double margin_m = look_ahead_m(h_s, with_table ? up_to_m_s / 2 : up_to_m_s);
@@ -190,33 +136,49 @@ void BoxWorld::find_contacts(double h_s, double up_to_m_s) {
 
 // The table comes last in a sweep: where a coupled clone squeezes a cube against it there is no
 // answer, and the cube should stay above the table. The impulses grow without end then and are no
-// start for the next step. Sweeps leave out contacts that have settled, but never the last one.
+// start for the next step. Sweeps leave out contacts that have settled, and come back to these when
+// the others have settled too.
 void BoxWorld::relax() {
   for (Manifold* manifold : touching_) manifold->warm_start();
   course_.begin(bodies_, touching_);
   double change_m_s = 0;
-  bool all = true;
+  Sweep next = Sweep::all;
   for (int i = 0; i < most_sweeps; ++i) {
-    change_m_s = sweep(all);
-    if (change_m_s <= enough_m_s && all) break;
-    all = mass_blind_ || change_m_s <= enough_m_s;
-    if (!mass_blind_) course_.go_on(bodies_, touching_);
+    change_m_s = sweep(next);
+    const bool settled = change_m_s <= enough_m_s;
+    if (settled && next != Sweep::unsettled) break;
+    if (mass_blind_) continue;
+    if (next == Sweep::left_out) course_.begin(bodies_, touching_);
+    next = settled ? Sweep::left_out : Sweep::unsettled;
+    if (!settled) course_.go_on(bodies_, touching_);
   }
   squeezed_ = change_m_s > squeezed_m_s;
 }
 
-double BoxWorld::sweep(bool all) {
+double BoxWorld::sweep(Sweep which) {
   double change_m_s = 0;
-  for (Manifold* manifold : touching_)
-    if (all || manifold->changed_m_s() > settled_m_s)
-      change_m_s = std::max(change_m_s, manifold->relax());
+  for (Manifold* manifold : touching_) {
+    const bool unsettled = manifold->changed_m_s() > settled_m_s;
+    manifold->left_out =
+        which == Sweep::unsettled ? !unsettled : which == Sweep::left_out && !manifold->left_out;
+    if (!manifold->left_out) change_m_s = std::max(change_m_s, manifold->relax());
+  }
   return change_m_s;
+}
+
+void BoxWorld::solve(double h_s) {
+  begin_step(h_s);
+  attempt(h_s);
+  if (was_released()) attempt(h_s);
+  note_rates(h_s);
+  last_h_s_ = h_s;
 }
 
 // A clone that is held back would be much faster if it were not: contacts are looked for as far as
 // boxes can go at about the speeds of the last step, and farther only if they turn out to be
 // faster.
-void BoxWorld::solve(double h_s) {
+void BoxWorld::attempt(double h_s) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].velocity = starts_[i].velocity;
   const double free_m_s = fastest_m_s();
   const double foreseen_m_s = std::min(free_m_s, hurry * reached_m_s_ + hurry_m_s);
   wake_reached(h_s, free_m_s);
@@ -275,6 +237,12 @@ void BoxWorld::settle(double h_s) {
     body.asleep = true;
     body.velocity = {};
   }
+}
+
+bool BoxWorld::steady() const {
+  return std::ranges::all_of(bodies_, [](const Body& body) {
+    return !body.has_weight || body.asleep || body.fresh || body.steady;
+  });
 }
 
 bool BoxWorld::crowded(double reach_m) const {

@@ -38,9 +38,16 @@ class BoxWorld {
   /// Upper bound of the speed of any point of a body that moves and is solid.
   double fastest_m_s() const;
 
+  /// Whether every box's velocity changes as it did a step ago: the length of a step may change.
+  bool steady() const;
+
   /// Whether any two bodies that are not both asleep are nearer than reach_m, at most: their
   /// surrounding spheres are compared.
   bool crowded(double reach_m) const;
+
+  /// The share of a step of h_s seconds after which a body that goes on as it does hits one that it
+  /// does not touch yet; none if it does not, or so slowly that it does not matter when.
+  std::optional<double> share_before_hitting(std::size_t i, double h_s) const;
 
   /// The share of a step of h_s seconds after which a body slides off one that it presses on, if it
   /// goes on as it does; none if it does not.
@@ -65,13 +72,18 @@ class BoxWorld {
   bool near(const Pair& pair, double margin_m) const;
   bool can_push(const Pair& pair) const;
   void wake_reached(double h_s, double up_to_m_s);
+  void begin_step(double h_s);
+  void attempt(double h_s);
   void add_weight(double h_s);
+  bool was_released();
+  void note_rates(double h_s);
   bool pushed_by_driven(std::size_t i) const;
   std::optional<double> share_before_hit(std::size_t i, double h_s) const;
   void find_contacts(double h_s, double up_to_m_s);
   void solve_contacts(double h_s, double up_to_m_s);
   void relax();
-  double sweep(bool all);
+  enum class Sweep { all, unsettled, left_out };
+  double sweep(Sweep which);
   void lift_from_table();
   void settle(double h_s);
 
@@ -84,6 +96,15 @@ class BoxWorld {
   std::vector<Pair> pairs_;          ///< each body with the bodies before it, then with the table
   std::vector<Manifold*> touching_;  ///< of this step; the table's last
   SweepCourse course_;
+  // A body at the start of the step.
+  struct Start {
+    Velocity velocity;
+    double mean_over_s;  ///< of which its velocity is the mean; 0: it is momentary
+    double owed_s;
+    bool pushed;  ///< by the driven body
+    bool is_momentary(double h_s) const { return mean_over_s < 0.01 * h_s; }
+  };
+  std::vector<Start> starts_;
   std::vector<Velocity> velocities_;  ///< before this step's contacts
   double reached_m_s_ = 0;            ///< by the fastest in the last step
   bool squeezed_ = false;             ///< in the last step a box had no room

@@ -19,6 +19,9 @@ using Eigen::Vector3d;
 // that is hit turns within the step, and contacts know only how it stood before.
 constexpr double longest_travel_m = 1.5e-3;
 constexpr double most_pieces = 64;
+constexpr double same_length = 1 + 1e-6;
+constexpr double steady_m_s = 0.01;  // of the target, from step to step
+constexpr double instant_s = 1e-9;
 constexpr int most_cuts = 4;  // until the clone has slid off: it may be slower than foreseen
 
 // How many times more a push at the tip moves the clone than it turns the tip aside, at least.
@@ -53,8 +56,10 @@ class BoxesSimulator : public DecouplingSimulator {
   double n_pieces(const Pose& target, double h_s) const;
   void pieces(const Pose& target, double h_s);
   void piece(const Pose& target, double h_s);
-  void begin_coupled(const Pose& target, double h_s);
-  void end_coupled(const Pose& target);
+  void coupled_piece(const Pose& target, double h_s);
+  void decoupled_piece(const Pose& target, double h_s);
+  void begin_decoupled(const Pose& target, double h_s);
+  void end_decoupled(const Pose& target, double h_s);
   void note_impulses();
 
   bool decoupled_ = true;
@@ -63,14 +68,16 @@ class BoxesSimulator : public DecouplingSimulator {
   CloneCoupling coupling_;
   Pose target_;
   std::vector<Vector3d> impulse_n_s_;  // of the clone on each cube, over the last step
-  double last_h_s_ = 0;
+  double last_h_s_ = 0, piece_s_ = 0;
+  Velocity of_target_;  // over the last pieces
 };
 
 void BoxesSimulator::reset(const Scene& scene, const Pose& target) {
   decoupled_ = scene.coupling.decoupled;
   n_cubes_ = scene.cubes.size();
   target_ = target;
-  last_h_s_ = 0;
+  last_h_s_ = piece_s_ = 0;
+  of_target_ = {};
   impulse_n_s_.assign(n_cubes_, Vector3d::Zero());
   world_.emplace(boxes::ContactSurface{scene.friction, scene.contact_compliance_m_per_n},
                  scene.gravity_m_s2, n_cubes_ + 1, !decoupled_);
@@ -95,14 +102,20 @@ void BoxesSimulator::add_clone(const Scene& scene, const Pose& target) {
   coupling_.restart({body.pose, {}}, {});
 }
 
+// Pieces become longer only where nothing changes suddenly.
 double BoxesSimulator::n_pieces(const Pose& target, double h_s) const {
   // The clone may become as fast as the target within the step.
   const Velocity of_target = mean_velocity(target_, target, h_s);
   const double fastest_m_s =
       std::max(world_->fastest_m_s(), world_->body(clone_index).tip_speed_m_s(of_target));
   const double travel_m = h_s * fastest_m_s;
-  if (travel_m <= longest_travel_m || !world_->crowded(2 * travel_m)) return 1;
-  return std::min(most_pieces, std::ceil(travel_m / longest_travel_m));
+  double n = 1;
+  if (travel_m > longest_travel_m && world_->crowded(2 * travel_m))
+    n = std::min(most_pieces, std::ceil(travel_m / longest_travel_m));
+  const double turn_m_s = (of_target.linear_m_s - of_target_.linear_m_s).norm();
+  const bool may_be_longer = world_->steady() && turn_m_s < steady_m_s;
+  if (h_s / n <= same_length * piece_s_ || piece_s_ == 0 || may_be_longer) return n;
+  return std::min(most_pieces, std::ceil(h_s / (same_length * piece_s_)));
 }
 
 // A drawn clone that slides off a cube snaps back; a step later it would be millimeters elsewhere.
@@ -127,35 +140,61 @@ void BoxesSimulator::step(const Pose& target, double h_s) {
 void BoxesSimulator::pieces(const Pose& target, double h_s) {
   const double n = n_pieces(target, h_s);
   const Pose from = target_;
+  of_target_ = mean_velocity(from, target, h_s);
+  piece_s_ = h_s / n;
   for (double i = 1; i < n; ++i) piece(interpolate(from, target, i / n), h_s / n);
   piece(target, h_s / n);
 }
 
+// A clone that hits a cube shares its momentum with it, as light as it is; the coupling's mass is
+// that of a clone that is pushed for the whole step. So the step is cut there, and the hit is a
+// step that takes no time.
 void BoxesSimulator::piece(const Pose& target, double h_s) {
-  if (decoupled_)
-    begin_coupled(target, h_s);
-  else
-    clone().velocity = mean_velocity(clone().pose, target, h_s);
+  if (!decoupled_) return coupled_piece(target, h_s);
+  const Pose from = target_;
+  const Velocity of_target = mean_velocity(from, target, h_s);
+  double done = 0;
+  for (int hit = 0;; ++hit) {
+    const double left_s = (1 - done) * h_s;
+    begin_decoupled(target, left_s);
+    const auto share = world_->share_before_hitting(clone_index, left_s);
+    if (!share || hit == most_cuts) break;
+    done += *share * (1 - done);
+    decoupled_piece(interpolate(from, target, done), *share * left_s);
+    decoupled_piece(target_, instant_s);
+    coupling_.restart({clone().pose, clone().velocity}, of_target);
+  }
+  end_decoupled(target, (1 - done) * h_s);
+}
+
+void BoxesSimulator::coupled_piece(const Pose& target, double h_s) {
+  clone().velocity = mean_velocity(clone().pose, target, h_s);
   world_->solve(h_s);
   world_->move(h_s);
-  if (decoupled_)
-    end_coupled(target);
-  else
-    clone().place(target);
+  clone().place(target);
   target_ = target;
   note_impulses();
 }
 
+void BoxesSimulator::decoupled_piece(const Pose& target, double h_s) {
+  begin_decoupled(target, h_s);
+  end_decoupled(target, h_s);
+}
+
 // Gives the clone its solver mass and the velocity at which it moves if nothing touches it.
-void BoxesSimulator::begin_coupled(const Pose& target, double h_s) {
+void BoxesSimulator::begin_decoupled(const Pose& target, double h_s) {
   const CoupledClone free = coupling_.begin(clone().pose, target_, target, h_s);
   clone().velocity = free.velocity;
   clone().set_mass(free.mass_kg, free.inertia_kg_m2);
 }
 
-void BoxesSimulator::end_coupled(const Pose& target) {
+void BoxesSimulator::end_decoupled(const Pose& target, double h_s) {
+  world_->solve(h_s);
+  world_->move(h_s);
   coupling_.end({clone().pose, clone().velocity});
   if (coupling_.locked()) clone().place({clone().pose.position_m, target.orientation});
+  target_ = target;
+  note_impulses();
 }
 
 void BoxesSimulator::note_impulses() {

@@ -76,9 +76,11 @@ void Manifold::take_points(const Contact& contact) {
   levers_ << Points::Zero(), at_v_m_, -at_u_m_;
   levers_.col(0).head(n_).setOnes();
   if (u == u_) return;
-  const Points along_u = impulses_.col(1), along_v = impulses_.col(2);
-  impulses_.col(1) = along_u * u.dot(u_) + along_v * v.dot(u_);
-  impulses_.col(2) = along_u * u.dot(v_) + along_v * v.dot(v_);
+  for (Impulses* turned : {&impulses_, &before_, &line_, &curve_}) {
+    const Points along_u = turned->col(1), along_v = turned->col(2);
+    turned->col(1) = along_u * u.dot(u_) + along_v * v.dot(u_);
+    turned->col(2) = along_u * u.dot(v_) + along_v * v.dot(v_);
+  }
 }
 
 // The plane of the patch goes through its nearest point: the others bear nothing unless they are as

@@ -47,9 +47,10 @@ class Manifold {
   double relax();
   /// What the last relax() returned.
   double changed_m_s() const { return changed_m_s_; }
+  bool left_out = false;  ///< of the last sweep
 
   /// Remembers the impulses, before the first sweep.
-  void begin_course();
+  void begin_course() { end_ = impulses_; }
   /// Goes on by a share of how far the last sweep's end is from the one before. The bodies'
   /// velocities have to follow: see SweepCourse.
   void go_on(double share);
@@ -65,11 +66,12 @@ class Manifold {
   /// Impulse on the first body over the step, N s.
   Eigen::Vector3d impulse_n_s() const;
   void clear() { n_ = 0; }
-  void forget_impulses() { impulses_.setZero(); }
+  void forget_impulses();
 
  private:
-  using Points = Eigen::Vector4d;                // a number for each
-  using Impulses = Eigen::Matrix<double, 4, 3>;  // N s: along the normal, u and v, of each
+  using Points = Eigen::Vector4d;                 // a number for each
+  using PointRows = Eigen::Matrix<double, 4, 3>;  // three numbers for each
+  using Impulses = PointRows;                     // N s: along the normal, u and v
 
   // At the middle of the points, in the frame (normal, u, v): how the first body moves against the
   // second, or impulses on it. Normal impulses press, friction drags.
@@ -107,6 +109,8 @@ class Manifold {
   double hold(const Patch& moving, Patch& change);
   bool share_friction(const Eigen::Vector3d& more);
   double slide(const Patch& moving, Patch& change);
+  bool slide_together(const Eigen::Vector3d& speed);
+  void slide_one_by_one(const Eigen::Vector3d& speed);
 
   Body* first_ = nullptr;
   Body* second_ = nullptr;
@@ -131,7 +135,7 @@ class Manifold {
   Points at_u_m_ = Points::Zero(), at_v_m_ = at_u_m_;  // from the middle
   Points squares_m2_ = Points::Zero();                 // of their distances to it
   // What a unit normal impulse at a point presses, and what the motion's press is there.
-  Eigen::Matrix<double, 4, 3> levers_ = Impulses::Zero();
+  PointRows levers_ = PointRows::Zero();
   Points gaps_m_ = Points::Zero(), prepared_gaps_m_ = gaps_m_;
   Points speeds_m_s_ = Points::Zero();   // at which the points may close in: gap / h
   Points softness_ = Points::Zero();     // m/s per N s

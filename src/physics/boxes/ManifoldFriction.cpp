@@ -10,7 +10,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
-constexpr double least_spread_m2 = 1e-12;  // of loads that can bear a moment about the normal
+constexpr double least_squared_m2_s2 = 1e-300;  // that can be divided by
+constexpr double least_spread_m2 = 1e-12;       // of loads that can bear a moment about the normal
 
 // The most that an impulse along the plane changes a velocity by, at a point.
 double response_at(double at_u_m, double at_v_m, const Matrix3d& drag_by_drag) {
@@ -60,19 +61,44 @@ bool Manifold::share_friction(const Vector3d& more) {
   return true;
 }
 
-// One point after the other, by projected gradient on Coulomb's disk: the impulse ends on the
-// disk's rim, exactly against the sliding, or inside it, where nothing slides.
+// By projected gradient on Coulomb's disk: the impulse ends on the disk's rim, exactly against the
+// sliding, or inside it, where nothing slides.
 // @return the largest change of a velocity at a point, m/s
 double Manifold::slide(const Patch& moving, Patch& change) {
+  const Points before_u = impulses_.col(1), before_v = impulses_.col(2);
+  if (!slide_together(moving.drag)) slide_one_by_one(moving.drag);
+  const Points more_u = impulses_.col(1) - before_u, more_v = impulses_.col(2) - before_v;
+  change.drag += Vector3d(more_u.sum(), more_v.sum(), at_u_m_.dot(more_v) - at_v_m_.dot(more_u));
+  return more_u.cwiseAbs().cwiseMax(more_v.cwiseAbs()).cwiseProduct(drag_per_kg_).maxCoeff();
+}
+
+// All points at once, if all that are loaded slide.
+bool Manifold::slide_together(const Vector3d& speed) {
+  for (int i = 0; i < n_; ++i)
+    if (drag_per_kg_[i] == 0) drag_per_kg_[i] = response_at(at_u_m_[i], at_v_m_[i], drag_by_drag_);
+  const auto limits = friction_ * impulses_.col(0).array();
+  // Impulses times how they change the drag.
+  const Eigen::Array4d u = impulses_.col(1).cwiseProduct(drag_per_kg_) -
+                           (Points::Constant(speed[0]) - speed[2] * at_v_m_);
+  const Eigen::Array4d v = impulses_.col(2).cwiseProduct(drag_per_kg_) -
+                           (Points::Constant(speed[1]) + speed[2] * at_u_m_);
+  const Eigen::Array4d squared = u.square() + v.square();
+  const Eigen::Array4d rims = limits * drag_per_kg_.array();
+  if ((squared - rims.square()).minCoeff() < 0) return false;
+  const Eigen::Array4d scale = limits / squared.max(least_squared_m2_s2).sqrt();
+  impulses_.col(1) = u * scale;
+  impulses_.col(2) = v * scale;
+  return true;
+}
+
+void Manifold::slide_one_by_one(const Vector3d& speed) {
   Points along_u = impulses_.col(1), along_v = impulses_.col(2);
-  double speed_u = moving.drag[0], speed_v = moving.drag[1], spin = moving.drag[2];
+  double speed_u = speed[0], speed_v = speed[1], spin = speed[2];
   const Matrix3d& by = drag_by_drag_;
-  double largest = 0;
   for (int i = 0; i < n_; ++i) {
     const double limit = friction_ * impulses_(i, 0);
     if (limit == 0 && along_u[i] == 0 && along_v[i] == 0) continue;
     const double at_u_m = at_u_m_[i], at_v_m = at_v_m_[i];
-    if (drag_per_kg_[i] == 0) drag_per_kg_[i] = response_at(at_u_m, at_v_m, by);
     const double mass_kg = 1 / drag_per_kg_[i];
     double u = along_u[i] - mass_kg * (speed_u - at_v_m * spin);
     double v = along_v[i] - mass_kg * (speed_v + at_u_m * spin);
@@ -89,13 +115,9 @@ double Manifold::slide(const Patch& moving, Patch& change) {
     speed_u += by(0, 0) * more_u + by(0, 1) * more_v + by(0, 2) * moment;
     speed_v += by(1, 0) * more_u + by(1, 1) * more_v + by(1, 2) * moment;
     spin += by(2, 0) * more_u + by(2, 1) * more_v + by(2, 2) * moment;
-    largest = std::max(largest, std::max(std::abs(more_u), std::abs(more_v)) * drag_per_kg_[i]);
   }
-  const Vector3d before = dragged_n_s();
   impulses_.col(1) = along_u;
   impulses_.col(2) = along_v;
-  change.drag += dragged_n_s() - before;
-  return largest;
 }
 
 }  // namespace heft::boxes

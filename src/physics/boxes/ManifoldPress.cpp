@@ -50,7 +50,8 @@ double Manifold::press(Patch& moving, Patch& change) {
     active |= 1u << i;
     largest = std::max(largest, std::abs(missing[i]));
   }
-  if (active == 0 || (foresees_ && largest <= unmoved_m_s)) return 0;
+  if (active == 0) return 0;
+  if (foresees_ && largest <= unmoved_m_s && now.minCoeff() >= 0) return 0;
   Points more = stopping(active) * missing;
   if ((now + more).minCoeff() < 0) more = release(active, missing);
   impulses_.col(0) = (now + more).cwiseMax(0);

@@ -32,6 +32,10 @@ void Manifold::foresee(double scale) {
     if (foreseen(i, 0) > 0) impulses_.row(i) = foreseen.row(i);
 }
 
+void Manifold::forget_impulses() {
+  for (Impulses* known : {&impulses_, &before_, &line_, &curve_}) known->setZero();
+}
+
 void Manifold::warm_start() {
   if (touches()) apply(sum_n_s());
 }
@@ -75,10 +79,6 @@ void Manifold::apply(const Patch& impulses_n_s) {
   };
   push(*first_, arm_first_m_, 1);
   if (!alone_) push(*second_, arm_second_m_, -1);
-}
-
-void Manifold::begin_course() {
-  end_ = impulses_;
 }
 
 void Manifold::go_on(double share) {

@@ -81,6 +81,8 @@ class PushSimulator : public DecouplingSimulator {
   bool touching() const { return has_cube() && stroke_.contact() - clone_ <= touching_m; }
   double spring_n() const { return -stiffness_ * (clone_ - target_) - damping_ * (v_ - u_); }
   double slide_n() const { return deceleration_ * cube_kg_; }
+  // Whether the spring slows the clone more than friction alone slows a sliding cube.
+  bool parts() const { return spring_n() + deceleration_ * mass_ < (1 - slipping) * slide_n(); }
   bool may_meet(double left_s) const;
   double clone_at(double t_s) const;
   double cube_at(double t_s) const;
@@ -151,7 +153,7 @@ double PushSimulator::go_on(double left_s) {
     return carried(left_s);
   }
   if (v_ > cube_v_) collide();
-  if (cube_v_ > 0) return v_ < cube_v_ ? apart(left_s) : sliding(left_s);
+  if (cube_v_ > 0) return v_ < cube_v_ || parts() ? apart(left_s) : sliding(left_s);
   if (v_ < 0) return apart(left_s);
   const double force_n = spring_n();
   if (force_n > slide_n() || (force_n >= slipping * slide_n() && u_ > 0)) return sliding(left_s);

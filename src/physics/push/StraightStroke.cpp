@@ -129,6 +129,13 @@ void StraightStroke::refuse_place(double clone) const {
   throw OutsideModel("a second cube is touched");
 }
 
+// How far a push at that distance from the clone's axis turns the clone's edge aside.
+double StraightStroke::turned_aside_m(double aside_m) const {
+  const double push_n = scene_.friction * scene_.cubes[*cube_].mass_kg * scene_.gravity_m_s2;
+  const double turn_rad = push_n * aside_m / scene_.coupling.torsional_stiffness_nm_per_rad;
+  return turn_rad * scene_.effector_size_m.norm() / 2;
+}
+
 // Friction acts below the cube's center: the clone must push there, between the cube's sides, and
 // low enough.
 void StraightStroke::check_square() const {
@@ -141,6 +148,11 @@ void StraightStroke::check_square() const {
   const double aside_m = std::abs((cube.position_m - start_.position_m).dot(side));
   if (aside_m >= half_width(start_, scene_.effector_size_m, side))
     throw OutsideModel(name() + " is pushed beside its center: it may turn");
+  if (scene_.coupling.decoupled && turned_aside_m(aside_m) > straight_m)
+    throw OutsideModel(
+        fmt::format("{} is pushed {:.2g} mm beside its center, and the torsional "
+                    "spring is too soft to hold the clone straight",
+                    name(), 1e3 * aside_m));
   const double lowest_m =
       start_.position_m.z() - half_width(start_, scene_.effector_size_m, Vector3d::UnitZ());
   if (lowest_m < 0) throw OutsideModel("the clone reaches into the table");

@@ -61,6 +61,7 @@ class StraightStroke {
   void look_ahead();
   void set_direction(const Eigen::Vector3d& direction);
   void check_square() const;
+  double turned_aside_m(double aside_m) const;
   double half_along(const Pose& pose, const Eigen::Vector3d& size_m) const;
   bool beside(const Pose& a, const Eigen::Vector3d& a_size_m, const Pose& b,
               const Eigen::Vector3d& b_size_m) const;
