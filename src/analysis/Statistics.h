@@ -30,8 +30,4 @@ Interval student_t_interval(double mean, double sd, int n);
 /// Clopper and Pearson (1934): the exact interval of a proportion, as fractions. n_trials > 0.
 Interval exact_interval(int n_hits, int n_trials);
 
-/// Quantile by linear interpolation between order statistics (Hyndman and Fan's type 7, the default
-/// of R and NumPy); none for no values. fraction in [0, 1].
-std::optional<double> quantile(std::vector<double> values, double fraction);
-
 }  // namespace heft

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "analysis/Statistics.h"
+#include "base/Quantile.h"
 
 namespace heft {
 

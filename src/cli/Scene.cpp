@@ -105,10 +105,23 @@ void run_named(const Options& options, const Scene& scene, const Trajectory& tra
   warn_of_simulator(options.simulator);
   if (options.explain)
     say("heft: {} at {:g} Hz, as asked for: {}\n", entry.name, options.rate_hz, entry.summary);
-  Drive drive(entry.make(), scene, options.rate_hz);
-  fmt::print("{}\n", header(scene.cubes.size()));
-  run(drive, trajectory, options.rate_hz,
-      [](const std::string& line) { fmt::print("{}\n", line); });
+  if (scene.contact_compliance_m_per_n > 0 && !models_contacts(entry.name, scene))
+    say("heft: {}'s contacts are rigid: contact_compliance_m_per_n has no effect\n", entry.name);
+  long n_rows = 0;
+  try {
+    Drive drive(entry.make(), scene, options.rate_hz);
+    fmt::print("{}\n", header(scene.cubes.size()));
+    run(drive, trajectory, options.rate_hz, [&](const std::string& line) {
+      fmt::print("{}\n", line);
+      ++n_rows;
+    });
+  } catch (const OutsideModel& outside) {
+    const double t_s = trajectory.start_s() + static_cast<double>(n_rows) / options.rate_hz;
+    throw Error(
+        fmt::format("{} at {:.3f} s: {}; --simulator boxes models this, and --simulator "
+                    "auto goes on with it from here by itself",
+                    entry.name, t_s, outside.what()));
+  }
 }
 
 void run_scene(const Options& options) {

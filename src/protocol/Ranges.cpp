@@ -13,7 +13,10 @@ bool Range::holds(double value) const {
 
 std::string Range::text() const {
   std::string text;
-  if (low > -furthest) text += fmt::format("{} {}", low_open ? " above" : ", at least", low);
+  if (low == least)
+    text += fmt::format(" above 0 ({} or more)", least);
+  else if (low > -furthest)
+    text += fmt::format("{} {}", low_open ? " above" : ", at least", low);
   if (high < furthest) text += fmt::format(" and {} {}", high_open ? "below" : "at most", high);
   return text;
 }

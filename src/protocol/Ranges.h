@@ -9,6 +9,8 @@ namespace heft {
 
 /// Beyond this much of any unit lies no experiment, only overflow.
 inline constexpr double furthest = 1e12;
+/// Below this much of what must be above zero lies only underflow.
+inline constexpr double least = 1e-9;
 
 /// The numbers a key takes.
 struct Range {
@@ -18,7 +20,7 @@ struct Range {
   std::string text() const;  ///< what it adds to "a number", e.g. ", at least 0"
 };
 inline constexpr Range any_number{};
-inline constexpr Range above_zero{0, furthest, true};
+inline constexpr Range above_zero{least, furthest};
 inline constexpr Range zero_or_more{0};
 
 /// Whole numbers that a key takes.

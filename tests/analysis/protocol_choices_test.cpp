@@ -30,6 +30,7 @@ TEST(ProtocolChoices, name_what_the_paper_leaves_open) {
   const auto choices = choices_in(shipped("paper.toml"));
   EXPECT_EQ(value_of(choices, "effector, length x width x height"), "90 x 40 x 40 mm");
   EXPECT_EQ(value_of(choices, "friction"), "0.8, between_surfaces");
+  EXPECT_EQ(value_of(choices, "effector between pictures"), "path, not predicted");
   EXPECT_EQ(value_of(choices, "wrong introduction answer"), "same_layout");
   EXPECT_EQ(value_of(choices, "between the experiments"), "a break of at least 60 s");
   EXPECT_EQ(value_of(choices, "staircase 15g"),

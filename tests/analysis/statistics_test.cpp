@@ -31,7 +31,6 @@ TEST(Statistics, WhatDoesNotExistIsNone) {
   EXPECT_FALSE(mean({}).has_value());
   EXPECT_FALSE(sample_sd(one).has_value());
   EXPECT_FALSE(student_t_interval(one).has_value());
-  EXPECT_FALSE(quantile({}, 0.5).has_value());
 }
 
 TEST(Statistics, EqualValuesHaveNoSpreadDespiteRounding) {
@@ -69,12 +68,6 @@ RC_GTEST_PROP(Statistics, ExactIntervalLeavesItsTailOnEachSide, ()) {
   const Interval interval = exact_interval(k, n);
   RC_ASSERT(std::abs(at_least(k, n, interval.low) - 0.025) < 1e-9);
   RC_ASSERT(std::abs(1 - at_least(k + 1, n, interval.high) - 0.025) < 1e-9);
-}
-
-TEST(Statistics, QuantilesInterpolate) {
-  EXPECT_DOUBLE_EQ(*quantile({4, 1, 3, 2}, 0.5), 2.5);
-  EXPECT_DOUBLE_EQ(*quantile({4, 1, 3, 2}, 0.25), 1.75);
-  EXPECT_DOUBLE_EQ(*quantile({7}, 0.75), 7);
 }
 
 }  // namespace

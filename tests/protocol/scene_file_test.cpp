@@ -96,6 +96,7 @@ const std::vector<Broken> broken{
     {"text_in_vector", {"[0.01, 0,", "[0.01, ^\"0\","}, {"offset_m is \"0\"", "a number"}},
     {"unknown_clone_key", {"offset_rotvec_rad", "^offset_rotvec"}, {"\"offset_rotvec_rad\"?"}},
     {"zero_mass", {"0.015", "^0"}, {"mass_kg is 0", "above 0"}},
+    {"mass_that_underflows", {"0.015", "^1e-150"}, {"mass_kg is 1e-150", "1e-09 or more"}},
     {"negative_mass", {"0.015", "^-0.015"}, {"mass_kg is -0.015", "above 0"}},
     {"missing_mass", {"[[cube]]\nmass_kg = 0.015", "^[[cube]]"}, {"[[cube]] lacks \"mass_kg\""}},
     {"missing_position",

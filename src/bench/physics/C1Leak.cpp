@@ -75,8 +75,8 @@ void study_c1_leak(const StudyOptions& options) {
   }
   const std::string caption =
       "Coupled clone (C1). Largest distance, at any time, between the paths that the cubes take "
-      "with "
-      "masses of 15 + 800 g, 200 + 200 g and 800 + 15 g; boxes at 960 steps a second. " +
+      "with masses of 15 + 800 g, 200 + 200 g and 800 + 15 g; boxes at 960 steps a second. What is "
+      "less than a millionth of a micrometer is drawn as that. " +
       provenance(options);
   draw(
       options, "c1_leak",

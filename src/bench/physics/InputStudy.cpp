@@ -149,7 +149,7 @@ InputError error_of(InputMode mode, bool decoupled, const std::vector<TargetSamp
                     const std::vector<Eigen::Vector3d>& truth_m) {
   std::vector<Watched::Seen> seen;
   Drive drive(std::make_unique<Watched>(make_simulator(simulator_name), seen), scene_of(decoupled),
-              physics_rate_hz, mode);
+              physics_rate_hz, {mode});
   std::vector<double> picture_m2, present_m2;
   std::vector<Watched::Seen> pictures;
   for (const TargetSample& sample : samples) {

@@ -17,6 +17,8 @@ namespace heft {
 /// The rates that the study steps at. All divide the reference's, so that times meet.
 inline constexpr std::array<int, 7> bench_rates_hz{15, 30, 60, 120, 240, 480, 960};
 inline constexpr int reference_rate_hz = 960;
+/// Those that stability is looked at: up to twice the reference's.
+inline constexpr std::array<int, 8> stability_rates_hz{15, 30, 60, 120, 240, 480, 960, 1920};
 
 /// States at path start + n / rate_hz.
 struct SceneTrack {

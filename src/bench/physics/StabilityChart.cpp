@@ -10,7 +10,7 @@
 namespace heft {
 
 namespace {
-constexpr int panel_height_px = 150, width_px = 1180;
+constexpr int panel_height_px = 168, width_px = 1180;
 
 struct Look {
   const char* color;
@@ -95,7 +95,8 @@ std::string panel(const std::vector<StabilityCell>& cells, const std::string& si
   }
   return script +
          fmt::format(
-             "set title {} font ',11' offset 0,-0.6\nset xtics ({}) font ',9'\nset ytics ({}) font "
+             "set title {} font ',11' offset 0,-0.8\nset xlabel 'steps a second' font ',9' offset "
+             "0,0.7\nset xtics ({}) font ',9'\nset ytics ({}) font "
              "',9'\nset ylabel {} font ',9' offset 0.5,0\nplot [-0.6:{}] [-0.6:{}] NaN notitle\n",
              gnuplot_quoted(simulator), tics(rates), tics(values), gnuplot_quoted(axis_of(varied)),
              static_cast<double>(rates.size()) - 0.4, static_cast<double>(values.size()) - 0.4);
@@ -123,19 +124,15 @@ void draw_stability(const StudyOptions& options, const std::vector<StabilityCell
   const std::string caption =
       "A cube of 100 g pushed by 10 cm at 0.1 m/s, then 1 s of rest, with the paper's coupling but "
       "for what is varied (with k the cube's mass goes as its root; the torsional spring is loaded "
-      "by pushing 8 mm off center). Across: steps a second. A cell "
-      "shows "
-      "the gravest fault. " +
+      "by pushing 8 mm off center). A cell shows the gravest fault. " +
       provenance(options);
   std::string script =
-      gnuplot_header({"stability.svg", width_px, height_px,
-                      "Where methods fail: steps a second across, what is varied upwards",
-                      caption}) +
+      gnuplot_header({"stability.svg", width_px, height_px, "Where methods fail", caption}) +
       legend() +
       fmt::format(
           "unset grid\nunset key\nset tics scale 0.3\n"
           "set multiplot layout {},3 margins screen 0.075, screen 0.985, screen caption_top + "
-          "30*pixel, screen 1-90*pixel spacing screen 0.095, screen 46*pixel\n",
+          "30*pixel, screen 1-90*pixel spacing screen 0.095, screen 64*pixel\n",
           names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (Varied varied : {Varied::stiffness, Varied::torsional_stiffness, Varied::cube_mass}) {

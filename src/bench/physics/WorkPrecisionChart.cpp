@@ -4,6 +4,7 @@
 #include <map>
 
 #include "analysis/Gnuplot.h"
+#include "base/Quantile.h"
 #include "bench/physics/Looks.h"
 #include "bench/physics/Measurements.h"
 
@@ -16,12 +17,6 @@ struct Point {
   int rate_hz = 0;
   double cpu_us_per_s = 0, median_mm = 0, worst_mm = 0;
 };
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-}
 
 // What counts as error: a blow-up is drawn on a line of its own, far above any other error.
 double error_mm(const Measurement& one) {
@@ -50,11 +45,20 @@ Lines lines_of(std::span<const Measurement> measurements) {
         errors_mm.push_back(error_mm(*one));
         cpu_us.push_back(one->cpu_us_per_s);
       }
-      lines[simulator].push_back(
-          {rate_hz, median(cpu_us), median(errors_mm), std::ranges::max(errors_mm)});
+      lines[simulator].push_back({rate_hz, *quantile(cpu_us, 0.5), *quantile(errors_mm, 0.5),
+                                  std::ranges::max(errors_mm)});
     }
   }
   return lines;
+}
+
+// Rates where they can be read: along the lines that the others are compared with, and at the ends
+// of those, unless they blew up.
+bool tells_rate(const std::string& simulator, const Point& point,
+                const std::vector<Point>& points) {
+  if (point.median_mm >= blown_up_mm) return false;
+  const bool is_end = &point == &points.front() || &point == &points.back();
+  return simulator == "boxes" || simulator == "push" || is_end;
 }
 
 std::string data_of(const Lines& lines) {
@@ -63,8 +67,9 @@ std::string data_of(const Lines& lines) {
   for (const auto& [simulator, points] : lines) {
     script += fmt::format("$line{} << END\n", i++);
     for (const Point& point : points)
-      script += fmt::format("{} {} {} {}\n", point.cpu_us_per_s, point.median_mm, point.worst_mm,
-                            point.rate_hz);
+      script += fmt::format(
+          "{} {} {} {}\n", point.cpu_us_per_s, point.median_mm, point.worst_mm,
+          tells_rate(simulator, point, points) ? std::to_string(point.rate_hz) : "\"\"");
     script += "END\n";
   }
   return script;
@@ -75,10 +80,12 @@ std::string labels_of(const Lines& lines, double Point::*error) {
   struct Label {
     double x, y;
     std::string name;
+    bool on_top;  // of the line of those that blew up
   };
   std::vector<Label> labels;
   for (const auto& [simulator, points] : lines)
-    labels.push_back({points.back().cpu_us_per_s, std::log10(points.back().*error), simulator});
+    labels.push_back({points.back().cpu_us_per_s, std::log10(points.back().*error), simulator,
+                      points.back().*error >= blown_up_mm});
   std::ranges::sort(labels, {}, &Label::y);
   std::string script;
   for (int old = 100; old < 120; ++old) script += fmt::format("unset label {}\n", old);
@@ -87,9 +94,10 @@ std::string labels_of(const Lines& lines, double Point::*error) {
   for (const Label& label : labels) {
     const double y = std::max(label.y, last_y + 0.28);
     last_y = y;
-    script += fmt::format("set label {} {} at {}, {} left offset 0.9,0 font ',11' textcolor '{}'\n",
-                          tag++, gnuplot_quoted(label.name), label.x, std::pow(10, y),
-                          color_of(label.name));
+    script +=
+        fmt::format("set label {} {} at {}, {} left offset 0.9,{} font ',11' textcolor '{}'\n",
+                    tag++, gnuplot_quoted(label.name), label.x, std::pow(10, y),
+                    label.on_top ? 0.5 : 0, color_of(label.name));
   }
   return script;
 }
@@ -117,7 +125,8 @@ void draw_work_precision(const StudyOptions& options, std::span<const Measuremen
   const Lines lines = lines_of(measurements);
   const std::string caption =
       "Clone's center against the reference, RMS over time; scenes with contact that have one "
-      "answer for rigid bodies, with the paper's spring. Small numbers: steps a second. Points on "
+      "answer for rigid bodies, with the paper's spring. Small numbers: steps a second, "
+      "from point to point twice as many. Points on "
       "the red dotted line blew up. Dashed gray: 0.1 mm, what a session tolerates. push and "
       "quasi_static: straight pushes of one cube alone. " +
       provenance(options);

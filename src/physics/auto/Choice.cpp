@@ -95,11 +95,6 @@ std::vector<Rung> rungs_of(std::string_view simulator, const Scene& scene, doubl
   return rungs;
 }
 
-// `boxes` alone knows contacts that give.
-bool models_contacts(std::string_view simulator, const Scene& scene) {
-  return scene.contact_compliance_m_per_n == 0 || simulator == "boxes";
-}
-
 SimulatorPick most_accurate(std::vector<Rung> rungs, const Tolerance& tolerance) {
   Rung best = *std::ranges::min_element(rungs, {}, [&](const Rung& rung) {
     return std::max(rung.worst.clone_rms_m / tolerance.clone_rms_m,
@@ -109,6 +104,10 @@ SimulatorPick most_accurate(std::vector<Rung> rungs, const Tolerance& tolerance)
   return best.pick;
 }
 }  // namespace
+
+bool models_contacts(std::string_view simulator, const Scene& scene) {
+  return scene.contact_compliance_m_per_n == 0 || simulator == "boxes" || simulator == "auto";
+}
 
 std::string described(const SimulatorPick& pick) {
   return fmt::format("auto takes {} at {:g} Hz: it {}", pick.simulator, pick.rate_hz, pick.why);

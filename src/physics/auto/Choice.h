@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "physics/DecouplingSimulator.h"
@@ -18,6 +19,9 @@ struct SimulatorPick {
   double rate_hz = 240;  ///< steps a second, at least
   std::string why;       ///< one line for people: it ...
 };
+
+/// Whether the simulator knows contacts that give, or the scene's are rigid.
+bool models_contacts(std::string_view simulator, const Scene& scene);
 
 /// One line for people: "auto takes boxes at 240 Hz: it models everything, known to be ...".
 std::string described(const SimulatorPick& pick);
