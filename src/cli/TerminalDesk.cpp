@@ -35,18 +35,26 @@ void swallow_sequence() {
   if (introducer != '[' && introducer != 'O') return;
   for (auto key = next_key(); key && (*key < '@' || *key > '~');) key = next_key();
 }
+
+std::string tracking_words(const DeskStatus& status) {
+  std::string words;
+  const auto& tracking = status.tracking;
+  if (tracking && tracking->pictures_per_s > 0)
+    words = fmt::format("  {:.1f} pictures/s", tracking->pictures_per_s);
+  if (!status.trouble.empty()) return words + "  " + status.trouble;
+  if (!tracking) return "  nothing tracked";
+  if (!tracking->quality) return words;
+  return words + fmt::format("  {} {:.2f}", tracking->tracked ? "tracked" : "not tracked",
+                             *tracking->quality);
+}
 }  // namespace
 
 std::string status_line(const DeskStatus& status, double expected_trials) {
   const auto seconds = static_cast<long>(status.session_s);
-  std::string line =
-      fmt::format("{}:{:02}  {} of about {:.0f} trials  {}", seconds / 60, seconds % 60,
-                  status.n_completed, expected_trials, name_of(status.screen.screen));
-  if (status.pictures_per_s > 0) line += fmt::format("  {:.1f} pictures/s", status.pictures_per_s);
-  if (!status.trouble.empty())
-    line += "  " + status.trouble;
-  else if (status.quality)
-    line += fmt::format("  {} {:.2f}", status.tracked ? "tracked" : "not tracked", *status.quality);
+  std::string line = fmt::format(
+      "{}:{:02}  {} of about {:.0f} trials  {}", seconds / 60, seconds % 60, status.n_completed,
+      expected_trials, status.screen ? name_of(status.screen->screen) : "nothing shown yet");
+  line += tracking_words(status);
   line += fmt::format("  {} dropped, {} late", status.n_dropped, status.n_late);
   if (status.paused) line += "  PAUSED";
   if (status.plan) {
@@ -93,6 +101,7 @@ void TerminalDesk::take_keys() {
 
 void TerminalDesk::take_key(char key) {
   drawn_ = {};
+  if (asking_ == Asking::go_on) return take_answer(key);
   if (asking_ == Asking::note) return take_note_key(key);
   if (asking_ != Asking::nothing) return take_choice(key);
   switch (key) {
@@ -111,6 +120,13 @@ void TerminalDesk::take_key(char key) {
     default:
       return;
   }
+}
+
+// Yes or no; any other key is neither.
+void TerminalDesk::take_answer(char key) {
+  if (key != 'y' && key != 'n') return;
+  asking_ = Asking::nothing;
+  give(key == 'y' ? DeskCommandKind::go_on : DeskCommandKind::end);
 }
 
 // A veto's reason, or yes to what can't be undone; any other key takes the question back.
@@ -146,6 +162,8 @@ void TerminalDesk::give(DeskCommandKind kind, const std::string& text) {
 
 std::string TerminalDesk::prompt() const {
   switch (asking_) {
+    case Asking::go_on:
+      return question_;
     case Asking::veto_reason: {
       std::string text = "void this trial because of:";
       for (const auto& [code, reason] : veto_reasons) text += fmt::format(" {} {}", code, reason);
@@ -170,6 +188,14 @@ void TerminalDesk::show(const DeskStatus& status) {
   if (!is_terminal_ || now - drawn_ < redraw_every) return;
   drawn_ = now;
   cli::say("\r\033[K{}\n\r\033[K{}\033[A\r", status_line(status, expected_trials_), prompt());
+}
+
+bool TerminalDesk::ask_to_go_on(const std::string& question) {
+  if (!is_terminal_) return false;
+  tcflush(STDIN_FILENO, TCIFLUSH);  // what was typed before is no answer to this
+  question_ = question;
+  ask(Asking::go_on);
+  return true;
 }
 
 void TerminalDesk::say(const std::string& text) {

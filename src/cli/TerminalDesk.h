@@ -22,13 +22,15 @@ class TerminalDesk final : public Desk {
 
   std::optional<DeskCommand> command() override;
   void show(const DeskStatus& status) override;
+  bool ask_to_go_on(const std::string& question) override;
   void say(const std::string& text) override;
 
  private:
-  enum class Asking { nothing, veto_reason, note, end, unblind };
+  enum class Asking { nothing, go_on, veto_reason, note, end, unblind };
 
   void take_keys();
   void take_key(char key);
+  void take_answer(char key);
   void take_choice(char key);
   void take_note_key(char key);
   void choose_veto(char key);
@@ -41,7 +43,7 @@ class TerminalDesk final : public Desk {
   double expected_trials_;
   std::deque<DeskCommand> commands_;
   Asking asking_ = Asking::nothing;
-  std::string note_;
+  std::string question_, note_;
   bool paused_ = false;
   std::chrono::steady_clock::time_point drawn_{};
 };

@@ -15,14 +15,22 @@ std::vector<Touch> Attendant::wait(double seconds) {
   if (!journal_.clock().is_wall()) return {};
   std::vector<Touch> touches = attend(seconds);
   while (holding_ && !leaving()) {  // what is touched meanwhile means nothing
-    view_.present({}, journal_.engine().screen());
+    screen_.present({}, journal_.engine().screen());
     attend(holding_step_s);
   }
   return touches;
 }
 
+std::optional<bool> Attendant::ask_to_go_on(const std::string& question) {
+  if (!desk_ || !desk_->ask_to_go_on(question)) return std::nullopt;
+  asking_ = true;
+  while (asking_ && !leaving()) attend(holding_step_s);
+  if (std::exchange(asking_, false)) return std::nullopt;
+  return !leaving_;
+}
+
 std::vector<Touch> Attendant::attend(double seconds) {
-  std::vector<Touch> touches = view_.wait(seconds);
+  std::vector<Touch> touches = screen_.wait(seconds);
   if (!has_screen_) std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   if (std::ranges::any_of(touches, [](const Touch& t) { return t.kind == TouchKind::close; }))
     leaving_ = true;
@@ -38,7 +46,8 @@ void Attendant::show() {
   status.session_s = journal_.now_s();
   status.n_completed = engine.n_completed();
   status.paused = engine.state() == SessionState::paused;
-  status.screen = engine.screen();
+  status.screen = screen_.shown();
+  if (!status.screen || status.screen->screen != Screen::trial) status.tracking.reset();
   status.plan = unblinded_ && engine.trial_is_open() ? engine.next().plan : std::nullopt;
   desk_->show(status);
 }
@@ -52,10 +61,7 @@ void Attendant::obey(const DeskCommand& command) {
       holding_ = true;
       return;
     case DeskCommandKind::go_on:
-      if (!holding_) return desk_->say("the session is not held; it goes on by itself");
-      journal_.emit_now(EventKind::continued);
-      holding_ = false;
-      return;
+      return go_on();
     case DeskCommandKind::veto:
       return veto(command.text);
     case DeskCommandKind::note:
@@ -65,11 +71,19 @@ void Attendant::obey(const DeskCommand& command) {
       rest_wanted_ = true;
       return desk_->say("a break comes before the next trial");
     case DeskCommandKind::end:
+      asking_ = false;
       leaving_ = true;
       return;
     case DeskCommandKind::unblind:
       return unblind();
   }
+}
+
+void Attendant::go_on() {
+  if (std::exchange(asking_, false)) return;
+  if (!holding_) return desk_->say("the session is not held; it goes on by itself");
+  journal_.emit_now(EventKind::continued);
+  holding_ = false;
 }
 
 void Attendant::veto(const std::string& why) {

@@ -6,22 +6,25 @@
 #include <vector>
 
 #include "session/Desk.h"
-#include "session/Journal.h"
-#include "view/ArView.h"
+#include "session/ParticipantScreen.h"
 
 namespace heft {
 
 class Attendant {
  public:
   /// @param desk may be null  @param stop set from a signal handler; may be null
-  /// @param has_screen whether `view` can wait; otherwise this waits by itself
-  Attendant(Journal& journal, ArView& view, Desk* desk, const std::atomic<bool>* stop,
+  /// @param has_screen whether `screen` can wait; otherwise this waits by itself
+  Attendant(Journal& journal, ParticipantScreen& screen, Desk* desk, const std::atomic<bool>* stop,
             bool has_screen)
-      : journal_(journal), view_(view), desk_(desk), stop_(stop), has_screen_(has_screen) {}
+      : journal_(journal), screen_(screen), desk_(desk), stop_(stop), has_screen_(has_screen) {}
 
   /// Waits up to `seconds`, or as long as the experimenter holds the session; returns early with
   /// what the participant touched. On a virtual clock it returns at once.
   std::vector<Touch> wait(double seconds);
+
+  /// Asks the experimenter whether to go on, and waits for their answer; who does not want to
+  /// leaves the session. None: nobody can be asked, or the session is left by other means.
+  std::optional<bool> ask_to_go_on(const std::string& question);
 
   /// Whether the session is to be left: a signal, the experimenter, a closed window.
   bool leaving() const { return leaving_ || (stop_ && stop_->load()); }
@@ -29,7 +32,7 @@ class Attendant {
   /// Whether the experimenter asked for a break since the last time.
   bool take_rest_wish();
 
-  /// What the experimenter is shown with the next wait().
+  /// What the experimenter is shown with the next wait(); a trial fills in how its pictures come.
   DeskStatus status;
 
  private:
@@ -37,14 +40,16 @@ class Attendant {
   void obey(const DeskCommand& command);
   void veto(const std::string& why);
   void unblind();
+  void go_on();
   void show();
 
   Journal& journal_;
-  ArView& view_;
+  ParticipantScreen& screen_;
   Desk* desk_;
   const std::atomic<bool>* stop_;
   bool has_screen_;
-  bool leaving_ = false, holding_ = false, rest_wanted_ = false, unblinded_ = false;
+  bool leaving_ = false, holding_ = false, asking_ = false;
+  bool rest_wanted_ = false, unblinded_ = false;
 };
 
 }  // namespace heft

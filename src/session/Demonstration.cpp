@@ -1,11 +1,19 @@
 #include "session/Demonstration.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "base/Random.h"
+#include "view/Viewpoint.h"
 
 namespace heft {
 
 namespace {
 constexpr double mass_g = 200;  // any: a coupled clone moves all alike
+
+// Turned about its long axis, the effector shows the camera two of its faces; that is what a good
+// pose needs, and how people should hold it.
+constexpr double roll_rad = 40 * std::numbers::pi / 180;
 
 TrialPlan plan_of_demonstration() {
   TrialPlan plan;
@@ -20,28 +28,63 @@ std::unique_ptr<Responder> hand_for(std::uint64_t seed) {
   options.seed = RandomStream(seed, "demonstration").bits();
   return responder_named("simulated").make(options);
 }
+
+// A model holds it upright; its lower edge stays as high over the table as its lower face was.
+Pose as_people_hold_it(const Pose& upright, const Eigen::Vector3d& size_m) {
+  Pose held = upright;
+  held.orientation = held.orientation * Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
+  const double height_m = std::cos(roll_rad) * size_m.z() + std::sin(roll_rad) * size_m.y();
+  held.position_m.z() += (height_m - size_m.z()) / 2;
+  return held;
+}
+
+// From where a session without a camera is drawn, too.
+SyntheticSettings camera_settings() {
+  SyntheticSettings settings;
+  settings.camera_from_board = default_camera_from_board();
+  return settings;
+}
 }  // namespace
 
-Demonstration::Demonstration(const Protocol& protocol, std::uint64_t seed)
+Demonstration::Demonstration(const Protocol& protocol, const Apparatus& apparatus,
+                             std::uint64_t seed)
     : step_s_(1 / protocol.display_rate_hz),
+      effector_size_m_(protocol.effector_size_m),
       hand_(hand_for(seed)),
       world_(protocol, plan_of_demonstration()) {
   hand_->begin_trial({0, 1, Task::sorting, stage_of(protocol, 3)});
+  if (apparatus.board.tags.empty()) return;
+  camera_.emplace(apparatus, camera_settings(), seed);
+  last_.camera_from_board = camera_settings().camera_from_board;
 }
 
 ViewPicture Demonstration::at(double t_s) {
-  for (; count_ * step_s_ <= t_s; ++count_) {
-    const double picture_s = count_ * step_s_;
-    const HandSample hand = hand_->hand(picture_s);
-    const auto pose = hand.in_view ? std::optional(hand.pose) : std::nullopt;
-    last_.frame = world_.advance(sample_of(picture_s, pose)).frame;
-    // It looks again and again: what it would answer is not taken.
-    ScreenState screen;
-    screen.screen = Screen::trial;
-    screen.labels.resize(3);
-    hand_->see(last_.frame, screen);
-  }
+  const std::uint64_t before = count_;
+  while (static_cast<double>(count_) * step_s_ <= t_s) advance();
+  if (camera_ && count_ > before) film();
   return last_;
+}
+
+void Demonstration::advance() {
+  const double picture_s = static_cast<double>(count_++) * step_s_;
+  const HandSample hand = hand_->hand(picture_s);
+  const auto pose =
+      hand.in_view ? std::optional(as_people_hold_it(hand.pose, effector_size_m_)) : std::nullopt;
+  last_.frame = world_.advance(sample_of(picture_s, pose)).frame;
+  // It looks again and again: what it would answer is not taken.
+  ScreenState screen;
+  screen.screen = Screen::trial;
+  screen.labels.resize(3);
+  hand_->see(last_.frame, screen);
+}
+
+// Only the picture that is looked at.
+void Demonstration::film() {
+  const DisplayedFrame& frame = last_.frame;
+  const auto held = [&](double) {
+    return frame.tracked ? std::optional(frame.effector) : std::nullopt;
+  };
+  last_.camera = std::make_shared<const Image>(camera_->picture(held, frame.t_s, count_));
 }
 
 }  // namespace heft

@@ -1,27 +1,36 @@
-// The demonstration video, made from the protocol: a model's hand pushes cubes of equal masses with
-// a clone that stays on the effector (paper, 5.1: equal masses, no decoupling).
+// The demonstration video, made from the protocol: a hand holds the effector as people should, and
+// pushes cubes of equal masses with a clone that stays on it (paper, 5.1: equal masses, no
+// decoupling). It looks like a trial, filmed by a synthetic camera.
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "responders/Responder.h"
 #include "session/TrialWorld.h"
+#include "tracking/SyntheticCamera.h"
 #include "view/ArView.h"
 
 namespace heft {
 
 class Demonstration {
  public:
-  Demonstration(const Protocol& protocol, std::uint64_t seed);
+  /// @param apparatus what is filmed, and through what lens; without a board nothing is filmed
+  Demonstration(const Protocol& protocol, const Apparatus& apparatus, std::uint64_t seed);
 
   /// The picture at a time since its start; times increase.
   ViewPicture at(double t_s);
 
  private:
+  void advance();
+  void film();
+
   double step_s_;
+  Eigen::Vector3d effector_size_m_;
   std::unique_ptr<Responder> hand_;
   TrialWorld world_;
-  int count_ = 0;
+  std::optional<SyntheticCamera> camera_;
+  std::uint64_t count_ = 0;  // of pictures so far
   ViewPicture last_;
 };
 

@@ -26,17 +26,22 @@ struct DeskCommand {
   std::string text;
 };
 
+/// How the pictures of a trial come along.
+struct TrackingStatus {
+  bool tracked = false;           ///< the effector, in the last picture
+  std::optional<double> quality;  ///< 0...1
+  double pictures_per_s = 0;      ///< 0: not known yet
+};
+
 struct DeskStatus {
   double session_s = 0;
-  int n_completed = 0;  ///< trials
-  ScreenState screen;   ///< what the participant has in front of them
+  int n_completed = 0;                ///< trials
+  std::optional<ScreenState> screen;  ///< what the participant has before them; none: nothing
   bool paused = false;
-  bool tracked = false;           ///< the effector, in the last picture
-  std::string trouble;            ///< with the camera or the board
-  std::optional<double> quality;  ///< of tracking, 0...1
-  double pictures_per_s = 0;
-  int n_dropped = 0, n_late = 0;  ///< pictures, in this session
-  std::optional<TrialPlan> plan;  ///< only once unblinded
+  std::string trouble;                     ///< with the camera or the board
+  std::optional<TrackingStatus> tracking;  ///< none: no trial is on the screen
+  int n_dropped = 0, n_late = 0;           ///< pictures, in this session
+  std::optional<TrialPlan> plan;           ///< only once unblinded
 };
 
 class Desk {
@@ -48,6 +53,10 @@ class Desk {
 
   /// Called often; draw when it suits.
   virtual void show(const DeskStatus& status) = 0;
+
+  /// Asks whether to go on; the answer comes as a command, go_on or end.
+  /// @return false: nobody can be asked, and no answer will come
+  virtual bool ask_to_go_on(const std::string& question) = 0;
 
   /// Something to tell them: why a command was not taken.
   virtual void say(const std::string& text) = 0;

@@ -35,9 +35,9 @@ void Pages::instructions(Task task) {
   show(ScreenState{.screen = Screen::instructions, .task = task});
 }
 
-void Pages::demonstration(const DemonstrationBlock& block) {
+void Pages::demonstration(const DemonstrationBlock& block, const Apparatus& apparatus) {
   const Engine& engine = journal_.engine();
-  Demonstration moving(engine.protocol(), engine.seed());
+  Demonstration moving(engine.protocol(), apparatus, engine.seed());
   show(ScreenState{.screen = Screen::demonstration}, block.duration_s,
        [&](double t_s) { return moving.at(t_s); });
 }
@@ -55,33 +55,22 @@ void Pages::thanks() {
 }
 
 TouchKind Pages::show(ScreenState screen, double least_s, const Moving& picture_at) {
-  const double since_s = journal_.clock().now_s();
+  const SessionClock& clock = journal_.clock();
+  const double since_s = clock.now_s();
   const double step_s =
       picture_at ? 1 / journal_.engine().protocol().display_rate_hz : still_page_step_s;
   while (!attendant_.leaving()) {
-    note_text(screen);  // again after the experimenter held the session
-    const double elapsed_s = journal_.clock().now_s() - since_s;
+    const double now_s = clock.now_s(), elapsed_s = now_s - since_s;
     screen.wait_s = std::max(0.0, least_s - elapsed_s);
-    view_.present(picture_at ? picture_at(elapsed_s) : ViewPicture{}, screen);
-    for (const Touch& touch : attendant_.wait(step_s)) {
+    screen_.present(picture_at ? picture_at(elapsed_s) : ViewPicture{}, screen);
+    const double left_s = std::max(0.0, now_s + step_s - clock.now_s());
+    for (const Touch& touch : attendant_.wait(left_s)) {
       if (touch.kind == TouchKind::entry) journal_.sink().add_info(touch.key, touch.value);
       if (touch.kind == TouchKind::decline) return touch.kind;
       if (touch.kind == TouchKind::next && screen.wait_s == 0) return touch.kind;
     }
   }
   return TouchKind::close;
-}
-
-void Pages::note_text(const ScreenState& screen) {
-  if (!texts_) return;
-  const std::string page = text_page(screen.screen, screen.task);
-  if (page == shown_) return;
-  shown_ = page;
-  journal_.emit_now(EventKind::text_shown,
-                    nlohmann::ordered_json{{"page", page},
-                                           {"language", texts_->language},
-                                           {"sha256", sha256(page_text(*texts_, page))}}
-                        .dump());
 }
 
 }  // namespace heft

@@ -1,21 +1,19 @@
 // The pages that a person turns: consent, welcome, instructions, the demonstration, breaks, thanks.
-// Logs each text that was shown, in which language, with its hash, and when.
 #pragma once
 
 #include <functional>
-#include <string>
 
-#include "experiment/ScreenTexts.h"
 #include "protocol/Protocol.h"
 #include "session/Attendant.h"
+#include "tracking/MarkerBody.h"
 
 namespace heft {
 
 class Pages {
  public:
   /// @param texts what the person reads; null: nobody reads, and no page is shown
-  Pages(Journal& journal, Attendant& attendant, ArView& view, const ScreenTexts* texts)
-      : journal_(journal), attendant_(attendant), view_(view), texts_(texts) {}
+  Pages(Journal& journal, Attendant& attendant, ParticipantScreen& screen, const ScreenTexts* texts)
+      : journal_(journal), attendant_(attendant), screen_(screen), texts_(texts) {}
 
   bool has_reader() const { return texts_ != nullptr; }
 
@@ -26,7 +24,8 @@ class Pages {
   void instructions(Task task);
 
   /// The demonstration, for as long as the block says and until the person goes on.
-  void demonstration(const DemonstrationBlock& block);
+  /// @param apparatus as Demonstration
+  void demonstration(const DemonstrationBlock& block, const Apparatus& apparatus);
 
   /// A break of at least so many seconds.
   void rest(double least_s);
@@ -34,9 +33,6 @@ class Pages {
   /// The pages after the last trial.
   void how_decided();
   void thanks();
-
-  /// A trial's screen is shown: logs its text unless it is the one shown last.
-  void note_text(const ScreenState& screen);
 
  private:
   using Moving = std::function<ViewPicture(double t_s)>;
@@ -47,9 +43,8 @@ class Pages {
 
   Journal& journal_;
   Attendant& attendant_;
-  ArView& view_;
+  ParticipantScreen& screen_;
   const ScreenTexts* texts_;
-  std::string shown_;
 };
 
 }  // namespace heft

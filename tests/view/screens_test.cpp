@@ -11,6 +11,7 @@
 
 #include "EveryScreen.h"
 #include "base/Error.h"
+#include "view/window/Painter.h"
 
 namespace heft {
 namespace {
@@ -19,7 +20,8 @@ using testing::ElementsAre;
 using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 
-const std::vector<Measures> windows{{1024, 600}, {1280, 800}, {1920, 1080}, {800, 1280}};
+const std::vector<Measures> windows{
+    {800, 480}, {1024, 600}, {1280, 800}, {1920, 1080}, {800, 1280}};
 
 bool inside(const Rect& inner, const Rect& outer) {
   constexpr float rounding = 0.01f;
@@ -133,15 +135,38 @@ TEST(Screens, TextStaysInTheWindowAndOffTheControls) {
 TEST(Screens, ButtonsHoldTheirWordsAtAReadableSize) {
   on_every_page([](const Fixture& fixture, const Page& page) {
     for (const Control& control : page.controls) {
-      const float inside_px = 0.86f * fixture.measures.target;
-      const FittedText words =
-          fixture.typeface.fitted(control.text, fixture.measures.body,
-                                  control.area.width - 0.14f * fixture.measures.target, inside_px);
+      const auto [words, note, words_area, note_area] =
+          words_on(control, fixture.typeface, fixture.measures);
       EXPECT_GE(words.size_px, 0.7f * fixture.measures.body) << control.text;
       for (const std::string& line : words.lines)
-        EXPECT_LE(fixture.typeface.width_px(line, words.size_px), control.area.width) << line;
+        EXPECT_LE(fixture.typeface.width_px(line, words.size_px), words_area.width) << line;
     }
   });
+}
+
+// Which cube has which label is read before it is validated, from an arm's length.
+TEST(Screens, GivenLabelsAreReadInOneLineAsLargeAsTheRest) {
+  int n_notes = 0;
+  on_every_page([&](const Fixture& fixture, const Page& page) {
+    for (const Control& control : page.controls) {
+      if (control.note.empty()) continue;
+      ++n_notes;
+      const ControlWords words = words_on(control, fixture.typeface, fixture.measures);
+      for (const FittedText& text : {words.text, words.note}) {
+        EXPECT_EQ(text.lines.size(), 1U) << text.lines.front();
+        EXPECT_GE(text.size_px, 0.85f * fixture.measures.body) << text.lines.front();
+      }
+      EXPECT_FALSE(overlap(words.text_area, words.note_area));
+      EXPECT_TRUE(inside(words.note_area, control.area));
+    }
+  });
+  EXPECT_GT(n_notes, 0);
+}
+
+TEST(Screens, NothingIsThereBeforeTheSessionShowsSomething) {
+  Fixture fixture;
+  EXPECT_THAT(fixture.page().lines, testing::IsEmpty());
+  EXPECT_THAT(names(fixture.page()), ElementsAre());
 }
 
 TEST(Screens, ThePictureTakesMostOfTheWindow) {
@@ -226,7 +251,8 @@ TEST(Screens, ALabelGoesToTheSelectedCubeAndASecondTapTakesItBack) {
   state.n_choices = 1;
   fixture.screens.show(state, true);
   EXPECT_TRUE(fixture.control("label_heaviest").chosen);
-  EXPECT_EQ(fixture.control("cube_2").note, "Heaviest");
+  EXPECT_EQ(fixture.control("label_heaviest").note, "Middle");
+  EXPECT_EQ(fixture.control("label_lightest").note, "");
   const Action back = action(fixture.tap("label_heaviest"));
   EXPECT_EQ(back.kind, ActionKind::unlabel);
   EXPECT_EQ(back.slot, 2);

@@ -41,7 +41,7 @@ struct Control {
   std::string name;  ///< stable, for tests and scripts: "validate", "cube_1", "label_lightest"
   Rect area;
   std::string text;
-  std::string note;  ///< a second, smaller line: a cube's label
+  std::string note;  ///< a second line: which cube has this label
   Effect effect;
   char key = 0;  ///< the keyboard's equivalent (see WindowView.h); 0: none
   Look look = Look::plain;

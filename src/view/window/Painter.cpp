@@ -63,21 +63,10 @@ ImU32 ink_of(const Control& control) {
 }
 
 void paint_words(ImDrawList& list, const Control& control, const Paint& paint, ImU32 ink) {
-  const Measures& m = paint.measures;
-  const float pad = 0.07f * m.target;
-  Rect inside{control.area.x + pad, control.area.y + pad, control.area.width - 2 * pad,
-              control.area.height - 2 * pad};
-  if (!control.note.empty()) {
-    const float note_px = 0.5f * inside.height;
-    const Rect below{inside.x, inside.bottom() - note_px, inside.width, note_px};
-    inside.height -= note_px;
-    write_centered(list, paint.typeface,
-                   paint.typeface.fitted(control.note, m.small, below.width, below.height), below,
-                   colors::accent);
-  }
-  write_centered(list, paint.typeface,
-                 paint.typeface.fitted(control.text, m.body, inside.width, inside.height), inside,
-                 ink);
+  const ControlWords words = words_on(control, paint.typeface, paint.measures);
+  write_centered(list, paint.typeface, words.text, words.text_area, ink);
+  if (!control.note.empty())
+    write_centered(list, paint.typeface, words.note, words.note_area, colors::accent);
 }
 
 void paint_control(ImDrawList& list, const Control& control, const Paint& paint) {
@@ -137,6 +126,22 @@ void paint_notice(ImDrawList& list, const std::string& notice, const Rect& pictu
   write_centered(list, paint.typeface, text, area, colors::strong);
 }
 }  // namespace
+
+ControlWords words_on(const Control& control, const Typeface& typeface, const Measures& measures) {
+  const float pad = 0.07f * measures.target;
+  Rect inside{control.area.x + pad, control.area.y + pad, control.area.width - 2 * pad,
+              control.area.height - 2 * pad};
+  ControlWords words;
+  if (!control.note.empty()) {
+    inside.height /= 2;
+    words.note_area = {inside.x, inside.bottom(), inside.width, inside.height};
+    words.note =
+        typeface.fitted(control.note, measures.body, words.note_area.width, words.note_area.height);
+  }
+  words.text_area = inside;
+  words.text = typeface.fitted(control.text, measures.body, inside.width, inside.height);
+  return words;
+}
 
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
   list.AddRectFilled({0, 0}, {paint.measures.width, paint.measures.height}, colors::background);

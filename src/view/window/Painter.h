@@ -36,6 +36,14 @@ struct Paint {
   std::function<bool(const std::string& control)> is_pressed;
 };
 
+/// A control's words and the note below them, made to fit their places on it.
+struct ControlWords {
+  FittedText text, note;
+  Rect text_area, note_area;  ///< the note's is empty where there is none
+};
+
+ControlWords words_on(const Control& control, const Typeface& typeface, const Measures& measures);
+
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
 
 /// The largest place inside `room`, centered, for a picture of that size.

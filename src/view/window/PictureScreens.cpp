@@ -69,7 +69,6 @@ void add_cubes(PageBuilder& builder, const ScreenState& state, const ScreenMemor
                                          cell(row, slot - 1, state.n_slots, builder.measures.gap),
                                          slot_words(builder, slot, state.n_slots), effect_of(slot),
                                          slot <= 9 ? static_cast<char>('0' + slot) : '\0');
-    button.note = label_words(builder, state, slot);
     button.enabled = state.can_answer && memory.cubes_shown;
     button.chosen = memory.selected == slot;
   }
@@ -95,6 +94,14 @@ bool all_labeled(const ScreenState& state) {
              state.labels, [](const auto& label) { return label.has_value(); })) == state.n_slots;
 }
 
+// The place of the cube that a label is given to; empty: to none. On the labels' buttons, which
+// have the room for it: three labels beside each other would be too small to read.
+std::string labeled_place(const PageBuilder& builder, const ScreenState& state, Label label) {
+  const auto found = std::ranges::find(state.labels, label);
+  if (found == state.labels.end()) return {};
+  return slot_words(builder, static_cast<int>(found - state.labels.begin()) + 1, state.n_slots);
+}
+
 // Gives the selected cube a label, or takes back the one it has.
 void add_label(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory,
                Label label, const Rect& area, char key) {
@@ -105,6 +112,7 @@ void add_label(PageBuilder& builder, const ScreenState& state, const ScreenMemor
   Control& button = builder.add_button(
       "label_" + name, area, builder.text("trial_sorting", name),
       given ? answer(ActionKind::unlabel, slot) : answer(ActionKind::label, slot, label), key);
+  button.note = labeled_place(builder, state, label);
   button.enabled = state.can_answer && memory.cubes_shown && slot > 0;
   button.chosen = given;
 }

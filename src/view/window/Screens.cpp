@@ -24,6 +24,7 @@ bool Screens::show(const ScreenState& state, bool cubes_shown) {
 }
 
 Page Screens::page(const Typeface& typeface, const Measures& measures) const {
+  if (!shown_) return {};
   PageBuilder builder(texts_, typeface, measures, left_handed_);
   const auto trial = [&] {
     switch (state_.task) {

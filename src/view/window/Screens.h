@@ -23,6 +23,7 @@ class Screens {
   /// @return whether the page turned: then what a person was about to tap is gone
   bool show(const ScreenState& state, bool cubes_shown);
 
+  /// Empty until something is shown.
   Page page(const Typeface& typeface, const Measures& measures) const;
 
   /// What the session must know of a tap on a control of the page; none: it changed this page only.

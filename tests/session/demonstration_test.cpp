@@ -1,0 +1,185 @@
+// What the participant is shown before the first trial: a filmed hand that holds the effector as
+// they should, pushes the cubes, and looks like a trial.
+#include "session/Demonstration.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+
+#include "MadeUpPeople.h"
+#include "Protocols.h"
+#include "Recorded.h"
+#include "protocol/MarkerFile.h"
+#include "protocol/TextsFile.h"
+#include "session/Equipment.h"
+#include "session/Runner.h"
+#include "tracking/Tracker.h"
+
+namespace heft {
+namespace {
+
+using testing::MadeUpScreen;
+using testing::patient;
+using testing::quick_protocol;
+using testing::shared;
+
+const std::string shipped = HEFT_SOURCE_DIR "/protocols/apparatus/";
+
+const Apparatus& apparatus() {
+  static const Apparatus all{load_intrinsics(shipped + "synthetic_camera.yaml"),
+                             load_board(shipped + "board.toml"),
+                             load_effector(shipped + "effector.toml")};
+  return all;
+}
+
+double degrees_from(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+  return a.angularDistance(b) * 180 / M_PI;
+}
+
+// The pictures speak for themselves: a tracker finds in them what is drawn over them.
+TEST(Demonstration, shows_a_filmed_effector_under_its_clone_with_two_faces_to_the_camera) {
+  Demonstration demonstration(Protocol{}, apparatus(), 7);
+  Tracker tracker(apparatus());
+  int n_two_faces = 0;
+  constexpr int n_pictures = 60;
+  for (int i = 0; i < n_pictures; ++i) {
+    const double t_s = i / 3.0;
+    const ViewPicture shown = demonstration.at(t_s);
+    ASSERT_TRUE(shown.camera && shown.camera_from_board && shown.frame.clone);
+    const TrackedPicture tracked = tracker.track(*shown.camera, t_s);
+    ASSERT_TRUE(tracked.board_from_effector) << t_s;
+    const Pose& clone = *shown.frame.clone;
+    EXPECT_LT((tracked.board_from_effector->position_m - clone.position_m).norm(), 0.003) << t_s;
+    EXPECT_LT(degrees_from(tracked.board_from_effector->orientation, clone.orientation), 3) << t_s;
+    EXPECT_LT((tracked.camera_from_board->position_m - shown.camera_from_board->position_m).norm(),
+              0.002);
+    if (tracked.n_effector_faces >= 2) ++n_two_faces;
+  }
+  EXPECT_GT(n_two_faces, 0.9 * n_pictures);
+}
+
+TEST(Demonstration, pushes_every_cube_forward_and_none_over) {
+  const Protocol protocol;
+  const Stage stage = stage_of(protocol, 3);
+  Demonstration demonstration(protocol, {}, 7);
+  std::vector<double> pushed_m(3);
+  for (double t_s = 0; t_s < 60; t_s += 1 / protocol.display_rate_hz) {
+    const DisplayedFrame frame = demonstration.at(t_s).frame;
+    for (std::size_t i = 0; i < frame.cubes.size(); ++i) {
+      pushed_m[i] = std::max(pushed_m[i], frame.cubes[i].position_m.y() - stage.slots_m[i].y());
+      const Eigen::Vector3d up = frame.cubes[i].orientation * Eigen::Vector3d::UnitZ();
+      EXPECT_GT(up.z(), 0.9) << "cube " << i << " at " << t_s;
+    }
+  }
+  for (const double each_m : pushed_m) EXPECT_GT(each_m, 0.02);
+}
+
+TEST(Demonstration, never_dips_the_effector_into_the_table) {
+  const Protocol protocol;
+  Demonstration demonstration(protocol, {}, 7);
+  for (double t_s = 0; t_s < 60; t_s += 0.1) {
+    const Pose effector = demonstration.at(t_s).frame.effector;
+    for (const double x : {-0.5, 0.5})
+      for (const double y : {-0.5, 0.5})
+        for (const double z : {-0.5, 0.5})
+          EXPECT_GT(
+              (effector * protocol.effector_size_m.cwiseProduct(Eigen::Vector3d(x, y, z))).z(), 0);
+  }
+}
+
+TEST(Demonstration, is_drawn_on_a_plain_table_where_nothing_can_be_filmed) {
+  Demonstration demonstration(Protocol{}, {}, 7);
+  const ViewPicture shown = demonstration.at(3);
+  EXPECT_FALSE(shown.camera);
+  EXPECT_TRUE(shown.frame.tracked);
+}
+
+struct Demonstrated {
+  explicit Demonstrated(const Apparatus& filmed, bool has_person) {
+    Protocol made = quick_protocol();
+    made.display_rate_hz = 30;
+    made.blocks.insert(made.blocks.begin(), DemonstrationBlock{"demonstration", 0.3});
+    protocol = shared(std::move(made));
+    Engine engine(protocol, 7);
+    RecordedSession sink{SessionHeader{}};
+    SessionClock clock = has_person ? SessionClock::wall_from(0) : SessionClock::virtual_from(0);
+    const auto hand = responder_named("simulated").make({});
+    HandPictures pictures(*hand, protocol->display_rate_hz);
+    MadeUpScreen screen([this](const ViewPicture& picture, const ScreenState& state) {
+      if (state.screen == Screen::demonstration) shown.push_back(picture);
+      return patient(picture, state);
+    });
+    const ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+    end = Runner({engine, sink, pictures, *hand, screen, clock, has_person,
+                  has_person ? &texts : nullptr, filmed},
+                 {})
+              .run();
+  }
+
+  std::shared_ptr<const Protocol> protocol;
+  std::vector<ViewPicture> shown;
+  RunEnd end;
+};
+
+TEST(Demonstration, is_filmed_for_a_person_at_their_page) {
+  const Demonstrated session(apparatus(), true);
+  EXPECT_EQ(session.end, RunEnd::finished);
+  ASSERT_FALSE(session.shown.empty());
+  for (const ViewPicture& picture : session.shown) EXPECT_TRUE(picture.camera);
+}
+
+TEST(Demonstration, is_not_rendered_for_a_model) {
+  Apparatus impossible = apparatus();
+  impossible.board.tags[0].corners_m[0].z() = 0.1;
+  EXPECT_THROW(Demonstration(Protocol{}, impossible, 7), Error);
+  EXPECT_EQ(Demonstrated(impossible, false).end, RunEnd::finished);
+}
+
+// A person's session as the command line sets it up.
+Apparatus demonstrated_with(RunOptions options, const Protocol& protocol) {
+  setenv("SDL_VIDEODRIVER", "offscreen", 1);
+  options.view = "window";
+  options.board_file = shipped + "board.toml";
+  options.effector_file = shipped + "effector.toml";
+  options.texts_file = HEFT_SOURCE_DIR "/protocols/texts/en.toml";
+  complete(options);
+  Equipment equipment(shared(protocol), options, 7);
+  Engine engine(shared(protocol), 7);
+  RecordedSession sink{SessionHeader{}};
+  return equipment.parts(engine, sink).apparatus;
+}
+
+RunOptions options_of(const std::string& responder, const std::string& tracker) {
+  RunOptions options;
+  options.responder = responder;
+  options.tracker = tracker;
+  return options;
+}
+
+TEST(Demonstration, shows_the_printed_board_and_effector_without_a_camera_too) {
+  const Apparatus shown = demonstrated_with(options_of("human", "hand"), quick_protocol());
+  EXPECT_EQ(shown.board.tags.size(), apparatus().board.tags.size());
+  EXPECT_EQ(shown.effector.tags.size(), apparatus().effector.tags.size());
+
+  Protocol larger = quick_protocol();
+  larger.effector_size_m.x() += 0.02;
+  const MarkerBody box = demonstrated_with(options_of("human", "hand"), larger).effector;
+  EXPECT_EQ(box.size_m, larger.effector_size_m);
+  EXPECT_TRUE(box.tags.empty()) << "no print is of that size";
+}
+
+TEST(Demonstration, shows_the_sessions_own_apparatus_where_there_is_one) {
+  RunOptions options = options_of("human", "synthetic");
+  options.camera_file = shipped + "synthetic_camera.yaml";
+  const Apparatus shown = demonstrated_with(options, quick_protocol());
+  EXPECT_EQ(shown.camera.distortion, apparatus().camera.distortion);
+  EXPECT_FALSE(shown.board.tags.empty());
+}
+
+TEST(Demonstration, needs_no_board_where_a_model_takes_part) {
+  EXPECT_TRUE(
+      demonstrated_with(options_of("simulated", "hand"), quick_protocol()).board.tags.empty());
+}
+
+}  // namespace
+}  // namespace heft
