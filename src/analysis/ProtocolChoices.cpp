@@ -25,6 +25,7 @@ class Collector {
     add("friction", fmt::format("{:g}, {}", protocol.friction, name_of(protocol.friction_is)));
     add("simulator",
         fmt::format("{} at {:g} Hz", protocol.simulator.name, protocol.simulator.rate_hz));
+    add("effector between pictures", input_text(protocol.simulator.input));
     add("answers need contact with every cube", protocol.require_contact ? "yes" : "no");
     add("practice and feedback", "none");
     for (const Block& block : protocol.blocks) std::visit(*this, block);
@@ -64,6 +65,11 @@ class Collector {
   std::vector<ProtocolChoice> choices;
 
  private:
+  static std::string input_text(const DriveInput& input) {
+    return fmt::format("{}, {}", name_of(input.mode),
+                       input.predict_s > 0 ? fmt::format("predicted {:g} s ahead", input.predict_s)
+                                           : "not predicted");
+  }
   static std::string bound(const std::optional<double>& bound_g) {
     return bound_g ? fmt::format("{:g} g", *bound_g) : "none";
   }

@@ -1,10 +1,13 @@
 #include "base/TextFile.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -15,10 +18,45 @@
 namespace heft {
 
 namespace {
+namespace fs = std::filesystem;
+
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+[[noreturn]] void refuse_writing(const std::string& path, const std::string& why) {
+  throw Error(fmt::format("can't write {}: {}", path, why));
+}
+
+// A copy under the first name that is free; an earlier one is never written over.
+std::string keep_beside(const std::string& path) {
+  for (int i = 1;; ++i) {
+    const std::string kept = path + ".before" + (i > 1 ? std::to_string(i) : "");
+    std::error_code error;
+    if (fs::copy_file(path, kept, error)) return kept;
+    if (error != std::errc::file_exists)
+      refuse_writing(kept, error.message() + "; it would hold the file that is there now");
+  }
+}
+
+void write_whole(const std::string& path, const std::string& text) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) refuse_writing(path, std::strerror(errno));
+  std::string_view left = text;
+  bool written = true;
+  while (written && !left.empty()) {
+    const ssize_t n = ::write(file, left.data(), left.size());
+    written = n > 0;
+    if (written) left.remove_prefix(static_cast<std::size_t>(n));
+  }
+  written = written && fsync(file) == 0;
+  const int reason = errno;
+  ::close(file);
+  if (written) return;
+  ::unlink(path.c_str());
+  refuse_writing(path, std::strerror(reason));
 }
 }  // namespace
 
@@ -31,6 +69,30 @@ std::string read_text_file(const std::string& path) {
   std::ostringstream text;
   text << file.rdbuf();
   return std::move(text).str();
+}
+
+void require_writable(const std::string& path) {
+  std::error_code unknown;
+  const fs::file_status there = fs::status(path, unknown);
+  if (fs::is_directory(there)) refuse_writing(path, "it is a folder, expected a file");
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    refuse_writing(path, "it is a device or a pipe, expected a file");
+  const fs::path folder = fs::path(path).parent_path();
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
+    refuse_writing(
+        path, fmt::format("{}; does its folder exist, may you write there?", std::strerror(errno)));
+}
+
+std::string replace_text_file(const std::string& path, const std::string& text) {
+  require_writable(path);
+  // Through a symbolic link the file that it stands for.
+  const std::string target = fs::exists(path) ? fs::canonical(path).string() : path;
+  const std::string kept = fs::exists(target) ? keep_beside(target) : "";
+  const std::string half_done = target + ".new";
+  write_whole(half_done, text);
+  if (std::rename(half_done.c_str(), target.c_str()) != 0)
+    refuse_writing(target, std::strerror(errno));
+  return kept;
 }
 
 std::vector<std::string_view> lines_of(std::string_view text) {

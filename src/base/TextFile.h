@@ -1,4 +1,4 @@
-// Whole text files and their comma-separated cells.
+// Whole text files, read and replaced, and their comma-separated cells.
 #pragma once
 
 #include <optional>
@@ -10,6 +10,16 @@ namespace heft {
 
 /// @throws Error naming the file and the system's reason
 std::string read_text_file(const std::string& path);
+
+/// Puts a whole file in place at once: at any time there is the old one or the new one. The old one
+/// is kept beside it as PATH.before, or PATH.before2, .before3... where there are such already.
+/// @return the kept file's path; empty where there was no old one
+/// @throws Error as require_writable, or when the disk is full; the old file is then untouched
+std::string replace_text_file(const std::string& path, const std::string& text);
+
+/// To be asked before the work that ends in such a file.
+/// @throws Error when no file can be made there, saying why
+void require_writable(const std::string& path);
 
 /// Lines without their line ends (LF or CRLF) and without a UTF-8 byte-order mark; no empty last
 /// line.

@@ -1,12 +1,15 @@
 // heft calibrate: the camera from views of the board, and where the effector's tags really are.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
+#include <optional>
+#include <regex>
 #include <string>
 
 #include "base/Error.h"
+#include "base/TextFile.h"
 #include "cli/Commands.h"
 #include "cli/Progress.h"
 #include "cli/StopOnSignal.h"
@@ -14,6 +17,7 @@
 #include "protocol/MarkerFile.h"
 #include "tracking/Camera.h"
 #include "tracking/EffectorCalibration.h"
+#include "tracking/EffectorViews.h"
 #include "tracking/ViewCollector.h"
 
 namespace heft::cli {
@@ -22,13 +26,60 @@ namespace {
 constexpr double patience_s = 5;  ///< with a camera that gives no picture
 
 struct Options {
-  std::string source, board, camera_file, effector, out;
+  std::string source, board, camera_file, effector, out, size;
+  std::optional<double> exposure_ms;
 };
 
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text << std::flush;
-  if (!file) throw Error(fmt::format("can't write {}; does its folder exist?", path));
+// A calibration that turned out worse than the last one must not have cost it.
+void write_result(const std::string& path, const std::string& text) {
+  const std::string kept = replace_text_file(path, text);
+  if (!kept.empty()) say("the {} that was there is kept as {}\n", path, kept);
+}
+
+// How a live camera is to be set while it is calibrated; and so it is set ever after.
+CameraRequest request_of(const Options& options) {
+  constexpr double shortest_ms = 0.1, longest_ms = 100;
+  CameraRequest request;
+  if (!options.size.empty()) {
+    static const std::regex width_x_height("([1-9][0-9]{1,4})x([1-9][0-9]{1,4})");
+    std::smatch sides;
+    if (!std::regex_match(options.size, sides, width_x_height))
+      throw Error(fmt::format("--size {}: expected width and height in pixels, as in 1280x720",
+                              options.size),
+                  ExitCode::usage);
+    request.width_px = std::stoi(sides[1]);
+    request.height_px = std::stoi(sides[2]);
+  }
+  const double exposure_ms = options.exposure_ms.value_or(1e3 * request.exposure_s);
+  if (!(exposure_ms >= shortest_ms && exposure_ms <= longest_ms))
+    throw Error(fmt::format("--exposure-ms {}: expected {} to {} ms; 4 is short enough for a fast "
+                            "hand",
+                            exposure_ms, shortest_ms, longest_ms),
+                ExitCode::usage);
+  request.exposure_s = exposure_ms / 1e3;
+  return request;
+}
+
+// What was asked of a camera that can't do it, or of pictures that were taken long ago.
+void require_as_asked(const Options& options, const CameraRequest& request, const Camera& camera,
+                      const Image& picture) {
+  if (options.exposure_ms && !camera.is_live())
+    throw Error(fmt::format("--exposure-ms: the pictures of {} have been taken; it sets live "
+                            "cameras only",
+                            options.source),
+                ExitCode::usage);
+  const bool fits = picture.width == request.width_px && picture.height == request.height_px;
+  if (options.size.empty() || fits) return;
+  throw Error(fmt::format("--size {}: {} gives pictures of {} x {} pixels; {}", options.size,
+                          options.source, picture.width, picture.height,
+                          camera.is_live() ? "heft doctor lists the sizes that it can"
+                                           : "leave --size out, it sets live cameras only"));
+}
+
+void say_locks(const Camera& camera) {
+  const CameraMode mode = camera.mode();
+  if (!mode.locked.empty()) say("the camera holds: {}\n", fmt::join(mode.locked, ", "));
+  for (const std::string& what : mode.not_locked) say("it does not hold {}\n", what);
 }
 
 // The next picture; none at the end of a file, or when the person stops.
@@ -53,11 +104,14 @@ void say_progress(const ViewCollector& views) {
 }
 
 // Every picture of a file; of a live camera until all is there or the person presses Ctrl-C.
-ViewCollector board_views(Camera& camera, const MarkerBody& board) {
+ViewCollector board_views(Camera& camera, const MarkerBody& board, const Options& options,
+                          const CameraRequest& request) {
   const StopOnSignal stop;
   const bool live = camera.is_live();
   auto picture = next_picture(camera, stop);
   if (!picture) throw Error("there is no picture to calibrate from");
+  require_as_asked(options, request, camera, picture->image);
+  say_locks(camera);
   if (live)
     say("Move the board slowly through the whole picture, near and far, tilted to all sides. Hold\n"
         "it still for a moment in each place. Ctrl-C ends it with what is there.\n");
@@ -93,15 +147,18 @@ void say_views(const CameraCalibration& result) {
 }
 
 void calibrate_the_camera(const Options& options) {
+  require_writable(options.out);
+  const CameraRequest request = request_of(options);
   const MarkerBody board = load_board(options.board);
-  const auto camera = open_camera(options.source);
-  const ViewCollector views = board_views(*camera, board);
+  const auto camera = open_camera(options.source, request);
+  const ViewCollector views = board_views(*camera, board, options, request);
   require_views(views);
   say("{}; computing...\n", views.tally());
-  const CameraCalibration result = calibrate_camera(board, views.pictures(), views.names());
+  CameraCalibration result = calibrate_camera(board, views.pictures(), views.names());
+  result.camera.calibrated_at = camera->mode().held;
   say_views(result);
   const std::string text = summary(result);
-  write_file(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));
+  write_result(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));
   fmt::print("{}", text);
   if (!doubts(result).empty())
     say("{} is written, but should not be trusted: see above, and calibrate once more\n",
@@ -112,77 +169,31 @@ void calibrate_the_camera(const Options& options) {
         options.out, options.out);
 }
 
-// Views with two tags or more that differ from each other.
-class EffectorViews {
- public:
-  EffectorViews(const MarkerBody& effector, const Intrinsics& camera)
-      : camera_(camera), viewer_(effector), counts_(effector.tags.size()) {}
-
-  void offer(const CameraPicture& picture) {
-    require_size(picture);
-    TagView view = viewer_.view(picture.image, camera_);
-    view.name = name_of_picture(picture);
-    if (view.tags.size() < 2 || views_.size() >= most) return;
-    for (const TagView& kept : views_)
-      if (difference_px(view, kept) < camera_.width_px * 0.01) return;
-    for (const SeenTag& seen : view.tags) ++counts_[seen.tag];
-    views_.push_back(std::move(view));
-  }
-
-  bool complete() const {
-    return views_.size() >= enough && std::ranges::min(counts_) >= enough_of_a_tag;
-  }
-  bool full() const { return views_.size() >= most; }
-  double share() const { return static_cast<double>(views_.size()) / enough; }
-  const std::vector<TagView>& views() const { return views_; }
-
-  std::string counts(const MarkerBody& effector) const {
-    std::string text = fmt::format("{} pictures;", views_.size());
-    for (std::size_t i = 0; i < counts_.size(); ++i)
-      text += fmt::format(" tag {}: {}", effector.tags[i].id, counts_[i]);
-    return text;
-  }
-
- private:
-  static constexpr std::size_t enough = 46, most = 120;
-  static constexpr int enough_of_a_tag = 12;
-
-  void require_size(const CameraPicture& picture) const {
-    if (picture.image.width == camera_.width_px && picture.image.height == camera_.height_px)
-      return;
-    throw Error(fmt::format("{} is {} x {} pixels, but the camera was calibrated at {} x {}",
-                            name_of_picture(picture), picture.image.width, picture.image.height,
-                            camera_.width_px, camera_.height_px));
-  }
-
-  Intrinsics camera_;
-  TagViewer viewer_;
-  std::vector<TagView> views_;
-  std::vector<int> counts_;
-};
-
 void calibrate_the_effector(const Options& options) {
+  constexpr double usual_rate_hz = 0;  // no display waits for the pictures
+  require_writable(options.out);
   const Intrinsics intrinsics = load_intrinsics(options.camera_file);
   const MarkerBody nominal = load_effector(options.effector);
-  const auto camera = open_camera(options.source);
+  const auto camera = open_camera(options.source, request_for(intrinsics, usual_rate_hz));
   const StopOnSignal stop;
   EffectorViews views(nominal, intrinsics);
+  say_locks(*camera);
   if (camera->is_live())
     say("Turn the effector slowly in front of the camera, near, so that two faces or three are\n"
         "seen at a time. Ctrl-C ends it with what is there.\n");
   {
     ProgressBar bar("effector");
     while (const auto picture = next_picture(*camera, stop)) {
-      views.offer(*picture);
-      bar.update(views.share(), views.counts(nominal));
+      views.offer(picture->image, name_of_picture(*picture));
+      bar.update(views.share(), views.counts());
       if (camera->is_live() ? views.complete() || views.full() : views.full()) break;
     }
   }
   const EffectorCalibration result = calibrate_effector(nominal, intrinsics, views.views());
   const std::string text = summary(result);
-  write_file(options.out,
-             effector_to_toml(result.effector, "Made by heft calibrate effector from " +
-                                                   options.effector + ".\n" + text));
+  write_result(options.out,
+               effector_to_toml(result.effector, "Made by heft calibrate effector from " +
+                                                     options.effector + ".\n" + text));
   fmt::print("{}", text);
   say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
 }
@@ -198,6 +209,10 @@ void add_camera(CLI::App& parent) {
   add_source(*command, *options);
   command->add_option("--board", options->board, "board file")->required();
   command->add_option("--out", options->out, "the camera file (OpenCV YAML) to write")->required();
+  command->add_option("--size", options->size,
+                      "of a live camera's pictures, WIDTHxHEIGHT (640x480 unless told)");
+  command->add_option("--exposure-ms", options->exposure_ms,
+                      "how long a live camera's shutter is open (4 unless told)");
   command->callback([options] { calibrate_the_camera(*options); });
 }
 
@@ -217,6 +232,8 @@ void add_calibrate(CLI::App& app) {
   CLI::App* command =
       add_command(app, "calibrate", "measure the camera, or where the effector's tags are",
                   {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
+                   "heft calibrate camera --camera camera:0 --size 1280x720 --board BOARD.toml \\\n"
+                   "      --out camera.yaml",
                    "heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
                    "      --effector EFFECTOR.toml --out MEASURED.toml"});
   command->require_subcommand(1);

@@ -145,10 +145,9 @@ void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
   RunOptions options = with_defaults(given);
   options.view = "headless";
   options.responder = "simulated";
-  complete(options);
-  const TrackerEntry& entry = tracker_named(options.tracker);
-  if (!entry.has_camera || !entry.needs_what)
+  if (tracker_named(options.tracker).what != TrackerWhat::source)
     throw Error("--tracker: expected camera:N, video:FILE or frames:FOLDER", ExitCode::usage);
+  complete_and_tell(options);
   const Apparatus apparatus = apparatus_of(options);
   const auto camera = open_camera(options.tracker, request_for(apparatus.camera, rate_hz));
   for (const CheckResult& result : check_camera(*camera, apparatus, rate_hz))
@@ -211,7 +210,7 @@ void add_doctor(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = add_command(
       app, "doctor", "check this machine, a camera too, and list what can be plugged in",
-      {"heft doctor", "heft doctor --db lab.db",
+      {"heft doctor", "heft doctor --db lab.db", "heft doctor --tracker camera:0",
        "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
        "heft doctor --responder simulated"});
   command->add_option("--db", options->db, "the log to check, and whose folder")

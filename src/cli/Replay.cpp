@@ -148,6 +148,7 @@ void add_replay(CLI::App& app) {
       {"heft replay --db lab.db", "heft replay --db lab.db --session 3",
        "heft replay --db lab.db --session 3 --simulator bullet-ea",
        "heft replay --db lab.db --set physics.friction=0.64",
+       "heft replay --db lab.db --set physics.predict_s=0.05",
        "heft replay --db lab.db --responder coin"});
   command->add_option("--db", options->db, "the log")->capture_default_str();
   command->add_option("--session", options->session, "default: all")->check(session_number());

@@ -48,7 +48,7 @@ SessionRequest request_of(const Options& options) {
       texts_file(options.language.value_or(request.protocol.screens.language));
   request.options.handed = options.left_handed ? "left" : "right";
   request.options.record_camera = options.record_camera;
-  complete(request.options);
+  complete_and_tell(request.options);
   request.options = with_auto_resolved(std::move(request.options), request.protocol);
   request.participant = options.participant;
   request.db = options.db;
@@ -107,6 +107,8 @@ void add_run(CLI::App& app) {
       app, "run", "run one participant's session of a protocol",
       {"heft run protocols/paper.toml --participant 07 --camera-file camera.yaml --db lab.db",
        "heft run protocols/quick.toml --participant 07 --tracker synthetic",
+       "heft run protocols/quick.toml --participant 07 --responder simulated --tracker synthetic "
+       "--record-camera pictures",
        "heft run protocols/quick.toml --participant 07 --responder simulated",
        "heft run protocols/paper.toml --participant 07 --responder simulated --seed 42 --db lab.db",
        "heft run protocols/jnd.toml --participant 07 --responder scripted:recorded/07 --db "
@@ -131,7 +133,9 @@ void add_run(CLI::App& app) {
       ->check(CLI::IsMember({"main", "pilot", "test"}))
       ->capture_default_str();
   command->add_option("--record-camera", options->record_camera,
-                      "keep the camera's pictures in this folder; without it none are kept");
+                      "keep the camera's pictures in this folder, their times in its times.csv; "
+                      "without it none are kept. Of a synthetic camera truth.csv has the exact "
+                      "poses: frame (from 0), t_s, and x_m...camera_qz as in heft track");
   command->add_flag("--unblind", options->unblind,
                     "show the experimenter masses and conditions; it is logged");
   command->add_flag("--again", options->again,

@@ -9,13 +9,15 @@
 #include "cli/Installation.h"
 #include "cli/Talk.h"
 #include "physics/DecouplingSimulator.h"
+#include "physics/Oracles.h"
 #include "physics/auto/Choice.h"
 
 namespace heft::cli {
 
 void add_apparatus_options(CLI::App* command, GivenOptions& given) {
   command->add_option("--camera-file", given.camera_file,
-                      "the camera's calibration, from heft calibrate camera");
+                      "the camera's calibration, from heft calibrate camera; default: "
+                      "camera.yaml in this folder, for synthetic a made-up one");
   command->add_option("--board", given.board_file,
                       "the printed board; default: protocols/apparatus/board.toml");
   command->add_option("--effector", given.effector_file,
@@ -25,10 +27,12 @@ void add_apparatus_options(CLI::App* command, GivenOptions& given) {
 void add_session_options(CLI::App* command, GivenOptions& given) {
   command->add_option("--responder", given.responder,
                       "human (default), or a model: NAME or NAME:FILE (heft doctor lists them)");
-  command->add_option("--tracker", given.tracker,
-                      "where effector poses come from: camera:N, video:FILE, frames:FOLDER, "
-                      "synthetic (a rendered camera films a model's hand), hand (that hand as it "
-                      "is); default: camera:0 for a person, hand for a model");
+  command->add_option(
+      "--tracker", given.tracker,
+      "where effector poses come from: camera:N, video:FILE, frames:FOLDER, "
+      "synthetic (a rendered camera films a model's hand; synthetic:FILE.toml says "
+      "what it gets wrong, as protocols/apparatus/synthetic_camera.toml explains), "
+      "hand (that hand as it is); default: camera:0 for a person, hand for a model");
   command->add_option("--view", given.view,
                       "what shows the session: window, headless, video:FILE; default: window for a "
                       "person, headless for a model");
@@ -42,13 +46,19 @@ RunOptions with_defaults(const GivenOptions& given) {
   options.tracker = given.tracker.value_or(person ? "camera:0" : "hand");
   options.view = given.view.value_or(person ? "window" : "headless");
   options.simulator = given.simulator.value_or("");
-  const bool synthetic = options.tracker == "synthetic";
+  const bool synthetic = split_name(options.tracker).name == "synthetic";
   options.camera_file = given.camera_file.value_or(
       synthetic ? installed_file("protocols/apparatus/synthetic_camera.yaml") : "");
   options.board_file = given.board_file.value_or(installed_file("protocols/apparatus/board.toml"));
   options.effector_file =
       given.effector_file.value_or(installed_file("protocols/apparatus/effector.toml"));
   return options;
+}
+
+void complete_and_tell(RunOptions& options) {
+  const bool named = !options.camera_file.empty();
+  complete(options);
+  if (!named && !options.camera_file.empty()) say("camera calibration: {}\n", default_camera_file);
 }
 
 void warn_of_simulator(const std::string& name) {
@@ -61,6 +71,41 @@ void tell_simulator(const Protocol& protocol, const RunOptions& options) {
   if (!options.auto_simulator.empty())
     say("heft: {}\n", described({simulator.name, simulator.rate_hz, options.auto_why}));
   warn_of_simulator(simulator.name);
+  for (const std::string& caution : cautions(protocol)) say("heft: {}\n", caution);
+}
+
+// Simulators for one stroke alone; and over video people see how far the clone is from the
+// effector, and take it for mass.
+std::vector<std::string> cautions(const Protocol& protocol) {
+  constexpr double stroke_m_s = 0.3;
+  const auto& [mode, predict_s] = protocol.simulator.input;
+  std::vector<std::string> found;
+  const std::string& simulator = protocol.simulator.name;
+  if (!simulator_named(simulator).for_sessions)
+    found.push_back(fmt::format(
+        "[physics] simulator = \"{}\" models one straight push: people's sessions refuse "
+        "it, a simulated one ends where a hand does more: use \"boxes\" or \"auto\"",
+        simulator));
+  if (mode != InputMode::path)
+    found.push_back(
+        fmt::format("[physics] input = \"{}\" is for see-through displays; over video, where the "
+                    "clone is seen beside the filmed effector, it adds false mass: use \"path\"",
+                    name_of(mode)));
+  if (predict_s > 0) {
+    const Scene scene = scene_of(protocol, Condition::C1, {});
+    const double ahead_m = stroke_m_s * predict_s;
+    const double slide_n_per_kg = sliding_force_n(scene.friction, 1, scene.gravity_m_s2);
+    const std::string false_mass =
+        slide_n_per_kg > 0
+            ? fmt::format(", about {:.0f} g of false mass",
+                          1e3 * scene.coupling.stiffness_n_per_m * ahead_m / slide_n_per_kg)
+            : "";
+    found.push_back(fmt::format(
+        "[physics] predict_s = {} is for see-through displays; over video the clone runs {:.0f} mm "
+        "ahead of an effector filmed at {} m/s{}: use 0",
+        predict_s, 1e3 * ahead_m, stroke_m_s, false_mass));
+  }
+  return found;
 }
 
 std::string texts_file(const std::string& language) {

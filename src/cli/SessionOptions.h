@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "protocol/Protocol.h"
 #include "session/RunOptions.h"
@@ -16,15 +17,23 @@ void add_apparatus_options(CLI::App* command, GivenOptions& given);
 void add_session_options(CLI::App* command, GivenOptions& given);
 
 /// A person is filmed and has a window; a model is neither unless somebody says so. Files of the
-/// apparatus that are not given are the shipped ones; a real camera's calibration never is.
+/// apparatus that are not given are the shipped ones; a real camera's calibration never is, it
+/// stays empty.
 RunOptions with_defaults(const GivenOptions& given);
+
+/// Completes the options, and says on stderr which calibration is taken where nobody named one.
+/// @throws Error as complete()
+void complete_and_tell(RunOptions& options);
 
 /// Says on stderr what is known to be wrong with a simulator, if anything.
 void warn_of_simulator(const std::string& name);
 
-/// The same of the simulator that a session starts with; of `auto`, which the options have
-/// resolved, what it is and why.
+/// The same of the simulator that a session starts with, and the protocol's cautions; of `auto`,
+/// which the options have resolved, what it is and why.
 void tell_simulator(const Protocol& protocol, const RunOptions& options);
+
+/// What somebody should know before using a valid protocol, a sentence each; mostly nothing.
+std::vector<std::string> cautions(const Protocol& protocol);
 
 /// A file of protocols/texts/ by its language, or any other by its path.
 /// @throws Error (usage) naming the languages that there are

@@ -14,6 +14,7 @@
 #include "protocol/MarkerFile.h"
 #include "tracking/Camera.h"
 #include "tracking/ImageFile.h"
+#include "tracking/PoseColumns.h"
 #include "tracking/Tracker.h"
 
 namespace heft::cli {
@@ -38,28 +39,16 @@ A picture that can't be read has a row in which nothing is found, and is named
 on stderr; the program then ends with exit code 1.
 )";
 
-constexpr const char* header =
-    "frame,t_s,board_found,effector_found,x_m,y_m,z_m,qw,qx,qy,qz,camera_x_m,camera_y_m,camera_z_m,"
-    "camera_qw,camera_qx,camera_qy,camera_qz,n_tags,reprojection_px,quality";
-
-// Shortest digits that read back as the same doubles; empty cells for a pose that there is not.
-std::string cells(const std::optional<Pose>& pose) {
-  if (!pose) return std::string(7, ',');
-  const auto& p = pose->position_m;
-  const auto& q = pose->orientation;
-  return fmt::format(",{},{},{},{},{},{},{}", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
-}
-
 // The last three columns are the effector's, or the board's where no effector was asked for.
 std::string row(long frame, double t_s, const TrackedPicture& seen, bool with_effector) {
   const bool found =
       with_effector ? seen.board_from_effector.has_value() : seen.camera_from_board.has_value();
   const int n_tags = with_effector ? seen.n_effector_tags : seen.n_board_tags;
   const double off_px = with_effector ? seen.effector_reprojection_px : seen.board_reprojection_px;
-  return fmt::format("{},{},{:d},{:d}{}{},{},{},{}", frame, t_s, seen.camera_from_board.has_value(),
-                     seen.board_from_effector.has_value(), cells(seen.board_from_effector),
-                     cells(seen.camera_from_board), n_tags, found ? fmt::format("{}", off_px) : "",
-                     found ? seen.quality : 0);
+  return fmt::format("{},{},{:d},{:d},{},{},{},{}", frame, t_s, seen.camera_from_board.has_value(),
+                     seen.board_from_effector.has_value(),
+                     pose_cells(seen.board_from_effector, seen.camera_from_board), n_tags,
+                     found ? fmt::format("{}", off_px) : "", found ? seen.quality : 0);
 }
 
 // One of the pictures; where it can't be read, without an image but with why.
@@ -123,7 +112,8 @@ void run_track(const Options& options) {
   if (with_effector) apparatus.effector = load_effector(options.effector);
   if (with_effector) require_different_tags(apparatus.board, apparatus.effector);
   Tracker tracker(apparatus);
-  fmt::print("{}\n", header);
+  fmt::print("frame,t_s,board_found,effector_found,{},n_tags,reprojection_px,quality\n",
+             pose_columns);
   long frame = 0, n_damaged = 0;
   each_picture(options, [&](const TakenPicture& picture) {
     if (!picture.damage.empty()) {

@@ -1,5 +1,5 @@
-// heft validate: checks protocols, procedure, scene, board, effector and text files, and reports
-// every mistake of every file.
+// heft validate: checks protocols, procedure, scene, board, effector, synthetic camera and text
+// files, and reports every mistake of every file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,12 +8,14 @@
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
+#include "cli/SessionOptions.h"
 #include "cli/Talk.h"
 #include "protocol/ExpectedLength.h"
 #include "protocol/FileKind.h"
 #include "protocol/MarkerFile.h"
 #include "protocol/ProcedureFile.h"
 #include "protocol/SceneFile.h"
+#include "protocol/SyntheticCameraFile.h"
 #include "protocol/TextsFile.h"
 #include "session/AutoSimulator.h"
 
@@ -50,6 +52,8 @@ std::string checked(FileKind kind, const std::string& text, const std::string& p
       return described(parse_board(text, path));
     case FileKind::effector:
       return described(parse_effector(text, path));
+    case FileKind::synthetic_camera:
+      return described(parse_synthetic_camera(text, path).optics);
     case FileKind::texts:
       return described(parse_texts(text, path));
   }
@@ -68,6 +72,9 @@ ExitCode validate(const std::string& path) {
     try {
       const std::string summary = checked(kind, text, path);
       fmt::print("{}: ok, {}: {}\n", path, with_article(kind), summary);
+      if (kind == FileKind::protocol)
+        for (const std::string& caution : cautions(parse_protocol(text, path)))
+          say("{}: {}\n", path, caution);
     } catch (const InvalidFile& error) {
       say("{}\n{}: not valid as {}: {} mistake(s)\n", error.what(), path, with_article(kind),
           error.mistakes().size());
@@ -96,7 +103,8 @@ void validate_all(const std::vector<std::string>& paths) {
 
 void add_validate(CLI::App& app) {
   auto* command = add_command(
-      app, "validate", "check protocols, procedure, scene, board, effector and text files",
+      app, "validate",
+      "check protocols, procedure, scene, board, effector, synthetic camera and text files",
       {"heft validate protocols/paper.toml", "heft validate my_study/*.toml"});
   auto paths = std::make_shared<std::vector<std::string>>();
   command->add_option("FILE", *paths, "files to check; their kind is recognized")->required();

@@ -37,6 +37,13 @@ void check(const TargetSample& sample) {
 }
 }  // namespace
 
+Pose predicted(const TargetSample& sample, double ahead_s) {
+  if (ahead_s == 0) return sample.pose;
+  const auto& [linear_m_s, angular_rad_s] = sample.velocity;
+  return {sample.pose.position_m + ahead_s * linear_m_s,
+          rotation_from_vector(ahead_s * angular_rad_s) * sample.pose.orientation};
+}
+
 TargetSample sample_of(double t_capture_s, const std::optional<Pose>& pose) {
   TargetSample sample;
   sample.t_capture_s = t_capture_s;
@@ -46,14 +53,18 @@ TargetSample sample_of(double t_capture_s, const std::optional<Pose>& pose) {
 }
 
 Drive::Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz,
-             InputMode input)
+             const DriveInput& input)
     : simulator_(std::move(simulator)), scene_(scene), rate_hz_(rate_hz), input_(input) {
   if (!(rate_hz > 0) || !std::isfinite(rate_hz))
     throw Error(fmt::format("the physics rate is {} Hz, expected more than 0", rate_hz));
+  if (!(input.predict_s >= 0) || !std::isfinite(input.predict_s))
+    throw Error(fmt::format("the prediction is {} s, expected 0 or more", input.predict_s));
 }
 
-const WorldState& Drive::advance(const TargetSample& sample) {
-  check(sample);
+const WorldState& Drive::advance(const TargetSample& measured) {
+  check(measured);
+  TargetSample sample = measured;
+  if (sample.tracked) sample.pose = predicted(measured, input_.predict_s);
   if (!started_) {
     start(sample);
   } else {
@@ -86,11 +97,11 @@ void Drive::start(const TargetSample& sample) {
 
 // Where the target gets to by the time of a sample that continues the last one.
 Pose Drive::end_of_path(const TargetSample& sample) const {
-  if (input_ == InputMode::path) return sample.pose;
-  if (input_ == InputMode::hold || !course_) return last_.pose;
-  const double dt_s = sample.t_capture_s - last_.t_capture_s;
-  return {last_.pose.position_m + dt_s * course_->linear_m_s,
-          rotation_from_vector(dt_s * course_->angular_rad_s) * last_.pose.orientation};
+  if (input_.mode == InputMode::path) return sample.pose;
+  if (input_.mode == InputMode::hold || !course_) return last_.pose;
+  TargetSample going_on = last_;
+  going_on.velocity = *course_;
+  return predicted(going_on, sample.t_capture_s - last_.t_capture_s);
 }
 
 void Drive::run(const Pose& target, double dt_s) {

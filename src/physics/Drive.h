@@ -1,8 +1,9 @@
 // Drive alone owns stepping: it turns measured effector poses into steps of a simulator. Over
 // video, physics runs from the last picture's capture time to this one's along the path between the
 // two measured poses and is shown with this picture, so nothing is predicted and nothing lags
-// (DESIGN: what is shown together belongs together). It reads no clock: live and replay feed it the
-// same numbers and get the same bits.
+// (DESIGN: what is shown together belongs together). For see-through displays the poses between
+// samples can be held or extrapolated, and every sample predicted to when it is seen. It reads no
+// clock: live and replay feed it the same numbers and get the same bits.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ struct TargetSample {
   bool jump = false;    ///< the tracker says that the pose is not a continuation of the last one
 };
 
-/// Where the target is between two measured poses.
+/// Where the target is between two samples' poses.
 enum class InputMode {
   path,        ///< on the way from the last pose to this one: for what is shown over video
   hold,        ///< at the last pose until this one is there: for see-through displays
@@ -36,6 +37,19 @@ struct EnumNames<InputMode> {
   static constexpr std::array<std::string_view, 3> names{"path", "hold", "extrapolate"};
 };
 
+/// How samples become the target's path.
+struct DriveInput {
+  InputMode mode = InputMode::path;
+  /// How much later than its capture a sample's world is seen; the target is where the effector is
+  /// predicted to be by then. More than 0 only on see-through displays: over video the clone would
+  /// run ahead of the filmed effector. A sample without a velocity, as the first one after a jump
+  /// or a loss, is not predicted.
+  double predict_s = 0;
+};
+
+/// The sample's pose carried on along its velocity for that long; 0 gives the pose itself.
+Pose predicted(const TargetSample& sample, double ahead_s);
+
 /// A pose of a made-up path, at rest; none: out of view.
 TargetSample sample_of(double t_capture_s, const std::optional<Pose>& pose);
 
@@ -44,15 +58,16 @@ class Drive {
   /// @param rate_hz physics steps a second, at least; each picture takes ceil(dt * rate) equal
   /// steps
   /// @param input hold and extrapolate run a picture's steps with what was known at the last one
+  /// @throws Error for a rate that is not above 0, or a prediction that is not 0 or above
   Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz,
-        InputMode input = InputMode::path);
+        const DriveInput& input = {});
 
-  /// The world at the sample's capture time. The first sample starts the world. A gap above 0.25 s
-  /// counts as a jump; a jump teleports the clone. After the effector was out of view, or a jump,
-  /// the clone touches nothing until it is clear of every cube.
-  /// While it is out of view or jumps, the cubes go on with their motion and nothing touches them.
+  /// The world at the sample's capture time, or `predict_s` after it. The first sample starts the
+  /// world. A gap above 0.25 s counts as a jump; a jump teleports the clone. After the effector was
+  /// out of view, or a jump, the clone touches nothing until it is clear of every cube. While it is
+  /// out of view or jumps, the cubes go on with their motion and nothing touches them.
   /// @throws Error when time does not advance, or a tracked pose or velocity is not usable
-  const WorldState& advance(const TargetSample& sample);
+  const WorldState& advance(const TargetSample& measured);
 
   /// Puts a cube back to its place in the scene, at rest. A clone that is there touches nothing
   /// until it is clear.
@@ -72,10 +87,10 @@ class Drive {
   std::unique_ptr<DecouplingSimulator> simulator_;
   Scene scene_;
   double rate_hz_;
-  InputMode input_;
+  DriveInput input_;
   bool started_ = false;
   bool solid_ = true;
-  TargetSample last_;
+  TargetSample last_;               ///< as predicted
   std::optional<Velocity> course_;  ///< mean, between the last two samples; none after a jump
   WorldState state_;
 };

@@ -27,6 +27,9 @@ const std::vector<KindKeys>& kinds() {
       {FileKind::procedure, "staircase", {"seed", "interleave", "max_lag"}},
       {FileKind::board, "grid", {"tag", "family", "ruler_measured_m"}},
       {FileKind::effector, "box", {"tag", "family", "ruler_measured_m", "size_m"}},
+      {FileKind::synthetic_camera,
+       "exposure_s",
+       {"blur_px", "vignetting", "light", "gamma", "noise_levels", "hand"}},
       {FileKind::texts, "language", {"buttons", "slots", "consent", "welcome", "trial", "thanks"}}};
   return table;
 }
@@ -49,7 +52,8 @@ FileKind recognized_kind(const std::string& text, const std::string& file) {
   mistakes.add({},
                "no key of this file belongs to a protocol (it has [[block]]), a procedure file "
                "([[staircase]]), a scene file ([[cube]]), a board file ([grid] or [[tag]]), an "
-               "effector file ([box] or [[tag]]) or a text file (language)");
+               "effector file ([box] or [[tag]]), a synthetic camera file (exposure_s) or a text "
+               "file (language)");
   throw mistakes.as_error();
 }
 

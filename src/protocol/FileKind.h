@@ -7,11 +7,12 @@
 
 namespace heft {
 
-enum class FileKind { protocol, procedure, scene, board, effector, texts };
+enum class FileKind { protocol, procedure, scene, board, effector, synthetic_camera, texts };
 template <>
 struct EnumNames<FileKind> {
-  static constexpr std::array<std::string_view, 6> names{
-      "protocol", "procedure file", "scene file", "board file", "effector file", "text file"};
+  static constexpr std::array<std::string_view, 7> names{
+      "protocol",      "procedure file",        "scene file", "board file",
+      "effector file", "synthetic camera file", "text file"};
 };
 
 /// The kind whose tables the text has, or else most of whose keys.

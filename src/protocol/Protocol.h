@@ -8,6 +8,7 @@
 
 #include "experiment/Stage.h"
 #include "experiment/Task.h"
+#include "physics/Drive.h"
 #include "physics/Scene.h"
 #include "psychophysics/Interleaving.h"
 
@@ -59,6 +60,7 @@ struct ScreensChosen {
 struct SimulatorChoice {
   std::string name = "boxes";
   double rate_hz = 240;
+  DriveInput input;
 };
 
 struct Layout {

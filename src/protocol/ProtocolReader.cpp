@@ -16,6 +16,7 @@ namespace heft {
 namespace {
 constexpr Range display_rates_hz{1, 1000};
 constexpr Range physics_rates_hz{1, 100000};
+constexpr Range predictions_s{0, 0.2};  // beyond it no hand goes on as it did
 
 void read_physics(TableReader& reader, Protocol& protocol) {
   auto table = reader.table("physics");
@@ -27,6 +28,8 @@ void read_physics(TableReader& reader, Protocol& protocol) {
   table->read("gravity_m_s2", protocol.gravity_m_s2, zero_or_more);
   if (const auto name = table->read_name("simulator", names)) protocol.simulator.name = *name;
   table->read("rate_hz", protocol.simulator.rate_hz, physics_rates_hz);
+  table->read("input", protocol.simulator.input.mode);
+  table->read("predict_s", protocol.simulator.input.predict_s, predictions_s);
   table->close();
 }
 

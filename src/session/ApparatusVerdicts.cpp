@@ -6,24 +6,20 @@
 #include <cmath>
 #include <functional>
 
+#include "base/Quantile.h"
+
 namespace heft {
 
 namespace {
 // What is good enough. The tracker sees a board or effector that is wholly in view, sharp and lit
 // in every picture; below these shares something is in the way.
 constexpr double expected_share = 0.95;
+constexpr double expected_two_faces = 0.5;
 constexpr double board_limit_px = 0.5;
 constexpr double jitter_limit_m = 0.0002;
 constexpr double latency_limit_s = 0.1;
 constexpr double white_limit = 0.02, dark_limit = 40;
 constexpr double plausible_scale = 0.02;  // printers are off by up to 1 %
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<std::size_t>(place)];
-}
 
 using Figure = std::function<double(const LookedAt&)>;
 
@@ -33,8 +29,12 @@ std::vector<double> of_all(const Pictures& pictures, const Figure& figure) {
   return values;
 }
 
+double quantile_of(const Pictures& pictures, const Figure& figure, double fraction) {
+  return quantile(of_all(pictures, figure), fraction).value_or(0);
+}
+
 double median(const Pictures& pictures, const Figure& figure) {
-  return quantile(of_all(pictures, figure), 0.5);
+  return quantile_of(pictures, figure, 0.5);
 }
 
 double share_of(const Pictures& pictures, const std::function<bool(const LookedAt&)>& is) {
@@ -48,6 +48,10 @@ bool has_board(const LookedAt& seen) {
 
 bool has_effector(const LookedAt& seen) {
   return seen.tracked.board_from_effector.has_value();
+}
+
+bool shows_two_faces(const LookedAt& seen) {
+  return seen.tracked.n_effector_faces >= 2;
 }
 
 Pictures with_board(const Pictures& pictures) {
@@ -97,7 +101,7 @@ CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz) {
   const double rate_hz =
       static_cast<double>(gaps_s.size()) / (pictures.back().capture_s - pictures.front().capture_s);
   const std::string figure = fmt::format("{:.1f} pictures a second, longest gap {:.0f} ms", rate_hz,
-                                         1000 * quantile(gaps_s, 1));
+                                         1000 * std::ranges::max(gaps_s));
   if (rate_hz > 0.95 * wanted_rate_hz) return {CheckVerdict::ok, "frame rate", figure};
   return {CheckVerdict::failed, "frame rate",
           fmt::format("{}; the protocol shows {:g}: more light or a shorter exposure, another USB "
@@ -184,12 +188,22 @@ CheckResult effector_verdict(const Pictures& pictures) {
   if (share == 0)
     return {CheckVerdict::warning, "effector",
             "not seen: hold it in view as in a trial and look again; if it was, is this its file?"};
-  const std::string figure = fmt::format("seen in {:.0f} % of pictures", 100 * share);
-  if (share >= expected_share) return {CheckVerdict::ok, "effector", figure};
-  return {CheckVerdict::warning, "effector",
-          fmt::format("{}, expected {:.0f} %: if it was in view all the time, no finger may lie on "
-                      "a tag, and tags should be 25 pixels wide or more and not smeared",
-                      figure, 100 * expected_share)};
+  const double firm = share_of(pictures, shows_two_faces);
+  const std::string figure = fmt::format(
+      "seen in {:.0f} % of pictures, two faces or more in {:.0f} %", 100 * share, 100 * firm);
+  if (share < expected_share)
+    return {
+        CheckVerdict::warning, "effector",
+        fmt::format(
+            "{}, expected {:.0f} % and {:.0f} %: if it was in view all the time, no finger may lie "
+            "on a tag, and tags should be 25 pixels wide or more and not smeared",
+            figure, 100 * expected_share, 100 * expected_two_faces)};
+  if (firm >= expected_two_faces) return {CheckVerdict::ok, "effector", figure};
+  return {CheckVerdict::ok, "effector",
+          figure +
+              "; one face alone does, but two are more exact: turn the effector a little about its "
+              "long "
+              "axis, or move the camera to the side, so that an edge between two tags faces it"};
 }
 
 CheckResult latency_verdict(const Pictures& pictures) {
@@ -205,8 +219,8 @@ CheckResult latency_verdict(const Pictures& pictures) {
   const double camera_ms = ms(&LookedAt::waited_s);
   const double all_ms = camera_ms + drawn_ms;
   figure = fmt::format("camera {:.0f} ms (95 %: {:.0f}), {}; {:.0f} ms from light to drawn picture",
-                       camera_ms, 1000 * quantile(of_all(pictures, &LookedAt::waited_s), 0.95),
-                       figure, all_ms);
+                       camera_ms, 1000 * quantile_of(pictures, &LookedAt::waited_s, 0.95), figure,
+                       all_ms);
   if (all_ms < 1000 * latency_limit_s) return {CheckVerdict::ok, "latency", figure};
   return {CheckVerdict::warning, "latency",
           fmt::format("{}, expected {:.0f} at most: people feel it; a shorter exposure, a faster "
@@ -216,8 +230,7 @@ CheckResult latency_verdict(const Pictures& pictures) {
 
 CheckResult speed_verdict(const Pictures& pictures, const Intrinsics& camera,
                           double wanted_rate_hz) {
-  const double median_s = median(pictures, spent_s),
-               p95_s = quantile(of_all(pictures, spent_s), 0.95),
+  const double median_s = median(pictures, spent_s), p95_s = quantile_of(pictures, spent_s, 0.95),
                expected_s = expected_time_s(camera);
   const std::string figure = fmt::format("{:.1f} ms a picture, tracked and drawn (95 %: {:.1f} ms)",
                                          1000 * median_s, 1000 * p95_s);

@@ -40,14 +40,13 @@ Event event_of(const Action& action, double t_s) {
 }  // namespace
 
 AttemptRun::AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,
-                       Attendant& attendant, Pages& pages)
-    : parts_(parts), options_(options), journal_(journal), attendant_(attendant), pages_(pages) {}
+                       Attendant& attendant, ParticipantScreen& screen)
+    : parts_(parts), options_(options), journal_(journal), attendant_(attendant), screen_(screen) {}
 
 void AttemptRun::run(const TrialPlan& plan) {
   const Protocol& protocol = engine().protocol();
   journal_.emit_now(EventKind::trial_started);
   start_s_ = engine().last_s();
-  pages_.note_text(engine().screen());
   parts_.responder.begin_trial(
       {plan.trial_number, plan.attempt, plan.task, stage_of(protocol, plan.n_slots())});
   parts_.pictures.begin_attempt({start_s_, plan.trial_number, plan.attempt});
@@ -141,7 +140,7 @@ bool AttemptRun::wait_for_camera(const Picture& picture) {
   ViewPicture nothing;
   nothing.frame.t_s = picture.sample.t_capture_s;
   nothing.frame.tracked = false;
-  parts_.view.present(nothing, engine().screen());
+  screen_.present(nothing, engine().screen());
   return !engine().needs_somebody();
 }
 
@@ -151,7 +150,7 @@ void AttemptRun::show(const ShownPicture& shown, const Picture& picture, FrameRo
   const bool cubes_appear = std::erase_if(events, is_cubes_shown) > 0;
   log_events(events);
   shown_ = {shown.frame, picture.camera, picture.camera_from_board};
-  const auto presented = parts_.view.present(shown_, engine().screen());
+  const auto presented = screen_.present(shown_, engine().screen());
   row.present_s = presented && parts_.clock.is_wall() ? log_time(parts_.clock.session_s(*presented))
                                                       : journal_.now_s();
   if (cubes_appear) {
@@ -160,7 +159,7 @@ void AttemptRun::show(const ShownPicture& shown, const Picture& picture, FrameRo
     appeared.kind = EventKind::cubes_shown;
     journal_.emit(appeared, Durability::acknowledged);
     if (parts_.has_screen)
-      parts_.view.present(shown_, engine().screen());  // answers can be given from here on
+      screen_.present(shown_, engine().screen());  // answers can be given from here on
   }
   row.attempt_index = engine().n_attempts();
   row.contact_slot = shown.contact_slot;
@@ -188,15 +187,14 @@ void AttemptRun::count_picture(const Picture& picture, const FrameRow& row) {
   n_late_ += late;
   DeskStatus& status = attendant_.status;
   status.trouble.clear();
-  status.tracked = row.tracked;
-  status.quality = row.quality;
   status.n_dropped += picture.n_dropped;
   status.n_late += late;
+  double rate = status.tracking ? status.tracking->pictures_per_s : 0;
   if (presented_s_ && row.present_s > *presented_s_) {
-    const double rate = 1 / (row.present_s - *presented_s_);
-    status.pictures_per_s =
-        status.pictures_per_s > 0 ? 0.9 * status.pictures_per_s + 0.1 * rate : rate;
+    const double newest = 1 / (row.present_s - *presented_s_);
+    rate = rate > 0 ? 0.9 * rate + 0.1 * newest : newest;
   }
+  status.tracking = {row.tracked, row.quality, rate};
   presented_s_ = row.present_s;
 }
 
@@ -217,7 +215,7 @@ void AttemptRun::take_touches(const std::vector<Touch>& touches) {
     if (!trial_goes_on()) break;  // meant for a screen that is not there any more
     changed = take_touch(touch) || changed;
   }
-  if (changed && trial_goes_on()) parts_.view.present(shown_, engine().screen());
+  if (changed && trial_goes_on()) screen_.present(shown_, engine().screen());
 }
 
 // @return whether the screen may look different now

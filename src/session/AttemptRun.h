@@ -2,7 +2,7 @@
 // the participant does.
 #pragma once
 
-#include "session/Pages.h"
+#include "session/Attendant.h"
 #include "session/SessionParts.h"
 #include "session/TrialWorld.h"
 
@@ -11,7 +11,7 @@ namespace heft {
 class AttemptRun {
  public:
   AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,
-             Attendant& attendant, Pages& pages);
+             Attendant& attendant, ParticipantScreen& screen);
 
   /// Returns when the attempt is over, the session pauses itself or is to be left; an attempt that
   /// was left is void ("interrupted") once the session is.
@@ -43,7 +43,7 @@ class AttemptRun {
   const RunnerOptions& options_;
   Journal& journal_;
   Attendant& attendant_;
-  Pages& pages_;
+  ParticipantScreen& screen_;
 
   double start_s_ = 0;  // session time
   std::optional<TrialWorld> world_;

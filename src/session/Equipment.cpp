@@ -4,6 +4,7 @@
 
 #include "base/Error.h"
 #include "physics/DecouplingSimulator.h"
+#include "protocol/MarkerFile.h"
 #include "protocol/TextsFile.h"
 
 namespace heft {
@@ -11,10 +12,14 @@ namespace heft {
 namespace {
 constexpr double same_size_m = 0.0015;  // a printer's 1 % off, measured and written down
 
+bool has_size(const MarkerBody& effector, const Eigen::Vector3d& size_m) {
+  return (effector.size_m - size_m).cwiseAbs().maxCoeff() < same_size_m;
+}
+
 // What people hold must be what the simulated one looks like.
 void require_size(const Protocol& protocol, const MarkerBody& effector, const RunOptions& options) {
   const Eigen::Vector3d& size_m = protocol.effector_size_m;
-  if ((effector.size_m - size_m).cwiseAbs().maxCoeff() < same_size_m) return;
+  if (has_size(effector, size_m)) return;
   throw Error(fmt::format("{} is {:.4g} x {:.4g} x {:.4g} m, but the protocol's [effector] size_m "
                           "is [{:.4g}, {:.4g}, {:.4g}]; make them the same",
                           options.effector_file, effector.size_m.x(), effector.size_m.y(),
@@ -36,6 +41,20 @@ void require_general_simulator(const std::string& name) {
 Apparatus fitting_apparatus(const Protocol& protocol, const RunOptions& options) {
   Apparatus apparatus = apparatus_of(options);
   if (!apparatus.effector.tags.empty()) require_size(protocol, apparatus.effector, options);
+  return apparatus;
+}
+
+// What the demonstration shows where the session itself films nothing: the board and effector that
+// would be filmed, as far as the options have them. Of another size than these there is no print.
+Apparatus unfilmed_apparatus(const Protocol& protocol, const RunOptions& options) {
+  if (!has_person(options) || options.board_text.empty()) return {};
+  Apparatus apparatus{{},
+                      parse_board(options.board_text, options.board_file),
+                      parse_effector(options.effector_text, options.effector_file)};
+  if (!has_size(apparatus.effector, protocol.effector_size_m)) {
+    apparatus.effector = {};
+    apparatus.effector.size_m = protocol.effector_size_m;
+  }
   return apparatus;
 }
 
@@ -62,17 +81,20 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const RunOptions&
   if (has_person_) require_general_simulator(protocol_->simulator.name);
   const Apparatus apparatus = fitting_apparatus(*protocol_, options);
   setup_ = view_setup(*protocol_, options, apparatus);
+  demonstrated_ =
+      apparatus.board.tags.empty() ? unfilmed_apparatus(*protocol_, options) : apparatus;
   pictures_ = tracker_named(options.tracker)
                   .make({*protocol_, *responder_, apparatus, split_name(options.tracker).file,
-                         clock, seed, options.record_camera});
+                         clock, seed, options.record_camera, options.tracker_text});
   const ViewEntry& view = view_named(split_name(options.view).name);
   has_screen_ = view.has_screen;
   view_ = view.make(setup_);
 }
 
 SessionParts Equipment::parts(Engine& engine, EventSink& sink) {
-  return {engine, sink,  *pictures_,  *responder_,
-          *view_, clock, has_screen_, has_person_ ? &setup_.texts : nullptr};
+  return {engine,       sink,  *pictures_,  *responder_,
+          *view_,       clock, has_screen_, has_person_ ? &setup_.texts : nullptr,
+          demonstrated_};
 }
 
 }  // namespace heft

@@ -24,6 +24,7 @@ class Equipment {
  private:
   std::shared_ptr<const Protocol> protocol_;
   ViewSetup setup_;
+  Apparatus demonstrated_;
   bool has_person_;
   bool has_screen_;
   std::unique_ptr<Responder> responder_;

@@ -31,15 +31,18 @@ std::unique_ptr<PictureSource> open(const std::string& kind, const PictureParts&
 }
 
 constexpr std::array table{
-    TrackerEntry{"hand", "the responder's own effector pose; no pixels", false, false, false,
-                 make_hand},
-    TrackerEntry{"synthetic", "a rendered camera that films the responder's hand", true, false,
-                 false, make_synthetic},
-    TrackerEntry{"camera", "camera:N, a live camera", true, true, true,
+    TrackerEntry{"hand", "the responder's own effector pose; no pixels", false, false,
+                 TrackerWhat::nothing, make_hand},
+    TrackerEntry{"synthetic",
+                 "a rendered camera that films the responder's hand; synthetic:FILE.toml says what "
+                 "it gets wrong",
+                 true, false, TrackerWhat::settings, make_synthetic},
+    TrackerEntry{"camera", "camera:N, a live camera", true, true, TrackerWhat::source,
                  [](const PictureParts& parts) { return open("camera", parts); }},
-    TrackerEntry{"video", "video:FILE, a video", true, false, true,
+    TrackerEntry{"video", "video:FILE, a video", true, false, TrackerWhat::source,
                  [](const PictureParts& parts) { return open("video", parts); }},
-    TrackerEntry{"frames", "frames:FOLDER, images in the order of their names", true, false, true,
+    TrackerEntry{"frames", "frames:FOLDER, images in the order of their names", true, false,
+                 TrackerWhat::source,
                  [](const PictureParts& parts) { return open("frames", parts); }}};
 
 }  // namespace
@@ -53,10 +56,15 @@ const TrackerEntry& tracker_named(const std::string& tracker) {
   const std::string name = tracker.substr(0, colon);
   const TrackerEntry& entry = entry_named("tracker", name, trackers());
   const bool has_what = colon != std::string::npos && colon + 1 < tracker.size();
-  if (entry.needs_what && !has_what)
+  const bool has_colon = colon != std::string::npos;
+  if (entry.what == TrackerWhat::source && !has_what)
     throw Error(fmt::format("tracker \"{}\" needs to know which: {}", name, entry.summary),
                 ExitCode::usage);
-  if (!entry.needs_what && colon != std::string::npos)
+  if (entry.what == TrackerWhat::settings && has_colon && !has_what)
+    throw Error(
+        fmt::format("tracker \"{0}\": no file follows the colon, expected {0} or {0}:FILE", name),
+        ExitCode::usage);
+  if (entry.what == TrackerWhat::nothing && has_colon)
     throw Error(fmt::format("tracker \"{}\" takes nothing after it", name), ExitCode::usage);
   return entry;
 }

@@ -68,6 +68,14 @@ struct PictureParts {
   const SessionClock& clock;
   std::uint64_t seed = 0;  ///< the session's
   std::string record_to;   ///< a folder that the camera's pictures are kept in; empty: they are not
+  std::string settings = {};  ///< contents of the file that `what` names, where it names settings
+};
+
+/// What follows the colon of a tracker's name.
+enum class TrackerWhat {
+  nothing,
+  settings,  ///< a file of settings, or nothing
+  source     ///< where the pictures come from
 };
 
 /// A row of the table of trackers.
@@ -76,7 +84,7 @@ struct TrackerEntry {
   std::string_view summary;
   bool has_camera;  ///< needs camera, board and effector files
   bool is_live;     ///< pictures come when they come: the session runs on a wall clock
-  bool needs_what;  ///< NAME:WHAT
+  TrackerWhat what;
   /// @throws Error (device_missing) when the camera is not there
   std::unique_ptr<PictureSource> (*make)(const PictureParts& parts);
 };

@@ -6,6 +6,7 @@
 #include "base/Error.h"
 #include "base/Sha256.h"
 #include "session/PictureCheck.h"
+#include "session/PictureSource.h"
 #include "session/RunOptions.h"
 
 namespace heft {
@@ -47,7 +48,8 @@ class Verifier {
   void fold() {
     const SessionHeader& header = session_.header;
     const RunOptions options = run_options_from_json(header.run_options);
-    virtual_clock_ = !runs_on_wall_clock(options) && split_name(options.tracker).file.empty();
+    virtual_clock_ =
+        !runs_on_wall_clock(options) && tracker_named(options.tracker).what != TrackerWhat::source;
     protocol_ = protocol_for(parse_protocol(header.protocol_text, header.protocol_name), options);
     fold_ = fold_session(protocol_, header.seed, reader_.events(session_.session_id));
     result_.n_events = fold_.n_events;

@@ -13,6 +13,7 @@
 #include "physics/DecouplingSimulator.h"
 #include "protocol/MarkerFile.h"
 #include "protocol/ParameterFile.h"
+#include "protocol/SyntheticCameraFile.h"
 #include "protocol/TextsFile.h"
 #include "session/AutoSimulator.h"
 #include "session/PictureSource.h"
@@ -37,6 +38,7 @@ struct Field {
 constexpr std::array fields{Field{"responder", &RunOptions::responder},
                             Field{"responder_text", &RunOptions::responder_text},
                             Field{"tracker", &RunOptions::tracker},
+                            Field{"tracker_text", &RunOptions::tracker_text},
                             Field{"view", &RunOptions::view},
                             Field{"simulator", &RunOptions::simulator},
                             Field{"auto_simulator", &RunOptions::auto_simulator},
@@ -108,26 +110,47 @@ void complete_responder(RunOptions& options) {
   }
 }
 
+void complete_tracker(RunOptions& options) {
+  const TrackerEntry& tracker = tracker_named(options.tracker);
+  options.tracker_text.clear();
+  if (!tracker.is_live) options.tracker = with_absolute_path(options.tracker);
+  if (const std::string file = split_name(options.tracker).file;
+      tracker.what == TrackerWhat::settings && !file.empty())
+    options.tracker_text = read_text_file(file);
+}
+
+void find_camera_file(RunOptions& options, const TrackerEntry& tracker) {
+  std::error_code unknown;  // what can't be looked at is not taken
+  if (std::filesystem::exists(default_camera_file, unknown)) {
+    options.camera_file = default_camera_file;
+    return;
+  }
+  if (tracker.is_live) open_camera(options.tracker);  // one that is not there is told first
+  throw Error(fmt::format("tracker \"{}\" needs the camera's calibration: --camera-file "
+                          "CAMERA.yaml; make one with heft calibrate camera. A {} in this folder "
+                          "would be taken",
+                          tracker.name, default_camera_file),
+              ExitCode::usage);
+}
+
+// Nothing is filmed; but people are shown in the demonstration how the effector is held.
+void complete_unfilmed_apparatus(RunOptions& options) {
+  options.camera_file = options.camera_text = options.board_text = options.effector_text = "";
+  if (!has_person(options)) options.board_file = options.effector_file = "";
+  if (options.board_file.empty() || options.effector_file.empty()) return;
+  read_file(options.board_file, options.board_text);
+  read_file(options.effector_file, options.effector_text);
+}
+
 void complete_apparatus(RunOptions& options) {
   const TrackerEntry& tracker = tracker_named(options.tracker);
-  if (tracker.needs_what && !tracker.is_live) options.tracker = with_absolute_path(options.tracker);
   if (!tracker.has_camera && !options.record_camera.empty())
     throw Error(
         fmt::format("tracker \"{}\" has no camera whose pictures --record-camera could keep",
                     tracker.name),
         ExitCode::usage);
-  if (!tracker.has_camera) {
-    options.camera_file = options.camera_text = options.board_file = options.board_text =
-        options.effector_file = options.effector_text = "";
-    return;
-  }
-  if (options.camera_file.empty()) {
-    if (tracker.is_live) open_camera(options.tracker);  // one that is not there is told first
-    throw Error(fmt::format("tracker \"{}\" needs the camera's calibration: --camera-file "
-                            "CAMERA.yaml; make one with heft calibrate camera",
-                            tracker.name),
-                ExitCode::usage);
-  }
+  if (!tracker.has_camera) return complete_unfilmed_apparatus(options);
+  if (options.camera_file.empty()) find_camera_file(options, tracker);
   options.camera_file = absolute_path(options.camera_file);
   options.camera_text = read_camera_file(options.camera_file);
   read_file(options.board_file, options.board_text);
@@ -155,6 +178,11 @@ void check_view(const RunOptions& options) {
                             "or a model as --responder",
                             name),
                 ExitCode::usage);
+}
+
+void check_tracker(const RunOptions& options) {
+  if (tracker_named(options.tracker).what == TrackerWhat::settings)
+    parse_synthetic_camera(options.tracker_text, split_name(options.tracker).file);
 }
 
 }  // namespace
@@ -198,6 +226,7 @@ RunOptions run_options_from_json(const std::string& text) {
 
 void complete(RunOptions& options) {
   complete_responder(options);
+  complete_tracker(options);
   complete_apparatus(options);
   options.view = with_absolute_path(options.view);
   if (!options.record_camera.empty()) options.record_camera = absolute_path(options.record_camera);
@@ -208,6 +237,7 @@ void complete(RunOptions& options) {
 void check(const RunOptions& options) {
   if (!has_person(options)) checked_responder(options.responder);
   check_view(options);
+  check_tracker(options);
   apparatus_of(options);
   if (has_person(options)) parse_texts(options.texts_text, options.texts_file);
   if (!options.simulator.empty()) simulator_named(options.simulator);
@@ -265,8 +295,10 @@ RunOptions with_auto_resolved(RunOptions options, const Protocol& protocol) {
 
 std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const RunOptions& options) {
   protocol.simulator.name = simulator_asked_for(options, protocol);
-  if (protocol.simulator.name == automatic && !options.auto_simulator.empty())
-    protocol.simulator = {options.auto_simulator, rate_hz_in(options.auto_rate_hz)};
+  if (protocol.simulator.name == automatic && !options.auto_simulator.empty()) {
+    protocol.simulator.name = options.auto_simulator;
+    protocol.simulator.rate_hz = rate_hz_in(options.auto_rate_hz);
+  }
   return std::make_shared<const Protocol>(std::move(protocol));
 }
 

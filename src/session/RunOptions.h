@@ -17,7 +17,8 @@ namespace heft {
 struct RunOptions {
   std::string responder = "simulated";  ///< NAME or NAME:FILE, FILE as an absolute path
   std::string responder_text;           ///< contents of a parameter FILE when the session started
-  std::string tracker = "hand";
+  std::string tracker = "hand";         ///< NAME or NAME:WHAT, a file as an absolute path
+  std::string tracker_text;             ///< contents of a FILE of settings when the session started
   std::string view = "headless";
   std::string simulator;  ///< instead of the protocol's; empty: the protocol's
   /// What `auto` was resolved to before the first trial: a simulator, its steps a second, and why.
@@ -61,6 +62,9 @@ std::string to_json(const RunOptions& options);
 
 /// @throws Error when the text is not what to_json writes
 RunOptions run_options_from_json(const std::string& text);
+
+/// The calibration that is taken where nobody names another, if the working folder has it.
+inline constexpr const char* default_camera_file = "camera.yaml";
 
 /// Makes the files' names absolute, reads what the session needs of them, and checks everything.
 /// @throws Error (usage) for unknown names and combinations that can't work

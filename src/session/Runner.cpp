@@ -10,8 +10,9 @@ Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
     : parts_(parts),
       options_(options),
       journal_(parts.engine, parts.sink, parts.clock, options.progress),
-      attendant_(journal_, parts.view, options.desk, options.stop, parts.has_screen),
-      pages_(journal_, attendant_, parts.view, parts.texts) {}
+      screen_(journal_, parts.view, parts.texts),
+      attendant_(journal_, screen_, options.desk, options.stop, parts.has_screen),
+      pages_(journal_, attendant_, screen_, parts.texts) {}
 
 RunEnd Runner::run() {
   if (!begin()) return RunEnd::declined;
@@ -23,13 +24,27 @@ RunEnd Runner::run() {
 }
 
 void Runner::check_apparatus() {
+  std::string failed;
   for (const CheckResult& result :
        parts_.pictures.check(parts_.engine.protocol().display_rate_hz)) {
     journal_.emit_now(EventKind::check, to_json(result));
+    const bool has_failed = result.verdict == CheckVerdict::failed;
     if (options_.desk)
-      options_.desk->say(
-          fmt::format("{:<8} {}: {}", name_of(result.verdict), result.name, result.finding));
+      options_.desk->say(fmt::format("{:<8} {}: {}",
+                                     has_failed ? "FAILED" : name_of(result.verdict), result.name,
+                                     result.finding));
+    if (has_failed) failed += (failed.empty() ? "" : ", ") + result.name;
   }
+  if (!failed.empty()) ask_whether_failures_matter(failed);
+}
+
+// Where nobody can be asked, what was said and logged of the failure is all.
+void Runner::ask_whether_failures_matter(const std::string& failed) {
+  const auto goes_on = attendant_.ask_to_go_on(
+      "go on? y goes on, n leaves; nothing has been shown to the participant yet");
+  if (!goes_on) return;
+  journal_.emit_now(EventKind::note, fmt::format("failed check: {}; the experimenter {}", failed,
+                                                 *goes_on ? "goes on" : "leaves"));
 }
 
 // Who comes back after a crash has read the first pages already.
@@ -86,7 +101,7 @@ void Runner::take_break(const std::string& name, double least_s) {
 
 void Runner::show_demonstration(const DemonstrationBlock& block) {
   if (pages_.has_reader())
-    pages_.demonstration(block);
+    pages_.demonstration(block, parts_.apparatus);
   else
     parts_.clock.advance_to(journal_.now_s() + block.duration_s);
   if (!attendant_.leaving()) journal_.emit_now(EventKind::demonstration_shown, block.name);
@@ -104,7 +119,7 @@ void Runner::run_trial(const TrialPlan& plan) {
     if (attendant_.leaving()) return;
     told_block_ = plan.block;
   }
-  AttemptRun(parts_, options_, journal_, attendant_, pages_).run(plan);
+  AttemptRun(parts_, options_, journal_, attendant_, screen_).run(plan);
 }
 
 }  // namespace heft

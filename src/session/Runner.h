@@ -27,6 +27,7 @@ class Runner {
   RunEnd run_blocks();
   bool begin();
   void check_apparatus();
+  void ask_whether_failures_matter(const std::string& failed);
   RunEnd finish();
   void take_break(const std::string& name, double least_s);
   void show_demonstration(const DemonstrationBlock& block);
@@ -35,6 +36,7 @@ class Runner {
   SessionParts parts_;
   RunnerOptions options_;
   Journal journal_;
+  ParticipantScreen screen_;
   Attendant attendant_;
   Pages pages_;
   std::optional<std::string> told_survivor_, told_block_;

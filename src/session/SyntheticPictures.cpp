@@ -1,14 +1,27 @@
 #include "session/SyntheticPictures.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/Error.h"
 #include "base/Random.h"
+#include "protocol/SyntheticCameraFile.h"
 
 namespace heft {
 
 namespace {
-SyntheticSettings settings_for(const Protocol& protocol) {
-  SyntheticSettings settings;
-  // A slow display's camera could, but a lab's should not, expose longer.
-  settings.optics.exposure_s = std::min(settings.optics.exposure_s, 0.5 / protocol.display_rate_hz);
+SyntheticSettings settings_for(const PictureParts& parts) {
+  SyntheticSettings settings = parse_synthetic_camera(parts.settings, parts.what);
+  double& exposure_s = settings.optics.exposure_s;
+  const double rate_hz = parts.protocol.display_rate_hz;
+  // The usual one gives way to a fast display.
+  if (parts.what.empty()) exposure_s = std::min(exposure_s, 0.5 / rate_hz);
+  if (exposure_s > 1 / rate_hz)
+    throw Error(fmt::format("{}: exposure_s is {} s, but at the protocol's {} pictures a second "
+                            "each lasts {:.4g} s, expected at most that",
+                            parts.what, exposure_s, rate_hz, 1 / rate_hz),
+                ExitCode::invalid_file);
   settings.motion_samples = 1;  // more only where something moves
   return settings;
 }
@@ -17,8 +30,8 @@ SyntheticSettings settings_for(const Protocol& protocol) {
 SyntheticPictures::SyntheticPictures(const PictureParts& parts)
     : hand_(parts.hand),
       apparatus_(parts.apparatus),
-      camera_(parts.apparatus, settings_for(parts.protocol),
-              RandomStream(parts.seed, "camera").bits()),
+      settings_(settings_for(parts)),
+      camera_(parts.apparatus, settings_, RandomStream(parts.seed, "camera").bits()),
       tracker_(parts.apparatus),
       count_(parts.protocol.display_rate_hz) {
   if (!parts.record_to.empty()) recording_.emplace(parts.record_to);
@@ -41,7 +54,8 @@ std::optional<Picture> SyntheticPictures::next() {
     return sample.in_view ? std::optional(sample.pose) : std::nullopt;
   };
   auto image = std::make_shared<const Image>(camera_.picture(path, t_s, number));
-  if (recording_) recording_->keep(*image, attempt_.start_s + t_s);
+  if (recording_)
+    recording_->keep(*image, attempt_.start_s + t_s, {path(t_s), settings_.camera_from_board});
   Picture picture = tracker_.track(std::move(image), t_s);
   picture.n_dropped = count_.skipped();
   return picture;

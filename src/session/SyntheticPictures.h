@@ -19,6 +19,7 @@ class SyntheticPictures final : public PictureSource {
  private:
   Responder& hand_;
   Apparatus apparatus_;
+  SyntheticSettings settings_;
   SyntheticCamera camera_;
   PictureTracker tracker_;
   std::optional<PictureRecording> recording_;

@@ -1,5 +1,7 @@
 #include "session/TrialWorld.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/Boxes.h"
@@ -33,22 +35,36 @@ void TrialWorld::rearrange(const TrialPlan& plan) {
   reset_requested_ = false;
 }
 
+// A simulator that models one stroke alone meets, sooner or later, what it does not.
+void TrialWorld::advance_drive(const TargetSample& sample) {
+  try {
+    drive_->advance(sample);
+  } catch (const OutsideModel& outside) {
+    throw Error(
+        fmt::format("simulator \"{}\", {:.2f} s into the trial: {}; take \"boxes\", or "
+                    "\"auto\", which does so by itself",
+                    protocol_.simulator.name, sample.t_capture_s, outside.what()));
+  }
+}
+
 ShownPicture TrialWorld::advance(const TargetSample& sample) {
   ShownPicture shown;
   note_view(sample, shown);
-  if (!drive_ && sample.tracked && clear_of_all(sample.pose)) {
-    drive_.emplace(make_simulator(protocol_.simulator.name), scene_, protocol_.simulator.rate_hz);
+  const SimulatorChoice& simulator = protocol_.simulator;
+  const Pose seen_at = predicted(sample, simulator.input.predict_s);
+  if (!drive_ && sample.tracked && clear_of_all(seen_at)) {
+    drive_.emplace(make_simulator(simulator.name), scene_, simulator.rate_hz, simulator.input);
     shown.events.push_back(event_at(sample.t_capture_s, EventKind::cubes_shown));
   }
   WorldState world;
   if (drive_) {
-    drive_->advance(sample);
+    advance_drive(sample);
     return_cubes(sample.t_capture_s, shown);
     note_contacts(sample.t_capture_s, shown);
     world = drive_->state();
   } else {
     world.clone_present = sample.tracked;
-    world.clone = {sample.pose, sample.velocity};
+    world.clone = {seen_at, sample.velocity};
   }
   shown.state_hash = state_hash(world);
   shown.frame.t_s = sample.t_capture_s;

@@ -46,6 +46,7 @@ class TrialWorld {
     std::optional<double> since_s, left_s;  // left: first picture without it, if there was one
   };
 
+  void advance_drive(const TargetSample& sample);
   bool clear_of(const Eigen::Vector3d& slot_m, const Pose& effector) const;
   bool clear_of_all(const Pose& effector) const;
   void note_view(const TargetSample& sample, ShownPicture& shown);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracking/BoxFaces.h"
 #include "tracking/EdgeAdjustment.h"
 #include "tracking/PlanarPose.h"
 
@@ -17,7 +18,9 @@ constexpr double apart_rad = 0.14;  // poses that differ by less are one
 constexpr double undecided = 12;    // difference of costs, in variances of the better fit
 // White that is clipped may be any brightness: on a single tag that is millimeters of depth.
 constexpr double saturated_quality = 0.4;
-constexpr double halved_at_px = 1.0;  // residual that halves the quality
+// What halves the quality: residuals, and how uncertain the body's place is, which for a single
+// small or slanted tag is several times what it is for tags on two faces.
+constexpr double halved_at_px = 1.0, halved_at_m = 0.0005;
 
 TagObservation::Edge observe_edge(const Intrinsics& camera, const FittedEdge& edge) {
   TagObservation::Edge seen;
@@ -129,13 +132,27 @@ std::vector<TagObservation> without_outliers(const std::vector<TagObservation>& 
   return kept;
 }
 
+// Two can't be taken for each other's mirror image, and tell depth and tilt by the other's place.
+int count_faces(const std::vector<TagObservation>& tags) {
+  constexpr double same_cosine = 0.95;
+  std::vector<Eigen::Vector3d> normals;
+  for (const TagObservation& tag : tags) {
+    const Eigen::Vector3d normal = tag_normal({0, tag.corners_m});
+    if (std::ranges::none_of(normals, [&](const auto& n) { return n.dot(normal) > same_cosine; }))
+      normals.push_back(normal);
+  }
+  return static_cast<int>(normals.size());
+}
+
 double quality_of(const std::vector<TagObservation>& tags, const BodyFit& fit) {
   double sum = 0;
   for (const TagObservation& tag : tags)
     sum += tag.quality * (1 - tag.saturated * (1 - saturated_quality));
-  const double relative = fit.rms_px / halved_at_px;
-  return sum / static_cast<double>(tags.size()) * (fit.ambiguous ? 0.5 : 1) /
-         (1 + relative * relative);
+  const auto share_left = [](double squared) { return 1 / (1 + squared); };
+  const double place_variance_m2 = fit.covariance.bottomRightCorner<3, 3>().trace();
+  return sum / static_cast<double>(tags.size()) * (fit.ambiguous ? 0.5 : 1) *
+         share_left(fit.rms_px * fit.rms_px / (halved_at_px * halved_at_px)) *
+         share_left(place_variance_m2 / (halved_at_m * halved_at_m));
 }
 }  // namespace
 
@@ -173,6 +190,7 @@ std::optional<BodyFit> solve_body(const std::vector<TagObservation>& all,
   }
   if (!(fit.rms_px < worst_rms_px) || !corners_fit(tags, fit.camera_from_body)) return std::nullopt;
   fit.n_tags = static_cast<int>(tags.size());
+  fit.n_faces = count_faces(tags);
   fit.quality = quality_of(tags, fit);
   return fit;
 }

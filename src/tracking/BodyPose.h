@@ -44,13 +44,17 @@ struct BiasPrior {
 struct BodyFit {
   Pose camera_from_body;
   double bias_px = 0, bias_sd_px = 0;  ///< and its standard deviation, noise alone
-  double rms_px = 0;                   ///< distance of measured points from their edges
-  double cost = 0;                     ///< robust, in variances
-  int n_tags = 0;                      ///< used
+  /// Of a turn about the camera's axes through the body's origin (rad), then a shift (m): what
+  /// noise and the bias' uncertainty leave open.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  double rms_px = 0;  ///< distance of measured points from their edges
+  double cost = 0;    ///< robust, in variances
+  int n_tags = 0;     ///< used
+  int n_faces = 0;    ///< directions that they face
   /// A second pose, far from this one, fits nearly as well: a flat body seen from afar.
   bool ambiguous = false;
   /// Mean of its tags', halved where ambiguous or where their white is clipped, less where rms_px
-  /// is large.
+  /// or the shift's covariance is large.
   double quality = 0;
 };
 

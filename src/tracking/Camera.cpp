@@ -28,6 +28,8 @@ CameraRequest request_for(const Intrinsics& camera, double display_rate_hz) {
   request.width_px = camera.width_px;
   request.height_px = camera.height_px;
   request.rate_hz = std::max(request.rate_hz, display_rate_hz);
+  request.exposure_s = camera.calibrated_at.exposure_s.value_or(request.exposure_s);
+  request.focus = camera.calibrated_at.focus;
   return request;
 }
 

@@ -41,6 +41,7 @@ struct CameraMode {
   std::string pixel_format;             ///< "MJPG", "YUYV"...; empty where unknown
   std::vector<std::string> locked;      ///< "exposure 4 ms", "focus", "white balance"
   std::vector<std::string> not_locked;  ///< what the driver refused, each with what it means
+  CameraLocks held{};                   ///< values of what is locked
 };
 
 class Camera {
@@ -66,9 +67,11 @@ struct CameraRequest {
   int width_px = 640, height_px = 480;
   double rate_hz = 30;
   double exposure_s = 0.004;
+  std::optional<double> focus{};  ///< where the lens has to stand; none: where it is
 };
 
-/// The mode that the camera was calibrated in, at the display's rate or the usual one above it.
+/// What the camera was set to when it was calibrated, at the display's rate or the usual one above
+/// it.
 CameraRequest request_for(const Intrinsics& camera, double display_rate_hz);
 
 /// A row of the table of cameras: "camera:N", "video:F", "frames:DIR".

@@ -104,7 +104,9 @@ BodyFit fit_of(const Unknowns& at, const Equations& equations) {
   BodyFit fit;
   fit.camera_from_body = at.pose;
   fit.bias_px = at.bias_px;
-  fit.bias_sd_px = std::sqrt(equations.matrix.ldlt().solve(Vector7::Unit(6))(6));
+  const Matrix7 covariance = equations.matrix.ldlt().solve(Matrix7::Identity());
+  fit.covariance = covariance.topLeftCorner<6, 6>();
+  fit.bias_sd_px = std::sqrt(covariance(6, 6));
   fit.cost = equations.cost;
   fit.rms_px = std::sqrt(equations.sum_px2 / std::max(1, equations.n));
   return fit;

@@ -71,6 +71,16 @@ class Reader {
     std::ranges::copy(d, camera.distortion.begin());
   }
 
+  // A number that a file may lack.
+  std::optional<double> extra(const char* key, double least, double most, const char* expected) {
+    if (storage_[key].empty()) return std::nullopt;
+    const std::vector<double> value = numbers(key, expected);
+    if (value.size() == 1 && value[0] >= least && value[0] <= most) return value[0];
+    if (!value.empty())
+      mistake(fmt::format("{} is {}, expected {}", key, fmt::join(value, ", "), expected));
+    return std::nullopt;
+  }
+
   // Its message begins with the key.
   void mistake(std::string message) {
     const std::string key = message.substr(0, message.find(' '));
@@ -155,6 +165,13 @@ std::string matrix_text(const char* key, std::size_t rows, std::size_t columns,
                      key, rows, columns, fmt::join(values, ", "));
 }
 
+std::string locks_text(const CameraLocks& locks) {
+  std::string text;
+  if (locks.exposure_s) text += fmt::format("exposure_s: {}\n", *locks.exposure_s);
+  if (locks.focus) text += fmt::format("focus: {}\n", *locks.focus);
+  return text;
+}
+
 std::string comment_lines(const std::string& comment) {
   std::string lines, line;
   std::istringstream in(comment);
@@ -170,6 +187,9 @@ Intrinsics parse_intrinsics(const std::string& text, const std::string& file) {
   camera.height_px = reader.side("image_height");
   reader.matrix(camera);
   reader.distortion(camera);
+  camera.calibrated_at = {
+      reader.extra("exposure_s", 1e-6, 1, "the seconds that the shutter was open, up to 1"),
+      reader.extra("focus", 0, 1e6, "what the driver called the lens' place, 0 or more")};
   reader.finish();
   return camera;
 }
@@ -198,7 +218,8 @@ std::string to_yaml(const Intrinsics& camera, const std::string& comment) {
   return "%YAML:1.0\n---\n" + comment_lines(comment) +
          fmt::format("image_width: {}\nimage_height: {}\n", camera.width_px, camera.height_px) +
          matrix_text("camera_matrix", 3, 3, matrix) +
-         matrix_text("distortion_coefficients", 1, distortion.size(), distortion);
+         matrix_text("distortion_coefficients", 1, distortion.size(), distortion) +
+         locks_text(camera.calibrated_at);
 }
 
 }  // namespace heft

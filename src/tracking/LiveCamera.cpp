@@ -61,7 +61,29 @@ void lock_exposure(const CameraControls& controls, double exposure_s, CameraMode
                     "fast movements smear more",
                     1e3 * got_s, 1e3 * exposure_s));
   else
-    mode.locked.push_back(fmt::format("exposure {:.1f} ms", 1e3 * got_s));
+    mode.held.exposure_s = got_s;
+  if (mode.held.exposure_s) mode.locked.push_back(fmt::format("exposure {:.1f} ms", 1e3 * got_s));
+}
+
+// A lens that stands elsewhere than it was calibrated at magnifies otherwise.
+void lock_focus(const CameraControls& controls, std::optional<double> wanted, CameraMode& mode) {
+  const bool still = takes(controls, cv::CAP_PROP_AUTOFOCUS, 0);
+  if (wanted && !takes(controls, cv::CAP_PROP_FOCUS, *wanted)) {
+    const double at = controls.get(cv::CAP_PROP_FOCUS);
+    mode.not_locked.push_back(fmt::format(
+        "focus: calibrated at {:g}, but {}, so the calibration may not hold: calibrate once more",
+        *wanted,
+        at < 0 ? std::string("this driver can't set it")
+               : fmt::format("it is at {:g} and the driver does not change that", at)));
+  } else if (!still) {
+    mode.not_locked.emplace_back(focus_moves);
+  } else {
+    // Being sent to where it says it is, a lens is there, and a driver without the control is found
+    // out.
+    const double at = controls.get(cv::CAP_PROP_FOCUS);
+    if (at >= 0 && takes(controls, cv::CAP_PROP_FOCUS, at)) mode.held.focus = at;
+    mode.locked.push_back(mode.held.focus ? fmt::format("focus {:g}", at) : "focus");
+  }
 }
 }  // namespace
 
@@ -70,12 +92,9 @@ double capture_time_s(double driver_s, double arrival_s, double exposure_s) {
   return (believable ? driver_s : arrival_s) - exposure_s / 2;
 }
 
-void lock_controls(const CameraControls& controls, double exposure_s, CameraMode& mode) {
-  lock_exposure(controls, exposure_s, mode);
-  if (takes(controls, cv::CAP_PROP_AUTOFOCUS, 0))
-    mode.locked.push_back("focus");
-  else
-    mode.not_locked.emplace_back(focus_moves);
+void lock_controls(const CameraControls& controls, const CameraRequest& request, CameraMode& mode) {
+  lock_exposure(controls, request.exposure_s, mode);
+  lock_focus(controls, request.focus, mode);
   if (takes(controls, cv::CAP_PROP_AUTO_WB, 0))
     mode.locked.push_back("white balance");
   else
@@ -129,7 +148,7 @@ void Device::open() {
   locks_ = {};
   lock_controls({[this](int property, double value) { return capture_.set(property, value); },
                  [this](int property) { return capture_.get(property); }},
-                request_.exposure_s, locks_);
+                request_, locks_);
   const double said_s = capture_.get(cv::CAP_PROP_EXPOSURE) * driver_exposure_s;
   exposure_s_ = said_s > 0 && said_s < 0.1 ? said_s : request_.exposure_s;
 }

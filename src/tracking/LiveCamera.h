@@ -25,6 +25,6 @@ struct CameraControls {
 };
 
 /// Fixes exposure, focus and white balance, reads back what the driver made of it, and lists it.
-void lock_controls(const CameraControls& controls, double exposure_s, CameraMode& mode);
+void lock_controls(const CameraControls& controls, const CameraRequest& request, CameraMode& mode);
 
 }  // namespace heft

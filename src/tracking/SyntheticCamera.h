@@ -19,8 +19,9 @@ namespace heft {
 Intrinsics default_camera(int width_px, int height_px);
 
 struct Optics {
-  double blur_px = 0.6;     ///< sd of the lens' blur, on linear light; more where out of focus
-  bool tone_curve = true;   ///< sRGB; false: the sensor's linear light is stored
+  double blur_px = 0.6;  ///< sd of the lens' blur, on linear light; more where out of focus
+  /// The tone curve: light to the power of 1/gamma is stored, 1 being linear; none: sRGB.
+  std::optional<double> gamma = std::nullopt;
   double vignetting = 0.3;  ///< share of light lost in the corners; grows with distance squared
   double exposure = 1;      ///< 1: white paper just below saturation
   double noise = 3;  ///< sd, of 255; the same in all three channels, so gray pictures have it too

@@ -113,7 +113,7 @@ struct Tracker::Parts {
         settings(how),
         board(camera, apparatus.board, how, board_edge_pixels),
         effector(camera, apparatus.effector, how, effector_edge_pixels) {
-    const double decimate = how.decimate > 0 ? how.decimate : camera.width_px <= 640 ? 1 : 1.5;
+    const double decimate = how.decimate > 0 ? how.decimate : camera.width_px <= 800 ? 1 : 1.5;
     detectors.emplace_back(apparatus.board.family, decimate);
     if (has_effector() && apparatus.effector.family != apparatus.board.family)
       detectors.emplace_back(apparatus.effector.family, decimate);
@@ -195,6 +195,7 @@ struct Tracker::Parts {
         t_s, pose, moves_on ? mean_velocity(seen->board_from_effector, pose, dt_s) : Velocity{}};
     result.board_from_effector = pose;
     result.n_effector_tags = fit.n_tags;
+    result.n_effector_faces = fit.n_faces;
     result.effector_reprojection_px = fit.rms_px;
     result.quality = fit.quality;
   }

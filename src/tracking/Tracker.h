@@ -12,7 +12,7 @@
 namespace heft {
 
 struct TrackerSettings {
-  /// Detection on a picture smaller by this factor; 0: 1 up to 640 pixels wide, 1.5 above.
+  /// Detection on a picture smaller by this factor; 0: 1 up to 800 pixels wide, 1.5 above.
   double decimate = 0;
   bool refine_edges = true;  ///< false: the detector's own corners
   bool remove_bias = true;   ///< the edge bias that blur and the tone curve cause
@@ -30,12 +30,14 @@ struct TrackedPicture {
   std::optional<Pose> camera_from_board;
   std::optional<Pose> board_from_effector;  ///< only with the board
   int n_board_tags = 0, n_effector_tags = 0;
+  int n_effector_faces = 0;  ///< on which those tags are; two make a pose firm
   /// RMS distance of the measured tag edges from where the pose puts them.
   double board_reprojection_px = 0, effector_reprojection_px = 0;
   /// 0...1: how far the effector's pose can be trusted (the board's where there is no effector):
   /// the share of pixels around its tags' edges that look like edges; halved where two poses fit
-  /// about equally well, and where the reprojection error is 1 pixel; less than half where the
-  /// picture is overexposed.
+  /// about equally well, where the reprojection error is 1 pixel, and where its tags leave the
+  /// effector's place open by half a millimeter, as a single slanted one may; less than half where
+  /// the picture is overexposed.
   double quality = 0;
   /// The effector is not where motion could have taken it since it was last seen, or was not seen
   /// for so long that nothing can be said.

@@ -79,7 +79,7 @@ std::vector<std::string> ViewCollector::missing() const {
     list.push_back(fmt::format("bring the board into {} of the picture, and hold it still",
                                coverage_.emptiest()));
   if (farthest_m_ < enough_distance_ratio * nearest_m_)
-    list.push_back("bring the board nearer and farther away");
+    list.emplace_back("bring the board nearer and farther away");
   if (size() < enough)
     list.push_back(fmt::format("{} more views, from other sides and distances", enough - size()));
   return list;

@@ -26,16 +26,18 @@ TEST(TrackingStudy, QuickRunMakesEveryFile) {
   for (const char* column : {"tip_p95_mm", "board_p95_mm", "effector_p95_deg", "time_median_ms"})
     for (const double value : accuracy.numbers(column)) EXPECT_GT(value, 0) << column;
   const auto limits = folder.csv("limits.csv");
-  EXPECT_EQ(limits.rows.size(), 2 * 2 * static_cast<std::size_t>(limit_parts));
+  EXPECT_EQ(limits.rows.size(), 3 * 2 * static_cast<std::size_t>(limit_parts));
   for (const double share : limits.numbers("effector_found")) EXPECT_LE(share, 1);
   const auto filters = folder.csv("filters.csv");
   EXPECT_EQ(filters.rows.size(), smoothers().size());
   for (const double jitter : filters.numbers("jitter_mm")) EXPECT_GT(jitter, 0);
-  EXPECT_EQ(folder.csv("goals.csv").rows.size(), 21U);
+  EXPECT_EQ(folder.csv("goals.csv").rows.size(), 22U);
+  EXPECT_NE(folder.text("goals.csv").find("camera calibration from 6 views"), std::string::npos);
   for (const char* chart : {"accuracy.svg", "limits.svg", "filters.svg"})
     EXPECT_TRUE(folder.has_chart(chart)) << chart;
   const std::string readme = folder.text("README.md");
   EXPECT_NE(readme.find("quick run"), std::string::npos);
+  EXPECT_NE(readme.find("| gamma 2.2 | "), std::string::npos);
   EXPECT_EQ(readme.find("nan"), std::string::npos);
 }
 

@@ -3,6 +3,7 @@
 Run as: python3 tests/cli/apparatus_test.py PATH_TO_HEFT
 """
 
+import math
 import pathlib
 import re
 import subprocess
@@ -12,6 +13,56 @@ import unittest
 
 APPARATUS = pathlib.Path(__file__).resolve().parents[2] / "protocols" / "apparatus"
 HEFT = "heft"
+
+
+PIXELS_PER_M = 45 / 0.0254  # of the sheet, as pdftoppm draws it below
+
+
+def read_gray(path):
+    header, pixels = path.read_bytes().split(b"\n255\n", 1)
+    width, height = map(int, header.split()[1:3])
+    return width, height, pixels
+
+
+def gray_between(sheet, x, y):
+    """Bilinear; white beyond the sheet's edges."""
+    width, height, pixels = sheet
+    left, top = math.floor(x), math.floor(y)
+    if not (0 <= left < width - 1 and 0 <= top < height - 1):
+        return 235
+    at = top * width + left
+    x -= left
+    y -= top
+    above = pixels[at] * (1 - x) + pixels[at + 1] * x
+    below = pixels[at + width] * (1 - x) + pixels[at + width + 1] * x
+    return 20 + 0.84 * (above * (1 - y) + below * y)
+
+
+def unit(v):
+    return tuple(c / math.hypot(*v) for c in v)
+
+
+def cross(a, b):
+    return tuple(a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3))
+
+
+def photograph(sheet, around, tilt, distance_m, width=480, height=360, focal=400):
+    """What a pinhole camera sees that looks at the sheet's middle, `tilt` radians off its normal."""
+    out = (math.sin(tilt) * math.cos(around), math.sin(tilt) * math.sin(around), math.cos(tilt))
+    across = unit((out[2], 0, -out[0]))  # level with the sheet's lower edge
+    down = cross(across, out)
+    picture = bytearray()
+    for v in range(height):
+        for u in range(width):
+            right = (u - width / 2 + 0.5) / focal
+            low = (v - height / 2 + 0.5) / focal
+            ray = [right * a + low * d - o for a, d, o in zip(across, down, out)]
+            way = -distance_m * out[2] / ray[2]
+            x = distance_m * out[0] + way * ray[0]
+            y = distance_m * out[1] + way * ray[1]
+            picture.append(round(gray_between(sheet, sheet[0] / 2 + x * PIXELS_PER_M,
+                                              sheet[1] / 2 - y * PIXELS_PER_M)))
+    return b"P5 %d %d 255\n" % (width, height) + bytes(picture)
 
 
 class Apparatus(unittest.TestCase):
@@ -85,10 +136,10 @@ class Apparatus(unittest.TestCase):
         self.assertEqual(run.returncode, 2)
         self.assertIn('"letter"', run.stderr)
 
-    def calibrate_camera(self, source):
+    def calibrate_camera(self, source, *more):
         out = self.folder / "camera.yaml"
         run = self.heft("calibrate", "camera", "--camera", source,
-                        "--board", APPARATUS / "board.toml", "--out", out)
+                        "--board", APPARATUS / "board.toml", "--out", out, *more)
         self.assertFalse(out.exists())
         return run
 
@@ -96,6 +147,58 @@ class Apparatus(unittest.TestCase):
         run = self.calibrate_camera("camera:97")
         self.assertEqual((run.returncode, run.stdout), (4, ""))
         self.assertEqual(self.calibrate_camera("webcam:0").returncode, 2)
+
+    def test_calibrating_once_more_keeps_the_earlier_file(self):
+        _, pdf = self.sheet("board")
+        subprocess.run(["pdftoppm", "-r", "45", "-f", "1", "-singlefile", "-gray", pdf,
+                        self.folder / "sheet"], check=True)
+        sheet = read_gray(self.folder / "sheet.pgm")
+        frames = self.folder / "frames"
+        frames.mkdir()
+        for i in range(6):
+            (frames / f"{i}.pgm").write_bytes(photograph(sheet, 1.1 * i, 0.45, 0.34 + 0.02 * i))
+        out = self.folder / "camera.yaml"
+        arguments = ["calibrate", "camera", "--camera", f"frames:{frames}", "--size", "480x360",
+                     "--board", APPARATUS / "board.toml", "--out", out]
+        run = self.heft(*arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("is kept as", run.stderr)
+        first = out.read_bytes()
+        self.assertNotIn(b"exposure_s", first)  # nobody knows what pictures were taken with
+        focal = float(re.search(rb"data: \[ ([\d.]+),", first)[1])
+        self.assertAlmostEqual(focal, 400, delta=8)
+
+        out.write_text("of last week")
+        run = self.heft(*arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn(f"is kept as {out}.before\n", run.stderr)
+        self.assertEqual(out.read_bytes(), first)
+        self.assertEqual(pathlib.Path(f"{out}.before").read_text(), "of last week")
+        run = self.heft(*arguments)
+        self.assertIn(f"is kept as {out}.before2\n", run.stderr)
+        self.assertEqual(pathlib.Path(f"{out}.before").read_text(), "of last week")
+        self.assertEqual(pathlib.Path(f"{out}.before2").read_bytes(), first)
+
+    def test_calibrating_looks_at_its_options_before_the_work(self):
+        frames = self.folder / "frames"
+        frames.mkdir()
+        (frames / "a.pgm").write_bytes(b"P5 64 48 255\n" + bytes(64 * 48))
+        source = f"frames:{frames}"
+        for more, code, message in (
+            (("--size", "1280"), 2, "expected width and height in pixels, as in 1280x720"),
+            (("--size", "0x0"), 2, "as in 1280x720"),
+            (("--size", "1280x720"), 1, "gives pictures of 64 x 48 pixels; leave --size out"),
+            (("--exposure-ms", "400"), 2, "expected 0.1 to 100 ms"),
+            (("--exposure-ms", "nan"), 2, "expected 0.1 to 100 ms"),
+            (("--exposure-ms", "4"), 2, "it sets live cameras only"),
+        ):
+            run = self.calibrate_camera(source, *more)
+            self.assertEqual((run.returncode, run.stdout), (code, ""), run.stderr)
+            self.assertIn(message, run.stderr)
+        run = self.heft("calibrate", "camera", "--camera", "camera:97", "--board",
+                        APPARATUS / "board.toml", "--out", self.folder / "missing" / "camera.yaml")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("does its folder exist", run.stderr)
 
     def test_calibrating_needs_different_views(self):
         _, pdf = self.sheet("board")

@@ -59,17 +59,21 @@ class Terminal:
         return False
 
 
-@unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
-class Desk(unittest.TestCase):
+class AtADesk(unittest.TestCase):
+    """A person's session whose experimenter sits at a terminal."""
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        self.db = str(Path(folder.name) / "desk.db")
+        self.folder = Path(folder.name)
+        self.db = str(self.folder / "desk.db")
+
+    def start(self, *options):
         self.screen = Screen()
         self.addCleanup(self.screen.close)
         self.terminal = Terminal(
             [HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07", "--db", self.db,
-             "--seed", "5", "--purpose", "test", "--tracker", "hand"], self.screen.environment())
+             "--seed", "5", "--purpose", "test", *options], self.screen.environment())
         self.addCleanup(self.end)
         self.person = Person(self.screen, self.db, self.terminal.program)
 
@@ -83,6 +87,17 @@ class Desk(unittest.TestCase):
     def n(self, kind, more=""):
         rows = self.person.log(f"select count(*) from event where kind = '{kind}' {more}")
         return rows[0][0] if rows else 0
+
+    def shows(self, words):
+        self.assertTrue(self.terminal.wait_for(lambda: words in self.terminal.shown),
+                        self.terminal.shown)
+
+
+@unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
+class Desk(AtADesk):
+    def setUp(self):
+        super().setUp()
+        self.start("--tracker", "hand")
 
     def until_a_sorting_trial_is_open(self):
         def is_open():
@@ -129,6 +144,48 @@ class Desk(unittest.TestCase):
         self.terminal.reader.join()
         self.assertIn("heft resume", self.terminal.shown)
         self.assertEqual(query(self.db, "select state from session"), [("paused",)])
+
+    def test_it_shows_which_page_the_participant_reads(self):
+        self.shows("  welcome  nothing tracked  ")
+        self.until_a_sorting_trial_is_open()
+        self.shows("  instructions  nothing tracked  ")
+        self.shows("  trial  ")
+        self.terminal.press("p")
+        self.shows("  paused  nothing tracked  ")
+
+
+@unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
+class FailedCheck(AtADesk):
+    """A camera that films a gray wall."""
+
+    def setUp(self):
+        super().setUp()
+        wall = self.folder / "wall"
+        wall.mkdir()
+        for i in range(3):
+            (wall / f"{i}.pgm").write_bytes(b"P5 640 480 255\n" + bytes([128]) * 640 * 480)
+        self.start("--tracker", f"frames:{wall}", "--camera-file",
+                   str(PROTOCOLS / "apparatus" / "synthetic_camera.yaml"))
+        self.shows("FAILED   board")
+        self.shows("nothing shown yet")
+        self.shows("go on? y goes on, n leaves; nothing has been shown to the participant yet")
+        self.assertEqual(self.n("text_shown"), 0)
+
+    def test_nobody_is_shown_anything_when_the_experimenter_leaves(self):
+        self.terminal.press("xn")
+        self.assertTrue(self.terminal.wait_for(lambda: self.terminal.program.poll() is not None))
+        self.assertEqual(self.terminal.program.returncode, 130)
+        self.terminal.reader.join()
+        self.assertIn("heft resume", self.terminal.shown)
+        self.assertEqual(query(self.db, "select state from session"), [("paused",)])
+        self.assertEqual(self.n("text_shown"), 0)
+        self.assertEqual(self.n("note", "and detail like '%the experimenter leaves'"), 1)
+
+    def test_the_session_begins_when_they_say_so(self):
+        self.terminal.press("y")
+        self.shows("  welcome  nothing tracked  ")
+        self.assertEqual(self.n("note", "and detail like 'failed check: %board%; the experimenter "
+                                        "goes on'"), 1)
 
 
 if __name__ == "__main__":

@@ -42,9 +42,26 @@ class Options(SessionTest):
     def test_missing_ones_say_how_they_are_made_or_what_is_there(self):
         self.assertIn("heft calibrate camera",
                       self.refused(1, "--tracker", "synthetic", "--camera-file", "none.yaml"))
-        self.assertIn("heft calibrate camera", self.refused(2, "--tracker", "frames:."))
+        said = self.refused(2, "--tracker", "frames:.")
+        self.assertIn("heft calibrate camera", said)
+        self.assertIn("camera.yaml in this folder", said)
         self.assertIn("video63", self.refused(4, "--tracker", "camera:63", "--camera-file",
                                               str(APPARATUS / "synthetic_camera.yaml")))
+
+    def test_the_calibration_of_this_folder_is_taken_and_told(self):
+        self.write("camera.yaml", (APPARATUS / "synthetic_camera.yaml").read_text(encoding="utf-8"))
+        said = self.refused(4, "--tracker", "camera:63")
+        self.assertIn("camera calibration: camera.yaml\n", said)
+        self.assertIn("video63", said)
+        said = self.run_heft("doctor", "--tracker", "camera:63", expect=4, cwd=self.folder).stderr
+        self.assertIn("camera calibration: camera.yaml\n", said)
+        named = self.write("mine.yaml", "%YAML:1.0\n---\n")
+        said = self.refused(3, "--tracker", "camera:63", "--camera-file", named)
+        self.assertNotIn("camera calibration", said)
+        # The made-up camera has its own calibration, whatever lies here.
+        self.write("camera.yaml", "%YAML:1.0\n---\n")
+        self.assertIn("none.yaml", self.refused(1, "--tracker", "synthetic", "--effector",
+                                                "none.yaml"))
 
     def test_a_text_file_is_checked_even_where_a_model_reads_nothing(self):
         text = (PROTOCOLS / "texts" / "en.toml").read_text(encoding="utf-8")

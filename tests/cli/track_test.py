@@ -84,7 +84,10 @@ class Track(unittest.TestCase):
         # The board's y points up in the picture, its z at the camera: half a turn about x.
         self.assertGreater(abs(float(row["camera_qx"])), 0.999)
         self.assertLess(float(row["reprojection_px"]), 0.2)
-        self.assertGreater(float(row["quality"]), 0.4)
+        # One tag from straight ahead: two tilts fit alike, and without other tags to tell the edge
+        # bias its distance is open by more than half a millimeter.
+        self.assertGreater(float(row["quality"]), 0.1)
+        self.assertLess(float(row["quality"]), 0.4)
 
     def test_it_moves_with_the_picture(self):
         files = [self.write(f"{i}.pgm", picture(110 + 20 * i, 70 - 10 * i)) for i in range(3)]

@@ -55,6 +55,17 @@ class Validate(unittest.TestCase):
                 line, rf"^{re.escape(str(path))}: ok, a protocol: about \d+ trials and \d+ minutes"
             )
 
+    def test_warns_of_choices_for_see_through_displays(self):
+        text = (PROTOCOLS / "quick.toml").read_text(encoding="utf-8")
+        path = self.file("a.toml", text + '[physics]\ninput = "hold"\npredict_s = 0.05\n')
+        run = self.validate(path)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn(": ok, a protocol: ", run.stdout)
+        held, predicted = run.stderr.splitlines()
+        self.assertRegex(held, rf'^{re.escape(path)}: .*input = "hold" is for see-through .*"path"')
+        # 50 N/m times 15 mm are the friction of 95.6 g.
+        self.assertRegex(predicted, rf"^{re.escape(path)}: .*predict_s = 0.05 .*15 mm .* 96 g")
+
     def test_says_what_it_took_a_file_for(self):
         procedure, scene = self.file("a.toml", PROCEDURE), self.file("b.toml", SCENE)
         run = self.validate(procedure, scene)

@@ -171,12 +171,13 @@ TEST_F(DriveSteps, ReturnsACubeAndKeepsTheCloneOffUntilItIsClearOfIt) {
   EXPECT_THROW(drive.return_cube(-1), std::exception);
 }
 
-class DriveInput : public testing::Test {
+class DriveTargets : public testing::Test {
  protected:
   // x of every target while these samples come in, a tenth of a second apart, two steps each.
-  std::vector<double> targets(InputMode mode, const std::vector<TargetSample>& seen_samples) {
+  std::vector<double> targets(const DriveInput& input,
+                              const std::vector<TargetSample>& seen_samples) {
     Calls calls;
-    Drive drive(std::make_unique<FakeSimulator>(calls), one_cube(0.2), 20, mode);
+    Drive drive(std::make_unique<FakeSimulator>(calls), one_cube(0.2), 20, input);
     for (const TargetSample& sample : seen_samples) drive.advance(sample);
     std::vector<double> x_m;
     for (const Pose& target : calls.targets) x_m.push_back(target.position_m.x());
@@ -188,21 +189,21 @@ class DriveInput : public testing::Test {
   const std::vector<TargetSample> samples{seen(0, -0.50), seen(0.1, -0.48), seen(0.2, -0.44)};
 };
 
-TEST_F(DriveInput, PathGoesToTheNewPose) {
-  EXPECT_THAT(targets(InputMode::path, samples), near({-0.49, -0.48, -0.46, -0.44}));
+TEST_F(DriveTargets, PathGoesToTheNewPose) {
+  EXPECT_THAT(targets({InputMode::path}, samples), near({-0.49, -0.48, -0.46, -0.44}));
 }
 
-TEST_F(DriveInput, HoldStaysAtTheLastPose) {
-  EXPECT_THAT(targets(InputMode::hold, samples), near({-0.50, -0.50, -0.48, -0.48}));
+TEST_F(DriveTargets, HoldStaysAtTheLastPose) {
+  EXPECT_THAT(targets({InputMode::hold}, samples), near({-0.50, -0.50, -0.48, -0.48}));
 }
 
-TEST_F(DriveInput, ExtrapolateGoesOnAsBetweenTheLastTwo) {
-  EXPECT_THAT(targets(InputMode::extrapolate, samples), near({-0.50, -0.50, -0.47, -0.46}));
+TEST_F(DriveTargets, ExtrapolateGoesOnAsBetweenTheLastTwo) {
+  EXPECT_THAT(targets({InputMode::extrapolate}, samples), near({-0.50, -0.50, -0.47, -0.46}));
 }
 
-TEST_F(DriveInput, ExtrapolateTurnsOn) {
+TEST_F(DriveTargets, ExtrapolateTurnsOn) {
   Calls calls;
-  Drive drive(std::make_unique<FakeSimulator>(calls), one_cube(0.2), 20, InputMode::extrapolate);
+  Drive drive(std::make_unique<FakeSimulator>(calls), one_cube(0.2), 20, {InputMode::extrapolate});
   for (int i = 0; i < 3; ++i) {
     TargetSample sample = seen(0.1 * i, -0.5);
     sample.pose = upright_pose(sample.pose.position_m, 0.2 * i);
@@ -211,10 +212,50 @@ TEST_F(DriveInput, ExtrapolateTurnsOn) {
   EXPECT_NEAR(rotation_vector(calls.targets.back().orientation).z(), 0.4, 1e-12);
 }
 
-TEST_F(DriveInput, ExtrapolateForgetsTheCourseAtAJump) {
+TEST_F(DriveTargets, ExtrapolateForgetsTheCourseAtAJump) {
   auto jumped = samples;
   jumped[1].jump = true;
-  EXPECT_THAT(targets(InputMode::extrapolate, jumped), near({-0.50, -0.50, -0.48, -0.48}));
+  EXPECT_THAT(targets({InputMode::extrapolate}, jumped), near({-0.50, -0.50, -0.48, -0.48}));
+}
+
+// Half a second ahead of speeds .1, .2 and .4 m/s: at -.45, -.38 and -.24.
+TEST_F(DriveTargets, PredictsEverySampleAlongItsVelocity) {
+  auto moving = samples;
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    moving[i].velocity.linear_m_s.x() = 0.1 * (1 << i);
+  EXPECT_THAT(targets({InputMode::path, 0.5}, moving), near({-0.415, -0.38, -0.31, -0.24}));
+  EXPECT_THAT(targets({InputMode::hold, 0.5}, moving), near({-0.45, -0.45, -0.38, -0.38}));
+  EXPECT_THAT(targets({InputMode::extrapolate, 0.5}, moving), near({-0.45, -0.45, -0.345, -0.31}));
+  EXPECT_THAT(targets({InputMode::path, 0}, moving), targets({InputMode::path}, samples));
+}
+
+TEST_F(DriveTargets, ACloneThatJumpsComesBackWhereItIsPredicted) {
+  Calls calls;
+  Drive drive(std::make_unique<FakeSimulator>(calls), one_cube(0.2), 20, {InputMode::path, 0.1});
+  TargetSample sample = seen(0, -0.5);
+  sample.velocity.linear_m_s.x() = 0.2;
+  EXPECT_NEAR(drive.advance(sample).clone.pose.position_m.x(), -0.48, 1e-12);
+  sample.t_capture_s = 0.1;
+  sample.jump = true;
+  sample.pose.position_m.x() = -0.3;
+  EXPECT_NEAR(drive.advance(sample).clone.pose.position_m.x(), -0.28, 1e-12);
+}
+
+TEST(Predicted, GoesOnAndTurnsOnAsTheSampleDoes) {
+  TargetSample sample = seen(0, -0.5);
+  sample.pose = upright_pose({-0.5, 0.1, 0.02}, 0.3);
+  sample.velocity = {{0.2, -0.4, 0}, {0, 0, 2}};
+  const Pose ahead = predicted(sample, 0.05);
+  EXPECT_LT((ahead.position_m - Eigen::Vector3d(-0.49, 0.08, 0.02)).norm(), 1e-12);
+  EXPECT_NEAR(rotation_vector(ahead.orientation).z(), 0.4, 1e-12);
+}
+
+TEST(Drive, RefusesAPredictionOfThePast) {
+  Calls calls;
+  for (double predict_s : {-0.05, std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(
+        Drive(std::make_unique<FakeSimulator>(calls), Scene{}, 240, {InputMode::path, predict_s}),
+        std::exception);
 }
 
 TEST(Drive, RefusesARateThatIsNoRate) {

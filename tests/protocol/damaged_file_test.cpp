@@ -9,6 +9,7 @@
 #include "protocol/MarkerFile.h"
 #include "protocol/ProcedureFile.h"
 #include "protocol/SceneFile.h"
+#include "protocol/SyntheticCameraFile.h"
 
 namespace heft {
 namespace {
@@ -98,12 +99,13 @@ RC_GTEST_PROP(DamagedFile, OfTagsIsTakenOrRefusedWithPlaces, ()) {
   const std::string folder = std::string(HEFT_SOURCE_DIR) + "/protocols/apparatus/";
   const std::string effector = content_of(folder + "effector.toml");
   std::string text = *rc::gen::element(
-      content_of(folder + "board.toml"), effector,
+      content_of(folder + "board.toml"), content_of(folder + "synthetic_camera.toml"), effector,
       effector_to_toml(parse_effector(effector, "effector.toml"), "with a [[tag]] each"));
   const int n = *rc::gen::inRange(1, 6);
   for (int i = 0; i < n; ++i) damage(text);
   expect_taken_or_refused([&] { parse_board(text, "x.toml"); });
   expect_taken_or_refused([&] { parse_effector(text, "x.toml"); });
+  expect_taken_or_refused([&] { parse_synthetic_camera(text, "x.toml"); });
 }
 
 // A protocol that is taken can be used: its length is finite and its trials fit the area.

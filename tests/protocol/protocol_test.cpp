@@ -24,6 +24,18 @@ TEST(Protocol, KeepsItsTextAndName) {
   EXPECT_EQ(protocol.sha256, sha256(protocol.text));
 }
 
+TEST(Protocol, ChoosesHowTheEffectorMovesBetweenPictures) {
+  const std::string text = content_of(shipped_path("quick"));
+  const DriveInput over_video = parse_protocol(text, "x.toml").simulator.input;
+  EXPECT_EQ(over_video.mode, InputMode::path);
+  EXPECT_EQ(over_video.predict_s, 0);
+  const DriveInput see_through =
+      parse_protocol(text, "x.toml", {"physics.input=extrapolate", "physics.predict_s=0.05"})
+          .simulator.input;
+  EXPECT_EQ(see_through.mode, InputMode::extrapolate);
+  EXPECT_EQ(see_through.predict_s, 0.05);
+}
+
 TEST(PaperProtocol, HasThePapersBlocks) {
   const Protocol protocol = shipped("paper");
   EXPECT_EQ(protocol.display_rate_hz, 15);
@@ -81,6 +93,8 @@ TEST(PaperProtocol, SpellsOutTheDefaults) {
   EXPECT_EQ(paper.gravity_m_s2, defaults.gravity_m_s2);
   EXPECT_EQ(paper.simulator.name, defaults.simulator.name);
   EXPECT_EQ(paper.simulator.rate_hz, defaults.simulator.rate_hz);
+  EXPECT_EQ(paper.simulator.input.mode, defaults.simulator.input.mode);
+  EXPECT_EQ(paper.simulator.input.predict_s, defaults.simulator.input.predict_s);
   EXPECT_EQ(paper.layout.gap_m, defaults.layout.gap_m);
   EXPECT_EQ(paper.layout.row_y_m, defaults.layout.row_y_m);
   EXPECT_EQ(paper.layout.start_distance_m, defaults.layout.start_distance_m);

@@ -78,11 +78,17 @@ class MadeUpDesk : public Desk {
     shown.push_back(status);
     if (on_show) on_show(status);
   }
+  bool ask_to_go_on(const std::string& question) override {
+    asked.push_back(question);
+    if (answer) commands.push_back({*answer, {}});
+    return answer.has_value();
+  }
   void say(const std::string& text) override { said.push_back(text); }
 
   std::deque<DeskCommand> commands;
   std::vector<DeskStatus> shown;
-  std::vector<std::string> said;
+  std::vector<std::string> said, asked;
+  std::optional<DeskCommandKind> answer;  // to whether to go on; none: nobody answers
   std::function<void(const DeskStatus&)> on_show;
 };
 

@@ -1,6 +1,8 @@
 // What a session that was kept in memory holds.
 #pragma once
 
+#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "record/RecordedSession.h"
@@ -14,6 +16,14 @@ inline std::vector<Event> events_of(const RecordedSession& session, EventKind ki
         recorded && recorded->event.kind == kind)
       found.push_back(recorded->event);
   return found;
+}
+
+/// The pages of texts in the order that they were shown in.
+inline std::vector<std::string> pages_of(const RecordedSession& session) {
+  std::vector<std::string> pages;
+  for (const Event& event : events_of(session, EventKind::text_shown))
+    pages.push_back(nlohmann::json::parse(event.detail).at("page"));
+  return pages;
 }
 
 inline std::vector<FrameRow> frames_of(const RecordedSession& session) {

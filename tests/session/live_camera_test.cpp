@@ -20,6 +20,7 @@ namespace heft {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::Field;
 using ::testing::IsEmpty;
 using testing::MadeUpScreen;
@@ -179,6 +180,9 @@ void expect_void_and_again(Does what) {
   EXPECT_GE(continued[0].t_s, voided[0].t_s);
   EXPECT_THAT(frames_between(*session, paused[0].t_s, continued[0].t_s), IsEmpty());
   EXPECT_THAT(session->screen.screens, Contains(Field(&ScreenState::screen, Screen::paused)));
+  EXPECT_THAT(testing::pages_of(session->sink),
+              ElementsAre("welcome", "instructions_sorting", "trial_sorting", "paused",
+                          "trial_sorting", "thanks"));
   EXPECT_EQ(session->n_completed, 2);
   EXPECT_EQ(session->n_attempts, 3);
 }

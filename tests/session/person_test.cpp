@@ -21,6 +21,7 @@ using ::testing::IsEmpty;
 using testing::MadeUpDesk;
 using testing::MadeUpScreen;
 using ::testing::Not;
+using testing::pages_of;
 using testing::patient;
 using testing::quick_protocol;
 using testing::shared;
@@ -53,13 +54,6 @@ struct Session {
   ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/fr.toml");
 };
 
-std::vector<std::string> pages_shown(const Session& session) {
-  std::vector<std::string> pages;
-  for (const Event& event : session.events(EventKind::text_shown))
-    pages.push_back(nlohmann::json::parse(event.detail).at("page"));
-  return pages;
-}
-
 TEST(Person, goes_through_all_pages_and_trials) {
   Protocol protocol = quick_protocol();
   protocol.screens = {"fr", true, true, true};
@@ -68,10 +62,11 @@ TEST(Person, goes_through_all_pages_and_trials) {
   protocol.blocks.push_back(small_protocol().blocks[1]);  // the introduction
   Session session(protocol);
   EXPECT_EQ(session.run(), RunEnd::finished);
-  EXPECT_THAT(pages_shown(session), ElementsAre("consent", "welcome", "about_you", "demonstration",
-                                                "instructions_sorting", "trial_sorting", "rest",
-                                                "instructions_introduction", "trial_introduction",
-                                                "how_decided", "thanks"));
+  EXPECT_THAT(
+      pages_of(session.sink),
+      ElementsAre("consent", "welcome", "about_you", "demonstration", "instructions_sorting",
+                  "trial_sorting", "rest", "instructions_introduction", "trial_introduction",
+                  "how_decided", "thanks"));
   const auto consent = nlohmann::json::parse(session.events(EventKind::consent).at(0).detail);
   EXPECT_EQ(consent.at("agreed"), true);
   EXPECT_EQ(consent.at("language"), "fr");
@@ -176,7 +171,7 @@ TEST(Person, every_picture_has_its_times) {
 struct AtTheDesk : MadeUpDesk {
   explicit AtTheDesk(std::deque<DeskCommand> made) : to_come(std::move(made)) {
     on_show = [this](const DeskStatus& status) {
-      if (to_come.empty() || (status.screen.screen != Screen::trial && !status.paused)) return;
+      if (to_come.empty() || (status.screen->screen != Screen::trial && !status.paused)) return;
       commands.push_back(to_come.front());
       to_come.pop_front();
     };
@@ -191,7 +186,125 @@ TEST(Experimenter, holds_the_session_and_lets_it_go_on) {
   EXPECT_EQ(session.events(EventKind::paused).at(0).detail, "experimenter");
   EXPECT_EQ(session.events(EventKind::continued).size(), 1U);
   EXPECT_THAT(session.screen.screens, Contains(Field(&ScreenState::screen, Screen::paused)));
+  EXPECT_THAT(pages_of(session.sink),
+              ElementsAre("welcome", "instructions_sorting", "trial_sorting", "paused",
+                          "trial_sorting", "thanks"));
   EXPECT_THAT(session.events(EventKind::voided), IsEmpty());
+}
+
+// Every status is held against what stood on the screen when it was shown.
+TEST(Experimenter, sees_which_page_it_is_and_that_only_trials_are_tracked) {
+  Protocol protocol = quick_protocol();
+  protocol.screens = {"fr", true, true, true};
+  protocol.blocks.insert(protocol.blocks.begin(), DemonstrationBlock{"demonstration", 0.1});
+  protocol.blocks.push_back(BreakBlock{"break", 0.1});
+  protocol.blocks.push_back(small_protocol().blocks[1]);  // the introduction
+  Session session(protocol);
+  MadeUpDesk desk;
+  int n_tracked = 0;
+  desk.on_show = [&](const DeskStatus& status) {
+    const Screen there = session.screen.screens.back().screen;
+    ASSERT_TRUE(status.screen);
+    EXPECT_EQ(name_of(status.screen->screen), name_of(there));
+    if (there != Screen::trial) {
+      EXPECT_FALSE(status.tracking) << name_of(there);
+    }
+    if (status.tracking && status.tracking->tracked) ++n_tracked;
+  };
+  EXPECT_EQ(session.run(&desk), RunEnd::finished);
+  EXPECT_GT(n_tracked, 0);
+}
+
+TEST(Experimenter, sees_nothing_tracked_while_the_session_is_held) {
+  AtTheDesk desk({{DeskCommandKind::pause, {}}, {DeskCommandKind::go_on, {}}});
+  Session session(quick_protocol());
+  session.run(&desk);
+  const auto held = std::ranges::find_if(
+      desk.shown, [](const DeskStatus& s) { return s.screen->screen == Screen::paused; });
+  ASSERT_NE(held, desk.shown.end());
+  EXPECT_FALSE(held->tracking);
+}
+
+class FailedCheck : public ::testing::Test {
+ protected:
+  // Nobody's hand, before a camera that is out of order.
+  class OutOfOrder final : public PictureSource {
+   public:
+    explicit OutOfOrder(PictureSource& pictures) : pictures_(pictures) {}
+    void begin_attempt(const AttemptStart& attempt) override { pictures_.begin_attempt(attempt); }
+    std::optional<Picture> next() override { return pictures_.next(); }
+    void skip_to(double t_s) override { pictures_.skip_to(t_s); }
+    std::vector<CheckResult> check(double) override {
+      return {{CheckVerdict::failed, "board", "not seen"}, {CheckVerdict::warning, "light", "dim"}};
+    }
+
+   private:
+    PictureSource& pictures_;
+  };
+
+  RunEnd run() {
+    OutOfOrder pictures(session.pictures);
+    RunnerOptions options;
+    options.desk = &desk;
+    return Runner({session.engine, session.sink, pictures, *session.hand, session.screen,
+                   session.clock, true, &session.texts},
+                  options)
+        .run();
+  }
+  std::vector<std::string> notes() const {
+    std::vector<std::string> details;
+    for (const Event& event : session.events(EventKind::note)) details.push_back(event.detail);
+    return details;
+  }
+
+  Session session{quick_protocol()};
+  MadeUpDesk desk;
+};
+
+TEST_F(FailedCheck, is_asked_about_and_the_session_begins_when_the_experimenter_says_so) {
+  desk.answer = DeskCommandKind::go_on;
+  desk.on_show = [&](const DeskStatus& status) {
+    EXPECT_EQ(status.screen.has_value(), !session.screen.screens.empty());
+  };
+  EXPECT_EQ(run(), RunEnd::finished);
+  EXPECT_THAT(desk.asked, ElementsAre(HasSubstr("nothing has been shown")));
+  EXPECT_THAT(desk.said, Contains(HasSubstr("FAILED   board: not seen")));
+  EXPECT_THAT(notes(), ElementsAre("failed check: board; the experimenter goes on"));
+  EXPECT_LE(session.events(EventKind::note)[0].t_s, session.events(EventKind::text_shown)[0].t_s);
+}
+
+TEST_F(FailedCheck, leaves_the_session_to_be_resumed_when_they_do_not) {
+  desk.answer = DeskCommandKind::end;
+  EXPECT_EQ(run(), RunEnd::stopped);
+  EXPECT_THAT(session.screen.screens, IsEmpty());
+  EXPECT_THAT(pages_of(session.sink), IsEmpty());
+  EXPECT_THAT(notes(), ElementsAre("failed check: board; the experimenter leaves"));
+  EXPECT_EQ(session.engine.state(), SessionState::paused);
+}
+
+TEST_F(FailedCheck, is_said_and_logged_where_nobody_can_be_asked) {
+  EXPECT_EQ(run(), RunEnd::finished);
+  EXPECT_THAT(desk.said, Contains(HasSubstr("FAILED   board: not seen")));
+  EXPECT_THAT(session.events(EventKind::check), ::testing::SizeIs(2));
+  EXPECT_THAT(notes(), IsEmpty());
+}
+
+TEST_F(FailedCheck, can_be_left_by_closing_the_window) {
+  class Silent : public MadeUpDesk {
+    bool ask_to_go_on(const std::string&) override { return true; }
+  } silent;
+  Session other(quick_protocol(), [](const ViewPicture&, const ScreenState&) {
+    return std::vector{touch(TouchKind::close)};
+  });
+  OutOfOrder pictures(other.pictures);
+  RunnerOptions options;
+  options.desk = &silent;
+  EXPECT_EQ(Runner({other.engine, other.sink, pictures, *other.hand, other.screen, other.clock,
+                    true, &other.texts},
+                   options)
+                .run(),
+            RunEnd::stopped);
+  EXPECT_THAT(other.screen.screens, IsEmpty());
 }
 
 TEST(Experimenter, vetoes_a_trial_and_it_comes_again) {

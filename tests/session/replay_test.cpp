@@ -4,14 +4,19 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 
+#include "Protocols.h"
+#include "Recorded.h"
 #include "base/Build.h"
 #include "record/SessionArchive.h"
 #include "session/RunOptions.h"
 #include "session/Runner.h"
+#include "session/TrialWorld.h"
+#include "session/WhatIf.h"
 
 namespace heft {
 namespace {
@@ -79,12 +84,19 @@ class Replay : public ::testing::Test {
     const auto view = view_named("headless").make({});
     SessionClock clock = SessionClock::virtual_from(0);
     Runner({engine, recorded, pictures, responder, *view, clock}, {}).run();
+    frames = testing::frames_of(recorded);
     const std::int64_t id = SessionArchive(path.string()).store(recorded);
     return verify_session(LogReader(path.string()), id, [](double) {});
   }
 
+  void see_through(const std::string& keys) {
+    protocol = parse_protocol(protocol.text + "\n[physics]\n" + keys, "quick");
+    protocol.name = "quick";
+  }
+
   Protocol protocol;
   std::filesystem::path path;
+  std::vector<FrameRow> frames;
 };
 
 TEST_F(Replay, answers_later_than_the_next_pictures_are_replayed_exactly) {
@@ -97,6 +109,59 @@ TEST_F(Replay, answers_later_than_the_next_pictures_are_replayed_exactly) {
                               << found.first->logged << ", came out " << found.first->came_out;
     TearDown();
   }
+}
+
+// The log has the effector as it was measured; what was predicted from it follows again.
+TEST_F(Replay, a_prediction_to_when_it_is_seen_is_replayed_exactly) {
+  see_through("input = \"extrapolate\"\npredict_s = 0.05\n");
+  LateAnswers responder(0.05);
+  const Verification found = run_and_verify(responder);
+  EXPECT_GT(found.n_pictures, 100);
+  EXPECT_TRUE(found.same_build);
+  EXPECT_FALSE(found.first) << found.first->what << ", logged " << found.first->logged
+                            << ", came out " << found.first->came_out;
+  for (const FrameRow& frame : frames)
+    EXPECT_EQ(frame.effector.position_m, responder.hand(frame.trial_t_s).pose.position_m);
+}
+
+// Over its place a cube does not appear, and the clone is just where it is predicted.
+TEST(SeeThrough, the_clone_is_ahead_and_the_effector_as_measured) {
+  Protocol protocol = testing::small_protocol();
+  protocol.simulator.input.predict_s = 0.1;
+  TrialPlan plan;
+  plan.masses_g = {15, 200, 800};
+  TrialWorld world(protocol, plan);
+  TargetSample sample = sample_of(0, upright_pose({0, -0.04, 0.021}, std::numbers::pi / 2));
+  sample.velocity.linear_m_s = {0, -0.2, 0};
+  const DisplayedFrame frame = world.advance(sample).frame;
+  EXPECT_EQ(frame.effector.position_m, sample.pose.position_m);
+  ASSERT_TRUE(frame.clone);
+  EXPECT_NEAR(frame.clone->position_m.y(), -0.06, 1e-12);
+  EXPECT_TRUE(frame.cubes.empty());
+  // Still within the clear distance, but seen beyond it.
+  sample.t_capture_s = 0.1;
+  sample.pose.position_m.y() = -0.075;
+  EXPECT_EQ(world.advance(sample).frame.cubes.size(), 3u);
+}
+
+TEST_F(Replay, what_another_prediction_would_have_shown) {
+  LateAnswers responder(0.05);
+  run_and_verify(responder);
+  const LogReader reader(path.string());
+  const auto session = load_session(reader, path.string(), reader.sessions().front().session_id);
+  const auto clone_rms_m = [&](double predict_s) {
+    const Protocol other =
+        parse_protocol(protocol.text, "quick", {"physics.predict_s=" + std::to_string(predict_s)});
+    double largest_m = 0;
+    for (const PathDifference& difference : compare_paths(reader, session, other))
+      largest_m = std::max(largest_m, difference.clone_rms_m);
+    return largest_m;
+  };
+  EXPECT_EQ(clone_rms_m(0), 0);
+  // The hand's speed is 0.18 m/s at most.
+  EXPECT_GT(clone_rms_m(0.05), 0.003);
+  EXPECT_LT(clone_rms_m(0.05), 0.05 * 0.18);
+  EXPECT_GT(clone_rms_m(0.1), 1.5 * clone_rms_m(0.05));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "Protocols.h"
 #include "Recorded.h"
@@ -145,11 +144,8 @@ class TouchedWindow : public ::testing::Test {
   }
 
   void expect_every_page() const {
-    std::vector<std::string> pages;
-    for (const Event& event : events_of(sink, EventKind::text_shown))
-      pages.push_back(nlohmann::json::parse(event.detail).at("page"));
     EXPECT_THAT(
-        pages,
+        testing::pages_of(sink),
         ElementsAre("consent", "welcome", "about_you", "demonstration", "instructions_sorting",
                     "trial_sorting", "rest", "instructions_introduction", "trial_introduction",
                     "instructions_comparison", "trial_comparison", "how_decided", "thanks"));

@@ -19,14 +19,14 @@ std::string joined(const std::vector<std::string>& lines) {
 // nor edge bias explains: it must not spoil the others.
 TEST(CameraCalibration, FindsTheCameraAndLeavesOutWhatDoesNotFit) {
   const Apparatus apparatus = default_apparatus(640);
-  Pictures pictures = board_pictures(apparatus, 20, 1, 2);
+  BoardViews pictures = board_views(apparatus, 20, 1, 2);
   Apparatus stretched = apparatus;
   for (Tag& tag : stretched.board.tags)
     for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m.y() *= 0.96;
-  pictures.images.push_back(board_pictures(stretched, 1, 1, 9).images[0]);
+  pictures.images.push_back(board_views(stretched, 1, 1, 9).images[0]);
   pictures.names.push_back("the odd one");
   const auto found = calibrate_camera(apparatus.board, pictures.images, pictures.names);
-  const auto [p95_px, median_px] = ray_errors_px(found.camera, apparatus.camera);
+  const auto [p95_px, median_px] = ray_errors(found.camera, apparatus.camera);
   EXPECT_LT(p95_px, 0.2);
   EXPECT_LT(median_px, 0.1);
   EXPECT_LT(found.rms_px, 0.06);
@@ -40,7 +40,7 @@ TEST(CameraCalibration, FindsTheCameraAndLeavesOutWhatDoesNotFit) {
 
 TEST(CameraCalibration, DoubtsViewsFromOneSide) {
   const Apparatus apparatus = default_apparatus(640);
-  const Pictures pictures = board_pictures(apparatus, 6, 0, 3);
+  const BoardViews pictures = board_views(apparatus, 6, 0, 3);
   const auto found = calibrate_camera(apparatus.board, pictures.images, pictures.names);
   const std::string why = joined(doubts(found));
   EXPECT_NE(why.find("6 views are few"), std::string::npos) << why;
@@ -75,7 +75,7 @@ TEST(Coverage, NamesTheEmptiestPart) {
 // Views of a wizard: each once, only when held still, and it says which side is missing.
 TEST(ViewCollector, KeepsWhatIsNewAndStill) {
   const Apparatus apparatus = default_apparatus(640);
-  const Pictures pictures = board_pictures(apparatus, 3, 1, 4);
+  const BoardViews pictures = board_views(apparatus, 3, 1, 4);
   ViewCollector live(apparatus.board, 640, 480, true);
   EXPECT_FALSE(live.offer(pictures.images[0], "moving in"));
   EXPECT_TRUE(live.offer(pictures.images[0], "still"));
@@ -96,7 +96,7 @@ TEST(ViewCollector, KeepsWhatIsNewAndStill) {
 // still to be shown.
 TEST(ViewCollector, SaysWhatIsMissing) {
   const Apparatus apparatus = default_apparatus(640);
-  const Pictures pictures = board_pictures(apparatus, 2, 0, 4);
+  const BoardViews pictures = board_views(apparatus, 2, 0, 4);
   ViewCollector views(apparatus.board, 640, 480, false);
   for (int i = 0; i < 3; ++i) views.offer(pictures.images[0], "again");
   views.offer(pictures.images[1], "another");
@@ -109,7 +109,7 @@ TEST(ViewCollector, SaysWhatIsMissing) {
     EXPECT_NE(missing.find(what), std::string::npos) << missing;
 
   ViewCollector near_and_far(apparatus.board, 640, 480, false);
-  const Pictures many = board_pictures(apparatus, 24, 1, 2);
+  const BoardViews many = board_views(apparatus, 24, 1, 2);
   for (std::size_t i = 0; i < many.images.size(); ++i)
     near_and_far.offer(many.images[i], many.names[i]);
   EXPECT_EQ(joined(near_and_far.missing()), "");

@@ -109,6 +109,25 @@ TEST(IntrinsicsFile, OpenCvReadsWhatIsWritten) {
   EXPECT_EQ(distortion.total(), 8U);
 }
 
+// Two keys of our own, which OpenCV passes over and files from elsewhere lack.
+TEST(IntrinsicsFile, KeepsWhatTheCameraWasSetTo) {
+  Intrinsics camera = mild;
+  camera.calibrated_at = {0.0001, 35};
+  const std::string yaml = to_yaml(camera, "");
+  const Intrinsics read = parse_intrinsics(yaml, "c.yaml");
+  expect_same(read, camera);
+  EXPECT_EQ(read.calibrated_at.exposure_s, 0.0001);
+  EXPECT_EQ(read.calibrated_at.focus, 35);
+  cv::FileStorage file(yaml, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+  cv::Mat matrix;
+  file["camera_matrix"] >> matrix;
+  EXPECT_EQ(matrix.at<double>(1, 1), mild.fy_px);
+
+  const Intrinsics without = parse_intrinsics(to_yaml(mild, ""), "c.yaml");
+  EXPECT_FALSE(without.calibrated_at.exposure_s);
+  EXPECT_FALSE(without.calibrated_at.focus);
+}
+
 TEST(IntrinsicsFile, ReadsWhatOpenCvWrites) {
   for (int n : {4, 5, 8}) {
     for (bool column : {false, true}) {
@@ -153,6 +172,9 @@ TEST(IntrinsicsFile, RefusesWhatCanNotBe) {
   EXPECT_THAT(refusal(edited("540, 0,", "540, 3,")), HasSubstr("skew"));
   EXPECT_THAT(refusal(edited("0.06, ", "")), testing::AnyOf(HasSubstr("expected"), "accepted"));
   EXPECT_THAT(refusal(edited("540", ".Nan")), HasSubstr("camera_matrix is unusable"));
+  EXPECT_THAT(refusal(to_yaml(mild, "") + "exposure_s: 4\n"),
+              HasSubstr("c.yaml:15:1: exposure_s is 4, expected the seconds"));
+  EXPECT_THAT(refusal(to_yaml(mild, "") + "focus: near\n"), HasSubstr("focus is unusable"));
 }
 
 TEST(IntrinsicsFile, NamesTheLineOfABrokenOne) {

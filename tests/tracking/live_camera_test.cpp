@@ -14,6 +14,8 @@
 namespace heft {
 namespace {
 
+using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -48,7 +50,7 @@ TEST(LockControls, ListsWhatTheDriverFixed) {
                                    {cv::CAP_PROP_AUTOFOCUS, 1},
                                    {cv::CAP_PROP_AUTO_WB, 1}};
   CameraMode mode;
-  lock_controls(controls_of(properties), 0.004, mode);
+  lock_controls(controls_of(properties), {}, mode);
   EXPECT_THAT(mode.locked, ElementsAre("exposure 4.0 ms", "focus", "white balance"));
   EXPECT_THAT(mode.not_locked, IsEmpty());
   EXPECT_EQ(properties[cv::CAP_PROP_AUTO_EXPOSURE], 1);  // V4L2_EXPOSURE_MANUAL
@@ -59,7 +61,7 @@ TEST(LockControls, ListsWhatTheDriverFixed) {
 TEST(LockControls, SaysWhatAMissingLockMeans) {
   std::map<int, double> properties{{cv::CAP_PROP_AUTO_WB, 1}};
   CameraMode mode;
-  lock_controls(controls_of(properties), 0.004, mode);
+  lock_controls(controls_of(properties), {}, mode);
   EXPECT_THAT(mode.locked, ElementsAre("white balance"));
   EXPECT_THAT(mode.not_locked, ElementsAre(HasSubstr("smear"), HasSubstr("calibration")));
 }
@@ -67,10 +69,72 @@ TEST(LockControls, SaysWhatAMissingLockMeans) {
 TEST(LockControls, BelievesWhatItReadsBackNotWhatSetSays) {
   CameraMode mode;
   const auto longer = [](int property) { return property == cv::CAP_PROP_EXPOSURE ? 333.0 : 1.0; };
-  lock_controls({[](int, double) { return true; }, longer}, 0.004, mode);
+  lock_controls({[](int, double) { return true; }, longer}, {}, mode);
   EXPECT_THAT(mode.locked, IsEmpty());
   ASSERT_FALSE(mode.not_locked.empty());
   EXPECT_THAT(mode.not_locked[0], HasSubstr("33.3 ms instead of 4.0 ms"));
+  EXPECT_FALSE(mode.held.exposure_s);
+}
+
+// From the day of calibration to every other: what the camera was set to goes into its file, and
+// out of it into what is asked of the camera.
+TEST(LockControls, AskForWhatTheCameraWasCalibratedAt) {
+  std::map<int, double> properties{{cv::CAP_PROP_AUTO_EXPOSURE, 3},
+                                   {cv::CAP_PROP_EXPOSURE, 250},
+                                   {cv::CAP_PROP_AUTOFOCUS, 1},
+                                   {cv::CAP_PROP_FOCUS, 35},
+                                   {cv::CAP_PROP_AUTO_WB, 1}};
+  CameraRequest asked{1280, 720};
+  asked.exposure_s = 0.0025;
+  CameraMode mode;
+  lock_controls(controls_of(properties), asked, mode);
+  EXPECT_THAT(mode.locked, ElementsAre("exposure 2.5 ms", "focus 35", "white balance"));
+  Intrinsics camera{1280, 720, 1000, 1000, 640, 360};
+  camera.calibrated_at = mode.held;
+
+  properties = {{cv::CAP_PROP_AUTO_EXPOSURE, 3},
+                {cv::CAP_PROP_EXPOSURE, 250},
+                {cv::CAP_PROP_AUTOFOCUS, 1},
+                {cv::CAP_PROP_FOCUS, 120}};
+  const CameraRequest again = request_for(parse_intrinsics(to_yaml(camera, ""), "c.yaml"), 15);
+  EXPECT_EQ(again.width_px, 1280);
+  EXPECT_EQ(again.height_px, 720);
+  lock_controls(controls_of(properties), again, mode);
+  EXPECT_EQ(properties[cv::CAP_PROP_EXPOSURE], 25);
+  EXPECT_EQ(properties[cv::CAP_PROP_AUTOFOCUS], 0);
+  EXPECT_EQ(properties[cv::CAP_PROP_FOCUS], 35);
+}
+
+TEST(LockControls, SaysWhereTheLensIsNotWhereItWasCalibrated) {
+  CameraRequest request;
+  request.focus = 35;
+  std::map<int, double> without_control{{cv::CAP_PROP_AUTOFOCUS, 1}};
+  CameraMode mode;
+  lock_controls(controls_of(without_control), request, mode);
+  EXPECT_THAT(mode.not_locked, Contains(HasSubstr("calibrated at 35, but this driver can't")));
+  EXPECT_FALSE(mode.held.focus);
+
+  const auto elsewhere = [](int property) { return property == cv::CAP_PROP_FOCUS ? 120.0 : 0.0; };
+  mode = {};
+  lock_controls({[](int, double) { return true; }, elsewhere}, request, mode);
+  EXPECT_THAT(mode.not_locked, Contains(AllOf(HasSubstr("calibrated at 35, but it is at 120"),
+                                              HasSubstr("calibrate once more"))));
+}
+
+// Some versions of OpenCV say 0 for what a driver does not have.
+TEST(LockControls, KeepsNoFocusThatCanNotBeSet) {
+  const auto set = [](int property, double) { return property != cv::CAP_PROP_FOCUS; };
+  CameraMode mode;
+  lock_controls({set, [](int) { return 0.0; }}, {}, mode);
+  EXPECT_THAT(mode.locked, Contains("focus"));
+  EXPECT_FALSE(mode.held.focus);
+}
+
+TEST(RequestFor, IsTheUsualOneWhereTheFileTellsNothing) {
+  const CameraRequest request = request_for(parse_intrinsics(to_yaml({}, ""), "c.yaml"), 15);
+  EXPECT_EQ(request.exposure_s, CameraRequest{}.exposure_s);
+  EXPECT_EQ(request.rate_hz, 30);
+  EXPECT_FALSE(request.focus);
 }
 
 TEST(VideoDevices, AreListedByNumber) {

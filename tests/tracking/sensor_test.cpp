@@ -26,14 +26,15 @@ double srgb(double light) {  // IEC 61966-2-1
 }
 
 TEST(Sensor, StoresLightAsTheToneCurveSays) {
-  for (const bool curved : {true, false}) {
-    Sensor sensor({.blur_px = 0, .tone_curve = curved, .vignetting = 0, .noise = 0}, 128, 128, 1);
+  for (const std::optional<double> gamma : {std::optional<double>(), {1.0}, {1.8}}) {
+    Sensor sensor({.blur_px = 0, .gamma = gamma, .vignetting = 0, .noise = 0}, 128, 128, 1);
     const LightPicture picture = ramp();
     Levels levels;
     sensor.expose(picture, RowSpans::whole(picture.box), levels);
     double worst = 0;
     for (std::size_t i = 0; i < picture.light.size(); ++i) {
-      const double light = picture.light[i][1], expected = curved ? srgb(light) : 255 * light;
+      const double light = picture.light[i][1];
+      const double expected = gamma ? 255 * std::pow(light, 1 / *gamma) : srgb(light);
       worst = std::max(worst, std::abs(levels[3 * i + 1] / 64.0 - expected));
     }
     EXPECT_LT(worst, 0.015);  // levels are whole 64ths, which alone is 0.008

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 SyntheticSettings ideal_sensor() {
   SyntheticSettings settings;
-  settings.optics = {.blur_px = 0, .tone_curve = false, .vignetting = 0, .noise = 0};
+  settings.optics = {.blur_px = 0, .gamma = 1, .vignetting = 0, .noise = 0};
   settings.hand = false;
   return settings;
 }
@@ -105,7 +105,7 @@ TEST(SyntheticGeometry, BlurBehindAToneCurveShrinksBlackTags) {
   const Apparatus apparatus = default_apparatus(1280);
   SyntheticSettings settings = ideal_sensor();
   settings.optics.blur_px = 0.6;
-  settings.optics.tone_curve = true;
+  settings.optics.gamma.reset();
   SyntheticCamera camera(apparatus, settings, 1);
   const Image image = camera.picture(out_of_view, 0, 0);
   const double edge_px = worst_edge_px(image, apparatus.board.tags[20], apparatus.camera,

@@ -45,14 +45,14 @@ TEST(SyntheticOptics, PaperHasTheLevelOfItsLight) {
   optics.exposure = 0.5;
   EXPECT_EQ(paper_level(still_picture(optics)),
             std::lround(255 * (1.055 * std::pow(paper / 2, 1 / 2.4) - 0.055)));
-  optics.tone_curve = false;
+  optics.gamma = 1;
   EXPECT_EQ(paper_level(still_picture(optics)), std::lround(255 * paper / 2));
   optics.exposure = 1.6;
   EXPECT_EQ(paper_level(still_picture(optics)), 255);
 }
 
 TEST(SyntheticOptics, VignettingTakesItsShareOfTheLightInTheCorners) {
-  Optics optics{.tone_curve = false, .vignetting = 0, .exposure = 2.2, .noise = 0};
+  Optics optics{.gamma = 1, .vignetting = 0, .exposure = 2.2, .noise = 0};
   const Image even = still_picture(optics);
   optics.vignetting = 0.3;
   const Image dark = still_picture(optics);
@@ -66,7 +66,7 @@ TEST(SyntheticOptics, VignettingTakesItsShareOfTheLightInTheCorners) {
 
 TEST(SyntheticOptics, BlurHasTheSpreadThatWasAsked) {
   for (const double blur_px : {0.6, 1.5}) {
-    const Optics optics{.blur_px = blur_px, .tone_curve = false, .vignetting = 0, .noise = 0};
+    const Optics optics{.blur_px = blur_px, .gamma = 1, .vignetting = 0, .noise = 0};
     SyntheticSettings settings;
     settings.optics = optics;
     // Straight down: the sheet's edges are upright in the picture.

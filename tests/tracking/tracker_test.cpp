@@ -113,6 +113,26 @@ TEST(Tracker, KnowsThatAnOverexposedPictureTellsLittle) {
   EXPECT_LT((*seen.board_from_effector * tip_m - pose * tip_m).norm(), 0.004);
 }
 
+// The same grip, rolled: how far each pose is off is luck, how firm it is is not.
+TEST(Tracker, KnowsThatOneFaceTellsLessThanTwo) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticSettings scene;
+  scene.hand = false;
+  SyntheticCamera camera(apparatus, scene, 1);
+  Tracker tracker(apparatus);
+  const auto rolled = [&](double roll_rad) {
+    tracker.reset();
+    Pose pose = upright_pose({0, 0, 0.05}, M_PI / 2);
+    pose.orientation = pose.orientation * Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
+    return tracker.track(camera.picture([&](double) { return pose; }, 0, 0), 0);
+  };
+  const TrackedPicture one = rolled(0), two = rolled(0.75);
+  EXPECT_EQ(one.n_effector_faces, 1);
+  EXPECT_EQ(two.n_effector_faces, 2);
+  EXPECT_GT(two.quality, 0.8);
+  EXPECT_LT(one.quality, two.quality - 0.05);
+}
+
 TEST(Tracker, IsAnOrderOfMagnitudeBetterThanTheDetectorsCorners) {
   TrackerSettings plain;
   plain.refine_edges = plain.remove_bias = plain.region_of_interest = false;
@@ -123,7 +143,7 @@ TEST(Tracker, IsAnOrderOfMagnitudeBetterThanTheDetectorsCorners) {
 TEST(Tracker, TakesTheBiasOfAnUnknownToneCurveFromTheBoard) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticSettings scene;
-  scene.optics.tone_curve = false;
+  scene.optics.gamma = 1;
   SyntheticCamera camera(apparatus, scene, 1);
   Tracker tracker(apparatus);
   const auto seen = tracker.track(

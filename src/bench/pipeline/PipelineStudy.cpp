@@ -5,7 +5,7 @@
 #include <fstream>
 #include <numeric>
 
-#include "analysis/Statistics.h"
+#include "base/Quantile.h"
 #include "bench/StudyFiles.h"
 #include "bench/pipeline/Chain.h"
 #include "bench/pipeline/PipelineChart.h"

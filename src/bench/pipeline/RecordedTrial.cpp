@@ -32,7 +32,7 @@ std::filesystem::path own_folder() {
 // Where the hand is at each picture; none: out of view.
 std::vector<std::optional<Pose>> demonstrated(int n_pictures) {
   const Protocol protocol;
-  Demonstration demonstration(protocol, seed);
+  Demonstration demonstration(protocol, {}, seed);
   std::vector<std::optional<Pose>> poses;
   for (int i = 0; i < n_pictures; ++i) {
     const DisplayedFrame frame = demonstration.at(i / RecordedTrial::rate_hz).frame;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/Statistics.h"
+#include "base/Quantile.h"
 #include "bench/CpuClock.h"
 #include "tracking/BoxFaces.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/Statistics.h"
+#include "base/Quantile.h"
 
 namespace heft {
 

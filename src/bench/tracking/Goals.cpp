@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/Statistics.h"
+#include "base/Quantile.h"
 #include "bench/tracking/Accuracy.h"
 #include "bench/tracking/Filters.h"
 #include "physics/Drive.h"
+#include "tracking/CameraCalibration.h"
+#include "tracking/ViewCollector.h"
+#include "tracking/synthetic/BoardViews.h"
 
 namespace heft {
 
@@ -70,11 +73,8 @@ double prediction_rms_mm(const MethodFilm& strokes, const Eigen::Vector3d& tip_m
   double sum = 0, n = 0;
   for (const FilteredTake& take : filtered(strokes, our_filter()))
     for (std::size_t i = 5; i < take.t_s.size(); ++i) {
-      Pose ahead = take.poses[i];
-      ahead.position_m += see_through_delay_s * take.velocities[i].linear_m_s;
-      ahead.orientation =
-          rotation_from_vector(see_through_delay_s * take.velocities[i].angular_rad_s) *
-          ahead.orientation;
+      const Pose ahead =
+          predicted({take.t_s[i], take.poses[i], take.velocities[i]}, see_through_delay_s);
       const Pose truth = take.take->at(take.t_s[i] + see_through_delay_s);
       sum += (ahead * tip_m - truth * tip_m).squaredNorm();
       ++n;
@@ -127,6 +127,22 @@ Goal count_flips(bool quick) {
   return {fmt::format("gross flips in {} pictures with two faces in view", n), 0, "flips", false,
           static_cast<double>(flips)};
 }
+// Cameras calibrated from as many views as the wizard asks for, each from views of its own: the
+// worst one's, since a lab has one.
+Goal calibrate_cameras(bool quick) {
+  const Apparatus apparatus = bench_apparatus(640);
+  const int n_cameras = quick ? 1 : 3;
+  const int n_views = quick ? 6 : static_cast<int>(ViewCollector::enough);
+  double worst_px = 0;
+  for (int i = 0; i < n_cameras; ++i) {
+    const BoardViews views = board_views(apparatus, n_views, 1, static_cast<std::uint64_t>(i + 1));
+    const auto found = calibrate_camera(apparatus.board, views.images, views.names);
+    worst_px = std::max(worst_px, ray_errors(found.camera, apparatus.camera).p95_px);
+  }
+  return {fmt::format("camera calibration from {} views, ray error, p95, worst of {} at 640x480",
+                      n_views, n_cameras),
+          0.2, "px", false, worst_px};
+}
 }  // namespace
 
 std::string figure_text(double value, const std::string& unit) {
@@ -139,6 +155,8 @@ std::vector<Goal> study_goals(const std::vector<Headline>& headlines, const Stud
   for (const Headline& headline : headlines) add_size(goals, headline);
   progress.next("looking for flips");
   goals.push_back(count_flips(options.quick));
+  progress.next("calibrating cameras");
+  goals.push_back(calibrate_cameras(options.quick));
   CsvFile csv(options, "goals.csv", "what,bound,goal,reached,unit,met");
   for (const Goal& goal : goals)
     csv.row(goal.what, goal.at_least ? "at least" : "at most", goal.goal, goal.reached, goal.unit,

@@ -19,10 +19,12 @@ struct Goal {
   bool met() const { return at_least ? reached >= goal : reached <= goal; }
 };
 
-/// Films for flips, too. Writes goals.csv.
+/// Films for flips and calibrates cameras, too. Writes goals.csv.
 /// @param headlines of 640x480 and 1280x720
 std::vector<Goal> study_goals(const std::vector<Headline>& headlines, const StudyOptions& options,
                               StudyProgress& progress);
+
+inline constexpr int goal_parts = 2;  ///< of progress
 
 /// A table for people.
 std::string as_text(const std::vector<Goal>& goals);

@@ -105,7 +105,12 @@ std::vector<Limit> limits() {
            {0.3, 0.4, 0.5, 0.65, 0.8, 1, 1.25, 1.5},
            changed([](LimitScene& s, double distance_m) {
              s.settings.camera_from_board = camera_above_board(distance_m, usual_pitch_rad);
-           })}};
+           })},
+          {"gamma",
+           "tone curve (gamma; 1: linear, elsewhere here: sRGB)",
+           false,
+           {2.2, 2, 1.8, 1.6, 1.4, 1.2, 1},
+           changed([](LimitScene& s, double gamma) { s.settings.optics.gamma = gamma; })}};
 }
 
 }  // namespace heft

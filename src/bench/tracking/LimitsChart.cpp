@@ -8,8 +8,8 @@
 namespace heft {
 
 namespace {
-constexpr int width_px = 1240, height_px = 880;
-constexpr int n_columns = 4;
+constexpr int width_px = 1000, height_px = 1230;
+constexpr int n_columns = 3;
 constexpr std::string_view our_color = "#1f5fa8", plain_color = "#c0561f";
 
 // Value, found and p95 of ours, found and p95 of the plain chain; NaN where there is none.
@@ -35,11 +35,11 @@ std::string two_lines(const std::string& name, int our_column, int plain_column,
 
 // A strip of a panel, pixels from the top.
 std::string place(int column, int top_px, int bottom_px) {
-  const double left = 0.075 + 0.236 * column;
+  const double left = 0.085 + 0.311 * column;
   return fmt::format(
       "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
       "set tmargin at screen 1-{}*pixel\nset bmargin at screen 1-{}*pixel\n",
-      left, left + 0.19, top_px, bottom_px);
+      left, left + 0.25, top_px, bottom_px);
 }
 
 std::string panel(const Limit& limit, std::size_t index, const std::vector<LimitPoint>& points) {

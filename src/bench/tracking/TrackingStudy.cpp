@@ -12,7 +12,7 @@ void run_tracking_study(const StudyOptions& options) {
   const int n_sizes = static_cast<int>(picture_widths_px.size());
   std::vector<Goal> goals;
   {
-    StudyProgress progress(n_sizes * (1 + headline_parts) + limit_parts + 1);
+    StudyProgress progress(n_sizes * (1 + headline_parts) + limit_parts + goal_parts);
     const auto accuracy = study_accuracy(options, progress);
     std::vector<Headline> headlines;
     for (const int width_px : picture_widths_px)

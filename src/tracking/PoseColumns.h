@@ -1,0 +1,23 @@
+// Poses as CSV: what `heft track` prints, and what a synthetic camera's recording keeps beside its
+// pictures. The same columns, so that one can be held against the other.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/Pose.h"
+
+namespace heft {
+
+/// The effector's center in the board's frame, then the board in the camera's frame.
+inline constexpr std::string_view pose_columns =
+    "x_m,y_m,z_m,qw,qx,qy,qz,camera_x_m,camera_y_m,camera_z_m,camera_qw,camera_qx,camera_qy,"
+    "camera_qz";
+
+/// Their cells: shortest digits that read back as the same doubles; empty ones for a pose that
+/// there is not.
+std::string pose_cells(const std::optional<Pose>& board_from_effector,
+                       const std::optional<Pose>& camera_from_board);
+
+}  // namespace heft

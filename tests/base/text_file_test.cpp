@@ -1,0 +1,69 @@
+// A file that replaces another loses nothing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/Error.h"
+#include "base/TextFile.h"
+#include "record/temporary_folder.h"
+
+namespace heft {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> files_in(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+TEST(ReplaceTextFile, KeepsEveryEarlierOneBesideIt) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("camera.yaml");
+  EXPECT_EQ(replace_text_file(path, "first"), "");
+  EXPECT_EQ(replace_text_file(path, "second"), path + ".before");
+  EXPECT_EQ(replace_text_file(path, "third"), path + ".before2");
+  EXPECT_EQ(read_text_file(path), "third");
+  EXPECT_EQ(read_text_file(path + ".before"), "first");
+  EXPECT_EQ(read_text_file(path + ".before2"), "second");
+  EXPECT_THAT(files_in(folder.path()),
+              ElementsAre("camera.yaml", "camera.yaml.before", "camera.yaml.before2"));
+}
+
+TEST(ReplaceTextFile, GoesThroughASymbolicLink) {
+  const test::TemporaryFolder folder;
+  replace_text_file(folder.file("real"), "old");
+  fs::create_symlink("real", folder.file("link"));
+  replace_text_file(folder.file("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder.file("link")));
+  EXPECT_EQ(read_text_file(folder.file("real")), "new");
+  EXPECT_EQ(read_text_file(folder.file("real.before")), "old");
+}
+
+std::string refusal(const std::string& path) {
+  try {
+    require_writable(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "writable";
+}
+
+TEST(RequireWritable, SaysWhatIsWrongBeforeTheWork) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(refusal(folder.file("new.yaml")), "writable");
+  EXPECT_EQ(refusal("in_this_folder.yaml"), "writable");
+  EXPECT_THAT(files_in(folder.path()), ElementsAre());  // asking leaves nothing behind
+  EXPECT_THAT(refusal(folder.file("missing/camera.yaml")), HasSubstr("does its folder exist"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("it is a folder"));
+  EXPECT_THAT(refusal("/dev/null"), HasSubstr("a device"));
+}
+
+}  // namespace
+}  // namespace heft

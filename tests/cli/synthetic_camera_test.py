@@ -1,0 +1,123 @@
+"""The synthetic camera from outside: its settings, its recording, and its exact poses against what
+`heft track` makes of the pictures.
+
+Run: python3 tests/cli/synthetic_camera_test.py path/to/heft
+"""
+import csv
+import json
+import math
+import unittest
+
+from session_harness import PROTOCOLS, SessionTest, main, query
+
+APPARATUS = PROTOCOLS / "apparatus"
+# A hand that pushes two cubes once and answers.
+PROTOCOL = """title = "One comparison"
+[[block]]
+kind = "introduction"
+name = "introduction"
+masses_g = [15, 800]
+"""
+
+
+def rows_of(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def place(row, prefix=""):
+    return [float(row[f"{prefix}{axis}_m"]) for axis in "xyz"]
+
+
+def turn_deg(a, b, prefix=""):
+    dot = sum(float(a[f"{prefix}q{part}"]) * float(b[f"{prefix}q{part}"]) for part in "wxyz")
+    return math.degrees(2 * math.acos(min(1, abs(dot))))
+
+
+def median(values):
+    return sorted(values)[len(values) // 2]
+
+
+class SyntheticCamera(SessionTest):
+    def setUp(self):
+        super().setUp()
+        self.db = self.folder / "a.db"
+        self.protocol = self.folder / "one.toml"
+        self.protocol.write_text(PROTOCOL, encoding="utf-8")
+
+    def record(self, name, *words, settings=None, expect=0):
+        tracker = "synthetic"
+        if settings is not None:
+            (self.folder / "settings.toml").write_text(settings, encoding="utf-8")
+            tracker += ":settings.toml"
+        return self.run_heft("run", self.protocol, "--participant", name, "--responder",
+                             "simulated", "--seed", 5, "--db", self.db, "--tracker", tracker,
+                             "--record-camera", name, *words, expect=expect, cwd=self.folder)
+
+    def track(self, name):
+        run = self.run_heft("track", "--camera-file", APPARATUS / "synthetic_camera.yaml",
+                            "--board", APPARATUS / "board.toml", "--effector",
+                            APPARATUS / "effector.toml", self.folder / name)
+        return list(csv.DictReader(run.stdout.splitlines()))
+
+    def test_tracking_finds_the_poses_that_were_rendered(self):
+        self.record("01")
+        truth, tracked = rows_of(self.folder / "01/truth.csv"), self.track("01")
+        times = rows_of(self.folder / "01/times.csv")
+        self.assertGreater(len(truth), 60)
+        self.assertEqual([row["frame"] for row in truth], [row["frame"] for row in tracked])
+        self.assertEqual([row["t_s"] for row in truth], [row["t_s"] for row in times])
+        self.assertEqual([name for name in truth[0] if name not in tracked[0]], [])
+        both = [(a, b) for a, b in zip(truth, tracked) if b["effector_found"] == "1"]
+        self.assertGreater(len(both), 0.95 * len(truth))
+
+        def off_mm(a, b, prefix=""):
+            return 1e3 * math.dist(place(a, prefix), place(b, prefix))
+
+        self.assertLess(median([off_mm(a, b) for a, b in both]), 0.5)
+        self.assertLess(median([turn_deg(a, b) for a, b in both]), 0.5)
+        self.assertLess(median([off_mm(a, b, "camera_") for a, b in both]), 0.1)
+        self.assertLess(median([turn_deg(a, b, "camera_") for a, b in both]), 0.05)
+        # Next to the picture before, the same poses are off by what the hand has moved.
+        late = [off_mm(a, b) for (a, _), (_, b) in zip(both, both[1:])]
+        self.assertGreater(sorted(late)[int(0.9 * len(late))], 5)
+
+    def test_settings_change_the_pictures_and_stay_with_the_session(self):
+        def first_two(name):
+            return [(self.folder / name / f"picture_00000{i}.png").read_bytes() for i in (1, 2)]
+
+        self.record("noisy")
+        still, again = first_two("noisy")
+        self.assertNotEqual(still, again)
+        settings = "noise_levels = 0\nblur_px = 0.9\n"
+        said = self.record("even", settings=settings).stderr
+        still, again = first_two("even")
+        self.assertEqual(still, again)  # the hand still rests
+        self.assertNotIn("heft calibrate", said)
+        (self.folder / "settings.toml").unlink()
+        options = json.loads(query(self.db, "select run_options from session")[1][0])
+        self.assertEqual(options["tracker"], f"synthetic:{self.folder / 'settings.toml'}")
+        self.assertEqual(options["tracker_text"], settings)
+        self.assertIn("session 2: verified", self.run_heft("replay", "--db", self.db).stdout)
+
+    def test_refusals(self):
+        said = self.record("a", settings="noise_levels = 0\nblur = 1\n", expect=3).stderr
+        self.assertRegex(said, r"settings\.toml:2:1: unknown key \"blur\".*\"blur_px\"")
+        self.protocol.write_text("display_rate_hz = 60\n" + PROTOCOL, encoding="utf-8")
+        said = self.record("a", settings="exposure_s = 0.02\n", expect=3).stderr
+        self.assertRegex(said, r"settings\.toml: exposure_s is 0\.02 s, .* 60 pictures a second")
+        for tracker, code, word in (("synthetic:none.toml", 1, "none.toml"),
+                                    ("synthetic:", 2, "synthetic:FILE"),
+                                    ("hand:x.toml", 2, "takes nothing after it")):
+            said = self.session(self.db, "--tracker", tracker, expect=code, cwd=self.folder).stderr
+            self.assertIn(word, said)
+        self.assertFalse(self.db.exists())
+
+    def test_validate_knows_the_shipped_settings(self):
+        run = self.run_heft("validate", APPARATUS / "synthetic_camera.toml")
+        self.assertIn("ok, a synthetic camera file: exposure 4 ms, blur 0.6 px, noise 3 levels, "
+                      "sRGB", run.stdout)
+
+
+if __name__ == "__main__":
+    main(__name__)
