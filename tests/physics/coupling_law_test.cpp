@@ -78,6 +78,17 @@ TEST(CouplingLaw, ImplicitEulerIsTheTextbookStep) {
               1e-13);
 }
 
+// A blow takes no time: the clone is as heavy as it is, whatever the damping.
+TEST(CouplingLaw, HasTheBareMassWithinAnInstant) {
+  for (const double damping_ratio : {0.5, 1.0, 2.0}) {
+    CouplingLaw law(CouplingScheme::exact, {0.1, 100, damping_ratio});
+    law.restart(0.2, 0);
+    const FreeStep step = law.begin(0.01, 0, 1e-9);
+    EXPECT_NEAR(step.solver_mass, 0.1, 1e-6);
+    EXPECT_NEAR(step.velocity, 0.2, 1e-6);
+  }
+}
+
 RC_GTEST_PROP(CouplingLaw, NeverBlowsUpHoweverStiff, ()) {
   const CouplingAxis axis{std::pow(10, *rc::gen::inRange(-7, 1)),
                           std::pow(10, *rc::gen::inRange(-3, 10)),

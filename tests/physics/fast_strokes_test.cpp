@@ -74,6 +74,33 @@ std::vector<FastStroke> fast_strokes() {
 
 INSTANTIATE_TEST_SUITE_P(MassesAndSpeeds, FastStrokes, testing::ValuesIn(fast_strokes()));
 
+// Pressed against a cube that does not move, then drawn along its face: it sticks, slips and slides
+// off as it does in small steps.
+TEST(PressedClone, SlipsWhenFrictionGives) {
+  const Scene scene = one_cube(1000);
+  const auto hand = [](double t_s) {
+    const double press_m = std::min(t_s / 0.4, 1.0) * 0.032;
+    const double draw_m = std::clamp((t_s - 0.4) / 1.2, 0.0, 1.0) * 0.08;
+    return upright_pose({-0.0745 + press_m, draw_m, 0.021}, 0);
+  };
+  const auto way_m = [&](int rate_hz) {
+    std::vector<Eigen::Vector3d> seen_m;
+    int n = 0;
+    run(*make_simulator("boxes"), scene, hand, 2, rate_hz,
+        [&](double, const Pose&, const WorldState& state) {
+          if (++n % (rate_hz / 60) == 0) seen_m.push_back(state.clone.pose.position_m);
+        });
+    return seen_m;
+  };
+  const auto truth_m = way_m(7680);
+  for (const int rate_hz : {60, 120, 240}) {
+    const auto tried_m = way_m(rate_hz);
+    ASSERT_EQ(tried_m.size(), truth_m.size());
+    for (std::size_t i = 0; i < truth_m.size(); ++i)
+      EXPECT_LE((tried_m[i] - truth_m[i]).norm(), 0.1e-3) << rate_hz << " Hz, picture " << i;
+  }
+}
+
 // v^2 / 2 mu g, whatever pushed it until now.
 TEST(SlidingCube, StopsWhereFrictionStopsIt) {
   for (const double speed_m_s : {0.1, 0.5, 1.0, 2.0})

@@ -278,6 +278,12 @@ Vector3d BoxWorld::impulse_n_s(std::size_t pusher, std::size_t pushed) const {
   return pushed == high ? on_high : Vector3d(-on_high);
 }
 
+bool BoxWorld::touches(std::size_t i) const {
+  return std::ranges::any_of(pairs_, [i](const Pair& pair) {
+    return !pair.with_table() && (pair.first == i || pair.second == i) && pair.manifold.touches();
+  });
+}
+
 void BoxWorld::forget_contacts(std::size_t i) {
   for (Body& body : bodies_) body.wake();
   for (Pair& pair : pairs_)

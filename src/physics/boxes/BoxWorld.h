@@ -56,6 +56,9 @@ class BoxWorld {
   /// Mean impulse of `pusher` on `pushed` in the last step, N s; zero if they don't touch.
   Eigen::Vector3d impulse_n_s(std::size_t pusher, std::size_t pushed) const;
 
+  /// Whether a body and another pressed on each other in the last step.
+  bool touches(std::size_t i) const;
+
   /// Forgets the contacts that a body has had, and wakes all.
   void forget_contacts(std::size_t i);
 

@@ -22,6 +22,8 @@ constexpr double most_pieces = 64;
 constexpr double same_length = 1 + 1e-6;
 constexpr double steady_m_s = 0.01;  // of the target, from step to step
 constexpr double instant_s = 1e-9;
+constexpr double least_share = 1e-3;  // of a step that is worth cutting off
+constexpr double there_m = 1e-6;      // a way to a cube that is none
 constexpr int most_cuts = 4;  // until the clone has slid off: it may be slower than foreseen
 
 // How many times more a push at the tip moves the clone than it turns the tip aside, at least.
@@ -158,9 +160,14 @@ void BoxesSimulator::piece(const Pose& target, double h_s) {
     const double left_s = (1 - done) * h_s;
     begin_decoupled(target, left_s);
     const auto share = world_->share_before_hitting(clone_index, left_s);
-    if (!share || hit == most_cuts) break;
-    done += *share * (1 - done);
-    decoupled_piece(interpolate(from, target, done), *share * left_s);
+    if (!share || hit == most_cuts || (1 - *share) * left_s < least_share * h_s) break;
+    if (*share * left_s * clone().tip_speed_m_s() > there_m) {
+      done += *share * (1 - done);
+      decoupled_piece(interpolate(from, target, done), *share * left_s);
+      // A path that bends may meet the cube a little earlier: the load of that is no lasting one.
+      if (world_->touches(clone_index))
+        coupling_.restart({clone().pose, clone().velocity}, of_target);
+    }
     decoupled_piece(target_, instant_s);
     coupling_.restart({clone().pose, clone().velocity}, of_target);
   }

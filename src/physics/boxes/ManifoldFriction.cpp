@@ -72,18 +72,20 @@ double Manifold::slide(const Patch& moving, Patch& change) {
   return more_u.cwiseAbs().cwiseMax(more_v.cwiseAbs()).cwiseProduct(drag_per_kg_).maxCoeff();
 }
 
-// All points at once, if all that are loaded slide.
+// All points at once, if all that are loaded slide. Each step is as small as it has to be where all
+// of them push the same way.
 bool Manifold::slide_together(const Vector3d& speed) {
   for (int i = 0; i < n_; ++i)
     if (drag_per_kg_[i] == 0) drag_per_kg_[i] = response_at(at_u_m_[i], at_v_m_[i], drag_by_drag_);
   const auto limits = friction_ * impulses_.col(0).array();
-  // Impulses times how they change the drag.
-  const Eigen::Array4d u = impulses_.col(1).cwiseProduct(drag_per_kg_) -
-                           (Points::Constant(speed[0]) - speed[2] * at_v_m_);
-  const Eigen::Array4d v = impulses_.col(2).cwiseProduct(drag_per_kg_) -
-                           (Points::Constant(speed[1]) + speed[2] * at_u_m_);
+  // Impulses times how they all change the drag.
+  const Points per_kg = n_ * drag_per_kg_;
+  const Eigen::Array4d u =
+      impulses_.col(1).cwiseProduct(per_kg) - (Points::Constant(speed[0]) - speed[2] * at_v_m_);
+  const Eigen::Array4d v =
+      impulses_.col(2).cwiseProduct(per_kg) - (Points::Constant(speed[1]) + speed[2] * at_u_m_);
   const Eigen::Array4d squared = u.square() + v.square();
-  const Eigen::Array4d rims = limits * drag_per_kg_.array();
+  const Eigen::Array4d rims = limits * per_kg.array();
   if ((squared - rims.square()).minCoeff() < 0) return false;
   const Eigen::Array4d scale = limits / squared.max(least_squared_m2_s2).sqrt();
   impulses_.col(1) = u * scale;
