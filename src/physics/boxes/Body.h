@@ -22,6 +22,7 @@ struct Body {
   bool asleep = false;
   bool fresh = false;  ///< its velocity is momentary, not the mean over a step
   Eigen::Vector3d rate_m_s2 = Eigen::Vector3d::Zero();  ///< at which the last step changed it
+  bool pushed = false;                                  ///< by the driven body, or through others
   bool steady = false;                                  ///< the step before changed it alike
   double owed_s = 0;                                    ///< of weight, in the next step
   double calm_s = 0;  ///< for how long it has not moved noticeably

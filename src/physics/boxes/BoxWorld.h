@@ -80,7 +80,7 @@ class BoxWorld {
   void add_weight(double h_s);
   bool was_released();
   void note_rates(double h_s);
-  bool pushed_by_driven(std::size_t i) const;
+  void note_pushed();
   std::optional<double> share_before_hit(std::size_t i, double h_s) const;
   void find_contacts(double h_s, double up_to_m_s);
   void solve_contacts(double h_s, double up_to_m_s);
@@ -104,7 +104,7 @@ class BoxWorld {
     Velocity velocity;
     double mean_over_s;  ///< of which its velocity is the mean; 0: it is momentary
     double owed_s;
-    bool pushed;  ///< by the driven body
+    bool pushed;
     bool is_momentary(double h_s) const { return mean_over_s < 0.01 * h_s; }
   };
   std::vector<Start> starts_;

@@ -21,9 +21,10 @@ constexpr double steady_share = 0.5, steady_m_s2 = 0.05;
 // so long would have been, where it changes steadily.
 void BoxWorld::begin_step(double h_s) {
   starts_.clear();
+  note_pushed();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
-    Start start{body.velocity, body.fresh ? 0 : last_h_s_, body.owed_s, pushed_by_driven(i)};
+    Start start{body.velocity, body.fresh ? 0 : last_h_s_, body.owed_s, body.pushed};
     if (body.steady && start.mean_over_s > 0 && body.has_weight) {
       start.velocity.linear_m_s += (last_h_s_ - h_s) / 2 * body.rate_m_s2;
       start.mean_over_s = h_s;
@@ -41,7 +42,7 @@ void BoxWorld::add_weight(double h_s) {
     Body& body = bodies_[i];
     const Start& start = starts_[i];
     if (!body.has_weight || body.asleep) continue;
-    const bool counts_whole = pushed_by_driven(i) && !start.is_momentary(h_s);
+    const bool counts_whole = start.pushed && !start.is_momentary(h_s);
     double fall_s = counts_whole ? h_s : (start.mean_over_s + h_s) / 2;
     fall_s += start.owed_s;
     body.owed_s = 0;
@@ -57,13 +58,15 @@ void BoxWorld::add_weight(double h_s) {
   }
 }
 
-// Whether the driven body no longer pushes one that it pushed: friction alone slows that one from
-// the start of this step on, from the velocity that it had then.
+// Whether the driven body no longer pushes one that it pushed, and nothing else does: friction
+// alone slows that one from the start of this step on, from the velocity that it had then.
 bool BoxWorld::was_released() {
+  note_pushed();
   bool any = false;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Start& start = starts_[i];
-    if (!start.pushed || start.mean_over_s == 0 || pushed_by_driven(i)) continue;
+    const bool released = start.pushed && !bodies_[i].pushed && !touches(i);
+    if (!released || start.mean_over_s == 0) continue;
     if (bodies_[i].steady)
       start.velocity.linear_m_s += start.mean_over_s / 2 * bodies_[i].rate_m_s2;
     start.mean_over_s = 0;
@@ -109,10 +112,18 @@ std::optional<double> BoxWorld::share_before_hit(std::size_t i, double h_s) cons
   return soonest;
 }
 
-bool BoxWorld::pushed_by_driven(std::size_t i) const {
-  for (std::size_t j = 0; j < i; ++j)
-    if (!bodies_[j].has_weight && pairs_[i * (i + 1) / 2 + j].manifold.touches()) return true;
-  return false;
+// From body to body, as far as they press on each other.
+void BoxWorld::note_pushed() {
+  for (Body& body : bodies_) body.pushed = !body.has_weight;
+  for (bool more = true; more;) {
+    more = false;
+    for (const Pair& pair : pairs_) {
+      Body& first = bodies_[pair.first];
+      Body& second = bodies_[pair.second];
+      if (first.pushed == second.pushed || !pair.manifold.touches()) continue;
+      first.pushed = second.pushed = more = true;
+    }
+  }
 }
 
 std::optional<double> BoxWorld::share_before_hitting(std::size_t i, double h_s) const {

@@ -66,7 +66,9 @@ bool Manifold::share_friction(const Vector3d& more) {
 // @return the largest change of a velocity at a point, m/s
 double Manifold::slide(const Patch& moving, Patch& change) {
   const Points before_u = impulses_.col(1), before_v = impulses_.col(2);
-  if (!slide_together(moving.drag)) slide_one_by_one(moving.drag);
+  for (int i = 0; i < n_; ++i)
+    if (drag_per_kg_[i] == 0) drag_per_kg_[i] = response_at(at_u_m_[i], at_v_m_[i], drag_by_drag_);
+  if (!foresees_ || !slide_together(moving.drag)) slide_one_by_one(moving.drag);
   const Points more_u = impulses_.col(1) - before_u, more_v = impulses_.col(2) - before_v;
   change.drag += Vector3d(more_u.sum(), more_v.sum(), at_u_m_.dot(more_v) - at_v_m_.dot(more_u));
   return more_u.cwiseAbs().cwiseMax(more_v.cwiseAbs()).cwiseProduct(drag_per_kg_).maxCoeff();
@@ -75,8 +77,6 @@ double Manifold::slide(const Patch& moving, Patch& change) {
 // All points at once, if all that are loaded slide. Each step is as small as it has to be where all
 // of them push the same way.
 bool Manifold::slide_together(const Vector3d& speed) {
-  for (int i = 0; i < n_; ++i)
-    if (drag_per_kg_[i] == 0) drag_per_kg_[i] = response_at(at_u_m_[i], at_v_m_[i], drag_by_drag_);
   const auto limits = friction_ * impulses_.col(0).array();
   // Impulses times how they all change the drag.
   const Points per_kg = n_ * drag_per_kg_;
