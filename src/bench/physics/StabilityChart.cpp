@@ -120,7 +120,7 @@ std::string legend() {
 
 void draw_stability(const StudyOptions& options, const std::vector<StabilityCell>& cells) {
   const std::vector<std::string> names = simulators_in(cells);
-  const int height_px = panel_height_px * static_cast<int>(names.size()) + 190;
+  const int height_px = panel_height_px * static_cast<int>(names.size()) + 212;
   const std::string caption =
       "A cube of 100 g pushed by 10 cm at 0.1 m/s, then 1 s of rest, with the paper's coupling but "
       "for what is varied (with k the cube's mass goes as its root; the torsional spring is loaded "
@@ -132,7 +132,7 @@ void draw_stability(const StudyOptions& options, const std::vector<StabilityCell
       fmt::format(
           "unset grid\nunset key\nset tics scale 0.3\n"
           "set multiplot layout {},3 margins screen 0.075, screen 0.985, screen caption_top + "
-          "30*pixel, screen 1-90*pixel spacing screen 0.095, screen 64*pixel\n",
+          "52*pixel, screen 1-90*pixel spacing screen 0.095, screen 64*pixel\n",
           names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (Varied varied : {Varied::stiffness, Varied::torsional_stiffness, Varied::cube_mass}) {
