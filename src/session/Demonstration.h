@@ -15,6 +15,7 @@ namespace heft {
 
 class Demonstration {
  public:
+  /// @param protocol outlives this
   /// @param apparatus what is filmed, and through what lens; without a board nothing is filmed
   Demonstration(const Protocol& protocol, const Apparatus& apparatus, std::uint64_t seed);
 

@@ -27,6 +27,7 @@ struct ShownPicture {
 
 class TrialWorld {
  public:
+  /// @param protocol outlives this
   TrialWorld(const Protocol& protocol, const TrialPlan& plan);
 
   /// Runs the world to the sample's time.

@@ -38,7 +38,8 @@ double degrees_from(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
 
 // The pictures speak for themselves: a tracker finds in them what is drawn over them.
 TEST(Demonstration, shows_a_filmed_effector_under_its_clone_with_two_faces_to_the_camera) {
-  Demonstration demonstration(Protocol{}, apparatus(), 7);
+  const Protocol protocol;
+  Demonstration demonstration(protocol, apparatus(), 7);
   Tracker tracker(apparatus());
   int n_two_faces = 0;
   constexpr int n_pictures = 60;
@@ -129,9 +130,10 @@ TEST(Demonstration, is_filmed_for_a_person_at_their_page) {
 }
 
 TEST(Demonstration, is_not_rendered_for_a_model) {
+  const Protocol protocol;
   Apparatus impossible = apparatus();
   impossible.board.tags[0].corners_m[0].z() = 0.1;
-  EXPECT_THROW(Demonstration(Protocol{}, impossible, 7), Error);
+  EXPECT_THROW(Demonstration(protocol, impossible, 7), Error);
   EXPECT_EQ(Demonstrated(impossible, false).end, RunEnd::finished);
 }
 
