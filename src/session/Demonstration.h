@@ -18,6 +18,7 @@ class Demonstration {
   /// @param protocol outlives this
   /// @param apparatus what is filmed, and through what lens; without a board nothing is filmed
   Demonstration(const Protocol& protocol, const Apparatus& apparatus, std::uint64_t seed);
+  Demonstration(Protocol&&, const Apparatus&, std::uint64_t) = delete;
 
   /// The picture at a time since its start; times increase.
   ViewPicture at(double t_s);

@@ -89,7 +89,8 @@ TEST(Demonstration, never_dips_the_effector_into_the_table) {
 }
 
 TEST(Demonstration, is_drawn_on_a_plain_table_where_nothing_can_be_filmed) {
-  Demonstration demonstration(Protocol{}, {}, 7);
+  const Protocol protocol;
+  Demonstration demonstration(protocol, {}, 7);
   const ViewPicture shown = demonstration.at(3);
   EXPECT_FALSE(shown.camera);
   EXPECT_TRUE(shown.frame.tracked);
