@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace heft::cli {
 
@@ -29,6 +30,8 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* summary,
                       std::initializer_list<const char*> examples);
 
 /// Adds --seed N.
-void add_seed(CLI::App* command, std::optional<std::uint64_t>& seed);
+/// @param without_it what --help says of that
+void add_seed(CLI::App* command, std::optional<std::uint64_t>& seed,
+              const std::string& without_it = "a fresh one is drawn, printed and logged");
 
 }  // namespace heft::cli

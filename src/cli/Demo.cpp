@@ -15,7 +15,6 @@
 #include "cli/SessionCommand.h"
 #include "cli/SessionOptions.h"
 #include "cli/Talk.h"
-#include "cli/WholeNumber.h"
 
 namespace heft::cli {
 
@@ -23,8 +22,10 @@ namespace {
 
 struct Options {
   std::string out = "heft-demo";
-  std::uint64_t seed = 2;  // about two minutes; who hesitates more takes up to five
+  std::optional<std::uint64_t> seed;
 };
+
+constexpr std::uint64_t usual_seed = 2;  // who hesitates more takes twice as long
 
 SessionRequest demo_session(const Options& options) {
   SessionRequest request;
@@ -36,7 +37,7 @@ SessionRequest demo_session(const Options& options) {
   complete(request.options);
   request.participant = "demo";
   request.db = options.out + "/demo.db";
-  request.seed = options.seed;
+  request.seed = options.seed.value_or(usual_seed);
   request.again = true;
   return request;
 }
@@ -81,11 +82,7 @@ void add_demo(CLI::App& app) {
       {"heft demo", "heft demo --seed 42 --out trial-run"});
   command->add_option("--out", options->out, "folder for the log and the report")
       ->capture_default_str();
-  command
-      ->add_option("--seed", options->seed,
-                   "another session: 0...2^63-1; some last twice as long as this one")
-      ->check(whole_number(0, (std::uint64_t{1} << 63) - 1))
-      ->capture_default_str();
+  add_seed(command, options->seed, "always the same session; others may last twice as long");
   command->callback([options] { demo(*options); });
 }
 

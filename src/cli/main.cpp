@@ -26,10 +26,9 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* summary,
   return command;
 }
 
-void add_seed(CLI::App* command, std::optional<std::uint64_t>& seed) {
-  command
-      ->add_option("--seed", seed,
-                   "0...2^63-1; without it a fresh one is drawn, printed and logged")
+void add_seed(CLI::App* command, std::optional<std::uint64_t>& seed,
+              const std::string& without_it) {
+  command->add_option("--seed", seed, "0...2^63-1; without it " + without_it)
       ->check(whole_number(0, (std::uint64_t{1} << 63) - 1));
 }
 

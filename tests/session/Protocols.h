@@ -43,6 +43,17 @@ inline Protocol quick_protocol() {
   return protocol;
 }
 
+/// A quick one with every page: all screens, a demonstration, a break, and the introduction after
+/// it.
+inline Protocol every_page_protocol() {
+  Protocol protocol = quick_protocol();
+  protocol.screens = {"fr", true, true, true};
+  protocol.blocks.insert(protocol.blocks.begin(), DemonstrationBlock{"demonstration", 0.1});
+  protocol.blocks.push_back(BreakBlock{"break", 0.1});
+  protocol.blocks.push_back(small_protocol().blocks[1]);  // the introduction
+  return protocol;
+}
+
 inline std::shared_ptr<const Protocol> shared(Protocol protocol) {
   return std::make_shared<const Protocol>(std::move(protocol));
 }

@@ -15,6 +15,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using testing::every_page_protocol;
 using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -55,12 +56,7 @@ struct Session {
 };
 
 TEST(Person, goes_through_all_pages_and_trials) {
-  Protocol protocol = quick_protocol();
-  protocol.screens = {"fr", true, true, true};
-  protocol.blocks.insert(protocol.blocks.begin(), DemonstrationBlock{"demonstration", 0.1});
-  protocol.blocks.push_back(BreakBlock{"break", 0.1});
-  protocol.blocks.push_back(small_protocol().blocks[1]);  // the introduction
-  Session session(protocol);
+  Session session(every_page_protocol());
   EXPECT_EQ(session.run(), RunEnd::finished);
   EXPECT_THAT(
       pages_of(session.sink),
@@ -194,12 +190,7 @@ TEST(Experimenter, holds_the_session_and_lets_it_go_on) {
 
 // Every status is held against what stood on the screen when it was shown.
 TEST(Experimenter, sees_which_page_it_is_and_that_only_trials_are_tracked) {
-  Protocol protocol = quick_protocol();
-  protocol.screens = {"fr", true, true, true};
-  protocol.blocks.insert(protocol.blocks.begin(), DemonstrationBlock{"demonstration", 0.1});
-  protocol.blocks.push_back(BreakBlock{"break", 0.1});
-  protocol.blocks.push_back(small_protocol().blocks[1]);  // the introduction
-  Session session(protocol);
+  Session session(every_page_protocol());
   MadeUpDesk desk;
   int n_tracked = 0;
   desk.on_show = [&](const DeskStatus& status) {

@@ -15,11 +15,10 @@ namespace {
 
 using ::testing::ElementsAre;
 using testing::events_of;
+using testing::every_page_protocol;
 using ::testing::IsEmpty;
-using testing::quick_protocol;
 using testing::shared;
 using ::testing::SizeIs;
-using testing::small_protocol;
 
 // Sees the window's controls, and taps with a finger what a person would. One tap at a time, and
 // again if it had no effect: a page's first moments take none.
@@ -109,19 +108,14 @@ class FingersOnTheWindow final : public ArView {
   bool looked_ = false;  // at what is shown: whoever tapped waits for what comes of it
 };
 
-// Every page, two sorting trials, an introduction, and a short staircase.
-Protocol every_page_protocol() {
-  Protocol protocol = quick_protocol();
+// A short staircase at the end, at a rate that the window can draw.
+Protocol touched_protocol() {
+  Protocol protocol = every_page_protocol();
   protocol.display_rate_hz = 30;
-  protocol.screens = {"fr", true, true, true};
-  const Protocol other = small_protocol();
   ComparisonBlock comparison;
   comparison.name = "comparison";
   comparison.staircases = {{15, testing::staircase("15g", 175, 50)}};
   comparison.staircases[0].staircase.stop_trials = 4;
-  protocol.blocks.insert(protocol.blocks.begin(), DemonstrationBlock{"demonstration", 0.1});
-  protocol.blocks.push_back(BreakBlock{"break", 0.1});
-  protocol.blocks.push_back(other.blocks[1]);  // the introduction
   protocol.blocks.push_back(comparison);
   return protocol;
 }
@@ -175,7 +169,7 @@ class TouchedWindow : public ::testing::Test {
         << "corrected, then validated";
   }
 
-  std::shared_ptr<const Protocol> protocol = shared(every_page_protocol());
+  std::shared_ptr<const Protocol> protocol = shared(touched_protocol());
   ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/fr.toml");
   Engine engine{protocol, 7};
   RecordedSession sink{SessionHeader{}};

@@ -113,7 +113,7 @@ bool BoxWorld::can_push(const Pair& pair) const {
 
 void BoxWorld::find_contacts(double h_s, double up_to_m_s) {
   touching_.clear();
-  const bool as_long = h_s < 100 * last_h_s_ && last_h_s_ < 100 * h_s;
+  const bool as_long = instant_share * h_s < last_h_s_ && instant_share * last_h_s_ < h_s;
   if (squeezed_ || !as_long)  // they tell nothing about this step's
     for (Pair& pair : pairs_) pair.manifold.forget_impulses();
   for (const bool with_table : {false, true}) {

@@ -99,13 +99,14 @@ class BoxWorld {
   std::vector<Pair> pairs_;          ///< each body with the bodies before it, then with the table
   std::vector<Manifold*> touching_;  ///< of this step; the table's last
   SweepCourse course_;
+  static constexpr double instant_share = 0.01;  // of another step: one that takes no time
   // A body at the start of the step.
   struct Start {
     Velocity velocity;
     double mean_over_s;  ///< of which its velocity is the mean; 0: it is momentary
     double owed_s;
     bool pushed;
-    bool is_momentary(double h_s) const { return mean_over_s < 0.01 * h_s; }
+    bool is_momentary(double h_s) const { return mean_over_s < instant_share * h_s; }
   };
   std::vector<Start> starts_;
   std::vector<Velocity> velocities_;  ///< before this step's contacts

@@ -83,7 +83,7 @@ void BoxWorld::note_rates(double h_s) {
     const double over_s = (start.mean_over_s + h_s) / 2;
     const Vector3d rate_m_s2 = (body.velocity.linear_m_s - start.velocity.linear_m_s) / over_s;
     const double change_m_s2 = (rate_m_s2 - body.rate_m_s2).norm();
-    const bool lasts_alike = !start.is_momentary(h_s) && h_s > 0.01 * start.mean_over_s;
+    const bool lasts_alike = !start.is_momentary(h_s) && h_s > instant_share * start.mean_over_s;
     body.steady = lasts_alike && change_m_s2 <= steady_share * rate_m_s2.norm() + steady_m_s2;
     body.rate_m_s2 = rate_m_s2;
   }

@@ -55,7 +55,7 @@ class BoxesSimulator : public DecouplingSimulator {
   static std::size_t index_of(std::size_t cube) { return cube + 1; }
 
   void add_clone(const Scene& scene, const Pose& target);
-  double n_pieces(const Pose& target, double h_s) const;
+  double n_pieces(const Velocity& of_target, double h_s) const;
   void pieces(const Pose& target, double h_s);
   void piece(const Pose& target, double h_s);
   void coupled_piece(const Pose& target, double h_s);
@@ -105,9 +105,8 @@ void BoxesSimulator::add_clone(const Scene& scene, const Pose& target) {
 }
 
 // Pieces become longer only where nothing changes suddenly.
-double BoxesSimulator::n_pieces(const Pose& target, double h_s) const {
+double BoxesSimulator::n_pieces(const Velocity& of_target, double h_s) const {
   // The clone may become as fast as the target within the step.
-  const Velocity of_target = mean_velocity(target_, target, h_s);
   const double fastest_m_s =
       std::max(world_->fastest_m_s(), world_->body(clone_index).tip_speed_m_s(of_target));
   const double travel_m = h_s * fastest_m_s;
@@ -125,14 +124,13 @@ double BoxesSimulator::n_pieces(const Pose& target, double h_s) const {
 void BoxesSimulator::step(const Pose& target, double h_s) {
   for (Vector3d& impulse_n_s : impulse_n_s_) impulse_n_s.setZero();
   const Pose from = target_;
-  const Velocity of_target = mean_velocity(from, target, h_s);
   double done = 0;
   for (int cut = 0; decoupled_ && cut < most_cuts; ++cut) {
     const auto share = world_->share_before_sliding_off(clone_index, (1 - done) * h_s);
     if (!share || *share >= 1) break;
     const double until = done + *share * (1 - done);
     pieces(interpolate(from, target, until), (until - done) * h_s);
-    coupling_.restart({clone().pose, clone().velocity}, of_target);
+    coupling_.restart({clone().pose, clone().velocity}, mean_velocity(from, target, h_s));
     done = until;
   }
   pieces(target, (1 - done) * h_s);
@@ -140,9 +138,10 @@ void BoxesSimulator::step(const Pose& target, double h_s) {
 }
 
 void BoxesSimulator::pieces(const Pose& target, double h_s) {
-  const double n = n_pieces(target, h_s);
   const Pose from = target_;
-  of_target_ = mean_velocity(from, target, h_s);
+  const Velocity of_target = mean_velocity(from, target, h_s);
+  const double n = n_pieces(of_target, h_s);
+  of_target_ = of_target;
   piece_s_ = h_s / n;
   for (double i = 1; i < n; ++i) piece(interpolate(from, target, i / n), h_s / n);
   piece(target, h_s / n);
@@ -154,13 +153,13 @@ void BoxesSimulator::pieces(const Pose& target, double h_s) {
 void BoxesSimulator::piece(const Pose& target, double h_s) {
   if (!decoupled_) return coupled_piece(target, h_s);
   const Pose from = target_;
-  const Velocity of_target = mean_velocity(from, target, h_s);
   double done = 0;
   for (int hit = 0;; ++hit) {
     const double left_s = (1 - done) * h_s;
     begin_decoupled(target, left_s);
     const auto share = world_->share_before_hitting(clone_index, left_s);
     if (!share || hit == most_cuts || (1 - *share) * left_s < least_share * h_s) break;
+    const Velocity of_target = mean_velocity(from, target, h_s);
     if (*share * left_s * clone().tip_speed_m_s() > there_m) {
       done += *share * (1 - done);
       decoupled_piece(interpolate(from, target, done), *share * left_s);

@@ -39,6 +39,7 @@ const Matrix4d& Manifold::stopping(unsigned set) {
 
 // All points at once: a light clone before a heavy cube feels the sum of its points' impulses, the
 // cube how they are spread, and one point after the other would find the spread only slowly.
+// @param moving its drag follows
 // @return the largest change of a velocity at a point, m/s
 double Manifold::press(Patch& moving, Patch& change) {
   const Points now = impulses_.col(0);
@@ -56,7 +57,6 @@ double Manifold::press(Patch& moving, Patch& change) {
   if ((now + more).minCoeff() < 0) more = release(active, missing);
   impulses_.col(0) = (now + more).cwiseMax(0);
   change.press = levers_.transpose() * more;
-  moving.press += press_by_press_ * change.press;
   moving.drag += drag_by_press_ * change.press;
   return largest;
 }
