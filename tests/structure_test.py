@@ -11,19 +11,23 @@ ROOT = Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
 
 # The layer table of README.md. Rooms on one row don't include each other (but cli -> bench).
-ROW_1_2 = {"experiment", "base", "psychophysics", "physics", "tracking"}
+ROWS_1_2 = {"base", "psychophysics", "experiment", "physics", "tracking"}
+ROW_3 = {"engine", "protocol", "record", "responders", "view"}
 MAY_INCLUDE = {
     "base": set(),
-    "experiment": {"base"},
     "psychophysics": {"base"},
+    "experiment": {"psychophysics", "base"},
     "physics": {"base"},
     "tracking": {"base"},
+    "engine": {"experiment", "psychophysics", "base"},
     "protocol": {"experiment", "base", "physics", "psychophysics", "tracking"},
     "record": {"experiment", "base"},
     "responders": {"experiment", "psychophysics", "base"},
     "view": {"experiment", "base", "tracking"},
-    "session": ROW_1_2 | {"protocol", "record", "responders", "view"},
-    "analysis": ROW_1_2 | {"protocol", "record", "responders", "view"},
+    "apparatus": ROWS_1_2 | ROW_3 - {"engine"},
+    "analysis": ROWS_1_2 | {"protocol", "record", "responders", "view"},
+    "replay": ROWS_1_2 | ROW_3 | {"apparatus"},
+    "session": ROWS_1_2 | ROW_3 | {"apparatus", "replay"},
 }
 MAY_INCLUDE["bench"] = set(MAY_INCLUDE)
 MAY_INCLUDE["cli"] = set(MAY_INCLUDE) | {"bench"}

@@ -13,6 +13,8 @@
 #include <memory>
 #include <sstream>
 
+#include "apparatus/ApparatusCheck.h"
+#include "apparatus/PictureSource.h"
 #include "base/Build.h"
 #include "base/Error.h"
 #include "base/TextFile.h"
@@ -22,8 +24,6 @@
 #include "physics/DecouplingSimulator.h"
 #include "record/Integrity.h"
 #include "responders/Responder.h"
-#include "session/ApparatusCheck.h"
-#include "session/PictureSource.h"
 #include "session/Session.h"
 #include "tracking/Camera.h"
 #include "tracking/VideoDevices.h"

@@ -1,5 +1,6 @@
 // heft replay: verify a log, or ask what a session would have been.
-#include "session/Replay.h"
+#include "replay/Replay.h"
+#include "session/Session.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,7 @@
 #include "cli/WholeNumber.h"
 #include "physics/DecouplingSimulator.h"
 #include "record/Integrity.h"
-#include "session/WhatIf.h"
+#include "replay/WhatIf.h"
 
 namespace heft::cli {
 
@@ -135,7 +136,12 @@ void ask_what_if(const LogReader& reader, const Options& options) {
     runner.progress = [&](const Engine& engine) {
       bar.update(0, fmt::format("{} trials", engine.n_completed()));
     };
-    print_responder(compare_responders(reader, session, protocol, changed, runner));
+    SessionRequest request;
+    request.protocol = protocol;
+    request.options = changed;
+    request.participant = session.row.header.participant;
+    request.seed = session.row.header.seed;
+    print_responder(compare_sessions(reader, session_id, compute_session(request, runner)));
   }
 }
 

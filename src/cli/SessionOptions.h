@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apparatus/RunOptions.h"
 #include "protocol/Protocol.h"
-#include "session/RunOptions.h"
 
 namespace heft::cli {
 

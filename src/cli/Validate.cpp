@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "apparatus/AutoSimulator.h"
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
@@ -17,7 +18,6 @@
 #include "protocol/SceneFile.h"
 #include "protocol/SyntheticCameraFile.h"
 #include "protocol/TextsFile.h"
-#include "session/AutoSimulator.h"
 
 namespace heft::cli {
 

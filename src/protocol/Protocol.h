@@ -3,14 +3,12 @@
 #pragma once
 
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "experiment/Block.h"
 #include "experiment/Stage.h"
-#include "experiment/Task.h"
 #include "physics/Drive.h"
 #include "physics/Scene.h"
-#include "psychophysics/Interleaving.h"
 
 namespace heft {
 
@@ -27,26 +25,6 @@ enum class FrictionIs { between_surfaces, per_body };
 template <>
 struct EnumNames<FrictionIs> {
   static constexpr std::array<std::string_view, 2> names{"between_surfaces", "per_body"};
-};
-
-/// After a wrong answer in the introduction: the same cubes again, or newly shuffled ones.
-enum class WrongAnswer { same_layout, reshuffle };
-template <>
-struct EnumNames<WrongAnswer> {
-  static constexpr std::array<std::string_view, 2> names{"same_layout", "reshuffle"};
-};
-
-enum class SortingOrders { random, balanced };
-template <>
-struct EnumNames<SortingOrders> {
-  static constexpr std::array<std::string_view, 2> names{"random", "balanced"};
-};
-
-/// What counts as a positive answer of a comparison (moves the staircase down).
-enum class PositiveAnswer { any_choice, correct_choice };
-template <>
-struct EnumNames<PositiveAnswer> {
-  static constexpr std::array<std::string_view, 2> names{"any_choice", "correct_choice"};
 };
 
 /// What a person's screens show besides the tasks.
@@ -73,58 +51,13 @@ struct Layout {
   double clear_m = 0.02;  ///< cubes appear when the effector is this far from every slot
 };
 
-struct DemonstrationBlock {
-  std::string name;
-  double duration_s = 20;
-};
-
-struct IntroductionBlock {
-  std::string name;
-  std::vector<double> masses_g;  ///< two; shuffled
-  Condition condition = Condition::C2;
-  WrongAnswer wrong_answer = WrongAnswer::same_layout;
-};
-
-struct SortingBlock {
-  std::string name;
-  std::vector<double> masses_g;  ///< three
-  int trials = 10;
-  int c1_trials = 5;
-  int max_run = 0;  ///< longest run of one condition; 0: any
-  SortingOrders orders = SortingOrders::random;
-};
-
-/// One staircase of a comparison block and the reference it compares with.
-struct ReferenceStaircase {
-  double reference_g = 0;
-  StaircaseConfig staircase;  ///< levels are comparison - reference, g
-};
-
-struct ComparisonBlock {
-  std::string name;
-  Condition condition = Condition::C2;
-  double catch_fraction = 0;  ///< of trials with difference 0; they drive no staircase
-  PositiveAnswer positive_answer = PositiveAnswer::any_choice;
-  InterleaveConfig interleaving;
-  std::vector<ReferenceStaircase> staircases;
-};
-
-struct BreakBlock {
-  std::string name;
-  double least_duration_s = 60;
-};
-
-using Block =
-    std::variant<DemonstrationBlock, IntroductionBlock, SortingBlock, ComparisonBlock, BreakBlock>;
-
-struct Protocol {
+struct Protocol : SessionPlan {
   std::string name;
   std::string text;    ///< the file as read; kept in the log
   std::string sha256;  ///< of text
   std::string title;
   double display_rate_hz = 15;
-  double void_after_s = 5;       ///< a camera or board lost for longer voids the trial
-  bool require_contact = false;  ///< refuse answers until every cube was touched
+  double void_after_s = 5;  ///< a camera or board lost for longer voids the trial
   Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
   Coupling coupling;
   double friction = 0.8;
@@ -133,7 +66,6 @@ struct Protocol {
   SimulatorChoice simulator;
   Layout layout;
   ScreensChosen screens;
-  std::vector<Block> blocks;
 };
 
 /// Centers of n cubes in a row along x, leftmost first.

@@ -44,7 +44,7 @@ AttemptRun::AttemptRun(const SessionParts& parts, const RunnerOptions& options, 
     : parts_(parts), options_(options), journal_(journal), attendant_(attendant), screen_(screen) {}
 
 void AttemptRun::run(const TrialPlan& plan) {
-  const Protocol& protocol = engine().protocol();
+  const Protocol& protocol = parts_.protocol;
   journal_.emit_now(EventKind::trial_started);
   start_s_ = engine().last_s();
   parts_.responder.begin_trial(
@@ -135,7 +135,7 @@ bool AttemptRun::wait_for_camera(const Picture& picture) {
     journal_.emit_now(EventKind::continued);
     return open;
   }
-  if (open && journal_.now_s() - *trouble_since_s_ > engine().protocol().void_after_s)
+  if (open && journal_.now_s() - *trouble_since_s_ > parts_.protocol.void_after_s)
     journal_.emit_now(EventKind::voided, picture.trouble);
   ViewPicture nothing;
   nothing.frame.t_s = picture.sample.t_capture_s;
@@ -180,7 +180,7 @@ void AttemptRun::log_events(const std::vector<Event>& events) {
 }
 
 void AttemptRun::count_picture(const Picture& picture, const FrameRow& row) {
-  const double late_s = late_pictures / engine().protocol().display_rate_hz;
+  const double late_s = late_pictures / parts_.protocol.display_rate_hz;
   const int late = row.present_s - row.capture_s > late_s ? 1 : 0;
   ++n_shown_;
   n_dropped_ += picture.n_dropped;

@@ -2,9 +2,9 @@
 // the participant does.
 #pragma once
 
+#include "apparatus/TrialWorld.h"
 #include "session/Attendant.h"
 #include "session/SessionParts.h"
-#include "session/TrialWorld.h"
 
 namespace heft {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "apparatus/TrialWorld.h"
 #include "responders/Responder.h"
-#include "session/TrialWorld.h"
 #include "tracking/SyntheticCamera.h"
 #include "view/ArView.h"
 

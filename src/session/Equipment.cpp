@@ -92,8 +92,9 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const RunOptions&
 }
 
 SessionParts Equipment::parts(Engine& engine, EventSink& sink) {
-  return {engine,       sink,  *pictures_,  *responder_,
-          *view_,       clock, has_screen_, has_person_ ? &setup_.texts : nullptr,
+  return {*protocol_,   engine,      sink,
+          *pictures_,   *responder_, *view_,
+          clock,        has_screen_, has_person_ ? &setup_.texts : nullptr,
           demonstrated_};
 }
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "session/RunOptions.h"
+#include "apparatus/RunOptions.h"
 #include "session/SessionParts.h"
 
 namespace heft {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "apparatus/SessionClock.h"
+#include "engine/Engine.h"
 #include "record/EventSink.h"
-#include "session/Engine.h"
-#include "session/SessionClock.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "session/RunOptions.h"
+#include "apparatus/RunOptions.h"
 
 namespace heft {
 

@@ -14,7 +14,7 @@ constexpr double still_page_step_s = 0.1;
 }  // namespace
 
 bool Pages::welcome() {
-  const ScreensChosen& chosen = journal_.engine().protocol().screens;
+  const ScreensChosen& chosen = protocol_.screens;
   if (chosen.consent) {
     const TouchKind answer = show(Screen::consent);
     if (answer == TouchKind::close) return true;
@@ -36,8 +36,7 @@ void Pages::instructions(Task task) {
 }
 
 void Pages::demonstration(const DemonstrationBlock& block, const Apparatus& apparatus) {
-  const Engine& engine = journal_.engine();
-  Demonstration moving(engine.protocol(), apparatus, engine.seed());
+  Demonstration moving(protocol_, apparatus, journal_.engine().seed());
   show(ScreenState{.screen = Screen::demonstration}, block.duration_s,
        [&](double t_s) { return moving.at(t_s); });
 }
@@ -47,7 +46,7 @@ void Pages::rest(double least_s) {
 }
 
 void Pages::how_decided() {
-  if (journal_.engine().protocol().screens.how_decided) show(Screen::how_decided);
+  if (protocol_.screens.how_decided) show(Screen::how_decided);
 }
 
 void Pages::thanks() {
@@ -57,8 +56,7 @@ void Pages::thanks() {
 TouchKind Pages::show(ScreenState screen, double least_s, const Moving& picture_at) {
   const SessionClock& clock = journal_.clock();
   const double since_s = clock.now_s();
-  const double step_s =
-      picture_at ? 1 / journal_.engine().protocol().display_rate_hz : still_page_step_s;
+  const double step_s = picture_at ? 1 / protocol_.display_rate_hz : still_page_step_s;
   while (!attendant_.leaving()) {
     const double now_s = clock.now_s(), elapsed_s = now_s - since_s;
     screen.wait_s = std::max(0.0, least_s - elapsed_s);

@@ -12,8 +12,13 @@ namespace heft {
 class Pages {
  public:
   /// @param texts what the person reads; null: nobody reads, and no page is shown
-  Pages(Journal& journal, Attendant& attendant, ParticipantScreen& screen, const ScreenTexts* texts)
-      : journal_(journal), attendant_(attendant), screen_(screen), texts_(texts) {}
+  Pages(const Protocol& protocol, Journal& journal, Attendant& attendant, ParticipantScreen& screen,
+        const ScreenTexts* texts)
+      : protocol_(protocol),
+        journal_(journal),
+        attendant_(attendant),
+        screen_(screen),
+        texts_(texts) {}
 
   bool has_reader() const { return texts_ != nullptr; }
 
@@ -41,6 +46,7 @@ class Pages {
   TouchKind show(ScreenState screen, double least_s = 0, const Moving& picture_at = {});
   TouchKind show(Screen screen) { return show(ScreenState{.screen = screen}); }
 
+  const Protocol& protocol_;
   Journal& journal_;
   Attendant& attendant_;
   ParticipantScreen& screen_;

@@ -12,7 +12,7 @@ Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
       journal_(parts.engine, parts.sink, parts.clock, options.progress),
       screen_(journal_, parts.view, parts.texts),
       attendant_(journal_, screen_, options.desk, options.stop, parts.has_screen),
-      pages_(journal_, attendant_, screen_, parts.texts) {}
+      pages_(parts.protocol, journal_, attendant_, screen_, parts.texts) {}
 
 RunEnd Runner::run() {
   if (!begin()) return RunEnd::declined;
@@ -25,8 +25,7 @@ RunEnd Runner::run() {
 
 void Runner::check_apparatus() {
   std::string failed;
-  for (const CheckResult& result :
-       parts_.pictures.check(parts_.engine.protocol().display_rate_hz)) {
+  for (const CheckResult& result : parts_.pictures.check(parts_.protocol.display_rate_hz)) {
     journal_.emit_now(EventKind::check, to_json(result));
     const bool has_failed = result.verdict == CheckVerdict::failed;
     if (options_.desk)

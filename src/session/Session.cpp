@@ -139,19 +139,6 @@ SessionResult start_session(const SessionRequest& asked_for, const RunnerOptions
   return result_of(engine, end, log.session_id());
 }
 
-LoggedSession load_session(const LogReader& reader, const std::string& db,
-                           std::int64_t session_id) {
-  LoggedSession session;
-  session.db = db;
-  session.row = reader.session(session_id);
-  const SessionHeader& header = session.row.header;
-  session.options = run_options_from_json(header.run_options);
-  Protocol protocol = parse_protocol(header.protocol_text, header.protocol_name);
-  protocol.name = header.protocol_name;
-  session.protocol = protocol_for(std::move(protocol), session.options);
-  return session;
-}
-
 LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_t> session_id) {
   refuse_special_file(db);
   const LogReader reader(db);

@@ -5,9 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "record/LogReader.h"
+#include "apparatus/LoggedSession.h"
 #include "record/RecordedSession.h"
-#include "session/RunOptions.h"
 #include "session/Runner.h"
 
 namespace heft {
@@ -39,18 +38,6 @@ std::uint64_t fresh_seed();
 /// @throws Error (usage) when the participant has an unfinished session of the protocol, or a
 ///   finished one and `again` is not set; otherwise as Runner::run
 SessionResult start_session(const SessionRequest& request, const RunnerOptions& runner);
-
-/// A logged session with what it is run with, from the log alone.
-struct LoggedSession {
-  std::string db;
-  SessionRow row;
-  RunOptions options;
-  std::shared_ptr<const Protocol> protocol;
-  std::vector<OptionChange> changes;  ///< given again, to be logged when the session goes on
-};
-
-/// @throws Error when there is no such session, or its protocol or options can't be read
-LoggedSession load_session(const LogReader& reader, const std::string& db, std::int64_t session_id);
 
 /// The session of that id, or the newest unfinished one, with the options now in force: those it
 /// was started with and those given again since.

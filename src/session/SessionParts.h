@@ -4,16 +4,17 @@
 #include <atomic>
 #include <functional>
 
+#include "apparatus/PictureSource.h"
+#include "engine/Engine.h"
 #include "record/EventSink.h"
 #include "responders/Responder.h"
 #include "session/Desk.h"
-#include "session/Engine.h"
-#include "session/PictureSource.h"
 #include "view/ArView.h"
 
 namespace heft {
 
 struct SessionParts {
+  const Protocol& protocol;
   Engine& engine;
   EventSink& sink;
   PictureSource& pictures;

@@ -5,8 +5,8 @@
 #include <atomic>
 #include <filesystem>
 
-#include "session/AutoSimulator.h"
-#include "session/Replay.h"
+#include "apparatus/AutoSimulator.h"
+#include "replay/Replay.h"
 #include "session/Session.h"
 
 namespace heft {

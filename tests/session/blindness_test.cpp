@@ -5,11 +5,11 @@
 #include <cmath>
 #include <functional>
 
-#include "Protocols.h"
+#include "apparatus/PictureSource.h"
+#include "apparatus/TrialWorld.h"
 #include "base/Random.h"
-#include "session/PictureSource.h"
-#include "session/RunningAttempt.h"
-#include "session/TrialWorld.h"
+#include "engine/RunningAttempt.h"
+#include "session/Protocols.h"
 
 namespace heft {
 namespace {

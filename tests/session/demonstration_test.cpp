@@ -6,12 +6,12 @@
 
 #include <cstdlib>
 
-#include "MadeUpPeople.h"
-#include "Protocols.h"
-#include "Recorded.h"
 #include "protocol/MarkerFile.h"
 #include "protocol/TextsFile.h"
 #include "session/Equipment.h"
+#include "session/MadeUpPeople.h"
+#include "session/Protocols.h"
+#include "session/Recorded.h"
 #include "session/Runner.h"
 #include "tracking/Tracker.h"
 
@@ -112,7 +112,7 @@ struct Demonstrated {
       return patient(picture, state);
     });
     const ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
-    end = Runner({engine, sink, pictures, *hand, screen, clock, has_person,
+    end = Runner({*protocol, engine, sink, pictures, *hand, screen, clock, has_person,
                   has_person ? &texts : nullptr, filmed},
                  {})
               .run();

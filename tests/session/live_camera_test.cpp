@@ -4,13 +4,13 @@
 
 #include <atomic>
 
-#include "MadeUpPeople.h"
-#include "Protocols.h"
-#include "Recorded.h"
+#include "apparatus/CameraPictures.h"
 #include "protocol/MarkerFile.h"
 #include "protocol/TextsFile.h"
 #include "record/temporary_folder.h"
-#include "session/CameraPictures.h"
+#include "session/MadeUpPeople.h"
+#include "session/Protocols.h"
+#include "session/Recorded.h"
 #include "session/Runner.h"
 #include "tracking/ImageFile.h"
 #include "tracking/LiveCamera.h"
@@ -93,7 +93,7 @@ struct LiveSession {
     };
     CameraPictures pictures(open, {*protocol, *hand, apparatus(), "", clock, 0, ""});
     const RunEnd end =
-        Runner({engine, sink, pictures, *hand, screen, clock, true, &texts}, {}).run();
+        Runner({*protocol, engine, sink, pictures, *hand, screen, clock, true, &texts}, {}).run();
     n_attempts = engine.n_attempts();
     n_completed = engine.n_completed();
     return end;

@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "MadeUpPeople.h"
-#include "Protocols.h"
-#include "Recorded.h"
 #include "protocol/TextsFile.h"
+#include "session/MadeUpPeople.h"
+#include "session/Protocols.h"
+#include "session/Recorded.h"
 #include "session/Runner.h"
 
 namespace heft {
@@ -40,7 +40,8 @@ struct Session {
   RunEnd run(Desk* desk = nullptr) {
     RunnerOptions options;
     options.desk = desk;
-    return Runner({engine, sink, pictures, *hand, screen, clock, true, &texts}, options).run();
+    return Runner({*protocol, engine, sink, pictures, *hand, screen, clock, true, &texts}, options)
+        .run();
   }
   std::vector<Event> events(EventKind kind) const { return testing::events_of(sink, kind); }
   std::vector<FrameRow> frames() const { return testing::frames_of(sink); }
@@ -237,8 +238,8 @@ class FailedCheck : public ::testing::Test {
     OutOfOrder pictures(session.pictures);
     RunnerOptions options;
     options.desk = &desk;
-    return Runner({session.engine, session.sink, pictures, *session.hand, session.screen,
-                   session.clock, true, &session.texts},
+    return Runner({*session.protocol, session.engine, session.sink, pictures, *session.hand,
+                   session.screen, session.clock, true, &session.texts},
                   options)
         .run();
   }
@@ -290,8 +291,8 @@ TEST_F(FailedCheck, can_be_left_by_closing_the_window) {
   OutOfOrder pictures(other.pictures);
   RunnerOptions options;
   options.desk = &silent;
-  EXPECT_EQ(Runner({other.engine, other.sink, pictures, *other.hand, other.screen, other.clock,
-                    true, &other.texts},
+  EXPECT_EQ(Runner({*other.protocol, other.engine, other.sink, pictures, *other.hand, other.screen,
+                    other.clock, true, &other.texts},
                    options)
                 .run(),
             RunEnd::stopped);

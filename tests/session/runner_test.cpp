@@ -8,9 +8,9 @@
 #include <map>
 #include <numbers>
 
-#include "Protocols.h"
-#include "Recorded.h"
 #include "base/Error.h"
+#include "session/Protocols.h"
+#include "session/Recorded.h"
 
 namespace heft {
 namespace {
@@ -104,7 +104,7 @@ struct Bench {
         pictures(*responder, std::move(change)) {}
 
   RunEnd run(RunnerOptions options = {}) {
-    return Runner({engine, sink, pictures, *responder, view, clock}, options).run();
+    return Runner({*protocol, engine, sink, pictures, *responder, view, clock}, options).run();
   }
   std::vector<Event> events(EventKind kind) const { return testing::events_of(sink, kind); }
   std::vector<FrameRow> frames() const { return testing::frames_of(sink); }

@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 
-#include "Protocols.h"
-#include "Recorded.h"
 #include "protocol/TextsFile.h"
+#include "session/Protocols.h"
+#include "session/Recorded.h"
 #include "session/Runner.h"
 #include "view/WindowTaps.h"
 
@@ -134,7 +134,8 @@ class TouchedWindow : public ::testing::Test {
   RunEnd run() {
     const auto hand = responder_named("simulated").make({});
     HandPictures pictures(*hand, protocol->display_rate_hz);
-    return Runner({engine, sink, pictures, *hand, *fingers, clock, true, &texts}, {}).run();
+    return Runner({*protocol, engine, sink, pictures, *hand, *fingers, clock, true, &texts}, {})
+        .run();
   }
 
   void expect_every_page() const {

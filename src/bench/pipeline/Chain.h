@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "apparatus/PictureTracker.h"
+#include "apparatus/TrialWorld.h"
 #include "base/Names.h"
 #include "protocol/Protocol.h"
-#include "session/PictureTracker.h"
-#include "session/TrialWorld.h"
 #include "view/SceneDrawing.h"
 
 namespace heft {

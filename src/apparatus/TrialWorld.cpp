@@ -1,0 +1,164 @@
+#include "apparatus/TrialWorld.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/Boxes.h"
+
+namespace heft {
+
+namespace {
+// A contact that stops for less than this is the same push.
+constexpr double push_gap_s = 0.2;
+
+Event event_at(double t_s, EventKind kind, std::optional<std::size_t> cube = std::nullopt,
+               std::string detail = {}) {
+  Event event;
+  event.t_s = log_time(t_s);
+  event.kind = kind;
+  if (cube) event.slot = static_cast<int>(*cube) + 1;
+  event.detail = std::move(detail);
+  return event;
+}
+}  // namespace
+
+TrialWorld::TrialWorld(const Protocol& protocol, const TrialPlan& plan)
+    : protocol_(protocol), stage_(stage_of(protocol, plan.n_slots())) {
+  rearrange(plan);
+}
+
+void TrialWorld::rearrange(const TrialPlan& plan) {
+  scene_ = scene_of(protocol_, plan.condition, plan.masses_g);
+  contacts_.assign(plan.masses_g.size(), {});
+  drive_.reset();
+  reset_requested_ = false;
+}
+
+// A simulator that models one stroke alone meets, sooner or later, what it does not.
+void TrialWorld::advance_drive(const TargetSample& sample) {
+  try {
+    drive_->advance(sample);
+  } catch (const OutsideModel& outside) {
+    throw Error(
+        fmt::format("simulator \"{}\", {:.2f} s into the trial: {}; take \"boxes\", or "
+                    "\"auto\", which does so by itself",
+                    protocol_.simulator.name, sample.t_capture_s, outside.what()));
+  }
+}
+
+ShownPicture TrialWorld::advance(const TargetSample& sample) {
+  ShownPicture shown;
+  note_view(sample, shown);
+  const SimulatorChoice& simulator = protocol_.simulator;
+  const Pose seen_at = predicted(sample, simulator.input.predict_s);
+  if (!drive_ && sample.tracked && clear_of_all(seen_at)) {
+    drive_.emplace(make_simulator(simulator.name), scene_, simulator.rate_hz, simulator.input);
+    shown.events.push_back(event_at(sample.t_capture_s, EventKind::cubes_shown));
+  }
+  WorldState world;
+  if (drive_) {
+    advance_drive(sample);
+    return_cubes(sample.t_capture_s, shown);
+    note_contacts(sample.t_capture_s, shown);
+    world = drive_->state();
+  } else {
+    world.clone_present = sample.tracked;
+    world.clone = {seen_at, sample.velocity};
+  }
+  shown.state_hash = state_hash(world);
+  shown.frame.t_s = sample.t_capture_s;
+  shown.frame.tracked = sample.tracked;
+  shown.frame.effector = sample.pose;
+  if (world.clone_present) shown.frame.clone = world.clone.pose;
+  for (const BodyState& cube : world.cubes) shown.frame.cubes.push_back(cube.pose);
+  return shown;
+}
+
+void TrialWorld::note_view(const TargetSample& sample, ShownPicture& shown) {
+  if (sample.tracked == tracked_) return;
+  tracked_ = sample.tracked;
+  shown.events.push_back(event_at(sample.t_capture_s,
+                                  tracked_ ? EventKind::effector_found : EventKind::effector_lost));
+}
+
+void TrialWorld::note_contacts(double t_s, ShownPicture& shown) {
+  const std::vector<CubeContact>& touching = drive_->state().contacts;
+  const auto hardest = std::ranges::max_element(
+      touching, {}, [](const CubeContact& contact) { return contact.force_n.norm(); });
+  if (hardest != touching.end()) shown.contact_slot = hardest->cube + 1;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    Contact& contact = contacts_[i];
+    const bool touched = std::ranges::any_of(
+        touching, [&](const CubeContact& c) { return c.cube == static_cast<int>(i); });
+    if (touched) {
+      contact.left_s.reset();
+      if (contact.since_s) continue;
+      contact.since_s = t_s;
+      shown.events.push_back(event_at(t_s, EventKind::cube_contact, i, "began"));
+    } else if (contact.since_s) {
+      if (!contact.left_s) contact.left_s = t_s;
+      if (t_s - *contact.left_s >= push_gap_s) end_contact(i, *contact.left_s, t_s, shown.events);
+    }
+  }
+}
+
+void TrialWorld::end_contact(std::size_t cube, double end_s, double now_s,
+                             std::vector<Event>& events) {
+  Event ended = event_at(now_s, EventKind::cube_contact, cube, "ended");
+  ended.value = log_time(end_s) - log_time(*contacts_[cube].since_s);
+  events.push_back(ended);
+  contacts_[cube] = {};
+}
+
+std::vector<Event> TrialWorld::end_contacts(double t_s) {
+  std::vector<Event> events;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (contacts_[i].since_s) end_contact(i, contacts_[i].left_s.value_or(t_s), t_s, events);
+  return events;
+}
+
+void TrialWorld::return_cubes(double t_s, ShownPicture& shown) {
+  const WorldState& world = drive_->state();
+  const bool reset = reset_requested_ && (!world.clone_present || clear_of_all(world.clone.pose));
+  if (reset) reset_requested_ = false;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const bool back = protocol_.layout.out_of_area == OutOfArea::give_back && is_out(i) &&
+                      !contacts_[i].since_s && place_is_free(i);
+    if (!reset && !back) continue;
+    drive_->return_cube(static_cast<int>(i));
+    if (!reset) shown.events.push_back(event_at(t_s, EventKind::cubes_reset, i, "out_of_area"));
+  }
+}
+
+bool TrialWorld::is_out(std::size_t cube) const {
+  const Eigen::Vector3d& center_m = drive_->state().cubes[cube].pose.position_m;
+  const Eigen::Vector2d reach_m = protocol_.layout.area_m / 2;
+  return std::abs(center_m.x()) > reach_m.x() || std::abs(center_m.y()) > reach_m.y() ||
+         center_m.z() < 0;
+}
+
+bool TrialWorld::place_is_free(std::size_t cube) const {
+  const WorldState& world = drive_->state();
+  if (world.clone_present && !clear_of(stage_.slots_m[cube], world.clone.pose)) return false;
+  const Pose place{stage_.slots_m[cube], Eigen::Quaterniond::Identity()};
+  for (std::size_t other = 0; other < world.cubes.size(); ++other)
+    if (other != cube && boxes_overlap(place, scene_.cubes[cube].size_m, world.cubes[other].pose,
+                                       scene_.cubes[other].size_m))
+      return false;
+  return true;
+}
+
+bool TrialWorld::clear_of(const Eigen::Vector3d& slot_m, const Pose& effector) const {
+  const Pose place{slot_m, Eigen::Quaterniond::Identity()};
+  const double reach_m = stage_.cube_size_m + 2 * protocol_.layout.clear_m;
+  return !boxes_overlap(place, Eigen::Vector3d::Constant(reach_m), effector,
+                        stage_.effector_size_m);
+}
+
+bool TrialWorld::clear_of_all(const Pose& effector) const {
+  return std::ranges::all_of(stage_.slots_m,
+                             [&](const auto& slot_m) { return clear_of(slot_m, effector); });
+}
+
+}  // namespace heft

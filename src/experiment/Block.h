@@ -1,0 +1,84 @@
+// What a session consists of: blocks of trials, breaks and demonstrations, as a protocol says. The
+// engine folds over these and needs nothing else of a protocol.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "experiment/Task.h"
+#include "psychophysics/Interleaving.h"
+
+namespace heft {
+
+/// After a wrong answer in the introduction: the same cubes again, or newly shuffled ones.
+enum class WrongAnswer { same_layout, reshuffle };
+template <>
+struct EnumNames<WrongAnswer> {
+  static constexpr std::array<std::string_view, 2> names{"same_layout", "reshuffle"};
+};
+
+enum class SortingOrders { random, balanced };
+template <>
+struct EnumNames<SortingOrders> {
+  static constexpr std::array<std::string_view, 2> names{"random", "balanced"};
+};
+
+/// What counts as a positive answer of a comparison (moves the staircase down).
+enum class PositiveAnswer { any_choice, correct_choice };
+template <>
+struct EnumNames<PositiveAnswer> {
+  static constexpr std::array<std::string_view, 2> names{"any_choice", "correct_choice"};
+};
+
+struct DemonstrationBlock {
+  std::string name;
+  double duration_s = 20;
+};
+
+struct IntroductionBlock {
+  std::string name;
+  std::vector<double> masses_g;  ///< two; shuffled
+  Condition condition = Condition::C2;
+  WrongAnswer wrong_answer = WrongAnswer::same_layout;
+};
+
+struct SortingBlock {
+  std::string name;
+  std::vector<double> masses_g;  ///< three
+  int trials = 10;
+  int c1_trials = 5;
+  int max_run = 0;  ///< longest run of one condition; 0: any
+  SortingOrders orders = SortingOrders::random;
+};
+
+/// One staircase of a comparison block and the reference it compares with.
+struct ReferenceStaircase {
+  double reference_g = 0;
+  StaircaseConfig staircase;  ///< levels are comparison - reference, g
+};
+
+struct ComparisonBlock {
+  std::string name;
+  Condition condition = Condition::C2;
+  double catch_fraction = 0;  ///< of trials with difference 0; they drive no staircase
+  PositiveAnswer positive_answer = PositiveAnswer::any_choice;
+  InterleaveConfig interleaving;
+  std::vector<ReferenceStaircase> staircases;
+};
+
+struct BreakBlock {
+  std::string name;
+  double least_duration_s = 60;
+};
+
+using Block =
+    std::variant<DemonstrationBlock, IntroductionBlock, SortingBlock, ComparisonBlock, BreakBlock>;
+
+/// All that decides which trial comes next and which answers are taken.
+struct SessionPlan {
+  std::vector<Block> blocks;
+  bool require_contact = false;  ///< refuse answers until every cube was touched
+};
+
+}  // namespace heft

@@ -1,0 +1,141 @@
+#include "replay/PictureCheck.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/Error.h"
+#include "replay/AttemptReplay.h"
+
+namespace heft {
+
+namespace {
+
+constexpr double pose_tolerance_m = 1e-6;  // where another build wrote the log
+
+// Adding 0 turns -0, which the log does not keep, into 0.
+std::string text_of(const Pose& pose) {
+  const Eigen::Vector3d p = pose.position_m + Eigen::Vector3d::Zero();
+  const Eigen::Vector4d q = pose.orientation.coeffs() + Eigen::Vector4d::Zero();
+  return fmt::format("x {} y {} z {} q {} {} {} {}", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
+                     q.z());
+}
+
+std::string text_of(const std::optional<Pose>& pose) {
+  return pose ? text_of(*pose) : "NULL";
+}
+
+std::string text_of(const std::optional<int>& slot) {
+  return slot ? fmt::format("{}", *slot) : "NULL";
+}
+
+std::optional<Pose> pose_at(const std::vector<Pose>& poses, std::size_t i) {
+  return i < poses.size() ? std::optional(poses[i]) : std::nullopt;
+}
+
+// Events that the world makes, as opposed to people and the engine.
+bool made_by_world(const Event& event) {
+  switch (event.kind) {
+    case EventKind::cubes_shown:
+    case EventKind::cube_contact:
+    case EventKind::effector_lost:
+    case EventKind::effector_found:
+      return true;
+    case EventKind::cubes_reset:
+      return event.slot.has_value();
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+PictureCheck::PictureCheck(const Protocol& protocol, const AttemptFold& attempt,
+                           PictureCheckOptions options)
+    : protocol_(protocol), attempt_(attempt), options_(std::move(options)) {}
+
+void PictureCheck::run(const std::vector<FrameRow>& frames) {
+  AttemptReplay replay(protocol_, attempt_);
+  int n = 0;
+  for (const FrameRow& frame : frames) {
+    try {
+      if (!check(frame, replay.advance(frame), n++)) return;
+    } catch (const Error& error) {  // poses or times that no simulator takes
+      return options_.differ(frame.t_s, "picture", "effector pose and time", error.what());
+    }
+  }
+  if (attempt_.row.status == TrialStatus::completed) {
+    replay.finish(*attempt_.row.ended_s);
+    check_end(frames.back());
+  }
+  check_events(replay.derived());
+}
+
+bool PictureCheck::check(const FrameRow& frame, const ShownPicture& shown, int n_before) {
+  const auto number = [](double value) { return fmt::format("{}", value); };
+  const double t_s = attempt_.row.started_s + log_time(frame.trial_t_s);
+  if (!same(frame, "t_s", number(frame.t_s), number(t_s))) return false;
+  if (options_.virtual_clock && !same(frame, "trial_t_s", number(frame.trial_t_s),
+                                      number(n_before / protocol_.display_rate_hz)))
+    return false;
+  if (!same(frame, "contact_slot", text_of(frame.contact_slot), text_of(shown.contact_slot)))
+    return false;
+  if (options_.equal_bits && !same(frame, "state_hash", frame.state_hash, shown.state_hash))
+    return false;
+  if (!same_pose(frame, "clone", frame.clone, shown.frame.clone)) return false;
+  for (std::size_t i = 0; i < std::max(frame.cubes.size(), shown.frame.cubes.size()); ++i)
+    if (!same_pose(frame, fmt::format("cube{}", i + 1), pose_at(frame.cubes, i),
+                   pose_at(shown.frame.cubes, i)))
+      return false;
+  return true;
+}
+
+bool PictureCheck::same(const FrameRow& frame, const char* column, const std::string& logged,
+                        const std::string& came_out) {
+  if (logged == came_out) return true;
+  options_.differ(frame.t_s, fmt::format("picture, {}", column), logged, came_out);
+  return false;
+}
+
+bool PictureCheck::same_pose(const FrameRow& frame, const std::string& column,
+                             const std::optional<Pose>& logged,
+                             const std::optional<Pose>& came_out) {
+  if (!options_.equal_bits && logged && came_out) {
+    const double difference_m = (logged->position_m - came_out->position_m).norm();
+    largest_difference_m_ = std::max(largest_difference_m_, difference_m);
+    if (difference_m <= pose_tolerance_m) return true;
+  }
+  return same(frame, column.c_str(), text_of(logged), text_of(came_out));
+}
+
+void PictureCheck::check_end(const FrameRow& last) {
+  const double ended_s = *attempt_.row.ended_s;
+  if (options_.virtual_clock && ended_s - last.t_s >= 1 / protocol_.display_rate_hz)
+    options_.differ(last.t_s, "pictures after this one", "none",
+                    fmt::format("some until {} s", ended_s));
+}
+
+// An attempt that a crash or a veto cut short may lack the last events of its world.
+void PictureCheck::check_events(const std::vector<Event>& derived) {
+  std::vector<AttemptEvent> logged;
+  for (const AttemptEvent& folded : attempt_.events)
+    if (made_by_world(folded.event)) logged.push_back(folded);
+  const std::size_t n = std::min(logged.size(), derived.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    const Event& event = logged[i].event;
+    Event came_out = derived[i];
+    // Cubes are shown when the picture is; nothing is logged before what was logged already.
+    came_out.t_s = came_out.kind == EventKind::cubes_shown
+                       ? event.t_s
+                       : std::max(came_out.t_s, logged[i].previous_s);
+    if (event != came_out)
+      return options_.differ(event.t_s, "event", text_of(event), text_of(came_out));
+  }
+  if (attempt_.row.status != TrialStatus::completed || logged.size() == derived.size()) return;
+  if (logged.size() > n)
+    options_.differ(logged[n].event.t_s, "event", text_of(logged[n].event), "no such event");
+  else
+    options_.differ(derived[n].t_s, "event", "no such event", text_of(derived[n]));
+}
+
+}  // namespace heft

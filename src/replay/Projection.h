@@ -1,0 +1,47 @@
+// A whole session folded: the rows that its events project, and what each attempt's world needs to
+// be run again.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/Engine.h"
+#include "record/LogReader.h"
+#include "replay/RowText.h"
+
+namespace heft {
+
+/// One event of an attempt, with how many events of the session came before it.
+struct AttemptEvent {
+  int before = 0;
+  double previous_s = 0;  ///< time of the event before it
+  Event event;
+  TrialPlan plan_after;  ///< as presented after it
+};
+
+struct AttemptFold {
+  TrialRow row;  ///< as last projected
+  TrialPlan first_plan;
+  std::vector<AttemptEvent> events;  ///< after trial_started
+};
+
+struct Projection {
+  std::map<int, AttemptFold> attempts;  ///< by attempt index
+  std::map<std::string, RowText> rows;  ///< by table and key
+  SessionState state = SessionState::running;
+  int n_events = 0;
+  double last_s = 0;  ///< of the last event
+  /// The first event that could not come, with the reason; the fold stops there.
+  std::optional<std::pair<LoggedEvent, std::string>> refused;
+};
+
+Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed,
+                        const std::vector<LoggedEvent>& events);
+
+/// The rows that the log holds, by the same keys.
+std::map<std::string, RowText> logged_rows(const LogReader& reader, std::int64_t session_id);
+
+}  // namespace heft

@@ -1,0 +1,180 @@
+#include "replay/Replay.h"
+
+#include <fmt/format.h>
+
+#include "apparatus/PictureSource.h"
+#include "apparatus/RunOptions.h"
+#include "base/Build.h"
+#include "base/Error.h"
+#include "base/Sha256.h"
+#include "replay/PictureCheck.h"
+
+namespace heft {
+
+namespace {
+
+// Compares a log with its fold and keeps the earliest difference.
+class Verifier {
+ public:
+  Verifier(const LogReader& reader, const SessionRow& session)
+      : reader_(reader), session_(session) {
+    result_.same_build = session_.header.build == build_name();
+  }
+
+  Verification run(const std::function<void(double)>& progress) {
+    std::string unreadable;
+    try {
+      compare_protocol();
+      fold();
+      compare_rows();
+      compare_state();
+      compare_pictures(progress);
+    } catch (const Error& error) {  // a row that can't be read is a difference too
+      unreadable = error.what();
+    }
+    compare_digests();
+    if (!unreadable.empty() && !result_.first)
+      differ(0, fold_.last_s, "the log", unreadable, "rows that can be read");
+    return result_;
+  }
+
+ private:
+  void compare_protocol() {
+    const std::string sha256_of_text = sha256(session_.header.protocol_text);
+    if (sha256_of_text != session_.header.protocol_sha256)
+      differ(0, 0, "session.protocol_sha256", session_.header.protocol_sha256, sha256_of_text);
+  }
+
+  void fold() {
+    const SessionHeader& header = session_.header;
+    const RunOptions options = run_options_from_json(header.run_options);
+    virtual_clock_ =
+        !runs_on_wall_clock(options) && tracker_named(options.tracker).what != TrackerWhat::source;
+    protocol_ = protocol_for(parse_protocol(header.protocol_text, header.protocol_name), options);
+    fold_ = fold_session(protocol_, header.seed, reader_.events(session_.session_id));
+    result_.n_events = fold_.n_events;
+    result_.n_attempts = static_cast<int>(fold_.attempts.size());
+  }
+
+  void compare_rows() {
+    const auto logged = logged_rows(reader_, session_.session_id);
+    result_.n_rows = static_cast<int>(logged.size());
+    for (const auto& [key, row] : logged)
+      if (!fold_.rows.contains(key) && !fold_.refused) differ(row, key, "a row", "no such row");
+    for (const auto& [key, row] : fold_.rows) {
+      if (was_cut_short(row)) continue;
+      const auto found = logged.find(key);
+      if (found == logged.end())
+        differ(row, key, "no such row", "a row");
+      else
+        compare_columns(key, found->second, row);
+    }
+  }
+
+  void compare_columns(const std::string& key, const RowText& logged, const RowText& folded) {
+    for (std::size_t i = 0; i < folded.columns.size(); ++i) {
+      const auto& [column, value] = folded.columns[i];
+      const std::string& logged_value = logged.columns[i].second;
+      if (value != logged_value) differ(folded, key + ", " + column, logged_value, value);
+    }
+  }
+
+  // Where an event is refused the fold ends inside an attempt, whose rows go on in the log.
+  bool was_cut_short(const RowText& row) const {
+    const auto attempt = fold_.attempts.find(row.attempt_index);
+    return fold_.refused && attempt != fold_.attempts.end() &&
+           attempt->second.row.status == TrialStatus::open;
+  }
+
+  void compare_state() {
+    if (fold_.refused) {
+      const auto& [logged, why] = *fold_.refused;
+      differ(logged.attempt_index, logged.event.t_s, fmt::format("event {}", fold_.n_events + 1),
+             text_of(logged.event), "refused: " + why);
+    } else if (fold_.state != session_.state) {
+      differ(0, fold_.last_s, "session.state", std::string(name_of(session_.state)),
+             std::string(name_of(fold_.state)));
+    }
+  }
+
+  void compare_pictures(const std::function<void(double)>& progress) {
+    std::vector<int> without;
+    int done = 0;
+    for (const auto& [index, attempt] : fold_.attempts) {
+      progress(static_cast<double>(done++) / result_.n_attempts);
+      if (result_.first && attempt.row.started_s > result_.first->t_s) break;
+      const auto frames = reader_.frames(session_.session_id, index);
+      result_.n_pictures += static_cast<int>(frames.size());
+      if (frames.empty())
+        without.push_back(index);
+      else
+        compare_attempt(index, attempt, frames);
+    }
+    progress(1);
+    // A log keeps pictures or it doesn't; a crash may lose an attempt's last ones.
+    for (int index : without) {
+      const TrialRow& row = fold_.attempts[index].row;
+      if (result_.n_pictures > 0 && row.status == TrialStatus::completed)
+        differ(index, row.started_s, "its pictures", "none", "at least one");
+    }
+  }
+
+  // What can't be folded or simulated again (a note, who took part) is held by its digest. Asked
+  // last: of two differences at one time the more telling one stands.
+  void compare_digests() {
+    const auto broken = reader_.first_broken_digest(session_.session_id);
+    if (!broken) return;
+    differ(broken->attempt_index, broken->t_s, broken->row,
+           broken->damage.empty() ? "digest " + broken->logged : broken->damage,
+           broken->damage.empty() ? "digest " + broken->recomputed : "a row as it was written");
+  }
+
+  void compare_attempt(int index, const AttemptFold& attempt, const std::vector<FrameRow>& frames) {
+    PictureCheck check(
+        *protocol_, attempt,
+        {result_.same_build, virtual_clock_,
+         [&](double t_s, const std::string& what, const std::string& logged,
+             const std::string& came_out) { differ(index, t_s, what, logged, came_out); }});
+    check.run(frames);
+    result_.largest_difference_m =
+        std::max(result_.largest_difference_m, check.largest_difference_m());
+  }
+
+  void differ(const RowText& row, const std::string& what, const std::string& logged,
+              const std::string& came_out) {
+    double t_s = row.t_s;
+    if (t_s < 0) {
+      // Such a row is settled when its attempt ends; an estimate belongs to no attempt.
+      const auto attempt = fold_.attempts.find(row.attempt_index);
+      const bool known = attempt != fold_.attempts.end();
+      t_s = known ? attempt->second.row.ended_s.value_or(fold_.last_s) : fold_.last_s;
+    }
+    differ(row.attempt_index, t_s, what, logged, came_out);
+  }
+
+  void differ(int attempt_index, double t_s, const std::string& what, const std::string& logged,
+              const std::string& came_out) {
+    if (result_.first && result_.first->t_s <= t_s) return;
+    const auto attempt = fold_.attempts.find(attempt_index);
+    const int trial_number =
+        attempt == fold_.attempts.end() ? 0 : attempt->second.first_plan.trial_number;
+    result_.first = {trial_number, t_s, what, logged, came_out};
+  }
+
+  const LogReader& reader_;
+  const SessionRow& session_;
+  std::shared_ptr<const Protocol> protocol_;
+  Projection fold_;
+  bool virtual_clock_ = false;
+  Verification result_;
+};
+
+}  // namespace
+
+Verification verify_session(const LogReader& reader, std::int64_t session_id,
+                            const std::function<void(double)>& progress) {
+  const SessionRow session = reader.session(session_id);
+  return Verifier(reader, session).run(progress);
+}
+
+}  // namespace heft

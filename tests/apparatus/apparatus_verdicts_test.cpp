@@ -1,0 +1,63 @@
+// What doctor says of figures, whichever camera they came from.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apparatus/ApparatusVerdicts.h"
+
+namespace heft {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// So many pictures with the effector's tags on so many faces in view; of 0: without the effector.
+Pictures seen_with_faces(int n_none, int n_one, int n_two) {
+  Pictures pictures;
+  const auto add = [&](int n, int n_faces) {
+    for (int i = 0; i < n; ++i) {
+      LookedAt seen;
+      seen.tracked.n_effector_faces = n_faces;
+      if (n_faces > 0) seen.tracked.board_from_effector = Pose{};
+      pictures.push_back(seen);
+    }
+  };
+  add(n_none, 0);
+  add(n_one, 1);
+  add(n_two, 2);
+  return pictures;
+}
+
+TEST(EffectorVerdict, CountsPicturesWithTwoFaces) {
+  const CheckResult result = effector_verdict(seen_with_faces(0, 9, 11));
+  EXPECT_EQ(result.verdict, CheckVerdict::ok);
+  EXPECT_THAT(result.finding, HasSubstr("two faces or more in 55 %"));
+  EXPECT_THAT(result.finding, Not(HasSubstr("turn the effector")));
+}
+
+TEST(EffectorVerdict, AdvisesToTurnItWhereOneFaceIsMostlyAlone) {
+  const CheckResult result = effector_verdict(seen_with_faces(0, 49, 1));
+  EXPECT_EQ(result.verdict, CheckVerdict::ok);
+  EXPECT_THAT(result.finding, HasSubstr("two faces or more in 2 %"));
+  EXPECT_THAT(result.finding, HasSubstr("turn the effector a little about its long axis"));
+}
+
+TEST(EffectorVerdict, WarnsOfAnEffectorThatIsOftenLost) {
+  const CheckResult result = effector_verdict(seen_with_faces(5, 0, 5));
+  EXPECT_EQ(result.verdict, CheckVerdict::warning);
+  EXPECT_THAT(result.finding, HasSubstr("seen in 50 % of pictures"));
+  EXPECT_EQ(effector_verdict(seen_with_faces(5, 0, 0)).verdict, CheckVerdict::warning);
+}
+
+TEST(LockVerdicts, WarnOfALensThatIsNotWhereItWasCalibrated) {
+  CameraMode mode;
+  mode.not_locked = {
+      "focus: calibrated at 35, but it is at 120 and the driver does not change that"};
+  const auto results = lock_verdicts(mode);
+  ASSERT_EQ(results.size(), 1U);
+  EXPECT_EQ(results[0].verdict, CheckVerdict::warning);
+  EXPECT_EQ(results[0].name, "focus");
+  EXPECT_THAT(results[0].finding, HasSubstr("calibrated at 35"));
+}
+
+}  // namespace
+}  // namespace heft

@@ -1,0 +1,503 @@
+// The engine alone: no physics, no clock, no database.
+#include "engine/Engine.h"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/Error.h"
+#include "base/Random.h"
+#include "session/Protocols.h"
+
+namespace heft {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Optional;
+using testing::shared;
+using testing::small_protocol;
+
+Event event(double t_s, EventKind kind, std::string detail = {}) {
+  Event made;
+  made.t_s = t_s;
+  made.kind = kind;
+  made.detail = std::move(detail);
+  return made;
+}
+
+Event action(double t_s, ActionKind kind, std::optional<int> slot = {},
+             std::optional<Label> label = {}) {
+  Event made = event(t_s, EventKind::action, std::string(name_of(kind)));
+  made.slot = slot;
+  made.label = label;
+  return made;
+}
+
+// Drives an engine as the runner does, a second an event.
+struct Session {
+  explicit Session(Protocol protocol = small_protocol(), std::uint64_t seed = 7)
+      : engine(shared(std::move(protocol)), seed) {}
+
+  Changes does(EventKind kind, std::string detail = {}) {
+    return engine.apply(event(++t_s, kind, std::move(detail)));
+  }
+  Changes acts(ActionKind kind, std::optional<int> slot = {}, std::optional<Label> label = {}) {
+    return engine.apply(action(++t_s, kind, slot, label));
+  }
+  std::string refusal(ActionKind kind, std::optional<int> slot = {},
+                      std::optional<Label> label = {}) {
+    return engine.refusal(action(t_s + 1, kind, slot, label)).value_or("");
+  }
+  TrialPlan start() {
+    does(EventKind::trial_started);
+    does(EventKind::cubes_shown);
+    return *engine.next().plan;
+  }
+  int slot_of(double mass_g) const {
+    const auto& masses_g = engine.next().plan->masses_g;
+    return static_cast<int>(std::ranges::find(masses_g, mass_g) - masses_g.begin()) + 1;
+  }
+  Changes touches(int slot, double seconds) {
+    Event began = event(++t_s, EventKind::cube_contact, "began");
+    began.slot = slot;
+    engine.apply(began);
+    Event ended = event(++t_s, EventKind::cube_contact, "ended");
+    ended.slot = slot;
+    ended.value = seconds;
+    return engine.apply(ended);
+  }
+  // Everything before the first sorting trial.
+  void reach_sorting() {
+    does(EventKind::demonstration_shown);
+    start();
+    acts(ActionKind::select, slot_of(800));
+  }
+  void reach_comparison() {
+    reach_sorting();
+    while (engine.next().plan->task == Task::sorting) {
+      start();
+      acts(ActionKind::dont_know);
+    }
+  }
+
+  Engine engine;
+  double t_s = 0;
+};
+
+TEST(Engine, goes_through_the_blocks_in_order) {
+  Session session;
+  EXPECT_EQ(session.engine.next().kind, Next::Kind::demonstration);
+  session.does(EventKind::demonstration_shown);
+  EXPECT_EQ(session.engine.next().kind, Next::Kind::trial);
+  EXPECT_EQ(session.engine.next().plan->task, Task::introduction);
+  EXPECT_EQ(session.engine.next().plan->condition, Condition::C2);
+  session.start();
+  session.acts(ActionKind::select, session.slot_of(800));
+  for (int n = 2; n <= 5; ++n) {
+    EXPECT_EQ(session.engine.next().plan->task, Task::sorting);
+    EXPECT_EQ(session.engine.next().plan->trial_number, n);
+    EXPECT_FALSE(session.engine.next().rest);
+    session.start();
+    session.acts(ActionKind::dont_know);
+  }
+  ASSERT_TRUE(session.engine.next().rest);
+  EXPECT_EQ(session.engine.next().rest->name, "break");
+  EXPECT_EQ(session.engine.next().plan->task, Task::comparison);
+  session.start();
+  EXPECT_FALSE(session.engine.next().rest) << "a break is never inside a trial";
+}
+
+TEST(Engine, ends_the_introduction_on_the_right_answer_only) {
+  Session session;
+  session.does(EventKind::demonstration_shown);
+  session.start();
+  const Changes wrong = session.acts(ActionKind::select, session.slot_of(15));
+  EXPECT_EQ(wrong.trial->status, TrialStatus::open);
+  EXPECT_EQ(wrong.answers.size(), 1u);
+  EXPECT_TRUE(session.engine.screen().try_again);
+  EXPECT_THAT(session.refusal(ActionKind::dont_know), HasSubstr("introduction"));
+  const Changes right = session.acts(ActionKind::select, session.slot_of(800));
+  EXPECT_EQ(right.trial->status, TrialStatus::completed);
+  EXPECT_EQ(right.trial->outcome, Outcome::correct);
+  EXPECT_EQ(session.engine.next().plan->task, Task::sorting);
+}
+
+TEST(Engine, reshuffles_after_a_wrong_introduction_where_the_protocol_says_so) {
+  Protocol protocol = small_protocol();
+  std::get<IntroductionBlock>(protocol.blocks[1]).wrong_answer = WrongAnswer::reshuffle;
+  int moved = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Session session(protocol, seed);
+    session.does(EventKind::demonstration_shown);
+    const TrialPlan before = session.start();
+    session.acts(ActionKind::select, session.slot_of(15));
+    EXPECT_EQ(session.engine.next().plan->n_reshuffles, 1);
+    EXPECT_THAT(session.refusal(ActionKind::select, 1), HasSubstr("not appeared"));
+    session.does(EventKind::cubes_shown);
+    if (session.engine.next().plan->masses_g != before.masses_g) ++moved;
+  }
+  EXPECT_GT(moved, 8);
+  EXPECT_LT(moved, 32);
+}
+
+TEST(Engine, labels_are_mutually_exclusive_and_can_be_corrected) {
+  Session session;
+  session.reach_sorting();
+  session.start();
+  session.acts(ActionKind::label, 1, Label::heaviest);
+  session.acts(ActionKind::label, 2, Label::heaviest);
+  EXPECT_EQ(session.engine.screen().labels[0], std::nullopt) << "a used label moves";
+  EXPECT_THAT(session.engine.screen().labels[1], Optional(Label::heaviest));
+  session.acts(ActionKind::label, 2, Label::lightest);
+  EXPECT_THAT(session.engine.screen().labels[1], Optional(Label::lightest));
+  session.acts(ActionKind::unlabel, 2);
+  EXPECT_EQ(session.engine.screen().labels[1], std::nullopt);
+  EXPECT_THAT(session.refusal(ActionKind::unlabel, 2), HasSubstr("no label"));
+  EXPECT_THAT(session.refusal(ActionKind::select, 2), HasSubstr("no \"select\""));
+  EXPECT_THAT(session.refusal(ActionKind::label, 4, Label::lightest), HasSubstr("no cube 4"));
+  EXPECT_THAT(session.refusal(ActionKind::label, 1), HasSubstr("names no label"));
+}
+
+TEST(Engine, refuses_validate_until_all_three_labels_are_set) {
+  Session session;
+  session.reach_sorting();
+  session.start();
+  EXPECT_THAT(session.refusal(ActionKind::validate), HasSubstr("not all cubes"));
+  session.acts(ActionKind::label, session.slot_of(15), Label::lightest);
+  session.acts(ActionKind::label, session.slot_of(200), Label::intermediate);
+  EXPECT_FALSE(session.engine.screen().can_validate);
+  EXPECT_THAT(session.refusal(ActionKind::validate), HasSubstr("not all cubes"));
+  session.acts(ActionKind::label, session.slot_of(800), Label::heaviest);
+  EXPECT_TRUE(session.engine.screen().can_validate);
+  const Changes done = session.acts(ActionKind::validate);
+  EXPECT_EQ(done.trial->outcome, Outcome::correct);
+  EXPECT_EQ(done.trial->validated_s, session.t_s);
+}
+
+TEST(Engine, marks_a_swapped_pair_incorrect_and_dont_know_as_itself) {
+  Session session;
+  session.reach_sorting();
+  session.start();
+  session.acts(ActionKind::label, session.slot_of(15), Label::intermediate);
+  session.acts(ActionKind::label, session.slot_of(200), Label::lightest);
+  session.acts(ActionKind::label, session.slot_of(800), Label::heaviest);
+  EXPECT_EQ(session.acts(ActionKind::validate).trial->outcome, Outcome::incorrect);
+  session.start();
+  EXPECT_EQ(session.acts(ActionKind::dont_know).trial->outcome, Outcome::dont_know);
+}
+
+TEST(Engine, a_select_ends_a_comparison_at_once_and_drives_its_staircase) {
+  Session session;
+  session.reach_comparison();
+  const TrialPlan plan = session.start();
+  EXPECT_DOUBLE_EQ(plan.masses_g[*plan.reference_slot == 1 ? 0 : 1], *plan.reference_g);
+  const int lighter = *plan.reference_slot;
+  const Changes done = session.acts(ActionKind::select, lighter);
+  EXPECT_EQ(done.trial->outcome, Outcome::difference);
+  EXPECT_EQ(done.trial->choice_correct, false);
+  EXPECT_EQ(done.trial->chosen_slot, lighter);
+  // Any choice is a positive answer in the paper's rule: this staircase goes down.
+  for (;;) {
+    const TrialPlan next = session.start();
+    if (next.staircase == plan.staircase) {
+      EXPECT_LT(*next.level_g, *plan.level_g);
+      break;
+    }
+    session.acts(ActionKind::no_difference);
+  }
+}
+
+TEST(Engine, runs_both_staircases_to_their_estimates_and_finishes) {
+  Session session;
+  session.reach_comparison();
+  std::vector<EstimateRow> estimates;
+  std::vector<ReversalRow> reversals;
+  int n = 0;
+  while (session.engine.next().kind == Next::Kind::trial) {
+    session.start();
+    const bool alike = ++n % 3 == 0;
+    const Changes done =
+        alike ? session.acts(ActionKind::no_difference) : session.acts(ActionKind::select, 1);
+    estimates.insert(estimates.end(), done.estimates.begin(), done.estimates.end());
+    reversals.insert(reversals.end(), done.reversals.begin(), done.reversals.end());
+  }
+  ASSERT_EQ(estimates.size(), 2u);
+  for (const EstimateRow& estimate : estimates) {
+    if (estimate.reason != "reversals") continue;
+    double sum = 0;
+    for (const ReversalRow& reversal : reversals)
+      if (reversal.staircase == estimate.staircase && reversal.number > 2) sum += reversal.level_g;
+    EXPECT_DOUBLE_EQ(*estimate.jnd_g, sum / (estimate.n_reversals - 2));
+  }
+  EXPECT_EQ(session.engine.next().kind, Next::Kind::finish);
+  EXPECT_EQ(session.does(EventKind::ended, "finished").state, SessionState::finished);
+  EXPECT_EQ(session.engine.next().kind, Next::Kind::over);
+}
+
+TEST(Engine, a_veto_repeats_the_trial_with_a_new_order_and_leaves_the_staircase) {
+  int moved = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Session session(small_protocol(), seed);
+    session.reach_comparison();
+    const TrialPlan before = session.start();
+    const Changes voided = session.does(EventKind::voided, "veto");
+    EXPECT_EQ(voided.trial->status, TrialStatus::voided);
+    EXPECT_THAT(voided.trial->void_reason, Optional(std::string("veto")));
+    EXPECT_TRUE(voided.reversals.empty());
+    const TrialPlan after = *session.engine.next().plan;
+    EXPECT_EQ(after.attempt, 2);
+    EXPECT_EQ(after.trial_number, before.trial_number);
+    EXPECT_EQ(after.staircase, before.staircase);
+    EXPECT_EQ(after.level_g, before.level_g);
+    if (after.reference_slot != before.reference_slot) ++moved;
+  }
+  EXPECT_GT(moved, 8);
+  EXPECT_LT(moved, 32);
+}
+
+TEST(Engine, a_crash_repeats_the_attempt_with_the_same_draws) {
+  Session session;
+  session.reach_sorting();
+  const TrialPlan before = session.start();
+  session.acts(ActionKind::label, 1, Label::heaviest);
+  session.does(EventKind::voided, "interrupted");
+  session.does(EventKind::resumed);
+  const TrialPlan after = *session.engine.next().plan;
+  EXPECT_EQ(after.attempt, before.attempt);
+  EXPECT_EQ(after.masses_g, before.masses_g);
+  session.start();
+  EXPECT_EQ(session.engine.screen().labels[0], std::nullopt) << "labels start anew";
+}
+
+TEST(Engine, three_voids_of_one_trial_pause_the_session_but_crashes_do_not_count) {
+  Session session;
+  session.reach_sorting();
+  for (int crash = 0; crash < 5; ++crash) {
+    session.start();
+    session.does(EventKind::voided, "interrupted");
+  }
+  EXPECT_EQ(session.engine.state(), SessionState::running);
+  for (int i = 0; i < max_voids; ++i) {
+    session.start();
+    const Changes voided = session.does(EventKind::voided, "camera_lost");
+    EXPECT_EQ(voided.state.has_value(), i + 1 == max_voids);
+  }
+  EXPECT_EQ(session.engine.next().kind, Next::Kind::paused);
+  EXPECT_TRUE(session.engine.needs_somebody());
+  session.does(EventKind::continued);
+  EXPECT_EQ(session.engine.next().plan->attempt, 4);
+}
+
+TEST(Engine, refuses_answers_while_paused_and_before_the_cubes_appear) {
+  Session session;
+  session.reach_sorting();
+  session.does(EventKind::trial_started);
+  EXPECT_THAT(session.refusal(ActionKind::dont_know), HasSubstr("not appeared"));
+  session.does(EventKind::cubes_shown);
+  session.does(EventKind::paused, "camera_lost");
+  EXPECT_EQ(session.engine.screen().screen, Screen::paused);
+  EXPECT_THAT(session.refusal(ActionKind::dont_know), HasSubstr("paused"));
+  session.does(EventKind::continued);
+  EXPECT_EQ(session.refusal(ActionKind::dont_know), "");
+}
+
+TEST(Engine, keeps_account_of_time_and_contacts) {
+  Session session;
+  session.reach_sorting();
+  session.start();  // shown at t
+  const double shown_s = session.t_s;
+  session.touches(2, 0.75);                                  // began t+1, ended t+2
+  session.touches(2, 0.5);                                   // t+3, t+4
+  session.does(EventKind::effector_lost);                    // t+5
+  session.does(EventKind::paused, "camera_lost");            // t+6: lost for 1 s
+  session.does(EventKind::continued);                        // t+7: paused for 1 s
+  session.does(EventKind::effector_found);                   // t+8: lost for 1 s more
+  const Changes done = session.acts(ActionKind::dont_know);  // t+9
+  const TrialRow& row = *done.trial;
+  EXPECT_EQ(row.shown_s, shown_s);
+  EXPECT_EQ(row.first_contact_s, shown_s + 1);
+  EXPECT_EQ(row.first_choice_s, shown_s + 9);
+  EXPECT_EQ(row.lost_s, 2);
+  EXPECT_EQ(row.paused_s, 1);
+}
+
+TEST(Engine, counts_pushes_per_cube) {
+  Session session;
+  session.reach_sorting();
+  session.start();
+  session.touches(2, 0.75);
+  const double began_s = session.t_s + 1;
+  const CubeRow cube = session.touches(2, 0.5).cubes.at(0);
+  EXPECT_EQ(cube.slot, 2);
+  EXPECT_EQ(cube.n_pushes, 2);
+  EXPECT_EQ(cube.contact_s, 1.25);
+  EXPECT_EQ(cube.last_contact_s, began_s + 0.5);
+}
+
+TEST(Engine, requires_contact_with_every_cube_where_the_protocol_says_so) {
+  Protocol protocol = small_protocol();
+  protocol.require_contact = true;
+  Session session(protocol);
+  session.does(EventKind::demonstration_shown);
+  session.start();
+  EXPECT_THAT(session.refusal(ActionKind::select, 1), HasSubstr("touched"));
+  session.touches(1, 0.1);
+  EXPECT_FALSE(session.engine.screen().can_answer);
+  session.touches(2, 0.1);
+  EXPECT_TRUE(session.engine.screen().can_answer);
+  EXPECT_EQ(session.refusal(ActionKind::select, 1), "");
+}
+
+TEST(Engine, catch_trials_show_equal_masses_and_drive_no_staircase) {
+  Protocol protocol = small_protocol();
+  std::get<ComparisonBlock>(protocol.blocks[4]).catch_fraction = 0.5;
+  Session session(protocol);
+  session.reach_comparison();
+  int n_catch = 0, n = 0;
+  while (session.engine.next().kind == Next::Kind::trial) {
+    const TrialPlan plan = session.start();
+    const Changes done = session.acts(ActionKind::select, 1);
+    ++n;
+    if (!plan.is_catch) continue;
+    ++n_catch;
+    EXPECT_EQ(plan.staircase, "");
+    EXPECT_EQ(plan.masses_g[0], plan.masses_g[1]);
+    EXPECT_EQ(done.trial->choice_correct, std::nullopt);
+    EXPECT_TRUE(done.reversals.empty() && done.estimates.empty());
+  }
+  EXPECT_GT(n_catch, n / 4);
+}
+
+TEST(Engine, sorting_blocks_hold_the_planned_conditions_and_runs) {
+  Protocol protocol = small_protocol();
+  auto& block = std::get<SortingBlock>(protocol.blocks[2]);
+  block.trials = 10;
+  block.c1_trials = 5;
+  block.max_run = 2;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Session session(protocol, seed);
+    session.reach_sorting();
+    int n_c1 = 0, run = 0;
+    std::optional<Condition> last;
+    while (session.engine.next().plan->task == Task::sorting) {
+      const TrialPlan plan = session.start();
+      if (plan.condition == Condition::C1) ++n_c1;
+      run = plan.condition == last ? run + 1 : 1;
+      last = plan.condition;
+      EXPECT_LE(run, 2);
+      session.acts(ActionKind::dont_know);
+    }
+    EXPECT_EQ(n_c1, 5);
+  }
+}
+
+TEST(Engine, balanced_orders_use_each_order_once_before_any_twice) {
+  Protocol protocol = small_protocol();
+  auto& block = std::get<SortingBlock>(protocol.blocks[2]);
+  block.trials = 12;
+  block.c1_trials = 6;
+  block.orders = SortingOrders::balanced;
+  Session session(protocol);
+  session.reach_sorting();
+  std::map<Condition, std::set<std::vector<double>>> orders;
+  while (session.engine.next().plan->task == Task::sorting) {
+    const TrialPlan plan = session.start();
+    orders[plan.condition].insert(plan.masses_g);
+    session.acts(ActionKind::dont_know);
+  }
+  EXPECT_EQ(orders[Condition::C1].size(), 6u);
+  EXPECT_EQ(orders[Condition::C2].size(), 6u);
+}
+
+TEST(Engine, an_impossible_event_throws_and_changes_nothing) {
+  Session session;
+  EXPECT_THROW(session.engine.apply(event(1, EventKind::trial_started)), Error);
+  EXPECT_EQ(session.engine.n_events(), 0);
+  session.does(EventKind::demonstration_shown);
+  EXPECT_THAT(*session.engine.refusal(event(0.5, EventKind::trial_started)),
+              HasSubstr("comes before"));
+  EXPECT_THAT(*session.engine.refusal(event(5, EventKind::ended, "finished")),
+              HasSubstr("not everything is done"));
+}
+
+// Any event at any time: most are refused, none breaks the engine.
+Event random_event(RandomStream& stream, double t_s) {
+  const auto kind = static_cast<EventKind>(stream.below(EnumNames<EventKind>::names.size()));
+  static const std::vector<std::string> details{
+      "",      "select", "label",       "unlabel",     "validate", "dont_know",   "no_difference",
+      "began", "ended",  "interrupted", "camera_lost", "finished", "out_of_area", "nonsense"};
+  Event made = event(t_s, kind, details[stream.below(details.size())]);
+  if (stream.coin(0.7)) made.slot = static_cast<int>(stream.below(5));
+  if (stream.coin(0.5)) made.label = static_cast<Label>(stream.below(3));
+  if (stream.coin(0.5)) made.value = stream.uniform() * 2 - 0.5;
+  return made;
+}
+
+// A likely event, so that random sequences also get somewhere.
+Event likely_event(const Engine& engine, RandomStream& stream, double t_s) {
+  switch (engine.next().kind) {
+    case Next::Kind::demonstration:
+      return event(t_s, EventKind::demonstration_shown);
+    case Next::Kind::trial:
+      return event(t_s, EventKind::trial_started);
+    case Next::Kind::paused:
+      return event(t_s, EventKind::continued);
+    case Next::Kind::act:
+      if (!engine.screen().can_answer) return event(t_s, EventKind::cubes_shown);
+      if (engine.next().plan->task != Task::sorting && stream.coin(0.6))
+        return action(t_s, ActionKind::select, static_cast<int>(stream.below(2)) + 1);
+      return action(t_s, engine.next().plan->task == Task::sorting ? ActionKind::dont_know
+                                                                   : ActionKind::no_difference);
+    default:
+      return event(t_s, EventKind::ended, "finished");
+  }
+}
+
+RC_GTEST_PROP(EngineProperty, random_events_keep_every_promise, (std::uint64_t seed)) {
+  RandomStream stream(seed, "events");
+  Engine engine(shared(small_protocol()), seed);
+  std::vector<Event> folded;
+  std::map<int, TrialStatus> status;
+  std::map<std::string, int> n_reversals;
+  double t_s = 0;
+  for (int i = 0; i < 400 && engine.next().kind != Next::Kind::over; ++i) {
+    t_s += stream.uniform();
+    const Event next =
+        stream.coin(0.6) ? likely_event(engine, stream, t_s) : random_event(stream, t_s);
+    const int n_before = engine.n_events();
+    if (engine.refusal(next)) {
+      RC_ASSERT_THROWS_AS(engine.apply(next), Error);
+      RC_ASSERT(engine.n_events() == n_before);
+      continue;
+    }
+    const Changes changes = engine.apply(next);
+    folded.push_back(next);
+    if (changes.trial) {
+      const int index = changes.trial->attempt_index;
+      RC_ASSERT(status[index] == TrialStatus::open);  // a closed trial never changes again
+      status[index] = changes.trial->status;
+      RC_ASSERT(changes.trial->outcome.has_value() ==
+                (changes.trial->status == TrialStatus::completed));
+      RC_ASSERT(changes.trial->paused_s >= 0 && changes.trial->lost_s >= 0);
+    }
+    for (const ReversalRow& row : changes.reversals)
+      RC_ASSERT(row.number == ++n_reversals[row.staircase]);
+    const auto labels = engine.screen().labels;
+    for (std::size_t a = 0; a < labels.size(); ++a)
+      for (std::size_t b = a + 1; b < labels.size(); ++b)
+        RC_ASSERT(!labels[a] || labels[a] != labels[b]);
+  }
+  // The same events fold to the same state.
+  Engine again(shared(small_protocol()), seed);
+  for (const Event& e : folded) again.apply(e);
+  RC_ASSERT(again.n_completed() == engine.n_completed());
+  RC_ASSERT(again.next().kind == engine.next().kind);
+  RC_ASSERT(again.next().plan.has_value() == engine.next().plan.has_value());
+  if (again.next().plan) RC_ASSERT(again.next().plan->masses_g == engine.next().plan->masses_g);
+}
+
+}  // namespace
+}  // namespace heft

@@ -1,0 +1,168 @@
+// Sessions that were run in memory, stored, and verified.
+#include "replay/Replay.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "apparatus/RunOptions.h"
+#include "apparatus/TrialWorld.h"
+#include "base/Build.h"
+#include "record/SessionArchive.h"
+#include "replay/WhatIf.h"
+#include "session/Protocols.h"
+#include "session/Recorded.h"
+#include "session/Runner.h"
+
+namespace heft {
+namespace {
+
+// Pushes the middle of the row to and fro, and answers in every trial `delay_s` after a picture.
+class LateAnswers final : public Responder {
+ public:
+  explicit LateAnswers(double delay_s) : delay_s_(delay_s) {}
+  void begin_trial(const TrialView& trial) override { task_ = trial.task; }
+  HandSample hand(double t_s) override {
+    const double y_m = -0.15 + 0.09 * (1 - std::cos(2 * t_s));
+    return {upright_pose({-0.04, y_m, 0.025}, std::numbers::pi / 2), true};
+  }
+  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+    const double t_s = frame.t_s + delay_s_;
+    if (frame.cubes.empty() || frame.t_s < 2) return {};
+    switch (task_) {
+      case Task::introduction:
+        return {{t_s, ActionKind::select, 1 + screen.n_choices % 2, {}}};
+      case Task::sorting:
+        if (frame.t_s > 9) return {{t_s, ActionKind::dont_know, {}, {}}};
+        return {{t_s, ActionKind::label, 1, static_cast<Label>(screen.n_choices % 3)}};
+      case Task::comparison:
+        return {{t_s, ActionKind::no_difference, {}, {}}};
+    }
+    return {};
+  }
+  bool has_more(double) const override { return true; }
+
+ private:
+  double delay_s_;
+  Task task_ = Task::sorting;
+};
+
+class Replay : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
+    path = std::filesystem::temp_directory_path() /
+           ("heft-replay-" + std::to_string(::getpid()) + ".db");
+  }
+  void TearDown() override {
+    for (const char* end : {"", "-wal", "-shm", "-lock"})
+      std::filesystem::remove(path.string() + end);
+  }
+
+  Verification run_and_verify(Responder& responder) {
+    SessionHeader header;
+    header.participant = "1";
+    header.protocol_name = protocol.name;
+    header.protocol_text = protocol.text;
+    header.protocol_sha256 = protocol.sha256;
+    header.seed = 5;
+    header.heft_version = "test";
+    header.build = build_name();
+    RunOptions options;
+    options.tracker = "camera:0";  // whose pictures and touches keep no common beat
+    header.run_options = to_json(options);
+    header.purpose = "test";
+    header.responder = "late";
+    header.started_utc = utc_now();
+    RecordedSession recorded(header);
+    Engine engine(std::make_shared<const Protocol>(protocol), header.seed);
+    HandPictures pictures(responder, protocol.display_rate_hz);
+    const auto view = view_named("headless").make({});
+    SessionClock clock = SessionClock::virtual_from(0);
+    Runner({protocol, engine, recorded, pictures, responder, *view, clock}, {}).run();
+    frames = testing::frames_of(recorded);
+    const std::int64_t id = SessionArchive(path.string()).store(recorded);
+    return verify_session(LogReader(path.string()), id, [](double) {});
+  }
+
+  void see_through(const std::string& keys) {
+    protocol = parse_protocol(protocol.text + "\n[physics]\n" + keys, "quick");
+    protocol.name = "quick";
+  }
+
+  Protocol protocol;
+  std::filesystem::path path;
+  std::vector<FrameRow> frames;
+};
+
+TEST_F(Replay, answers_later_than_the_next_pictures_are_replayed_exactly) {
+  for (double delay_s : {0.0, 0.05, 0.07, 0.2}) {
+    LateAnswers responder(delay_s);
+    const Verification found = run_and_verify(responder);
+    EXPECT_GT(found.n_pictures, 100);
+    EXPECT_TRUE(found.same_build);
+    EXPECT_FALSE(found.first) << delay_s << " s: " << found.first->what << ", logged "
+                              << found.first->logged << ", came out " << found.first->came_out;
+    TearDown();
+  }
+}
+
+// The log has the effector as it was measured; what was predicted from it follows again.
+TEST_F(Replay, a_prediction_to_when_it_is_seen_is_replayed_exactly) {
+  see_through("input = \"extrapolate\"\npredict_s = 0.05\n");
+  LateAnswers responder(0.05);
+  const Verification found = run_and_verify(responder);
+  EXPECT_GT(found.n_pictures, 100);
+  EXPECT_TRUE(found.same_build);
+  EXPECT_FALSE(found.first) << found.first->what << ", logged " << found.first->logged
+                            << ", came out " << found.first->came_out;
+  for (const FrameRow& frame : frames)
+    EXPECT_EQ(frame.effector.position_m, responder.hand(frame.trial_t_s).pose.position_m);
+}
+
+// Over its place a cube does not appear, and the clone is just where it is predicted.
+TEST(SeeThrough, the_clone_is_ahead_and_the_effector_as_measured) {
+  Protocol protocol = testing::small_protocol();
+  protocol.simulator.input.predict_s = 0.1;
+  TrialPlan plan;
+  plan.masses_g = {15, 200, 800};
+  TrialWorld world(protocol, plan);
+  TargetSample sample = sample_of(0, upright_pose({0, -0.04, 0.021}, std::numbers::pi / 2));
+  sample.velocity.linear_m_s = {0, -0.2, 0};
+  const DisplayedFrame frame = world.advance(sample).frame;
+  EXPECT_EQ(frame.effector.position_m, sample.pose.position_m);
+  ASSERT_TRUE(frame.clone);
+  EXPECT_NEAR(frame.clone->position_m.y(), -0.06, 1e-12);
+  EXPECT_TRUE(frame.cubes.empty());
+  // Still within the clear distance, but seen beyond it.
+  sample.t_capture_s = 0.1;
+  sample.pose.position_m.y() = -0.075;
+  EXPECT_EQ(world.advance(sample).frame.cubes.size(), 3u);
+}
+
+TEST_F(Replay, what_another_prediction_would_have_shown) {
+  LateAnswers responder(0.05);
+  run_and_verify(responder);
+  const LogReader reader(path.string());
+  const auto session = load_session(reader, path.string(), reader.sessions().front().session_id);
+  const auto clone_rms_m = [&](double predict_s) {
+    const Protocol other =
+        parse_protocol(protocol.text, "quick", {"physics.predict_s=" + std::to_string(predict_s)});
+    double largest_m = 0;
+    for (const PathDifference& difference : compare_paths(reader, session, other))
+      largest_m = std::max(largest_m, difference.clone_rms_m);
+    return largest_m;
+  };
+  EXPECT_EQ(clone_rms_m(0), 0);
+  // The hand's speed is 0.18 m/s at most.
+  EXPECT_GT(clone_rms_m(0.05), 0.003);
+  EXPECT_LT(clone_rms_m(0.05), 0.05 * 0.18);
+  EXPECT_GT(clone_rms_m(0.1), 1.5 * clone_rms_m(0.05));
+}
+
+}  // namespace
+}  // namespace heft
