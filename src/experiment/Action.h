@@ -8,10 +8,16 @@
 namespace heft {
 
 struct Action {
-  double t_s = 0;  ///< seconds; since the trial's start between responder and runner
   ActionKind kind = ActionKind::validate;
-  std::optional<int> slot;     ///< select, label, unlabel; from 1, leftmost
-  std::optional<Label> label;  ///< label only
+  std::optional<int> slot{};     ///< select, label, unlabel; from 1, leftmost
+  std::optional<Label> label{};  ///< label only
+
+  bool operator==(const Action&) const = default;
+};
+
+/// An action with its time, seconds since the trial's start.
+struct TimedAction : Action {
+  double t_s = 0;
 };
 
 }  // namespace heft

@@ -39,29 +39,41 @@ struct DemonstrationBlock {
 struct IntroductionBlock {
   std::string name;
   std::vector<double> masses_g;  ///< two; shuffled
-  Condition condition = Condition::C2;
+  std::string condition = "C2";  ///< name of the technique
   WrongAnswer wrong_answer = WrongAnswer::same_layout;
+};
+
+/// So many trials of a sorting block are rendered with this technique.
+struct TechniqueTrials {
+  std::string technique;
+  int trials = 0;
 };
 
 struct SortingBlock {
   std::string name;
-  std::vector<double> masses_g;  ///< three
-  int trials = 10;
-  int c1_trials = 5;
-  int max_run = 0;  ///< longest run of one condition; 0: any
+  std::vector<double> masses_g;  ///< two to six
+  std::vector<TechniqueTrials> trials{{"C1", 5}, {"C2", 5}};
+  int max_run = 0;  ///< longest run of one technique; 0: any
   SortingOrders orders = SortingOrders::random;
+
+  int n_trials() const {
+    int n = 0;
+    for (const TechniqueTrials& some : trials) n += some.trials;
+    return n;
+  }
 };
 
 /// One staircase of a comparison block and the reference it compares with.
 struct ReferenceStaircase {
   double reference_g = 0;
   StaircaseConfig staircase;  ///< levels are comparison - reference, g
+  std::string condition{};    ///< its own technique; empty: the block's
 };
 
 struct ComparisonBlock {
   std::string name;
-  Condition condition = Condition::C2;
-  double catch_fraction = 0;  ///< of trials with difference 0; they drive no staircase
+  std::string condition = "C2";  ///< name of the technique
+  double catch_fraction = 0;     ///< of trials with difference 0; they drive no staircase
   PositiveAnswer positive_answer = PositiveAnswer::any_choice;
   InterleaveConfig interleaving;
   std::vector<ReferenceStaircase> staircases;

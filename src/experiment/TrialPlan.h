@@ -15,7 +15,7 @@ struct TrialPlan {
   int attempt = 1;       ///< from 1; +1 after a veto or a lost camera, unchanged after a crash
   std::string block;
   Task task = Task::sorting;
-  Condition condition = Condition::C2;
+  std::string condition = "C2";       ///< name of the technique
   std::string staircase;              ///< empty: none (sorting, introduction, catch trials)
   std::optional<double> reference_g;  ///< comparisons only
   std::optional<double> level_g;      ///< comparison - reference, as presented

@@ -36,7 +36,7 @@ void Answering::give(const Answer& answer, double first_tap_s) {
   chosen_ = answer.slot;
   to_validate_ = !answer.labels.empty();
   if (to_validate_) return queue_labels(answer, first_tap_s);
-  if (answer.slot) return queue_.push_back({first_tap_s, ActionKind::select, answer.slot, {}});
+  if (answer.slot) return queue_.push_back({{ActionKind::select, answer.slot, {}}, first_tap_s});
   const auto none = task_ == Task::sorting ? ActionKind::dont_know : ActionKind::no_difference;
   queue_.push_back({first_tap_s, none, {}, {}});
 }
@@ -48,14 +48,14 @@ void Answering::queue_labels(const Answer& answer, double first_tap_s) {
   const auto label_of = [&](int slot) { return answer.labels[static_cast<std::size_t>(slot - 1)]; };
   double t_s = first_tap_s;
   const auto tap = [&](int slot, Label label) {
-    queue_.push_back({t_s, ActionKind::label, slot, label});
+    queue_.push_back({{ActionKind::label, slot, label}, t_s});
     t_s += interval_s();
   };
   if (answer.first_label_corrected) tap(slots.front(), label_of(slots.back()));
   for (int slot : slots) tap(slot, label_of(slot));
 }
 
-std::vector<Action> Answering::see(const DisplayedFrame& frame, const ScreenState& screen) {
+std::vector<TimedAction> Answering::see(const DisplayedFrame& frame, const ScreenState& screen) {
   cubes_seen_ = cubes_seen_ || !frame.cubes.empty();
   if (screen.screen != Screen::trial || free_) {
     last_tap_s_ = std::max(last_tap_s_, frame.t_s);  // patience starts anew after a pause
@@ -68,7 +68,7 @@ std::vector<Action> Answering::see(const DisplayedFrame& frame, const ScreenStat
 void Answering::look_for_outcome(double t_s, const ScreenState& screen) {
   if (to_validate_ && screen.can_validate) {
     to_validate_ = false;
-    queue_.push_back({last_tap_s_ + interval_s(), ActionKind::validate, {}, {}});
+    queue_.push_back({{ActionKind::validate, {}, {}}, last_tap_s_ + interval_s()});
   } else if (screen.try_again && screen.n_choices > n_choices_before_) {
     wrong_slots_.push_back(chosen_.value());
     free_ = true;
@@ -78,11 +78,11 @@ void Answering::look_for_outcome(double t_s, const ScreenState& screen) {
   }
 }
 
-std::vector<Action> Answering::due(double t_s, const ScreenState& screen) {
+std::vector<TimedAction> Answering::due(double t_s, const ScreenState& screen) {
   // What could not be done in its time moves on as a whole, so that taps keep their distance.
   const double late_s = queue_.empty() ? 0 : std::max(0.0, t_s - queue_.front().t_s);
-  for (Action& action : queue_) action.t_s += late_s;
-  std::vector<Action> actions;
+  for (TimedAction& action : queue_) action.t_s += late_s;
+  std::vector<TimedAction> actions;
   while (!queue_.empty() && queue_.front().t_s < t_s + picture_s_) {
     last_tap_s_ = queue_.front().t_s;
     n_choices_before_ = screen.n_choices;

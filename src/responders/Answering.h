@@ -26,7 +26,7 @@ class Answering {
 
   /// Actions that fall between this picture and the next. Nothing while the trial is paused; what
   /// was due then comes after.
-  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen);
+  std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen);
 
   /// No answer is under way: none given yet, or the last one was wrong or not taken.
   bool free() const { return free_; }
@@ -39,7 +39,7 @@ class Answering {
  private:
   void queue_labels(const Answer& answer, double first_tap_s);
   void look_for_outcome(double t_s, const ScreenState& screen);
-  std::vector<Action> due(double t_s, const ScreenState& screen);
+  std::vector<TimedAction> due(double t_s, const ScreenState& screen);
   double interval_s();
 
   Task task_;
@@ -49,7 +49,7 @@ class Answering {
   bool cubes_seen_ = false;
   bool free_ = true;
   bool to_validate_ = false;
-  std::deque<Action> queue_;
+  std::deque<TimedAction> queue_;
   double last_tap_s_ = 0;
   int n_choices_before_ = 0;
   std::optional<int> chosen_;

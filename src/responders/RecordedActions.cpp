@@ -45,7 +45,7 @@ class Reader {
   void cells() {
     const std::size_t before = mistakes.size();
     const int trial = whole_number(trial_number);
-    Action read;
+    TimedAction read;
     read.t_s = seconds();
     read.kind = kind();
     if (!named<ActionKind>(cells_[action])) return;
@@ -54,7 +54,7 @@ class Reader {
     if (mistakes.size() == before) keep(trial, read);
   }
 
-  void keep(int trial, const Action& read) {
+  void keep(int trial, const TimedAction& read) {
     auto& before = actions[trial];
     if (!before.empty() && read.t_s < before.back().action.t_s)
       return mistake(time, fmt::format("comes before trial {}'s action at {} s in line {}", trial,

@@ -14,7 +14,7 @@
 namespace heft {
 
 struct RecordedAction {
-  Action action;
+  TimedAction action;
   SourcePlace place;
 };
 

@@ -46,7 +46,7 @@ class Responder {
   /// Takes in one displayed picture and the screen beside it, in order of time.
   /// @return what it does after this picture and before the next, in order; times since the trial's
   ///   start, within [frame.t_s, frame.t_s + 1/display rate)
-  virtual std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) = 0;
+  virtual std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) = 0;
 
   /// False when it has nothing left to do in this trial though the trial is still open (a recording
   /// that ended): the runner then stops the session instead of waiting forever.

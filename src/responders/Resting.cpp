@@ -36,7 +36,7 @@ class Resting : public Responder {
 
   HandSample hand(double) override { return {rest_, true}; }
 
-  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+  std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {
     const bool to_answer = answering_->free() && answering_->cubes_seen();
     if (to_answer && screen.screen == Screen::trial)
       answering_->give(mind_(answering_->wrong_slots()), frame.t_s + 1 + delays_->uniform());

@@ -68,10 +68,10 @@ class Scripted : public Responder {
     return {last_pose_, pose.has_value()};
   }
 
-  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+  std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {
     // A pause takes no taps; those that fell into it come after it.
     paused_ = screen.screen != Screen::trial;
-    std::vector<Action> actions;
+    std::vector<TimedAction> actions;
     if (paused_) return actions;
     while (!to_do_.empty() && to_do_.front().t_s < frame.t_s + picture_s_) {
       if (to_do_.front().kind == ActionKind::validate && !screen.can_validate) break;
@@ -90,7 +90,7 @@ class Scripted : public Responder {
  private:
   Recording recording_;
   const Trajectory* trajectory_ = nullptr;
-  std::deque<Action> to_do_;
+  std::deque<TimedAction> to_do_;
   Pose last_pose_;
   double end_s_ = 0;
   double picture_s_ = 0;

@@ -44,7 +44,7 @@ class Simulated : public Responder {
 
   HandSample hand(double t_s) override { return {trial_->hand.at(t_s), true}; }
 
-  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+  std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {
     SimulatedTrial& trial = *trial_;
     if (screen.screen == Screen::trial) {
       trial.perception.see(frame);

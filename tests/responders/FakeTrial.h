@@ -29,7 +29,7 @@ struct TrialSetup {
 };
 
 struct Result {
-  std::vector<Action> actions;
+  std::vector<TimedAction> actions;
   std::vector<Pose> hand;  ///< at each picture
   bool ended = false;
   double end_s = 0;
@@ -43,7 +43,7 @@ struct Result {
 /// What an answer says, without its times.
 inline std::vector<std::string> said(const Result& result) {
   std::vector<std::string> all;
-  for (const Action& action : result.actions)
+  for (const TimedAction& action : result.actions)
     all.push_back(fmt::format("{} {} {}", name_of(action.kind), action.slot.value_or(0),
                               action.label ? name_of(*action.label) : ""));
   return all;
@@ -85,7 +85,7 @@ class Trial {
     const bool paused = t_s >= setup_.paused_from_s && t_s < setup_.paused_to_s;
     screen_.screen = paused ? Screen::paused : Screen::trial;
     const ScreenState shown = screen_;
-    for (const Action& action : responder_.see(world_.picture(t_s), shown)) {
+    for (const TimedAction& action : responder_.see(world_.picture(t_s), shown)) {
       check(action, t_s, shown);
       result_.actions.push_back(action);
       if (setup_.takes_answers) take(action);
@@ -93,7 +93,7 @@ class Trial {
     result_.end_s = t_s;
   }
 
-  void check(const Action& action, double t_s, const ScreenState& shown) {
+  void check(const TimedAction& action, double t_s, const ScreenState& shown) {
     const auto refuse = [&](const char* why) {
       result_.not_allowed.push_back(fmt::format("{} at {}: {}", name_of(action.kind), t_s, why));
     };
@@ -109,7 +109,7 @@ class Trial {
     if (setup_.task == Task::introduction && none) refuse("other task");
   }
 
-  void take(const Action& action) {
+  void take(const TimedAction& action) {
     switch (action.kind) {
       case ActionKind::select:
         return select(*action.slot);

@@ -19,12 +19,12 @@ class AnsweringTest : public testing::Test {
   }
 
   // Pictures up to a time, all with the same screen.
-  std::vector<Action> until(double end_s) {
-    std::vector<Action> actions;
+  std::vector<TimedAction> until(double end_s) {
+    std::vector<TimedAction> actions;
     for (; t_s_ < end_s; t_s_ += 1 / 15.0) {
       DisplayedFrame frame;
       frame.t_s = t_s_;
-      for (const Action& action : answering_.see(frame, screen_)) {
+      for (const TimedAction& action : answering_.see(frame, screen_)) {
         EXPECT_GE(action.t_s, t_s_);
         EXPECT_LT(action.t_s, t_s_ + 1 / 15.0);
         actions.push_back(action);
@@ -64,7 +64,7 @@ TEST_F(AnsweringTest, corrects_a_first_label_so_that_the_last_word_stands) {
   EXPECT_EQ(labels[0].slot, labels[1].slot);
   EXPECT_NE(labels[0].label, labels[1].label);
   std::vector<std::optional<Label>> on_screen(3);
-  for (const Action& action : labels) {
+  for (const TimedAction& action : labels) {
     for (auto& label : on_screen)
       if (label == action.label) label.reset();
     on_screen[static_cast<std::size_t>(*action.slot - 1)] = action.label;

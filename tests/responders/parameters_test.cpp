@@ -90,7 +90,7 @@ std::string trace(const std::vector<Parameter>& parameters) {
     for (const Pose& pose : result.hand)
       text += fmt::format("{} {} {} {};", pose.position_m.x(), pose.position_m.y(),
                           pose.position_m.z(), pose.orientation.w());
-    for (const Action& action : result.actions) text += fmt::format("{};", action.t_s);
+    for (const TimedAction& action : result.actions) text += fmt::format("{};", action.t_s);
     for (const std::string& word : fake::said(result)) text += word;
   }
   return text;

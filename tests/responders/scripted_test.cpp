@@ -55,7 +55,7 @@ TEST_F(ScriptedTest, plays_back_what_another_responder_did) {
     trajectory += fmt::format("{},{},{},{},{},{},{},{}\n", static_cast<double>(i) / 15, p.x(),
                               p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
   }
-  for (const Action& action : wanted.actions)
+  for (const TimedAction& action : wanted.actions)
     actions += fmt::format("7,{},{},{},{}\n", action.t_s, name_of(action.kind),
                            action.slot ? std::to_string(*action.slot) : "",
                            action.label ? name_of(*action.label) : "");
