@@ -31,7 +31,12 @@ class Binding {
 
   /// From here on every value enters this digest too.
   Binding& also_into(RowDigest& digest) {
-    digest_ = &digest;
+    digest_ = row_digest_ = &digest;
+    return *this;
+  }
+  /// Whether the values from here on enter it.
+  Binding& digests(bool wanted) {
+    digest_ = wanted ? row_digest_ : nullptr;
     return *this;
   }
 
@@ -88,16 +93,11 @@ class Binding {
     return *this;
   }
 
-  /// Of columns that were added later: rows without them keep the digest that they had.
-  void undigested_null(int columns) {
-    for (int i = 0; i < columns; ++i) statement_.bind(++place_);
-  }
-
   void run() { statement_.exec(); }
   /// With what went also_into() the digest as the last value. @return the digest
   std::string run_with_digest() {
-    std::string digest = digest_->value();
-    *this << digest;
+    std::string digest = row_digest_->value();
+    digests(false) << digest;
     run();
     return digest;
   }
@@ -107,7 +107,8 @@ class Binding {
  private:
   SQLite::Statement& statement_;
   int place_ = 0;
-  RowDigest* digest_ = nullptr;
+  RowDigest* row_digest_ = nullptr;
+  RowDigest* digest_ = nullptr;  ///< row_digest_ while values enter it
 };
 
 /// Executes a statement that gives no rows, with these values in its places.

@@ -70,21 +70,6 @@ bool Cells::skip_null() {
   return true;
 }
 
-std::optional<int> Cells::integer_or_none() {
-  if (skip_null()) return std::nullopt;
-  return integer();
-}
-
-std::optional<bool> Cells::flag_or_none() {
-  if (skip_null()) return std::nullopt;
-  return flag();
-}
-
-std::optional<double> Cells::real_or_none() {
-  if (skip_null()) return std::nullopt;
-  return real();
-}
-
 std::optional<std::string> Cells::text_or_none() {
   if (skip_null()) return std::nullopt;
   return text();

@@ -34,22 +34,28 @@ class Cells {
   Eigen::Vector3d vector();
   Pose pose();
 
-  std::optional<int> integer_or_none();
-  std::optional<bool> flag_or_none();
-  std::optional<double> real_or_none();
   std::optional<std::string> text_or_none();
   std::optional<Pose> pose_or_none();
+
+  void read(int& value) { value = integer(); }
+  void read(std::uint64_t& value) { value = static_cast<std::uint64_t>(long_integer()); }
+  void read(bool& value) { value = flag(); }
+  void read(double& value) { value = real(); }
+  void read(std::string& value) { value = text(); }
+  template <typename Enum>
+  requires std::is_enum_v<Enum>
+  void read(Enum& value) { value = name<Enum>(); }
+  template <typename Value>
+  void read(std::optional<Value>& value) {
+    value.reset();
+    if (!skip_null()) read(value.emplace());
+  }
 
   template <typename Enum>
   Enum name() {
     const std::string written = text();
     if (const auto value = named<Enum>(written)) return *value;
     refuse_name(written, quoted_list(EnumNames<Enum>::names));
-  }
-  template <typename Enum>
-  std::optional<Enum> name_or_none() {
-    if (skip_null()) return std::nullopt;
-    return name<Enum>();
   }
 
  private:

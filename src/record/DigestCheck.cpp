@@ -7,30 +7,22 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "record/EventRow.h"
+#include "record/InfoDigest.h"
 #include "record/RowQueries.h"
-#include "record/RowsFromCells.h"
-#include "record/Schema.h"
+#include "record/RowSql.h"
+#include "record/RowVisitors.h"
 #include "record/WriteFailure.h"
 
 namespace heft {
 
 namespace {
-// Both: id, attempt, the row's own columns, digest.
-std::string events_sql() {
-  return in_session("event", "event_id", fmt::format("{}, digest", schema::event_columns));
-}
-std::string frames_sql(SQLite::Database& database) {
-  return pictures_in_session(
-      fmt::format("{}, {}, digest", schema::frame_columns, schema::frame_timing_in(database)));
-}
+// The row's own cells; id and attempt come before them, the digest after them.
+constexpr int first_own_cell = 2;
 
-// The row's last cell that its digest was taken over; see Schema.h, frame_timing_columns.
-int last_digested(SQLite::Statement& query, const std::string& table) {
-  const int last = query.getColumnCount() - 2;
-  if (table != "frame") return last;
-  for (int i = last; i > last - schema::n_frame_timing_columns; --i)
-    if (!query.getColumn(i).isNull()) return last;
-  return last - schema::n_frame_timing_columns;
+bool has_timing(SQLite::Statement& query) {
+  return !query.getColumn("detected_s").isNull() || !query.getColumn("simulated_s").isNull() ||
+         !query.getColumn("n_dropped").isNull();
 }
 
 bool is_earlier(const BrokenDigest& one, const BrokenDigest& other) {
@@ -51,13 +43,13 @@ std::string placed(const std::string& row, const BrokenDigest& at) {
 
 void describe(BrokenDigest& broken, SQLite::Statement& query, const std::string& file) {
   const bool is_event = broken.table == "event";
-  std::string row = is_event ? "the event" : "the picture";
+  std::string row = is_event ? "the event" : "the frame";
   try {
     Cells cells(query, file, broken.table);
     if (is_event)
-      row = description(event_from(cells).event, std::nullopt);
+      row = description(event_of(attempt_row_from<EventRow>(cells)), std::nullopt);
     else
-      frame_from(cells);
+      attempt_row_from<FrameRow>(cells);
   } catch (const Error& error) {
     broken.damage = error.what();
   }
@@ -70,29 +62,32 @@ DigestCheck::DigestCheck(SQLite::Database& database, std::string file, std::int6
 
 std::optional<BrokenDigest> DigestCheck::first_broken() {
   if (auto header = broken_header()) return header;
+  if (auto info = broken_info()) return info;
   SQLite::Statement start(database_, chain_start_sql);
   start.bind(1, session_id_);
   start.executeStep();
   start_ = start.getColumn(0).getString();
   auto event = broken_event(), frame = broken_frame();
+  if (!event && !frame) return broken_counts();
   if (!event || (frame && is_earlier(*frame, *event))) return frame;
   return event;
 }
 
 std::optional<BrokenDigest> DigestCheck::broken_header() {
-  SQLite::Statement query(database_,
-                          fmt::format("SELECT session_id, {}, state, digest FROM session WHERE "
-                                      "session_id = ?1",
-                                      schema::header_columns));
+  SQLite::Statement query(
+      database_,
+      fmt::format("SELECT session_id, {}, digest, state FROM session WHERE session_id = ?1",
+                  columns_of<SessionHeader>()));
   query.bind(1, session_id_);
   if (!query.executeStep()) throw Error(fmt::format("{} holds no session {}", file_, session_id_));
-  const int state = query.getColumnCount() - 2;  // the events tell it, and change it
-  const std::string digest = recomputed(query, "session", "", state - 1);
-  BrokenDigest broken{"session", session_id_, 0, 0, query.getColumn(state + 1), digest, {}, {}};
+  log_version_ = query.getColumn("log_version").getInt();
+  const std::string digest =
+      recomputed(query, "session", "", 1, sql_of<SessionHeader>().since, true);
+  BrokenDigest broken{"session", session_id_, 0, 0, query.getColumn("digest"), digest, {}, {}};
   broken.row = fmt::format("the header of session {}", session_id_);
   try {
     Cells cells(query, file_, "session");
-    session_from(cells);
+    row_from<SessionHeader>(cells);
   } catch (const Error& error) {
     broken.damage = error.what();
   }
@@ -100,26 +95,60 @@ std::optional<BrokenDigest> DigestCheck::broken_header() {
   return broken;
 }
 
-std::optional<BrokenDigest> DigestCheck::broken_event() {
-  SQLite::Statement query(database_, events_sql());
+std::optional<BrokenDigest> DigestCheck::broken_info() {
+  if (log_version_ < 3) return std::nullopt;
+  SQLite::Statement query(database_, "SELECT info_digest FROM session WHERE session_id = ?1");
   query.bind(1, session_id_);
+  query.executeStep();
+  BrokenDigest broken{"participant_info", session_id_, 0, 0, query.getColumn(0), {}, {}, {}};
+  broken.recomputed = info_digest(database_, session_id_);
+  broken.row = "what the participant told";
+  if (broken.recomputed == broken.logged) return std::nullopt;
+  return broken;
+}
+
+// A chain does not miss what was cut off at its end.
+std::optional<BrokenDigest> DigestCheck::broken_counts() {
+  SQLite::Statement query(
+      database_,
+      "SELECT n_events, n_frames, (SELECT count(*) FROM event WHERE session_id = ?1), (SELECT "
+      "count(*) FROM frame WHERE session_id = ?1), (SELECT ifnull(max(t_s), 0) FROM event WHERE "
+      "session_id = ?1) FROM session WHERE session_id = ?1");
+  query.bind(1, session_id_);
+  query.executeStep();
+  const auto told = [&](int first) {
+    return fmt::format("{} events and {} frames", query.getColumn(first).getInt64(),
+                       query.getColumn(first + 1).getInt64());
+  };
+  if (told(0) == told(2)) return std::nullopt;
+  BrokenDigest broken{"session", session_id_, 0, query.getColumn(4), told(0), told(2), {}, {}};
+  broken.row = "how many rows the session has";
+  return broken;
+}
+
+std::optional<BrokenDigest> DigestCheck::broken_event() {
+  SQLite::Statement query(database_,
+                          in_session("event", "event_id", columns_of<EventRow>() + ", digest"));
+  query.bind(1, session_id_);
+  static const std::vector<int> since = sql_of<EventRow>().since;
   std::string chain = start_;
   while (query.executeStep())
-    if (auto broken = broken_link(query, "event", chain)) return broken;
+    if (auto broken = broken_link(query, "event", since, chain)) return broken;
   return std::nullopt;
 }
 
 std::optional<BrokenDigest> DigestCheck::broken_frame() {
-  SQLite::Statement query(database_, frames_sql(database_));
+  SQLite::Statement query(database_, frames_in_session(columns_of<FrameRow>() + ", digest"));
   query.bind(1, session_id_);
-  // By the attempt's cell. Pictures of a trial that is not there have a chain too, which no picture
+  static const std::vector<int> since = sql_of<FrameRow>().since;
+  // By the attempt's cell. Frames of a trial that is not there have a chain too, which no frame
   // fits.
   std::map<std::string, std::optional<std::string>> chains;  // none: broken already
   std::optional<BrokenDigest> first;
   while (query.executeStep()) {
     auto& chain = chains.try_emplace(query.getColumn(1).getString(), start_).first->second;
     if (!chain) continue;
-    const auto broken = broken_link(query, "frame", *chain);
+    const auto broken = broken_link(query, "frame", since, *chain);
     if (!broken) continue;
     chain.reset();
     if (!first || is_earlier(*broken, *first)) first = broken;
@@ -128,18 +157,25 @@ std::optional<BrokenDigest> DigestCheck::broken_frame() {
 }
 
 std::string DigestCheck::recomputed(SQLite::Statement& query, const std::string& table,
-                                    const std::string& previous, int last_cell) {
+                                    const std::string& previous, int first_cell,
+                                    const std::vector<int>& since, bool has_timing) {
+  const DigestedColumns digested{log_version_, has_timing};
   digest_.begin(table, previous);
-  for (int i = 1; i <= last_cell; ++i) digest_.cell(query.getColumn(i));
+  if (first_cell == first_own_cell) digest_.cell(query.getColumn(1));  // the attempt
+  for (std::size_t i = 0; i < since.size(); ++i)
+    if (digested.has(since[i])) digest_.cell(query.getColumn(first_cell + static_cast<int>(i)));
   return digest_.value();
 }
 
 std::optional<BrokenDigest> DigestCheck::broken_link(SQLite::Statement& query,
-                                                     const std::string& table, std::string& chain) {
+                                                     const std::string& table,
+                                                     const std::vector<int>& since,
+                                                     std::string& chain) {
   const int last = query.getColumnCount() - 1;
   BrokenDigest broken{table, query.getColumn(0).getInt64(), 0, 0, query.getColumn(last), {}, {},
                       {}};
-  broken.recomputed = recomputed(query, table, chain, last_digested(query, table));
+  broken.recomputed =
+      recomputed(query, table, chain, first_own_cell, since, table != "frame" || has_timing(query));
   chain = broken.logged;
   if (broken.recomputed == broken.logged) return std::nullopt;
   set_place(broken, query);

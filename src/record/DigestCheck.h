@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "record/BrokenDigest.h"
 #include "record/RowDigest.h"
@@ -21,26 +22,31 @@ class DigestCheck {
  public:
   DigestCheck(SQLite::Database& database, std::string file, std::int64_t session_id);
 
-  /// The header before everything else, then the earliest by time.
+  /// The header before everything else, then what the participant told, then the earliest by time;
+  /// last whether rows are missing at the end.
   /// @throws Error when there is no such session, SQLite::Exception where pages are damaged
   std::optional<BrokenDigest> first_broken();
 
  private:
   std::optional<BrokenDigest> broken_header();
+  std::optional<BrokenDigest> broken_info();
+  std::optional<BrokenDigest> broken_counts();
   std::optional<BrokenDigest> broken_event();
   std::optional<BrokenDigest> broken_frame();
 
-  /// Over the query's cells after its id, up to `last_cell`.
+  /// Over the query's cells from `first_cell` on that the digest was taken over.
   std::string recomputed(SQLite::Statement& query, const std::string& table,
-                         const std::string& previous, int last_cell);
+                         const std::string& previous, int first_cell, const std::vector<int>& since,
+                         bool has_timing);
   /// Where the row's digest is not the next of the chain; else puts the chain forward to it.
   std::optional<BrokenDigest> broken_link(SQLite::Statement& query, const std::string& table,
-                                          std::string& chain);
+                                          const std::vector<int>& since, std::string& chain);
 
   SQLite::Database& database_;
   std::string file_;
   std::int64_t session_id_;
-  std::string start_;  ///< the header's digest, from which all chains start
+  std::string start_;    ///< the header's digest, from which all chains start
+  int log_version_ = 0;  ///< that the session was started in
   RowDigest digest_;
 };
 

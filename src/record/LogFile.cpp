@@ -97,6 +97,7 @@ bool holds_log(SQLite::Database& database, const std::string& path) {
       refuse_newer_log(path);
     case schema::FileKind::empty:
       return false;
+    case schema::FileKind::older_log:
     case schema::FileKind::log:
       return true;
   }

@@ -6,14 +6,47 @@
 #include "base/Error.h"
 #include "record/Binding.h"
 #include "record/DigestCheck.h"
+#include "record/EventRow.h"
 #include "record/LogFile.h"
+#include "record/OlderSetups.h"
 #include "record/ReadOnlyDatabase.h"
 #include "record/RowQueries.h"
-#include "record/RowsFromCells.h"
+#include "record/RowSql.h"
+#include "record/RowVisitors.h"
 #include "record/Schema.h"
 #include "record/SqliteError.h"
 
 namespace heft {
+
+namespace {
+SessionRow session_from(Cells& cells) {
+  SessionRow row;
+  row.session_id = cells.id();
+  row.header = row_from<SessionHeader>(cells);
+  row.state = cells.name<SessionState>();
+  return row;
+}
+
+std::pair<std::string, std::string> info_from(Cells& cells) {
+  std::string key = cells.text();
+  return {std::move(key), cells.text()};
+}
+
+LoggedSetup setup_from(Cells& cells) {
+  LoggedSetup logged;
+  logged.setup_index = cells.integer();
+  logged.from_event = cells.integer();
+  logged.setup = row_from<Setup>(cells);
+  return logged;
+}
+
+TrialRow trial_from(Cells& cells) {
+  const int setup_index = cells.integer();
+  TrialRow row = row_from<TrialRow>(cells);
+  row.setup_index = setup_index;
+  return row;
+}
+}  // namespace
 
 class LogReader::Impl {
  public:
@@ -42,7 +75,9 @@ class LogReader::Impl {
     refuse_damaged(fmt::format("table {}", table), error);
   }
 
-  std::string frame_timing() const { return schema::frame_timing_in(*database_); }
+  std::vector<std::string> foreign_objects() const {
+    return has_tables_ ? schema::foreign_objects(*database_) : std::vector<std::string>{};
+  }
 
   std::optional<BrokenDigest> first_broken_digest(std::int64_t session_id) const try {
     if (!has_tables_) refuse_unknown(session_id);
@@ -67,7 +102,7 @@ class LogReader::Impl {
 
   static std::string session_sql(const std::string& condition) {
     return fmt::format("SELECT session_id, {}, state FROM session WHERE {} ORDER BY session_id",
-                       schema::header_columns, condition);
+                       columns_of<SessionHeader>(), condition);
   }
 
   [[noreturn]] void refuse_unknown(std::int64_t session_id) const {
@@ -116,15 +151,56 @@ std::optional<SessionRow> LogReader::newest_unfinished_session() const {
 }
 
 std::vector<LoggedEvent> LogReader::events(std::int64_t session_id) const {
-  return impl_->rows(event_from, "event", in_session("event", "event_id", schema::event_columns),
-                     session_id);
+  std::vector<LoggedEvent> events;
+  std::optional<Setup> older;  // in force so far, where events did not tell it
+  if (const SessionRow row = session(session_id); row.header.log_version < 3)
+    older = older_setup(row.header);
+  for (const EventRow& row :
+       impl_->rows(attempt_row_from<EventRow>, "event",
+                   in_session("event", "event_id", columns_of<EventRow>()), session_id)) {
+    LoggedEvent logged{event_of(row), row.attempt_index};
+    if (const auto* told = logged.event.as<Setup>(); told && older) older = *told;
+    if (const auto* deviation = logged.event.as<Deviation>(); deviation && older)
+      if (const auto after = after_deviation(*older, deviation->text))
+        logged.event.what = *(older = after);
+    events.push_back(std::move(logged));
+  }
+  return events;
+}
+
+std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
+  auto setups = impl_->rows(
+      setup_from, "setup",
+      fmt::format(
+          "SELECT setup_id, setup_index, (SELECT count(*) FROM event e WHERE e.session_id = "
+          "?1 AND e.event_id <= from_event_id), {} FROM setup WHERE session_id = ?1 ORDER "
+          "BY setup_index",
+          columns_of<Setup>()),
+      session_id);
+  // Their files' contents stand in the events, or in an older session's header.
+  std::size_t next = 0;
+  const auto take_contents = [&](Setup from) {
+    if (next == setups.size()) return;
+    Setup& to = setups[next++].setup;
+    std::vector<std::string> contents;
+    visit_contents(from, [&](std::string_view, std::string& text) { contents.push_back(text); });
+    auto text = contents.begin();
+    visit_contents(to, [&](std::string_view, std::string& held) { held = *text++; });
+  };
+  if (const SessionRow row = session(session_id); row.header.log_version < 3)
+    take_contents(older_setup(row.header));
+  for (const LoggedEvent& logged : events(session_id))
+    if (const auto* setup = logged.event.as<Setup>()) take_contents(*setup);
+  return setups;
 }
 
 std::vector<TrialRow> LogReader::trials(std::int64_t session_id) const {
   auto trials = impl_->rows(
       trial_from, "trial",
-      fmt::format("SELECT trial_id, {} FROM trial WHERE session_id = ? ORDER BY trial_id",
-                  schema::trial_columns),
+      fmt::format("SELECT trial_id, ifnull((SELECT setup_index FROM setup s WHERE s.setup_id = "
+                  "t.setup_id AND s.session_id = t.session_id), 0), {} FROM trial t WHERE "
+                  "session_id = ? ORDER BY trial_id",
+                  columns_of<TrialRow>()),
       session_id);
   std::map<int, std::vector<double>> masses_g;
   for (const CubeRow& cube : cubes(session_id)) masses_g[cube.attempt_index].push_back(cube.mass_g);
@@ -133,25 +209,25 @@ std::vector<TrialRow> LogReader::trials(std::int64_t session_id) const {
 }
 
 std::vector<CubeRow> LogReader::cubes(std::int64_t session_id) const {
-  return impl_->rows(cube_from, "cube", in_trials("cube", "rowid", schema::cube_columns),
-                     session_id);
+  return impl_->rows(attempt_row_from<CubeRow>, "cube",
+                     in_trials("cube", "rowid", columns_of<CubeRow>()), session_id);
 }
 
 std::vector<AnswerRow> LogReader::answers(std::int64_t session_id) const {
-  return impl_->rows(answer_from, "answer",
-                     in_trials("answer", "answer_id", schema::answer_columns), session_id);
+  return impl_->rows(attempt_row_from<AnswerRow>, "answer",
+                     in_trials("answer", "answer_id", columns_of<AnswerRow>()), session_id);
 }
 
 std::vector<ReversalRow> LogReader::reversals(std::int64_t session_id) const {
-  return impl_->rows(reversal_from, "reversal",
-                     in_session("reversal", "rowid", schema::reversal_columns), session_id);
+  return impl_->rows(attempt_row_from<ReversalRow>, "reversal",
+                     in_session("reversal", "rowid", columns_of<ReversalRow>()), session_id);
 }
 
 std::vector<EstimateRow> LogReader::estimates(std::int64_t session_id) const {
   return impl_->rows(
-      estimate_from, "estimate",
+      row_from<EstimateRow>, "estimate",
       fmt::format("SELECT rowid, {} FROM estimate WHERE session_id = ? ORDER BY rowid",
-                  schema::estimate_columns),
+                  columns_of<EstimateRow>()),
       session_id);
 }
 
@@ -161,11 +237,15 @@ std::vector<FrameRow> LogReader::frames(std::int64_t session_id, int attempt_ind
                          : "trial_id = (SELECT trial_id FROM trial WHERE session_id = ?1 AND "
                            "attempt_index = ?2)";
   return impl_->rows(
-      frame_from, "frame",
-      fmt::format("SELECT frame_id, ?2 AS trial_id, {}, {} FROM frame WHERE session_id = ?1 AND {} "
+      attempt_row_from<FrameRow>, "frame",
+      fmt::format("SELECT frame_id, ?2 AS trial_id, {} FROM frame WHERE session_id = ?1 AND {} "
                   "ORDER BY frame_id",
-                  schema::frame_columns, impl_->frame_timing(), of_attempt),
+                  columns_of<FrameRow>(), of_attempt),
       session_id, attempt_index);
+}
+
+std::vector<std::string> LogReader::foreign_objects() const {
+  return impl_->foreign_objects();
 }
 
 std::optional<BrokenDigest> LogReader::first_broken_digest(std::int64_t session_id) const {

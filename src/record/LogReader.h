@@ -31,6 +31,13 @@ struct LoggedEvent {
   int attempt_index = 0;
 };
 
+/// What was in force from an event on.
+struct LoggedSetup {
+  int setup_index = 0;  ///< from 1
+  int from_event = 0;   ///< the session's event that told it, from 1; 0: an older log's header
+  Setup setup;
+};
+
 /// The log as it was when it was opened; what a writer adds later is not seen. An empty file, as a
 /// crash while it is created leaves it, is a log without sessions. Every method throws Error naming
 /// table, row and column where a value can't be one of ours, and Error where the file is damaged.
@@ -52,7 +59,10 @@ class LogReader {
                                       const std::string& protocol_name) const;
   std::optional<SessionRow> newest_unfinished_session() const;
 
+  /// What logs of versions 1 and 2 told as deviations comes as the setup that it was.
   std::vector<LoggedEvent> events(std::int64_t session_id) const;
+  /// With the contents of their files.
+  std::vector<LoggedSetup> setups(std::int64_t session_id) const;
   std::vector<TrialRow> trials(std::int64_t session_id) const;  ///< masses from their cube rows
   std::vector<CubeRow> cubes(std::int64_t session_id) const;
   std::vector<AnswerRow> answers(std::int64_t session_id) const;
@@ -61,11 +71,14 @@ class LogReader {
   /// @param attempt_index 0: the pictures outside of trials
   std::vector<FrameRow> frames(std::int64_t session_id, int attempt_index) const;
 
-  /// Whether the session's header, events and pictures are as they were written: no column changed,
+  /// What the file holds that a log does not; see schema::foreign_objects.
+  std::vector<std::string> foreign_objects() const;
+
+  /// Whether the session's header, events and frames are as they were written: no column changed,
   /// no row taken out, put in or swapped. The header comes first, then the earliest row by t_s. A
-  /// row that can't be one of ours is found, not thrown. Not seen: rows cut off at the end of the
-  /// events or of an attempt's pictures, the session's state (the events tell it), participant_info
-  /// (which may be deleted on request), and a forger who computes all later digests anew.
+  /// row that can't be one of ours is found, not thrown. Not seen: the
+  /// session's state and the other tables, which the events tell, and a forger who computes all
+  /// later digests anew.
   /// @throws Error when there is no such session, or pages of the file are damaged
   std::optional<BrokenDigest> first_broken_digest(std::int64_t session_id) const;
 

@@ -19,7 +19,7 @@ std::string in_session(std::string_view table, std::string_view id, std::string_
                      attempt_of(table), columns, table, id);
 }
 
-std::string pictures_in_session(std::string_view columns) {
+std::string frames_in_session(std::string_view columns) {
   // The inner query reads an index alone.
   return fmt::format(
       "SELECT frame_id, {}, {} FROM frame WHERE frame_id IN (SELECT frame_id FROM frame WHERE "

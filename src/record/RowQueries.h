@@ -17,7 +17,7 @@ inline constexpr auto chain_start_sql =
 std::string in_session(std::string_view table, std::string_view id, std::string_view columns);
 
 /// The same for frames of all attempts, which are many: without a look at other sessions'.
-std::string pictures_in_session(std::string_view columns);
+std::string frames_in_session(std::string_view columns);
 
 /// Rows that belong to a session through their trial.
 std::string in_trials(std::string_view table, std::string_view id, std::string_view columns);

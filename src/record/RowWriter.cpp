@@ -3,27 +3,27 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "base/Error.h"
-#include "record/Binding.h"
+#include "record/EventRow.h"
+#include "record/InfoDigest.h"
+#include "record/RowSql.h"
+#include "record/RowVisitors.h"
 #include "record/Schema.h"
 
 namespace heft {
 
 namespace {
-constexpr int pose_columns = 7;
-
-std::string keyed_insert(std::string_view table, std::string_view keys, std::string_view columns) {
-  return schema::insert_sql(table, fmt::format("{}, {}", keys, columns));
+template <typename Row>
+std::string keyed_insert(std::string_view table, std::string_view keys) {
+  return schema::insert_sql(table, fmt::format("{}, {}", keys, columns_of<Row>()));
 }
 
 // The row's digest is bound last.
-std::string digested_insert(std::string_view table, std::string_view keys,
-                            std::string_view columns) {
-  return keyed_insert(table, keys, fmt::format("{}, digest", columns));
-}
-
-std::optional<std::string> if_any(const std::string& text) {
-  return text.empty() ? std::nullopt : std::optional(text);
+template <typename Row>
+std::string digested_insert(std::string_view table, std::string_view keys) {
+  return schema::insert_sql(table, fmt::format("{}, {}, digest", keys, columns_of<Row>()));
 }
 }  // namespace
 
@@ -37,17 +37,30 @@ SQLite::Statement& RowWriter::statement(const std::string& sql) {
   return *prepared;
 }
 
+template <typename Row, typename... Keys>
+void RowWriter::insert(const std::string& sql, const Row& row, const Keys&... keys) {
+  Binding places(statement(sql), keys...);
+  visit_columns(row, BindRow(places));
+  places.run();
+}
+
+void RowWriter::forget() {
+  last_attempt_.reset();
+  log_version_.reset();
+  n_new_events_ = n_new_frames_ = 0;
+  chain_.forget();
+}
+
 std::int64_t RowWriter::write_session(const SessionHeader& header) {
-  static const std::string sql = digested_insert("session", "state", schema::header_columns);
+  static const std::string sql = digested_insert<SessionHeader>("session", "state");
   digest_.begin("session", "");
   Binding row(statement(sql), SessionState::running);
-  row.also_into(digest_) << header.participant << header.protocol_name << header.protocol_text
-                         << header.protocol_sha256 << header.seed << header.heft_version
-                         << header.build << header.run_options << header.started_utc
-                         << header.purpose << header.responder;
+  row.also_into(digest_);
+  visit_columns(header, BindRow(row));
   row.run_with_digest();
   const std::int64_t session_id = database_.getLastInsertRowid();
   for (const auto& [key, value] : header.participant_info) write_info(session_id, key, value);
+  write_info_digest(session_id);
   return session_id;
 }
 
@@ -56,6 +69,19 @@ void RowWriter::write_info(std::int64_t session_id, const std::string& key,
   static const std::string sql =
       schema::upsert_sql("participant_info", "session_id, key, value", "session_id, key");
   run(statement(sql), session_id, key, value);
+  write_info_digest(session_id);
+}
+
+void RowWriter::write_info_digest(std::int64_t session_id) {
+  static const std::string sql = "UPDATE session SET info_digest = ? WHERE session_id = ?";
+  run(statement(sql), info_digest(database_, session_id), session_id);
+}
+
+void RowWriter::write_counts(std::int64_t session_id) {
+  static const std::string sql =
+      "UPDATE session SET n_events = n_events + ?, n_frames = n_frames + ? WHERE session_id = ?";
+  const int events = std::exchange(n_new_events_, 0), frames = std::exchange(n_new_frames_, 0);
+  if (events + frames > 0) run(statement(sql), events, frames, session_id);
 }
 
 void RowWriter::write(std::int64_t session_id, const RecordedEntry& entry) {
@@ -98,110 +124,113 @@ std::optional<std::int64_t> RowWriter::trial_id_or_none(std::int64_t session_id,
   return trial_id(session_id, attempt_index);
 }
 
+std::optional<std::int64_t> RowWriter::setup_id(std::int64_t session_id, int setup_index) {
+  static const std::string sql =
+      "SELECT setup_id FROM setup WHERE session_id = ? AND setup_index = ?";
+  SQLite::Statement& query = statement(sql);
+  Binding binding(query, session_id, setup_index);
+  if (!binding.step()) return std::nullopt;
+  return query.getColumn(0).getInt64();
+}
+
+int RowWriter::log_version(std::int64_t session_id) {
+  if (!log_version_ || log_version_->first != session_id) {
+    static const std::string sql = "SELECT log_version FROM session WHERE session_id = ?";
+    SQLite::Statement& query = statement(sql);
+    Binding binding(query, session_id);
+    binding.step();
+    log_version_ = {session_id, query.getColumn(0).getInt()};
+  }
+  return log_version_->second;
+}
+
 void RowWriter::write_event(std::int64_t session_id, const RecordedEvent& recorded) {
   const auto& [event, changes] = recorded;
   if (changes.trial) write_trial(session_id, *changes.trial);
   write_event_row(session_id, changes.attempt_index, event);
+  if (changes.setup) write_setup(session_id, *changes.setup);
   for (const CubeRow& cube : changes.cubes) write_cube(session_id, cube);
-  for (const AnswerRow& answer : changes.answers) write_answer(session_id, answer);
-  for (const ReversalRow& reversal : changes.reversals) write_reversal(session_id, reversal);
-  for (const EstimateRow& estimate : changes.estimates) write_estimate(session_id, estimate);
-  if (changes.state) write_state(session_id, *changes.state);
+  static const std::string answer = keyed_insert<AnswerRow>("answer", "trial_id"),
+                           reversal = keyed_insert<ReversalRow>("reversal", "session_id, trial_id"),
+                           estimate = keyed_insert<EstimateRow>("estimate", "session_id");
+  for (const AnswerRow& row : changes.answers)
+    insert(answer, row, trial_id(session_id, row.attempt_index));
+  for (const ReversalRow& row : changes.reversals)
+    insert(reversal, row, session_id, trial_id(session_id, row.attempt_index));
+  for (const EstimateRow& row : changes.estimates) insert(estimate, row, session_id);
+  static const std::string state = "UPDATE session SET state = ? WHERE session_id = ?";
+  if (changes.state) run(statement(state), *changes.state, session_id);
 }
 
 void RowWriter::write_event_row(std::int64_t session_id, int attempt_index, const Event& event) {
-  static const std::string sql =
-      digested_insert("event", "session_id, trial_id", schema::event_columns);
+  static const std::string sql = digested_insert<EventRow>("event", "session_id, trial_id");
   Binding row(statement(sql), session_id, trial_id_or_none(session_id, attempt_index));
   digest_.begin("event", chain_.before_event(session_id));
   digest_.integer(attempt_index);
-  row.also_into(digest_) << event.t_s << event.kind << event.slot << event.label << event.detail
-                         << event.value;
+  row.also_into(digest_);
+  const EventRow columns = row_of(event);
+  visit_columns(columns, BindRow(row));
   chain_.event_written(row.run_with_digest());
+  ++n_new_events_;
+}
+
+// The setup's event was written just now.
+void RowWriter::write_setup(std::int64_t session_id, const Setup& setup) {
+  static const std::string sql = schema::insert_sql(
+      "setup", fmt::format("session_id, from_event_id, setup_index, {}", columns_of<Setup>()));
+  static const std::string count = "SELECT count(*) FROM setup WHERE session_id = ?";
+  const std::int64_t event_id = database_.getLastInsertRowid();
+  SQLite::Statement& query = statement(count);
+  int index = 0;
+  {
+    Binding binding(query, session_id);
+    binding.step();
+    index = query.getColumn(0).getInt() + 1;
+  }
+  insert(sql, setup, session_id, event_id, index);
 }
 
 void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {
-  static const std::string sql = schema::upsert_sql(
-      "trial", fmt::format("session_id, {}", schema::trial_columns), "session_id, attempt_index");
-  const TrialPlan& plan = trial.plan;
-  run(statement(sql), session_id, trial.attempt_index, plan.trial_number, plan.attempt, plan.block,
-      plan.task, plan.condition, if_any(plan.staircase), plan.reference_g, plan.level_g,
-      plan.is_catch, plan.n_reshuffles, trial.status, trial.void_reason, trial.outcome,
-      trial.chosen_slot, plan.reference_slot, trial.choice_correct, trial.started_s, trial.shown_s,
-      trial.first_contact_s, trial.first_choice_s, trial.validated_s, trial.paused_s, trial.lost_s,
-      trial.ended_s);
+  static const std::string sql =
+      schema::upsert_sql("trial", fmt::format("session_id, setup_id, {}", columns_of<TrialRow>()),
+                         "session_id, attempt_index");
+  insert(sql, trial, session_id, setup_id(session_id, trial.setup_index));
   write_masses(session_id, trial);
 }
 
 // The plan's masses live in the cubes' rows, untouched until a CubeRow says more.
 void RowWriter::write_masses(std::int64_t session_id, const TrialRow& trial) {
-  static const std::string sql =
-      schema::insert_sql("cube", "trial_id, slot, mass_g, n_pushes, contact_s") +
-      " ON CONFLICT (trial_id, slot) DO UPDATE SET mass_g = excluded.mass_g";
-  int slot = 0;
-  for (const double mass_g : trial.plan.masses_g)
-    run(statement(sql), trial_id(session_id, trial.attempt_index), ++slot, mass_g, 0, 0.0);
+  static const std::string sql = keyed_insert<CubeRow>("cube", "trial_id") +
+                                 " ON CONFLICT (trial_id, slot) DO UPDATE SET mass_g = "
+                                 "excluded.mass_g";
+  CubeRow cube;
+  for (const double mass_g : trial.plan.masses_g) {
+    ++cube.slot;
+    cube.mass_g = mass_g;
+    insert(sql, cube, trial_id(session_id, trial.attempt_index));
+  }
 }
 
 void RowWriter::write_cube(std::int64_t session_id, const CubeRow& cube) {
   static const std::string sql = schema::upsert_sql(
-      "cube", fmt::format("trial_id, {}", schema::cube_columns), "trial_id, slot");
-  run(statement(sql), trial_id(session_id, cube.attempt_index), cube.slot, cube.mass_g,
-      cube.n_pushes, cube.contact_s, cube.first_contact_s, cube.last_contact_s);
-}
-
-void RowWriter::write_answer(std::int64_t session_id, const AnswerRow& answer) {
-  static const std::string sql = keyed_insert("answer", "trial_id", schema::answer_columns);
-  run(statement(sql), trial_id(session_id, answer.attempt_index), answer.t_s, answer.action,
-      answer.slot, answer.label);
-}
-
-void RowWriter::write_reversal(std::int64_t session_id, const ReversalRow& reversal) {
-  static const std::string sql =
-      keyed_insert("reversal", "session_id, trial_id", schema::reversal_columns);
-  run(statement(sql), session_id, trial_id(session_id, reversal.attempt_index), reversal.staircase,
-      reversal.number, reversal.level_g, reversal.step_before_g, reversal.step_after_g);
-}
-
-void RowWriter::write_estimate(std::int64_t session_id, const EstimateRow& estimate) {
-  static const std::string sql = keyed_insert("estimate", "session_id", schema::estimate_columns);
-  run(statement(sql), session_id, estimate.staircase, estimate.method, estimate.jnd_g,
-      estimate.low_g, estimate.high_g, estimate.n_trials, estimate.n_reversals, estimate.n_floor,
-      estimate.n_ceiling, estimate.reason);
-}
-
-void RowWriter::write_state(std::int64_t session_id, SessionState state) {
-  static const std::string sql = "UPDATE session SET state = ? WHERE session_id = ?";
-  run(statement(sql), state, session_id);
+      "cube", fmt::format("trial_id, {}", columns_of<CubeRow>()), "trial_id, slot");
+  insert(sql, cube, trial_id(session_id, cube.attempt_index));
 }
 
 void RowWriter::write_frame(std::int64_t session_id, const FrameRow& frame) {
-  if (frame.cubes.size() > schema::most_cubes)
+  if (frame.cubes.size() > FrameRow::most_cubes)
     throw Error(fmt::format("it has {} cubes, the log keeps at most {}", frame.cubes.size(),
-                            schema::most_cubes));
-  static const std::string sql =
-      digested_insert("frame", "session_id, trial_id",
-                      fmt::format("{}, {}", schema::frame_columns, schema::frame_timing_columns));
+                            FrameRow::most_cubes));
+  static const std::string sql = digested_insert<FrameRow>("frame", "session_id, trial_id");
   const auto trial_id = trial_id_or_none(session_id, frame.attempt_index);
   Binding row(statement(sql), session_id, trial_id);
   digest_.begin("frame", chain_.before_frame(session_id, trial_id));
   digest_.integer(frame.attempt_index);
-  row.also_into(digest_) << frame.after_event << frame.t_s << frame.trial_t_s << frame.capture_s
-                         << frame.present_s << frame.tracked << frame.jump << frame.contact_slot
-                         << frame.quality << frame.state_hash;
-  const Velocity& velocity = frame.effector_velocity;
-  row.exactly(frame.effector).exactly(velocity.linear_m_s).exactly(velocity.angular_rad_s);
-  if (frame.clone)
-    row << *frame.clone;
-  else
-    row.null(pose_columns);
-  for (const Pose& cube : frame.cubes) row << cube;
-  row.null(pose_columns * (schema::most_cubes - static_cast<int>(frame.cubes.size())));
-  if (frame.detected_s || frame.simulated_s || frame.n_dropped)
-    row << frame.detected_s << frame.simulated_s << frame.n_dropped;
-  else
-    row.undigested_null(schema::n_frame_timing_columns);
+  row.also_into(digest_);
+  const bool has_timing = frame.detected_s || frame.simulated_s || frame.n_dropped;
+  visit_columns(frame, BindRow(row, {log_version(session_id), has_timing}));
   chain_.frame_written(row.run_with_digest());
+  ++n_new_frames_;
 }
 
 }  // namespace heft

@@ -35,14 +35,15 @@ class RowWriter {
   /// What the participant told; told again, it takes the place of what was there.
   void write_info(std::int64_t session_id, const std::string& key, const std::string& value);
 
+  /// How many events and frames the session has now: call it before each commit, so that rows cut
+  /// off at the end are missed.
+  void write_counts(std::int64_t session_id);
+
   /// The attempt's planned trial, if it is in the log.
   std::optional<int> trial_number(std::int64_t session_id, int attempt_index);
 
   /// After a rollback: what was looked up may be gone.
-  void forget() {
-    last_attempt_.reset();
-    chain_.forget();
-  }
+  void forget();
 
  private:
   struct Attempt {
@@ -56,21 +57,25 @@ class RowWriter {
   std::optional<Attempt> find_attempt(std::int64_t session_id, int attempt_index);
   std::int64_t trial_id(std::int64_t session_id, int attempt_index);
   std::optional<std::int64_t> trial_id_or_none(std::int64_t session_id, int attempt_index);
+  std::optional<std::int64_t> setup_id(std::int64_t session_id, int setup_index);
+  int log_version(std::int64_t session_id);
 
   void write_event(std::int64_t session_id, const RecordedEvent& recorded);
   void write_event_row(std::int64_t session_id, int attempt_index, const Event& event);
   void write_frame(std::int64_t session_id, const FrameRow& frame);
+  void write_setup(std::int64_t session_id, const Setup& setup);
   void write_trial(std::int64_t session_id, const TrialRow& trial);
   void write_masses(std::int64_t session_id, const TrialRow& trial);
   void write_cube(std::int64_t session_id, const CubeRow& cube);
-  void write_answer(std::int64_t session_id, const AnswerRow& answer);
-  void write_reversal(std::int64_t session_id, const ReversalRow& reversal);
-  void write_estimate(std::int64_t session_id, const EstimateRow& estimate);
-  void write_state(std::int64_t session_id, SessionState state);
+  void write_info_digest(std::int64_t session_id);
+  template <typename Row, typename... Keys>
+  void insert(const std::string& sql, const Row& row, const Keys&... keys);
 
   SQLite::Database& database_;
   std::map<std::string, std::unique_ptr<SQLite::Statement>> statements_;
   std::optional<Attempt> last_attempt_;
+  std::optional<std::pair<std::int64_t, int>> log_version_;  ///< of the session written last
+  int n_new_events_ = 0, n_new_frames_ = 0;                  ///< not yet counted
   DigestChain chain_;
   RowDigest digest_;  ///< of the row being written
 };

@@ -4,27 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <vector>
+#include <map>
+#include <set>
 
+#include "record/ClosedLists.h"
 #include "record/Tables.h"
 
 namespace heft::schema {
 
 namespace {
-void create_version_1(SQLite::Database& database) {
-  database.exec(fmt::format("PRAGMA application_id = {}", application_id));
-  database.exec(tables_1);
-  database.exec(views_1);
-}
-
-void add_frame_timing(SQLite::Database& database) {
-  database.exec(changes_2);
-}
-
-// migrations[n] takes a file from user_version n to n + 1.
-constexpr std::array migrations{create_version_1, add_frame_timing};
-
 std::int64_t number(SQLite::Database& database, const char* query) {
   return database.execAndGet(query).getInt64();
 }
@@ -38,31 +26,82 @@ std::vector<std::string_view> columns_in(std::string_view list) {
     list.remove_prefix(comma + 2);
   }
 }
-}  // namespace
 
-int current_version() {
-  return static_cast<int>(migrations.size());
+void fill(SQLite::Database& database, const ClosedList& list) {
+  SQLite::Statement insert(database, insert_sql(list.table, "name"));
+  for (const std::string_view name : list.names) {
+    insert.bind(1, std::string(name));
+    insert.exec();
+    insert.reset();
+  }
 }
+
+// "table trial" and the text that made it.
+std::map<std::string, std::string> objects_in(SQLite::Database& database) {
+  std::map<std::string, std::string> objects;
+  SQLite::Statement query(database,
+                          "SELECT type || ' ' || name, ifnull(sql, '') FROM sqlite_master WHERE "
+                          "name NOT LIKE 'sqlite\\_%' ESCAPE '\\'");
+  while (query.executeStep())
+    objects[query.getColumn(0).getString()] = query.getColumn(1).getString();
+  return objects;
+}
+
+const std::map<std::string, std::string>& objects_of_a_log() {
+  static const auto objects = [] {
+    SQLite::Database fresh(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    create(fresh);
+    return objects_in(fresh);
+  }();
+  return objects;
+}
+
+std::vector<std::string> changed_lists(SQLite::Database& database) {
+  std::vector<std::string> changed;
+  for (const ClosedList& list : closed_lists()) {
+    std::set<std::string> names, found;
+    for (const std::string_view name : list.names) names.emplace(name);
+    SQLite::Statement query(database, fmt::format("SELECT name FROM {}", list.table));
+    while (query.executeStep()) found.insert(query.getColumn(0).getString());
+    if (found != names) changed.push_back(fmt::format("the entries of {}", list.table));
+  }
+  return changed;
+}
+}  // namespace
 
 FileKind kind_of(SQLite::Database& database) {
   const std::int64_t id = number(database, "PRAGMA application_id");
   const std::int64_t version = number(database, "PRAGMA user_version");
-  if (id == application_id && version > current_version()) return FileKind::newer_log;
-  if (id == application_id && version >= 1) return FileKind::log;
+  if (id == application_id && version > current_version) return FileKind::newer_log;
+  if (id == application_id && version == current_version) return FileKind::log;
+  if (id == application_id && version >= 1) return FileKind::older_log;
   const bool has_tables = number(database, "SELECT count(*) FROM sqlite_master") > 0;
   return id == 0 && version == 0 && !has_tables ? FileKind::empty : FileKind::foreign;
 }
 
-void migrate(SQLite::Database& database) {
-  const auto version = static_cast<std::size_t>(number(database, "PRAGMA user_version"));
-  if (version == migrations.size()) return;
-  for (std::size_t from = version; from < migrations.size(); ++from) migrations[from](database);
-  database.exec(fmt::format("PRAGMA user_version = {}", current_version()));
+void create(SQLite::Database& database) {
+  if (number(database, "PRAGMA user_version") == current_version) return;
+  database.exec(fmt::format("PRAGMA application_id = {}", application_id));
+  database.exec(tables());
+  for (const ClosedList& list : closed_lists()) fill(database, list);
+  database.exec(views);
+  database.exec(fmt::format("PRAGMA user_version = {}", current_version));
 }
 
-std::string frame_timing_in(SQLite::Database& database) {
-  if (number(database, "PRAGMA user_version") >= 2) return std::string(frame_timing_columns);
-  return "NULL AS detected_s, NULL AS simulated_s, NULL AS n_dropped";
+std::vector<std::string> foreign_objects(SQLite::Database& database) {
+  std::vector<std::string> foreign;
+  const auto found = objects_in(database);
+  for (const auto& [name, sql] : found) {
+    const auto ours = objects_of_a_log().find(name);
+    if (ours == objects_of_a_log().end())
+      foreign.push_back(name);
+    else if (ours->second != sql)
+      foreign.push_back(name + ", which is not as heft makes it");
+  }
+  for (const auto& [name, sql] : objects_of_a_log())
+    if (!found.contains(name)) foreign.push_back(name + ", which is missing");
+  if (foreign.empty()) foreign = changed_lists(database);
+  return foreign;
 }
 
 std::string insert_sql(std::string_view table, std::string_view columns) {

@@ -16,9 +16,10 @@ class SessionArchive::Impl {
 
   std::int64_t store(const RecordedSession& session) {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
-    schema::migrate(file_.database());
+    schema::create(file_.database());
     const std::int64_t session_id = writer_.write_session(session.header());
     for (const RecordedEntry& entry : session.entries()) writer_.write(session_id, entry);
+    writer_.write_counts(session_id);
     transaction.commit();
     return session_id;
   }

@@ -6,7 +6,16 @@
 #include <map>
 #include <string>
 
+#include "experiment/Rows.h"
+
 namespace heft {
+
+/// Why a session is run; analysis never mixes them unasked.
+enum class Purpose { main, pilot, test, simulated };
+template <>
+struct EnumNames<Purpose> {
+  static constexpr std::array<std::string_view, 4> names{"main", "pilot", "test", "simulated"};
+};
 
 /// The `session` table's row as a session starts.
 struct SessionHeader {
@@ -14,11 +23,29 @@ struct SessionHeader {
   std::string protocol_name, protocol_text, protocol_sha256;
   std::uint64_t seed = 0;  ///< 0...2^63-1
   std::string heft_version, build;
-  std::string run_options;  ///< JSON: the options it was started with
-  std::string purpose;      ///< main, pilot, test or simulated
+  std::string run_options;
+  std::string started_utc;
+  Purpose purpose = Purpose::main;
   std::string responder;
-  std::string started_utc;  ///< ISO 8601, the session's one anchor in UTC
+  int log_version = 3;
   std::map<std::string, std::string> participant_info;  ///< age, handedness...; all optional
 };
+template <typename Row, typename Visit>
+requires RowOf<Row, SessionHeader>
+void visit_columns(Row& row, Visit&& visit) {
+  visit(LogColumn{"participant", "", "who took part"}, row.participant);
+  visit(LogColumn{"protocol_name", "", "name of the protocol's file"}, row.protocol_name);
+  visit(LogColumn{"protocol_text", "", "the protocol as it was read"}, row.protocol_text);
+  visit(LogColumn{"protocol_sha256", "", "hash of that text"}, row.protocol_sha256);
+  visit(LogColumn{"seed", "", "that every draw of the session comes from", 1, ">= 0"}, row.seed);
+  visit(LogColumn{"heft_version", "", "version of the program that started it"}, row.heft_version);
+  visit(LogColumn{"build", "", "compiler and machine that built that program"}, row.build);
+  visit(LogColumn{"run_options", "", "the setup it was started with, as JSON"}, row.run_options);
+  visit(LogColumn{"started_utc", "", "when it started, ISO 8601"}, row.started_utc);
+  visit(LogColumn{"purpose", "", "why it was run"}, row.purpose);
+  visit(LogColumn{"responder", "", "who answered when it started; see setup"}, row.responder);
+  visit(LogColumn{"log_version", "", "version of the log that it was started in", 3, ">= 1"},
+        row.log_version);
+}
 
 }  // namespace heft

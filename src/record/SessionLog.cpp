@@ -60,7 +60,7 @@ class SessionLog::Impl {
 void SessionLog::Impl::start(const SessionHeader& header) {
   try {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
-    schema::migrate(file_.database());
+    schema::create(file_.database());
     session_id_ = writer_.write_session(header);
     transaction.commit();
   } catch (const std::exception& error) {
@@ -73,7 +73,7 @@ void SessionLog::Impl::reopen(std::int64_t session_id) {
     throw Error(fmt::format("{} holds no session yet. Start one with heft run.", file_.path()));
   try {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
-    schema::migrate(file_.database());
+    schema::create(file_.database());
     check_session(session_id);
     transaction.commit();
   } catch (const SQLite::Exception& error) {
@@ -154,6 +154,7 @@ void SessionLog::Impl::commit_waiting() {
   try {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
     for (const RecordedEntry& entry : waiting_) writer_.write(session_id_, entry);
+    writer_.write_counts(session_id_);
     transaction.commit();
     waiting_.clear();
   } catch (...) {

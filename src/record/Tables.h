@@ -1,14 +1,15 @@
-// SQL text of the log's tables and views, version by version.
+// SQL text of the log's tables and views. Private to this room.
 #pragma once
+
+#include <string>
+
+#include "record/Schema.h"
 
 namespace heft::schema {
 
-/// Version 1. A released version's text never changes; a change is one more version with its own
-/// migration (Schema.cpp).
-extern const char* const tables_1;
-extern const char* const views_1;
+/// CREATE statements of all tables and indexes, from the rows' descriptions.
+std::string tables();
 
-/// Version 2: where the time of a displayed picture went.
-extern const char* const changes_2;
+extern const char* const views;
 
 }  // namespace heft::schema

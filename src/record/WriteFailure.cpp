@@ -9,18 +9,18 @@
 namespace heft {
 
 namespace {
-std::string action_text(const Event& event) {
-  std::string text = event.detail;
-  if (event.slot) text += fmt::format(" cube {}", *event.slot);
-  if (event.label) text += fmt::format(" {}", name_of(*event.label));
+std::string action_text(const Action& action) {
+  std::string text(name_of(action.kind));
+  if (action.slot) text += fmt::format(" cube {}", *action.slot);
+  if (action.label) text += fmt::format(" {}", name_of(*action.label));
   return text;
 }
 }  // namespace
 
 std::string description(const Event& event, std::optional<int> trial_number) {
-  const std::string text = event.kind == EventKind::action
-                               ? fmt::format("the answer \"{}\"", action_text(event))
-                               : fmt::format("the event \"{}\"", name_of(event.kind));
+  const auto* action = event.as<Action>();
+  const std::string text = action ? fmt::format("the answer \"{}\"", action_text(*action))
+                                  : fmt::format("the event \"{}\"", name_of(event.kind()));
   return trial_number ? fmt::format("{} of trial {}", text, *trial_number) : text;
 }
 

@@ -1,0 +1,42 @@
+// An event as it stands in the log: the one place where what happened becomes text and back.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "experiment/Event.h"
+#include "experiment/Rows.h"
+
+namespace heft {
+
+struct EventRow {
+  int attempt_index = 0;  ///< 0: none
+  double t_s = 0;
+  EventKind kind = EventKind::note;
+  std::optional<int> slot;
+  std::optional<Label> label;
+  std::string detail;
+  std::optional<double> value;
+
+  bool operator==(const EventRow&) const = default;
+};
+template <typename Row, typename Visit>
+requires RowOf<Row, EventRow>
+void visit_columns(Row& row, Visit&& visit) {
+  visit(LogColumn{"t_s", "s", "session time", 1, ">= 0"}, row.t_s);
+  visit(LogColumn{"kind", "", "what happened"}, row.kind);
+  visit(LogColumn{"slot", "", "to which cube, 1 leftmost", 1, "BETWEEN 1 AND 6"}, row.slot);
+  visit(LogColumn{"label", "", "with which label"}, row.label);
+  visit(LogColumn{"detail", "", "the action, the reason, a text, or JSON, by kind"}, row.detail);
+  visit(LogColumn{"value", "", "a duration in seconds, by kind"}, row.value);
+}
+
+EventRow row_of(const Event& event);
+
+/// @throws Error when the row can't be an event of its kind: what was expected, what was found
+Event event_of(const EventRow& row);
+
+/// An event in a line, for people.
+std::string text_of(const Event& event);
+
+}  // namespace heft

@@ -1,0 +1,85 @@
+#include "record/OlderSetups.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "base/Error.h"
+#include "base/Names.h"
+#include "base/Sha256.h"
+#include "base/TextFile.h"
+
+namespace heft {
+
+namespace {
+
+struct TextOption {
+  const char* name;
+  std::string Setup::*value;
+};
+constexpr std::array text_options{TextOption{"responder", &Setup::responder},
+                                  TextOption{"responder_text", &Setup::responder_text},
+                                  TextOption{"tracker", &Setup::tracker},
+                                  TextOption{"tracker_text", &Setup::tracker_text},
+                                  TextOption{"view", &Setup::view},
+                                  TextOption{"simulator", &Setup::simulator},
+                                  TextOption{"auto_simulator", &Setup::simulator},
+                                  TextOption{"auto_why", &Setup::simulator_why},
+                                  TextOption{"camera_file", &Setup::camera_file},
+                                  TextOption{"camera_text", &Setup::camera_text},
+                                  TextOption{"board_file", &Setup::board_file},
+                                  TextOption{"board_text", &Setup::board_text},
+                                  TextOption{"effector_file", &Setup::effector_file},
+                                  TextOption{"effector_text", &Setup::effector_text},
+                                  TextOption{"texts_file", &Setup::texts_file},
+                                  TextOption{"texts_text", &Setup::texts_text},
+                                  TextOption{"handed", &Setup::handed},
+                                  TextOption{"record_camera", &Setup::record_camera}};
+
+void take(Setup& setup, std::string_view option, const std::string& value) {
+  if (option == "auto_rate_hz") setup.rate_hz = number_in(value);
+  for (const TextOption& text : text_options)
+    // What `auto` was comes after `simulator`, which then says "auto"; elsewhere it is empty.
+    if (option == text.name && (option != "auto_simulator" || !value.empty()))
+      setup.*text.value = value;
+}
+
+std::string hash_of(const std::string& text) {
+  return text.empty() ? "" : sha256(text);
+}
+
+Setup hashed(Setup setup) {
+  setup.camera_sha256 = hash_of(setup.camera_text);
+  setup.board_sha256 = hash_of(setup.board_text);
+  setup.effector_sha256 = hash_of(setup.effector_text);
+  setup.texts_sha256 = hash_of(setup.texts_text);
+  return setup;
+}
+
+}  // namespace
+
+Setup older_setup(const SessionHeader& header) try {
+  Setup setup;
+  setup.simulator_edition = 1;
+  setup.heft_version = header.heft_version;
+  setup.build = header.build;
+  const auto json = nlohmann::json::parse(header.run_options);
+  for (const TextOption& text : text_options)
+    if (json.contains(text.name)) take(setup, text.name, json.at(text.name));
+  if (json.contains("auto_rate_hz")) take(setup, "auto_rate_hz", json.at("auto_rate_hz"));
+  return hashed(setup);
+} catch (const nlohmann::json::exception& error) {
+  throw Error(fmt::format("session.run_options can't be read: {}", error.what()));
+}
+
+std::optional<Setup> after_deviation(const Setup& setup, const std::string& detail) {
+  const auto json = nlohmann::json::parse(detail, nullptr, false);
+  if (!json.is_object() || !json.contains("option") || !json.contains("to")) return std::nullopt;
+  if (!json["option"].is_string() || !json["to"].is_string()) return std::nullopt;
+  Setup after = setup;
+  take(after, json["option"].get<std::string>(), json["to"]);
+  return hashed(after);
+}
+
+}  // namespace heft

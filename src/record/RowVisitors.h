@@ -1,0 +1,104 @@
+// Rows into statements and out of cells, column by column as their descriptions say. Private to
+// this room.
+#pragma once
+
+#include "experiment/Rows.h"
+#include "record/Binding.h"
+#include "record/Cells.h"
+
+namespace heft {
+
+/// Which of a row's columns its digest is taken over: those that its session's version of the log
+/// knew. Version 2 put the times of a frame in only where there was one.
+struct DigestedColumns {
+  int log_version = 3;
+  bool has_timing = true;
+
+  bool has(int since) const {
+    return since <= log_version && (since != 2 || log_version > 2 || has_timing);
+  }
+};
+
+/// Writes a row's fields into a statement's places.
+class BindRow {
+ public:
+  explicit BindRow(Binding& row, DigestedColumns digested = {}) : row_(row), digested_(digested) {}
+
+  template <typename Field>
+  void operator()(const LogColumn& column, const Field& field) {
+    row_.digests(digested_.has(column.since)) << field;
+  }
+  void operator()(const LogColumn& column, const NullIfEmpty<const std::string>& text) {
+    row_.digests(digested_.has(column.since));
+    if (text.value.empty())
+      row_.null();
+    else
+      row_ << text.value;
+  }
+  void operator()(const PoseColumns&, const Exactly<const Pose>& pose) {
+    row_.digests(true).exactly(pose.value);
+  }
+  void operator()(const VelocityColumns&, const Exactly<const Velocity>& velocity) {
+    row_.digests(true).exactly(velocity.value.linear_m_s).exactly(velocity.value.angular_rad_s);
+  }
+  void operator()(const PoseColumns& columns, const std::optional<Pose>& pose) {
+    row_.digests(digested_.has(columns.since));
+    if (pose)
+      row_ << *pose;
+    else
+      row_.null(pose_columns);
+  }
+  void operator()(const PoseColumns& columns, const PoseAt<const std::vector<Pose>>& at) {
+    (*this)(columns, at.index < at.poses.size() ? std::optional(at.poses[at.index]) : std::nullopt);
+  }
+
+ private:
+  static constexpr int pose_columns = 7;
+
+  Binding& row_;
+  DigestedColumns digested_;
+};
+
+/// Fills a row's fields from cells.
+class FillRow {
+ public:
+  explicit FillRow(Cells& cells) : cells_(cells) {}
+
+  template <typename Field>
+  void operator()(const LogColumn&, Field& field) {
+    cells_.read(field);
+  }
+  void operator()(const LogColumn&, const NullIfEmpty<std::string>& text) {
+    text.value = cells_.text_or_none().value_or("");
+  }
+  void operator()(const PoseColumns&, const Exactly<Pose>& pose) { pose.value = cells_.pose(); }
+  void operator()(const VelocityColumns&, const Exactly<Velocity>& velocity) {
+    velocity.value.linear_m_s = cells_.vector();
+    velocity.value.angular_rad_s = cells_.vector();
+  }
+  void operator()(const PoseColumns&, std::optional<Pose>& pose) { pose = cells_.pose_or_none(); }
+  void operator()(const PoseColumns&, const PoseAt<std::vector<Pose>>& at) {
+    if (const auto pose = cells_.pose_or_none()) at.poses.push_back(*pose);
+  }
+
+ private:
+  Cells& cells_;
+};
+
+template <typename Row>
+Row row_from(Cells& cells) {
+  Row row{};
+  visit_columns(row, FillRow(cells));
+  return row;
+}
+
+/// A row of an attempt, whose index is the first cell after the row's id.
+template <typename Row>
+Row attempt_row_from(Cells& cells) {
+  const int attempt_index = cells.integer();
+  Row row = row_from<Row>(cells);
+  row.attempt_index = attempt_index;
+  return row;
+}
+
+}  // namespace heft

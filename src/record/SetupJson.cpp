@@ -1,0 +1,70 @@
+#include "record/SetupJson.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/Error.h"
+
+namespace heft {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Columns by their names, contents by theirs; what is not told is left out.
+struct Write {
+  Json& json;
+
+  template <typename Value>
+  void operator()(const LogColumn& column, const Value& value) const {
+    (*this)(column.name, value);
+  }
+  void operator()(std::string_view name, const std::string& text) const {
+    if (!text.empty()) json[std::string(name)] = text;
+  }
+  template <typename Value>
+  void operator()(std::string_view name, const std::optional<Value>& value) const {
+    if (value) json[std::string(name)] = *value;
+  }
+};
+
+struct Read {
+  const Json& json;
+
+  template <typename Value>
+  void operator()(const LogColumn& column, Value& value) const {
+    (*this)(column.name, value);
+  }
+  void operator()(std::string_view name, std::string& text) const {
+    const auto found = json.find(std::string(name));
+    if (found != json.end()) text = found->get<std::string>();
+  }
+  template <typename Value>
+  void operator()(std::string_view name, std::optional<Value>& value) const {
+    const auto found = json.find(std::string(name));
+    if (found != json.end()) value = found->get<Value>();
+  }
+};
+
+}  // namespace
+
+std::string to_json(const Setup& setup) {
+  Json json = Json::object();
+  visit_columns(setup, Write{json});
+  visit_contents(setup, Write{json});
+  return json.dump();
+}
+
+Setup setup_from_json(const std::string& text) try {
+  const Json json = Json::parse(text);
+  if (!json.is_object()) throw Error("a setup can't be read: expected a JSON object");
+  Setup setup;
+  visit_columns(setup, Read{json});
+  visit_contents(setup, Read{json});
+  return setup;
+} catch (const nlohmann::json::exception& error) {
+  throw Error(fmt::format("a setup can't be read: {}", error.what()));
+}
+
+}  // namespace heft

@@ -1,0 +1,157 @@
+// Logs of versions 1 and 2: their tables are made anew and their rows copied over as they are, so
+// that one program text serves all versions from there on.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+
+#include "base/Error.h"
+#include "record/Binding.h"
+#include "record/Cells.h"
+#include "record/OlderSetups.h"
+#include "record/RowSql.h"
+#include "record/RowVisitors.h"
+#include "record/Schema.h"
+#include "record/Tables.h"
+
+namespace heft::schema {
+
+namespace {
+
+constexpr int older_version = 2;  // version 1 differs in columns that may be NULL alone
+
+constexpr std::array older_tables{"session", "participant_info", "trial",    "event", "cube",
+                                  "answer",  "reversal",         "estimate", "frame"};
+constexpr std::array older_others{"index event_by_session", "index answer_by_trial",
+                                  "index frame_by_trial",   "view v_sorting",
+                                  "view v_trial",           "view v_jnd"};
+
+void refuse_foreign(SQLite::Database& database) {
+  SQLite::Statement query(database,
+                          "SELECT type, name FROM sqlite_master WHERE name NOT LIKE 'sqlite\\_%' "
+                          "ESCAPE '\\'");
+  while (query.executeStep()) {
+    const std::string type = query.getColumn(0), name = query.getColumn(1);
+    const bool ours =
+        type == "table" ? std::ranges::find(older_tables, name) != older_tables.end()
+                        : std::ranges::find(older_others, type + " " + name) != older_others.end();
+    if (!ours)
+      throw Error(
+          fmt::format("the log holds a {} that is none of heft's: {}. Take it out, or go on "
+                      "with a copy that never had it",
+                      type, name),
+          ExitCode::diverged);
+  }
+}
+
+std::string older(std::string_view table) {
+  return fmt::format("older_{}", table);
+}
+
+void set_aside(SQLite::Database& database) {
+  for (const std::string_view other : older_others) database.exec(fmt::format("DROP {}", other));
+  for (const char* table : older_tables)
+    database.exec(fmt::format("ALTER TABLE {} RENAME TO {}", table, older(table)));
+}
+
+// The columns that the older table has, as both have them.
+std::string shared_columns(SQLite::Database& database, const std::string& table) {
+  std::string columns;
+  SQLite::Statement query(database, fmt::format("SELECT o.name FROM pragma_table_info('{}') o JOIN "
+                                                "pragma_table_info('{}') n ON n.name = o.name",
+                                                older(table), table));
+  while (query.executeStep())
+    columns += (columns.empty() ? "" : ", ") + query.getColumn(0).getString();
+  return columns;
+}
+
+void copy(SQLite::Database& database, const std::string& table, std::string_view more = "",
+          std::string_view values = "") {
+  const std::string columns = shared_columns(database, table);
+  database.exec(fmt::format("INSERT INTO {0} ({1}{2}) SELECT {1}{3} FROM {4} o ORDER BY rowid",
+                            table, columns, more, values, older(table)));
+}
+
+struct OlderSession {
+  std::int64_t id = 0;
+  Setup setup;
+};
+
+std::vector<OlderSession> sessions_in(SQLite::Database& database, const std::string& path) {
+  std::vector<OlderSession> sessions;
+  SQLite::Statement query(
+      database, fmt::format("SELECT session_id, {} FROM session", columns_of<SessionHeader>()));
+  while (query.executeStep()) {
+    Cells cells(query, path, "session");
+    sessions.push_back({cells.id(), older_setup(row_from<SessionHeader>(cells))});
+  }
+  return sessions;
+}
+
+std::int64_t insert_setup(SQLite::Database& database, std::int64_t session_id, int index,
+                          std::optional<std::int64_t> event_id, const Setup& setup) {
+  SQLite::Statement insert(
+      database, insert_sql("setup", fmt::format("session_id, setup_index, from_event_id, {}",
+                                                columns_of<Setup>())));
+  Binding row(insert, session_id, index, event_id);
+  visit_columns(setup, BindRow(row));
+  row.run();
+  return database.getLastInsertRowid();
+}
+
+// A session's setups, and each trial's: that in force when it started.
+void tell_setups(SQLite::Database& database, const OlderSession& session) {
+  Setup setup = session.setup;
+  int index = 1;
+  std::int64_t setup_id = insert_setup(database, session.id, index, std::nullopt, setup);
+  SQLite::Statement point(database, "UPDATE trial SET setup_id = ? WHERE trial_id = ?");
+  SQLite::Statement events(
+      database,
+      "SELECT event_id, kind, detail, trial_id FROM event WHERE session_id = ? AND kind IN "
+      "('trial_started', 'deviation') ORDER BY event_id");
+  events.bind(1, session.id);
+  while (events.executeStep()) {
+    if (events.getColumn(1).getString() == "trial_started") {
+      if (!events.getColumn(3).isNull()) run(point, setup_id, events.getColumn(3).getInt64());
+    } else if (const auto after = after_deviation(setup, events.getColumn(2))) {
+      setup = *after;
+      setup_id = insert_setup(database, session.id, ++index, events.getColumn(0).getInt64(), setup);
+    }
+  }
+}
+
+void rebuild(SQLite::Database& database, const std::string& path) {
+  refuse_foreign(database);
+  set_aside(database);
+  database.exec("PRAGMA user_version = 0");
+  create(database);
+  copy(database, "session", ", log_version, n_events, n_frames",
+       fmt::format(", {}, (SELECT count(*) FROM older_event e WHERE e.session_id = o.session_id), "
+                   "(SELECT count(*) FROM older_frame f WHERE f.session_id = o.session_id)",
+                   older_version));
+  copy(database, "participant_info");
+  copy(database, "trial");
+  copy(database, "event");
+  copy(database, "cube", ", n_resets",
+       ", (SELECT count(*) FROM older_event e WHERE e.trial_id = o.trial_id AND e.kind = "
+       "'cubes_reset' AND (e.slot IS NULL OR e.slot = o.slot))");
+  for (const char* table : {"answer", "reversal", "estimate", "frame"}) copy(database, table);
+  for (const OlderSession& session : sessions_in(database, path)) tell_setups(database, session);
+  for (const char* table : older_tables) database.exec(fmt::format("DROP TABLE {}", older(table)));
+}
+
+}  // namespace
+
+void upgrade(SQLite::Database& database) {
+  const std::string path = database.getFilename();
+  database.exec("PRAGMA foreign_keys = OFF");
+  database.exec(
+      "PRAGMA legacy_alter_table = ON");  // nothing is to follow a table that is set aside
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+  if (kind_of(database) == FileKind::older_log) rebuild(database, path);
+  transaction.commit();
+  database.exec("PRAGMA legacy_alter_table = OFF");
+}
+
+}  // namespace heft::schema
