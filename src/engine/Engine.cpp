@@ -2,88 +2,85 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "base/Error.h"
-#include "engine/Planning.h"
 
 namespace heft {
 
-Engine::Engine(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed)
-    : plan_(std::move(plan)), seed_(seed) {
+namespace {
+template <typename... Kinds>
+bool is_any_of(const Happening& what) {
+  return (std::holds_alternative<Kinds>(what) || ...);
+}
+
+bool belongs_to_attempt(const Happening& what) {
+  return is_any_of<Action, CubesReset, CubesShown, CubeTouch, EffectorLost, EffectorFound>(what);
+}
+
+bool decides_course(const Happening& what) {
+  return is_any_of<TrialStarted, TrialVoided, SessionPaused, SessionContinued, DemonstrationShown,
+                   SessionResumed, SessionEnded>(what);
+}
+}  // namespace
+
+Engine::Engine(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed, int n_setups)
+    : plan_(std::move(plan)), seed_(seed), n_setups_(n_setups) {
   enter_block(0);
   next_ = what_next();
+}
+
+Admission Engine::admit(Event event) const {
+  if (auto why = refusal(event)) return {std::nullopt, std::move(*why)};
+  return {AdmittedEvent(std::move(event)), {}};
 }
 
 std::optional<std::string> Engine::refusal(const Event& event) const {
   if (!(event.t_s >= last_s_))
     return fmt::format("time {} s comes before the last event's {} s", event.t_s, last_s_);
-  switch (event.kind) {
-    case EventKind::action:
-    case EventKind::cubes_reset:
-    case EventKind::cubes_shown:
-    case EventKind::cube_contact:
-    case EventKind::effector_lost:
-    case EventKind::effector_found:
-      if (!open_) return "no trial is running";
-      if (paused_) return "the session is paused";
-      return open_->refusal(event);
-    case EventKind::trial_started:
-    case EventKind::voided:
-    case EventKind::paused:
-    case EventKind::continued:
-    case EventKind::demonstration_shown:
-    case EventKind::resumed:
-    case EventKind::ended:
-      if (over_) return "the session has ended";
-      return course_refusal(event);
-    default:
-      return std::nullopt;  // only kept
+  if (belongs_to_attempt(event.what)) {
+    if (!open_) return "no trial is running";
+    if (paused_) return "the session is paused";
+    return open_->refusal(event);
   }
+  if (!decides_course(event.what)) return std::nullopt;  // only kept
+  if (over_) return "the session has ended";
+  return course_refusal(event);
 }
 
 std::optional<std::string> Engine::course_refusal(const Event& event) const {
-  switch (event.kind) {
-    case EventKind::trial_started:
-      if (next_.kind != Next::Kind::trial) return "no trial is due";
-      return std::nullopt;
-    case EventKind::demonstration_shown:
-      if (next_.kind != Next::Kind::demonstration) return "no demonstration is due";
-      return std::nullopt;
-    case EventKind::voided:
-      if (!open_) return "no trial is running";
-      if (event.detail.empty()) return "it gives no reason";
-      return std::nullopt;
-    case EventKind::paused:
-      if (paused_) return "the session is paused already";
-      return std::nullopt;
-    case EventKind::continued:
-      if (!paused_) return "the session is not paused";
-      return std::nullopt;
-    case EventKind::resumed:
-      if (open_) return "the trial that was running must be voided first";
-      return std::nullopt;
-    case EventKind::ended:
-      if (open_) return "a trial is still running";
-      if (event.detail == "aborted") return std::nullopt;
-      if (event.detail != "finished") return "expected \"finished\" or \"aborted\"";
-      if (next_.kind != Next::Kind::finish) return "not everything is done";
-      return std::nullopt;
-    default:
-      return std::nullopt;
+  if (event.as<TrialStarted>() && next_.kind != Next::Kind::trial) return "no trial is due";
+  if (event.as<DemonstrationShown>() && next_.kind != Next::Kind::demonstration)
+    return "no demonstration is due";
+  if (const auto* voided = event.as<TrialVoided>()) {
+    if (!open_) return "no trial is running";
+    if (voided->reason.empty()) return "it gives no reason";
   }
+  if (event.as<SessionPaused>() && paused_) return "the session is paused already";
+  if (event.as<SessionContinued>() && !paused_) return "the session is not paused";
+  if (event.as<SessionResumed>() && open_) return "the trial that was running must be voided first";
+  if (const auto* ended = event.as<SessionEnded>()) {
+    if (open_) return "a trial is still running";
+    if (ended->how == Ending::finished && next_.kind != Next::Kind::finish)
+      return "not everything is done";
+  }
+  return std::nullopt;
 }
 
 Changes Engine::apply(const Event& event) {
-  if (const auto why = refusal(event)) {
-    throw Error(fmt::format("event \"{}\"{} at {} s can't come now: {}", name_of(event.kind),
-                            event.detail.empty() ? "" : " (" + event.detail + ")", event.t_s,
-                            *why));
-  }
+  const Admission admission = admit(event);
+  if (!admission.admitted)
+    throw Error(fmt::format("event \"{}\" at {} s can't come now: {}", name_of(event.kind()),
+                            event.t_s, admission.refusal));
+  return apply(*admission.admitted);
+}
+
+Changes Engine::apply(const AdmittedEvent& admitted) {
+  const Event& event = admitted.event();
   Changes changes;
   if (open_) {
     open_->account(event.t_s, paused_);
-    changes.attempt_index = open_->row().attempt_index;
+    changes.attempt_index = n_attempts_;
   }
   last_s_ = event.t_s;
   ++n_events_;
@@ -93,114 +90,98 @@ Changes Engine::apply(const Event& event) {
 }
 
 void Engine::fold(const Event& event, Changes& changes) {
-  switch (event.kind) {
-    case EventKind::trial_started:
-      return start_trial(event, changes);
-    case EventKind::action:
-      return act(event, changes);
-    case EventKind::voided:
-      return void_trial(event, changes);
-    case EventKind::paused:
-      paused_ = true;
-      return set_state(SessionState::paused, changes);
-    case EventKind::continued:
-    case EventKind::resumed:
-      paused_ = false;
-      return set_state(SessionState::running, changes);
-    case EventKind::demonstration_shown:
-      rest_.reset();
-      return enter_block(block_ + 1);
-    case EventKind::ended:
-      over_ = true;
-      return set_state(event.detail == "finished" ? SessionState::finished : SessionState::aborted,
-                       changes);
-    case EventKind::cubes_shown:
-      open_->show(event);
-      changes.trial = open_->row();
-      return;
-    case EventKind::cube_contact:
-      open_->touch(event);
-      changes.trial = open_->row();
-      changes.cubes = {open_->cube(*event.slot)};
-      return;
-    case EventKind::effector_lost:
-      return open_->lose_effector();
-    case EventKind::effector_found:
-      return open_->find_effector();
-    default:
-      return;
+  if (event.as<TrialStarted>()) return start_trial(event.t_s, changes);
+  if (const auto* action = event.as<Action>()) return act(*action, event.t_s, changes);
+  if (const auto* voided = event.as<TrialVoided>())
+    return void_trial(voided->reason, event.t_s, changes);
+  if (const auto* setup = event.as<Setup>()) {
+    ++n_setups_;
+    changes.setup = *setup;
+  } else if (event.as<SessionPaused>()) {
+    paused_ = true;
+    set_state(SessionState::paused, changes);
+  } else if (event.as<SessionContinued>() || event.as<SessionResumed>()) {
+    paused_ = false;
+    if (event.as<SessionResumed>()) n_voids_ = 0;  // somebody has looked
+    set_state(SessionState::running, changes);
+  } else if (event.as<DemonstrationShown>()) {
+    rest_.reset();
+    enter_block(block_ + 1);
+  } else if (const auto* ended = event.as<SessionEnded>()) {
+    over_ = true;
+    set_state(ended->how == Ending::finished ? SessionState::finished : SessionState::aborted,
+              changes);
+  } else if (event.as<CubesShown>()) {
+    open_->show(event.t_s);
+    changes.trial = open_->row();
+  } else if (const auto* contact = event.as<CubeTouch>()) {
+    open_->touch(*contact, event.t_s);
+    changes.trial = open_->row();
+    changes.cubes = {open_->cubes()[static_cast<std::size_t>(contact->slot - 1)]};
+  } else if (const auto* reset = event.as<CubesReset>()) {
+    open_->reset(*reset);
+    changes.cubes = open_->cubes();
+  } else if (event.as<EffectorLost>()) {
+    open_->lose_effector();
+  } else if (event.as<EffectorFound>()) {
+    open_->find_effector();
   }
 }
 
-void Engine::start_trial(const Event& event, Changes& changes) {
-  open_.emplace(++n_attempts_, *next_.plan, event.t_s, plan_->require_contact);
+void Engine::start_trial(double t_s, Changes& changes) {
+  TrialRow row;
+  row.attempt_index = ++n_attempts_;
+  row.setup_index = n_setups_;
+  row.started_s = t_s;
+  open_.emplace(row, *next_.plan, plan_->require_contact);
   rest_.reset();
   changes.attempt_index = n_attempts_;
   changes.trial = open_->row();
   changes.cubes = open_->cubes();
 }
 
-void Engine::act(const Event& event, Changes& changes) {
+void Engine::act(const Action& action, double t_s, Changes& changes) {
   const int n_wrong = open_->n_wrong();
-  const auto outcome = open_->act(event);
-  changes.answers = {
-      {open_->row().attempt_index, event.t_s, action_of(event), event.slot, event.label}};
-  if (outcome) return complete(event, *outcome, changes);
-  const auto* introduction = std::get_if<IntroductionBlock>(&plan_->blocks[block_]);
-  if (introduction && introduction->wrong_answer == WrongAnswer::reshuffle &&
-      open_->n_wrong() > n_wrong) {
+  const auto outcome = open_->act(action, t_s);
+  changes.answers = {{n_attempts_, t_s, action.kind, action.slot, action.label}};
+  if (outcome) return complete(*outcome, t_s, changes);
+  if (const auto* introduction = std::get_if<IntroductionRun>(&run_);
+      introduction && open_->n_wrong() > n_wrong) {
     const TrialPlan& plan = open_->plan();
-    open_->rearrange(plan_introduction(*introduction, {seed_, plan.trial_number, plan.attempt},
-                                       open_->n_wrong()));
-    changes.cubes = open_->cubes();
+    const auto anew =
+        introduction->rearranged({seed_, plan.trial_number, plan.attempt}, open_->n_wrong());
+    if (anew) {
+      open_->rearrange(*anew);
+      changes.cubes = open_->cubes();
+    }
   }
   changes.trial = open_->row();
 }
 
-void Engine::complete(const Event& event, Outcome outcome, Changes& changes) {
-  close(event, TrialStatus::completed, changes);
-  changes.trial->outcome = outcome;
-  if (staircase_) respond_to_staircase(changes);
+void Engine::complete(Outcome outcome, double t_s, Changes& changes) {
+  open_->complete(outcome, t_s);
+  changes.trial = open_->row();
+  open_.reset();
   ++n_completed_;
-  ++n_in_block_;
   attempt_ = 1;
   n_voids_ = 0;
-  if (block_done(plan_->blocks[block_])) enter_block(block_ + 1);
+  const bool done = std::visit(
+      [&](auto& run) {
+        if constexpr (requires { run.complete(changes); }) {
+          run.complete(changes);
+          return run.done();
+        }
+        return true;
+      },
+      run_);
+  if (done) enter_block(block_ + 1);
 }
 
-void Engine::respond_to_staircase(Changes& changes) {
-  const auto& block = std::get<ComparisonBlock>(plan_->blocks[block_]);
-  Staircase& staircase = staircases_[*staircase_];
-  const TrialRow& row = *changes.trial;
-  const bool chosen = row.outcome == Outcome::difference;
-  const bool positive = block.positive_answer == PositiveAnswer::any_choice
-                            ? chosen
-                            : chosen && row.choice_correct.value_or(false);
-  const Staircase::Update update = staircase.respond(positive);
-  const std::string& name = staircase.config().name;
-  if (update.reversal) {
-    const Reversal& reversal = *update.reversal;
-    changes.reversals = {{name, reversal.number, row.attempt_index, reversal.level,
-                          reversal.step_before, reversal.step_after}};
-  }
-  if (update.finish) {
-    EstimateRow estimate;
-    estimate.staircase = name;
-    estimate.method = "mean_of_reversals";
-    estimate.jnd_g = staircase.estimate();
-    estimate.n_trials = staircase.n_trials();
-    estimate.n_reversals = static_cast<int>(staircase.reversals().size());
-    estimate.n_floor = staircase.n_floor();
-    estimate.n_ceiling = staircase.n_ceiling();
-    estimate.reason = name_of(*update.finish);
-    changes.estimates = {estimate};
-  }
-  previous_staircase_ = staircase_;
-}
-
-void Engine::void_trial(const Event& event, Changes& changes) {
-  close(event, TrialStatus::voided, changes);
-  if (event.detail == void_interrupted) return;  // a crash is nobody's doing: the same draws again
+void Engine::void_trial(const std::string& reason, double t_s, Changes& changes) {
+  open_->make_void(reason, t_s);
+  changes.trial = open_->row();
+  open_.reset();
+  if (reason == void_interrupted) return;  // a crash is nobody's doing: the same draws again
   ++attempt_;
   if (++n_voids_ % max_voids == 0) {
     paused_ = true;
@@ -208,54 +189,35 @@ void Engine::void_trial(const Event& event, Changes& changes) {
   }
 }
 
-void Engine::close(const Event& event, TrialStatus status, Changes& changes) {
-  open_->close(event, status);
-  changes.trial = open_->row();
-  open_.reset();
-}
-
 void Engine::set_state(SessionState state, Changes& changes) {
   state_ = state;
   changes.state = state;
 }
 
-bool Engine::block_done(const Block& block) const {
-  if (const auto* sorting = std::get_if<SortingBlock>(&block))
-    return n_in_block_ >= sorting->trials;
-  if (std::holds_alternative<ComparisonBlock>(block))
-    return std::ranges::all_of(staircases_, [](const Staircase& s) { return s.finished(); });
-  return true;
-}
-
 void Engine::enter_block(std::size_t index) {
-  block_ = index;
-  n_in_block_ = 0;
-  staircases_.clear();
-  previous_staircase_.reset();
-  staircase_.reset();
-  while (block_ < plan_->blocks.size()) {
+  run_ = std::monostate{};
+  for (block_ = index; block_ < plan_->blocks.size(); ++block_) {
     const Block& block = plan_->blocks[block_];
     if (const auto* rest = std::get_if<BreakBlock>(&block)) {
       rest_ = *rest;
-      ++block_;
       continue;
     }
-    if (const auto* comparison = std::get_if<ComparisonBlock>(&block))
-      for (const auto& entry : comparison->staircases) staircases_.emplace_back(entry.staircase);
+    if (const auto* introduction = std::get_if<IntroductionBlock>(&block))
+      run_ = IntroductionRun(*introduction);
+    else if (const auto* sorting = std::get_if<SortingBlock>(&block))
+      run_ = SortingRun(*sorting, seed_);
+    else if (const auto* comparison = std::get_if<ComparisonBlock>(&block))
+      run_ = ComparisonRun(*comparison);
     return;
   }
 }
 
-Next Engine::what_next() {
+Next Engine::what_next() const {
   Next next;
   if (over_) return next;
   if (open_) next.plan = open_->plan();
-  if (paused_) {
-    next.kind = Next::Kind::paused;
-    return next;
-  }
-  if (open_) {
-    next.kind = Next::Kind::act;
+  if (paused_ || open_) {
+    next.kind = paused_ ? Next::Kind::paused : Next::Kind::act;
     return next;
   }
   if (block_ >= plan_->blocks.size()) {
@@ -263,22 +225,18 @@ Next Engine::what_next() {
     return next;
   }
   next.rest = rest_;
-  next.kind = Next::Kind::trial;
-  const Block& block = plan_->blocks[block_];
-  const TrialKey key{seed_, n_completed_ + 1, attempt_};
-  if (const auto* demonstration = std::get_if<DemonstrationBlock>(&block)) {
+  if (const auto* shown = std::get_if<DemonstrationBlock>(&plan_->blocks[block_])) {
     next.kind = Next::Kind::demonstration;
-    next.demonstration = *demonstration;
-  } else if (const auto* introduction = std::get_if<IntroductionBlock>(&block)) {
-    next.plan = plan_introduction(*introduction, key, 0);
-  } else if (const auto* sorting = std::get_if<SortingBlock>(&block)) {
-    next.plan = plan_sorting(*sorting, key, n_in_block_);
-  } else {
-    ComparisonPlan comparison =
-        plan_comparison(std::get<ComparisonBlock>(block), key, staircases_, previous_staircase_);
-    next.plan = std::move(comparison.plan);
-    staircase_ = comparison.staircase;
+    next.demonstration = *shown;
+    return next;
   }
+  next.kind = Next::Kind::trial;
+  const TrialKey key{seed_, n_completed_ + 1, attempt_};
+  std::visit(
+      [&](const auto& run) {
+        if constexpr (requires { run.plan(key); }) next.plan = run.plan(key);
+      },
+      run_);
   return next;
 }
 
@@ -293,10 +251,8 @@ ScreenState Engine::screen() const {
 }
 
 std::optional<std::string> Engine::survivor() const {
-  const auto unfinished = [](const Staircase& s) { return !s.finished(); };
-  if (staircases_.size() < 2 || std::ranges::count_if(staircases_, unfinished) != 1)
-    return std::nullopt;
-  return std::ranges::find_if(staircases_, unfinished)->config().name;
+  const auto* comparison = std::get_if<ComparisonRun>(&run_);
+  return comparison ? comparison->survivor() : std::nullopt;
 }
 
 }  // namespace heft

@@ -7,15 +7,17 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
+#include <variant>
 
 #include "engine/RunningAttempt.h"
+#include "engine/tasks/Comparison.h"
+#include "engine/tasks/Introduction.h"
+#include "engine/tasks/Sorting.h"
 #include "experiment/Block.h"
-#include "psychophysics/Staircase.h"
 
 namespace heft {
 
-/// So many voids of one trial (crashes not counted) pause the session.
+/// So many voids of one trial (crashes not counted) in a row, without a resume, pause the session.
 inline constexpr int max_voids = 3;
 
 /// What the session waits for.
@@ -34,29 +36,48 @@ struct Next {
   std::optional<BreakBlock> rest;                   ///< a break to take first
 };
 
+/// An event that the engine has said can come now. Still so while only contacts end in between.
+class AdmittedEvent {
+ public:
+  const Event& event() const { return event_; }
+
+ private:
+  friend class Engine;
+  explicit AdmittedEvent(Event event) : event_(std::move(event)) {}
+  Event event_;
+};
+
+/// Either the event, or why it can't come now.
+struct Admission {
+  std::optional<AdmittedEvent> admitted;
+  std::string refusal;
+};
+
 class Engine {
  public:
-  Engine(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed);
+  /// @param n_setups told before the first event: logs older than version 3 told one in their
+  /// header
+  Engine(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed, int n_setups = 0);
 
   std::uint64_t seed() const { return seed_; }
 
   const Next& next() const { return next_; }
 
-  /// Why the event can't come now; none if it can.
-  std::optional<std::string> refusal(const Event& event) const;
+  Admission admit(Event event) const;
 
   /// Folds one event. @return every row that it changes
+  Changes apply(const AdmittedEvent& event);
   /// @throws Error with the refusal, leaving the state as it was
   Changes apply(const Event& event);
 
-  /// Whether an action that is not refused would end the trial.
-  bool ends_trial(const Event& action) const { return open_ && open_->ends_trial(action); }
+  /// Whether an action that was admitted would end the trial.
+  bool ends_trial(const Action& action) const { return open_ && open_->ends_trial(action); }
 
   ScreenState screen() const;
 
   bool trial_is_open() const { return open_.has_value(); }
-  /// Paused because one trial was voided max_voids times: somebody has to look.
-  bool needs_somebody() const { return paused_ && n_voids_ > 0 && n_voids_ % max_voids == 0; }
+  /// Paused because one trial was voided max_voids times in a row: somebody has to look.
+  bool needs_somebody() const { return paused_ && n_voids_ >= max_voids; }
   SessionState state() const { return state_; }
   int n_events() const { return n_events_; }
   int n_attempts() const { return n_attempts_; }
@@ -67,34 +88,34 @@ class Engine {
   std::optional<std::string> survivor() const;
 
  private:
+  /// What a block's tasks have come to; none: it has no trials, or all blocks are done.
+  using BlockRun = std::variant<std::monostate, IntroductionRun, SortingRun, ComparisonRun>;
+
+  std::optional<std::string> refusal(const Event& event) const;
   std::optional<std::string> course_refusal(const Event& event) const;
   void fold(const Event& event, Changes& changes);
-  void start_trial(const Event& event, Changes& changes);
-  void act(const Event& event, Changes& changes);
-  void complete(const Event& event, Outcome outcome, Changes& changes);
-  void respond_to_staircase(Changes& changes);
-  void void_trial(const Event& event, Changes& changes);
-  void close(const Event& event, TrialStatus status, Changes& changes);
+  void start_trial(double t_s, Changes& changes);
+  void act(const Action& action, double t_s, Changes& changes);
+  void complete(Outcome outcome, double t_s, Changes& changes);
+  void void_trial(const std::string& reason, double t_s, Changes& changes);
   void set_state(SessionState state, Changes& changes);
 
-  bool block_done(const Block& block) const;
   void enter_block(std::size_t index);
-  Next what_next();
+  Next what_next() const;
 
   std::shared_ptr<const SessionPlan> plan_;
   std::uint64_t seed_;
   SessionState state_ = SessionState::running;
+  int n_setups_;
   int n_events_ = 0, n_attempts_ = 0, n_completed_ = 0;
   double last_s_ = 0;
   bool paused_ = false, over_ = false;
 
   std::size_t block_ = 0;  // of the next or open trial
-  int n_in_block_ = 0;     // trials completed in it
+  BlockRun run_;           // of that block
   std::optional<BreakBlock> rest_;
-  int attempt_ = 1, n_voids_ = 0;  // of the next or open trial
-  std::vector<Staircase> staircases_;
-  std::optional<std::size_t> previous_staircase_,
-      staircase_;  // of the last completed, the next trial
+  int attempt_ = 1;  // of the next or open trial
+  int n_voids_ = 0;  // of that trial, in a row without a resume
 
   std::optional<RunningAttempt> open_;
   Next next_;

@@ -1,12 +1,12 @@
-// One running attempt at a trial, folded from its events: labels and choices as the screen shows
-// them, contacts, and where the time went. Knows nothing of blocks and staircases; that is the
-// engine's.
+// One running attempt at a trial, folded from its events: answers as its task takes them, contacts,
+// and where the time went. Knows nothing of blocks and staircases; that is the engine's.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/tasks/TaskRules.h"
 #include "experiment/Event.h"
 #include "experiment/Rows.h"
 #include "experiment/ScreenState.h"
@@ -15,63 +15,59 @@ namespace heft {
 
 class RunningAttempt {
  public:
+  /// @param row attempt and setup index and the start's time are taken from it
   /// @param require_contact refuse final answers until every cube was touched
-  RunningAttempt(int attempt_index, const TrialPlan& plan, double t_s, bool require_contact);
+  RunningAttempt(const TrialRow& row, const TrialPlan& plan, bool require_contact);
 
-  const TrialPlan& plan() const { return row_.plan; }
-  const TrialRow& row() const { return row_; }
+  const TrialPlan& plan() const { return state_.plan; }
+  TrialRow row() const;
   const std::vector<CubeRow>& cubes() const { return cubes_; }
-  const CubeRow& cube(int slot) const { return cubes_.at(static_cast<std::size_t>(slot - 1)); }
   ScreenState screen() const;
 
-  /// Why an event of this attempt (action, cubes_shown, cube_contact, effector_lost...) can't come
-  /// now.
+  /// Why an event of this attempt can't come now; events of other kinds always can.
   std::optional<std::string> refusal(const Event& event) const;
 
   /// Accounts for the time since the last event, which was spent paused, with the effector lost, or
   /// at the task. Call before folding each event.
   void account(double t_s, bool paused);
 
-  void show(const Event& event);
-  void touch(const Event& event);
+  void show(double t_s);
+  void touch(const CubeTouch& contact, double t_s);
+  void reset(const CubesReset& reset);
   void lose_effector() { effector_lost_ = true; }
   void find_effector() { effector_lost_ = false; }
 
   /// Whether an action that is not refused would end the trial.
-  bool ends_trial(const Event& action) const;
+  bool ends_trial(const Action& action) const { return rules_->ends_trial(state_, action); }
 
   /// Folds an action. @return the outcome where it ends the trial
-  std::optional<Outcome> act(const Event& event);
+  std::optional<Outcome> act(const Action& action, double t_s);
 
   /// New cubes in the slots after a wrong introduction answer; their contacts count from here.
   void rearrange(const TrialPlan& plan);
 
-  void close(const Event& event, TrialStatus status);
+  void complete(Outcome outcome, double t_s);
+  void make_void(const std::string& reason, double t_s);
 
-  int n_wrong() const { return n_wrong_; }
+  int n_wrong() const { return state_.n_wrong; }
 
  private:
-  std::optional<std::string> action_refusal(const Event& event) const;
-  std::optional<std::string> contact_refusal(const Event& event) const;
+  std::optional<std::string> action_refusal(const Action& action) const;
+  std::optional<std::string> contact_refusal(const CubeTouch& contact) const;
+  std::optional<std::string> reset_refusal(const CubesReset& reset) const;
+  bool has_cube(int slot) const { return slot >= 1 && slot <= plan().n_slots(); }
   bool all_touched() const;
-  bool all_labeled() const;
-  bool labels_are_right() const;
-  bool is_heaviest(int slot) const;
-  std::optional<Outcome> choose(int slot);
 
-  TrialRow row_;
+  const TaskRules* rules_;
+  TaskState state_;
+  TrialRow row_;  // but for what the state holds
   bool require_contact_;
   double accounted_s_;
   bool cubes_shown_ = false;
   bool effector_lost_ = false;
   std::vector<CubeRow> cubes_;
   std::vector<std::optional<double>> contact_since_s_;  // by slot
-  std::vector<std::optional<Label>> labels_;            // by slot
-  int n_wrong_ = 0, n_choices_ = 0;
+  int n_choices_ = 0;
 };
-
-/// The action that an event of kind `action` stands for.
-/// @throws Error when its detail is no action
-ActionKind action_of(const Event& event);
 
 }  // namespace heft
