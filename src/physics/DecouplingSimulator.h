@@ -51,6 +51,8 @@ struct SimulatorEntry {
   std::string_view warning = {};
   /// Whether it models all that a person may do; others throw OutsideModel.
   bool for_sessions = true;
+  /// Counts up when the same scene and path come to give other bits; a log keeps it.
+  int edition = 1;
 };
 
 std::span<const SimulatorEntry> simulators();

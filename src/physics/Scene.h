@@ -3,8 +3,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/Names.h"
 #include "base/Pose.h"
 
 namespace heft {
@@ -18,6 +22,32 @@ struct Coupling {
   double clone_mass_kg = 0.010;
   double damping_ratio = 1;
 };
+
+/// How the clone follows the effector: by the paper's spring, or coupled, on the effector itself.
+enum class TechniqueKind { spring, coupled };
+template <>
+struct EnumNames<TechniqueKind> {
+  static constexpr std::array<std::string_view, 2> names{"spring", "coupled"};
+};
+
+/// A way to render mass, under the name that conditions call it by.
+struct Technique {
+  std::string name;
+  TechniqueKind kind = TechniqueKind::spring;
+  Coupling coupling{};  ///< spring only
+
+  /// The coupling that a scene takes.
+  Coupling in_scene() const {
+    Coupling taken = coupling;
+    taken.decoupled = kind == TechniqueKind::spring;
+    return taken;
+  }
+};
+
+/// One of the declared techniques, or the paper's: C1 is coupled, C2 a spring with these defaults.
+/// @throws std::out_of_range for any other name
+Technique technique_named(const std::string& name, const std::vector<Technique>& declared,
+                          const Coupling& defaults);
 
 struct Cube {
   double mass_kg = 0.2;

@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 
+#include "experiment/Rows.h"
 #include "protocol/StaircaseReader.h"
 
 namespace heft {
@@ -14,17 +15,21 @@ namespace {
 constexpr Range catch_fractions{0, 1, false, true};
 
 struct NamesInUse {
+  const TechniqueNames& techniques;
   UniqueNames blocks{"block"}, staircases{"staircase"};
 };
 
 // A task whose cubes weigh the same has no right answer.
-void read_masses(TableReader& table, std::vector<double>& masses_g, std::size_t count) {
+void read_masses(TableReader& table, std::vector<double>& masses_g, std::size_t fewest,
+                 std::size_t most) {
   table.require({"masses_g"});
   table.read("masses_g", masses_g, above_zero);
   if (!table.has("masses_g") || !table.good({"masses_g"})) return;
-  if (masses_g.size() != count)
-    table.mistake("masses_g", fmt::format("masses_g has {} masses, expected {}: one a cube",
-                                          masses_g.size(), count));
+  if (masses_g.size() < fewest || masses_g.size() > most)
+    table.mistake("masses_g",
+                  fmt::format("masses_g has {} masses, expected {}: one a cube", masses_g.size(),
+                              fewest == most ? fmt::format("{}", most)
+                                             : fmt::format("{} to {}", fewest, most)));
   for (std::size_t i = 0; i < masses_g.size(); ++i)
     if (std::ranges::count(std::span(masses_g).first(i), masses_g[i]) > 0)
       table.mistake("masses_g", i,
@@ -41,48 +46,72 @@ Block read_demonstration(TableReader& table, NamesInUse&) {
   return block;
 }
 
-Block read_introduction(TableReader& table, NamesInUse&) {
+Block read_introduction(TableReader& table, NamesInUse& names) {
   IntroductionBlock block;
   table.read("name", block.name);
-  read_masses(table, block.masses_g, 2);
-  table.read("condition", block.condition);
+  read_masses(table, block.masses_g, 2, 2);
+  names.techniques.read(table, block.condition);
   table.read("wrong_answer", block.wrong_answer);
   table.close();
   return block;
 }
 
-// Runs of one condition are shortest when the rarer condition parts the other's trials.
-int shortest_run(int c1_trials, int c2_trials) {
-  const int rarer = std::min(c1_trials, c2_trials), commoner = std::max(c1_trials, c2_trials);
-  return (commoner + rarer) / (rarer + 1);
+constexpr int most_trials = 500;  // beyond any session, and what drawing their order takes
+
+// trials = { C1 = 5, C2 = 5 }
+void read_trials_by_technique(TableReader& table, SortingBlock& block, NamesInUse& names) {
+  auto counts = table.table("trials");
+  block.trials.clear();
+  for (const std::string& technique : counts->keys()) {
+    int n = 0;
+    counts->read(technique, n, {0, most_trials});
+    names.techniques.check(*counts, technique, technique);
+    block.trials.push_back({technique, n});
+  }
+  if (block.n_trials() < 1 || block.n_trials() > most_trials)
+    table.mistake("trials", fmt::format("trials are {} in all, expected 1 to {}", block.n_trials(),
+                                        most_trials));
 }
 
-void check_conditions(TableReader& table, const SortingBlock& block) {
-  if (!table.good({"trials", "c1_trials"})) return;
-  if (block.c1_trials > block.trials)
-    return table.mistake("c1_trials", fmt::format("c1_trials is {}, expected at most trials {}",
-                                                  block.c1_trials, block.trials));
-  const int c2_trials = block.trials - block.c1_trials;
-  const int shortest = shortest_run(block.c1_trials, c2_trials);
-  if (table.good({"max_run"}) && block.max_run > 0 && block.max_run < shortest)
-    table.mistake("max_run",
-                  fmt::format("max_run is {}, but {} C1 and {} C2 trials can't be ordered without "
-                              "a longer run, expected at least {}, or 0 for any",
-                              block.max_run, block.c1_trials, c2_trials, shortest));
-}
-
-Block read_sorting(TableReader& table, NamesInUse&) {
-  constexpr int most_trials = 500;  // beyond any session, and what drawing their order takes
-  SortingBlock block;
+// trials = 10, c1_trials = 5: as it was written before techniques had names
+void read_trials_of_two(TableReader& table, SortingBlock& block) {
+  int trials = 10, c1_trials = 5;
   table.require({"trials", "c1_trials"});
+  table.read("trials", trials, {1, most_trials});
+  table.read("c1_trials", c1_trials, {0, most_trials});
+  if (table.good({"trials", "c1_trials"}) && c1_trials > trials)
+    table.mistake("c1_trials",
+                  fmt::format("c1_trials is {}, expected at most trials {}", c1_trials, trials));
+  block.trials = {{"C1", c1_trials}, {"C2", trials - c1_trials}};
+}
+
+// Runs of one technique are shortest when the others' trials part those of the commonest.
+void check_longest_run(TableReader& table, const SortingBlock& block) {
+  if (!table.good({"trials", "c1_trials", "max_run"}) || block.max_run == 0) return;
+  int commonest = 0;
+  for (const TechniqueTrials& some : block.trials) commonest = std::max(commonest, some.trials);
+  const int others = block.n_trials() - commonest;
+  const int shortest = (commonest + others) / (others + 1);
+  if (block.max_run < shortest)
+    table.mistake(
+        "max_run",
+        fmt::format("max_run is {}, but {} trials of one technique and {} of others can't "
+                    "be ordered without a longer run, expected at least {}, or 0 for any",
+                    block.max_run, commonest, others, shortest));
+}
+
+Block read_sorting(TableReader& table, NamesInUse& names) {
+  SortingBlock block;
   table.read("name", block.name);
-  read_masses(table, block.masses_g, 3);
-  table.read("trials", block.trials, {1, most_trials});
-  table.read("c1_trials", block.c1_trials, {0, most_trials});
+  read_masses(table, block.masses_g, 2, FrameRow::most_cubes);
+  if (table.has_table("trials"))
+    read_trials_by_technique(table, block, names);
+  else
+    read_trials_of_two(table, block);
   table.read("max_run", block.max_run);
   table.read("orders", block.orders);
   table.close();
-  check_conditions(table, block);
+  check_longest_run(table, block);
   return block;
 }
 
@@ -105,6 +134,7 @@ ReferenceStaircase read_reference_staircase(TableReader& table, NamesInUse& name
   ReferenceStaircase reference;
   table.require({"reference_g"});
   table.read("reference_g", reference.reference_g, above_zero);
+  names.techniques.read(table, reference.condition);
   reference.staircase = read_staircase(table);
   table.close();
   check_staircase(table, reference.staircase);
@@ -117,7 +147,7 @@ Block read_comparison(TableReader& table, NamesInUse& names) {
   ComparisonBlock block;
   table.require({"staircase"});
   table.read("name", block.name);
-  table.read("condition", block.condition);
+  names.techniques.read(table, block.condition);
   table.read("catch_fraction", block.catch_fraction, catch_fractions);
   table.read("positive_answer", block.positive_answer);
   block.interleaving = read_interleaving(table);
@@ -174,8 +204,8 @@ void check_breaks(std::vector<TableReader>& tables,
 }
 }  // namespace
 
-std::vector<Block> read_blocks(TableReader& protocol) {
-  NamesInUse names;
+std::vector<Block> read_blocks(TableReader& protocol, const TechniqueNames& techniques) {
+  NamesInUse names{techniques};
   std::vector<TableReader> tables = protocol.tables("block");
   std::vector<std::optional<Block>> read;
   for (TableReader& table : tables) read.push_back(read_block(table, names));

@@ -46,7 +46,7 @@ class Forecast {
   void operator()(const DemonstrationBlock& block) { seconds_ += block.duration_s; }
   void operator()(const BreakBlock& block) { seconds_ += block.least_duration_s; }
   void operator()(const IntroductionBlock&) { add_trials(1, durations_.introduction_s); }
-  void operator()(const SortingBlock& block) { add_trials(block.trials, durations_.sorting_s); }
+  void operator()(const SortingBlock& block) { add_trials(block.n_trials(), durations_.sorting_s); }
   void operator()(const ComparisonBlock& block) {
     double trials = 0;
     for (const ReferenceStaircase& reference : block.staircases)

@@ -9,8 +9,7 @@ void read_effector(TableReader& reader, Eigen::Vector3d& size_m) {
   table->close();
 }
 
-Coupling read_coupling(TableReader& table) {
-  Coupling coupling;
+Coupling read_coupling(TableReader& table, Coupling coupling) {
   table.read("stiffness_n_per_m", coupling.stiffness_n_per_m, above_zero);
   table.read("torsional_stiffness_nm_per_rad", coupling.torsional_stiffness_nm_per_rad, above_zero);
   table.read("clone_mass_kg", coupling.clone_mass_kg, above_zero);

@@ -20,15 +20,15 @@ Stage stage_of(const Protocol& protocol, int n) {
           layout.start_distance_m, protocol.display_rate_hz};
 }
 
-Scene scene_of(const Protocol& protocol, Condition condition, const std::vector<double>& masses_g) {
+Scene scene_of(const Protocol& protocol, const std::string& technique,
+               const std::vector<double>& masses_g) {
   Scene scene;
   scene.gravity_m_s2 = protocol.gravity_m_s2;
   scene.friction = protocol.friction_is == FrictionIs::per_body
                        ? protocol.friction * protocol.friction
                        : protocol.friction;
   scene.effector_size_m = protocol.effector_size_m;
-  scene.coupling = protocol.coupling;
-  scene.coupling.decoupled = condition == Condition::C2;
+  scene.coupling = technique_named(technique, protocol.techniques, protocol.coupling).in_scene();
   const double size_m = protocol.layout.cube_size_m;
   const auto slots_m = slot_positions(protocol.layout, static_cast<int>(masses_g.size()));
   for (std::size_t i = 0; i < masses_g.size(); ++i)
@@ -36,8 +36,8 @@ Scene scene_of(const Protocol& protocol, Condition condition, const std::vector<
   return scene;
 }
 
-Protocol load_protocol(const std::string& path) {
-  Protocol protocol = parse_protocol(read_text_file(path), path);
+Protocol load_protocol(const std::string& path, const std::vector<std::string>& settings) {
+  Protocol protocol = parse_protocol(read_text_file(path), path, settings);
   protocol.name = std::filesystem::path(path).stem().string();
   return protocol;
 }

@@ -59,7 +59,8 @@ struct Protocol : SessionPlan {
   double display_rate_hz = 15;
   double void_after_s = 5;  ///< a camera or board lost for longer voids the trial
   Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
-  Coupling coupling;
+  Coupling coupling;                  ///< of C2, and of techniques where they say nothing else
+  std::vector<Technique> techniques;  ///< declared; C1 and C2 are there without
   double friction = 0.8;
   FrictionIs friction_is = FrictionIs::between_surfaces;
   double gravity_m_s2 = 9.81;
@@ -74,8 +75,9 @@ std::vector<Eigen::Vector3d> slot_positions(const Layout& layout, int n);
 /// The visible geometry of a trial with n cubes.
 Stage stage_of(const Protocol& protocol, int n);
 
-/// The physics of a trial: masses in grams, leftmost first.
-Scene scene_of(const Protocol& protocol, Condition condition, const std::vector<double>& masses_g);
+/// The physics of a trial: the name of its technique; masses in grams, leftmost first.
+Scene scene_of(const Protocol& protocol, const std::string& technique,
+               const std::vector<double>& masses_g);
 
 /// @param text contents of the file  @param file its name, for messages
 /// @param settings changes to it, each KEY=VALUE (Settings.h)
@@ -84,6 +86,6 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
                         const std::vector<std::string>& settings = {});
 
 /// @throws Error when the file can't be read, InvalidFile as parse_protocol
-Protocol load_protocol(const std::string& path);
+Protocol load_protocol(const std::string& path, const std::vector<std::string>& settings = {});
 
 }  // namespace heft

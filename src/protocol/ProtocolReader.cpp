@@ -10,6 +10,7 @@
 #include "protocol/PhysicsReader.h"
 #include "protocol/Protocol.h"
 #include "protocol/Settings.h"
+#include "protocol/TechniqueReader.h"
 
 namespace heft {
 
@@ -45,9 +46,11 @@ void read_screens(TableReader& reader, ScreensChosen& screens) {
 
 // How many cubes the block with most of them shows.
 int most_cubes(const std::vector<Block>& blocks) {
-  const bool sorting = std::ranges::any_of(
-      blocks, [](const Block& block) { return std::holds_alternative<SortingBlock>(block); });
-  return sorting ? 3 : 2;
+  std::size_t most = 2;
+  for (const Block& block : blocks)
+    if (const auto* sorting = std::get_if<SortingBlock>(&block))
+      most = std::max(most, sorting->masses_g.size());
+  return static_cast<int>(most);
 }
 
 void check_fit(TableReader& table, const Layout& layout, int n_cubes) {
@@ -107,9 +110,10 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
     protocol.coupling = read_coupling(*table);
     table->close();
   }
+  protocol.techniques = read_techniques(reader, protocol.coupling);
   read_physics(reader, protocol);
   read_screens(reader, protocol.screens);
-  protocol.blocks = read_blocks(reader);
+  protocol.blocks = read_blocks(reader, TechniqueNames(protocol.techniques));
   read_layout(reader, protocol.layout, most_cubes(protocol.blocks));
   reader.close();
   mistakes.throw_if_any();

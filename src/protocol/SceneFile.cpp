@@ -6,8 +6,8 @@
 
 #include "base/Boxes.h"
 #include "base/TextFile.h"
-#include "experiment/Task.h"
 #include "protocol/PhysicsReader.h"
+#include "protocol/TechniqueReader.h"
 
 namespace heft {
 
@@ -90,6 +90,24 @@ void read_tolerance(TableReader& reader, Tolerance& tolerance) {
 }
 }  // namespace
 
+namespace {
+// [coupling] as the paper's technique has it, with `condition` to name another; or [[technique]]s
+// and which of them it is.
+Coupling read_scene_coupling(TableReader& reader) {
+  Coupling defaults;
+  auto table = reader.table("coupling");
+  if (table) defaults = read_coupling(*table);
+  const std::vector<Technique> declared = read_techniques(reader, defaults);
+  const TechniqueNames names(declared);
+  std::string technique = declared.empty() ? "C2" : declared.front().name;
+  if (table) {
+    names.read(*table, technique);
+    table->close();
+  }
+  return technique_named(technique, declared, defaults).in_scene();
+}
+}  // namespace
+
 Scene parse_scene(const std::string& text, const std::string& file) {
   Mistakes mistakes(file);
   const TomlTable root = parse_toml(text, file);
@@ -99,13 +117,7 @@ Scene parse_scene(const std::string& text, const std::string& file) {
   reader.read("gravity_m_s2", scene.gravity_m_s2, zero_or_more);
   reader.read("contact_compliance_m_per_n", scene.contact_compliance_m_per_n, zero_or_more);
   read_effector(reader, scene.effector_size_m);
-  if (auto table = reader.table("coupling")) {
-    Condition condition = Condition::C2;
-    table->read("condition", condition);
-    scene.coupling = read_coupling(*table);
-    scene.coupling.decoupled = condition == Condition::C2;
-    table->close();
-  }
+  scene.coupling = read_scene_coupling(reader);
   scene.clone_offset = read_clone_offset(reader);
   scene.cubes = read_cubes(reader);
   read_tolerance(reader, scene.tolerance);

@@ -222,6 +222,18 @@ void TableReader::read_size(std::string_view key, Eigen::Vector3d& field) {
   if (const auto value = number(entry->node, key, above_zero)) field.setConstant(*value);
 }
 
+bool TableReader::has_table(std::string_view key) const {
+  const TomlEntry* entry = find(key);
+  return entry && std::holds_alternative<TomlTable>(entry->node.value);
+}
+
+std::vector<std::string> TableReader::keys() const {
+  std::vector<std::string> keys;
+  for (const TomlEntry& entry : *table_) keys.push_back(entry.key);
+  std::ranges::sort(keys);
+  return keys;
+}
+
 std::optional<TableReader> TableReader::table(std::string_view key) {
   const TomlEntry* entry = take(key);
   if (!entry) return std::nullopt;

@@ -64,6 +64,9 @@ class TableReader {
   void close();
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
+  bool has_table(std::string_view key) const;
+  /// By name.
+  std::vector<std::string> keys() const;
   /// Whether no mistake was noted at any of these keys.
   bool good(std::initializer_list<std::string_view> keys) const;
   /// Notes a mistake at the key's value, or at the table where the key is absent.
