@@ -19,7 +19,7 @@ Table jnd_table(const Summary& summary) {
               {},
               "n participants; SD between them (n-1); Student t interval"};
   for (const ReferenceJnd& jnd : summary.jnd)
-    table.rows.push_back({mass(jnd.compared.reference_g), named_cell(jnd.compared.condition),
+    table.rows.push_back({mass(jnd.compared.reference_g), word(jnd.compared.condition),
                           number(jnd.mean_g), number(jnd.sd_g), low(jnd.interval_g),
                           high(jnd.interval_g), count(static_cast<int>(jnd.participants.size())),
                           number(jnd.published_g), number(jnd.published_sd_g)});
@@ -49,8 +49,8 @@ Table staircase_health_table(const Summary& summary) {
   for (const ReferenceJnd& jnd : summary.jnd) {
     const bool any = jnd.n_staircases > 0;
     table.rows.push_back(
-        {mass(jnd.compared.reference_g), named_cell(jnd.compared.condition),
-         count(jnd.n_staircases), count(jnd.n_unfinished), any ? number(jnd.mean_trials) : Cell(),
+        {mass(jnd.compared.reference_g), word(jnd.compared.condition), count(jnd.n_staircases),
+         count(jnd.n_unfinished), any ? number(jnd.mean_trials) : Cell(),
          any ? count(jnd.least_trials) : Cell(), any ? count(jnd.most_trials) : Cell(),
          count(jnd.n_trial_limit), count(jnd.n_without_estimate), count(jnd.n_floor),
          count(jnd.n_floor_staircases), count(jnd.n_ceiling), count(jnd.n_ceiling_staircases)});
@@ -126,12 +126,11 @@ Table staircase_list(const Summary& summary) {
               {},
               ""};
   for (const StaircaseResult& result : summary.staircases)
-    table.rows.push_back({word(std::to_string(result.session_id)), word(result.participant),
-                          word(result.staircase), mass(result.compared.reference_g),
-                          named_cell(result.compared.condition), number(result.jnd_g),
-                          count(result.n_trials), count(result.n_reversals), count(result.n_floor),
-                          count(result.n_ceiling),
-                          word(result.at_trial_limit ? "trials" : "reversals")});
+    table.rows.push_back(
+        {word(std::to_string(result.session_id)), word(result.participant), word(result.staircase),
+         mass(result.compared.reference_g), word(result.compared.condition), number(result.jnd_g),
+         count(result.n_trials), count(result.n_reversals), count(result.n_floor),
+         count(result.n_ceiling), word(result.at_trial_limit ? "trials" : "reversals")});
   return table;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/Error.h"
@@ -17,18 +16,25 @@ std::vector<double> Attempt::masses_g() const {
   return masses;
 }
 
-bool SessionData::simulated() const {
-  return session.header.purpose == "simulated" || session.header.responder != "human";
+std::optional<std::string> SessionData::model() const {
+  for (const LoggedSetup& logged : setups) {
+    if (has_person(logged.setup)) continue;
+    const bool answered = std::ranges::any_of(attempts, [&](const Attempt& attempt) {
+      return attempt.trial.setup_index == logged.setup_index;
+    });
+    if (answered || attempts.empty()) return logged.setup.responder;
+  }
+  return std::nullopt;
 }
 
 std::string SessionData::participant() const {
-  const SessionHeader& header = session.header;
-  return simulated() ? fmt::format("{} ({})", header.participant, header.responder)
-                     : header.participant;
+  const auto responder = model();
+  return responder ? fmt::format("{} ({})", session.header.participant, *responder)
+                   : session.header.participant;
 }
 
 SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
-  SessionData data{session, {}, rows.estimates, {}};
+  SessionData data{session, {}, rows.estimates, {}, {}};
   std::map<int, std::size_t> place;  // attempt index -> its place in data.attempts
   for (const TrialRow& trial : rows.trials) {
     place[trial.attempt_index] = data.attempts.size();
@@ -50,14 +56,12 @@ SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
 
 PictureCounts count_pictures(const std::vector<LoggedEvent>& events) {
   PictureCounts counts;
-  for (const LoggedEvent& logged : events) {
-    if (logged.event.kind != EventKind::camera) continue;
-    const auto json = nlohmann::json::parse(logged.event.detail, nullptr, false);
-    if (!json.is_object()) continue;
-    counts.shown += json.value("shown", 0);
-    counts.dropped += json.value("dropped", 0);
-    counts.late += json.value("late", 0);
-  }
+  for (const LoggedEvent& logged : events)
+    if (const auto* report = logged.event.as<CameraReport>()) {
+      counts.shown += report->n_shown;
+      counts.dropped += report->n_dropped;
+      counts.late += report->n_late;
+    }
   return counts;
 }
 
@@ -73,6 +77,7 @@ Dataset read_dataset(const std::string& database, const std::vector<std::int64_t
     dataset.sessions.push_back(join_rows(session, {log.trials(id), log.cubes(id), log.answers(id),
                                                    log.reversals(id), log.estimates(id)}));
     SessionData& data = dataset.sessions.back();
+    data.setups = log.setups(id);
     if (!data.simulated()) data.pictures = count_pictures(log.events(id));
   }
   return dataset;
@@ -80,7 +85,8 @@ Dataset read_dataset(const std::string& database, const std::vector<std::int64_t
 
 std::vector<std::string> purposes(const Dataset& dataset) {
   std::set<std::string> names;
-  for (const SessionData& data : dataset.sessions) names.insert(data.session.header.purpose);
+  for (const SessionData& data : dataset.sessions)
+    names.emplace(name_of(data.session.header.purpose));
   return {names.begin(), names.end()};
 }
 
@@ -90,7 +96,7 @@ void refuse_mixed_purposes(const Dataset& dataset) {
   std::string counts;
   for (const std::string& name : names) {
     const auto n = std::ranges::count(dataset.sessions, name, [](const SessionData& data) {
-      return data.session.header.purpose;
+      return name_of(data.session.header.purpose);
     });
     counts += fmt::format("{}{} of purpose \"{}\"", counts.empty() ? "" : ", ", n, name);
   }

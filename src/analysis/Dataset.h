@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,12 @@ struct SessionData {
   std::vector<Attempt> attempts;
   std::vector<EstimateRow> estimates;
   PictureCounts pictures;
+  std::vector<LoggedSetup> setups;  ///< what was in force, in order
 
-  /// No person answered: of that purpose, or the responder is not a human.
-  bool simulated() const;
+  /// A model answered at least one of its trials; where there is none, was to answer.
+  bool simulated() const { return model().has_value(); }
+  /// That model.
+  std::optional<std::string> model() const;
   /// Who is counted as one. Simulated responders of one name but different models are not.
   std::string participant() const;
   bool finished() const { return session.state == SessionState::finished; }

@@ -38,7 +38,7 @@ std::string first_try_figure(const IntroductionSummary& introduction) {
 }
 
 bool counts(const ReferenceJnd& jnd) {
-  return jnd.compared.condition == Condition::C2 && jnd.mean_g.has_value();
+  return jnd.compared.condition == "C2" && jnd.mean_g.has_value();
 }
 
 std::vector<std::string> jnd_figures(const Summary& summary) {
@@ -92,7 +92,7 @@ std::vector<std::string> ratio_figures(const Summary& summary) {
 }  // namespace
 
 std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
-  const auto& [c1, c2] = summary.sorting;
+  const ConditionSorting &c1 = summary.sorting.at(0), &c2 = summary.sorting.at(1);
   std::vector<std::string> rising = jnd_figures(summary);
   rising.push_back(rising_figure(summary));
   return {{"E1-H1",

@@ -80,7 +80,7 @@ ReferenceJnd jnd_at(const Compared& compared, std::span<const StaircaseResult> r
   jnd.sd_g = sample_sd(values);
   if (jnd.sd_g.value_or(0) > 0) jnd.interval_g = student_t_interval(values);
   const auto figure = published::jnd_at(compared.reference_g);
-  if (figure && compared.condition == Condition::C2) {
+  if (figure && compared.condition == "C2") {
     jnd.published_g = figure->mean_g;
     jnd.published_sd_g = figure->sd_g;
   }

@@ -19,7 +19,7 @@ inline constexpr std::string_view jnd_method = "mean_of_reversals";
 /// What a staircase compared with, and how the clone was coupled; ordered by reference.
 struct Compared {
   double reference_g = 0;
-  Condition condition = Condition::C2;
+  std::string condition;
 
   auto operator<=>(const Compared&) const = default;
 };

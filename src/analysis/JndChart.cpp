@@ -18,7 +18,7 @@ constexpr double participants_dx = -0.022, published_dx = 0.022;  // of the x ax
 std::vector<ReferenceJnd> drawn(const Summary& summary) {
   std::vector<ReferenceJnd> jnds;
   for (const ReferenceJnd& jnd : summary.jnd)
-    if (jnd.mean_g && jnd.compared.condition == Condition::C2) jnds.push_back(jnd);
+    if (jnd.mean_g && jnd.compared.condition == "C2") jnds.push_back(jnd);
   return jnds;
 }
 

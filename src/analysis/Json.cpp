@@ -88,7 +88,7 @@ ordered_json jnd_json(const ReferenceJnd& jnd) {
     return any ? ordered_json(value) : ordered_json(nullptr);
   };
   return {{"reference_g", figure(jnd.compared.reference_g)},
-          {"condition", name_of(jnd.compared.condition)},
+          {"condition", jnd.compared.condition},
           {"mean_g", figure(jnd.mean_g)},
           {"sd_g", figure(jnd.sd_g)},
           {"low_g", low(jnd.interval_g)},
@@ -126,7 +126,7 @@ ordered_json choices_json(const ComparisonChoices& choices) {
 
 ordered_json times_json(const ResponseTimes& times) {
   return {{"task", name_of(times.task)},
-          {"condition", name_of(times.condition)},
+          {"condition", times.condition},
           {"n_trials", times.n_trials},
           {"median_s", figure(times.median_s)},
           {"lower_quartile_s", figure(times.lower_quartile_s)},
@@ -162,7 +162,7 @@ ordered_json comparison_json(const ComparisonSummary& comparison) {
 }  // namespace
 
 std::string as_json(const Summary& summary) {
-  const auto& [c1, c2] = summary.sorting;
+  const ConditionSorting &c1 = summary.sorting.at(0), &c2 = summary.sorting.at(1);
   const auto void_json = [](const VoidCount& count) -> ordered_json {
     return {{"reason", count.reason}, {"n", count.n}};
   };

@@ -15,7 +15,6 @@ namespace {
 class Collector {
  public:
   explicit Collector(const Protocol& protocol) : name_(protocol.name) {
-    add("pictures a second", fmt::format("{:g}", protocol.display_rate_hz));
     add("effector, length x width x height",
         fmt::format("{:g} x {:g} x {:g} mm", 1e3 * protocol.effector_size_m.x(),
                     1e3 * protocol.effector_size_m.y(), 1e3 * protocol.effector_size_m.z()));
@@ -23,8 +22,6 @@ class Collector {
     add("start distance", fmt::format("{:g} mm", 1e3 * protocol.layout.start_distance_m));
     add("cubes that leave their area", std::string(name_of(protocol.layout.out_of_area)));
     add("friction", fmt::format("{:g}, {}", protocol.friction, name_of(protocol.friction_is)));
-    add("simulator",
-        fmt::format("{} at {:g} Hz", protocol.simulator.name, protocol.simulator.rate_hz));
     add("effector between pictures", input_text(protocol.simulator.input));
     add("answers need contact with every cube", protocol.require_contact ? "yes" : "no");
     add("practice and feedback", "none");
@@ -37,9 +34,13 @@ class Collector {
   }
   void operator()(const SortingBlock& block) {
     add("sorting orders", std::string(name_of(block.orders)));
-    add("C1 and C2", fmt::format("{} and {} shuffled, longest run {}", block.c1_trials,
-                                 block.trials - block.c1_trials,
-                                 block.max_run > 0 ? fmt::format("{}", block.max_run) : "any"));
+    std::string counts, names;
+    for (const auto& [technique, trials] : block.trials) {
+      counts += fmt::format("{}{}", counts.empty() ? "" : " and ", trials);
+      names += (names.empty() ? "" : " and ") + technique;
+    }
+    add(names, fmt::format("{} shuffled, longest run {}", counts,
+                           block.max_run > 0 ? fmt::format("{}", block.max_run) : "any"));
   }
   void operator()(const BreakBlock& block) {
     add(block.name, fmt::format("a break of at least {:g} s", block.least_duration_s));
@@ -80,6 +81,45 @@ class Collector {
   std::string name_;
 };
 
+// What was in force in the trials of a protocol's sessions, as their setups tell it; each once.
+class InForce {
+ public:
+  void add(const SessionData& data, const Protocol& protocol) {
+    for (const LoggedSetup& logged : data.setups) {
+      const Setup& setup = logged.setup;
+      // Older logs told what differed from the protocol.
+      const std::string simulator =
+          setup.simulator.empty() ? protocol.simulator.name : setup.simulator;
+      simulators_.insert(fmt::format("{} at {:g} Hz", simulator,
+                                     setup.rate_hz.value_or(protocol.simulator.rate_hz)));
+      const double wanted_hz = setup.display_rate_hz.value_or(protocol.display_rate_hz);
+      rates_.insert(
+          setup.source_rate_hz && *setup.source_rate_hz < wanted_hz
+              ? fmt::format("{:g}, of a source that gives {:.3g}", wanted_hz, *setup.source_rate_hz)
+              : fmt::format("{:g}", wanted_hz));
+      if (!setup.settings.empty()) settings_.insert(setup.settings);
+    }
+  }
+
+  std::vector<ProtocolChoice> choices(const std::string& protocol) const {
+    std::vector<ProtocolChoice> choices{{protocol, "frames a second", joined(rates_)},
+                                        {protocol, "simulator", joined(simulators_)}};
+    if (!settings_.empty()) choices.push_back({protocol, "changed by --set", joined(settings_)});
+    return choices;
+  }
+
+ private:
+  static std::string joined(const std::set<std::string>& texts) {
+    return fmt::format("{}", fmt::join(texts, "; "));
+  }
+
+  std::set<std::string> simulators_, rates_, settings_;
+};
+
+std::string key_of(const SessionData& data) {
+  return data.session.header.protocol_name + data.session.header.protocol_sha256;
+}
+
 }  // namespace
 
 std::vector<ProtocolChoice> choices_in(const Protocol& protocol) {
@@ -94,12 +134,17 @@ std::vector<ProtocolChoice> protocol_choices(const std::vector<SessionData>& ses
   std::set<std::string> seen;
   for (const SessionData& data : sessions) {
     const SessionHeader& header = data.session.header;
-    if (!seen.insert(header.protocol_name + header.protocol_sha256).second) continue;
+    if (!seen.insert(key_of(data)).second) continue;
     try {
       Protocol protocol = parse_protocol(header.protocol_text, header.protocol_name);
       protocol.name = header.protocol_name;
       if (hashes_by_name[header.protocol_name].size() > 1)
         protocol.name = fmt::format("{} {:.8}", header.protocol_name, header.protocol_sha256);
+      InForce in_force;
+      for (const SessionData& other : sessions)
+        if (key_of(other) == key_of(data)) in_force.add(other, protocol);
+      for (ProtocolChoice& choice : in_force.choices(protocol.name))
+        all.push_back(std::move(choice));
       for (ProtocolChoice& choice : choices_in(protocol)) all.push_back(std::move(choice));
     } catch (const InvalidFile&) {
     }

@@ -17,9 +17,9 @@ Table times_table(const Summary& summary) {
               "from all cubes shown to the answer, without pauses and time with the effector out "
               "of view"};
   for (const ResponseTimes& times : summary.times)
-    table.rows.push_back({named_cell(times.task), named_cell(times.condition),
-                          count(times.n_trials), number(times.median_s),
-                          number(times.lower_quartile_s), number(times.upper_quartile_s)});
+    table.rows.push_back({named_cell(times.task), word(times.condition), count(times.n_trials),
+                          number(times.median_s), number(times.lower_quartile_s),
+                          number(times.upper_quartile_s)});
   return table;
 }
 

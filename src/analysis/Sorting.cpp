@@ -46,12 +46,12 @@ void put_beside(ConditionSorting& sorting, const published::Sorting& figures) {
   sorting.answered_correct.published_percent = figures.answered_correct_percent;
 }
 
-bool counts(const Attempt& attempt, Condition condition) {
+bool counts(const Attempt& attempt, const std::string& condition) {
   return attempt.completed() && attempt.trial.plan.task == Task::sorting &&
          attempt.trial.plan.condition == condition && attempt.trial.outcome.has_value();
 }
 
-ConditionSorting sorting_in(Condition condition, std::span<const SessionData> sessions) {
+ConditionSorting sorting_in(const std::string& condition, std::span<const SessionData> sessions) {
   ConditionSorting sorting;
   sorting.condition = condition;
   Tallied tallied;
@@ -76,7 +76,7 @@ ConditionSorting sorting_in(Condition condition, std::span<const SessionData> se
   sorting.n_trials = sorting.correct.trials.n_trials;
   sorting.n_participants = sorting.correct.n_participants;
   if (sorting.n_trials > 0 && as_published)
-    put_beside(sorting, condition == Condition::C1 ? published::sorting_c1 : published::sorting_c2);
+    put_beside(sorting, condition == "C1" ? published::sorting_c1 : published::sorting_c2);
   return sorting;
 }
 }  // namespace
@@ -117,8 +117,19 @@ std::optional<Swap> swap_of(std::span<const double> masses_g,
   return Swap::all_three;
 }
 
-std::array<ConditionSorting, 2> sorting_of(std::span<const SessionData> sessions) {
-  return {sorting_in(Condition::C1, sessions), sorting_in(Condition::C2, sessions)};
+std::vector<ConditionSorting> sorting_of(std::span<const SessionData> sessions) {
+  std::vector<std::string> techniques{"C1", "C2"};  // the paper's first, there or not
+  for (const SessionData& data : sessions)
+    for (const Attempt& attempt : data.attempts) {
+      const TrialPlan& plan = attempt.trial.plan;
+      if (plan.task == Task::sorting &&
+          std::ranges::find(techniques, plan.condition) == techniques.end())
+        techniques.push_back(plan.condition);
+    }
+  std::vector<ConditionSorting> sorting;
+  for (const std::string& technique : techniques)
+    sorting.push_back(sorting_in(technique, sessions));
+  return sorting;
 }
 
 }  // namespace heft

@@ -31,7 +31,7 @@ std::optional<Swap> swap_of(std::span<const double> masses_g,
                             std::span<const std::optional<Label>> labels);
 
 struct ConditionSorting {
-  Condition condition = Condition::C1;
+  std::string condition;
   int n_trials = 0;
   int n_participants = 0;
   Share correct, incorrect, none;              ///< of all completed trials; none: "I don't know"
@@ -41,6 +41,6 @@ struct ConditionSorting {
 
 /// Completed trials of both conditions. A participant's sessions count together. The paper's
 /// figures are beside where all cubes have the paper's masses.
-std::array<ConditionSorting, 2> sorting_of(std::span<const SessionData> sessions);
+std::vector<ConditionSorting> sorting_of(std::span<const SessionData> sessions);
 
 }  // namespace heft

@@ -68,7 +68,7 @@ std::string bars_plot(std::string_view block, const ConditionSorting& sorting,
                       std::string_view meaning, std::string_view color) {
   if (sorting.n_trials == 0) return "";
   const std::string title =
-      fmt::format("{}, {} (n = {})", name_of(sorting.condition), meaning, sorting.n_participants);
+      fmt::format("{}, {} (n = {})", sorting.condition, meaning, sorting.n_participants);
   return fmt::format(
       "${0} using 1:2 with boxes linecolor '{1}' fillstyle solid 0.75 noborder title {2}, "
       "${0} using 1:3:(0):($4-$3) with vectors heads size screen 0.005,90 linewidth 1.6 linecolor "
@@ -87,7 +87,7 @@ std::string published_plot(const ConditionSorting& c1, const ConditionSorting& c
 
 Chart sorting_chart(const Summary& summary) {
   Chart chart{"sorting", titled("Sorting: answers per condition, 95 % intervals", summary), ""};
-  const auto& [c1, c2] = summary.sorting;
+  const ConditionSorting &c1 = summary.sorting.at(0), &c2 = summary.sorting.at(1);
   if (c1.n_trials + c2.n_trials == 0) return chart;
   const auto c1_bars = bars_of(c1, 1), c2_bars = bars_of(c2, 4.6);
   chart.script = gnuplot_header({"sorting.svg", 860, 540, chart.title, caption_of(summary)}) +

@@ -9,7 +9,7 @@ void add_share(Table& table, const ConditionSorting& sorting, std::string_view t
   if (share.n_participants == 0) return;
   const std::string method = share.method == IntervalMethod::exact ? "exact" : "Student t";
   table.rows.push_back(
-      {named_cell(sorting.condition), word(std::string(trials)), word(std::string(answer)),
+      {word(sorting.condition), word(std::string(trials)), word(std::string(answer)),
        number(share.mean_percent), number(share.sd_percent), low(share.interval_percent),
        high(share.interval_percent), word(method), count(share.n_participants),
        count(share.trials.n_hits), count(share.trials.n_trials), number(share.pooled_percent),
@@ -63,7 +63,7 @@ Table swaps_table(const Summary& summary) {
   for (const ConditionSorting& sorting : summary.sorting) {
     const int n_incorrect = sorting.incorrect.trials.n_hits;
     if (n_incorrect == 0) continue;
-    std::vector<Cell> row{named_cell(sorting.condition), count(n_incorrect)};
+    std::vector<Cell> row{word(sorting.condition), count(n_incorrect)};
     for (int n : sorting.swaps) row.push_back(count(n));
     table.rows.push_back(std::move(row));
   }

@@ -11,8 +11,9 @@ namespace heft {
 namespace {
 SessionSummary summary_of(const SessionData& data) {
   const SessionHeader& header = data.session.header;
-  SessionSummary summary{data.session.session_id, header.participant, header.protocol_name,
-                         header.purpose,          header.responder,   data.session.state};
+  SessionSummary summary{data.session.session_id,        header.participant,
+                         header.protocol_name,           std::string(name_of(header.purpose)),
+                         data.model().value_or("human"), data.session.state};
   for (const Attempt& attempt : data.attempts) {
     summary.n_completed += attempt.trial.status == TrialStatus::completed ? 1 : 0;
     summary.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;

@@ -47,7 +47,7 @@ struct Summary {
   std::string data;  ///< "human", "simulated" or "human and simulated"; empty: no sessions
   std::vector<SessionSummary> sessions;
   int n_participants = 0;
-  std::array<ConditionSorting, 2> sorting;
+  std::vector<ConditionSorting> sorting;
   IntroductionSummary introduction;
   std::vector<ReferenceJnd> jnd;
   std::vector<StaircaseResult> staircases;

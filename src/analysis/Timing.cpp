@@ -14,7 +14,7 @@ std::optional<double> response_time_s(const TrialRow& trial) {
 }
 
 std::vector<ResponseTimes> response_times(std::span<const SessionData> sessions) {
-  std::map<std::pair<Task, Condition>, std::vector<double>> times;
+  std::map<std::pair<Task, std::string>, std::vector<double>> times;
   for (const SessionData& data : sessions) {
     for (const Attempt& attempt : data.attempts) {
       if (!attempt.completed()) continue;

@@ -16,7 +16,7 @@ std::optional<double> response_time_s(const TrialRow& trial);
 /// Completed trials of one task in one condition, all participants together.
 struct ResponseTimes {
   Task task = Task::sorting;
-  Condition condition = Condition::C2;
+  std::string condition;
   int n_trials = 0;  ///< with a response time
   std::optional<double> median_s, lower_quartile_s, upper_quartile_s;
 };

@@ -6,27 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "base/Names.h"
+#include "experiment/Check.h"
 #include "tracking/Camera.h"
 #include "tracking/Tracker.h"
 #include "view/SceneDrawing.h"
 
 namespace heft {
-
-enum class CheckVerdict { ok, warning, failed };
-template <>
-struct EnumNames<CheckVerdict> {
-  static constexpr std::array<std::string_view, 3> names{"ok", "warning", "failed"};
-};
-
-struct CheckResult {
-  CheckVerdict verdict = CheckVerdict::ok;
-  std::string name;     ///< "frame rate", "light"...
-  std::string finding;  ///< the figure, and where it is not good what was expected and what to do
-};
-
-/// JSON: {"name":..., "verdict":..., "finding":...}; the detail of a `check` event.
-std::string to_json(const CheckResult& result);
 
 /// What was seen of one picture, and how long it took.
 struct LookedAt {

@@ -1,6 +1,7 @@
 #include "apparatus/AutoSimulator.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "physics/auto/ErrorTable.h"
 
@@ -21,7 +22,7 @@ std::vector<std::vector<double>> masses_of(const SortingBlock& block) {
 }
 std::vector<std::vector<double>> masses_of(const ComparisonBlock& block) {
   std::vector<std::vector<double>> masses_g;
-  for (const auto& [reference_g, staircase] : block.staircases)
+  for (const auto& [reference_g, staircase, technique] : block.staircases)
     masses_g.push_back({reference_g, reference_g + staircase.start});
   return masses_g;
 }
@@ -36,16 +37,20 @@ bool is_cheaper(const SimulatorPick& a, const SimulatorPick& b) {
 }  // namespace
 
 SimulatorPick resolve_auto(const Protocol& protocol) {
-  SimulatorPick dearest =
-      resolve_auto(scene_of(protocol, Condition::C2, {}), protocol.display_rate_hz);
+  std::vector<std::string> techniques{"C2"};
+  for (const Technique& declared : protocol.techniques) techniques.push_back(declared.name);
+  std::vector<std::vector<double>> trials{{}};
   for (const Block& block : protocol.blocks)
-    for (const auto& masses_g :
-         std::visit([](const auto& some) { return masses_of(some); }, block)) {
+    for (const auto& masses_g : std::visit([](const auto& some) { return masses_of(some); }, block))
+      trials.push_back(masses_g);
+  std::optional<SimulatorPick> dearest;
+  for (const std::string& technique : techniques)
+    for (const auto& masses_g : trials) {
       const SimulatorPick pick =
-          resolve_auto(scene_of(protocol, Condition::C2, masses_g), protocol.display_rate_hz);
-      dearest = std::max(dearest, pick, is_cheaper);
+          resolve_auto(scene_of(protocol, technique, masses_g), protocol.display_rate_hz);
+      dearest = dearest ? std::max(*dearest, pick, is_cheaper) : pick;
     }
-  return dearest;
+  return *dearest;
 }
 
 }  // namespace heft

@@ -1,17 +1,49 @@
 #include "apparatus/LoggedSession.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/Error.h"
+
 namespace heft {
+
+std::optional<Setup> LoggedSession::before() const {
+  if (setups.front().from_event > 0) return std::nullopt;
+  return setups.front().setup;
+}
+
+const Setup& LoggedSession::setup_of(const TrialRow& trial) const {
+  const auto found = std::ranges::find(setups, trial.setup_index, &LoggedSetup::setup_index);
+  return found == setups.end() ? setups.front().setup : found->setup;
+}
+
+std::shared_ptr<const Protocol> LoggedSession::protocol_of(const TrialRow& trial) const {
+  return protocol_for(*protocol, setup_of(trial));
+}
+
+bool LoggedSession::has_model() const {
+  return std::ranges::any_of(setups,
+                             [](const LoggedSetup& logged) { return !has_person(logged.setup); });
+}
 
 LoggedSession load_session(const LogReader& reader, const std::string& db,
                            std::int64_t session_id) {
   LoggedSession session;
   session.db = db;
   session.row = reader.session(session_id);
+  session.setups = reader.setups(session_id);
+  if (session.setups.empty())
+    throw Error(
+        fmt::format("session {} in {} does not say what it was run with: its setup is "
+                    "missing",
+                    session_id, db));
+  session.setup = session.setups.back().setup;
   const SessionHeader& header = session.row.header;
-  session.options = run_options_from_json(header.run_options);
-  Protocol protocol = parse_protocol(header.protocol_text, header.protocol_name);
+  Protocol protocol = parse_protocol(header.protocol_text, header.protocol_name,
+                                     settings_of(session.setups.front().setup));
   protocol.name = header.protocol_name;
-  session.protocol = protocol_for(std::move(protocol), session.options);
+  session.protocol = protocol_for(std::move(protocol), session.setup);
   return session;
 }
 

@@ -1,4 +1,5 @@
-// A session of a log with what it was run with, read back from the log alone.
+// A session of a log with what it was run with, read back from the log alone: none of its files and
+// devices is opened.
 #pragma once
 
 #include <cstdint>
@@ -6,21 +7,29 @@
 #include <string>
 #include <vector>
 
-#include "apparatus/RunOptions.h"
+#include "apparatus/SessionSetup.h"
 #include "record/LogReader.h"
 
 namespace heft {
 
-/// A logged session with what it is run with, from the log alone.
 struct LoggedSession {
   std::string db;
   SessionRow row;
-  RunOptions options;
+  std::vector<LoggedSetup> setups;  ///< at least one
+  Setup setup;                      ///< in force at its end
+  /// As the session's file and settings have it, with the simulator of `setup`.
   std::shared_ptr<const Protocol> protocol;
-  std::vector<OptionChange> changes;  ///< given again, to be logged when the session goes on
+
+  /// What an older log told before its first event.
+  std::optional<Setup> before() const;
+  /// The protocol with what was in force in a trial.
+  std::shared_ptr<const Protocol> protocol_of(const TrialRow& trial) const;
+  const Setup& setup_of(const TrialRow& trial) const;
+  /// Whether a model answered in any of its setups.
+  bool has_model() const;
 };
 
-/// @throws Error when there is no such session, or its protocol or options can't be read
+/// @throws Error when there is no such session, or its protocol or setups can't be read
 LoggedSession load_session(const LogReader& reader, const std::string& db, std::int64_t session_id);
 
 }  // namespace heft

@@ -12,14 +12,8 @@ namespace {
 // A contact that stops for less than this is the same push.
 constexpr double push_gap_s = 0.2;
 
-Event event_at(double t_s, EventKind kind, std::optional<std::size_t> cube = std::nullopt,
-               std::string detail = {}) {
-  Event event;
-  event.t_s = log_time(t_s);
-  event.kind = kind;
-  if (cube) event.slot = static_cast<int>(*cube) + 1;
-  event.detail = std::move(detail);
-  return event;
+int slot_of(std::size_t cube) {
+  return static_cast<int>(cube) + 1;
 }
 }  // namespace
 
@@ -47,14 +41,14 @@ void TrialWorld::advance_drive(const TargetSample& sample) {
   }
 }
 
-ShownPicture TrialWorld::advance(const TargetSample& sample) {
-  ShownPicture shown;
+ShownFrame TrialWorld::advance(const TargetSample& sample) {
+  ShownFrame shown;
   note_view(sample, shown);
   const SimulatorChoice& simulator = protocol_.simulator;
   const Pose seen_at = predicted(sample, simulator.input.predict_s);
   if (!drive_ && sample.tracked && clear_of_all(seen_at)) {
     drive_.emplace(make_simulator(simulator.name), scene_, simulator.rate_hz, simulator.input);
-    shown.events.push_back(event_at(sample.t_capture_s, EventKind::cubes_shown));
+    shown.events.push_back({log_time(sample.t_capture_s), CubesShown{}});
   }
   WorldState world;
   if (drive_) {
@@ -75,14 +69,17 @@ ShownPicture TrialWorld::advance(const TargetSample& sample) {
   return shown;
 }
 
-void TrialWorld::note_view(const TargetSample& sample, ShownPicture& shown) {
+void TrialWorld::note_view(const TargetSample& sample, ShownFrame& shown) {
   if (sample.tracked == tracked_) return;
   tracked_ = sample.tracked;
-  shown.events.push_back(event_at(sample.t_capture_s,
-                                  tracked_ ? EventKind::effector_found : EventKind::effector_lost));
+  const double t_s = log_time(sample.t_capture_s);
+  if (tracked_)
+    shown.events.push_back({t_s, EffectorFound{}});
+  else
+    shown.events.push_back({t_s, EffectorLost{}});
 }
 
-void TrialWorld::note_contacts(double t_s, ShownPicture& shown) {
+void TrialWorld::note_contacts(double t_s, ShownFrame& shown) {
   const std::vector<CubeContact>& touching = drive_->state().contacts;
   const auto hardest = std::ranges::max_element(
       touching, {}, [](const CubeContact& contact) { return contact.force_n.norm(); });
@@ -95,7 +92,7 @@ void TrialWorld::note_contacts(double t_s, ShownPicture& shown) {
       contact.left_s.reset();
       if (contact.since_s) continue;
       contact.since_s = t_s;
-      shown.events.push_back(event_at(t_s, EventKind::cube_contact, i, "began"));
+      shown.events.push_back({log_time(t_s), CubeTouch{slot_of(i), std::nullopt}});
     } else if (contact.since_s) {
       if (!contact.left_s) contact.left_s = t_s;
       if (t_s - *contact.left_s >= push_gap_s) end_contact(i, *contact.left_s, t_s, shown.events);
@@ -105,9 +102,8 @@ void TrialWorld::note_contacts(double t_s, ShownPicture& shown) {
 
 void TrialWorld::end_contact(std::size_t cube, double end_s, double now_s,
                              std::vector<Event>& events) {
-  Event ended = event_at(now_s, EventKind::cube_contact, cube, "ended");
-  ended.value = log_time(end_s) - log_time(*contacts_[cube].since_s);
-  events.push_back(ended);
+  const double duration_s = log_time(end_s) - log_time(*contacts_[cube].since_s);
+  events.push_back({log_time(now_s), CubeTouch{slot_of(cube), duration_s}});
   contacts_[cube] = {};
 }
 
@@ -118,7 +114,7 @@ std::vector<Event> TrialWorld::end_contacts(double t_s) {
   return events;
 }
 
-void TrialWorld::return_cubes(double t_s, ShownPicture& shown) {
+void TrialWorld::return_cubes(double t_s, ShownFrame& shown) {
   const WorldState& world = drive_->state();
   const bool reset = reset_requested_ && (!world.clone_present || clear_of_all(world.clone.pose));
   if (reset) reset_requested_ = false;
@@ -127,7 +123,7 @@ void TrialWorld::return_cubes(double t_s, ShownPicture& shown) {
                       !contacts_[i].since_s && place_is_free(i);
     if (!reset && !back) continue;
     drive_->return_cube(static_cast<int>(i));
-    if (!reset) shown.events.push_back(event_at(t_s, EventKind::cubes_reset, i, "out_of_area"));
+    if (!reset) shown.events.push_back({log_time(t_s), CubesReset{slot_of(i)}});
   }
 }
 

@@ -17,7 +17,7 @@
 namespace heft {
 
 /// What one picture shows and what happened in it.
-struct ShownPicture {
+struct ShownFrame {
   DisplayedFrame frame;
   std::optional<int> contact_slot;  ///< the cube pressed hardest
   std::string state_hash;
@@ -31,7 +31,7 @@ class TrialWorld {
   TrialWorld(const Protocol& protocol, const TrialPlan& plan);
 
   /// Runs the world to the sample's time.
-  ShownPicture advance(const TargetSample& sample);
+  ShownFrame advance(const TargetSample& sample);
 
   /// New cubes in the slots, as for a fresh attempt; they appear once the effector is clear.
   void rearrange(const TrialPlan& plan);
@@ -50,9 +50,9 @@ class TrialWorld {
   void advance_drive(const TargetSample& sample);
   bool clear_of(const Eigen::Vector3d& slot_m, const Pose& effector) const;
   bool clear_of_all(const Pose& effector) const;
-  void note_view(const TargetSample& sample, ShownPicture& shown);
-  void note_contacts(double t_s, ShownPicture& shown);
-  void return_cubes(double t_s, ShownPicture& shown);
+  void note_view(const TargetSample& sample, ShownFrame& shown);
+  void note_contacts(double t_s, ShownFrame& shown);
+  void return_cubes(double t_s, ShownFrame& shown);
   bool is_out(std::size_t cube) const;
   bool place_is_free(std::size_t cube) const;
   void end_contact(std::size_t cube, double end_s, double now_s, std::vector<Event>& events);

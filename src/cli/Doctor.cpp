@@ -142,7 +142,7 @@ void check_log(Report& report, const std::string& db) {
 
 // The camera, its calibration, the light, the board: with pictures from it.
 void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
-  RunOptions options = with_defaults(given);
+  Setup options = with_defaults(given);
   options.view = "headless";
   options.responder = "simulated";
   if (tracker_named(options.tracker).what != TrackerWhat::source)

@@ -1,6 +1,5 @@
 // heft replay: verify a log, or ask what a session would have been.
 #include "replay/Replay.h"
-#include "session/Session.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +12,7 @@
 #include "physics/DecouplingSimulator.h"
 #include "record/Integrity.h"
 #include "replay/WhatIf.h"
+#include "session/Session.h"
 
 namespace heft::cli {
 
@@ -41,24 +41,31 @@ void print_divergence(const Divergence& divergence) {
              divergence.t_s, divergence.what, divergence.logged, divergence.came_out);
 }
 
+std::string how_frames_were_checked(const Verification& found) {
+  if (found.n_frames == 0) return "no frames logged, so the simulator was not checked";
+  std::string how = fmt::format("{} frames simulated again, ", found.n_frames);
+  if (found.n_other_edition > 0)
+    how += fmt::format("{} of them logged with an edition of the simulator that this heft does not "
+                       "have: only measured, they differ by up to {:.3g} m; of the others ",
+                       found.n_other_edition, found.largest_difference_m);
+  if (found.same_build) return how + "equal bits demanded";
+  return how + fmt::format("logged by another build: poses within 1e-6 m demanded, largest "
+                           "difference {:.3g} m",
+                           found.largest_difference_m);
+}
+
 // @return whether the log says what its events give
 bool verify(const LogReader& reader, std::int64_t session_id) {
   ProgressBar bar(fmt::format("session {}", session_id));
   const Verification found = verify_session(reader, session_id, [&](double share) {
     bar.update(share, fmt::format("{:.0f} %", 100 * share));
   });
-  const std::string pictures =
-      found.n_pictures == 0
-          ? "no pictures logged, so the simulator was not checked"
-          : fmt::format("{} pictures simulated again, {}", found.n_pictures,
-                        found.same_build
-                            ? "equal bits demanded"
-                            : fmt::format("logged by another build: poses within 1e-6 m demanded, "
-                                          "largest difference {:.3g} m",
-                                          found.largest_difference_m));
+  const std::string verified =
+      found.ended ? "verified"
+                  : fmt::format("verified up to event {}, unfinished", found.n_events);
   fmt::print("session {}: {}: {} events folded, {} rows in {} attempts compared; {}\n", session_id,
-             found.first ? "DIVERGED" : "verified", found.n_events, found.n_rows, found.n_attempts,
-             pictures);
+             found.first ? "DIVERGED" : verified, found.n_events, found.n_rows, found.n_attempts,
+             how_frames_were_checked(found));
   if (found.first) print_divergence(*found.first);
   return !found.first;
 }
@@ -88,7 +95,7 @@ void print_paths(const std::vector<PathDifference>& differences) {
       "task", "", "pictures", "clone RMS", "clone max", "cubes RMS", "cubes max");
   for (const PathDifference& d : differences)
     fmt::print("  {:<13} {:<4} {:>9} {:>11.4f} {:>10.4f} {:>11.4f} {:>10.4f}\n", name_of(d.task),
-               name_of(d.condition), d.n_pictures, 1e3 * d.clone_rms_m, 1e3 * d.clone_max_m,
+               d.condition, d.n_pictures, 1e3 * d.clone_rms_m, 1e3 * d.clone_max_m,
                1e3 * d.cubes_rms_m, 1e3 * d.cubes_max_m);
 }
 
@@ -100,7 +107,7 @@ void print_responder(const OtherResponder& other) {
   fmt::print("  {:<13} {:<4} {:>20} {:>20}\n", "task", "", "logged, right of n",
              "would be, right of n");
   for (const OutcomeDifference& o : other.outcomes)
-    fmt::print("  {:<13} {:<4} {:>20} {:>20}\n", name_of(o.task), name_of(o.condition),
+    fmt::print("  {:<13} {:<4} {:>20} {:>20}\n", name_of(o.task), o.condition,
                fmt::format("{} of {}", o.n_logged_correct, o.n_logged),
                fmt::format("{} of {}", o.n_would_be_correct, o.n_would_be));
   for (const EstimateDifference& e : other.estimates)
@@ -108,40 +115,61 @@ void print_responder(const OtherResponder& other) {
                grams(e.logged_g), grams(e.would_be_g));
 }
 
+// The protocol and setup that the question supposes.
+std::pair<Protocol, Setup> supposed(const LoggedSession& session, const Options& options) {
+  std::vector<std::string> settings = settings_of(session.setups.front().setup);
+  settings.insert(settings.end(), options.set.begin(), options.set.end());
+  Protocol protocol =
+      parse_protocol(session.row.header.protocol_text, session.row.header.protocol_name, settings);
+  Setup setup = session.setup;
+  setup.settings = fmt::format("{}", fmt::join(settings, "\n"));
+  for (const std::string& set : options.set)
+    if (set.starts_with("physics.simulator")) setup.simulator.clear();
+  if (!options.set.empty()) setup.rate_hz.reset();  // it may be among what was set
+  if (!options.simulator.empty()) {
+    simulator_named(options.simulator);  // says so if there is none of that name
+    setup.simulator = options.simulator;
+    setup.simulator_why.clear();
+    setup.rate_hz.reset();
+  }
+  if (!options.responder.empty()) {
+    setup.responder = options.responder;
+    setup.tracker = "hand";
+    setup.view = "headless";
+    setup.record_camera.clear();
+    complete(setup);
+  }
+  setup = in_force(std::move(setup), protocol);
+  protocol = *protocol_for(std::move(protocol), setup);
+  return {std::move(protocol), std::move(setup)};
+}
+
+OtherResponder run_anew(const LogReader& reader, const LoggedSession& session,
+                        const Protocol& protocol, const Setup& setup) {
+  const std::int64_t session_id = session.row.session_id;
+  ProgressBar bar(fmt::format("session {}", session_id));
+  RunnerOptions runner;
+  runner.keep_frames = false;
+  runner.progress = [&](const Engine& engine) {
+    bar.update(0, fmt::format("{} trials", engine.n_completed()));
+  };
+  SessionRequest request;
+  request.protocol = protocol;
+  request.setup = setup;
+  request.participant = session.row.header.participant;
+  request.seed = session.row.header.seed;
+  return compare_sessions(reader, session_id, compute_session(request, runner));
+}
+
 void ask_what_if(const LogReader& reader, const Options& options) {
   for (const std::int64_t session_id : chosen_sessions(reader, options)) {
     const LoggedSession session = load_session(reader, options.db, session_id);
-    RunOptions changed = session.options;
-    if (!options.simulator.empty()) {
-      simulator_named(options.simulator);  // says so if there is none of that name
-      changed.simulator = options.simulator;
-      changed.auto_simulator.clear();
-    }
-    if (!options.responder.empty()) {
-      changed.responder = options.responder;
-      complete(changed);
-    }
-    Protocol protocol = parse_protocol(session.row.header.protocol_text,
-                                       session.row.header.protocol_name, options.set);
-    changed = with_auto_resolved(changed, protocol);
-    protocol = *protocol_for(std::move(protocol), changed);
+    const auto [protocol, setup] = supposed(session, options);
     fmt::print("session {}, participant {}:\n", session_id, session.row.header.participant);
-    if (options.responder.empty()) {
+    if (options.responder.empty())
       print_paths(compare_paths(reader, session, protocol));
-      continue;
-    }
-    ProgressBar bar(fmt::format("session {}", session_id));
-    RunnerOptions runner;
-    runner.keep_frames = false;
-    runner.progress = [&](const Engine& engine) {
-      bar.update(0, fmt::format("{} trials", engine.n_completed()));
-    };
-    SessionRequest request;
-    request.protocol = protocol;
-    request.options = changed;
-    request.participant = session.row.header.participant;
-    request.seed = session.row.header.seed;
-    print_responder(compare_sessions(reader, session_id, compute_session(request, runner)));
+    else
+      print_responder(run_anew(reader, session, protocol, setup));
   }
 }
 

@@ -42,18 +42,17 @@ void say_finished(const SessionResult& result, const std::string& db) {
 
 SessionRequest request_of(const Options& options) {
   SessionRequest request;
-  request.protocol = load_protocol(options.protocol);
-  request.options = with_defaults(options.given);
-  request.options.texts_file =
-      texts_file(options.language.value_or(request.protocol.screens.language));
-  request.options.handed = options.left_handed ? "left" : "right";
-  request.options.record_camera = options.record_camera;
-  complete_and_tell(request.options);
-  request.options = with_auto_resolved(std::move(request.options), request.protocol);
+  request.protocol = load_protocol(options.protocol, options.given.settings);
+  Setup setup = with_defaults(options.given);
+  setup.texts_file = texts_file(options.language.value_or(request.protocol.screens.language));
+  setup.handed = options.left_handed ? "left" : "right";
+  setup.record_camera = options.record_camera;
+  complete_and_tell(setup);
+  request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant;
   request.db = options.db;
   request.seed = options.seed.value_or(fresh_seed());
-  request.purpose = options.purpose;
+  request.purpose = named<Purpose>(options.purpose).value();
   request.again = options.again;
   return request;
 }
@@ -62,32 +61,50 @@ void run(const Options& options) {
   check_participant(options.participant);
   const SessionRequest request = request_of(options);
   say("participant {}, protocol {}, responder {}, seed {}\n", request.participant,
-      request.protocol.name, request.options.responder, request.seed);
-  tell_simulator(request.protocol, request.options);
+      request.protocol.name, request.setup.responder, request.seed);
+  tell_simulator(request.protocol, request.setup);
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
-  say_finished(run_session({request.protocol, request.options, request.db, options.unblind}, start),
+  say_finished(run_session({request.protocol, request.setup, request.db, options.unblind}, start),
                request.db);
 }
 
-void say_next_parts(const RunOptions& before) {
-  const RunOptions now = with_next_parts(before);
-  for (const auto option : {&RunOptions::view, &RunOptions::record_camera})
+void say_next_parts(const Setup& before) {
+  const Setup now = with_next_parts(before);
+  for (const auto option : {&Setup::view, &Setup::record_camera})
     if (now.*option != before.*option)
       say("{} is there already; from here on it is {}\n", before.*option, now.*option);
+}
+
+// What another responder, tracker or view needs, and the session did without so far.
+GivenOptions with_missing_files(const LoggedSession& session, GivenOptions again) {
+  const Setup& setup = session.setup;
+  const Setup defaults = with_defaults(again);
+  const auto fill = [](std::optional<std::string>& given, const std::string& held,
+                       const std::string& fallback) {
+    if (!given && held.empty() && !fallback.empty()) given = fallback;
+  };
+  if (again.tracker || again.responder) {
+    fill(again.camera_file, setup.camera_file, defaults.camera_file);
+    fill(again.board_file, setup.board_file, defaults.board_file);
+    fill(again.effector_file, setup.effector_file, defaults.effector_file);
+  }
+  if (again.view || again.responder)
+    fill(again.texts_file, setup.texts_file, texts_file(session.protocol->screens.language));
+  return again;
 }
 
 void resume(const std::string& db, std::optional<std::int64_t> session_id,
             const GivenOptions& again, bool unblind) {
   LoggedSession session = session_to_resume(db, session_id);
-  give_again(session, again);
+  const Setup before = session.setup;
+  give_again(session, with_missing_files(session, again));
   say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
       session.row.header.participant, session.protocol->name);
-  for (const OptionChange& change : session.changes)
-    if (!change.option.ends_with("_text"))
-      say("from here on with {} {} instead of {}\n", change.option, change.to, change.from);
-  say_next_parts(session.options);
+  for (const auto& [column, from, to] : changes_between(before, session.setup))
+    if (!from.empty()) say("from here on with {} {} instead of {}\n", column, to, from);
+  say_next_parts(session.setup);
   say_finished(
-      run_session({*session.protocol, session.options, db, unblind},
+      run_session({*session.protocol, session.setup, db, unblind},
                   [&](const RunnerOptions& runner) { return resume_session(session, runner); }),
       db);
 }
@@ -123,6 +140,7 @@ void add_run(CLI::App& app) {
   add_seed(command, options->seed);
   add_session_options(command, options->given);
   command->add_option("--simulator", options->given.simulator, "instead of the protocol's");
+  add_settings(command, options->given.settings);
   command->add_option("--language", options->language,
                       "of the participant's screens: en, fr, or a text FILE.toml; default: the "
                       "protocol's");
@@ -162,7 +180,7 @@ void add_resume(CLI::App& app) {
       ->check(session_number());
   add_session_options(command, options->again);
   command->add_option("--simulator", options->again.simulator,
-                      "only the one the session was started with: replay needs one for all of it");
+                      "from here on; each trial is replayed with the one that it ran with");
   command->add_flag("--unblind", options->unblind,
                     "show the experimenter masses and conditions; it is logged");
   command->add_flag("--end", options->end,

@@ -29,7 +29,7 @@ SessionResult run_session(const CommandedSession& session,
   const double expected = expected_length(session.protocol).trials;
   RunnerOptions options;
   options.stop = &stop_on_signal.requested();
-  if (runs_on_wall_clock(session.options))
+  if (runs_on_wall_clock(session.setup))
     options.desk = &desk.emplace(expected, session.unblind);
   else
     add_progress(options, bar, expected);

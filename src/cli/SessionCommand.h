@@ -9,7 +9,7 @@ namespace heft::cli {
 
 struct CommandedSession {
   const Protocol& protocol;
-  const RunOptions& options;
+  const Setup& setup;
   std::string db;
   bool unblind = false;
 };

@@ -24,6 +24,12 @@ void add_apparatus_options(CLI::App* command, GivenOptions& given) {
                       "the effector's tags; default: protocols/apparatus/effector.toml");
 }
 
+void add_settings(CLI::App* command, std::vector<std::string>& settings) {
+  command->add_option("--set", settings,
+                      "change a key of the protocol, such as coupling.stiffness_n_per_m=100; kept "
+                      "with the session");
+}
+
 void add_session_options(CLI::App* command, GivenOptions& given) {
   command->add_option("--responder", given.responder,
                       "human (default), or a model: NAME or NAME:FILE (heft doctor lists them)");
@@ -39,13 +45,14 @@ void add_session_options(CLI::App* command, GivenOptions& given) {
   add_apparatus_options(command, given);
 }
 
-RunOptions with_defaults(const GivenOptions& given) {
-  RunOptions options;
+Setup with_defaults(const GivenOptions& given) {
+  Setup options;
   options.responder = given.responder.value_or("human");
   const bool person = has_person(options);
   options.tracker = given.tracker.value_or(person ? "camera:0" : "hand");
   options.view = given.view.value_or(person ? "window" : "headless");
   options.simulator = given.simulator.value_or("");
+  options.settings = fmt::format("{}", fmt::join(given.settings, "\n"));
   const bool synthetic = split_name(options.tracker).name == "synthetic";
   options.camera_file = given.camera_file.value_or(
       synthetic ? installed_file("protocols/apparatus/synthetic_camera.yaml") : "");
@@ -55,7 +62,7 @@ RunOptions with_defaults(const GivenOptions& given) {
   return options;
 }
 
-void complete_and_tell(RunOptions& options) {
+void complete_and_tell(Setup& options) {
   const bool named = !options.camera_file.empty();
   complete(options);
   if (!named && !options.camera_file.empty()) say("camera calibration: {}\n", default_camera_file);
@@ -66,10 +73,10 @@ void warn_of_simulator(const std::string& name) {
   if (!entry.warning.empty()) say("heft: {} {}\n", entry.name, entry.warning);
 }
 
-void tell_simulator(const Protocol& protocol, const RunOptions& options) {
+void tell_simulator(const Protocol& protocol, const Setup& options) {
   const SimulatorChoice simulator = protocol_for(protocol, options)->simulator;
-  if (!options.auto_simulator.empty())
-    say("heft: {}\n", described({simulator.name, simulator.rate_hz, options.auto_why}));
+  if (!options.simulator_why.empty())
+    say("heft: {}\n", described({simulator.name, simulator.rate_hz, options.simulator_why}));
   warn_of_simulator(simulator.name);
   for (const std::string& caution : cautions(protocol)) say("heft: {}\n", caution);
 }
@@ -92,7 +99,7 @@ std::vector<std::string> cautions(const Protocol& protocol) {
                     "clone is seen beside the filmed effector, it adds false mass: use \"path\"",
                     name_of(mode)));
   if (predict_s > 0) {
-    const Scene scene = scene_of(protocol, Condition::C1, {});
+    const Scene scene = scene_of(protocol, "C1", {});
     const double ahead_m = stroke_m_s * predict_s;
     const double slide_n_per_kg = sliding_force_n(scene.friction, 1, scene.gravity_m_s2);
     const std::string false_mass =

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apparatus/RunOptions.h"
+#include "apparatus/SessionSetup.h"
 #include "protocol/Protocol.h"
 
 namespace heft::cli {
@@ -14,23 +14,26 @@ namespace heft::cli {
 /// --camera-file, --board, --effector
 void add_apparatus_options(CLI::App* command, GivenOptions& given);
 
+/// --set
+void add_settings(CLI::App* command, std::vector<std::string>& settings);
+
 void add_session_options(CLI::App* command, GivenOptions& given);
 
 /// A person is filmed and has a window; a model is neither unless somebody says so. Files of the
 /// apparatus that are not given are the shipped ones; a real camera's calibration never is, it
 /// stays empty.
-RunOptions with_defaults(const GivenOptions& given);
+Setup with_defaults(const GivenOptions& given);
 
 /// Completes the options, and says on stderr which calibration is taken where nobody named one.
 /// @throws Error as complete()
-void complete_and_tell(RunOptions& options);
+void complete_and_tell(Setup& options);
 
 /// Says on stderr what is known to be wrong with a simulator, if anything.
 void warn_of_simulator(const std::string& name);
 
 /// The same of the simulator that a session starts with, and the protocol's cautions; of `auto`,
 /// which the options have resolved, what it is and why.
-void tell_simulator(const Protocol& protocol, const RunOptions& options);
+void tell_simulator(const Protocol& protocol, const Setup& options);
 
 /// What somebody should know before using a valid protocol, a sentence each; mostly nothing.
 std::vector<std::string> cautions(const Protocol& protocol);

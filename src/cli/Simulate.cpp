@@ -24,23 +24,26 @@ struct Options {
   int participants = 13;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool frames = false;
+  std::vector<std::string> settings;
 };
 
 void simulate_participants(const Options& options) {
   SimulationRequest request;
-  request.protocol = load_protocol(options.protocol);
-  request.options.responder = options.responder;
-  request.options.simulator = options.simulator;
-  complete(request.options);
-  request.options = with_auto_resolved(std::move(request.options), request.protocol);
+  request.protocol = load_protocol(options.protocol, options.settings);
+  Setup setup;
+  setup.responder = options.responder;
+  setup.simulator = options.simulator;
+  setup.settings = fmt::format("{}", fmt::join(options.settings, "\n"));
+  complete(setup);
+  request.setup = in_force(std::move(setup), request.protocol);
   request.db = options.db;
   request.seed = options.seed.value_or(fresh_seed());
   request.participants = options.participants;
   request.jobs = options.jobs;
   request.keep_frames = options.frames;
   say("{} participants, protocol {}, responder {}, seed {}\n", request.participants,
-      request.protocol.name, request.options.responder, request.seed);
-  tell_simulator(request.protocol, request.options);
+      request.protocol.name, request.setup.responder, request.seed);
+  tell_simulator(request.protocol, request.setup);
 
   const StopOnSignal stop;
   const auto started = std::chrono::steady_clock::now();
@@ -95,7 +98,8 @@ void add_simulate(CLI::App& app) {
   add_seed(command, options->seed);
   command->add_option("--simulator", options->simulator, "instead of the protocol's");
   command->add_flag("--frames", options->frames,
-                    "store every displayed picture too (about 10 MB a session)");
+                    "store every displayed frame too (about 10 MB a session)");
+  add_settings(command, options->settings);
   command->callback([options] { simulate_participants(*options); });
 }
 

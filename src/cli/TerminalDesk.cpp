@@ -58,7 +58,7 @@ std::string status_line(const DeskStatus& status, double expected_trials) {
   line += fmt::format("  {} dropped, {} late", status.n_dropped, status.n_late);
   if (status.paused) line += "  PAUSED";
   if (status.plan) {
-    line += fmt::format("  [{}", name_of(status.plan->condition));
+    line += fmt::format("  [{}", status.plan->condition);
     for (const double mass_g : status.plan->masses_g) line += fmt::format(" {:g} g", mass_g);
     line += "]";
   }

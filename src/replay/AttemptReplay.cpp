@@ -7,7 +7,7 @@ namespace heft {
 AttemptReplay::AttemptReplay(const Protocol& protocol, const AttemptFold& attempt)
     : attempt_(attempt), world_(protocol, attempt.first_plan) {}
 
-ShownPicture AttemptReplay::advance(const FrameRow& frame) {
+ShownFrame AttemptReplay::advance(const FrameRow& frame) {
   fold_until(frame.after_event);
   TargetSample sample;
   sample.t_capture_s = frame.trial_t_s;
@@ -15,10 +15,9 @@ ShownPicture AttemptReplay::advance(const FrameRow& frame) {
   sample.velocity = frame.effector_velocity;
   sample.tracked = frame.tracked;
   sample.jump = frame.jump;
-  ShownPicture shown = world_.advance(sample);
+  ShownFrame shown = world_.advance(sample);
   // As the runner logs them: the cubes are shown once everything else of the picture is told.
-  std::ranges::stable_partition(shown.events,
-                                [](const Event& e) { return e.kind != EventKind::cubes_shown; });
+  std::ranges::stable_partition(shown.events, [](const Event& e) { return !e.as<CubesShown>(); });
   for (Event event : shown.events) {
     event.t_s += attempt_.row.started_s;
     derived_.push_back(event);
@@ -30,7 +29,8 @@ void AttemptReplay::fold_until(int n_events) {
   for (; next_event_ < attempt_.events.size() && attempt_.events[next_event_].before < n_events;
        ++next_event_) {
     const AttemptEvent& folded = attempt_.events[next_event_];
-    if (folded.event.kind == EventKind::cubes_reset && !folded.event.slot) world_.request_reset();
+    if (const auto* reset = folded.event.as<CubesReset>(); reset && !reset->slot)
+      world_.request_reset();
     if (folded.plan_after.n_reshuffles > n_reshuffles_) {
       n_reshuffles_ = folded.plan_after.n_reshuffles;
       world_.rearrange(folded.plan_after);

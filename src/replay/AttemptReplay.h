@@ -14,7 +14,7 @@ class AttemptReplay {
   AttemptReplay(const Protocol& protocol, const AttemptFold& attempt);
 
   /// Runs the world to the next logged picture.
-  ShownPicture advance(const FrameRow& frame);
+  ShownFrame advance(const FrameRow& frame);
 
   /// Lets go of what is still touched when the attempt ends.
   void finish(double ended_s);

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include "apparatus/PictureSource.h"
-#include "apparatus/RunOptions.h"
 #include "base/Build.h"
 #include "base/Error.h"
 #include "base/Sha256.h"
-#include "replay/PictureCheck.h"
+#include "physics/DecouplingSimulator.h"
+#include "record/EventRow.h"
+#include "replay/FrameCheck.h"
+#include "replay/Projection.h"
 
 namespace heft {
 
@@ -16,48 +18,58 @@ namespace {
 // Compares a log with its fold and keeps the earliest difference.
 class Verifier {
  public:
-  Verifier(const LogReader& reader, const SessionRow& session)
-      : reader_(reader), session_(session) {
-    result_.same_build = session_.header.build == build_name();
-  }
+  Verifier(const LogReader& reader, std::int64_t session_id)
+      : reader_(reader), session_id_(session_id) {}
 
-  Verification run(const std::function<void(double)>& progress) {
+  Verification rows() {
     std::string unreadable;
     try {
+      session_ = load_session(reader_, "", session_id_);
       compare_protocol();
       fold();
       compare_rows();
       compare_state();
-      compare_pictures(progress);
     } catch (const Error& error) {  // a row that can't be read is a difference too
       unreadable = error.what();
     }
     compare_digests();
+    for (const std::string& foreign : reader_.foreign_objects())
+      differ(0, 0, "the file's schema", foreign, "nothing but what heft makes");
     if (!unreadable.empty() && !result_.first)
       differ(0, fold_.last_s, "the log", unreadable, "rows that can be read");
     return result_;
   }
 
+  // What was changed is not simulated: nobody knows what it asks for.
+  Verification all(const std::function<void(double)>& progress) {
+    rows();
+    if (result_.first) return result_;
+    try {
+      compare_frames(progress);
+    } catch (const Error& error) {
+      differ(0, fold_.last_s, "the log", error.what(), "rows that can be read");
+    }
+    return result_;
+  }
+
  private:
   void compare_protocol() {
-    const std::string sha256_of_text = sha256(session_.header.protocol_text);
-    if (sha256_of_text != session_.header.protocol_sha256)
-      differ(0, 0, "session.protocol_sha256", session_.header.protocol_sha256, sha256_of_text);
+    const SessionHeader& header = session_.row.header;
+    const std::string sha256_of_text = sha256(header.protocol_text);
+    if (sha256_of_text != header.protocol_sha256)
+      differ(0, 0, "session.protocol_sha256", header.protocol_sha256, sha256_of_text);
   }
 
   void fold() {
-    const SessionHeader& header = session_.header;
-    const RunOptions options = run_options_from_json(header.run_options);
-    virtual_clock_ =
-        !runs_on_wall_clock(options) && tracker_named(options.tracker).what != TrackerWhat::source;
-    protocol_ = protocol_for(parse_protocol(header.protocol_text, header.protocol_name), options);
-    fold_ = fold_session(protocol_, header.seed, reader_.events(session_.session_id));
+    fold_ = fold_session(session_.protocol, session_.row.header.seed, reader_.events(session_id_),
+                         session_.before());
     result_.n_events = fold_.n_events;
     result_.n_attempts = static_cast<int>(fold_.attempts.size());
+    result_.ended = !is_unfinished(fold_.state);
   }
 
   void compare_rows() {
-    const auto logged = logged_rows(reader_, session_.session_id);
+    const auto logged = logged_rows(reader_, session_id_);
     result_.n_rows = static_cast<int>(logged.size());
     for (const auto& [key, row] : logged)
       if (!fold_.rows.contains(key) && !fold_.refused) differ(row, key, "a row", "no such row");
@@ -91,38 +103,38 @@ class Verifier {
       const auto& [logged, why] = *fold_.refused;
       differ(logged.attempt_index, logged.event.t_s, fmt::format("event {}", fold_.n_events + 1),
              text_of(logged.event), "refused: " + why);
-    } else if (fold_.state != session_.state) {
-      differ(0, fold_.last_s, "session.state", std::string(name_of(session_.state)),
+    } else if (fold_.state != session_.row.state) {
+      differ(0, fold_.last_s, "session.state", std::string(name_of(session_.row.state)),
              std::string(name_of(fold_.state)));
     }
   }
 
-  void compare_pictures(const std::function<void(double)>& progress) {
+  void compare_frames(const std::function<void(double)>& progress) {
     std::vector<int> without;
     int done = 0;
     for (const auto& [index, attempt] : fold_.attempts) {
       progress(static_cast<double>(done++) / result_.n_attempts);
       if (result_.first && attempt.row.started_s > result_.first->t_s) break;
-      const auto frames = reader_.frames(session_.session_id, index);
-      result_.n_pictures += static_cast<int>(frames.size());
+      const auto frames = reader_.frames(session_id_, index);
+      result_.n_frames += static_cast<int>(frames.size());
       if (frames.empty())
         without.push_back(index);
       else
         compare_attempt(index, attempt, frames);
     }
     progress(1);
-    // A log keeps pictures or it doesn't; a crash may lose an attempt's last ones.
+    // A log keeps frames or it doesn't; a crash may lose an attempt's last ones.
     for (int index : without) {
       const TrialRow& row = fold_.attempts[index].row;
-      if (result_.n_pictures > 0 && row.status == TrialStatus::completed)
-        differ(index, row.started_s, "its pictures", "none", "at least one");
+      if (result_.n_frames > 0 && row.status == TrialStatus::completed)
+        differ(index, row.started_s, "its frames", "none", "at least one");
     }
   }
 
   // What can't be folded or simulated again (a note, who took part) is held by its digest. Asked
   // last: of two differences at one time the more telling one stands.
   void compare_digests() {
-    const auto broken = reader_.first_broken_digest(session_.session_id);
+    const auto broken = reader_.first_broken_digest(session_id_);
     if (!broken) return;
     differ(broken->attempt_index, broken->t_s, broken->row,
            broken->damage.empty() ? "digest " + broken->logged : broken->damage,
@@ -130,12 +142,23 @@ class Verifier {
   }
 
   void compare_attempt(int index, const AttemptFold& attempt, const std::vector<FrameRow>& frames) {
-    PictureCheck check(
-        *protocol_, attempt,
-        {result_.same_build, virtual_clock_,
-         [&](double t_s, const std::string& what, const std::string& logged,
-             const std::string& came_out) { differ(index, t_s, what, logged, came_out); }});
+    const Setup& setup = session_.setup_of(attempt.row);
+    const auto protocol = session_.protocol_of(attempt.row);
+    FrameCheckOptions options;
+    options.equal_bits = setup.build == build_name();
+    options.same_edition =
+        !setup.simulator_edition ||
+        *setup.simulator_edition == simulator_named(protocol->simulator.name).edition;
+    options.virtual_clock =
+        !runs_on_wall_clock(setup) && tracker_named(setup.tracker).what != TrackerWhat::source;
+    options.differ = [&](double t_s, const std::string& what, const std::string& logged,
+                         const std::string& came_out) {
+      differ(index, t_s, what, logged, came_out);
+    };
+    FrameCheck check(*protocol, attempt, options);
     check.run(frames);
+    result_.same_build = result_.same_build && options.equal_bits;
+    if (!options.same_edition) result_.n_other_edition += static_cast<int>(frames.size());
     result_.largest_difference_m =
         std::max(result_.largest_difference_m, check.largest_difference_m());
   }
@@ -162,10 +185,9 @@ class Verifier {
   }
 
   const LogReader& reader_;
-  const SessionRow& session_;
-  std::shared_ptr<const Protocol> protocol_;
+  std::int64_t session_id_;
+  LoggedSession session_;
   Projection fold_;
-  bool virtual_clock_ = false;
   Verification result_;
 };
 
@@ -173,8 +195,12 @@ class Verifier {
 
 Verification verify_session(const LogReader& reader, std::int64_t session_id,
                             const std::function<void(double)>& progress) {
-  const SessionRow session = reader.session(session_id);
-  return Verifier(reader, session).run(progress);
+  reader.session(session_id);  // says so if there is none
+  return Verifier(reader, session_id).all(progress);
+}
+
+Verification verify_rows(const LogReader& reader, const LoggedSession& session) {
+  return Verifier(reader, session.row.session_id).rows();
 }
 
 }  // namespace heft

@@ -1,6 +1,6 @@
-// Replay: a log folded and simulated again. Verification compares every projected row with what the
-// events give, and every picture's world with what its logged effector pose gives, and names the
-// first difference.
+// Replay: a log folded and simulated again. Verification looks at digests and schema first, then
+// compares every projected row with what the events give, then every frame's world with what its
+// logged effector pose gives, and names the first difference.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "apparatus/LoggedSession.h"
 #include "record/LogReader.h"
-#include "replay/Projection.h"
 
 namespace heft {
 
@@ -17,19 +17,26 @@ namespace heft {
 struct Divergence {
   int trial_number = 0;  ///< 0: none
   double t_s = 0;        ///< session time
-  std::string what;      ///< table and row, or picture
+  std::string what;      ///< table and row, or frame
   std::string logged, came_out;
 };
 
 struct Verification {
-  int n_events = 0, n_rows = 0, n_attempts = 0, n_pictures = 0;
-  bool same_build = false;          ///< equal bits demanded; otherwise poses within 1e-6 m
-  double largest_difference_m = 0;  ///< of any pose, where builds differ
+  int n_events = 0, n_rows = 0, n_attempts = 0, n_frames = 0;
+  bool ended = false;      ///< the session has its end; otherwise all there is was verified
+  bool same_build = true;  ///< equal bits demanded; otherwise poses within 1e-6 m
+  /// Frames of a simulator's edition that this program does not have: verified in all but their
+  /// poses.
+  int n_other_edition = 0;
+  double largest_difference_m = 0;  ///< of any pose, where builds or editions differ
   std::optional<Divergence> first;
 };
 
-/// @param progress called with the share of pictures done, 0...1
+/// @param progress called with the fraction of frames done, 0...1
 Verification verify_session(const LogReader& reader, std::int64_t session_id,
                             const std::function<void(double)>& progress);
+
+/// All of it but the frames' worlds.
+Verification verify_rows(const LogReader& reader, const LoggedSession& session);
 
 }  // namespace heft

@@ -2,11 +2,12 @@
 // difference named. Doubles are written so that equal text means equal bits.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "experiment/Event.h"
 #include "experiment/Rows.h"
 
 namespace heft {
@@ -19,14 +20,41 @@ struct RowText {
   std::vector<std::pair<std::string, std::string>> columns;
 };
 
+/// Puts a row's columns into text; see visit_columns.
+class TextColumns {
+ public:
+  explicit TextColumns(RowText& row) : row_(row) {}
+
+  template <typename Field>
+  void operator()(const LogColumn& column, const Field& field) {
+    row_.columns.emplace_back(column.name, text(field));
+  }
+
+ private:
+  static std::string text(const std::string& value) { return '"' + value + '"'; }
+  static std::string text(bool value) { return value ? "1" : "0"; }
+  static std::string text(int value) { return fmt::format("{}", value); }
+  // Adding 0 turns -0, which the log does not keep, into 0.
+  static std::string text(double value) { return fmt::format("{}", value + 0.0); }
+  static std::string text(const NullIfEmpty<const std::string>& value) { return text(value.value); }
+  template <typename Enum>
+  requires std::is_enum_v<Enum>
+  static std::string text(Enum value) { return std::string(name_of(value)); }
+  template <typename Value>
+  static std::string text(const std::optional<Value>& value) {
+    return value ? text(*value) : "NULL";
+  }
+
+  RowText& row_;
+};
+
 RowText text_of(const TrialRow& row);
 RowText text_of(const CubeRow& row);
-RowText text_of(const AnswerRow& row,
-                int number);  ///< number: of the answer in the session, from 1
+/// @param number of the answer in the session, from 1
+RowText text_of(const AnswerRow& row, int number);
 RowText text_of(const ReversalRow& row);
 RowText text_of(const EstimateRow& row);
-
-/// An event in a line.
-std::string text_of(const Event& event);
+/// @param from_event the session's event that told it, from 1; 0: none
+RowText text_of(const Setup& setup, int number, int from_event);
 
 }  // namespace heft

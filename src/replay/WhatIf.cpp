@@ -33,7 +33,7 @@ void add_attempt(const AttemptFold& attempt, const std::vector<FrameRow>& frames
                  const Protocol& protocol, Paths& paths) {
   AttemptReplay replay(protocol, attempt);
   for (const FrameRow& frame : frames) {
-    const ShownPicture shown = replay.advance(frame);
+    const ShownFrame shown = replay.advance(frame);
     ++paths.n_pictures;
     if (frame.clone && shown.frame.clone) paths.clone.add(*frame.clone, *shown.frame.clone);
     for (std::size_t i = 0; i < std::min(frame.cubes.size(), shown.frame.cubes.size()); ++i)
@@ -46,7 +46,7 @@ bool is_right(const TrialRow& row) {
                                            : row.outcome == Outcome::correct;
 }
 
-using Kind = std::pair<Task, Condition>;
+using Kind = std::pair<Task, std::string>;
 
 void count(const std::vector<TrialRow>& rows, std::map<Kind, OutcomeDifference>& outcomes,
            int OutcomeDifference::*n, int OutcomeDifference::*n_correct) {
@@ -65,8 +65,8 @@ void count(const std::vector<TrialRow>& rows, std::map<Kind, OutcomeDifference>&
 std::vector<PathDifference> compare_paths(const LogReader& reader, const LoggedSession& session,
                                           const Protocol& protocol) {
   const std::int64_t session_id = session.row.session_id;
-  const Projection fold =
-      fold_session(session.protocol, session.row.header.seed, reader.events(session_id));
+  const Projection fold = fold_session(session.protocol, session.row.header.seed,
+                                       reader.events(session_id), session.before());
   std::map<Kind, Paths> by_kind;
   for (const auto& [index, attempt] : fold.attempts)
     add_attempt(attempt, reader.frames(session_id, index), protocol,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "base/Error.h"
 
@@ -28,15 +27,6 @@ FrameRow row_of(const Picture& picture, double start_s) {
   return row;
 }
 
-Event event_of(const Action& action, double t_s) {
-  Event event;
-  event.t_s = t_s;
-  event.kind = EventKind::action;
-  event.detail = name_of(action.kind);
-  event.slot = action.slot;
-  event.label = action.label;
-  return event;
-}
 }  // namespace
 
 AttemptRun::AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,
@@ -45,7 +35,7 @@ AttemptRun::AttemptRun(const SessionParts& parts, const RunnerOptions& options, 
 
 void AttemptRun::run(const TrialPlan& plan) {
   const Protocol& protocol = parts_.protocol;
-  journal_.emit_now(EventKind::trial_started);
+  journal_.emit_now(TrialStarted{});
   start_s_ = engine().last_s();
   parts_.responder.begin_trial(
       {plan.trial_number, plan.attempt, plan.task, stage_of(protocol, plan.n_slots())});
@@ -78,7 +68,7 @@ bool AttemptRun::run_picture() {
     if (!picture->trouble.empty()) return true;
   }
   row.after_event = engine().n_events();
-  const ShownPicture shown = world_->advance(picture->sample);
+  const ShownFrame shown = world_->advance(picture->sample);
   if (parts_.clock.is_wall()) row.simulated_s = journal_.now_s();
   show(shown, *picture, row);
   take_actions(shown);
@@ -128,15 +118,15 @@ bool AttemptRun::wait_for_camera(const Picture& picture) {
   attendant_.status.trouble = picture.trouble;
   if (!trouble_since_s_) {
     trouble_since_s_ = journal_.now_s();
-    journal_.emit_now(EventKind::paused, picture.trouble);
+    journal_.emit_now(SessionPaused{picture.trouble});
     parts_.sink.flush();
   } else if (picture.trouble.empty()) {
     trouble_since_s_.reset();
-    journal_.emit_now(EventKind::continued);
+    journal_.emit_now(SessionContinued{});
     return open;
   }
   if (open && journal_.now_s() - *trouble_since_s_ > parts_.protocol.void_after_s)
-    journal_.emit_now(EventKind::voided, picture.trouble);
+    journal_.emit_now(TrialVoided{picture.trouble});
   ViewPicture nothing;
   nothing.frame.t_s = picture.sample.t_capture_s;
   nothing.frame.tracked = false;
@@ -144,8 +134,8 @@ bool AttemptRun::wait_for_camera(const Picture& picture) {
   return !engine().needs_somebody();
 }
 
-void AttemptRun::show(const ShownPicture& shown, const Picture& picture, FrameRow& row) {
-  const auto is_cubes_shown = [](const Event& e) { return e.kind == EventKind::cubes_shown; };
+void AttemptRun::show(const ShownFrame& shown, const Picture& picture, FrameRow& row) {
+  const auto is_cubes_shown = [](const Event& e) { return e.as<CubesShown>() != nullptr; };
   std::vector<Event> events = shown.events;
   const bool cubes_appear = std::erase_if(events, is_cubes_shown) > 0;
   log_events(events);
@@ -154,10 +144,7 @@ void AttemptRun::show(const ShownPicture& shown, const Picture& picture, FrameRo
   row.present_s = presented && parts_.clock.is_wall() ? log_time(parts_.clock.session_s(*presented))
                                                       : journal_.now_s();
   if (cubes_appear) {
-    Event appeared;
-    appeared.t_s = row.present_s;
-    appeared.kind = EventKind::cubes_shown;
-    journal_.emit(appeared, Durability::acknowledged);
+    journal_.emit({row.present_s, CubesShown{}}, Durability::acknowledged);
     if (parts_.has_screen)
       screen_.present(shown_, engine().screen());  // answers can be given from here on
   }
@@ -201,10 +188,7 @@ void AttemptRun::count_picture(const Picture& picture, const FrameRow& row) {
 // On a virtual clock no picture can be dropped or late.
 void AttemptRun::report_pictures() {
   if (!parts_.clock.is_wall()) return;
-  journal_.emit_now(
-      EventKind::camera,
-      nlohmann::ordered_json{{"shown", n_shown_}, {"dropped", n_dropped_}, {"late", n_late_}}
-          .dump());
+  journal_.emit_now(CameraReport{n_shown_, n_dropped_, n_late_});
 }
 
 void AttemptRun::take_touches(const std::vector<Touch>& touches) {
@@ -225,43 +209,40 @@ bool AttemptRun::take_touch(const Touch& touch) {
     return false;
   }
   if (touch.kind != TouchKind::action) return false;
-  const Event event =
-      event_of(touch.action,
-               std::max(log_time(parts_.clock.session_s(touch.monotonic_s)), engine().last_s()));
-  if (const auto why = engine().refusal(event)) {
-    journal_.emit_now(EventKind::note,
-                      fmt::format("a touch was not taken: {}: {}", event.detail, *why));
+  const double t_s =
+      std::max(log_time(parts_.clock.session_s(touch.monotonic_s)), engine().last_s());
+  const Admission admission = engine().admit({t_s, touch.action});
+  if (!admission.admitted) {
+    journal_.emit_now(Note{fmt::format("a touch was not taken: {}: {}", name_of(touch.action.kind),
+                                       admission.refusal)});
     return false;
   }
-  answer(event);
+  answer(*admission.admitted, touch.action);
   return true;
 }
 
 void AttemptRun::put_cubes_back() {
-  Event event;
-  event.t_s = journal_.now_s();
-  event.kind = EventKind::cubes_reset;
-  event.detail = "button";
-  if (engine().refusal(event)) return;  // they are not there yet
-  journal_.emit(event, Durability::acknowledged);
+  const Admission admission = engine().admit({journal_.now_s(), CubesReset{}});
+  if (!admission.admitted) return;  // they are not there yet
+  journal_.emit(*admission.admitted, Durability::acknowledged);
   world_->request_reset();
 }
 
-void AttemptRun::take_actions(const ShownPicture& shown) {
-  const std::vector<Action> actions = parts_.responder.see(shown.frame, engine().screen());
+void AttemptRun::take_actions(const ShownFrame& shown) {
+  const std::vector<TimedAction> actions = parts_.responder.see(shown.frame, engine().screen());
   if (parts_.texts) return;  // a person answers; of the model only the hand is wanted
-  for (const Action& action : actions) {
+  for (const TimedAction& action : actions) {
     // Its own time, which may lie before the newest picture's, but not before an event.
-    const Event event =
-        event_of(action, std::max(start_s_ + log_time(action.t_s), engine().last_s()));
-    if (const auto why = engine().refusal(event)) refuse_model(action, *why);
-    answer(event);
+    const double t_s = std::max(start_s_ + log_time(action.t_s), engine().last_s());
+    const Admission admission = engine().admit({t_s, Action(action)});
+    if (!admission.admitted) refuse_model(action, admission.refusal);
+    answer(*admission.admitted, action);
     if (!trial_goes_on()) return;
   }
 }
 
 // What a model does wrong is a mistake in it, not in an answer.
-void AttemptRun::refuse_model(const Action& action, const std::string& why) {
+void AttemptRun::refuse_model(const TimedAction& action, const std::string& why) {
   const int trial_number = engine().next().plan->trial_number;
   journal_.leave("the responder's action was refused");
   throw Error(fmt::format("trial {}: the responder's \"{}\"{} at {:.3f} s can't be taken: {}",
@@ -270,11 +251,12 @@ void AttemptRun::refuse_model(const Action& action, const std::string& why) {
                           why));
 }
 
-void AttemptRun::answer(const Event& event) {
+void AttemptRun::answer(const AdmittedEvent& admitted, const Action& action) {
   const TrialPlan before = *engine().next().plan;
   // What is still being touched is let go of before an answer can close the trial.
-  if (engine().ends_trial(event)) log_events(world_->end_contacts(event.t_s - start_s_));
-  journal_.emit(event, Durability::acknowledged);
+  if (engine().ends_trial(action))
+    log_events(world_->end_contacts(admitted.event().t_s - start_s_));
+  journal_.emit(admitted, Durability::acknowledged);
   const Next& after = engine().next();
   if (after.kind == Next::Kind::act && after.plan->n_reshuffles > before.n_reshuffles)
     world_->rearrange(*after.plan);

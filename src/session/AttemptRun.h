@@ -27,7 +27,7 @@ class AttemptRun {
   std::optional<Picture> next_picture();
   bool wait_until(double t_s);
   bool wait_for_camera(const Picture& picture);
-  void show(const ShownPicture& shown, const Picture& picture, FrameRow& row);
+  void show(const ShownFrame& shown, const Picture& picture, FrameRow& row);
   void log_events(const std::vector<Event>& events);
   void count_picture(const Picture& picture, const FrameRow& row);
   void report_pictures();
@@ -35,9 +35,9 @@ class AttemptRun {
   void take_touches(const std::vector<Touch>& touches);
   bool take_touch(const Touch& touch);
   void put_cubes_back();
-  void take_actions(const ShownPicture& shown);
-  void refuse_model(const Action& action, const std::string& why);
-  void answer(const Event& event);
+  void take_actions(const ShownFrame& shown);
+  [[noreturn]] void refuse_model(const TimedAction& action, const std::string& why);
+  void answer(const AdmittedEvent& admitted, const Action& action);
 
   const SessionParts& parts_;
   const RunnerOptions& options_;

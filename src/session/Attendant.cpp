@@ -57,7 +57,9 @@ void Attendant::obey(const DeskCommand& command) {
     case DeskCommandKind::pause:
       if (journal_.engine().state() == SessionState::paused)
         return desk_->say("the session is paused already");
-      journal_.emit_now(EventKind::paused, "experimenter");
+      if (journal_.engine().next().kind == Next::Kind::over)
+        return desk_->say("the session is over; there is nothing to pause");
+      journal_.emit_now(SessionPaused{"experimenter"});
       holding_ = true;
       return;
     case DeskCommandKind::go_on:
@@ -65,7 +67,7 @@ void Attendant::obey(const DeskCommand& command) {
     case DeskCommandKind::veto:
       return veto(command.text);
     case DeskCommandKind::note:
-      journal_.emit_now(EventKind::note, command.text);
+      journal_.emit_now(Note{command.text});
       return desk_->say("noted");
     case DeskCommandKind::rest:
       rest_wanted_ = true;
@@ -82,21 +84,21 @@ void Attendant::obey(const DeskCommand& command) {
 void Attendant::go_on() {
   if (std::exchange(asking_, false)) return;
   if (!holding_) return desk_->say("the session is not held; it goes on by itself");
-  journal_.emit_now(EventKind::continued);
+  journal_.emit_now(SessionContinued{});
   holding_ = false;
 }
 
 void Attendant::veto(const std::string& why) {
   if (!journal_.engine().trial_is_open())
     return desk_->say("no trial is open; an answered trial stays as it is");
-  journal_.emit_now(EventKind::voided, "veto: " + why);
+  journal_.emit_now(TrialVoided{"veto: " + why});
   desk_->say("the trial is void and will be presented again");
 }
 
 void Attendant::unblind() {
   if (unblinded_) return;
   unblinded_ = true;
-  journal_.emit_now(EventKind::unblinding, "experimenter");
+  journal_.emit_now(Unblinding{"experimenter"});
 }
 
 bool Attendant::take_rest_wish() {

@@ -18,7 +18,7 @@ constexpr double roll_rad = 40 * std::numbers::pi / 180;
 TrialPlan plan_of_demonstration() {
   TrialPlan plan;
   plan.block = "demonstration";
-  plan.condition = Condition::C1;
+  plan.condition = "C1";
   plan.masses_g = {mass_g, mass_g, mass_g};
   return plan;
 }

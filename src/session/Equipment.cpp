@@ -17,7 +17,7 @@ bool has_size(const MarkerBody& effector, const Eigen::Vector3d& size_m) {
 }
 
 // What people hold must be what the simulated one looks like.
-void require_size(const Protocol& protocol, const MarkerBody& effector, const RunOptions& options) {
+void require_size(const Protocol& protocol, const MarkerBody& effector, const Setup& options) {
   const Eigen::Vector3d& size_m = protocol.effector_size_m;
   if (has_size(effector, size_m)) return;
   throw Error(fmt::format("{} is {:.4g} x {:.4g} x {:.4g} m, but the protocol's [effector] size_m "
@@ -38,7 +38,7 @@ void require_general_simulator(const std::string& name) {
       ExitCode::usage);
 }
 
-Apparatus fitting_apparatus(const Protocol& protocol, const RunOptions& options) {
+Apparatus fitting_apparatus(const Protocol& protocol, const Setup& options) {
   Apparatus apparatus = apparatus_of(options);
   if (!apparatus.effector.tags.empty()) require_size(protocol, apparatus.effector, options);
   return apparatus;
@@ -46,7 +46,7 @@ Apparatus fitting_apparatus(const Protocol& protocol, const RunOptions& options)
 
 // What the demonstration shows where the session itself films nothing: the board and effector that
 // would be filmed, as far as the options have them. Of another size than these there is no print.
-Apparatus unfilmed_apparatus(const Protocol& protocol, const RunOptions& options) {
+Apparatus unfilmed_apparatus(const Protocol& protocol, const Setup& options) {
   if (!has_person(options) || options.board_text.empty()) return {};
   Apparatus apparatus{{},
                       parse_board(options.board_text, options.board_file),
@@ -58,12 +58,12 @@ Apparatus unfilmed_apparatus(const Protocol& protocol, const RunOptions& options
   return apparatus;
 }
 
-ViewSetup view_setup(const Protocol& protocol, const RunOptions& options,
-                     const Apparatus& apparatus) {
+ViewSetup view_setup(const Protocol& protocol, const Setup& options, const Apparatus& apparatus) {
   ViewSetup setup;
   setup.stage = stage_of(protocol, 3);
   if (!apparatus.board.tags.empty()) setup.camera = apparatus.camera;
-  if (has_person(options)) setup.texts = parse_texts(options.texts_text, options.texts_file);
+  if (!options.texts_text.empty())
+    setup.texts = parse_texts(options.texts_text, options.texts_file);
   setup.left_handed = options.handed == "left";
   setup.file = split_name(options.view).file;
   setup.rate_hz = protocol.display_rate_hz;
@@ -71,7 +71,7 @@ ViewSetup view_setup(const Protocol& protocol, const RunOptions& options,
 }
 }  // namespace
 
-Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const RunOptions& options,
+Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const Setup& options,
                      std::uint64_t seed)
     : clock(runs_on_wall_clock(options) ? SessionClock::wall_from(0)
                                         : SessionClock::virtual_from(0)),

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "apparatus/RunOptions.h"
+#include "apparatus/SessionSetup.h"
 #include "session/SessionParts.h"
 
 namespace heft {
@@ -13,8 +13,7 @@ namespace heft {
 class Equipment {
  public:
   /// @throws Error (device_missing) when a camera or display is not there; Error as complete()
-  Equipment(std::shared_ptr<const Protocol> protocol, const RunOptions& options,
-            std::uint64_t seed);
+  Equipment(std::shared_ptr<const Protocol> protocol, const Setup& options, std::uint64_t seed);
   Equipment(const Equipment&) = delete;
 
   SessionParts parts(Engine& engine, EventSink& sink);

@@ -11,23 +11,22 @@ constexpr double flush_every_s = 1;
 void Journal::emit(Event event, Durability durability) {
   clock_.advance_to(event.t_s);
   event.t_s = std::max(event.t_s, engine_.last_s());
-  const Changes changes = engine_.apply(event);
+  keep(event, engine_.apply(event), durability);
+}
+
+void Journal::emit(const AdmittedEvent& admitted, Durability durability) {
+  clock_.advance_to(admitted.event().t_s);
+  keep(admitted.event(), engine_.apply(admitted), durability);
+}
+
+void Journal::keep(const Event& event, const Changes& changes, Durability durability) {
   sink_.append(event, changes, durability);
   told_(engine_);
 }
 
-void Journal::emit_now(EventKind kind, std::string detail, std::optional<double> value) {
-  Event event;
-  event.t_s = now_s();
-  event.kind = kind;
-  event.detail = std::move(detail);
-  event.value = value;
-  emit(event, Durability::acknowledged);
-}
-
 void Journal::leave(const std::string& why) {
-  if (engine_.trial_is_open()) emit_now(EventKind::voided, std::string(void_interrupted));
-  if (engine_.state() != SessionState::paused) emit_now(EventKind::paused, why);
+  if (engine_.trial_is_open()) emit_now(TrialVoided{std::string(void_interrupted)});
+  if (engine_.state() != SessionState::paused) emit_now(SessionPaused{why});
 }
 
 void Journal::flush_now_and_then() {

@@ -23,8 +23,11 @@ class Journal {
   /// @throws Error when the engine refuses it or the log can't save it
   void emit(Event event, Durability durability);
 
+  /// The same, at the time that it was admitted with.
+  void emit(const AdmittedEvent& admitted, Durability durability);
+
   /// An event of now, on disk when this returns.
-  void emit_now(EventKind kind, std::string detail = {}, std::optional<double> value = {});
+  void emit_now(Happening what) { emit({now_s(), std::move(what)}, Durability::acknowledged); }
 
   /// Leaves the session so that it can be resumed: an open attempt is void and will run again with
   /// the same draws.
@@ -39,6 +42,8 @@ class Journal {
   double now_s() const { return log_time(clock_.now_s()); }
 
  private:
+  void keep(const Event& event, const Changes& changes, Durability durability);
+
   Engine& engine_;
   EventSink& sink_;
   SessionClock& clock_;

@@ -18,7 +18,7 @@ std::string next_part(const std::string& path) {
   return candidate;
 }
 
-RunOptions with_next_parts(RunOptions options) {
+Setup with_next_parts(Setup options) {
   const auto [view, file] = split_name(options.view);
   if (!file.empty()) options.view = view + ":" + next_part(file);
   if (!options.record_camera.empty()) options.record_camera = next_part(options.record_camera);

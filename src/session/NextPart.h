@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "apparatus/RunOptions.h"
+#include "apparatus/SessionSetup.h"
 
 namespace heft {
 
@@ -12,6 +12,6 @@ namespace heft {
 std::string next_part(const std::string& path);
 
 /// The options with free paths for the view's video and the kept camera pictures.
-RunOptions with_next_parts(RunOptions options);
+Setup with_next_parts(Setup options);
 
 }  // namespace heft

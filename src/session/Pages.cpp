@@ -1,7 +1,6 @@
 #include "session/Pages.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "base/Sha256.h"
 #include "protocol/TextsFile.h"
@@ -19,11 +18,7 @@ bool Pages::welcome() {
     const TouchKind answer = show(Screen::consent);
     if (answer == TouchKind::close) return true;
     const bool agreed = answer == TouchKind::next;
-    journal_.emit_now(EventKind::consent,
-                      nlohmann::ordered_json{{"agreed", agreed},
-                                             {"language", texts_->language},
-                                             {"sha256", sha256(page_text(*texts_, "consent"))}}
-                          .dump());
+    journal_.emit_now(Consent{agreed, texts_->language, sha256(page_text(*texts_, "consent"))});
     if (!agreed) return false;
   }
   show(Screen::welcome);

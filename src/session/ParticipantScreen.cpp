@@ -1,7 +1,5 @@
 #include "session/ParticipantScreen.h"
 
-#include <nlohmann/json.hpp>
-
 #include "base/Sha256.h"
 #include "protocol/TextsFile.h"
 
@@ -17,11 +15,7 @@ std::optional<double> ParticipantScreen::present(const ViewPicture& picture,
 void ParticipantScreen::log_text(const std::string& page) {
   if (page == page_) return;
   page_ = page;
-  journal_.emit_now(EventKind::text_shown,
-                    nlohmann::ordered_json{{"page", page},
-                                           {"language", texts_->language},
-                                           {"sha256", sha256(page_text(*texts_, page))}}
-                        .dump());
+  journal_.emit_now(TextShown{page, texts_->language, sha256(page_text(*texts_, page))});
 }
 
 }  // namespace heft

@@ -26,7 +26,7 @@ RunEnd Runner::run() {
 void Runner::check_apparatus() {
   std::string failed;
   for (const CheckResult& result : parts_.pictures.check(parts_.protocol.display_rate_hz)) {
-    journal_.emit_now(EventKind::check, to_json(result));
+    journal_.emit_now(result);
     const bool has_failed = result.verdict == CheckVerdict::failed;
     if (options_.desk)
       options_.desk->say(fmt::format("{:<8} {}: {}",
@@ -42,8 +42,8 @@ void Runner::ask_whether_failures_matter(const std::string& failed) {
   const auto goes_on = attendant_.ask_to_go_on(
       "go on? y goes on, n leaves; nothing has been shown to the participant yet");
   if (!goes_on) return;
-  journal_.emit_now(EventKind::note, fmt::format("failed check: {}; the experimenter {}", failed,
-                                                 *goes_on ? "goes on" : "leaves"));
+  journal_.emit_now(Note{fmt::format("failed check: {}; the experimenter {}", failed,
+                                     *goes_on ? "goes on" : "leaves")});
 }
 
 // Who comes back after a crash has read the first pages already.
@@ -52,7 +52,7 @@ bool Runner::begin() {
   check_apparatus();
   if (parts_.engine.n_attempts() > 0) return true;
   if (pages_.welcome()) return true;
-  journal_.emit_now(EventKind::ended, "aborted");
+  journal_.emit_now(SessionEnded{Ending::aborted});
   return false;
 }
 
@@ -84,7 +84,7 @@ RunEnd Runner::run_blocks() {
 RunEnd Runner::finish() {
   if (pages_.has_reader()) pages_.how_decided();
   if (attendant_.leaving()) return RunEnd::stopped;
-  journal_.emit_now(EventKind::ended, "finished");
+  journal_.emit_now(SessionEnded{});
   return RunEnd::finished;
 }
 
@@ -95,7 +95,7 @@ void Runner::take_break(const std::string& name, double least_s) {
   else
     parts_.clock.advance_to(since_s + least_s);
   if (attendant_.leaving()) return;  // who comes back takes it again
-  journal_.emit_now(EventKind::rest, name, journal_.now_s() - since_s);
+  journal_.emit_now(BreakTaken{name, journal_.now_s() - since_s});
 }
 
 void Runner::show_demonstration(const DemonstrationBlock& block) {
@@ -103,15 +103,15 @@ void Runner::show_demonstration(const DemonstrationBlock& block) {
     pages_.demonstration(block, parts_.apparatus);
   else
     parts_.clock.advance_to(journal_.now_s() + block.duration_s);
-  if (!attendant_.leaving()) journal_.emit_now(EventKind::demonstration_shown, block.name);
+  if (!attendant_.leaving()) journal_.emit_now(DemonstrationShown{block.name});
 }
 
 void Runner::run_trial(const TrialPlan& plan) {
   if (const auto survivor = parts_.engine.survivor(); survivor && survivor != told_survivor_) {
     told_survivor_ = survivor;
-    journal_.emit_now(EventKind::note,
-                      fmt::format("staircase \"{}\" is the last one and runs alone from trial {}",
-                                  *survivor, plan.trial_number));
+    journal_.emit_now(
+        Note{fmt::format("staircase \"{}\" is the last one and runs alone from trial {}", *survivor,
+                         plan.trial_number)});
   }
   if (pages_.has_reader() && told_block_ != plan.block) {
     pages_.instructions(plan.task);

@@ -7,8 +7,9 @@
 
 #include "base/Build.h"
 #include "base/Error.h"
-#include "record/LogReader.h"
 #include "record/SessionLog.h"
+#include "record/SetupJson.h"
+#include "replay/Replay.h"
 #include "session/Equipment.h"
 #include "session/NextPart.h"
 
@@ -41,12 +42,6 @@ void refuse_repetition(const SessionRequest& request) {
   }
 }
 
-// What `auto` is, once: the header says it and the trials run with it.
-SessionRequest resolved(SessionRequest request) {
-  request.options = with_auto_resolved(std::move(request.options), request.protocol);
-  return request;
-}
-
 // The `session` row of a request that starts now.
 SessionHeader header_of(const SessionRequest& request) {
   SessionHeader header;
@@ -57,9 +52,9 @@ SessionHeader header_of(const SessionRequest& request) {
   header.seed = request.seed;
   header.heft_version = HEFT_VERSION;
   header.build = build_name();
-  header.run_options = to_json(request.options);
-  header.purpose = has_person(request.options) ? request.purpose : "simulated";
-  header.responder = request.options.responder;
+  header.run_options = to_json(request.setup);
+  header.purpose = has_person(request.setup) ? request.purpose : Purpose::simulated;
+  header.responder = request.setup.responder;
   header.started_utc = utc_now();
   return header;
 }
@@ -74,39 +69,45 @@ SessionResult result_of(const Engine& engine, RunEnd end, std::int64_t session_i
   return {end, session_id, engine.last_s(), engine.n_completed()};
 }
 
-Event plain_event(double t_s, EventKind kind, std::string detail) {
-  Event event;
-  event.t_s = t_s;
-  event.kind = kind;
-  event.detail = std::move(detail);
-  return event;
+// What is written next must follow what was written before, by anybody's account.
+void refuse_changed_log(const LogReader& reader, const LoggedSession& session) {
+  std::string why;
+  if (const auto foreign = reader.foreign_objects(); !foreign.empty())
+    why = fmt::format("it holds what no log does: {}", foreign.front());
+  else if (const Verification found = verify_rows(reader, session); found.first)
+    why = fmt::format("{} reads {}, but its events give {}", found.first->what, found.first->logged,
+                      found.first->came_out);
+  if (!why.empty())
+    throw Error(
+        fmt::format("session {} in {} can't go on: the log is not as it was written; {}. "
+                    "Look at it with: heft replay --db {} --session {}",
+                    session.row.session_id, session.db, why, session.db, session.row.session_id),
+        ExitCode::diverged);
 }
 
 // A logged session folded up to its last event, with nobody else writing.
 struct Reopened {
   explicit Reopened(const LoggedSession& session)
       : log(SessionLog::reopen(session.db, session.row.session_id)),
-        engine(session.protocol, session.row.header.seed) {
-    for (const LoggedEvent& logged : LogReader(session.db).events(session.row.session_id))
+        engine(session.protocol, session.row.header.seed, session.before() ? 1 : 0) {
+    const LogReader reader(session.db);
+    refuse_changed_log(reader, session);
+    for (const LoggedEvent& logged : reader.events(session.row.session_id))
       engine.apply(logged.event);
   }
   void append(const Event& event) { log.append(event, engine.apply(event), Durability::buffered); }
-  void close_attempt(const std::string& why) {
-    if (engine.trial_is_open()) append(plain_event(engine.last_s(), EventKind::voided, why));
+  void close_attempt(std::string_view why) {
+    if (engine.trial_is_open()) append({engine.last_s(), TrialVoided{std::string(why)}});
   }
 
   SessionLog log;
   Engine engine;
 };
 
-// With the options that were given again when it was resumed before.
-LoggedSession load_unfinished(const LogReader& reader, const std::string& db,
-                              std::int64_t session_id) {
-  LoggedSession session = load_session(reader, db, session_id);
-  for (const LoggedEvent& logged : reader.events(session_id))
-    if (logged.event.kind == EventKind::deviation)
-      apply_deviation(session.options, logged.event.detail);
-  return session;
+// From here on this is in force.
+void tell_setup(Engine& engine, EventSink& sink, const Setup& setup) {
+  const Event event{engine.last_s(), setup};
+  sink.append(event, engine.apply(event), Durability::buffered);
 }
 
 }  // namespace
@@ -128,13 +129,13 @@ void refuse_special_file(const std::string& db) {
                   db));
 }
 
-SessionResult start_session(const SessionRequest& asked_for, const RunnerOptions& runner) {
-  refuse_repetition(asked_for);
-  const SessionRequest request = resolved(asked_for);
-  const auto protocol = protocol_for(request.protocol, request.options);
-  Equipment equipment(protocol, request.options, request.seed);
+SessionResult start_session(const SessionRequest& request, const RunnerOptions& runner) {
+  refuse_repetition(request);
+  const auto protocol = protocol_for(request.protocol, request.setup);
+  Equipment equipment(protocol, request.setup, request.seed);
   SessionLog log = SessionLog::start(request.db, header_of(request));
   Engine engine(protocol, request.seed);
+  tell_setup(engine, log, request.setup);
   const RunEnd end = run_with(equipment, engine, log, runner, 0);
   return result_of(engine, end, log.session_id());
 }
@@ -147,10 +148,10 @@ LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_
     if (!is_unfinished(state))
       throw Error(fmt::format("session {} in {} is {}; there is nothing to go on with", *session_id,
                               db, name_of(state)));
-    return load_unfinished(reader, db, *session_id);
+    return load_session(reader, db, *session_id);
   }
   if (const auto row = reader.newest_unfinished_session())
-    return load_unfinished(reader, db, row->session_id);
+    return load_session(reader, db, row->session_id);
   throw Error(
       fmt::format("{} holds no unfinished session; start one: heft run PROTOCOL "
                   "--participant ID --db {}",
@@ -158,42 +159,43 @@ LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_
 }
 
 void give_again(LoggedSession& session, const GivenOptions& again) {
-  const std::string& simulator = session.protocol->simulator.name;
-  const bool as_asked_for = again.simulator && !session.options.auto_simulator.empty() &&
-                            is_same_simulator(*again.simulator, "auto");
-  if (again.simulator && !as_asked_for && !is_same_simulator(*again.simulator, simulator))
-    throw Error(fmt::format("session {} runs with the simulator {}, and replay checks a whole "
-                            "session with one; go on without --simulator {}",
-                            session.row.session_id, simulator, *again.simulator),
+  if (!again.settings.empty())
+    throw Error(fmt::format("session {} has one protocol from its start to its end; go on without "
+                            "--set",
+                            session.row.session_id),
                 ExitCode::usage);
-  RunOptions options = session.options;
-  if (again.tracker) options.tracker = *again.tracker;
-  if (again.view) options.view = *again.view;
-  if (again.camera_file) options.camera_file = *again.camera_file;
-  if (again.board_file) options.board_file = *again.board_file;
-  if (again.effector_file) options.effector_file = *again.effector_file;
-  if (again.responder) options.responder = *again.responder;
-  const bool as_before = !again.responder && !again.tracker && !again.camera_file &&
-                         !again.board_file && !again.effector_file;
-  if (as_before)
-    check(options);
+  Setup setup = session.setup;
+  if (again.simulator && !is_same_simulator(*again.simulator, setup.simulator)) {
+    setup.simulator = *again.simulator;
+    setup.simulator_why.clear();
+    setup.rate_hz.reset();
+  }
+  if (again.tracker) setup.tracker = *again.tracker;
+  if (again.view) setup.view = *again.view;
+  if (again.camera_file) setup.camera_file = *again.camera_file;
+  if (again.board_file) setup.board_file = *again.board_file;
+  if (again.effector_file) setup.effector_file = *again.effector_file;
+  if (again.texts_file) setup.texts_file = *again.texts_file;
+  if (again.responder) setup.responder = *again.responder;
+  const bool files_stay = !again.responder && !again.tracker && !again.camera_file &&
+                          !again.board_file && !again.effector_file && !again.texts_file;
+  if (files_stay)
+    check(setup);
   else
-    complete(options);
-  session.changes = changes_between(session.options, options);
-  session.options = options;
+    complete(setup);
+  session.setup = in_force(std::move(setup), *session.protocol);
+  session.protocol = protocol_for(*session.protocol, session.setup);
 }
 
 SessionResult resume_session(const LoggedSession& session, const RunnerOptions& runner) {
-  Equipment equipment(session.protocol, with_next_parts(session.options), session.row.header.seed);
+  Equipment equipment(session.protocol, with_next_parts(session.setup), session.row.header.seed);
   Reopened reopened(session);
   const double last_s = reopened.engine.last_s();
-  reopened.close_attempt(std::string(void_interrupted));
+  reopened.close_attempt(void_interrupted);
   const double now_s = log_time(std::max(last_s, seconds_since(session.row.header.started_utc)));
-  Event resumed = plain_event(now_s, EventKind::resumed, utc_now());
-  resumed.value = now_s - last_s;
-  reopened.append(resumed);
-  for (const OptionChange& change : session.changes)
-    reopened.append(plain_event(now_s, EventKind::deviation, to_json(change)));
+  reopened.append({now_s, SessionResumed{utc_now(), now_s - last_s}});
+  if (session.setup != session.setups.back().setup)
+    tell_setup(reopened.engine, reopened.log, session.setup);
   reopened.log.flush();  // all of the return or nothing of it
   const RunEnd end = run_with(equipment, reopened.engine, reopened.log, runner, now_s);
   return result_of(reopened.engine, end, session.row.session_id);
@@ -202,16 +204,16 @@ SessionResult resume_session(const LoggedSession& session, const RunnerOptions& 
 void abort_session(const LoggedSession& session) {
   Reopened reopened(session);
   reopened.close_attempt("aborted");
-  reopened.append(plain_event(reopened.engine.last_s(), EventKind::ended, "aborted"));
+  reopened.append({reopened.engine.last_s(), SessionEnded{Ending::aborted}});
   reopened.log.flush();
 }
 
-RecordedSession compute_session(const SessionRequest& asked_for, const RunnerOptions& runner) {
-  const SessionRequest request = resolved(asked_for);
+RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {
   RecordedSession recorded(header_of(request));
-  const auto protocol = protocol_for(request.protocol, request.options);
-  Equipment equipment(protocol, request.options, request.seed);
+  const auto protocol = protocol_for(request.protocol, request.setup);
+  Equipment equipment(protocol, request.setup, request.seed);
   Engine engine(protocol, request.seed);
+  tell_setup(engine, recorded, request.setup);
   run_with(equipment, engine, recorded, runner, 0);
   return recorded;
 }

@@ -13,12 +13,12 @@ namespace heft {
 
 struct SessionRequest {
   Protocol protocol;
-  RunOptions options;  ///< completed
+  Setup setup;  ///< completed
   std::string participant;
   std::string db = "heft.db";
   std::uint64_t seed = 0;
-  std::string purpose = "main";  ///< of a person's session: main, pilot or test
-  bool again = false;            ///< one more session of a participant who finished this protocol
+  Purpose purpose = Purpose::main;  ///< of a person's session
+  bool again = false;  ///< one more session of a participant who finished this protocol
 };
 
 /// @throws Error when there is a device, a pipe or a socket where the log should be: opening one
@@ -39,17 +39,18 @@ std::uint64_t fresh_seed();
 ///   finished one and `again` is not set; otherwise as Runner::run
 SessionResult start_session(const SessionRequest& request, const RunnerOptions& runner);
 
-/// The session of that id, or the newest unfinished one, with the options now in force: those it
-/// was started with and those given again since.
+/// The session of that id, or the newest unfinished one.
 /// @throws Error when there is none, or it is over
 LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_t> session_id);
 
-/// Puts them in force and checks everything the session will run with.
-/// @throws Error as complete(); Error (usage) for another simulator, as a log is replayed with one
+/// Puts them in force from here on and checks everything the session will run with.
+/// @throws Error as complete(); Error (usage) for changes to the protocol, which a session has one
+/// of
 void give_again(LoggedSession& session, const GivenOptions& again);
 
 /// Goes on with an unfinished session: an attempt that was open is void ("interrupted") and runs
-/// again with the same draws. Each of `session.changes` is logged as a deviation.
+/// again with the same draws. A setup that is not the last one logged is told first.
+/// @throws Error (diverged) when the log is not as it was written
 SessionResult resume_session(const LoggedSession& session, const RunnerOptions& runner);
 
 /// Ends an unfinished session for good (state "aborted"): somebody who will not come back. What was

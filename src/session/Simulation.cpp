@@ -73,7 +73,7 @@ class InOrder {
 SessionRequest session_of(const SimulationRequest& request, int number) {
   SessionRequest session;
   session.protocol = request.protocol;
-  session.options = request.options;
+  session.setup = request.setup;
   session.participant = simulated_participant(number);
   session.db = request.db;
   session.seed =

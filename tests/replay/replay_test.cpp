@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "apparatus/RunOptions.h"
+#include "apparatus/SessionSetup.h"
 #include "apparatus/TrialWorld.h"
 #include "base/Build.h"
 #include "record/SessionArchive.h"
@@ -30,17 +30,17 @@ class LateAnswers final : public Responder {
     const double y_m = -0.15 + 0.09 * (1 - std::cos(2 * t_s));
     return {upright_pose({-0.04, y_m, 0.025}, std::numbers::pi / 2), true};
   }
-  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+  std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {
     const double t_s = frame.t_s + delay_s_;
     if (frame.cubes.empty() || frame.t_s < 2) return {};
     switch (task_) {
       case Task::introduction:
-        return {{t_s, ActionKind::select, 1 + screen.n_choices % 2, {}}};
+        return {{{ActionKind::select, 1 + screen.n_choices % 2, {}}, t_s}};
       case Task::sorting:
-        if (frame.t_s > 9) return {{t_s, ActionKind::dont_know, {}, {}}};
-        return {{t_s, ActionKind::label, 1, static_cast<Label>(screen.n_choices % 3)}};
+        if (frame.t_s > 9) return {{{ActionKind::dont_know, {}, {}}, t_s}};
+        return {{{ActionKind::label, 1, static_cast<Label>(screen.n_choices % 3)}, t_s}};
       case Task::comparison:
-        return {{t_s, ActionKind::no_difference, {}, {}}};
+        return {{{ActionKind::no_difference, {}, {}}, t_s}};
     }
     return {};
   }
@@ -72,7 +72,7 @@ class Replay : public ::testing::Test {
     header.seed = 5;
     header.heft_version = "test";
     header.build = build_name();
-    RunOptions options;
+    Setup options;
     options.tracker = "camera:0";  // whose pictures and touches keep no common beat
     header.run_options = to_json(options);
     header.purpose = "test";

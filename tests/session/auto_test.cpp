@@ -95,14 +95,14 @@ TEST_F(AutoSimulator, stays_as_the_log_says_when_the_session_goes_on_and_the_tab
 TEST_F(AutoSimulator, may_be_asked_for_in_the_protocol) {
   request.options.simulator.clear();
   request.protocol.simulator.name = "auto";
-  const RunOptions resolved = with_auto_resolved(request.options, request.protocol);
+  const Setup resolved = with_auto_resolved(request.options, request.protocol);
   EXPECT_EQ(protocol_for(request.protocol, resolved)->simulator.name,
             resolve_auto(request.protocol).simulator);
 }
 
 TEST_F(AutoSimulator, leaves_no_trace_where_nobody_asked_for_it) {
   request.options.simulator = "bullet";
-  const RunOptions resolved = with_auto_resolved(request.options, request.protocol);
+  const Setup resolved = with_auto_resolved(request.options, request.protocol);
   EXPECT_EQ(resolved.auto_simulator + resolved.auto_rate_hz + resolved.auto_why, "");
   EXPECT_EQ(protocol_for(request.protocol, resolved)->simulator.name, "bullet");
 }

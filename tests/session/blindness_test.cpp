@@ -20,14 +20,14 @@ using testing::small_protocol;
 using Change = std::function<void(DisplayedFrame&)>;
 
 struct Answer {
-  std::vector<Action> actions;
+  std::vector<TimedAction> actions;
   Outcome outcome = Outcome::dont_know;
   std::vector<std::optional<Label>> labels;
 
   // The same actions at the same times.
   bool operator==(const Answer& other) const {
     return labels == other.labels &&
-           std::ranges::equal(actions, other.actions, [](const Action& a, const Action& b) {
+           std::ranges::equal(actions, other.actions, [](const TimedAction& a, const TimedAction& b) {
              return a.t_s == b.t_s && a.kind == b.kind && a.slot == b.slot && a.label == b.label;
            });
   }
@@ -52,11 +52,11 @@ Answer sort_cubes(
   pictures.begin_attempt({});
   Answer answer;
   for (;;) {
-    ShownPicture shown = world.advance(pictures.next()->sample);
+    ShownFrame shown = world.advance(pictures.next()->sample);
     for (const Event& event : shown.events)
       if (event.kind == EventKind::cubes_shown) attempt.show(event);
     change(shown.frame);
-    for (const Action& action : responder->see(shown.frame, attempt.screen())) {
+    for (const TimedAction& action : responder->see(shown.frame, attempt.screen())) {
       Event event;
       event.kind = EventKind::action;
       event.detail = name_of(action.kind);

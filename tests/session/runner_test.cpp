@@ -37,14 +37,14 @@ class Resting : public Responder {
     ++n_trials;
   }
   HandSample hand(double) override { return {hand_at(0, -0.2), true}; }
-  std::vector<Action> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+  std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {
     if (frame.cubes.empty()) return {};
     if (!seen_s_) seen_s_ = frame.t_s;
     if (frame.t_s < *seen_s_ + 1) return {};
     seen_s_ = frame.t_s;
-    if (trial_.task == Task::sorting) return {{frame.t_s, ActionKind::dont_know, {}, {}}};
-    if (trial_.task == Task::comparison) return {{frame.t_s, ActionKind::no_difference, {}, {}}};
-    return {{frame.t_s, ActionKind::select, 1 + screen.n_choices % 2, {}}};
+    if (trial_.task == Task::sorting) return {{{ActionKind::dont_know, {}, {}}, frame.t_s}};
+    if (trial_.task == Task::comparison) return {{{ActionKind::no_difference, {}, {}}, frame.t_s}};
+    return {{{ActionKind::select, 1 + screen.n_choices % 2, {}}, frame.t_s}};
   }
   bool has_more(double) const override { return true; }
 
@@ -248,8 +248,8 @@ TEST(Runner, cubes_stay_where_the_protocol_says_so) {
 
 TEST(Runner, an_action_that_the_screen_does_not_offer_stops_the_session_and_is_named) {
   class Wrong final : public Resting {
-    std::vector<Action> see(const DisplayedFrame& frame, const ScreenState&) override {
-      return {{frame.t_s, ActionKind::validate, {}, {}}};
+    std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState&) override {
+      return {{{ActionKind::validate, {}, {}}, frame.t_s}};
     }
   };
   Bench bench(two_trials(), std::make_unique<Wrong>(), [](int, double, Picture&) {});

@@ -153,7 +153,7 @@ class TouchedWindow : public ::testing::Test {
 
   // What fingers gave is what is in the log, one for one.
   void expect_every_answer() const {
-    std::vector<Action> answers;
+    std::vector<TimedAction> answers;
     for (const Touch& touch : fingers->given)
       if (touch.kind == TouchKind::action) answers.push_back(touch.action);
     const auto logged = events_of(sink, EventKind::action);

@@ -1,16 +1,18 @@
-#include "apparatus/RunOptions.h"
+#include "apparatus/SessionSetup.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <map>
+#include <sstream>
 
 #include "apparatus/AutoSimulator.h"
 #include "apparatus/PictureSource.h"
+#include "base/Build.h"
 #include "base/PlugTable.h"
 #include "base/Random.h"
+#include "base/Sha256.h"
 #include "base/TextFile.h"
 #include "physics/DecouplingSimulator.h"
 #include "protocol/MarkerFile.h"
@@ -30,45 +32,7 @@ NameAndFile split_name(const std::string& option) {
 
 namespace {
 
-// Every option and where it is kept, by its name in session.run_options.
-struct Field {
-  const char* name;
-  std::string RunOptions::*value;
-};
-constexpr std::array fields{Field{"responder", &RunOptions::responder},
-                            Field{"responder_text", &RunOptions::responder_text},
-                            Field{"tracker", &RunOptions::tracker},
-                            Field{"tracker_text", &RunOptions::tracker_text},
-                            Field{"view", &RunOptions::view},
-                            Field{"simulator", &RunOptions::simulator},
-                            Field{"auto_simulator", &RunOptions::auto_simulator},
-                            Field{"auto_rate_hz", &RunOptions::auto_rate_hz},
-                            Field{"auto_why", &RunOptions::auto_why},
-                            Field{"camera_file", &RunOptions::camera_file},
-                            Field{"camera_text", &RunOptions::camera_text},
-                            Field{"board_file", &RunOptions::board_file},
-                            Field{"board_text", &RunOptions::board_text},
-                            Field{"effector_file", &RunOptions::effector_file},
-                            Field{"effector_text", &RunOptions::effector_text},
-                            Field{"texts_file", &RunOptions::texts_file},
-                            Field{"texts_text", &RunOptions::texts_text},
-                            Field{"handed", &RunOptions::handed},
-                            Field{"record_camera", &RunOptions::record_camera}};
-
-constexpr std::string_view person = "human", automatic = "auto";
-
-const std::string& simulator_asked_for(const RunOptions& options, const Protocol& protocol) {
-  return options.simulator.empty() ? protocol.simulator.name : options.simulator;
-}
-
-double rate_hz_in(const std::string& text) {
-  const auto rate_hz = number_in(text);
-  if (rate_hz && *rate_hz > 0) return *rate_hz;
-  throw Error(
-      fmt::format("session.run_options can't be read: auto_rate_hz is \"{}\", expected "
-                  "steps a second",
-                  text));
-}
+constexpr std::string_view automatic = "auto";
 
 // A session may be resumed from another folder than it was started in.
 std::string absolute_path(const std::string& file) {
@@ -99,7 +63,7 @@ const ResponderEntry& checked_responder(const std::string& responder) {
   return entry;
 }
 
-void complete_responder(RunOptions& options) {
+void complete_responder(Setup& options) {
   options.responder_text.clear();
   if (has_person(options)) return;
   const ResponderEntry& entry = checked_responder(options.responder);
@@ -110,7 +74,7 @@ void complete_responder(RunOptions& options) {
   }
 }
 
-void complete_tracker(RunOptions& options) {
+void complete_tracker(Setup& options) {
   const TrackerEntry& tracker = tracker_named(options.tracker);
   options.tracker_text.clear();
   if (!tracker.is_live) options.tracker = with_absolute_path(options.tracker);
@@ -119,7 +83,7 @@ void complete_tracker(RunOptions& options) {
     options.tracker_text = read_text_file(file);
 }
 
-void find_camera_file(RunOptions& options, const TrackerEntry& tracker) {
+void find_camera_file(Setup& options, const TrackerEntry& tracker) {
   std::error_code unknown;  // what can't be looked at is not taken
   if (std::filesystem::exists(default_camera_file, unknown)) {
     options.camera_file = default_camera_file;
@@ -134,7 +98,7 @@ void find_camera_file(RunOptions& options, const TrackerEntry& tracker) {
 }
 
 // Nothing is filmed; but people are shown in the demonstration how the effector is held.
-void complete_unfilmed_apparatus(RunOptions& options) {
+void complete_unfilmed_apparatus(Setup& options) {
   options.camera_file = options.camera_text = options.board_text = options.effector_text = "";
   if (!has_person(options)) options.board_file = options.effector_file = "";
   if (options.board_file.empty() || options.effector_file.empty()) return;
@@ -142,7 +106,7 @@ void complete_unfilmed_apparatus(RunOptions& options) {
   read_file(options.effector_file, options.effector_text);
 }
 
-void complete_apparatus(RunOptions& options) {
+void complete_apparatus(Setup& options) {
   const TrackerEntry& tracker = tracker_named(options.tracker);
   if (!tracker.has_camera && !options.record_camera.empty())
     throw Error(
@@ -157,16 +121,17 @@ void complete_apparatus(RunOptions& options) {
   read_file(options.effector_file, options.effector_text);
 }
 
-// A file that was named must be sound, whoever takes part; a model reads none of it.
-void complete_texts(RunOptions& options) {
+// A file that was named must be sound, whoever takes part; where no screen is, nobody reads it.
+void complete_texts(Setup& options) {
   if (!options.texts_file.empty()) {
     read_file(options.texts_file, options.texts_text);
     parse_texts(options.texts_text, options.texts_file);
   }
-  if (!has_person(options)) options.texts_file = options.texts_text = "";
+  const bool has_screen = view_named(split_name(options.view).name).has_screen;
+  if (!has_person(options) && !has_screen) options.texts_file = options.texts_text = "";
 }
 
-void check_view(const RunOptions& options) {
+void check_view(const Setup& options) {
   const auto [name, file] = split_name(options.view);
   const ViewEntry& view = view_named(name);
   if (view.has_file && file.empty())
@@ -180,23 +145,19 @@ void check_view(const RunOptions& options) {
                 ExitCode::usage);
 }
 
-void check_tracker(const RunOptions& options) {
+void check_tracker(const Setup& options) {
   if (tracker_named(options.tracker).what == TrackerWhat::settings)
     parse_synthetic_camera(options.tracker_text, split_name(options.tracker).file);
 }
 
 }  // namespace
 
-bool has_person(const RunOptions& options) {
-  return options.responder == person;
-}
-
-bool runs_on_wall_clock(const RunOptions& options) {
+bool runs_on_wall_clock(const Setup& options) {
   return has_person(options) || tracker_named(options.tracker).is_live ||
          view_named(split_name(options.view).name).has_screen;
 }
 
-Apparatus apparatus_of(const RunOptions& options) {
+Apparatus apparatus_of(const Setup& options) {
   if (!tracker_named(options.tracker).has_camera) return {};
   Apparatus apparatus{parse_intrinsics(options.camera_text, options.camera_file),
                       parse_board(options.board_text, options.board_file),
@@ -205,26 +166,7 @@ Apparatus apparatus_of(const RunOptions& options) {
   return apparatus;
 }
 
-std::string to_json(const RunOptions& options) {
-  nlohmann::ordered_json json;
-  for (const Field& field : fields) json[field.name] = options.*field.value;
-  return json.dump();
-}
-
-RunOptions run_options_from_json(const std::string& text) {
-  try {
-    const auto json = nlohmann::json::parse(text);
-    RunOptions options;
-    // An option that a log does not have came after it was written: it was not in force.
-    for (const Field& field : fields)
-      if (json.contains(field.name)) options.*field.value = json.at(field.name);
-    return options;
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(fmt::format("session.run_options can't be read: {}", error.what()));
-  }
-}
-
-void complete(RunOptions& options) {
+void complete(Setup& options) {
   complete_responder(options);
   complete_tracker(options);
   complete_apparatus(options);
@@ -234,12 +176,13 @@ void complete(RunOptions& options) {
   check(options);
 }
 
-void check(const RunOptions& options) {
+void check(const Setup& options) {
   if (!has_person(options)) checked_responder(options.responder);
   check_view(options);
   check_tracker(options);
   apparatus_of(options);
-  if (has_person(options)) parse_texts(options.texts_text, options.texts_file);
+  const bool has_screen = view_named(split_name(options.view).name).has_screen;
+  if (has_person(options) || has_screen) parse_texts(options.texts_text, options.texts_file);
   if (!options.simulator.empty()) simulator_named(options.simulator);
   make_responder(options, 0);  // says what is wrong with its parameters before anything is logged
 }
@@ -248,27 +191,7 @@ bool is_same_simulator(const std::string& a, const std::string& b) {
   return simulator_named(a).make == simulator_named(b).make;
 }
 
-std::string to_json(const OptionChange& change) {
-  return nlohmann::ordered_json{{"option", change.option}, {"from", change.from}, {"to", change.to}}
-      .dump();
-}
-
-std::vector<OptionChange> changes_between(const RunOptions& from, const RunOptions& to) {
-  std::vector<OptionChange> changes;
-  for (const Field& field : fields)
-    if (from.*field.value != to.*field.value)
-      changes.push_back({field.name, from.*field.value, to.*field.value});
-  return changes;
-}
-
-void apply_deviation(RunOptions& options, const std::string& detail) {
-  const auto json = nlohmann::json::parse(detail, nullptr, false);
-  if (!json.is_object() || !json.contains("option") || !json.contains("to")) return;
-  for (const Field& field : fields)
-    if (json["option"] == field.name && json["to"].is_string()) options.*field.value = json["to"];
-}
-
-std::unique_ptr<Responder> make_responder(const RunOptions& options, std::uint64_t seed) {
+std::unique_ptr<Responder> make_responder(const Setup& options, std::uint64_t seed) {
   // Of a person only the hand is a model's, where no camera films theirs.
   const auto [name, file] = split_name(has_person(options) ? "simulated" : options.responder);
   const ResponderEntry& entry = responder_named(name);
@@ -281,25 +204,81 @@ std::unique_ptr<Responder> make_responder(const RunOptions& options, std::uint64
   return entry.make(made_with);
 }
 
-RunOptions with_auto_resolved(RunOptions options, const Protocol& protocol) {
-  if (simulator_asked_for(options, protocol) != automatic) {
-    options.auto_simulator = options.auto_rate_hz = options.auto_why = "";
-  } else if (options.auto_simulator.empty()) {
-    const SimulatorPick pick = resolve_auto(protocol);
-    options.auto_simulator = pick.simulator;
-    options.auto_rate_hz = fmt::format("{}", pick.rate_hz);
-    options.auto_why = pick.why;
+namespace {
+void resolve_simulator(Setup& setup, const Protocol& protocol) {
+  if (setup.simulator.empty()) setup.simulator = protocol.simulator.name;
+  if (setup.simulator != automatic) {
+    setup.rate_hz = protocol.simulator.rate_hz;
+    return;
   }
-  return options;
+  const SimulatorPick pick = resolve_auto(protocol);
+  setup.simulator = pick.simulator;
+  setup.rate_hz = pick.rate_hz;
+  setup.simulator_why = pick.why;
 }
 
-std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const RunOptions& options) {
-  protocol.simulator.name = simulator_asked_for(options, protocol);
-  if (protocol.simulator.name == automatic && !options.auto_simulator.empty()) {
-    protocol.simulator.name = options.auto_simulator;
-    protocol.simulator.rate_hz = rate_hz_in(options.auto_rate_hz);
+std::string hash_of(const std::string& text) {
+  return text.empty() ? "" : sha256(text);
+}
+
+// A column's value, for people.
+struct Shown {
+  std::map<std::string, std::string>& values;
+
+  void operator()(const LogColumn& column, const std::string& text) const {
+    values[std::string(column.name)] = text;
   }
+  template <typename Value>
+  void operator()(const LogColumn& column, const std::optional<Value>& value) const {
+    values[std::string(column.name)] = value ? fmt::format("{}", *value) : "";
+  }
+};
+
+std::map<std::string, std::string> shown(const Setup& setup) {
+  std::map<std::string, std::string> values;
+  visit_columns(setup, Shown{values});
+  return values;
+}
+}  // namespace
+
+Setup in_force(Setup setup, const Protocol& protocol) {
+  if (setup.simulator.empty() || !setup.rate_hz) resolve_simulator(setup, protocol);
+  setup.simulator_edition = simulator_named(setup.simulator).edition;
+  setup.display_rate_hz = protocol.display_rate_hz;
+  setup.input = name_of(protocol.simulator.input.mode);
+  setup.predict_s = protocol.simulator.input.predict_s;
+  setup.language =
+      setup.texts_text.empty() ? "" : parse_texts(setup.texts_text, setup.texts_file).language;
+  setup.camera_sha256 = hash_of(setup.camera_text);
+  setup.board_sha256 = hash_of(setup.board_text);
+  setup.effector_sha256 = hash_of(setup.effector_text);
+  setup.texts_sha256 = hash_of(setup.texts_text);
+  setup.heft_version = HEFT_VERSION;
+  setup.build = build_name();
+  return setup;
+}
+
+std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const Setup& setup) {
+  if (!setup.simulator.empty()) protocol.simulator.name = setup.simulator;
+  if (setup.rate_hz) protocol.simulator.rate_hz = *setup.rate_hz;
+  if (const auto mode = named<InputMode>(setup.input)) protocol.simulator.input.mode = *mode;
+  if (setup.predict_s) protocol.simulator.input.predict_s = *setup.predict_s;
   return std::make_shared<const Protocol>(std::move(protocol));
+}
+
+std::vector<std::string> settings_of(const Setup& setup) {
+  std::vector<std::string> settings;
+  std::istringstream lines(setup.settings);
+  for (std::string line; std::getline(lines, line);) settings.push_back(line);
+  return settings;
+}
+
+std::vector<SetupChange> changes_between(const Setup& from, const Setup& to) {
+  std::vector<SetupChange> changes;
+  const auto before = shown(from), after = shown(to);
+  for (const auto& [column, value] : after)
+    if (before.at(column) != value) changes.push_back({column, before.at(column), value});
+  return changes;
 }
 
 }  // namespace heft

@@ -1,4 +1,4 @@
-// The pictures of one logged attempt against what their effector poses give.
+// The frames of one logged attempt against what their effector poses give.
 #pragma once
 
 #include <functional>
@@ -13,16 +13,17 @@
 namespace heft {
 
 /// How exactly, and who is told.
-struct PictureCheckOptions {
+struct FrameCheckOptions {
   bool equal_bits = true;     ///< otherwise poses within 1e-6 m
-  bool virtual_clock = true;  ///< every picture of the display's rate is there
+  bool same_edition = true;   ///< otherwise poses are only measured, and contacts not compared
+  bool virtual_clock = true;  ///< every frame of the display's rate is there
   /// Called at the attempt's first difference: session time, what, logged, came out.
   std::function<void(double, const std::string&, const std::string&, const std::string&)> differ;
 };
 
-class PictureCheck {
+class FrameCheck {
  public:
-  PictureCheck(const Protocol& protocol, const AttemptFold& attempt, PictureCheckOptions options);
+  FrameCheck(const Protocol& protocol, const AttemptFold& attempt, FrameCheckOptions options);
 
   /// Runs the attempt again. Stops at the first difference.
   /// @param frames all of the attempt's, at least one
@@ -32,7 +33,8 @@ class PictureCheck {
   double largest_difference_m() const { return largest_difference_m_; }
 
  private:
-  bool check(const FrameRow& frame, const ShownPicture& shown, int n_before);
+  bool check(const FrameRow& frame, const ShownFrame& shown, int n_before);
+  void measure(const FrameRow& frame, const ShownFrame& shown);
   bool same(const FrameRow& frame, const char* column, const std::string& logged,
             const std::string& came_out);
   bool same_pose(const FrameRow& frame, const std::string& column,
@@ -42,7 +44,7 @@ class PictureCheck {
 
   const Protocol& protocol_;
   const AttemptFold& attempt_;
-  PictureCheckOptions options_;
+  FrameCheckOptions options_;
   double largest_difference_m_ = 0;
 };
 

@@ -1,10 +1,11 @@
-#include "replay/PictureCheck.h"
+#include "replay/FrameCheck.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/Error.h"
+#include "record/EventRow.h"
 #include "replay/AttemptReplay.h"
 
 namespace heft {
@@ -35,49 +36,45 @@ std::optional<Pose> pose_at(const std::vector<Pose>& poses, std::size_t i) {
 
 // Events that the world makes, as opposed to people and the engine.
 bool made_by_world(const Event& event) {
-  switch (event.kind) {
-    case EventKind::cubes_shown:
-    case EventKind::cube_contact:
-    case EventKind::effector_lost:
-    case EventKind::effector_found:
-      return true;
-    case EventKind::cubes_reset:
-      return event.slot.has_value();
-    default:
-      return false;
-  }
+  const auto* reset = event.as<CubesReset>();
+  return (reset && reset->slot) || event.as<CubesShown>() || event.as<CubeTouch>() ||
+         event.as<EffectorLost>() || event.as<EffectorFound>();
 }
 
 }  // namespace
 
-PictureCheck::PictureCheck(const Protocol& protocol, const AttemptFold& attempt,
-                           PictureCheckOptions options)
+FrameCheck::FrameCheck(const Protocol& protocol, const AttemptFold& attempt,
+                       FrameCheckOptions options)
     : protocol_(protocol), attempt_(attempt), options_(std::move(options)) {}
 
-void PictureCheck::run(const std::vector<FrameRow>& frames) {
+void FrameCheck::run(const std::vector<FrameRow>& frames) {
   AttemptReplay replay(protocol_, attempt_);
   int n = 0;
   for (const FrameRow& frame : frames) {
     try {
       if (!check(frame, replay.advance(frame), n++)) return;
     } catch (const Error& error) {  // poses or times that no simulator takes
-      return options_.differ(frame.t_s, "picture", "effector pose and time", error.what());
+      return options_.differ(frame.t_s, "frame", "effector pose and time", error.what());
     }
   }
   if (attempt_.row.status == TrialStatus::completed) {
     replay.finish(*attempt_.row.ended_s);
     check_end(frames.back());
   }
-  check_events(replay.derived());
+  if (options_.same_edition) check_events(replay.derived());
 }
 
-bool PictureCheck::check(const FrameRow& frame, const ShownPicture& shown, int n_before) {
+bool FrameCheck::check(const FrameRow& frame, const ShownFrame& shown, int n_before) {
   const auto number = [](double value) { return fmt::format("{}", value); };
   const double t_s = attempt_.row.started_s + log_time(frame.trial_t_s);
   if (!same(frame, "t_s", number(frame.t_s), number(t_s))) return false;
   if (options_.virtual_clock && !same(frame, "trial_t_s", number(frame.trial_t_s),
                                       number(n_before / protocol_.display_rate_hz)))
     return false;
+  if (!options_.same_edition) {
+    measure(frame, shown);
+    return true;
+  }
   if (!same(frame, "contact_slot", text_of(frame.contact_slot), text_of(shown.contact_slot)))
     return false;
   if (options_.equal_bits && !same(frame, "state_hash", frame.state_hash, shown.state_hash))
@@ -90,16 +87,26 @@ bool PictureCheck::check(const FrameRow& frame, const ShownPicture& shown, int n
   return true;
 }
 
-bool PictureCheck::same(const FrameRow& frame, const char* column, const std::string& logged,
-                        const std::string& came_out) {
+void FrameCheck::measure(const FrameRow& frame, const ShownFrame& shown) {
+  const auto compare = [&](const std::optional<Pose>& logged, const std::optional<Pose>& came_out) {
+    if (logged && came_out)
+      largest_difference_m_ =
+          std::max(largest_difference_m_, (logged->position_m - came_out->position_m).norm());
+  };
+  compare(frame.clone, shown.frame.clone);
+  for (std::size_t i = 0; i < frame.cubes.size(); ++i)
+    compare(frame.cubes[i], pose_at(shown.frame.cubes, i));
+}
+
+bool FrameCheck::same(const FrameRow& frame, const char* column, const std::string& logged,
+                      const std::string& came_out) {
   if (logged == came_out) return true;
-  options_.differ(frame.t_s, fmt::format("picture, {}", column), logged, came_out);
+  options_.differ(frame.t_s, fmt::format("frame, {}", column), logged, came_out);
   return false;
 }
 
-bool PictureCheck::same_pose(const FrameRow& frame, const std::string& column,
-                             const std::optional<Pose>& logged,
-                             const std::optional<Pose>& came_out) {
+bool FrameCheck::same_pose(const FrameRow& frame, const std::string& column,
+                           const std::optional<Pose>& logged, const std::optional<Pose>& came_out) {
   if (!options_.equal_bits && logged && came_out) {
     const double difference_m = (logged->position_m - came_out->position_m).norm();
     largest_difference_m_ = std::max(largest_difference_m_, difference_m);
@@ -108,15 +115,15 @@ bool PictureCheck::same_pose(const FrameRow& frame, const std::string& column,
   return same(frame, column.c_str(), text_of(logged), text_of(came_out));
 }
 
-void PictureCheck::check_end(const FrameRow& last) {
+void FrameCheck::check_end(const FrameRow& last) {
   const double ended_s = *attempt_.row.ended_s;
   if (options_.virtual_clock && ended_s - last.t_s >= 1 / protocol_.display_rate_hz)
-    options_.differ(last.t_s, "pictures after this one", "none",
+    options_.differ(last.t_s, "frames after this one", "none",
                     fmt::format("some until {} s", ended_s));
 }
 
 // An attempt that a crash or a veto cut short may lack the last events of its world.
-void PictureCheck::check_events(const std::vector<Event>& derived) {
+void FrameCheck::check_events(const std::vector<Event>& derived) {
   std::vector<AttemptEvent> logged;
   for (const AttemptEvent& folded : attempt_.events)
     if (made_by_world(folded.event)) logged.push_back(folded);
@@ -125,9 +132,8 @@ void PictureCheck::check_events(const std::vector<Event>& derived) {
     const Event& event = logged[i].event;
     Event came_out = derived[i];
     // Cubes are shown when the picture is; nothing is logged before what was logged already.
-    came_out.t_s = came_out.kind == EventKind::cubes_shown
-                       ? event.t_s
-                       : std::max(came_out.t_s, logged[i].previous_s);
+    came_out.t_s =
+        came_out.as<CubesShown>() ? event.t_s : std::max(came_out.t_s, logged[i].previous_s);
     if (event != came_out)
       return options_.differ(event.t_s, "event", text_of(event), text_of(came_out));
   }

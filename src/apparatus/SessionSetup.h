@@ -1,0 +1,74 @@
+// How a session's setup comes about and what is made from it: options as somebody gives them, the
+// files they name, what the protocol adds. A setup holds all of it, so that resume and replay need
+// nothing but the log.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/Setup.h"
+#include "protocol/Protocol.h"
+#include "responders/Responder.h"
+#include "tracking/MarkerBody.h"
+
+namespace heft {
+
+/// Options as somebody gives them; for what is not given there is a default, or it stays as it was.
+struct GivenOptions {
+  std::optional<std::string> responder, tracker, view, simulator;
+  std::optional<std::string> camera_file, board_file, effector_file, texts_file;
+  std::vector<std::string> settings;  ///< changes to the protocol, KEY=VALUE each
+};
+
+/// Whether the session keeps the time of day: with a live camera, a screen or a person. Otherwise
+/// it runs as fast as it can, and no result depends on how fast that is.
+bool runs_on_wall_clock(const Setup& options);
+
+/// The camera's calibration and the marker bodies that the options hold; empty without a camera.
+/// @throws InvalidFile naming what is wrong in which file; Error where board and effector share a
+///   tag
+Apparatus apparatus_of(const Setup& options);
+
+/// "video:session.mp4": the name of a plug and what follows its colon.
+struct NameAndFile {
+  std::string name, file;
+};
+NameAndFile split_name(const std::string& option);
+
+/// The calibration that is taken where nobody names another, if the working folder has it.
+inline constexpr const char* default_camera_file = "camera.yaml";
+
+/// Makes the files' names absolute, reads what the session needs of them, and checks everything.
+/// @throws Error (usage) for unknown names and combinations that can't work
+void complete(Setup& options);
+
+/// As complete(), for options from a log: the parameters stay those that were read then.
+void check(const Setup& options);
+
+/// Whether the two names in the table of simulators mean the same one.
+/// @throws Error (usage) for an unknown name
+bool is_same_simulator(const std::string& a, const std::string& b);
+
+std::unique_ptr<Responder> make_responder(const Setup& options, std::uint64_t seed);
+
+/// The setup with what the protocol and the program add to it: the simulator (what `auto` is for
+/// this protocol, if that is asked for), rates, hashes, language, build. A simulator with its rate
+/// stays, whatever the error table of `auto` says now.
+Setup in_force(Setup setup, const Protocol& protocol);
+
+/// The protocol with the setup's simulator, rate and input in place of its own.
+std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const Setup& setup);
+
+/// The setup's changes to the protocol, KEY=VALUE each.
+std::vector<std::string> settings_of(const Setup& setup);
+
+/// Each column that differs, for people: name, before, after.
+struct SetupChange {
+  std::string column, from, to;
+};
+std::vector<SetupChange> changes_between(const Setup& from, const Setup& to);
+
+}  // namespace heft
