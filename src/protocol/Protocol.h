@@ -94,10 +94,10 @@ struct SortingBlock {
   SortingOrders orders = SortingOrders::random;
 };
 
-/// One staircase of a comparison block and the reference it compares with.
+/// One procedure of a comparison block and the reference it compares with.
 struct ReferenceStaircase {
   double reference_g = 0;
-  StaircaseConfig staircase;  ///< levels are comparison - reference, g
+  ProcedureConfig staircase;  ///< of any kind; levels are comparison - reference, g
 };
 
 struct ComparisonBlock {

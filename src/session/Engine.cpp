@@ -170,31 +170,21 @@ void Engine::complete(const Event& event, Outcome outcome, Changes& changes) {
 
 void Engine::respond_to_staircase(Changes& changes) {
   const auto& block = std::get<ComparisonBlock>(protocol_->blocks[block_]);
-  Staircase& staircase = staircases_[*staircase_];
+  Procedure& staircase = staircases_[*staircase_];
   const TrialRow& row = *changes.trial;
-  const bool chosen = row.outcome == Outcome::difference;
-  const bool positive = block.positive_answer == PositiveAnswer::any_choice
-                            ? chosen
-                            : chosen && row.choice_correct.value_or(false);
-  const Staircase::Update update = staircase.respond(positive);
-  const std::string& name = staircase.config().name;
+  const Update update = staircase.respond(response_to(block, row), *row.plan.level_g);
+  const std::string& name = staircase.name();
   if (update.reversal) {
     const Reversal& reversal = *update.reversal;
     changes.reversals = {{name, reversal.number, row.attempt_index, reversal.level,
                           reversal.step_before, reversal.step_after}};
   }
-  if (update.finish) {
-    EstimateRow estimate;
-    estimate.staircase = name;
-    estimate.method = "mean_of_reversals";
-    estimate.jnd_g = staircase.estimate();
-    estimate.n_trials = staircase.n_trials();
-    estimate.n_reversals = static_cast<int>(staircase.reversals().size());
-    estimate.n_floor = staircase.n_floor();
-    estimate.n_ceiling = staircase.n_ceiling();
-    estimate.reason = name_of(*update.finish);
-    changes.estimates = {estimate};
-  }
+  if (update.finish)
+    for (const Estimate& estimate : staircase.estimates())
+      changes.estimates.push_back({name, estimate.method, estimate.value, estimate.low,
+                                   estimate.high, estimate.n_trials, estimate.n_reversals,
+                                   estimate.n_floor, estimate.n_ceiling,
+                                   std::string(name_of(*update.finish))});
   previous_staircase_ = staircase_;
 }
 
@@ -223,7 +213,7 @@ bool Engine::block_done(const Block& block) const {
   if (const auto* sorting = std::get_if<SortingBlock>(&block))
     return n_in_block_ >= sorting->trials;
   if (std::holds_alternative<ComparisonBlock>(block))
-    return std::ranges::all_of(staircases_, [](const Staircase& s) { return s.finished(); });
+    return std::ranges::all_of(staircases_, [](const Procedure& s) { return s.finished(); });
   return true;
 }
 
@@ -293,10 +283,10 @@ ScreenState Engine::screen() const {
 }
 
 std::optional<std::string> Engine::survivor() const {
-  const auto unfinished = [](const Staircase& s) { return !s.finished(); };
+  const auto unfinished = [](const Procedure& s) { return !s.finished(); };
   if (staircases_.size() < 2 || std::ranges::count_if(staircases_, unfinished) != 1)
     return std::nullopt;
-  return std::ranges::find_if(staircases_, unfinished)->config().name;
+  return std::ranges::find_if(staircases_, unfinished)->name();
 }
 
 }  // namespace heft

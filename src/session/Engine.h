@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "protocol/Protocol.h"
-#include "psychophysics/Staircase.h"
+#include "psychophysics/Procedure.h"
 #include "session/RunningAttempt.h"
 
 namespace heft {
@@ -93,7 +93,7 @@ class Engine {
   int n_in_block_ = 0;     // trials completed in it
   std::optional<BreakBlock> rest_;
   int attempt_ = 1, n_voids_ = 0;  // of the next or open trial
-  std::vector<Staircase> staircases_;
+  std::vector<Procedure> staircases_;
   std::optional<std::size_t> previous_staircase_,
       staircase_;  // of the last completed, the next trial
 

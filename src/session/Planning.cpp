@@ -75,7 +75,7 @@ TrialPlan plan_of(const TrialKey& key, const std::string& block, Task task, Cond
   return plan;
 }
 
-std::size_t drawn_unfinished(const std::vector<Staircase>& staircases, RandomStream& stream) {
+std::size_t drawn_unfinished(const std::vector<Procedure>& staircases, RandomStream& stream) {
   std::vector<std::size_t> unfinished;
   for (std::size_t i = 0; i < staircases.size(); ++i)
     if (!staircases[i].finished()) unfinished.push_back(i);
@@ -131,8 +131,18 @@ TrialPlan plan_sorting(const SortingBlock& block, const TrialKey& key, int index
   return plan;
 }
 
+Response response_to(const ComparisonBlock& block, const TrialRow& completed) {
+  if (completed.outcome != Outcome::difference) return response_of(Choice::none);
+  Response response =
+      response_of(completed.chosen_slot == completed.plan.reference_slot ? Choice::reference
+                                                                         : Choice::comparison);
+  if (block.positive_answer == PositiveAnswer::correct_choice)
+    response.positive = completed.choice_correct.value_or(false);
+  return response;
+}
+
 ComparisonPlan plan_comparison(const ComparisonBlock& block, const TrialKey& key,
-                               const std::vector<Staircase>& staircases,
+                               const std::vector<Procedure>& staircases,
                                std::optional<std::size_t> previous) {
   ComparisonPlan next{plan_of(key, block.name, Task::comparison, block.condition), std::nullopt};
   TrialPlan& plan = next.plan;
@@ -148,7 +158,7 @@ ComparisonPlan plan_comparison(const ComparisonBlock& block, const TrialKey& key
         next_staircase(staircases, block.interleaving, previous, interleave_stream).value();
     next.staircase = reference_of;
     plan.staircase = block.staircases[reference_of].staircase.name;
-    plan.level_g = staircases[reference_of].level();
+    plan.level_g = staircases[reference_of].next_level(level_stream(key.seed, plan.staircase));
   }
   const double reference_g = block.staircases[reference_of].reference_g;
   plan.reference_g = reference_g;

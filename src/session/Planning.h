@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "experiment/TrialPlan.h"
+#include "experiment/Rows.h"
 #include "protocol/Protocol.h"
 #include "psychophysics/Interleaving.h"
 
@@ -35,10 +35,13 @@ struct ComparisonPlan {
   std::optional<std::size_t> staircase;
 };
 
+/// A comparison's answer: positive by the block's rule, and which was chosen.
+Response response_to(const ComparisonBlock& block, const TrialRow& completed);
+
 /// @param staircases in the order of the block's, at least one unfinished
 /// @param previous staircase of the last completed trial that belonged to one
 ComparisonPlan plan_comparison(const ComparisonBlock& block, const TrialKey& key,
-                               const std::vector<Staircase>& staircases,
+                               const std::vector<Procedure>& staircases,
                                std::optional<std::size_t> previous);
 
 }  // namespace heft

@@ -223,6 +223,24 @@ class Conversation(unittest.TestCase):
         self.assertNotEqual(session(11), session(12))
 
 
+class ThreeWayAnswers(unittest.TestCase):
+    def test_any_choice_is_a_positive_response(self):
+        rng = random.Random(6)
+        choices = [rng.choice(["comparison", "reference", "none"]) for _ in range(200)]
+        lines = "".join(json.dumps({"answer": c}) + "\n" for c in choices).encode()
+        procedure = toml([Conversation.STAIRCASE])
+        self.assertEqual(heft(procedure, lines)[1],
+                         heft(procedure, answers_to_lines([c != "none" for c in choices]))[1])
+
+    def test_what_is_no_choice_is_refused_with_the_three(self):
+        for line in (b'{"answer":"heavier"}', b'{"answer":true}', b'{"answer":null}'):
+            events = heft(toml([Conversation.STAIRCASE]), line)[1]
+            [error] = only(events, "error")
+            for word in ('"answer" must be', '"comparison"', '"reference"', '"none"'):
+                self.assertIn(word, error["message"])
+            self.assertEqual(len(only(events, "trial")), 1)
+
+
 class Refusals(unittest.TestCase):
     def test_broken_file(self):
         code, events, stderr = heft('[[staircase]]\nname = "s"\nstart = "high"\nstep = 0\n', b"")

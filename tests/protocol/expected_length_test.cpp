@@ -36,9 +36,8 @@ TEST(ExpectedLength, EndsWhereAStaircaseGetsNowhere) {
   ComparisonBlock block;
   block.staircases.resize(1);
   block.staircases[0].reference_g = 1;
-  block.staircases[0].staircase.start = 1e6;
-  block.staircases[0].staircase.step = 1e-6;
-  block.staircases[0].staircase.stop_trials = 2'000'000'000;
+  block.staircases[0].staircase.kind =
+      UpDownConfig{.start = 1e6, .step = 1e-6, .stop_trials = 2'000'000'000};
   Protocol protocol;
   protocol.blocks = {block};
   EXPECT_LE(expected_length(protocol).trials, 1000);

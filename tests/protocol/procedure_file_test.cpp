@@ -42,13 +42,13 @@ step_scale = "db"
 )";
 
 TEST(ProcedureFile, ReadsEveryKey) {
-  const ProcedureConfig config = parse_procedure(everything, "all.toml");
+  const InterleavedProcedures config = parse_procedure(everything, "all.toml");
   EXPECT_EQ(config.seed, 42u);
   EXPECT_EQ(config.interleaving.interleave, Interleave::round_robin);
   EXPECT_EQ(config.interleaving.max_lag, 3);
   ASSERT_EQ(config.staircases.size(), 2u);
-  const StaircaseConfig& first = config.staircases[0];
-  EXPECT_EQ(first.name, "15g");
+  EXPECT_EQ(config.staircases[0].name, "15g");
+  const auto& first = std::get<UpDownConfig>(config.staircases[0].kind);
   EXPECT_EQ(first.start, 175);
   EXPECT_EQ(first.step, 50);
   EXPECT_EQ(first.halve_every, 2);
@@ -65,18 +65,18 @@ TEST(ProcedureFile, ReadsEveryKey) {
   EXPECT_EQ(first.min_trials, 4);
   EXPECT_EQ(first.stop_trials, 90);
   EXPECT_EQ(first.discard_reversals, 3);
-  const StaircaseConfig& second = config.staircases[1];
+  const auto& second = std::get<UpDownConfig>(config.staircases[1].kind);
   EXPECT_THAT(second.steps, ElementsAre(8, 4.5, 2));
   EXPECT_THAT(second.steps_up, ElementsAre(3));
   EXPECT_EQ(second.step_scale, StepScale::db);
 }
 
 TEST(ProcedureFile, AbsentKeysHaveTheDocumentedDefaults) {
-  const ProcedureConfig config =
+  const InterleavedProcedures config =
       parse_procedure("[[staircase]]\nname = \"a\"\nstart = 10\nstep = 2\n", "short.toml");
   EXPECT_EQ(config.interleaving.interleave, Interleave::random);
   EXPECT_EQ(config.interleaving.max_lag, 0);
-  const StaircaseConfig& staircase = config.staircases.at(0);
+  const auto& staircase = std::get<UpDownConfig>(config.staircases.at(0).kind);
   EXPECT_EQ(staircase.up, 1);
   EXPECT_EQ(staircase.down, 1);
   EXPECT_EQ(staircase.halve_every, 0);

@@ -11,6 +11,7 @@
 #include "Protocols.h"
 #include "base/Error.h"
 #include "base/Random.h"
+#include "session/Planning.h"
 
 namespace heft {
 namespace {
@@ -369,6 +370,28 @@ TEST(Engine, catch_trials_show_equal_masses_and_drive_no_staircase) {
     EXPECT_TRUE(done.reversals.empty() && done.estimates.empty());
   }
   EXPECT_GT(n_catch, n / 4);
+}
+
+TEST(Planning, an_answer_is_positive_by_the_blocks_rule_and_keeps_the_choice) {
+  ComparisonBlock block;
+  TrialRow row;
+  row.plan.reference_slot = 2;
+  row.outcome = Outcome::no_difference;
+  EXPECT_FALSE(response_to(block, row).positive);
+  EXPECT_EQ(response_to(block, row).choice, Choice::none);
+  row.outcome = Outcome::difference;
+  row.chosen_slot = 2;
+  row.choice_correct = false;
+  EXPECT_TRUE(response_to(block, row).positive);
+  EXPECT_EQ(response_to(block, row).choice, Choice::reference);
+  block.positive_answer = PositiveAnswer::correct_choice;
+  EXPECT_FALSE(response_to(block, row).positive);
+  row.chosen_slot = 1;
+  row.choice_correct = true;
+  EXPECT_TRUE(response_to(block, row).positive);
+  EXPECT_EQ(response_to(block, row).choice, Choice::comparison);
+  row.choice_correct.reset();  // equal masses
+  EXPECT_FALSE(response_to(block, row).positive);
 }
 
 TEST(Engine, sorting_blocks_hold_the_planned_conditions_and_runs) {
