@@ -39,6 +39,7 @@ void add_procedure(CLI::App& app) {
        "",
        R"(Where two stimuli are compared, {"answer":"comparison"|"reference"|"none"} says which was)",
        "more. Every kind takes it as a response: any choice is true, none is false.",
+       R"(Kind "constant" (levels, n_per_level, order) ends by "trials" and estimates null.)",
        R"(Input it can't use is answered by {"event":"error","line":N,"message":...}; the trial)",
        "stays open. It ends, with exit code 0, when all staircases are done or its input ends."});
   const auto file = std::make_shared<std::string>();

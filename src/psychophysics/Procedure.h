@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/Random.h"
+#include "psychophysics/Constant.h"
 #include "psychophysics/UpDown.h"
 
 namespace heft {
@@ -32,7 +33,7 @@ struct KindsOfProcedure {
 
 /// The table of kinds; the first is what a file means that names none. A further one is a line
 /// here, a file beside this one, and a reader (protocol/KindReaders.h).
-using ProcedureKinds = KindsOfProcedure<UpDownConfig>;
+using ProcedureKinds = KindsOfProcedure<UpDownConfig, ConstantConfig>;
 
 struct ProcedureConfig {
   std::string name{};

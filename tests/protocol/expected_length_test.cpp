@@ -43,6 +43,18 @@ TEST(ExpectedLength, EndsWhereAStaircaseGetsNowhere) {
   EXPECT_LE(expected_length(protocol).trials, 1000);
 }
 
+TEST(ExpectedLength, CountsTheTrialsOfConstantStimuli) {
+  ComparisonBlock block;
+  block.staircases = {{15, {"constant", ConstantConfig{.levels = {10, 20, 40}, .n_per_level = 12}}},
+                      {200, {"other", ConstantConfig{.levels = {10}, .n_per_level = 4}}}};
+  Protocol protocol;
+  protocol.blocks = {block};
+  const ExpectedLength length = expected_length(protocol);
+  EXPECT_EQ(length.trials, 40);
+  EXPECT_EQ(length.staircases, 2);
+  EXPECT_EQ(length.staircase_trials, 40);
+}
+
 TEST(ExpectedLength, OfTheQuickProtocolIsAboutTwoMinutes) {
   EXPECT_NEAR(expected_length(load_protocol(shipped_path("quick"))).minutes, 2, 0.5);
 }
