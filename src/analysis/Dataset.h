@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct SessionData {
   std::vector<Attempt> attempts;
   std::vector<EstimateRow> estimates;
   PictureCounts pictures;
+  /// Staircases of the protocol that estimate no JND, such as constant stimuli.
+  std::set<std::string> without_jnd;
 
   /// No person answered: of that purpose, or the responder is not a human.
   bool simulated() const;
