@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/Jnd.h"
 #include "base/Error.h"
 
 namespace heft {
@@ -72,12 +73,16 @@ Dataset read_dataset(const std::string& database, const std::vector<std::int64_t
   for (std::int64_t id : std::set(session_ids.begin(), session_ids.end()))
     sessions.push_back(log.session(id));
   Dataset dataset{database, {}};
+  std::map<std::string, std::set<std::string>> without_jnd;  // by the protocol's text
   for (const SessionRow& session : sessions) {
     const std::int64_t id = session.session_id;
     dataset.sessions.push_back(join_rows(session, {log.trials(id), log.cubes(id), log.answers(id),
                                                    log.reversals(id), log.estimates(id)}));
     SessionData& data = dataset.sessions.back();
     data.setups = log.setups(id);
+    const auto [found, is_new] = without_jnd.try_emplace(session.header.protocol_text);
+    if (is_new) found->second = staircases_without_jnd(session.header.protocol_text);
+    data.without_jnd = found->second;
     if (!data.simulated()) data.pictures = count_pictures(log.events(id));
   }
   return dataset;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct SessionData {
   std::vector<EstimateRow> estimates;
   PictureCounts pictures;
   std::vector<LoggedSetup> setups;  ///< what was in force, in order
+  /// Staircases of the protocol that estimate no JND, such as constant stimuli.
+  std::set<std::string> without_jnd;
 
   /// A model answered at least one of its trials; where there is none, was to answer.
   bool simulated() const { return model().has_value(); }

@@ -6,16 +6,19 @@
 #include <map>
 
 #include "analysis/Published.h"
+#include "protocol/Mistakes.h"
+#include "protocol/Protocol.h"
 
 namespace heft {
 
 namespace {
-// What each of a session's staircases compared with, from its trials.
+// What each of a session's staircases that estimate a JND compared with, from its trials.
 std::map<std::string, Compared> compared_by(const SessionData& data) {
   std::map<std::string, Compared> staircases;
   for (const Attempt& attempt : data.attempts) {
     const TrialPlan& plan = attempt.trial.plan;
-    if (plan.task == Task::comparison && !plan.staircase.empty() && plan.reference_g)
+    if (plan.task == Task::comparison && !plan.staircase.empty() && plan.reference_g &&
+        !data.without_jnd.contains(plan.staircase))
       staircases.emplace(plan.staircase, Compared{*plan.reference_g, plan.condition});
   }
   return staircases;
@@ -87,6 +90,20 @@ ReferenceJnd jnd_at(const Compared& compared, std::span<const StaircaseResult> r
   return jnd;
 }
 }  // namespace
+
+std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
+  std::set<std::string> names;
+  try {
+    for (const Block& block : parse_protocol(protocol_text, "protocol").blocks)
+      if (const auto* comparison = std::get_if<ComparisonBlock>(&block))
+        for (const ReferenceStaircase& entry : comparison->staircases)
+          if (!std::ranges::count(Procedure(entry.staircase).estimates(), jnd_method,
+                                  &Estimate::method))
+            names.insert(entry.staircase.name);
+  } catch (const InvalidFile&) {
+  }
+  return names;
+}
 
 std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sessions) {
   std::vector<StaircaseResult> results;

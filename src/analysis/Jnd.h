@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -56,6 +57,10 @@ struct ReferenceJnd {
   int n_floor_staircases = 0, n_ceiling_staircases = 0;
   std::optional<double> published_g, published_sd_g;
 };
+
+/// Names of a protocol's staircases whose kind has no jnd_method; none where the text is no
+/// protocol.
+std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 
 /// Finished staircases in the order of sessions and estimates, each with the reference of its
 /// trials.

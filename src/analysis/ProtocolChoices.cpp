@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/Error.h"
+#include "protocol/ProcedureReader.h"
 
 namespace heft {
 
@@ -54,13 +55,8 @@ class Collector {
                         : ""));
     add("catch trials", fmt::format("{:g} %", 100 * block.catch_fraction));
     add("moves a staircase down", std::string(name_of(block.positive_answer)));
-    for (const ReferenceStaircase& entry : block.staircases) {
-      const StaircaseConfig& config = entry.staircase;
-      add(fmt::format("staircase {}", config.name),
-          fmt::format("floor {}, ceiling {}, step changes {}, at most {} trials",
-                      bound(config.floor), bound(config.ceiling), name_of(config.change_step),
-                      config.stop_trials));
-    }
+    for (const ReferenceStaircase& entry : block.staircases)
+      add(fmt::format("staircase {}", entry.staircase.name), described(entry.staircase));
   }
 
   std::vector<ProtocolChoice> choices;
@@ -70,9 +66,6 @@ class Collector {
     return fmt::format("{}, {}", name_of(input.mode),
                        input.predict_s > 0 ? fmt::format("predicted {:g} s ahead", input.predict_s)
                                            : "not predicted");
-  }
-  static std::string bound(const std::optional<double>& bound_g) {
-    return bound_g ? fmt::format("{:g} g", *bound_g) : "none";
   }
   void add(std::string choice, std::string value) {
     choices.push_back({name_, std::move(choice), std::move(value)});

@@ -23,7 +23,7 @@ std::string absences(const Summary& summary) {
   std::string text;
   if (summary.sorting[0].n_trials + summary.sorting[1].n_trials == 0)
     text += "Sorting: no completed trials.\n";
-  if (summary.jnd.empty()) text += "JND: no staircases.\n";
+  if (summary.jnd.empty()) text += "JND: no staircases that estimate one.\n";
   return text;
 }
 

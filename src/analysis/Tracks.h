@@ -31,7 +31,8 @@ struct SessionTracks {
   std::vector<Track> tracks;  ///< by reference, then name
 };
 
-/// The first finished session that has staircases, or else the first that has any.
+/// The first finished session that has staircases that estimate a JND, or else the first that has
+/// any.
 std::optional<SessionTracks> example_tracks(std::span<const SessionData> sessions);
 
 }  // namespace heft

@@ -23,7 +23,8 @@ std::vector<std::vector<double>> masses_of(const SortingBlock& block) {
 std::vector<std::vector<double>> masses_of(const ComparisonBlock& block) {
   std::vector<std::vector<double>> masses_g;
   for (const auto& [reference_g, staircase, technique] : block.staircases)
-    masses_g.push_back({reference_g, reference_g + staircase.start});
+    for (double level_g : Procedure(staircase).planned_levels())
+      masses_g.push_back({reference_g, reference_g + level_g});
   return masses_g;
 }
 

@@ -11,13 +11,13 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
-#include "psychophysics/Staircase.h"
 
 namespace heft::cli {
 
 namespace {
 constexpr std::string_view forms =
-    R"({"response":true}, {"response":false}, {"response":true,"level":X} or {"void":true})";
+    R"({"response":true|false} or {"answer":"comparison"|"reference"|"none"}, with "level":X beside )"
+    R"(it or without, or {"void":true})";
 
 class AnswerReader : public nlohmann::json_sax<nlohmann::json> {
  public:
@@ -33,7 +33,7 @@ class AnswerReader : public nlohmann::json_sax<nlohmann::json> {
   }
   bool number_float(number_float_t value, const string_t&) override { return number(value); }
   bool null() override { return wrong("null"); }
-  bool string(string_t&) override { return wrong("a text"); }
+  bool string(string_t& text) override;
   bool binary(binary_t&) override { return wrong("binary data"); }
   bool start_array(std::size_t) override { return wrong("an array"); }
   bool end_array() override { return true; }
@@ -51,6 +51,7 @@ class AnswerReader : public nlohmann::json_sax<nlohmann::json> {
   bool in_object_ = false;
   std::string key_;
   std::optional<bool> response_, void_;
+  std::optional<Choice> choice_;
   std::optional<double> level_;
   std::string problem_;
 };
@@ -63,9 +64,10 @@ bool AnswerReader::refuse(std::string problem) {
 bool AnswerReader::wrong(std::string_view got) {
   if (!in_object_) return refuse(fmt::format("expected an object, got {}", got));
   return refuse(fmt::format("\"{}\" must be {}, got {}", key_,
-                            key_ == "level"  ? "a number"
-                            : key_ == "void" ? "true"
-                                             : "true or false",
+                            key_ == "level"    ? "a number"
+                            : key_ == "void"   ? "true"
+                            : key_ == "answer" ? quoted_list(EnumNames<Choice>::names)
+                                               : "true or false",
                             got));
 }
 
@@ -75,13 +77,14 @@ bool AnswerReader::start_object(std::size_t) {
 }
 
 bool AnswerReader::key(string_t& name) {
-  constexpr std::array<std::string_view, 3> keys{"response", "level", "void"};
+  constexpr std::array<std::string_view, 4> keys{"response", "answer", "level", "void"};
   if (std::find(keys.begin(), keys.end(), name) == keys.end()) {
     const auto nearest = nearest_name(name, keys);
     return refuse(fmt::format("unknown key \"{}\"{}", name,
                               nearest ? fmt::format(" (did you mean \"{}\"?)", *nearest) : ""));
   }
-  if ((name == "response" && response_) || (name == "level" && level_) || (name == "void" && void_))
+  if ((name == "response" && response_) || (name == "answer" && choice_) ||
+      (name == "level" && level_) || (name == "void" && void_))
     return refuse(fmt::format("\"{}\" is given twice", name));
   key_ = name;
   return true;
@@ -89,9 +92,16 @@ bool AnswerReader::key(string_t& name) {
 
 bool AnswerReader::boolean(bool value) {
   const std::string_view text = value ? "true" : "false";
-  if (!in_object_ || key_ == "level" || (key_ == "void" && !value)) return wrong(text);
+  const bool takes = key_ == "response" || (key_ == "void" && value);
+  if (!in_object_ || !takes) return wrong(text);
   (key_ == "void" ? void_ : response_) = value;
   return true;
+}
+
+bool AnswerReader::string(string_t& text) {
+  if (!in_object_ || key_ != "answer") return wrong("a text");
+  choice_ = named<Choice>(text);
+  return choice_ ? true : wrong(fmt::format("\"{}\"", text));
 }
 
 bool AnswerReader::number(double value) {
@@ -111,10 +121,14 @@ bool AnswerReader::parse_error(std::size_t column, const std::string&,
 }
 
 AnswerLine AnswerReader::answer() const {
-  if (response_ && void_) throw Error("a trial has either a \"response\" or is \"void\", not both");
-  if (void_ && level_) throw Error("\"level\" goes with a \"response\", not with \"void\"");
-  if (!response_ && !void_) throw Error("neither \"response\" nor \"void\" is given");
-  return {void_.has_value(), response_.value_or(false), level_};
+  const int n_given =
+      int{response_.has_value()} + int{choice_.has_value()} + int{void_.has_value()};
+  if (n_given > 1)
+    throw Error("a trial has one of \"response\", \"answer\" and \"void\", not several");
+  if (void_ && level_) throw Error("\"level\" goes with an answer, not with \"void\"");
+  if (n_given == 0) throw Error("none of \"response\", \"answer\" and \"void\" is given");
+  if (choice_) return {false, response_of(*choice_), level_};
+  return {void_.has_value(), {response_.value_or(false)}, level_};
 }
 }  // namespace
 

@@ -1,4 +1,4 @@
-// `heft procedure`: adaptive procedures for programs in any language.
+// `heft procedure`: procedures for programs in any language.
 #include <csignal>
 #include <iostream>
 #include <memory>
@@ -19,8 +19,9 @@ void converse(const std::string& file) {
 
 void add_procedure(CLI::App& app) {
   CLI::App* command = add_command(
-      app, "procedure", "drive adaptive procedures over JSON lines on stdin and stdout",
-      {"heft procedure staircases.toml", "",
+      app, "procedure", "drive psychophysical procedures over JSON lines on stdin and stdout",
+      {"heft procedure staircases.toml",
+       "",
        "A session (> is written by heft, < is your program's answer, a line a trial):",
        R"(  > {"event":"trial","trial":1,"staircase":"15g","level":175})",
        R"(  < {"response":true}                 perceived, correct: the level goes down)",
@@ -30,10 +31,15 @@ void add_procedure(CLI::App& app) {
        R"(  < {"response":false,"level":124.5}  the level really shown, where it was another)",
        R"(  > {"event":"reversal","staircase":"15g","trial":3,"number":1,"level":124.5,)"
        R"("step_before":50,"step_after":50})",
-       R"(  > {"event":"trial","trial":4,"staircase":"15g","level":175})", "  ...",
+       R"(  > {"event":"trial","trial":4,"staircase":"15g","level":175})",
+       "  ...",
        R"(  > {"event":"finished","staircase":"15g","reason":"reversals","estimate":112.5,)"
        R"("n_trials":19})",
-       R"(  > {"event":"done"})", "",
+       R"(  > {"event":"done"})",
+       "",
+       R"(Where two stimuli are compared, {"answer":"comparison"|"reference"|"none"} says which was)",
+       "more. Every kind takes it as a response: any choice is true, none is false.",
+       R"(Kind "constant" (levels, n_per_level, order) ends by "trials" and estimates null.)",
        R"(Input it can't use is answered by {"event":"error","line":N,"message":...}; the trial)",
        "stays open. It ends, with exit code 0, when all staircases are done or its input ends."});
   const auto file = std::make_shared<std::string>();

@@ -46,29 +46,29 @@ std::string error_event(int line_number, std::string_view message) {
                      json_text(message));
 }
 
-std::string trial_event(int trial, const Staircase& staircase) {
+std::string trial_event(int trial, const std::string& staircase, double level) {
   return fmt::format(R"({{"event":"trial","trial":{},"staircase":{},"level":{}}})", trial,
-                     json_text(staircase.config().name), staircase.level());
+                     json_text(staircase), level);
 }
 
-std::string reversal_event(int trial, const Staircase& staircase, const Reversal& reversal) {
+std::string reversal_event(int trial, const std::string& staircase, const Reversal& reversal) {
   return fmt::format(
       R"({{"event":"reversal","staircase":{},"trial":{},"number":{},"level":{},"step_before":{},)"
       R"("step_after":{}}})",
-      json_text(staircase.config().name), trial, reversal.number, reversal.level,
-      reversal.step_before, reversal.step_after);
+      json_text(staircase), trial, reversal.number, reversal.level, reversal.step_before,
+      reversal.step_after);
 }
 
-std::string finished_event(const Staircase& staircase) {
-  const std::optional<double> estimate = staircase.estimate();
+std::string finished_event(const Procedure& staircase, Finish reason) {
+  const std::optional<double> estimate = staircase.estimates().front().value;
   return fmt::format(
       R"({{"event":"finished","staircase":{},"reason":{},"estimate":{},"n_trials":{}}})",
-      json_text(staircase.config().name), json_text(name_of(*staircase.finish())),
+      json_text(staircase.name()), json_text(name_of(reason)),
       estimate ? fmt::to_string(*estimate) : "null", staircase.n_trials());
 }
 }  // namespace
 
-ProcedureDialog::ProcedureDialog(const ProcedureConfig& config, std::ostream& out)
+ProcedureDialog::ProcedureDialog(const InterleavedProcedures& config, std::ostream& out)
     : config_(config), out_(out), staircases_(config.staircases.begin(), config.staircases.end()) {}
 
 void ProcedureDialog::run(std::istream& in) {
@@ -98,18 +98,21 @@ void ProcedureDialog::take(const std::string& line, int line_number) {
 }
 
 void ProcedureDialog::respond(const AnswerLine& answer) {
-  Staircase& staircase = staircases_[*current_];
-  const Staircase::Update update = staircase.respond(answer.positive, answer.level);
+  Procedure& staircase = staircases_[*current_];
+  const Update update = staircase.respond(answer.response, answer.level.value_or(level_));
   previous_ = current_;
-  if (update.reversal) write(reversal_event(trial_, staircase, *update.reversal));
-  if (update.finish) write(finished_event(staircase));
+  if (update.reversal) write(reversal_event(trial_, staircase.name(), *update.reversal));
+  if (update.finish) write(finished_event(staircase, *update.finish));
 }
 
 void ProcedureDialog::next_trial() {
   ++trial_;
   RandomStream stream(config_.seed, "interleave", static_cast<std::uint64_t>(trial_));
   current_ = next_staircase(staircases_, config_.interleaving, previous_, stream);
-  write(current_ ? trial_event(trial_, staircases_[*current_]) : R"({"event":"done"})");
+  if (!current_) return write(R"({"event":"done"})");
+  const Procedure& staircase = staircases_[*current_];
+  level_ = staircase.next_level(level_stream(config_.seed, staircase.name()));
+  write(trial_event(trial_, staircase.name(), level_));
 }
 
 void ProcedureDialog::write(const std::string& json) {

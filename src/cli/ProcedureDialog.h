@@ -15,7 +15,7 @@ namespace heft::cli {
 class ProcedureDialog {
  public:
   /// @param out every line is flushed
-  ProcedureDialog(const ProcedureConfig& config, std::ostream& out);
+  ProcedureDialog(const InterleavedProcedures& config, std::ostream& out);
 
   /// Holds the conversation until every staircase is finished or the input ends.
   /// @throws Error when a line can't be written
@@ -27,12 +27,13 @@ class ProcedureDialog {
   void next_trial();
   void write(const std::string& json);
 
-  ProcedureConfig config_;
+  InterleavedProcedures config_;
   std::ostream& out_;
-  std::vector<Staircase> staircases_;
+  std::vector<Procedure> staircases_;
   std::optional<std::size_t> current_;   ///< staircase of the open trial; none: all are finished
   std::optional<std::size_t> previous_;  ///< of the last completed trial
   int trial_ = 0;                        ///< number of the open trial
+  double level_ = 0;                     ///< that it presents
 };
 
 }  // namespace heft::cli

@@ -63,10 +63,10 @@ struct SortingBlock {
   }
 };
 
-/// One staircase of a comparison block and the reference it compares with.
+/// One procedure of a comparison block and the reference it compares with.
 struct ReferenceStaircase {
   double reference_g = 0;
-  StaircaseConfig staircase;  ///< levels are comparison - reference, g
+  ProcedureConfig staircase;  ///< of any kind; levels are comparison - reference, g
   std::string condition{};    ///< its own technique; empty: the block's
 };
 

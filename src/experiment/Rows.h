@@ -13,6 +13,7 @@
 #include "experiment/Setup.h"
 #include "experiment/Task.h"
 #include "experiment/TrialPlan.h"
+#include "psychophysics/ProcedureTypes.h"
 
 namespace heft {
 
@@ -41,12 +42,13 @@ void visit_columns(Row& row, Visit&& visit) {
         row.attempt_index);
   visit(LogColumn{"trial_number", "", "planned trial, from 1; attempts share it", 1, ">= 1"},
         row.plan.trial_number);
-  visit(
-      LogColumn{"attempt", "", "+1 after a veto or a lost camera, unchanged after a crash", 1, ">= 1"},
-      row.plan.attempt);
+  visit(LogColumn{"attempt", "", "+1 after a veto or a lost camera, unchanged after a crash", 1,
+                  ">= 1"},
+        row.plan.attempt);
   visit(LogColumn{"block", "", "block of the protocol"}, row.plan.block);
   visit(LogColumn{"task", "", "what was asked"}, row.plan.task);
-  visit(LogColumn{"condition", "", "technique that the clone was rendered with"}, row.plan.condition);
+  visit(LogColumn{"condition", "", "technique that the clone was rendered with"},
+        row.plan.condition);
   visit(LogColumn{"staircase", "", "procedure that chose the level; none in catch trials"},
         NullIfEmpty{row.plan.staircase});
   visit(LogColumn{"reference_g", "g", "mass of the reference", 1, "> 0"}, row.plan.reference_g);
@@ -136,6 +138,7 @@ struct EstimateRow {
   std::optional<double> jnd_g, low_g, high_g;
   int n_trials = 0, n_reversals = 0, n_floor = 0, n_ceiling = 0;
   std::string reason;
+  std::optional<Censored> censored;
 };
 template <typename Row, typename Visit>
 requires RowOf<Row, EstimateRow>
@@ -150,6 +153,10 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"n_floor", "", "moves that the floor cut short", 1, ">= 0"}, row.n_floor);
   visit(LogColumn{"n_ceiling", "", "moves that the ceiling cut short", 1, ">= 0"}, row.n_ceiling);
   visit(LogColumn{"reason", "", "why the procedure ended"}, row.reason);
+  visit(LogColumn{"censored", "",
+                  "whether a bound or the limit of trials cut it short; not told before version 3",
+                  3},
+        row.censored);
 }
 
 enum class SessionState { running, paused, finished, aborted };
@@ -202,8 +209,10 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"capture_s", "s", "session time of its picture's exposure"}, row.capture_s);
   visit(LogColumn{"present_s", "s", "session time at which it was on the screen"}, row.present_s);
   visit(LogColumn{"tracked", "", "the effector was seen"}, row.tracked);
-  visit(LogColumn{"jump", "", "the effector came back or leapt: the clone was teleported"}, row.jump);
-  visit(LogColumn{"contact_slot", "", "cube pressed hardest", 1, "BETWEEN 1 AND 6"}, row.contact_slot);
+  visit(LogColumn{"jump", "", "the effector came back or leapt: the clone was teleported"},
+        row.jump);
+  visit(LogColumn{"contact_slot", "", "cube pressed hardest", 1, "BETWEEN 1 AND 6"},
+        row.contact_slot);
   visit(LogColumn{"quality", "", "of the effector's pose, 0 to 1"}, row.quality);
   visit(LogColumn{"state_hash", "", "hash of the world's state"}, row.state_hash);
   visit(PoseColumns{"effector", "the tracked effector"}, Exactly{row.effector});
@@ -216,9 +225,9 @@ void visit_columns(Row& row, Visit&& visit) {
         row.detected_s);
   visit(LogColumn{"simulated_s", "s", "session time at which its world was known; wall clock", 2},
         row.simulated_s);
-  visit(
-      LogColumn{"n_dropped", "", "camera pictures lost since the frame before; wall clock", 2, ">= 0"},
-      row.n_dropped);
+  visit(LogColumn{"n_dropped", "", "camera pictures lost since the frame before; wall clock", 2,
+                  ">= 0"},
+        row.n_dropped);
   visit(PoseColumns{"cube4", "cube of slot 4", 3}, PoseAt{row.cubes, 3});
   visit(PoseColumns{"cube5", "cube of slot 5", 3}, PoseAt{row.cubes, 4});
   visit(PoseColumns{"cube6", "cube of slot 6", 3}, PoseAt{row.cubes, 5});

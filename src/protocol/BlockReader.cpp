@@ -7,7 +7,7 @@
 #include <span>
 
 #include "experiment/Rows.h"
-#include "protocol/StaircaseReader.h"
+#include "protocol/ProcedureReader.h"
 
 namespace heft {
 
@@ -115,31 +115,17 @@ Block read_sorting(TableReader& table, NamesInUse& names) {
   return block;
 }
 
-// The comparison weighs reference + level, which must stay above zero wherever the staircase goes.
-void check_lightest(TableReader& table, const ReferenceStaircase& reference) {
-  const StaircaseConfig& staircase = reference.staircase;
-  if (!table.has("reference_g") || !table.good({"reference_g", "floor", "step_scale"})) return;
-  if (staircase.step_scale == StepScale::linear && !staircase.floor)
-    table.mistake("floor", fmt::format("{} lacks \"floor\": its linear steps could make the "
-                                       "comparison weigh 0 g or less, expected a floor above {}",
-                                       table.title(), -reference.reference_g));
-  if (staircase.floor && *staircase.floor <= -reference.reference_g)
-    table.mistake("floor",
-                  fmt::format("floor is {}: beside a reference of {} g the comparison "
-                              "could weigh 0 g or less, expected above {}",
-                              *staircase.floor, reference.reference_g, -reference.reference_g));
-}
-
-ReferenceStaircase read_reference_staircase(TableReader& table, NamesInUse& names) {
+std::optional<ReferenceStaircase> read_reference_staircase(TableReader& table, NamesInUse& names) {
   ReferenceStaircase reference;
   table.require({"reference_g"});
   table.read("reference_g", reference.reference_g, above_zero);
   names.techniques.read(table, reference.condition);
-  reference.staircase = read_staircase(table);
-  table.close();
-  check_staircase(table, reference.staircase);
-  check_lightest(table, reference);
-  names.staircases.check(table, reference.staircase.name);
+  auto procedure = read_procedure(table);
+  if (!procedure) return std::nullopt;
+  if (table.has("reference_g") && table.good({"reference_g"}))
+    check_lightest(table, *procedure, reference.reference_g);
+  names.staircases.check(table, procedure->name);
+  reference.staircase = std::move(*procedure);
   return reference;
 }
 
@@ -152,7 +138,8 @@ Block read_comparison(TableReader& table, NamesInUse& names) {
   table.read("positive_answer", block.positive_answer);
   block.interleaving = read_interleaving(table);
   for (TableReader& staircase : table.tables("staircase"))
-    block.staircases.push_back(read_reference_staircase(staircase, names));
+    if (auto reference = read_reference_staircase(staircase, names))
+      block.staircases.push_back(std::move(*reference));
   table.close();
   return block;
 }

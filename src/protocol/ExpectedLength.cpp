@@ -9,19 +9,22 @@ namespace heft {
 namespace {
 // Trials that one observer takes; level by level it says yes where the difference, with noise in
 // proportion to the threshold, is beyond the threshold.
-int simulated_trials(const StaircaseConfig& config, double threshold_g, std::uint64_t observer) {
+int simulated_trials(const ProcedureConfig& config, double threshold_g, std::uint64_t observer) {
   constexpr double noise_per_threshold = 0.4;
   constexpr int enough_trials = 1000;  // steps too small for their start never get anywhere
   RandomStream stream(0, "expected length", observer);
-  Staircase staircase(config);
-  while (!staircase.finished() && staircase.n_trials() < enough_trials) {
-    const double seen_g = staircase.level() + noise_per_threshold * threshold_g * stream.normal();
-    staircase.respond(seen_g > threshold_g);
+  const RandomStream levels = level_stream(observer, config.name);
+  Procedure procedure(config);
+  while (!procedure.finished() && procedure.n_trials() < enough_trials) {
+    const double level_g = procedure.next_level(levels);
+    const double seen_g = level_g + noise_per_threshold * threshold_g * stream.normal();
+    procedure.respond({seen_g > threshold_g}, level_g);
   }
-  return staircase.n_trials();
+  return procedure.n_trials();
 }
 
-double mean_trials(const StaircaseConfig& config, double largest_threshold_g) {
+double mean_trials(const ProcedureConfig& config, double largest_threshold_g) {
+  if (const auto planned = Procedure(config).planned_trials()) return *planned;
   constexpr int n_observers = 200;
   double total = 0;
   for (int i = 0; i < n_observers; ++i) {
@@ -35,7 +38,9 @@ double mean_trials(const StaircaseConfig& config, double largest_threshold_g) {
 double largest_start_g(const ComparisonBlock& block, double reference_g) {
   double largest_g = 0;
   for (const ReferenceStaircase& other : block.staircases)
-    if (other.reference_g == reference_g) largest_g = std::max(largest_g, other.staircase.start);
+    if (other.reference_g == reference_g)
+      for (double level_g : Procedure(other.staircase).planned_levels())
+        largest_g = std::max(largest_g, level_g);
   return largest_g;
 }
 

@@ -20,8 +20,9 @@ struct ExpectedLength {
   double staircase_trials = 0;  ///< of all staircases together, without catch trials
 };
 
-/// Counts trials. Each staircase is simulated (up to 1000 trials) with 200 observers whose
-/// thresholds lie evenly between a quarter of the largest start at its reference and all of it; an
+/// Counts trials. A staircase whose length depends on the answers is simulated (up to 1000 trials)
+/// with 200 observers whose thresholds lie evenly between a quarter of the largest level that is
+/// planned at its reference (an adaptive one's start) and all of it; an
 /// observer perceives a difference of 1.4 times its threshold in 84 % of trials. The same protocol
 /// always gives the same forecast.
 ExpectedLength expected_length(const Protocol& protocol, const TrialDurations& durations = {});

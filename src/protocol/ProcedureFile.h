@@ -1,4 +1,4 @@
-// Procedure files: adaptive procedures alone, for `heft procedure`. The same keys are used inside
+// Procedure files: procedures alone, for `heft procedure`. The same keys are used inside
 // protocols.
 #pragma once
 
@@ -9,9 +9,9 @@
 namespace heft {
 
 /// @throws InvalidFile with every mistake at its line and column
-ProcedureConfig parse_procedure(const std::string& text, const std::string& file);
+InterleavedProcedures parse_procedure(const std::string& text, const std::string& file);
 
 /// @throws Error when the file can't be read, InvalidFile as parse_procedure
-ProcedureConfig load_procedure(const std::string& path);
+InterleavedProcedures load_procedure(const std::string& path);
 
 }  // namespace heft

@@ -6,16 +6,16 @@
 namespace heft {
 
 namespace {
-int fewest_trials(std::span<const Staircase> staircases) {
+int fewest_trials(std::span<const Procedure> staircases) {
   int fewest = std::numeric_limits<int>::max();
-  for (const Staircase& staircase : staircases)
+  for (const Procedure& staircase : staircases)
     if (!staircase.finished()) fewest = std::min(fewest, staircase.n_trials());
   return fewest;
 }
 
 // In file order. Never empty while a staircase is unfinished: the least advanced one may always
 // run.
-std::vector<std::size_t> may_run(std::span<const Staircase> staircases, int max_lag) {
+std::vector<std::size_t> may_run(std::span<const Procedure> staircases, int max_lag) {
   const int fewest = fewest_trials(staircases);
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < staircases.size(); ++i)
@@ -32,7 +32,7 @@ std::size_t next_in_turn(const std::vector<std::size_t>& candidates,
 }
 }  // namespace
 
-std::optional<std::size_t> next_staircase(std::span<const Staircase> staircases,
+std::optional<std::size_t> next_staircase(std::span<const Procedure> staircases,
                                           const InterleaveConfig& config,
                                           std::optional<std::size_t> previous,
                                           RandomStream& stream) {

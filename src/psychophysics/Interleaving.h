@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "psychophysics/Staircase.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 
@@ -26,17 +26,17 @@ struct InterleaveConfig {
 };
 
 /// Keys of a procedure file: seed, how to interleave, and the staircases.
-struct ProcedureConfig {
+struct InterleavedProcedures {
   std::uint64_t seed = 1;
   InterleaveConfig interleaving;
-  std::vector<StaircaseConfig> staircases;
+  std::vector<ProcedureConfig> staircases;
 };
 
 /// Index of the staircase that the next trial belongs to; none when all are finished. Where
 /// max_lag holds a staircase back, round_robin and sequential go on to the next one that may run.
 /// @param previous index chosen for the last completed trial, for round_robin
 /// @param stream drawn from only by `random`, and only where there is a choice
-std::optional<std::size_t> next_staircase(std::span<const Staircase> staircases,
+std::optional<std::size_t> next_staircase(std::span<const Procedure> staircases,
                                           const InterleaveConfig& config,
                                           std::optional<std::size_t> previous,
                                           RandomStream& stream);

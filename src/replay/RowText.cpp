@@ -11,7 +11,7 @@ RowText texts(std::string table, std::string key, int attempt_index, double t_s,
 }
 
 void add(RowText& text, std::string column, int value) {
-  text.columns.emplace_back(std::move(column), fmt::format("{}", value));
+  text.columns.push_back({std::move(column), fmt::format("{}", value)});
 }
 
 constexpr double at_its_end = -1;

@@ -5,19 +5,23 @@
 #include <fmt/format.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "experiment/Rows.h"
 
 namespace heft {
 
+struct ColumnText {
+  std::string name, value;
+  int since = 1;  ///< the version of the log that first has it
+};
+
 struct RowText {
   std::string table;  ///< as the log calls it
   std::string key;    ///< which row, for people: "cube 2 of trial 7"
   int attempt_index = 0;
   double t_s = 0;  ///< session time that the row belongs to; negative: its attempt's end
-  std::vector<std::pair<std::string, std::string>> columns;
+  std::vector<ColumnText> columns;
 };
 
 /// Puts a row's columns into text; see visit_columns.
@@ -27,7 +31,7 @@ class TextColumns {
 
   template <typename Field>
   void operator()(const LogColumn& column, const Field& field) {
-    row_.columns.emplace_back(column.name, text(field));
+    row_.columns.push_back({std::string(column.name), text(field), column.since});
   }
 
  private:

@@ -38,7 +38,7 @@ void Answering::give(const Answer& answer, double first_tap_s) {
   if (to_validate_) return queue_labels(answer, first_tap_s);
   if (answer.slot) return queue_.push_back({{ActionKind::select, answer.slot, {}}, first_tap_s});
   const auto none = task_ == Task::sorting ? ActionKind::dont_know : ActionKind::no_difference;
-  queue_.push_back({first_tap_s, none, {}, {}});
+  queue_.push_back({{none, {}, {}}, first_tap_s});
 }
 
 void Answering::queue_labels(const Answer& answer, double first_tap_s) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "MadeUpSessions.h"
+#include "analysis/Tracks.h"
 
 namespace heft {
 namespace {
@@ -80,6 +81,40 @@ TEST(Jnd, AStaircaseWithoutEstimateIsUnfinished) {
   EXPECT_EQ(jnd.n_staircases, 0);
   EXPECT_EQ(jnd.least_trials, 0);
   EXPECT_FALSE(jnd.mean_g.has_value());
+}
+
+TEST(Jnd, ConstantStimuliAreNoStaircaseThatLacksAJnd) {
+  SessionData data = session(1, "a");
+  add_staircase(data, "15g", 15, 100);
+  add_comparison(data, "ended", 15, 40);
+  add_comparison(data, "going on", 200, 40);
+  data.estimates.push_back(data.estimates[0]);
+  data.estimates[1].staircase = "ended";
+  data.estimates[1].method = "constant";
+  data.estimates[1].jnd_g.reset();
+  data.without_jnd = {"ended", "going on"};
+  const auto jnds = jnd_of({&data, 1});
+  ASSERT_EQ(jnds.size(), 1);
+  EXPECT_EQ(jnds[0].compared.reference_g, 15);
+  EXPECT_EQ(jnds[0].n_staircases, 1);
+  EXPECT_EQ(jnds[0].n_unfinished, 0);
+  EXPECT_EQ(jnds[0].n_without_estimate, 0);
+  EXPECT_EQ(jnds[0].mean_g, 100);
+  EXPECT_EQ(staircase_results({&data, 1}).size(), 1);
+  ASSERT_EQ(example_tracks({&data, 1})->tracks.size(), 1);
+  EXPECT_EQ(example_tracks({&data, 1})->tracks[0].staircase, "15g");
+}
+
+TEST(Jnd, AProtocolTellsWhichStaircasesHaveNone) {
+  const std::string block = "title = \"t\"\n[[block]]\nkind = \"comparison\"\nname = \"c\"\n";
+  const std::string up_down =
+      "[[block.staircase]]\nname = \"u\"\nreference_g = 15\nstart = 9\nstep = 1\nfloor = 0\n";
+  const std::string constant =
+      "[[block.staircase]]\nname = \"k\"\nkind = \"constant\"\nreference_g = 15\n"
+      "levels = [1, 2]\nn_per_level = 3\n";
+  EXPECT_EQ(staircases_without_jnd(block + up_down + constant), std::set<std::string>{"k"});
+  EXPECT_TRUE(staircases_without_jnd(block + up_down).empty());
+  EXPECT_TRUE(staircases_without_jnd("no protocol").empty());
 }
 
 TEST(Jnd, PublishedFiguresNeedReferenceAndConditionOfThePaper) {

@@ -37,6 +37,14 @@ TEST(ProtocolChoices, name_what_the_paper_leaves_open) {
             "floor 0 g, ceiling 1500 g, step changes before_move, at most 60 trials");
 }
 
+TEST(ProtocolChoices, name_constant_stimuli) {
+  Protocol protocol = shipped("quick.toml");
+  auto& block = std::get<ComparisonBlock>(protocol.blocks.back());
+  block.staircases = {{200, {"c", ConstantConfig{.levels = {-5, 12.5}, .n_per_level = 9}}}};
+  EXPECT_EQ(value_of(choices_in(protocol), "staircase c"),
+            "constant levels -5, 12.5 g, each 9 times, in blocks");
+}
+
 TEST(ProtocolChoices, are_told_once_a_protocol_and_versions_are_told_apart) {
   const Protocol quick = shipped("quick.toml");
   Protocol changed = quick;

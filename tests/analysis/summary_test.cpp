@@ -123,7 +123,7 @@ TEST(Summary, NothingIsSaidClearly) {
   const std::string text = text_of({data});
   EXPECT_THAT(text, HasSubstr("No trial was completed"));
   EXPECT_THAT(text, HasSubstr("Sorting: no completed trials."));
-  EXPECT_THAT(text, HasSubstr("JND: no staircases."));
+  EXPECT_THAT(text, HasSubstr("JND: no staircases that estimate one."));
 }
 
 TEST(Summary, HypothesesCarryTheirExperiment) {

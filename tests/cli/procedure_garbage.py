@@ -2,6 +2,7 @@
 import json
 
 SEEDS = [b'{"response":true}', b'{"response":false}', b'{"void":true}',
+         b'{"answer":"comparison"}', b'{"answer":"none","level":3}',
          b'{"response":true,"level":124.5}', b'{ "level" : -1e3, "response" : false }']
 EXTREMES = [b"[" * 4000, b'{"response":' * 300, b"[" * 200000, b"{" * 5000000,
             b'{"response":true,"level":' + b"9" * 400 + b"}",
@@ -11,6 +12,10 @@ EXTREMES = [b"[" * 4000, b'{"response":' * 300, b"[" * 200000, b"{" * 5000000,
             b'{"response":true,"level":null}', b'{"response":true,"level":"3"}',
             b'{"response":true}\0', b"\0", b"\xff\xfe", b'{"\xc3\x28":true}', b"null", b"true",
             b'"', b"{}", b"[]", b'{"response":true}{"response":true}', b'{"response":1}',
+            b'{"answer":"None"}', b'{"answer":true}', b'{"answer":1}', b'{"response":"none"}',
+            b'{"answer":"none","answer":"none"}', b'{"answer":"none","response":false}',
+            b'{"answer":"none","void":true}', b'{"answer":["none"]}',
+            b'{"answer":"reference","level":-2}', b'{"\\u0061nswer":"non\\u0065"}',
             b'{"response":true,"response":true}', b'{"response":true,"void":true}',
             b'{"void":false}', b'{"void":true,"level":1}', b'{"level":1}', b'{"Response":true}',
             b'{"\\u0072esponse":true}', b'{"\\ud800":true}', b'{"response":[[[]]]}',
@@ -50,7 +55,12 @@ def understood(line):
         said = json.loads(line.decode("utf-8-sig"), object_pairs_hook=once, parse_constant=refuse)
         if said == {"void": True} and said["void"] is True:
             return "void"
-        if not isinstance(said, dict) or not isinstance(said.pop("response"), bool):
+        if not isinstance(said, dict):
+            raise ValueError("no object")
+        if "answer" in said:
+            if said.pop("answer") not in ("comparison", "reference", "none"):
+                raise ValueError("no choice")
+        elif not isinstance(said.pop("response"), bool):
             raise ValueError("no answer")
         level = said.pop("level", 0)
         if said or type(level) not in (int, float) or not abs(float(level)) <= 1e300:

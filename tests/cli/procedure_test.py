@@ -223,7 +223,89 @@ class Conversation(unittest.TestCase):
         self.assertNotEqual(session(11), session(12))
 
 
+class ConstantStimuli(unittest.TestCase):
+    LEVELS = [-40.0, 0.0, 10.0, 40.0, 160.0]
+
+    def constant(self, **keys):
+        return dict(name="c", kind="constant", levels=self.LEVELS, n_per_level=6) | keys
+
+    def levels(self, procedure, lines):
+        code, events, stderr = heft(procedure, lines)
+        self.assertEqual((code, stderr), (0, ""))
+        return [e["level"] for e in only(events, "trial")]
+
+    def test_every_block_holds_each_level_once_and_it_estimates_nothing(self):
+        lines = answers_to_lines([True] * 40)
+        code, events, stderr = heft(toml([self.constant()], seed=4), lines)
+        self.assertEqual((code, stderr), (0, ""))
+        levels = [e["level"] for e in only(events, "trial")]
+        self.assertEqual(len(levels), 30)
+        for start in range(0, 30, 5):
+            self.assertEqual(sorted(levels[start:start + 5]), self.LEVELS)
+        self.assertEqual(only(events, "reversal"), [])
+        self.assertEqual(events[-2:], [{"event": "finished", "staircase": "c", "reason": "trials",
+                                        "estimate": None, "n_trials": 30}, {"event": "done"}])
+
+    def test_shuffled_over_all_trials(self):
+        levels = self.levels(toml([self.constant(order="shuffled")]), answers_to_lines([True] * 30))
+        self.assertEqual(sorted(levels), sorted(self.LEVELS * 6))
+        self.assertTrue(any(sorted(levels[i:i + 5]) != self.LEVELS for i in range(0, 30, 5)))
+
+    def test_only_the_seed_orders_the_levels(self):
+        def order(seed, lines):
+            return self.levels(toml([self.constant()], seed=seed), lines)
+        rng = random.Random(3)
+        first = order(1, answers_to_lines([True] * 30))
+        self.assertEqual(first, order(1, answers_to_lines([rng.random() < 0.5 for _ in range(30)])))
+        self.assertEqual(first, order(1, b'{"answer":"none","level":3}\n' * 30))
+        self.assertNotEqual(first, order(2, answers_to_lines([True] * 30)))
+
+    def test_a_void_trial_is_presented_again(self):
+        lines = b'{"void":true}\n{"response":true}\n' * 30
+        levels = self.levels(toml([self.constant()], seed=1), lines)
+        self.assertEqual(levels[0:60:2], levels[1:60:2])
+        self.assertEqual(levels[0:60:2], self.levels(toml([self.constant()], seed=1),
+                                                     answers_to_lines([True] * 30)))
+
+    def test_other_staircases_keep_their_traces_beside_it(self):
+        rng = random.Random(8)
+        answers = [rng.random() < 0.5 for _ in range(200)]
+        staircase, reference = Conversation.STAIRCASE, Paper(175, 50)
+        code, events, stderr = heft(toml([self.constant(), staircase]), answers_to_lines(answers))
+        self.assertEqual((code, stderr, events[-1]), (0, "", {"event": "done"}))
+        for trial, answer in zip(only(events, "trial"), answers):
+            if trial["staircase"] == "15g":
+                self.assertEqual(trial["level"], reference.level)
+                reference.answer(answer)
+        self.assertTrue(reference.finished)
+
+
+class ThreeWayAnswers(unittest.TestCase):
+    def test_any_choice_is_a_positive_response(self):
+        rng = random.Random(6)
+        choices = [rng.choice(["comparison", "reference", "none"]) for _ in range(200)]
+        lines = "".join(json.dumps({"answer": c}) + "\n" for c in choices).encode()
+        procedure = toml([Conversation.STAIRCASE])
+        self.assertEqual(heft(procedure, lines)[1],
+                         heft(procedure, answers_to_lines([c != "none" for c in choices]))[1])
+
+    def test_what_is_no_choice_is_refused_with_the_three(self):
+        for line in (b'{"answer":"heavier"}', b'{"answer":true}', b'{"answer":null}'):
+            events = heft(toml([Conversation.STAIRCASE]), line)[1]
+            [error] = only(events, "error")
+            for word in ('"answer" must be', '"comparison"', '"reference"', '"none"'):
+                self.assertIn(word, error["message"])
+            self.assertEqual(len(only(events, "trial")), 1)
+
+
 class Refusals(unittest.TestCase):
+    def test_constant_levels_that_can_not_be(self):
+        for keys, place in ((dict(levels=[1, 2, 1]), ":4:17"), (dict(n_per_level=0), ":5:15"),
+                            (dict(n_per_level=4000), ":5:15"), (dict(levels=[]), ":4:10")):
+            code, events, stderr = heft(toml([ConstantStimuli().constant(**keys)]), b"")
+            self.assertEqual((code, events), (3, []))
+            self.assertIn(place, stderr)
+
     def test_broken_file(self):
         code, events, stderr = heft('[[staircase]]\nname = "s"\nstart = "high"\nstep = 0\n', b"")
         self.assertEqual((code, events), (3, []))

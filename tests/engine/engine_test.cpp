@@ -371,6 +371,87 @@ TEST(Engine, catch_trials_show_equal_masses_and_drive_no_staircase) {
   EXPECT_GT(n_catch, n / 4);
 }
 
+ProcedureConfig constant(const std::string& name) {
+  return {name, ConstantConfig{.levels = {-10, 0, 20, 80}, .n_per_level = 3}};
+}
+
+Protocol constant_protocol() {
+  Protocol protocol = small_protocol();
+  auto& block = std::get<ComparisonBlock>(protocol.blocks[4]);
+  block.staircases = {{15, constant("constant")}, {200, testing::staircase("200g", 600, 150)}};
+  protocol.blocks = {block};
+  return protocol;
+}
+
+TEST(Engine, constant_stimuli_run_beside_a_staircase_and_end_without_a_jnd) {
+  Session session(constant_protocol());
+  std::map<double, int> counts;
+  std::vector<EstimateRow> estimates;
+  while (session.engine.next().kind == Next::Kind::trial) {
+    const TrialPlan plan = session.start();
+    const Changes done = session.acts(ActionKind::select, 1);
+    if (plan.staircase == "constant") {
+      ++counts[*plan.level_g];
+      EXPECT_DOUBLE_EQ(plan.masses_g[0] + plan.masses_g[1], 30 + *plan.level_g);
+      EXPECT_TRUE(done.reversals.empty());
+    }
+    estimates.insert(estimates.end(), done.estimates.begin(), done.estimates.end());
+  }
+  EXPECT_EQ(counts, (std::map<double, int>{{-10, 3}, {0, 3}, {20, 3}, {80, 3}}));
+  ASSERT_EQ(estimates.size(), 2u);
+  const auto row = std::ranges::find(estimates, "constant", &EstimateRow::staircase);
+  ASSERT_NE(row, estimates.end());
+  EXPECT_EQ(row->method, "constant");
+  EXPECT_EQ(row->reason, "trials");
+  EXPECT_EQ(row->jnd_g, std::nullopt);
+  EXPECT_EQ(row->n_trials, 12);
+  EXPECT_EQ(session.engine.next().kind, Next::Kind::finish);
+}
+
+// (staircase, level) of every completed trial; vetoes where `vetoed` says so.
+std::vector<std::pair<std::string, double>> course(std::uint64_t seed, auto vetoed) {
+  Session session(constant_protocol(), seed);
+  std::vector<std::pair<std::string, double>> course;
+  for (int n = 0; session.engine.next().kind == Next::Kind::trial; ++n) {
+    const TrialPlan plan = session.start();
+    if (plan.attempt <= 2 && vetoed(n)) {
+      session.does(EventKind::voided, n % 2 ? "veto" : "interrupted");
+      continue;
+    }
+    session.acts(ActionKind::no_difference);
+    course.emplace_back(plan.staircase, *plan.level_g);
+  }
+  return course;
+}
+
+TEST(Engine, void_trials_consume_no_constant_level) {
+  const auto whole = course(7, [](int) { return false; });
+  EXPECT_EQ(course(7, [](int n) { return n % 3 == 0; }), whole);
+  EXPECT_NE(course(8, [](int) { return false; }), whole);
+}
+
+TEST(Planning, an_answer_is_positive_by_the_blocks_rule_and_keeps_the_choice) {
+  ComparisonBlock block;
+  TrialRow row;
+  row.plan.reference_slot = 2;
+  row.outcome = Outcome::no_difference;
+  EXPECT_FALSE(response_to(block, row).positive);
+  EXPECT_EQ(response_to(block, row).choice, Choice::none);
+  row.outcome = Outcome::difference;
+  row.chosen_slot = 2;
+  row.choice_correct = false;
+  EXPECT_TRUE(response_to(block, row).positive);
+  EXPECT_EQ(response_to(block, row).choice, Choice::reference);
+  block.positive_answer = PositiveAnswer::correct_choice;
+  EXPECT_FALSE(response_to(block, row).positive);
+  row.chosen_slot = 1;
+  row.choice_correct = true;
+  EXPECT_TRUE(response_to(block, row).positive);
+  EXPECT_EQ(response_to(block, row).choice, Choice::comparison);
+  row.choice_correct.reset();  // equal masses
+  EXPECT_FALSE(response_to(block, row).positive);
+}
+
 TEST(Engine, sorting_blocks_hold_the_planned_conditions_and_runs) {
   Protocol protocol = small_protocol();
   auto& block = std::get<SortingBlock>(protocol.blocks[2]);

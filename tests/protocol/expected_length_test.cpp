@@ -36,12 +36,23 @@ TEST(ExpectedLength, EndsWhereAStaircaseGetsNowhere) {
   ComparisonBlock block;
   block.staircases.resize(1);
   block.staircases[0].reference_g = 1;
-  block.staircases[0].staircase.start = 1e6;
-  block.staircases[0].staircase.step = 1e-6;
-  block.staircases[0].staircase.stop_trials = 2'000'000'000;
+  block.staircases[0].staircase.kind =
+      UpDownConfig{.start = 1e6, .step = 1e-6, .stop_trials = 2'000'000'000};
   Protocol protocol;
   protocol.blocks = {block};
   EXPECT_LE(expected_length(protocol).trials, 1000);
+}
+
+TEST(ExpectedLength, CountsTheTrialsOfConstantStimuli) {
+  ComparisonBlock block;
+  block.staircases = {{15, {"constant", ConstantConfig{.levels = {10, 20, 40}, .n_per_level = 12}}},
+                      {200, {"other", ConstantConfig{.levels = {10}, .n_per_level = 4}}}};
+  Protocol protocol;
+  protocol.blocks = {block};
+  const ExpectedLength length = expected_length(protocol);
+  EXPECT_EQ(length.trials, 40);
+  EXPECT_EQ(length.staircases, 2);
+  EXPECT_EQ(length.staircase_trials, 40);
 }
 
 TEST(ExpectedLength, OfTheQuickProtocolIsAboutTwoMinutes) {

@@ -42,13 +42,13 @@ step_scale = "db"
 )";
 
 TEST(ProcedureFile, ReadsEveryKey) {
-  const ProcedureConfig config = parse_procedure(everything, "all.toml");
+  const InterleavedProcedures config = parse_procedure(everything, "all.toml");
   EXPECT_EQ(config.seed, 42u);
   EXPECT_EQ(config.interleaving.interleave, Interleave::round_robin);
   EXPECT_EQ(config.interleaving.max_lag, 3);
   ASSERT_EQ(config.staircases.size(), 2u);
-  const StaircaseConfig& first = config.staircases[0];
-  EXPECT_EQ(first.name, "15g");
+  EXPECT_EQ(config.staircases[0].name, "15g");
+  const auto& first = std::get<UpDownConfig>(config.staircases[0].kind);
   EXPECT_EQ(first.start, 175);
   EXPECT_EQ(first.step, 50);
   EXPECT_EQ(first.halve_every, 2);
@@ -65,18 +65,18 @@ TEST(ProcedureFile, ReadsEveryKey) {
   EXPECT_EQ(first.min_trials, 4);
   EXPECT_EQ(first.stop_trials, 90);
   EXPECT_EQ(first.discard_reversals, 3);
-  const StaircaseConfig& second = config.staircases[1];
+  const auto& second = std::get<UpDownConfig>(config.staircases[1].kind);
   EXPECT_THAT(second.steps, ElementsAre(8, 4.5, 2));
   EXPECT_THAT(second.steps_up, ElementsAre(3));
   EXPECT_EQ(second.step_scale, StepScale::db);
 }
 
 TEST(ProcedureFile, AbsentKeysHaveTheDocumentedDefaults) {
-  const ProcedureConfig config =
+  const InterleavedProcedures config =
       parse_procedure("[[staircase]]\nname = \"a\"\nstart = 10\nstep = 2\n", "short.toml");
   EXPECT_EQ(config.interleaving.interleave, Interleave::random);
   EXPECT_EQ(config.interleaving.max_lag, 0);
-  const StaircaseConfig& staircase = config.staircases.at(0);
+  const auto& staircase = std::get<UpDownConfig>(config.staircases.at(0).kind);
   EXPECT_EQ(staircase.up, 1);
   EXPECT_EQ(staircase.down, 1);
   EXPECT_EQ(staircase.halve_every, 0);
@@ -192,6 +192,70 @@ const std::vector<Broken> broken{
 };
 
 INSTANTIATE_TEST_SUITE_P(Each, BrokenProcedure, testing::ValuesIn(broken), name_of_broken);
+
+const std::string constants = R"(seed = 42
+[[staircase]]
+name = "a"
+kind = "constant"
+levels = [-20, 0, 20.5]
+n_per_level = 4
+order = "shuffled"
+[[staircase]]
+name = "b"
+kind = "constant"
+levels = [1]
+n_per_level = 1
+)";
+
+TEST(ProcedureFile, ReadsConstantStimuli) {
+  const auto staircases = parse_procedure(constants, "f").staircases;
+  ASSERT_EQ(staircases.size(), 2u);
+  EXPECT_EQ(staircases[0].name, "a");
+  const auto& first = std::get<ConstantConfig>(staircases[0].kind);
+  EXPECT_THAT(first.levels, ElementsAre(-20, 0, 20.5));
+  EXPECT_EQ(first.n_per_level, 4);
+  EXPECT_EQ(first.order, ConstantOrder::shuffled);
+  EXPECT_EQ(std::get<ConstantConfig>(staircases[1].kind).order, ConstantOrder::blocks);
+}
+
+class BrokenConstants : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenConstants, IsOneMistakeAtItsPlace) {
+  expect_broken(constants, GetParam(), [](auto& text) { parse_procedure(text, "x.toml"); });
+}
+
+const std::vector<Broken> broken_constants{
+    {"level_twice", {"0, 20.5", "0, ^-20.0"}, {"levels has -20 twice", "different"}},
+    {"level_not_finite", {"20.5", "^nan"}, {"levels is nan", "finite"}},
+    {"level_infinite", {"20.5", "^-inf"}, {"levels is -inf", "finite"}},
+    {"no_levels", {"[-20, 0, 20.5]", "^[]"}, {"0 numbers", "at least 1"}},
+    {"level_as_text", {"20.5", "^\"20\""}, {"levels is \"20\"", "a number"}},
+    {"levels_without_brackets", {"[-20, 0, 20.5]", "^20"}, {"brackets"}},
+    {"levels_missing",
+     {"[[staircase]]\nname = \"a\"\nkind = \"constant\"\nlevels = [-20, 0, 20.5]",
+      "^[[staircase]]\nname = \"a\"\nkind = \"constant\""},
+     {"lacks \"levels\""}},
+    {"none_per_level", {"n_per_level = 4", "n_per_level = ^0"}, {"n_per_level is 0", "at least 1"}},
+    {"fraction_per_level",
+     {"n_per_level = 4", "n_per_level = ^4.5"},
+     {"n_per_level is 4.5", "whole number"}},
+    {"too_many_trials",
+     {"n_per_level = 4", "n_per_level = ^3334"},
+     {"10002 trials", "at most 10000"}},
+    {"far_too_many_trials", {"n_per_level = 4", "n_per_level = ^2147483647"}, {"at most 10000"}},
+    {"n_per_level_missing",
+     {"[[staircase]]\nname = \"b\"\nkind = \"constant\"\nlevels = [1]\nn_per_level = 1\n",
+      "^[[staircase]]\nname = \"b\"\nkind = \"constant\"\nlevels = [1]\n"},
+     {"lacks \"n_per_level\""}},
+    {"unknown_order", {"\"shuffled\"", "^\"shuffle\""}, {"did you mean \"shuffled\""}},
+    {"misspelled_kind", {"\"constant\"", "^\"constnat\""}, {"did you mean \"constant\""}},
+    {"kind_unlike_any", {"\"constant\"", "^\"zzz\""}, {"\"up_down\" or \"constant\""}},
+    {"key_of_another_kind", {"n_per_level = 4", "n_per_level = 4\n^step = 5"}, {"step"}},
+    {"same_name", {"\"b\"", "^\"a\""}, {"already a staircase", "line 2"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, BrokenConstants, testing::ValuesIn(broken_constants),
+                         name_of_broken);
 
 TEST(ProcedureFile, ReportsAllMistakesInOrderAndOnce) {
   const std::string text = R"(sed = 1

@@ -64,7 +64,8 @@ TEST(PaperProtocol, HasThePapersStaircases) {
   EXPECT_EQ(comparison.positive_answer, PositiveAnswer::any_choice);
   EXPECT_EQ(comparison.interleaving.interleave, Interleave::random);
   std::vector<std::vector<double>> table;
-  for (const auto& [reference_g, staircase] : comparison.staircases) {
+  for (const auto& [reference_g, procedure] : comparison.staircases) {
+    const auto& staircase = std::get<UpDownConfig>(procedure.kind);
     table.push_back({reference_g, staircase.start, staircase.step});
     EXPECT_EQ(staircase.halve_every, 2);
     EXPECT_EQ(staircase.stop_reversals, 10);
@@ -120,8 +121,8 @@ TEST(PaperProtocol, SpellsOutTheDefaultsOfBlocks) {
   EXPECT_EQ(comparison.positive_answer, ComparisonBlock{}.positive_answer);
   EXPECT_EQ(comparison.interleaving.interleave, InterleaveConfig{}.interleave);
   EXPECT_EQ(comparison.interleaving.max_lag, InterleaveConfig{}.max_lag);
-  const StaircaseConfig& written = comparison.staircases[0].staircase;
-  const StaircaseConfig defaults;
+  const auto& written = std::get<UpDownConfig>(comparison.staircases[0].staircase.kind);
+  const UpDownConfig defaults;
   EXPECT_EQ(written.min_step, defaults.min_step);
   EXPECT_EQ(written.step_scale, defaults.step_scale);
   EXPECT_EQ(written.initial_1up1down, defaults.initial_1up1down);
@@ -140,9 +141,11 @@ TEST(RecommendedProtocol, StartsEachReferenceFromAboveAndFromNearZero) {
   const auto& comparison = std::get<ComparisonBlock>(protocol.blocks.back());
   EXPECT_EQ(comparison.catch_fraction, 0.15);
   std::map<double, std::pair<int, int>> starts;  // above, near zero
-  for (const auto& [reference_g, staircase] : comparison.staircases)
+  for (const auto& [reference_g, procedure] : comparison.staircases) {
+    const auto& staircase = std::get<UpDownConfig>(procedure.kind);
     ++(staircase.start > 2 * staircase.step ? starts[reference_g].first
                                             : starts[reference_g].second);
+  }
   EXPECT_EQ(starts,
             (std::map<double, std::pair<int, int>>{{15, {1, 1}}, {200, {1, 1}}, {800, {1, 1}}}));
 }

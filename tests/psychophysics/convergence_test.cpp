@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/Random.h"
-#include "psychophysics/Staircase.h"
+#include "psychophysics/UpDown.h"
 
 namespace heft {
 namespace {
@@ -46,13 +46,13 @@ struct Observed {
   Mean level, probability;
 };
 
-Observed observe(Observer observer, StaircaseConfig config, std::string_view figure) {
+Observed observe(Observer observer, UpDownConfig config, std::string_view figure) {
   constexpr int n_runs = 300, n_trials = 10000, n_approach = 1000;
   config.stop_reversals = config.stop_trials = n_trials;
   std::vector<double> levels, probabilities;
   for (std::uint64_t run = 0; run < n_runs; ++run) {
     RandomStream stream(2001, figure, run);
-    Staircase staircase(config);
+    UpDown staircase(config);
     double level_sum = 0, probability_sum = 0;
     while (!staircase.finished()) {
       const double level = staircase.level(), p = observer(level);
@@ -71,7 +71,7 @@ void expect_mean(const std::string& figure, Mean mean, double theory, double sha
   EXPECT_NEAR(mean.value, theory, 4 * mean.standard_error) << figure;
 }
 
-void expect_probability(const std::string& figure, const StaircaseConfig& config, double theory) {
+void expect_probability(const std::string& figure, const UpDownConfig& config, double theory) {
   expect_mean(figure, observe(yes_no, config, figure).probability, theory, 0.0005);
 }
 

@@ -14,15 +14,16 @@ namespace {
 using testing::ElementsAre;
 
 /// Staircases that end after the given numbers of trials.
-std::vector<Staircase> staircases_of(std::initializer_list<int> lengths) {
-  std::vector<Staircase> staircases;
+std::vector<Procedure> staircases_of(std::initializer_list<int> lengths) {
+  std::vector<Procedure> staircases;
   for (int length : lengths)
-    staircases.emplace_back(StaircaseConfig{.start = 10, .step = 1, .stop_trials = length});
+    staircases.emplace_back(
+        ProcedureConfig{"s", UpDownConfig{.start = 10, .step = 1, .stop_trials = length}});
   return staircases;
 }
 
 /// Runs all staircases to their end, one stream a trial.
-std::vector<std::size_t> order_of(std::vector<Staircase> staircases, const InterleaveConfig& config,
+std::vector<std::size_t> order_of(std::vector<Procedure> staircases, const InterleaveConfig& config,
                                   std::uint64_t seed = 1) {
   std::vector<std::size_t> order;
   std::optional<std::size_t> previous;
@@ -30,7 +31,7 @@ std::vector<std::size_t> order_of(std::vector<Staircase> staircases, const Inter
     RandomStream stream(seed, "interleave", trial);
     const auto next = next_staircase(staircases, config, previous, stream);
     if (!next) return order;
-    staircases[*next].respond(true);
+    staircases[*next].respond({true}, 10);
     order.push_back(*next);
     previous = next;
   }
@@ -67,7 +68,7 @@ TEST(Interleaving, SequentialGoesOnWhereTheLagHoldsOneBack) {
 
 TEST(Interleaving, DrawsNothingWhereThereIsNoChoice) {
   auto staircases = staircases_of({1, 1});
-  staircases[0].respond(true);
+  staircases[0].respond({true}, 10);
   RandomStream stream(7, "interleave"), untouched(7, "interleave");
   EXPECT_EQ(next_staircase(staircases, {}, std::nullopt, stream), 1);
   EXPECT_EQ(stream.bits(), untouched.bits());
@@ -88,7 +89,7 @@ double chi_square(const std::vector<int>& counts, double expected) {
 // 13.8 is the 99.9 % point of chi-square with 2 degrees of freedom; the seed is fixed.
 TEST(Interleaving, RandomIsUniformAmongTheUnfinished) {
   auto staircases = staircases_of({100, 1, 100, 100});
-  staircases[1].respond(true);
+  staircases[1].respond({true}, 10);
   std::vector<int> counts(4);
   constexpr int n_draws = 30000;
   for (std::uint64_t trial = 1; trial <= n_draws; ++trial) {

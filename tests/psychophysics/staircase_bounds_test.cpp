@@ -1,7 +1,7 @@
 // Staircases worked out by hand: floors, ceilings and what counts there.
 #include <gmock/gmock.h>
 
-#include "psychophysics/Staircase.h"
+#include "psychophysics/UpDown.h"
 #include "psychophysics/staircases.h"
 
 namespace heft {
@@ -14,34 +14,34 @@ using test::Trace;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(Staircase, ClampsAtTheFloorAndCountsIt) {
-  Staircase staircase(paper_15g());
+TEST(UpDown, ClampsAtTheFloorAndCountsIt) {
+  UpDown staircase(paper_15g());
   EXPECT_THAT(answer(staircase, "+++++-").levels, ElementsAre(175, 125, 75, 25, 0, 0, 50));
   EXPECT_EQ(staircase.n_floor(), 2);
   EXPECT_EQ(staircase.n_ceiling(), 0);
 }
 
-TEST(Staircase, ReachingTheFloorExactlyIsNotCutShort) {
-  StaircaseConfig config = paper_15g();
+TEST(UpDown, ReachingTheFloorExactlyIsNotCutShort) {
+  UpDownConfig config = paper_15g();
   config.start = 150;
   config.bound_is_reversal = true;
-  Staircase staircase(config);
+  UpDown staircase(config);
   const Trace trace = answer(staircase, "+++");
   EXPECT_EQ(trace.levels.back(), 0);
   EXPECT_EQ(staircase.n_floor(), 0);
   EXPECT_THAT(trace.reversal_trials, IsEmpty());
 }
 
-TEST(Staircase, ClampsAtTheCeiling) {
-  StaircaseConfig config = fixed_step(10, 4);
+TEST(UpDown, ClampsAtTheCeiling) {
+  UpDownConfig config = fixed_step(10, 4);
   config.ceiling = 15;
-  Staircase staircase(config);
+  UpDown staircase(config);
   EXPECT_THAT(answer(staircase, "---+").levels, ElementsAre(10, 14, 15, 15, 11));
   EXPECT_EQ(staircase.n_ceiling(), 2);
 }
 
-TEST(Staircase, AMoveCutShortStillTurns) {
-  StaircaseConfig config = fixed_step(1, 4);
+TEST(UpDown, AMoveCutShortStillTurns) {
+  UpDownConfig config = fixed_step(1, 4);
   config.floor = 0;
   const Trace trace = answer(config, "-+++-");
   EXPECT_THAT(trace.levels, ElementsAre(1, 5, 1, 0, 0, 4));
@@ -49,38 +49,38 @@ TEST(Staircase, AMoveCutShortStillTurns) {
   EXPECT_THAT(trace.reversal_levels, ElementsAre(5, 0));
 }
 
-TEST(Staircase, VirtualLevelGoesOnBeyondTheBound) {
-  StaircaseConfig config = fixed_step(10, 4);
+TEST(UpDown, VirtualLevelGoesOnBeyondTheBound) {
+  UpDownConfig config = fixed_step(10, 4);
   config.floor = 5;
   config.at_bound = AtBound::virtual_level;
-  Staircase staircase(config);  // planned 10 6 2 -2 2 6
+  UpDown staircase(config);  // planned 10 6 2 -2 2 6
   const Trace trace = answer(staircase, "+++--");
   EXPECT_THAT(trace.levels, ElementsAre(10, 6, 5, 5, 5, 6));
   EXPECT_THAT(trace.reversal_levels, ElementsAre(5));
   EXPECT_EQ(staircase.n_floor(), 2);
 }
 
-TEST(Staircase, AlwaysYesAtTheFloorEndsByTrials) {
-  Staircase staircase(paper_15g());
+TEST(UpDown, AlwaysYesAtTheFloorEndsByTrials) {
+  UpDown staircase(paper_15g());
   answer(staircase, std::string(500, '+'));
-  EXPECT_EQ(staircase.finish(), Staircase::Finish::trials);
+  EXPECT_EQ(staircase.finish(), Finish::trials);
   EXPECT_EQ(staircase.n_trials(), 200);
   EXPECT_EQ(staircase.estimate(), std::nullopt);
 }
 
-TEST(Staircase, AlwaysYesEndsByReversalsWhereABoundIsOne) {
-  StaircaseConfig config = paper_15g();
+TEST(UpDown, AlwaysYesEndsByReversalsWhereABoundIsOne) {
+  UpDownConfig config = paper_15g();
   config.bound_is_reversal = true;
-  Staircase staircase(config);  // 175 125 75 25, then the floor cuts every move short
+  UpDown staircase(config);  // 175 125 75 25, then the floor cuts every move short
   const Trace trace = answer(staircase, std::string(500, '+'));
-  EXPECT_EQ(staircase.finish(), Staircase::Finish::reversals);
+  EXPECT_EQ(staircase.finish(), Finish::reversals);
   EXPECT_THAT(trace.reversal_trials, ElementsAre(4, 5, 6, 7, 8, 9, 10, 11, 12, 13));
   EXPECT_THAT(trace.reversal_levels, ElementsAre(25, 0, 0, 0, 0, 0, 0, 0, 0, 0));
   EXPECT_EQ(staircase.estimate(), 0);
 }
 
-TEST(Staircase, OneAnswerMakesOneReversal) {
-  StaircaseConfig config = fixed_step(1, 4);
+TEST(UpDown, OneAnswerMakesOneReversal) {
+  UpDownConfig config = fixed_step(1, 4);
   config.floor = 0;
   config.ceiling = 3;
   config.bound_is_reversal = true;  // every move is cut short, and most of them turn as well
@@ -88,31 +88,31 @@ TEST(Staircase, OneAnswerMakesOneReversal) {
 }
 
 // Trial 2 would pass the floor with the step in force, 8; the reversal it makes thereby halves it.
-TEST(Staircase, BoundIsJudgedByTheStepWithoutItsReversal) {
-  StaircaseConfig config = fixed_step(14, 8);
+TEST(UpDown, BoundIsJudgedByTheStepWithoutItsReversal) {
+  UpDownConfig config = fixed_step(14, 8);
   config.halve_every = 1;
   config.floor = 0;
   config.bound_is_reversal = true;
-  Staircase staircase(config);
+  UpDown staircase(config);
   EXPECT_THAT(answer(staircase, "++-").levels, ElementsAre(14, 6, 0, 2));
   EXPECT_EQ(staircase.reversals()[0].step_before, 8);
   EXPECT_EQ(staircase.reversals()[0].step_after, 4);
 }
 
-TEST(Staircase, StartBeyondABoundIsPresentedAtIt) {
-  StaircaseConfig config = fixed_step(10, 1);
+TEST(UpDown, StartBeyondABoundIsPresentedAtIt) {
+  UpDownConfig config = fixed_step(10, 1);
   config.floor = 12;
   EXPECT_THAT(answer(config, "-").levels, ElementsAre(12, 13));
   config.at_bound = AtBound::virtual_level;
   EXPECT_THAT(answer(config, "---").levels, ElementsAre(12, 12, 12, 13));
 }
 
-TEST(Staircase, LevelsAndEstimateStayFinite) {
-  StaircaseConfig config = fixed_step(1, 3000);
+TEST(UpDown, LevelsAndEstimateStayFinite) {
+  UpDownConfig config = fixed_step(1, 3000);
   config.step_scale = StepScale::db;
   config.discard_reversals = 0;
   config.stop_reversals = 20;
-  Staircase staircase(config);
+  UpDown staircase(config);
   for (double level : answer(staircase, std::string(100, '-')).levels)
     EXPECT_LE(level, largest_level);
   for (int i = 0; !staircase.finished(); ++i) staircase.respond(i % 2 == 0, largest_level);

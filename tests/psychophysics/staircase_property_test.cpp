@@ -18,7 +18,7 @@ std::vector<bool> any_answers() {
 
 /// Calls check(level, update) for every trial until the staircase ends.
 template <typename Check>
-void play(Staircase& staircase, const std::vector<bool>& answers, const Check& check) {
+void play(UpDown& staircase, const std::vector<bool>& answers, const Check& check) {
   for (bool positive : answers) {
     if (staircase.finished()) return;
     const double level = staircase.level();
@@ -27,9 +27,9 @@ void play(Staircase& staircase, const std::vector<bool>& answers, const Check& c
 }
 
 RC_GTEST_PROP(StaircaseProperty, LevelsStayInBoundsAndFinite, ()) {
-  Staircase staircase(*any_staircase());
-  const StaircaseConfig& config = staircase.config();
-  play(staircase, any_answers(), [&](double level, bool, const Staircase::Update&) {
+  UpDown staircase(*any_staircase());
+  const UpDownConfig& config = staircase.config();
+  play(staircase, any_answers(), [&](double level, bool, const Update&) {
     RC_ASSERT(std::isfinite(level));
     if (config.floor) RC_ASSERT(level >= *config.floor);
     if (config.ceiling) RC_ASSERT(level <= *config.ceiling);
@@ -37,13 +37,13 @@ RC_GTEST_PROP(StaircaseProperty, LevelsStayInBoundsAndFinite, ()) {
 }
 
 RC_GTEST_PROP(StaircaseProperty, EndsByItsTrialLimitAndNotBeforeItsLeastTrials, ()) {
-  Staircase staircase(*any_staircase());
-  const StaircaseConfig& config = staircase.config();
-  play(staircase, any_answers(), [](double, bool, const Staircase::Update&) {});
+  UpDown staircase(*any_staircase());
+  const UpDownConfig& config = staircase.config();
+  play(staircase, any_answers(), [](double, bool, const Update&) {});
   RC_ASSERT(staircase.finished());
   const int n_reversals = static_cast<int>(staircase.reversals().size());
   RC_ASSERT(staircase.n_trials() <= config.stop_trials);
-  if (staircase.finish() == Staircase::Finish::reversals) {
+  if (staircase.finish() == Finish::reversals) {
     RC_ASSERT(n_reversals >= config.stop_reversals);
     RC_ASSERT(staircase.n_trials() >= config.min_trials);
   } else {
@@ -53,12 +53,12 @@ RC_GTEST_PROP(StaircaseProperty, EndsByItsTrialLimitAndNotBeforeItsLeastTrials, 
 }
 
 RC_GTEST_PROP(StaircaseProperty, ReversalsAlternateAndAreNumbered, ()) {
-  StaircaseConfig config = *any_staircase();
+  UpDownConfig config = *any_staircase();
   config.bound_is_reversal = false;
-  Staircase staircase(config);
+  UpDown staircase(config);
   int number = 0;
   std::optional<bool> last_positive;
-  play(staircase, any_answers(), [&](double level, bool positive, const Staircase::Update& update) {
+  play(staircase, any_answers(), [&](double level, bool positive, const Update& update) {
     if (!update.reversal) return;
     RC_ASSERT(update.reversal->number == ++number);
     RC_ASSERT(update.reversal->level == level);
@@ -69,42 +69,42 @@ RC_GTEST_PROP(StaircaseProperty, ReversalsAlternateAndAreNumbered, ()) {
 }
 
 RC_GTEST_PROP(StaircaseProperty, OneUpOneDownReversesWhereverTheAnswerChanges, ()) {
-  StaircaseConfig config = *any_staircase();
+  UpDownConfig config = *any_staircase();
   config.bound_is_reversal = false;
   config.up = config.down = 1;
-  Staircase staircase(config);
+  UpDown staircase(config);
   std::optional<bool> previous;
-  play(staircase, any_answers(), [&](double, bool positive, const Staircase::Update& update) {
+  play(staircase, any_answers(), [&](double, bool positive, const Update& update) {
     RC_ASSERT(update.reversal.has_value() == (previous && *previous != positive));
     previous = positive;
   });
 }
 
 RC_GTEST_PROP(StaircaseProperty, MovesNeverGoAgainstTheAnswer, ()) {
-  StaircaseConfig config = *any_staircase();
+  UpDownConfig config = *any_staircase();
   config.start = std::abs(config.start);  // factors move negative levels the other way
   config.floor.reset();
   config.ceiling.reset();
   if (config.step_scale == StepScale::linear) config.start = 0;
-  Staircase staircase(config);
-  play(staircase, any_answers(), [&](double level, bool positive, const Staircase::Update&) {
+  UpDown staircase(config);
+  play(staircase, any_answers(), [&](double level, bool positive, const Update&) {
     RC_ASSERT((positive ? staircase.level() <= level : staircase.level() >= level));
   });
 }
 
 RC_GTEST_PROP(StaircaseProperty, OneSidedAnswersAlwaysEnd, (bool positive)) {
-  StaircaseConfig config = *any_staircase();
+  UpDownConfig config = *any_staircase();
   config.floor = config.start - 1;
   config.ceiling = config.start + 1;
   config.step_scale = StepScale::linear;
-  Staircase staircase(config);
-  play(staircase, std::vector<bool>(150, positive), [](double, bool, const Staircase::Update&) {});
+  UpDown staircase(config);
+  play(staircase, std::vector<bool>(150, positive), [](double, bool, const Update&) {});
   RC_ASSERT(staircase.finished());
   if (!config.bound_is_reversal) RC_ASSERT(staircase.reversals().empty());
 }
 
 RC_GTEST_PROP(StaircaseProperty, BoundReversalsEndOneSidedAnswersLongBeforeTheLimit, ()) {
-  StaircaseConfig config = *any_staircase();
+  UpDownConfig config = *any_staircase();
   config.step_scale = StepScale::linear;
   config.start = 10;
   config.floor = 0;
@@ -115,14 +115,14 @@ RC_GTEST_PROP(StaircaseProperty, BoundReversalsEndOneSidedAnswersLongBeforeTheLi
   config.min_trials = 0;
   config.bound_is_reversal = true;
   config.stop_trials = 100;
-  Staircase staircase(config);
-  play(staircase, std::vector<bool>(100, true), [](double, bool, const Staircase::Update&) {});
-  RC_ASSERT(staircase.finish() == Staircase::Finish::reversals);
+  UpDown staircase(config);
+  play(staircase, std::vector<bool>(100, true), [](double, bool, const Update&) {});
+  RC_ASSERT(staircase.finish() == Finish::reversals);
 }
 
 RC_GTEST_PROP(StaircaseProperty, ShownLevelsChangeOnlyTheReversalValues, ()) {
-  const StaircaseConfig config = *any_staircase();
-  Staircase told(config), untold(config);
+  const UpDownConfig config = *any_staircase();
+  UpDown told(config), untold(config);
   for (bool positive : any_answers()) {
     if (untold.finished()) break;
     RC_ASSERT(told.level() == untold.level());
@@ -135,9 +135,9 @@ RC_GTEST_PROP(StaircaseProperty, ShownLevelsChangeOnlyTheReversalValues, ()) {
 }
 
 RC_GTEST_PROP(StaircaseProperty, EstimateIsTheMeanOfTheReversalsKept, ()) {
-  Staircase staircase(*any_staircase());
+  UpDown staircase(*any_staircase());
   std::vector<double> kept;
-  play(staircase, any_answers(), [&](double level, bool, const Staircase::Update& update) {
+  play(staircase, any_answers(), [&](double level, bool, const Update& update) {
     if (update.reversal && update.reversal->number > staircase.config().discard_reversals)
       kept.push_back(level);
   });

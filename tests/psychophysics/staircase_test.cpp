@@ -1,10 +1,9 @@
 // Staircases worked out by hand: moves, steps and reversals.
-#include "psychophysics/Staircase.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "psychophysics/UpDown.h"
 #include "psychophysics/staircases.h"
 
 namespace heft {
@@ -17,8 +16,8 @@ using test::Trace;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(Staircase, StartsAtStart) {
-  const Staircase staircase(paper_15g());
+TEST(UpDown, StartsAtStart) {
+  const UpDown staircase(paper_15g());
   EXPECT_EQ(staircase.level(), 175);
   EXPECT_EQ(staircase.n_trials(), 0);
   EXPECT_FALSE(staircase.finished());
@@ -26,8 +25,8 @@ TEST(Staircase, StartsAtStart) {
 }
 
 // Steps 50 50 25 25 12.5 12.5 6.25 6.25 3.125 3.125 after 0, 1, 2... reversals.
-TEST(Staircase, PapersRuleByHand) {
-  Staircase staircase(paper_15g());
+TEST(UpDown, PapersRuleByHand) {
+  UpDown staircase(paper_15g());
   const Trace trace = answer(staircase, "++-+-+-+--+-");
   EXPECT_THAT(trace.levels, ElementsAre(175, 125, 75, 125, 100, 125, 112.5, 125, 118.75, 125,
                                         131.25, 128.125, 131.25));
@@ -36,14 +35,14 @@ TEST(Staircase, PapersRuleByHand) {
               ElementsAre(75, 125, 100, 125, 112.5, 125, 118.75, 131.25, 128.125));
 }
 
-TEST(Staircase, StepAfterTheMoveLagsByOneMove) {
-  StaircaseConfig config = paper_15g();
+TEST(UpDown, StepAfterTheMoveLagsByOneMove) {
+  UpDownConfig config = paper_15g();
   config.change_step = ChangeStep::after_move;
   EXPECT_THAT(answer(config, "++-+-+-").levels, ElementsAre(175, 125, 75, 125, 75, 100, 75, 87.5));
 }
 
-TEST(Staircase, ReversalNamesTheStepsBeforeAndAfter) {
-  Staircase staircase(paper_15g());
+TEST(UpDown, ReversalNamesTheStepsBeforeAndAfter) {
+  UpDown staircase(paper_15g());
   EXPECT_FALSE(staircase.respond(true).reversal);
   EXPECT_EQ(staircase.respond(false).reversal->step_after, 50);
   const auto second = staircase.respond(true).reversal;
@@ -52,41 +51,41 @@ TEST(Staircase, ReversalNamesTheStepsBeforeAndAfter) {
   EXPECT_EQ(second->step_after, 25);
 }
 
-TEST(Staircase, FirstDueMoveIsNoReversalInEitherDirection) {
+TEST(UpDown, FirstDueMoveIsNoReversalInEitherDirection) {
   EXPECT_THAT(answer(fixed_step(10, 1), "---").reversal_trials, IsEmpty());
   EXPECT_THAT(answer(fixed_step(10, 1), "+++").reversal_trials, IsEmpty());
 }
 
-TEST(Staircase, ListOfStepsRepeatsItsLast) {
-  StaircaseConfig config = fixed_step(100, 0);
+TEST(UpDown, ListOfStepsRepeatsItsLast) {
+  UpDownConfig config = fixed_step(100, 0);
   config.steps = {8, 4, 1};
   EXPECT_THAT(answer(config, "+-+-+-").levels, ElementsAre(100, 92, 96, 95, 96, 95, 96));
 }
 
-TEST(Staircase, HalvedStepsStopAtTheSmallest) {
-  StaircaseConfig config = fixed_step(100, 8);
+TEST(UpDown, HalvedStepsStopAtTheSmallest) {
+  UpDownConfig config = fixed_step(100, 8);
   config.halve_every = 1;
   config.min_step = 3;
   EXPECT_THAT(answer(config, "+-+-+").levels, ElementsAre(100, 92, 96, 93, 96, 93));
 }
 
-TEST(Staircase, StepsWithoutHalvingStay) {
+TEST(UpDown, StepsWithoutHalvingStay) {
   EXPECT_THAT(answer(fixed_step(10, 2), "+-+-+").levels, ElementsAre(10, 8, 10, 8, 10, 8));
 }
 
-TEST(Staircase, OwnStepsUpwards) {
-  StaircaseConfig config = fixed_step(100, 0);
+TEST(UpDown, OwnStepsUpwards) {
+  UpDownConfig config = fixed_step(100, 0);
   config.steps = {4, 2};
   config.steps_up = {12, 6, 3};
-  Staircase staircase(config);
+  UpDown staircase(config);
   EXPECT_THAT(answer(staircase, "+-+-").levels, ElementsAre(100, 96, 102, 100, 103));
   EXPECT_EQ(staircase.reversals()[0].step_before, 12);  // a reversal upwards: steps upwards
   EXPECT_EQ(staircase.reversals()[0].step_after, 6);
   EXPECT_EQ(staircase.reversals()[1].step_before, 2);
 }
 
-TEST(Staircase, DecibelAndLogStepsMultiply) {
-  StaircaseConfig config = fixed_step(1, 20);
+TEST(UpDown, DecibelAndLogStepsMultiply) {
+  UpDownConfig config = fixed_step(1, 20);
   config.step_scale = StepScale::db;
   EXPECT_THAT(answer(config, "-+").levels, ElementsAre(1, 10, 1));
   config.step = 2;
@@ -97,8 +96,8 @@ TEST(Staircase, DecibelAndLogStepsMultiply) {
   EXPECT_THAT(answer(config, "+").levels, ElementsAre(1, 1 / factor));
 }
 
-TEST(Staircase, TwoDownOneUpCountsAnswersInARow) {
-  StaircaseConfig config = fixed_step(10, 1);
+TEST(UpDown, TwoDownOneUpCountsAnswersInARow) {
+  UpDownConfig config = fixed_step(10, 1);
   config.down = 2;
   const Trace trace = answer(config, "+++-+-++");
   EXPECT_THAT(trace.levels, ElementsAre(10, 10, 9, 9, 10, 10, 11, 11, 10));
@@ -106,16 +105,16 @@ TEST(Staircase, TwoDownOneUpCountsAnswersInARow) {
   EXPECT_THAT(trace.reversal_levels, ElementsAre(9, 11));
 }
 
-TEST(Staircase, OppositeAnswerStartsTheOtherCountAgain) {
-  StaircaseConfig config = fixed_step(10, 1);
+TEST(UpDown, OppositeAnswerStartsTheOtherCountAgain) {
+  UpDownConfig config = fixed_step(10, 1);
   config.down = 3;
   config.up = 2;
   EXPECT_THAT(answer(config, "++-++-+++--").levels,
               ElementsAre(10, 10, 10, 10, 10, 10, 10, 10, 10, 9, 9, 10));
 }
 
-TEST(Staircase, InitialRuleMovesOnEveryAnswerUpToTheFirstReversal) {
-  StaircaseConfig config = fixed_step(10, 1);
+TEST(UpDown, InitialRuleMovesOnEveryAnswerUpToTheFirstReversal) {
+  UpDownConfig config = fixed_step(10, 1);
   config.down = 3;
   config.initial_1up1down = true;
   const Trace trace = answer(config, "++-+++-");
@@ -123,26 +122,26 @@ TEST(Staircase, InitialRuleMovesOnEveryAnswerUpToTheFirstReversal) {
   EXPECT_THAT(trace.reversal_trials, ElementsAre(3, 6, 7));
 }
 
-TEST(Staircase, InitialRuleEndsWithAReversalDownwardsToo) {
-  StaircaseConfig config = fixed_step(10, 1);
+TEST(UpDown, InitialRuleEndsWithAReversalDownwardsToo) {
+  UpDownConfig config = fixed_step(10, 1);
   config.down = 2;
   config.initial_1up1down = true;
   EXPECT_THAT(answer(config, "--+++").levels, ElementsAre(10, 11, 12, 11, 11, 10));
 }
 
-TEST(Staircase, ShownLevelIsTheReversalsValueAndPlansGoOn) {
-  Staircase staircase(paper_15g());
+TEST(UpDown, ShownLevelIsTheReversalsValueAndPlansGoOn) {
+  UpDown staircase(paper_15g());
   staircase.respond(true, 180);
   EXPECT_EQ(staircase.level(), 125);
-  const Staircase::Update update = staircase.respond(false, 124.5);
+  const Update update = staircase.respond(false, 124.5);
   EXPECT_EQ(update.reversal->level, 124.5);
   EXPECT_EQ(staircase.level(), 175);
 }
 
-TEST(Staircase, CopiesAreValues) {
-  Staircase one(paper_15g());
+TEST(UpDown, CopiesAreValues) {
+  UpDown one(paper_15g());
   one.respond(true);
-  Staircase other = one;
+  UpDown other = one;
   other.respond(true);
   EXPECT_EQ(one.level(), 125);
   EXPECT_EQ(other.level(), 75);

@@ -6,18 +6,18 @@
 #include <string_view>
 #include <vector>
 
-#include "psychophysics/Staircase.h"
+#include "psychophysics/UpDown.h"
 
 namespace heft::test {
 
 /// The paper's staircase for the 15 g reference (its table 2), with Heft's floor.
-inline StaircaseConfig paper_15g() {
-  return {.name = "15g", .start = 175, .step = 50, .halve_every = 2, .floor = 0};
+inline UpDownConfig paper_15g() {
+  return {.start = 175, .step = 50, .halve_every = 2, .floor = 0};
 }
 
 /// 1-up-1-down with one step, without bounds.
-inline StaircaseConfig fixed_step(double start, double step) {
-  return {.name = "s", .start = start, .step = step};
+inline UpDownConfig fixed_step(double start, double step) {
+  return {.start = start, .step = step};
 }
 
 struct Trace {
@@ -27,11 +27,11 @@ struct Trace {
 };
 
 /// Answers + (positive) and - (negative), until the staircase ends.
-inline Trace answer(Staircase& staircase, std::string_view answers) {
+inline Trace answer(UpDown& staircase, std::string_view answers) {
   Trace trace;
   for (char sign : answers) {
     trace.levels.push_back(staircase.level());
-    const Staircase::Update update = staircase.respond(sign == '+');
+    const Update update = staircase.respond(sign == '+');
     if (update.reversal) {
       trace.reversal_trials.push_back(staircase.n_trials());
       trace.reversal_levels.push_back(update.reversal->level);
@@ -42,18 +42,17 @@ inline Trace answer(Staircase& staircase, std::string_view answers) {
   return trace;
 }
 
-inline Trace answer(const StaircaseConfig& config, std::string_view answers) {
-  Staircase staircase(config);
+inline Trace answer(const UpDownConfig& config, std::string_view answers) {
+  UpDown staircase(config);
   return answer(staircase, answers);
 }
 
 /// Any sensible staircase; levels and steps are multiples of 1/4 so that arithmetic is exact.
-inline rc::Gen<StaircaseConfig> any_staircase() {
+inline rc::Gen<UpDownConfig> any_staircase() {
   return rc::gen::exec([] {
     const auto quarter = [](int from, int to) { return *rc::gen::inRange(from, to) / 4.0; };
     const auto choice = [] { return *rc::gen::arbitrary<bool>(); };
-    StaircaseConfig config;
-    config.name = "s";
+    UpDownConfig config;
     config.start = quarter(-400, 400);
     if (choice()) {
       config.steps = *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(

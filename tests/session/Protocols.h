@@ -7,9 +7,8 @@
 
 namespace heft::testing {
 
-inline StaircaseConfig staircase(const std::string& name, double start_g, double step_g) {
-  StaircaseConfig config;
-  config.name = name;
+inline ProcedureConfig staircase(const std::string& name, double start_g, double step_g) {
+  UpDownConfig config;
   config.start = start_g;
   config.step = step_g;
   config.halve_every = 2;
@@ -17,7 +16,7 @@ inline StaircaseConfig staircase(const std::string& name, double start_g, double
   config.stop_reversals = 4;
   config.stop_trials = 30;
   config.discard_reversals = 2;
-  return config;
+  return {name, config};
 }
 
 /// Demonstration, introduction, four sorting trials, a break, two staircases.

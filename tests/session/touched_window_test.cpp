@@ -115,7 +115,7 @@ Protocol touched_protocol() {
   ComparisonBlock comparison;
   comparison.name = "comparison";
   comparison.staircases = {{15, testing::staircase("15g", 175, 50)}};
-  comparison.staircases[0].staircase.stop_trials = 4;
+  std::get<UpDownConfig>(comparison.staircases[0].staircase.kind).stop_trials = 4;
   protocol.blocks.push_back(comparison);
   return protocol;
 }

@@ -16,34 +16,41 @@ std::optional<Outcome> act(TaskState& state, const Action& action) {
   return Outcome::difference;
 }
 
-bool is_unfinished(const Staircase& staircase) {
+bool is_unfinished(const Procedure& staircase) {
   return !staircase.finished();
 }
 
-std::size_t drawn_unfinished(const std::vector<Staircase>& staircases, RandomStream& stream) {
+std::size_t drawn_unfinished(const std::vector<Procedure>& staircases, RandomStream& stream) {
   std::vector<std::size_t> unfinished;
   for (std::size_t i = 0; i < staircases.size(); ++i)
     if (is_unfinished(staircases[i])) unfinished.push_back(i);
   return unfinished.at(stream.below(unfinished.size()));
 }
 
-bool is_positive(const TrialRow& row, PositiveAnswer positive_answer) {
-  const bool chosen = row.outcome == Outcome::difference;
-  if (positive_answer == PositiveAnswer::any_choice) return chosen;
-  return chosen && row.choice_correct.value_or(false);
+// Positive by the block's rule, and which was chosen.
+Response response_in(const TrialRow& row, PositiveAnswer positive_answer) {
+  if (row.outcome != Outcome::difference) return response_of(Choice::none);
+  Response response = response_of(row.chosen_slot == row.plan.reference_slot ? Choice::reference
+                                                                             : Choice::comparison);
+  if (positive_answer == PositiveAnswer::correct_choice)
+    response.positive = row.choice_correct.value_or(false);
+  return response;
 }
 
-EstimateRow estimate_of(const Staircase& staircase) {
-  EstimateRow estimate;
-  estimate.staircase = staircase.config().name;
-  estimate.method = "mean_of_reversals";
-  estimate.jnd_g = staircase.estimate();
-  estimate.n_trials = staircase.n_trials();
-  estimate.n_reversals = static_cast<int>(staircase.reversals().size());
-  estimate.n_floor = staircase.n_floor();
-  estimate.n_ceiling = staircase.n_ceiling();
-  estimate.reason = name_of(*staircase.finish());
-  return estimate;
+EstimateRow row_of(const std::string& staircase, const Estimate& estimate, Finish finish) {
+  EstimateRow row;
+  row.staircase = staircase;
+  row.method = estimate.method;
+  row.jnd_g = estimate.value;
+  row.low_g = estimate.low;
+  row.high_g = estimate.high;
+  row.n_trials = estimate.n_trials;
+  row.n_reversals = estimate.n_reversals;
+  row.n_floor = estimate.n_floor;
+  row.n_ceiling = estimate.n_ceiling;
+  row.reason = name_of(finish);
+  row.censored = estimate.censored;
+  return row;
 }
 }  // namespace
 
@@ -77,7 +84,8 @@ TrialPlan ComparisonRun::plan(const TrialKey& key) const {
                             reference.condition.empty() ? block_.condition : reference.condition);
   plan.is_catch = is_catch;
   if (!is_catch) plan.staircase = reference.staircase.name;
-  plan.level_g = is_catch ? 0 : staircases_[index].level();
+  plan.level_g =
+      is_catch ? 0 : staircases_[index].next_level(level_stream(key.seed, plan.staircase));
   plan.reference_g = reference.reference_g;
   plan.reference_slot = key.slots().coin(0.5) ? 1 : 2;
   plan.masses_g = {reference.reference_g, reference.reference_g};
@@ -92,20 +100,23 @@ void ComparisonRun::complete(Changes& changes) {
 }
 
 void ComparisonRun::respond(std::size_t index, Changes& changes) {
-  Staircase& staircase = staircases_[index];
+  Procedure& staircase = staircases_[index];
   const TrialRow& row = *changes.trial;
-  const Staircase::Update update = staircase.respond(is_positive(row, block_.positive_answer));
+  const Update update =
+      staircase.respond(response_in(row, block_.positive_answer), *row.plan.level_g);
   if (const auto& reversal = update.reversal)
-    changes.reversals = {{row.attempt_index, staircase.config().name, reversal->number,
-                          reversal->level, reversal->step_before, reversal->step_after}};
-  if (update.finish) changes.estimates = {estimate_of(staircase)};
+    changes.reversals = {{row.attempt_index, staircase.name(), reversal->number, reversal->level,
+                          reversal->step_before, reversal->step_after}};
+  if (update.finish)
+    for (const Estimate& estimate : staircase.estimates())
+      changes.estimates.push_back(row_of(staircase.name(), estimate, *update.finish));
   previous_ = index;
 }
 
 std::optional<std::string> ComparisonRun::survivor() const {
   if (staircases_.size() < 2 || std::ranges::count_if(staircases_, is_unfinished) != 1)
     return std::nullopt;
-  return std::ranges::find_if(staircases_, is_unfinished)->config().name;
+  return std::ranges::find_if(staircases_, is_unfinished)->name();
 }
 
 }  // namespace heft

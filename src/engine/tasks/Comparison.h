@@ -29,7 +29,7 @@ class ComparisonRun {
   void respond(std::size_t staircase, Changes& changes);
 
   ComparisonBlock block_;
-  std::vector<Staircase> staircases_;    // in the order of the block's
+  std::vector<Procedure> staircases_;    // in the order of the block's
   std::optional<std::size_t> previous_;  // of the last completed trial that belonged to one
 };
 

@@ -16,11 +16,13 @@
 // 1-up-1-down until the first reversal.
 #pragma once
 
+#include <array>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
-#include "base/Names.h"
+#include "base/Random.h"
+#include "psychophysics/ProcedureTypes.h"
 
 namespace heft {
 
@@ -45,11 +47,10 @@ struct EnumNames<ChangeStep> {
   static constexpr std::array<std::string_view, 2> names{"before_move", "after_move"};
 };
 
-/// Levels are held within +-this, so that they and their means stay finite whatever the steps.
-inline constexpr double largest_level = 1e300;
+struct UpDownConfig {
+  static constexpr std::string_view kind = "up_down";
+  using Procedure = class UpDown;
 
-struct StaircaseConfig {
-  std::string name{};
   double start = 0;
   /// Steps in force after 0, 1, 2... reversals; the last one repeats. Used when not empty;
   /// otherwise `step`, halved every `halve_every` reversals (0: never) and at least `min_step`.
@@ -77,23 +78,9 @@ struct StaircaseConfig {
   int discard_reversals = 2;
 };
 
-struct Reversal {
-  int number = 0;  ///< from 1
-  double level = 0;
-  double step_before = 0, step_after = 0;  ///< in force before and after it, in its own direction
-};
-
-class Staircase {
+class UpDown {
  public:
-  enum class Finish { reversals, trials };
-
-  /// What one answer did.
-  struct Update {
-    std::optional<Reversal> reversal;
-    std::optional<Finish> finish;
-  };
-
-  explicit Staircase(StaircaseConfig config);
+  explicit UpDown(UpDownConfig config);
 
   /// Level to present next: the planned level held within the bounds.
   double level() const;
@@ -103,12 +90,21 @@ class Staircase {
   ///   reversal's value, while the next level still follows the planned one
   Update respond(bool positive, std::optional<double> shown = std::nullopt);
 
+  // As every procedure.
+  double next_level(const RandomStream&) const { return level(); }
+  Update respond(const Response& response, double shown) {
+    return respond(response.positive, shown);
+  }
+  std::vector<Estimate> estimates() const;
+  std::optional<int> planned_trials() const { return std::nullopt; }
+  std::vector<double> planned_levels() const { return {presented(config_.start)}; }
+
   bool finished() const { return finish_.has_value(); }
   std::optional<Finish> finish() const { return finish_; }
   /// Mean level of the reversals but the first `discard_reversals`; none if there is none left.
   std::optional<double> estimate() const;
 
-  const StaircaseConfig& config() const { return config_; }
+  const UpDownConfig& config() const { return config_; }
   const std::vector<Reversal>& reversals() const { return reversals_; }
   int n_trials() const { return n_trials_; }
   /// Moves that the floor (ceiling) cut short.
@@ -132,20 +128,16 @@ class Staircase {
   double moved(double level, Direction direction, double step) const;
   double presented(double level) const;
   bool passes_bound(const Move& move) const;
+  Censored censored() const;
   std::optional<Finish> reason_to_finish() const;
 
-  StaircaseConfig config_;
+  UpDownConfig config_;
   double planned_ = 0;
   int n_positive_ = 0, n_negative_ = 0;  ///< consecutive, since the last due move
   std::optional<Direction> last_due_;
   std::vector<Reversal> reversals_;
   int n_trials_ = 0, n_floor_ = 0, n_ceiling_ = 0;
   std::optional<Finish> finish_;
-};
-
-template <>
-struct EnumNames<Staircase::Finish> {
-  static constexpr std::array<std::string_view, 2> names{"reversals", "trials"};
 };
 
 }  // namespace heft

@@ -1,16 +1,15 @@
-#include "protocol/StaircaseReader.h"
-
+// The keys of kind "up_down".
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "protocol/KindReaders.h"
 
 namespace heft {
 
 namespace {
-constexpr std::array<std::string_view, 1> kinds{"up_down"};
-
 // Ten decades at once leave every scale of masses.
 double largest_step(StepScale scale) {
   switch (scale) {
@@ -24,7 +23,7 @@ double largest_step(StepScale scale) {
   return furthest;
 }
 
-void read_steps(TableReader& table, StaircaseConfig& config) {
+void read_steps(TableReader& table, UpDownConfig& config) {
   table.read("step_scale", config.step_scale);
   const Range steps{0, largest_step(config.step_scale), true};
   table.read("step", config.step, steps);
@@ -34,7 +33,7 @@ void read_steps(TableReader& table, StaircaseConfig& config) {
   table.read("min_step", config.min_step, {0, steps.high});
 }
 
-void check_steps(TableReader& table, const StaircaseConfig& config) {
+void check_steps(TableReader& table, const UpDownConfig& config) {
   if (!table.has("step") && !table.has("steps")) {
     if (table.good({"step", "steps"}))
       table.mistake("step", table.title() + " lacks \"step\" or \"steps\"");
@@ -52,7 +51,7 @@ void check_steps(TableReader& table, const StaircaseConfig& config) {
   }
 }
 
-void check_bounds(TableReader& table, const StaircaseConfig& config) {
+void check_bounds(TableReader& table, const UpDownConfig& config) {
   const auto& [floor, ceiling] = std::tie(config.floor, config.ceiling);
   if (table.good({"floor", "ceiling"}) && floor && ceiling && *floor >= *ceiling)
     return table.mistake(
@@ -66,7 +65,7 @@ void check_bounds(TableReader& table, const StaircaseConfig& config) {
                                        *ceiling));
 }
 
-void check_end(TableReader& table, const StaircaseConfig& config) {
+void check_end(TableReader& table, const UpDownConfig& config) {
   if (table.good({"discard_reversals", "stop_reversals"}) &&
       config.discard_reversals >= config.stop_reversals)
     table.mistake(table.has("discard_reversals") ? "discard_reversals" : "stop_reversals",
@@ -77,13 +76,14 @@ void check_end(TableReader& table, const StaircaseConfig& config) {
     table.mistake("min_trials", fmt::format("min_trials is {}, expected at most stop_trials {}",
                                             config.min_trials, config.stop_trials));
 }
+
+std::string bound_text(const std::optional<double>& bound_g) {
+  return bound_g ? fmt::format("{:g} g", *bound_g) : "none";
+}
 }  // namespace
 
-StaircaseConfig read_staircase(TableReader& table) {
-  StaircaseConfig config;
-  table.require({"name", "start"});
-  table.read("name", config.name);
-  table.read_name("kind", kinds);
+void read_keys(TableReader& table, UpDownConfig& config) {
+  table.require({"start"});
   read_steps(table, config);
   const bool ratio = config.step_scale != StepScale::linear;
   const Range levels = ratio ? zero_or_more : any_number;
@@ -100,29 +100,30 @@ StaircaseConfig read_staircase(TableReader& table) {
   table.read("min_trials", config.min_trials);
   table.read("stop_trials", config.stop_trials, {1});
   table.read("discard_reversals", config.discard_reversals);
-  return config;
 }
 
-void check_staircase(TableReader& table, const StaircaseConfig& config) {
+void check_keys(TableReader& table, const UpDownConfig& config) {
   check_steps(table, config);
   check_bounds(table, config);
   check_end(table, config);
 }
 
-InterleaveConfig read_interleaving(TableReader& table) {
-  InterleaveConfig config;
-  table.read("interleave", config.interleave);
-  table.read("max_lag", config.max_lag);
-  return config;
+void check_lightest(TableReader& table, const UpDownConfig& config, double reference_g) {
+  if (!table.good({"floor", "step_scale"})) return;
+  if (config.step_scale == StepScale::linear && !config.floor)
+    table.mistake("floor", fmt::format("{} lacks \"floor\": its linear steps could make the "
+                                       "comparison weigh 0 g or less, expected a floor above {}",
+                                       table.title(), -reference_g));
+  if (config.floor && *config.floor <= -reference_g)
+    table.mistake("floor", fmt::format("floor is {}: beside a reference of {} g the comparison "
+                                       "could weigh 0 g or less, expected above {}",
+                                       *config.floor, reference_g, -reference_g));
 }
 
-void UniqueNames::check(TableReader& table, const std::string& name) {
-  if (!table.has("name") || !table.good({"name"})) return;
-  const auto [first, is_new] = lines_.try_emplace(name, table.place().line);
-  if (!is_new)
-    table.mistake("name", fmt::format("there is already a {} named \"{}\" (line {}), expected "
-                                      "another name",
-                                      what_, printable(name), first->second));
+std::string described(const UpDownConfig& config) {
+  return fmt::format("floor {}, ceiling {}, step changes {}, at most {} trials",
+                     bound_text(config.floor), bound_text(config.ceiling),
+                     name_of(config.change_step), config.stop_trials);
 }
 
 }  // namespace heft

@@ -1,4 +1,4 @@
-#include "psychophysics/Staircase.h"
+#include "psychophysics/UpDown.h"
 
 #include <algorithm>
 #include <cassert>
@@ -12,7 +12,7 @@ double listed_step(const std::vector<double>& steps, std::size_t n_reversals) {
   return steps[std::min(n_reversals, steps.size() - 1)];
 }
 
-double halved_step(const StaircaseConfig& config, std::size_t n_reversals) {
+double halved_step(const UpDownConfig& config, std::size_t n_reversals) {
   if (config.halve_every == 0) return std::max(config.step, config.min_step);
   const int halvings = static_cast<int>(n_reversals) / config.halve_every;
   return std::max(std::ldexp(config.step, -halvings), config.min_step);
@@ -23,15 +23,15 @@ double held_finite(double level) {
 }
 }  // namespace
 
-Staircase::Staircase(StaircaseConfig config) : config_(std::move(config)) {
+UpDown::UpDown(UpDownConfig config) : config_(std::move(config)) {
   planned_ = config_.at_bound == AtBound::clamp ? presented(config_.start) : config_.start;
 }
 
-double Staircase::level() const {
+double UpDown::level() const {
   return presented(planned_);
 }
 
-Staircase::Update Staircase::respond(bool positive, std::optional<double> shown) {
+Update UpDown::respond(bool positive, std::optional<double> shown) {
   assert(!finished());
   const double shown_level = shown.value_or(level());
   ++n_trials_;
@@ -43,7 +43,7 @@ Staircase::Update Staircase::respond(bool positive, std::optional<double> shown)
   return update;
 }
 
-std::optional<double> Staircase::estimate() const {
+std::optional<double> UpDown::estimate() const {
   const auto n_discarded = static_cast<std::size_t>(config_.discard_reversals);
   if (reversals_.size() <= n_discarded) return std::nullopt;
   const auto first = reversals_.begin() + config_.discard_reversals;
@@ -53,7 +53,32 @@ std::optional<double> Staircase::estimate() const {
   return sum / static_cast<double>(reversals_.size() - n_discarded);
 }
 
-std::optional<Staircase::Direction> Staircase::due_direction(bool positive) {
+std::vector<Estimate> UpDown::estimates() const {
+  return {{.method = "mean_of_reversals",
+           .value = estimate(),
+           .n_trials = n_trials_,
+           .n_reversals = static_cast<int>(reversals_.size()),
+           .n_floor = n_floor_,
+           .n_ceiling = n_ceiling_,
+           .censored = censored()}};
+}
+
+// By the reversals that count, or where there are none by the level that it got to.
+Censored UpDown::censored() const {
+  bool at_floor = false, at_ceiling = false;
+  const auto look_at = [&](double level) {
+    at_floor = at_floor || (config_.floor && level <= *config_.floor);
+    at_ceiling = at_ceiling || (config_.ceiling && level >= *config_.ceiling);
+  };
+  for (std::size_t i = static_cast<std::size_t>(config_.discard_reversals); i < reversals_.size();
+       ++i)
+    look_at(reversals_[i].level);
+  if (!estimate()) look_at(level());
+  if (at_floor != at_ceiling) return at_ceiling ? Censored::above : Censored::below;
+  return at_ceiling || finish_ == Finish::trials ? Censored::unsettled : Censored::none;
+}
+
+std::optional<UpDown::Direction> UpDown::due_direction(bool positive) {
   int& run = positive ? n_positive_ : n_negative_;
   int& other = positive ? n_negative_ : n_positive_;
   other = 0;
@@ -64,7 +89,7 @@ std::optional<Staircase::Direction> Staircase::due_direction(bool positive) {
   return positive ? Direction::down : Direction::up;
 }
 
-std::optional<Staircase::Move> Staircase::due_move(bool positive) {
+std::optional<UpDown::Move> UpDown::due_move(bool positive) {
   const std::optional<Direction> direction = due_direction(positive);
   if (!direction) return std::nullopt;
   const bool turned = last_due_ && *last_due_ != *direction;
@@ -76,14 +101,14 @@ std::optional<Staircase::Move> Staircase::due_move(bool positive) {
   return move;
 }
 
-Reversal Staircase::add_reversal(Direction direction, double shown_level) {
+Reversal UpDown::add_reversal(Direction direction, double shown_level) {
   const std::size_t n_before = reversals_.size();
   reversals_.push_back({static_cast<int>(n_before) + 1, shown_level, step(direction, n_before),
                         step(direction, n_before + 1)});
   return reversals_.back();
 }
 
-double Staircase::step(Direction direction, std::size_t n_reversals) const {
+double UpDown::step(Direction direction, std::size_t n_reversals) const {
   if (direction == Direction::up && !config_.steps_up.empty())
     return listed_step(config_.steps_up, n_reversals);
   if (!config_.steps.empty()) return listed_step(config_.steps, n_reversals);
@@ -92,30 +117,30 @@ double Staircase::step(Direction direction, std::size_t n_reversals) const {
 
 // Downward steps on a ratio scale divide by the factor of upward ones, as PsychoPy does, so that
 // its traces come out to the last bit.
-double Staircase::moved(double level, Direction direction, double step) const {
+double UpDown::moved(double level, Direction direction, double step) const {
   const bool up = direction == Direction::up;
   if (config_.step_scale == StepScale::linear) return held_finite(up ? level + step : level - step);
   const double factor = std::pow(10.0, config_.step_scale == StepScale::db ? step / 20.0 : step);
   return held_finite(up ? level * factor : level / factor);
 }
 
-double Staircase::presented(double level) const {
+double UpDown::presented(double level) const {
   if (config_.floor) level = std::max(level, *config_.floor);
   if (config_.ceiling) level = std::min(level, *config_.ceiling);
   return level;
 }
 
-bool Staircase::passes_bound(const Move& move) const {
+bool UpDown::passes_bound(const Move& move) const {
   return move.direction == Direction::down ? config_.floor && move.target < *config_.floor
                                            : config_.ceiling && move.target > *config_.ceiling;
 }
 
-void Staircase::make(const Move& move) {
+void UpDown::make(const Move& move) {
   if (passes_bound(move)) ++(move.direction == Direction::down ? n_floor_ : n_ceiling_);
   planned_ = config_.at_bound == AtBound::clamp ? presented(move.target) : move.target;
 }
 
-std::optional<Staircase::Finish> Staircase::reason_to_finish() const {
+std::optional<Finish> UpDown::reason_to_finish() const {
   const int n_reversals = static_cast<int>(reversals_.size());
   if (n_reversals >= config_.stop_reversals && n_trials_ >= config_.min_trials)
     return Finish::reversals;

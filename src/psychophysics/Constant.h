@@ -1,0 +1,55 @@
+// The method of constant stimuli as a pure value: every level equally often, in an order that was
+// drawn before the first answer and that no answer changes (Fechner 1860; Gescheider 1997, ch. 3).
+// What the answers say about a threshold is left to a fit of the whole function.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/Random.h"
+#include "psychophysics/ProcedureTypes.h"
+
+namespace heft {
+
+/// blocks: rounds that hold each level once, each shuffled; shuffled: all trials at once.
+enum class ConstantOrder { blocks, shuffled };
+template <>
+struct EnumNames<ConstantOrder> {
+  static constexpr std::array<std::string_view, 2> names{"blocks", "shuffled"};
+};
+
+struct ConstantConfig {
+  static constexpr std::string_view kind = "constant";
+  using Procedure = class Constant;
+
+  std::vector<double> levels{};  ///< different ones, at least one
+  int n_per_level = 1;
+  ConstantOrder order = ConstantOrder::blocks;
+};
+
+/// The level of each trial: a function of the stream alone.
+std::vector<double> constant_schedule(const ConstantConfig& config, RandomStream stream);
+
+class Constant {
+ public:
+  explicit Constant(ConstantConfig config) : config_(std::move(config)) {}
+
+  /// Undefined after the end.
+  double next_level(const RandomStream& stream) const;
+  Update respond(const Response& response, double shown);
+  std::optional<Finish> finish() const;
+  /// One, without a value: its trials are there, a threshold is none without a fit.
+  std::vector<Estimate> estimates() const;
+
+  int n_trials() const { return n_trials_; }
+  std::optional<int> planned_trials() const;
+  std::vector<double> planned_levels() const { return config_.levels; }
+
+ private:
+  ConstantConfig config_;
+  int n_trials_ = 0;
+};
+
+}  // namespace heft

@@ -1,0 +1,103 @@
+// Procedures as one value: each kind behaves as it does alone.
+#include "psychophysics/Procedure.h"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include "psychophysics/staircases.h"
+
+namespace heft {
+namespace {
+
+using testing::ElementsAre;
+using testing::Optional;
+
+TEST(Procedure, KindsHaveTheirNamesInFiles) {
+  EXPECT_THAT(ProcedureKinds::names, ElementsAre("up_down", "constant"));
+  for (std::size_t i = 0; i < ProcedureKinds::names.size(); ++i)
+    EXPECT_EQ(ProcedureKinds::defaults(ProcedureKinds::names[i]).index(), i);
+}
+
+RC_GTEST_PROP(ProcedureProperty, UpDownIsTheStaircaseItself, ()) {
+  const UpDownConfig config = *test::any_staircase();
+  UpDown alone(config);
+  Procedure procedure(ProcedureConfig{"s", config});
+  RC_ASSERT(procedure.name() == "s");
+  RC_ASSERT(!procedure.planned_trials());
+  while (!alone.finished()) {
+    RC_ASSERT(!procedure.finished());
+    const double level =
+        procedure.next_level(RandomStream(*rc::gen::arbitrary<std::uint64_t>(), ""));
+    RC_ASSERT(level == alone.level());
+    const bool positive = *rc::gen::arbitrary<bool>();
+    const Update expected = alone.respond(positive);
+    const Update update = procedure.respond({positive}, level);
+    RC_ASSERT(update.finish == expected.finish);
+    RC_ASSERT(update.reversal.has_value() == expected.reversal.has_value());
+    if (update.reversal) RC_ASSERT(update.reversal->level == expected.reversal->level);
+    RC_ASSERT(procedure.n_trials() == alone.n_trials());
+  }
+  const std::vector<Estimate> estimates = procedure.estimates();
+  RC_ASSERT(estimates.size() == 1u);
+  RC_ASSERT(estimates[0].method == "mean_of_reversals");
+  RC_ASSERT(estimates[0].value == alone.estimate());
+  RC_ASSERT(estimates[0].n_trials == alone.n_trials());
+  RC_ASSERT(estimates[0].n_reversals == static_cast<int>(alone.reversals().size()));
+  RC_ASSERT(estimates[0].n_floor == alone.n_floor());
+  RC_ASSERT(estimates[0].n_ceiling == alone.n_ceiling());
+}
+
+TEST(Procedure, AnyChoiceIsPositive) {
+  EXPECT_TRUE(response_of(Choice::comparison).positive);
+  EXPECT_TRUE(response_of(Choice::reference).positive);
+  EXPECT_FALSE(response_of(Choice::none).positive);
+  EXPECT_THAT(response_of(Choice::reference).choice, Optional(Choice::reference));
+}
+
+TEST(Procedure, TellsWhatItPlans) {
+  EXPECT_THAT(Procedure(ProcedureConfig{"s", test::paper_15g()}).planned_levels(),
+              ElementsAre(175));
+  const Procedure constant(
+      ProcedureConfig{"s", ConstantConfig{.levels = {5, -5, 20}, .n_per_level = 7}});
+  EXPECT_THAT(constant.planned_levels(), ElementsAre(5, -5, 20));
+  EXPECT_THAT(constant.planned_trials(), Optional(21));
+}
+
+Censored censored(const UpDownConfig& config, std::string_view answers) {
+  Procedure procedure(ProcedureConfig{"s", config});
+  for (char sign : answers)
+    if (!procedure.finished())
+      procedure.respond({sign == '+'}, procedure.next_level(RandomStream(1, "")));
+  return procedure.estimates().front().censored;
+}
+
+TEST(Censoring, IsNoneWhereTheReversalsThatCountKeepAwayFromTheBounds) {
+  EXPECT_EQ(censored(test::paper_15g(), "+++-+-+-+-+-+-+-"), Censored::none);
+  // It hits the floor on its way, but comes back for the reversals that count.
+  EXPECT_EQ(censored({.start = 10, .step = 10, .floor = 0, .stop_reversals = 4}, "++----+-+-+"),
+            Censored::none);
+}
+
+TEST(Censoring, IsToTheSideWhereReversalsStandAtABound) {
+  EXPECT_EQ(censored({.start = 0, .step = 10, .floor = 0, .stop_reversals = 4}, "+-+-+-+-"),
+            Censored::below);
+  EXPECT_EQ(censored({.start = 0, .step = 10, .ceiling = 0, .stop_reversals = 4}, "-+-+-+-+"),
+            Censored::above);
+  EXPECT_EQ(censored({.start = 0, .step = 10, .floor = 0, .ceiling = 10, .stop_reversals = 4},
+                     "-+-+-+-+"),
+            Censored::unsettled);
+}
+
+TEST(Censoring, IsToTheSideWhereSomebodyAlwaysAnswersAlike) {
+  const UpDownConfig config{.start = 5, .step = 1, .floor = 0, .ceiling = 9, .stop_trials = 20};
+  EXPECT_EQ(censored(config, std::string(20, '+')), Censored::below);
+  EXPECT_EQ(censored(config, std::string(20, '-')), Censored::above);
+}
+
+TEST(Censoring, IsUnsettledWhereTheTrialsRanOutFirst) {
+  EXPECT_EQ(censored({.start = 5, .step = 1, .stop_trials = 5}, "+++++"), Censored::unsettled);
+  EXPECT_EQ(censored({.start = 5, .step = 1, .stop_trials = 6}, "+-+-+-"), Censored::unsettled);
+}
+
+}  // namespace
+}  // namespace heft
