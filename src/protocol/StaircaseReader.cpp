@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/Printable.h"
+
 namespace heft {
 
 namespace {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/Printable.h"
+
 namespace heft {
 
 namespace {
@@ -218,8 +220,8 @@ void TableReader::read(std::string_view key, std::span<Eigen::Vector3d> points) 
 void TableReader::read_size(std::string_view key, Eigen::Vector3d& field) {
   const TomlEntry* entry = take(key);
   if (!entry) return;
-  if (std::holds_alternative<TomlArray>(entry->node.value)) return read(key, field, above_zero);
-  if (const auto value = number(entry->node, key, above_zero)) field.setConstant(*value);
+  if (std::holds_alternative<TomlArray>(entry->node.value)) return read(key, field, size_on_earth);
+  if (const auto value = number(entry->node, key, size_on_earth)) field.setConstant(*value);
 }
 
 std::optional<TableReader> TableReader::table(std::string_view key) {
