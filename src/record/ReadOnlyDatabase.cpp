@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/Error.h"
+#include "record/Distrust.h"
 #include "record/LogFile.h"
 #include "record/SqliteError.h"
 
@@ -18,6 +19,7 @@ constexpr int busy_timeout_ms = 5000;
 // Opening does not read yet, so a first look is part of it.
 std::unique_ptr<SQLite::Database> opened(const std::string& name, int flags) {
   auto database = std::make_unique<SQLite::Database>(name, flags, busy_timeout_ms);
+  distrust(*database);
   database->exec("PRAGMA query_only = ON");
   database->execAndGet("SELECT count(*) FROM sqlite_master");
   return database;
