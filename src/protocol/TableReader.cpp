@@ -75,7 +75,8 @@ std::optional<double> TableReader::number(const TomlNode& node, std::string_view
   if (value && range.holds(*value)) return value;
   std::string expected = value && !std::isfinite(*value) ? "a finite number" : "a number";
   expected += range.text();
-  const bool too_far = value && std::isfinite(*value) && std::abs(*value) > furthest;
+  const bool too_far = value && std::isfinite(*value) && std::abs(*value) > furthest &&
+                       (range.low <= -furthest || range.high >= furthest);
   if (too_far || std::holds_alternative<TomlOverflow>(node.value))
     expected += fmt::format(", not beyond {:g}", furthest);
   refuse(node, key, expected);

@@ -34,6 +34,8 @@ class Reader {
       storage_.open(whole, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     } catch (const cv::Exception& error) {
       refuse_syntax(error);
+    } catch (const std::exception& error) {  // lengths that it has miscounted
+      refuse(fmt::format("this is no YAML that OpenCV can read: {}", error.what()));
     }
     if (!storage_.isOpened() || !storage_.root().isMap())
       refuse(

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/TextFile.h"
 
@@ -37,6 +38,7 @@ class Scan {
   std::optional<std::string> fault_at_start();
   std::optional<std::string> fault_here();
   std::optional<std::string> skip_quoted(char quote);
+  bool follows_key() const;
 
   std::string_view line_;
   std::size_t at_ = 0;
@@ -80,8 +82,15 @@ std::optional<std::string> Scan::fault_here() {
   if (!is_plain(c)) return fmt::format("\"{}\"", c >= ' ' && c < 0x7F ? std::string(1, c) : "?");
   if (c == '[' && ++n_brackets_ > most_brackets) return "a list in a list in a list";
   if (c == ']' && --n_brackets_ < 0) return "a bracket that nobody opened";
+  if (c == ':' && !follows_key()) return "a colon without a key";
   if (c == ':' && (is_open() || ++n_colons_ > most_colons)) return "a key within a value";
   return std::nullopt;
+}
+
+bool Scan::follows_key() const {
+  const char before = at_ > 0 ? line_[at_ - 1] : ' ';
+  return std::isalnum(static_cast<unsigned char>(before)) != 0 ||
+         std::string_view("_\"'").find(before) != std::string_view::npos;
 }
 
 std::optional<std::string> Scan::skip_quoted(char quote) {

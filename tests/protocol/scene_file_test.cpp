@@ -66,7 +66,9 @@ TEST(SceneFile, NumbersThatPhysicsCanNotBearAreRefusedWhereTheyStand) {
     return "accepted";
   };
   using testing::HasSubstr;
-  EXPECT_THAT(refusal("[-0.1, 0.02, 0.02]", "[1e308, 0.02, 0.02]"), HasSubstr("far.toml:17:13: "));
+  EXPECT_THAT(refusal("[-0.1, 0.02, 0.02]", "[1e308, 0.02, 0.02]"),
+              HasSubstr("far.toml:17:15: position_m is 1e+308, expected a number, at "
+                        "least -1000000 and at most 1000000"));
   EXPECT_THAT(refusal("[-0.1, 0.02, 0.02]", "[-0.1, 2e6, 0.02]"), HasSubstr("at most 1000000"));
   EXPECT_THAT(refusal("offset_m = [0.01,", "offset_m = [1e9,"), HasSubstr("offset_m"));
   EXPECT_THAT(refusal("size_m = 0.04", "size_m = 1e7"), HasSubstr("size_m"));

@@ -230,6 +230,7 @@ TEST(IntrinsicsFile, OpenCvNeverSeesWhatItCanNotBear) {
   EXPECT_THAT(with("x: " + std::string(100'000, '[')), HasSubstr("a list in a list"));
   EXPECT_THAT(with("- - - - 1"), HasSubstr("a list in a list"));
   EXPECT_THAT(with("a: b: c: d: e: f: g"), HasSubstr("a key within a value"));
+  EXPECT_THAT(with(" : 1"), HasSubstr("a colon without a key"));
   EXPECT_THAT(with("x: [ 1, 2"), HasSubstr("does not end"));
   EXPECT_THAT(with("x: \"a"), HasSubstr("does not end"));
   EXPECT_THAT(refusal(yaml + "# " + std::string(5'000'000, '.')), HasSubstr("bytes"));
@@ -302,7 +303,7 @@ TEST(IntrinsicsFile, MutatedFilesAreReadOrRefused) {
     }
     n_accepted += refusal(text) == "accepted" ? 1 : 0;
   }
-  EXPECT_GT(n_accepted, 1000) << "hardly any came as far as OpenCV";
+  EXPECT_GT(n_accepted, 200) << "hardly any came as far as OpenCV";
 }
 
 }  // namespace
