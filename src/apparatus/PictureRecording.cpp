@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/Error.h"
+#include "base/TextFile.h"
 #include "tracking/ImageFile.h"
 #include "tracking/PoseColumns.h"
 
@@ -12,7 +13,8 @@ namespace heft {
 
 PictureRecording::PictureRecording(const std::string& folder) : folder_(folder) {
   std::error_code problem;
-  std::filesystem::create_directories(folder, problem);
+  if (std::filesystem::create_directories(folder, problem))
+    std::filesystem::permissions(folder, std::filesystem::perms::owner_all, problem);
   const std::string times = folder + "/times.csv";
   if (std::filesystem::exists(times))
     throw Error(
@@ -23,6 +25,7 @@ PictureRecording::PictureRecording(const std::string& folder) : folder_(folder) 
 }
 
 std::ofstream PictureRecording::begun(const std::string& file, const std::string& header) const {
+  if (!create_file(file, 0600)) throw Error(fmt::format("{} is there already", file));
   std::ofstream out(file);
   out << header << "\n" << std::flush;
   if (!out) throw Error(fmt::format("nothing can be written in {}", folder_));
@@ -31,6 +34,8 @@ std::ofstream PictureRecording::begun(const std::string& file, const std::string
 
 void PictureRecording::keep(const Image& image, double capture_s) {
   const std::string name = fmt::format("picture_{:06}.png", ++count_);
+  if (!create_file(folder_ + "/" + name, 0600))
+    throw Error(fmt::format("{}/{} is there already; nothing is written over", folder_, name));
   write_image(folder_ + "/" + name, image);
   times_ << fmt::format("{},{}\n", name, capture_s) << std::flush;
   if (!times_)

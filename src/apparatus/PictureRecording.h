@@ -1,6 +1,7 @@
 // Keeps a camera's pictures in a folder that `frames:DIR` reads: picture_000001.png..., and their
 // times in times.csv; of a rendered camera also the poses that were rendered, in truth.csv. Only
-// where --record-camera says so: pictures of people are personal data.
+// where --record-camera says so, and only for the eyes of who records: pictures of people are
+// personal data.
 #pragma once
 
 #include <fstream>

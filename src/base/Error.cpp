@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/Printable.h"
+
 namespace heft {
 
 namespace {
@@ -16,9 +18,10 @@ std::string listed(const std::vector<Mistake>& mistakes) {
 }  // namespace
 
 std::string to_string(const SourcePlace& place) {
-  if (place.line == 0) return place.file;
-  if (place.column == 0) return fmt::format("{}:{}", place.file, place.line);
-  return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+  const std::string file = escaped_line(place.file);  // a line of its own, whatever the name
+  if (place.line == 0) return file;
+  if (place.column == 0) return fmt::format("{}:{}", file, place.line);
+  return fmt::format("{}:{}:{}", file, place.line, place.column);
 }
 
 InvalidFile::InvalidFile(std::vector<Mistake> mistakes)

@@ -62,13 +62,23 @@ void write_whole(const std::string& path, const std::string& text) {
 
 std::string read_text_file(const std::string& path) {
   std::error_code unknown;  // what can't be looked at is explained when it is opened
-  if (std::filesystem::is_directory(path, unknown))
+  const fs::file_status there = fs::status(path, unknown);
+  if (fs::is_directory(there))
     throw Error(fmt::format("can't read {}: it is a folder, expected a file", path));
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw Error(fmt::format("can't read {}: it is a device or a pipe, expected a file", path));
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(fmt::format("can't read {}: {}", path, std::strerror(errno)));
   std::ostringstream text;
   text << file.rdbuf();
   return std::move(text).str();
+}
+
+bool create_file(const std::string& path, unsigned mode) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  if (file < 0 && errno != EEXIST) refuse_writing(path, std::strerror(errno));
+  if (file >= 0) ::close(file);
+  return file >= 0;
 }
 
 void require_writable(const std::string& path) {

@@ -8,7 +8,8 @@
 
 namespace heft {
 
-/// @throws Error naming the file and the system's reason
+/// @throws Error naming the file and the system's reason; for a pipe, a device or a socket too,
+///   which could keep a reader waiting forever
 std::string read_text_file(const std::string& path);
 
 /// Puts a whole file in place at once: at any time there is the old one or the new one. The old one
@@ -20,6 +21,12 @@ std::string replace_text_file(const std::string& path, const std::string& text);
 /// To be asked before the work that ends in such a file.
 /// @throws Error when no file can be made there, saying why
 void require_writable(const std::string& path);
+
+/// Makes an empty file for whoever opens it next by its name.
+/// @param mode as in open(2); 0600: for nobody's eyes but its owner's
+/// @return false: there is something of that name already, perhaps a link that leads nowhere
+/// @throws Error when it can't be made
+bool create_file(const std::string& path, unsigned mode);
 
 /// Lines without their line ends (LF or CRLF) and without a UTF-8 byte-order mark; no empty last
 /// line.

@@ -10,6 +10,7 @@
 #include "analysis/Report.h"
 #include "analysis/Summary.h"
 #include "analysis/Tables.h"
+#include "base/Printable.h"
 #include "cli/Commands.h"
 #include "cli/MissingCharts.h"
 #include "cli/Output.h"
@@ -27,21 +28,12 @@ struct Options {
   bool json = false, mix = false;
 };
 
-// A word as a shell takes it.
-std::string shell_word(const std::string& word) {
-  constexpr auto plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,+=@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 // The command as it can be typed again.
 std::string command_of(const Options& options) {
-  std::string command = "heft analyse --db " + shell_word(options.database);
+  std::string command = "heft analyse --db " + shell_quoted(options.database);
   for (std::int64_t id : options.sessions) command += fmt::format(" --session {}", id);
   if (options.mix) command += " --mix";
-  if (!options.out.empty()) command += " --out " + shell_word(options.out);
+  if (!options.out.empty()) command += " --out " + shell_quoted(options.out);
   return command;
 }
 
@@ -56,7 +48,10 @@ void analyse(const Options& options) {
   if (!options.out.empty()) refuse_foreign_folder(options.out);
   const Summary summary =
       analyze({options.database, options.sessions, options.mix, command_of(options)});
-  fmt::print("{}", options.json ? as_json(summary) : readable(summary));
+  if (options.json)
+    fmt::print("{}", as_json(summary));
+  else
+    print("{}", readable(summary));
   flush_output();
   if (!options.out.empty())
     report(summary, options.out);

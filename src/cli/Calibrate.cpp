@@ -11,6 +11,7 @@
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
+#include "cli/Output.h"
 #include "cli/Progress.h"
 #include "cli/StopOnSignal.h"
 #include "cli/Talk.h"
@@ -159,14 +160,14 @@ void calibrate_the_camera(const Options& options) {
   say_views(result);
   const std::string text = summary(result);
   write_result(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));
-  fmt::print("{}", text);
+  print("{}", text);
   if (!doubts(result).empty())
     say("{} is written, but should not be trusted: see above, and calibrate once more\n",
         options.out);
   else
     say("{} is written. Next: heft calibrate effector --camera camera:0 --camera-file {} "
         "--effector EFFECTOR.toml --out MEASURED.toml\n",
-        options.out, options.out);
+        options.out, shell_quoted(options.out));
 }
 
 void calibrate_the_effector(const Options& options) {
@@ -194,7 +195,7 @@ void calibrate_the_effector(const Options& options) {
   write_result(options.out,
                effector_to_toml(result.effector, "Made by heft calibrate effector from " +
                                                      options.effector + ".\n" + text));
-  fmt::print("{}", text);
+  print("{}", text);
   say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
 }
 

@@ -56,12 +56,13 @@ void demo(const Options& options) {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
 
   const std::string report = options.out + "/report";
-  const Summary summary = analyze({request.db,
-                                   {result.session_id},
-                                   false,
-                                   fmt::format("heft analyse --db {} --session {} --out {}",
-                                               request.db, result.session_id, report)});
-  fmt::print("{}", readable(summary));
+  const Summary summary =
+      analyze({request.db,
+               {result.session_id},
+               false,
+               fmt::format("heft analyse --db {} --session {} --out {}", shell_quoted(request.db),
+                           result.session_id, shell_quoted(report))});
+  print("{}", readable(summary));
   flush_output();
   explain_missing_charts(write_report(summary, report), report);
   say("\n{} trials, {:.0f} minutes of session time, in {:.1f} s.\n"
@@ -69,8 +70,8 @@ void demo(const Options& options) {
       "The report:  {}/report.html\n"
       "Check it:    ./heft replay --db {} --session {}\n"
       "Try it:      ./heft run protocols/quick.toml --participant 01 --responder simulated\n",
-      result.n_completed, result.duration_s / 60, elapsed.count(), request.db, report, request.db,
-      result.session_id);
+      result.n_completed, result.duration_s / 60, elapsed.count(), request.db, report,
+      shell_quoted(request.db), result.session_id);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "base/TextFile.h"
 #include "cli/Commands.h"
 #include "cli/Installation.h"
+#include "cli/Output.h"
 #include "cli/SessionOptions.h"
 #include "physics/DecouplingSimulator.h"
 #include "record/Integrity.h"
@@ -38,7 +39,7 @@ class Report {
  public:
   void line(CheckVerdict verdict, const std::string& what, const std::string& found) {
     constexpr std::array<const char*, 3> marks{"ok     ", "warning", "FAILED "};
-    fmt::print("{}  {:<14} {}\n", marks[static_cast<std::size_t>(verdict)], what, found);
+    print("{}  {:<14} {}\n", marks[static_cast<std::size_t>(verdict)], what, found);
     worst_ = std::max(worst_, verdict);
   }
   bool failed() const { return worst_ == CheckVerdict::failed; }
@@ -155,31 +156,30 @@ void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
 }
 
 void list_cameras() {
-  fmt::print("\ncameras:\n");
+  print("\ncameras:\n");
   const std::vector<VideoDevice> devices = video_devices();
   for (const VideoDevice& device : devices) {
-    fmt::print("  camera:{:<9} /dev/video{} {}\n", device.number, device.number, device.name);
-    for (const std::string& mode : device_modes(device)) fmt::print("  {:<16}   {}\n", "", mode);
+    print("  camera:{:<9} /dev/video{} {}\n", device.number, device.number, device.name);
+    for (const std::string& mode : device_modes(device)) print("  {:<16}   {}\n", "", mode);
   }
-  if (devices.empty()) fmt::print("  none is attached\n");
-  fmt::print("check one: heft doctor --tracker camera:0 --camera-file camera.yaml\n");
+  if (devices.empty()) print("  none is attached\n");
+  print("check one: heft doctor --tracker camera:0 --camera-file camera.yaml\n");
 }
 
 void list_plugs() {
-  fmt::print("\nsimulators:\n");
+  print("\nsimulators:\n");
   for (const SimulatorEntry& entry : simulators()) {
-    fmt::print("  {:<22} {}\n", entry.name, entry.summary);
-    if (!entry.warning.empty()) fmt::print("  {:<22} warning: {}\n", "", entry.warning);
+    print("  {:<22} {}\n", entry.name, entry.summary);
+    if (!entry.warning.empty()) print("  {:<22} warning: {}\n", "", entry.warning);
   }
-  fmt::print("trackers:\n");
-  for (const TrackerEntry& entry : trackers())
-    fmt::print("  {:<16} {}\n", entry.name, entry.summary);
-  fmt::print("views:\n");
-  for (const ViewEntry& entry : views()) fmt::print("  {:<16} {}\n", entry.name, entry.summary);
-  fmt::print("responders:\n");
+  print("trackers:\n");
+  for (const TrackerEntry& entry : trackers()) print("  {:<16} {}\n", entry.name, entry.summary);
+  print("views:\n");
+  for (const ViewEntry& entry : views()) print("  {:<16} {}\n", entry.name, entry.summary);
+  print("responders:\n");
   for (const ResponderEntry& entry : responders())
-    fmt::print("  {:<16} {}\n", entry.name, entry.summary);
-  fmt::print("the parameters of a responder: heft doctor --responder NAME\n");
+    print("  {:<16} {}\n", entry.name, entry.summary);
+  print("the parameters of a responder: heft doctor --responder NAME\n");
 }
 
 void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) {
@@ -224,7 +224,7 @@ void add_doctor(CLI::App& app) {
   command->callback([options] {
     if (options->responder.empty()) return diagnose(options->db, options->given, options->rate_hz);
     const std::string text = describe_parameters(responder_named(options->responder));
-    fmt::print("{}", text.empty() ? "it has no parameters\n" : text);
+    print("{}", text.empty() ? "it has no parameters\n" : text);
   });
 }
 

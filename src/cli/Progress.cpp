@@ -12,7 +12,7 @@ ProgressBar::ProgressBar(std::string label)
     : label_(std::move(label)), shown_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
-  if (shown_) say("\r\033[K");
+  if (shown_) draw("\r\033[K");
 }
 
 void ProgressBar::update(double share, const std::string& text) {
@@ -21,7 +21,8 @@ void ProgressBar::update(double share, const std::string& text) {
   if (!shown_ || now - drawn_ < std::chrono::milliseconds(100)) return;
   drawn_ = now;
   const int filled = static_cast<int>(width * std::clamp(share, 0.0, 1.0));
-  say("\r\033[K{} [{:=<{}}{:{}}] {}", label_, "", filled, "", width - filled, text);
+  draw(fmt::format("\r\033[K{} [{:=<{}}{:{}}] {}", label_, "", filled, "", width - filled,
+                   escaped_line(text)));
 }
 
 }  // namespace heft::cli

@@ -7,6 +7,7 @@
 
 #include "base/Error.h"
 #include "cli/Commands.h"
+#include "cli/Output.h"
 #include "cli/Progress.h"
 #include "cli/WholeNumber.h"
 #include "physics/DecouplingSimulator.h"
@@ -37,8 +38,8 @@ std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const Options
 void print_divergence(const Divergence& divergence) {
   const std::string trial =
       divergence.trial_number > 0 ? fmt::format("trial {}", divergence.trial_number) : "no trial";
-  fmt::print("  first divergence: {}, at {:.6f} s: {}\n    logged:   {}\n    came out: {}\n", trial,
-             divergence.t_s, divergence.what, divergence.logged, divergence.came_out);
+  print("  first divergence: {}, at {:.6f} s: {}\n    logged:   {}\n    came out: {}\n", trial,
+        divergence.t_s, divergence.what, divergence.logged, divergence.came_out);
 }
 
 std::string how_frames_were_checked(const Verification& found) {
@@ -63,7 +64,7 @@ bool verify(const LogReader& reader, std::int64_t session_id) {
   const std::string verified =
       found.ended ? "verified"
                   : fmt::format("verified up to event {}, unfinished", found.n_events);
-  fmt::print("session {}: {}: {} events folded, {} rows in {} attempts compared; {}\n", session_id,
+  print("session {}: {}: {} events folded, {} rows in {} attempts compared; {}\n", session_id,
              found.first ? "DIVERGED" : verified, found.n_events, found.n_rows, found.n_attempts,
              how_frames_were_checked(found));
   if (found.first) print_divergence(*found.first);
@@ -73,7 +74,7 @@ bool verify(const LogReader& reader, std::int64_t session_id) {
 void verify_all(const LogReader& reader, const Options& options) {
   bool same = true;
   for (const std::string& fault : check_integrity(options.db)) {
-    fmt::print("the file is damaged: {}\n", fault);
+    print("the file is damaged: {}\n", fault);
     same = false;
   }
   try {
@@ -81,7 +82,7 @@ void verify_all(const LogReader& reader, const Options& options) {
       same = verify(reader, session_id) && same;
   } catch (const Error& error) {
     if (same) throw;  // what was asked for is not there
-    fmt::print("first divergence: no trial: {}\n", error.what());
+    print("first divergence: no trial: {}\n", error.what());
   }
   if (!same)
     throw Error(fmt::format("{} does not hold what its events give", options.db),
@@ -89,12 +90,12 @@ void verify_all(const LogReader& reader, const Options& options) {
 }
 
 void print_paths(const std::vector<PathDifference>& differences) {
-  fmt::print(
+  print(
       "  where things would have been, against the log (mm):\n"
       "  {:<13} {:<4} {:>9} {:>11} {:>10} {:>11} {:>10}\n",
       "task", "", "pictures", "clone RMS", "clone max", "cubes RMS", "cubes max");
   for (const PathDifference& d : differences)
-    fmt::print("  {:<13} {:<4} {:>9} {:>11.4f} {:>10.4f} {:>11.4f} {:>10.4f}\n", name_of(d.task),
+    print("  {:<13} {:<4} {:>9} {:>11.4f} {:>10.4f} {:>11.4f} {:>10.4f}\n", name_of(d.task),
                d.condition, d.n_pictures, 1e3 * d.clone_rms_m, 1e3 * d.clone_max_m,
                1e3 * d.cubes_rms_m, 1e3 * d.cubes_max_m);
 }
@@ -104,15 +105,14 @@ std::string grams(const std::optional<double>& value_g) {
 }
 
 void print_responder(const OtherResponder& other) {
-  fmt::print("  {:<13} {:<4} {:>20} {:>20}\n", "task", "", "logged, right of n",
-             "would be, right of n");
+  print("  {:<13} {:<4} {:>20} {:>20}\n", "task", "", "logged, right of n", "would be, right of n");
   for (const OutcomeDifference& o : other.outcomes)
-    fmt::print("  {:<13} {:<4} {:>20} {:>20}\n", name_of(o.task), o.condition,
+    print("  {:<13} {:<4} {:>20} {:>20}\n", name_of(o.task), o.condition,
                fmt::format("{} of {}", o.n_logged_correct, o.n_logged),
                fmt::format("{} of {}", o.n_would_be_correct, o.n_would_be));
   for (const EstimateDifference& e : other.estimates)
-    fmt::print("  JND of staircase {:<12} logged {:>9}, would be {:>9}\n", '"' + e.staircase + '"',
-               grams(e.logged_g), grams(e.would_be_g));
+    print("  JND of staircase {:<12} logged {:>9}, would be {:>9}\n", '"' + e.staircase + '"',
+          grams(e.logged_g), grams(e.would_be_g));
 }
 
 // The protocol and setup that the question supposes.
@@ -165,7 +165,7 @@ void ask_what_if(const LogReader& reader, const Options& options) {
   for (const std::int64_t session_id : chosen_sessions(reader, options)) {
     const LoggedSession session = load_session(reader, options.db, session_id);
     const auto [protocol, setup] = supposed(session, options);
-    fmt::print("session {}, participant {}:\n", session_id, session.row.header.participant);
+    print("session {}, participant {}:\n", session_id, session.row.header.participant);
     if (options.responder.empty())
       print_paths(compare_paths(reader, session, protocol));
     else

@@ -37,7 +37,8 @@ void say_finished(const SessionResult& result, const std::string& db) {
   say("session {} is finished: {} trials, {:.0f} minutes of session time, all saved in {}\n"
       "what was found: heft analyse --db {}\n"
       "check the log: heft replay --db {} --session {}\n",
-      result.session_id, result.n_completed, result.duration_s / 60, db, db, db, result.session_id);
+      result.session_id, result.n_completed, result.duration_s / 60, db, shell_quoted(db),
+      shell_quoted(db), result.session_id);
 }
 
 SessionRequest request_of(const Options& options) {

@@ -2,6 +2,7 @@
 // out, as CSV on stdout.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -59,6 +60,14 @@ std::string row(double t_s, const WorldState& state) {
   return line;
 }
 
+bool is_finite(const WorldState& state) {
+  const auto good = [](const Pose& pose) {
+    return pose.position_m.allFinite() && pose.orientation.coeffs().allFinite();
+  };
+  return (!state.clone_present || good(state.clone.pose)) &&
+         std::ranges::all_of(state.cubes, [&](const BodyState& cube) { return good(cube.pose); });
+}
+
 // Drive takes a longer pause between two poses for a gap in tracking.
 void check(const Options& options) {
   if (options.rate_hz >= 4 && options.rate_hz <= 1e6) return;
@@ -72,7 +81,13 @@ void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take&
   const auto last = static_cast<long>(std::floor((trajectory.end_s() - start_s) * rate_hz + 1e-6));
   for (long n = 0; n <= last; ++n) {
     const double t_s = start_s + static_cast<double>(n) / rate_hz;
-    take(row(t_s, drive.advance(sample_of(t_s, trajectory.at(t_s)))));
+    const WorldState& state = drive.advance(sample_of(t_s, trajectory.at(t_s)));
+    if (!is_finite(state))
+      throw Error(fmt::format(
+          "at {:.3f} s a pose is no number any more: the scene's or the path's numbers lie too far "
+          "from what a table and a hand can be",
+          t_s));
+    take(row(t_s, state));
   }
 }
 

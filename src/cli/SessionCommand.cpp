@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "cli/Progress.h"
 #include "cli/StopOnSignal.h"
+#include "cli/Talk.h"
 #include "cli/TerminalDesk.h"
 #include "protocol/ExpectedLength.h"
 
@@ -29,6 +30,7 @@ SessionResult run_session(const CommandedSession& session,
   const double expected = expected_length(session.protocol).trials;
   RunnerOptions options;
   options.stop = &stop_on_signal.requested();
+  options.tell = [](const std::string& text) { say("heft: {}\n", text); };
   if (runs_on_wall_clock(session.setup))
     options.desk = &desk.emplace(expected, session.unblind);
   else
@@ -36,7 +38,7 @@ SessionResult run_session(const CommandedSession& session,
   const SessionResult result = run(options);
   desk.reset();
   const std::string resume =
-      fmt::format("heft resume --db {} --session {}", session.db, result.session_id);
+      fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
   if (result.end == RunEnd::stopped)
     throw Error("stopped; everything up to the last answer is saved. Go on with: " + resume,
                 ExitCode::interrupted);

@@ -46,7 +46,7 @@ void add_body(CLI::App& sheet, const char* name, const char* summary, const char
   CLI::App* command = sheet.add_subcommand(name, summary);
   const auto options = std::make_shared<Options>();
   command->add_option(fmt::format("--{}", name), options->body, file_summary)->required();
-  command->add_option("--out", options->out, "the PDF to write")->required();
+  command->add_option("--out", options->out, "the PDF to write; none is written over")->required();
   command->add_option("--paper", options->paper, "a4 or letter")->capture_default_str();
   command->callback([options, draw] { draw(*options); });
 }

@@ -70,7 +70,7 @@ void simulate_participants(const Options& options) {
   if (stored < request.participants)
     throw Error(fmt::format("stopped; {} participants are stored in {}", stored, request.db),
                 ExitCode::interrupted);
-  say("what was found: heft analyse --db {}\n", request.db);
+  say("what was found: heft analyse --db {}\n", shell_quoted(request.db));
 }
 
 }  // namespace

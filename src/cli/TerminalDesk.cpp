@@ -79,7 +79,7 @@ TerminalDesk::TerminalDesk(double expected_trials, bool unblind)
 TerminalDesk::~TerminalDesk() {
   if (!is_terminal_) return;
   tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-  cli::say("\r\033[K");
+  draw("\r\033[K");
 }
 
 std::optional<DeskCommand> TerminalDesk::command() {
@@ -187,7 +187,8 @@ void TerminalDesk::show(const DeskStatus& status) {
   const auto now = std::chrono::steady_clock::now();
   if (!is_terminal_ || now - drawn_ < redraw_every) return;
   drawn_ = now;
-  cli::say("\r\033[K{}\n\r\033[K{}\033[A\r", status_line(status, expected_trials_), prompt());
+  draw(fmt::format("\r\033[K{}\n\r\033[K{}\033[A\r",
+                   escaped_line(status_line(status, expected_trials_)), escaped_line(prompt())));
 }
 
 bool TerminalDesk::ask_to_go_on(const std::string& question) {
@@ -199,7 +200,8 @@ bool TerminalDesk::ask_to_go_on(const std::string& question) {
 }
 
 void TerminalDesk::say(const std::string& text) {
-  cli::say("{}{}\n", is_terminal_ ? "\r\033[K" : "", text);
+  if (is_terminal_) draw("\r\033[K");
+  cli::say("{}\n", text);
 }
 
 }  // namespace heft::cli

@@ -9,6 +9,7 @@
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
+#include "cli/Output.h"
 #include "cli/SessionOptions.h"
 #include "cli/Talk.h"
 #include "protocol/ExpectedLength.h"
@@ -71,7 +72,7 @@ ExitCode validate(const std::string& path) {
     const FileKind kind = recognized_kind(text, path);
     try {
       const std::string summary = checked(kind, text, path);
-      fmt::print("{}: ok, {}: {}\n", path, with_article(kind), summary);
+      print("{}: ok, {}: {}\n", path, with_article(kind), summary);
       if (kind == FileKind::protocol)
         for (const std::string& caution : cautions(parse_protocol(text, path)))
           say("{}: {}\n", path, caution);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <new>
@@ -127,7 +128,15 @@ int fail(const Error& error) {
   return static_cast<int>(error.exit_code());
 }
 
+// A reader that goes away (SIGPIPE) and a file that may not grow (SIGXFSZ) are errors of a write,
+// told where the write is. Programs started from here get back what is usual, which they would not
+// if the signals were ignored.
+void survive_failed_writes() {
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, [](int) {});
+}
+
 int run_program(int argc, char** argv) {
+  survive_failed_writes();
   try {
     run_command(argc, argv);
     flush_output();

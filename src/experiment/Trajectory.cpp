@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ranges>
 #include <span>
 
@@ -15,6 +16,13 @@ namespace heft {
 namespace {
 constexpr std::array<std::string_view, 8> columns{"t_s", "x_m", "y_m", "z_m",
                                                   "qw",  "qx",  "qy",  "qz"};
+
+// Further away or later lies no experiment, only numbers that physics can't bear.
+constexpr double furthest_m = 1e6, latest_s = 1e12;
+
+bool is_within(std::size_t column, double value) {
+  return std::abs(value) <= (column == 0 ? latest_s : furthest_m);
+}
 
 // Reads one file row by row and keeps every mistake.
 class Reader {
@@ -47,6 +55,11 @@ class Reader {
       if (!value) {
         mistake(number, place(i),
                 fmt::format("{} is \"{}\", expected a finite number", columns[i], cells[i]));
+        usable = false;
+      } else if (!is_within(i, *value)) {
+        mistake(number, place(i),
+                fmt::format("{} is {}, expected {:g} at most, on either side of 0", columns[i],
+                            *value, i == 0 ? latest_s : furthest_m));
         usable = false;
       } else {
         values[i] = *value;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <tuple>
 
+#include "base/Printable.h"
 #include "protocol/Mistakes.h"
 
 namespace heft {

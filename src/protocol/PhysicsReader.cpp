@@ -5,7 +5,7 @@ namespace heft {
 void read_effector(TableReader& reader, Eigen::Vector3d& size_m) {
   auto table = reader.table("effector");
   if (!table) return;
-  table->read("size_m", size_m, above_zero);
+  table->read("size_m", size_m, size_on_earth);
   table->close();
 }
 

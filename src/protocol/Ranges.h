@@ -22,6 +22,9 @@ struct Range {
 inline constexpr Range any_number{};
 inline constexpr Range above_zero{least, furthest};
 inline constexpr Range zero_or_more{0};
+/// Places and sizes in meters.
+inline constexpr Range on_earth{-1e6, 1e6};
+inline constexpr Range size_on_earth{least, 1e6};
 
 /// Whole numbers that a key takes.
 struct WholeRange {

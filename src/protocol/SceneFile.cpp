@@ -24,7 +24,7 @@ PlacedCube read_cube(TableReader table) {
   table.require({"mass_kg", "size_m", "position_m"});
   table.read("mass_kg", cube.mass_kg, above_zero);
   table.read_size("size_m", cube.size_m);
-  table.read("position_m", cube.position_m);
+  table.read("position_m", cube.position_m, on_earth);
   table.read("yaw_rad", cube.yaw_rad);
   table.close();
   return {cube, std::move(table)};
@@ -73,7 +73,7 @@ Pose read_clone_offset(TableReader& reader) {
   Pose offset;
   Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();
   if (auto table = reader.table("clone")) {
-    table->read("offset_m", offset.position_m);
+    table->read("offset_m", offset.position_m, on_earth);
     table->read("offset_rotvec_rad", rotation_rad);
     table->close();
   }

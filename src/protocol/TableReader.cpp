@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/Printable.h"
+
 namespace heft {
 
 namespace {
@@ -73,7 +75,8 @@ std::optional<double> TableReader::number(const TomlNode& node, std::string_view
   if (value && range.holds(*value)) return value;
   std::string expected = value && !std::isfinite(*value) ? "a finite number" : "a number";
   expected += range.text();
-  const bool too_far = value && std::isfinite(*value) && std::abs(*value) > furthest;
+  const bool too_far = value && std::isfinite(*value) && std::abs(*value) > furthest &&
+                       (range.low <= -furthest || range.high >= furthest);
   if (too_far || std::holds_alternative<TomlOverflow>(node.value))
     expected += fmt::format(", not beyond {:g}", furthest);
   refuse(node, key, expected);
@@ -218,8 +221,8 @@ void TableReader::read(std::string_view key, std::span<Eigen::Vector3d> points) 
 void TableReader::read_size(std::string_view key, Eigen::Vector3d& field) {
   const TomlEntry* entry = take(key);
   if (!entry) return;
-  if (std::holds_alternative<TomlArray>(entry->node.value)) return read(key, field, above_zero);
-  if (const auto value = number(entry->node, key, above_zero)) field.setConstant(*value);
+  if (std::holds_alternative<TomlArray>(entry->node.value)) return read(key, field, size_on_earth);
+  if (const auto value = number(entry->node, key, size_on_earth)) field.setConstant(*value);
 }
 
 bool TableReader::has_table(std::string_view key) const {

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/Printable.h"
+
 namespace heft {
 
 namespace {
@@ -112,16 +114,6 @@ TomlTable parse_toml(const std::string& text, const std::string& file) {
         refuse(file, place_of(error.source()), printable(std::string(error.description())));
     }
   }
-}
-
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-  constexpr std::size_t longest = 200;
-  if (text.size() <= longest) return text;
-  std::size_t cut = longest;
-  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80) --cut;
-  return text.substr(0, cut) + "...";
 }
 
 std::string shown(const TomlNode& node) {

@@ -48,6 +48,5 @@ TomlTable parse_toml(const std::string& text, const std::string& file);
 
 /// A value as a message shows it: short, on one line, without control characters.
 std::string shown(const TomlNode& node);
-std::string printable(std::string text);
 
 }  // namespace heft

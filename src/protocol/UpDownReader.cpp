@@ -7,6 +7,8 @@
 
 #include "protocol/KindReaders.h"
 
+#include "base/Printable.h"
+
 namespace heft {
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "base/Error.h"
 #include "experiment/Event.h"
 #include "experiment/Rows.h"
 
@@ -13,12 +14,20 @@ namespace heft {
 /// order, with the next acknowledged event or within a second. A sink in memory keeps both alike.
 enum class Durability { acknowledged, buffered };
 
+/// Another program keeps the log locked. Nothing is lost: an event or a picture that was given is
+/// kept and written, in its order, by the first flush() that succeeds.
+class LogBusy : public Error {
+ public:
+  using Error::Error;
+};
+
 class EventSink {
  public:
   virtual ~EventSink() = default;
 
   /// Takes an event and all it changes, together or not at all.
-  /// @throws Error when it could not be saved: what, why (disk full, ...), what to do
+  /// @throws Error when it could not be saved: what, why (disk full, ...), what to do; LogBusy when
+  ///   it could not be saved yet
   virtual void append(const Event& event, const Changes& changes, Durability durability) = 0;
 
   /// Takes a displayed picture; pictures keep their order among the events.
@@ -26,7 +35,7 @@ class EventSink {
 
   /// What the participant told about themselves (table participant_info), at once to where it
   /// stays.
-  /// @throws Error as append()
+  /// @throws Error as append(); after LogBusy it has to be given again
   virtual void add_info(const std::string& key, const std::string& value) = 0;
 
   /// Puts everything taken so far where it stays.

@@ -4,6 +4,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
+#include "record/Distrust.h"
 #include "record/LogFile.h"
 #include "record/ReadOnlyDatabase.h"
 #include "record/Schema.h"
@@ -35,6 +36,7 @@ std::vector<std::string> check_integrity(const std::string& path) {
     holds_log(*database, path);
     // A connection that only reads leaves out the rules (CHECK), so a temporary copy is checked.
     SQLite::Database copy("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    distrust(copy);
     SQLite::Backup(copy, *database).executeStep();
     add_page_and_rule_faults(copy, faults);
     add_reference_faults(copy, faults);

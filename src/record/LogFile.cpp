@@ -1,12 +1,17 @@
 #include "record/LogFile.h"
 
+#include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
 #include "base/Error.h"
+#include "base/Printable.h"
+#include "base/TextFile.h"
+#include "record/Distrust.h"
 #include "record/Schema.h"
 #include "record/SqliteError.h"
 
@@ -22,23 +27,39 @@ namespace {
 
 constexpr int busy_timeout_ms = 5000;
 
-std::unique_ptr<SQLite::Database> opened(const std::string& path) {
+std::unique_ptr<SQLite::Database> opened(const std::string& path, const std::string& file) {
   try {
-    return std::make_unique<SQLite::Database>(
-        resolved_path(path), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, busy_timeout_ms);
+    auto database =
+        std::make_unique<SQLite::Database>(file, SQLite::OPEN_READWRITE, busy_timeout_ms);
+    distrust(*database);
+    return database;
   } catch (const SQLite::Exception& error) {
     const SqliteFailure failure = explained(error, nullptr);
     throw Error(
         fmt::format("can't open {} for writing: {}. {}.", path, failure.reason, failure.advice));
   }
 }
+
+std::uint64_t inode_of(const std::string& file) {
+  struct stat there {};
+  return ::stat(file.c_str(), &there) == 0 ? there.st_ino : 0;
+}
 }  // namespace
 
 LogFile::LogFile(const std::string& path)
-    : path_(path), lock_(path, resolved_path(path) + "-lock"), database_(opened(path)) {
+    : path_(path),
+      lock_(path, resolved_path(path)),
+      file_(resolved_path(path)),
+      database_(opened(path, file_)) {
   try {
+    if (const std::string why = misfortune(); !why.empty())
+      throw Error(fmt::format(
+          "can't write to {}: it {}. Remove the other name, or copy the file and name the copy "
+          "with --db FILE.",
+          path_, why));
     check_kind();
     prepare();
+    if (schema::kind_of(*database_) == schema::FileKind::older_log) bring_up_to_date();
   } catch (const SQLite::Exception& error) {
     if (error.getErrorCode() == SQLITE_NOTADB) refuse_foreign_file(path_);
     const SqliteFailure failure = explained(error, database_.get());
@@ -50,12 +71,6 @@ LogFile::LogFile(LogFile&&) noexcept = default;
 LogFile::~LogFile() = default;
 
 void LogFile::check_kind() {
-  // SQLite opens a write-protected file for reading instead, and would refuse only the first row.
-  if (sqlite3_db_readonly(database_->getHandle(), "main") == 1)
-    throw Error(fmt::format(
-        "can't write to {}: the file is read-only. Make it writable (chmod u+w), copy it to a "
-        "folder of yours, or choose another file with --db FILE.",
-        path_));
   holds_log(*database_, path_);
 }
 
@@ -68,6 +83,75 @@ void LogFile::prepare() {
         path_, mode));
   database_->exec("PRAGMA synchronous = FULL");
   database_->exec("PRAGMA foreign_keys = ON");
+  database_->execAndGet("SELECT count(*) FROM sqlite_master");  // from here on there is a -wal file
+  wal_inode_ = inode_of(file_ + "-wal");
+}
+
+// The older file stays beside the new one: what was measured can be looked at as it was.
+void LogFile::bring_up_to_date() {
+  const int version = database_->execAndGet("PRAGMA user_version").getInt();
+  const std::string stem = fmt::format("{}.v{}", file_, version);
+  std::string name = stem;
+  for (int i = 2; !create_file(name, 0600); ++i) name = fmt::format("{}-{}", stem, i);
+  SQLite::Database copy(name, SQLite::OPEN_READWRITE);
+  SQLite::Backup(copy, *database_).executeStep();
+  schema::upgrade(*database_);
+  database_->exec("PRAGMA foreign_keys = ON");
+}
+
+std::string LogFile::misfortune() const {
+  if (const std::string happened = lock_.misfortune(); !happened.empty()) return happened;
+  int has_moved = 0;
+  sqlite3_file_control(database_->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
+  if (has_moved != 0) return "was replaced by another file";
+  if (wal_inode_ != 0 && inode_of(file_ + "-wal") != wal_inode_)
+    return "lost its newest rows' file (-wal), which was deleted or replaced";
+  return "";
+}
+
+void LogFile::check_in_place() {
+  if (displaced_) throw DisplacedLog(*displaced_);
+  const std::string happened = misfortune();
+  if (happened.empty()) return;
+  const bool is_linked = happened.starts_with("was given");
+  std::string saved = "All that was saved is in that file";
+  std::string remedy = is_linked                      ? "Remove the other name"
+                       : happened.starts_with("lost") ? "Leave the files beside it alone"
+                                                      : "Move it back";
+  if (!is_gathered()) {
+    const std::string copy = rescued();
+    saved = copy.empty() ? "What was saved could not be rescued"
+                         : fmt::format("All that was saved is in the copy {}", copy);
+    remedy = "Put that copy in its place";
+  }
+  displaced_.emplace(fmt::format("while it was written to, the file {}. {}", happened, saved),
+                     remedy);
+  throw DisplacedLog(*displaced_);
+}
+
+// Whether the file has a name, and all committed rows are in it and no longer beside it: SQLite
+// would look for them under another name.
+bool LogFile::is_gathered() {
+  try {
+    SQLite::Statement checkpoint(*database_, "PRAGMA wal_checkpoint(TRUNCATE)");
+    return checkpoint.executeStep() && checkpoint.getColumn(0).getInt() == 0 && lock_.has_name();
+  } catch (const SQLite::Exception&) {
+    return false;
+  }
+}
+
+// A copy of a file that has no name any more, under the first name that is free; empty: none could
+// be made.
+std::string LogFile::rescued() const {
+  try {
+    std::string name = file_ + ".rescued";
+    for (int i = 2; !create_file(name, 0600); ++i) name = fmt::format("{}.rescued{}", file_, i);
+    SQLite::Database copy(name, SQLite::OPEN_READWRITE);
+    SQLite::Backup(copy, *database_).executeStep();
+    return name;
+  } catch (const std::exception&) {
+    return "";
+  }
 }
 
 std::string resolved_path(const std::string& path) {
@@ -77,7 +161,7 @@ std::string resolved_path(const std::string& path) {
   if (error) throw Error(fmt::format("can't open {}: {}", path, error.message()));
   if (std::filesystem::is_directory(resolved, error))
     throw Error(fmt::format("{} is a folder, expected a log file. Name a file in it: --db {}", path,
-                            (std::filesystem::path(path) / "heft.db").string()));
+                            shell_quoted((std::filesystem::path(path) / "heft.db").string())));
   return std::filesystem::absolute(resolved).string();
 }
 

@@ -1,5 +1,6 @@
 #include "record/ReadOnlyDatabase.h"
 
+#include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -7,7 +8,9 @@
 #include <filesystem>
 
 #include "base/Error.h"
+#include "record/Distrust.h"
 #include "record/LogFile.h"
+#include "record/Schema.h"
 #include "record/SqliteError.h"
 
 namespace heft {
@@ -18,6 +21,7 @@ constexpr int busy_timeout_ms = 5000;
 // Opening does not read yet, so a first look is part of it.
 std::unique_ptr<SQLite::Database> opened(const std::string& name, int flags) {
   auto database = std::make_unique<SQLite::Database>(name, flags, busy_timeout_ms);
+  distrust(*database);
   database->exec("PRAGMA query_only = ON");
   database->execAndGet("SELECT count(*) FROM sqlite_master");
   return database;
@@ -70,6 +74,25 @@ std::unique_ptr<SQLite::Database> opened_somehow(const std::string& path) {
   }
   return opened_where_nothing_can_be_written(path);
 }
+
+// An older log is brought up to date where it lies, or, where that can't be (a medium or folder that
+// can't be written, a writer of the older program), in memory for whoever looks.
+std::unique_ptr<SQLite::Database> brought_up_to_date(std::unique_ptr<SQLite::Database> older,
+                                                     const std::string& path,
+                                                     const std::string& file) {
+  try {
+    LogFile upgraded(path);
+    return opened_somehow(file);
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::diverged) throw;
+  }
+  auto copy = std::make_unique<SQLite::Database>(":memory:",
+                                                 SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  distrust(*copy);
+  SQLite::Backup(*copy, *older).executeStep();
+  schema::upgrade(*copy);
+  return copy;
+}
 }  // namespace
 
 std::unique_ptr<SQLite::Database> open_for_reading(const std::string& path) {
@@ -77,7 +100,9 @@ std::unique_ptr<SQLite::Database> open_for_reading(const std::string& path) {
   if (!std::filesystem::exists(file))
     throw Error(fmt::format("there is no file {}. Name the log with --db FILE.", path));
   try {
-    return opened_somehow(file);
+    auto database = opened_somehow(file);
+    if (schema::kind_of(*database) != schema::FileKind::older_log) return database;
+    return brought_up_to_date(std::move(database), path, file);
   } catch (const SQLite::Exception& error) {
     if (error.getErrorCode() == SQLITE_NOTADB) refuse_foreign_file(path);
     const SqliteFailure failure = explained(error, nullptr);

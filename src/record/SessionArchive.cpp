@@ -12,7 +12,10 @@ namespace heft {
 
 class SessionArchive::Impl {
  public:
-  explicit Impl(const std::string& path) : file_(path), writer_(file_.database()) {}
+  explicit Impl(const std::string& path) : file_(path), writer_(file_.database()) {
+    constexpr int busy_timeout_ms = 30'000;  // what was computed may have taken hours
+    file_.database().setBusyTimeout(busy_timeout_ms);
+  }
 
   std::int64_t store(const RecordedSession& session) {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
@@ -21,6 +24,7 @@ class SessionArchive::Impl {
     for (const RecordedEntry& entry : session.entries()) writer_.write(session_id, entry);
     writer_.write_counts(session_id);
     transaction.commit();
+    file_.check_in_place();
     return session_id;
   }
 

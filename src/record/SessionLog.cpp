@@ -5,19 +5,24 @@
 
 #include <chrono>
 #include <cstdio>
+#include <utility>
 
 #include "base/Error.h"
+#include "base/Printable.h"
 #include "record/LogFile.h"
 #include "record/RowWriter.h"
 #include "record/Schema.h"
+#include "record/SqliteError.h"
 #include "record/WriteFailure.h"
 
 namespace heft {
 
 namespace {
 constexpr auto longest_wait = std::chrono::seconds(1);
+constexpr int busy_timeout_ms = 1000;  ///< so long may a session stand still unannounced
 
 std::string counted(const std::vector<RecordedEntry>& entries) {
+  if (entries.empty()) return "the session";
   std::size_t n_frames = 0;
   for (const RecordedEntry& entry : entries)
     if (std::holds_alternative<FrameRow>(entry)) ++n_frames;
@@ -27,7 +32,9 @@ std::string counted(const std::vector<RecordedEntry>& entries) {
 
 class SessionLog::Impl {
  public:
-  explicit Impl(const std::string& path) : file_(path), writer_(file_.database()) {}
+  explicit Impl(const std::string& path) : file_(path), writer_(file_.database()) {
+    file_.database().setBusyTimeout(busy_timeout_ms);
+  }
   Impl(const Impl&) = delete;
   ~Impl() { write_last(); }
 
@@ -42,7 +49,9 @@ class SessionLog::Impl {
  private:
   void check_session(std::int64_t session_id);
   void refuse_after_failure() const;
-  Error failed(const std::string& what, const std::exception& reason);
+  [[noreturn]] void fail(const std::string& what, const std::exception& reason);
+  Error told(const std::string& what, const std::exception& reason);
+  void forget_lock();
   void wait_with(RecordedEntry entry);
   void commit_waiting();
   void commit_or_fail(const std::string& what);
@@ -54,7 +63,8 @@ class SessionLog::Impl {
   std::int64_t session_id_ = 0;
   std::vector<RecordedEntry> waiting_;  ///< taken, in order, not yet written
   std::chrono::steady_clock::time_point waiting_since_;
-  std::string failure_;  ///< once a call has thrown
+  std::string failure_;     ///< once a call has thrown
+  bool is_locked_ = false;  ///< by another program, as the last call has thrown
 };
 
 void SessionLog::Impl::start(const SessionHeader& header) {
@@ -89,7 +99,7 @@ void SessionLog::Impl::check_session(std::int64_t session_id) {
     throw Error(
         fmt::format("{} holds no session {}. heft resume --db {} without --session takes "
                     "the newest unfinished one.",
-                    file_.path(), session_id, file_.path()));
+                    file_.path(), session_id, shell_quoted(file_.path())));
 }
 
 void SessionLog::Impl::append(const Event& event, const Changes& changes, Durability durability) {
@@ -99,9 +109,10 @@ void SessionLog::Impl::append(const Event& event, const Changes& changes, Durabi
   try {
     commit_waiting();
   } catch (const std::exception& error) {
+    const std::string what = described(event, changes);
     // What came before it may still be saved at the end; what comes after it must not.
-    waiting_.pop_back();
-    throw failed(described(event, changes), error);
+    if (!is_busy(error) && !waiting_.empty()) waiting_.pop_back();
+    fail(what, error);
   }
 }
 
@@ -114,25 +125,41 @@ void SessionLog::Impl::add_info(const std::string& key, const std::string& value
   flush();
   try {
     writer_.write_info(session_id_, key, value);
+    file_.check_in_place();
   } catch (const std::exception& error) {
-    throw failed(fmt::format("what the participant told ({})", key), error);
+    fail(fmt::format("what the participant told ({})", key), error);
   }
 }
 
 void SessionLog::Impl::flush() {
   refuse_after_failure();
-  if (!waiting_.empty()) commit_or_fail(counted(waiting_));
+  commit_or_fail(counted(waiting_));
 }
 
 void SessionLog::Impl::refuse_after_failure() const {
   if (!failure_.empty()) throw Error(failure_);
 }
 
-Error SessionLog::Impl::failed(const std::string& what, const std::exception& reason) {
-  const Error failure = write_error(what, file_, reason,
-                                    fmt::format("go on with: heft resume --db {}", file_.path()));
-  failure_ = failure.what();
-  return failure;
+// Another program's lock is no failure: what waits is tried again.
+void SessionLog::Impl::fail(const std::string& what, const std::exception& reason) {
+  const Error error = told(what, reason);
+  if (is_busy(reason)) {
+    is_locked_ = true;
+    file_.database().setBusyTimeout(0);
+    throw LogBusy(error.what());
+  }
+  failure_ = error.what();
+  throw error;
+}
+
+Error SessionLog::Impl::told(const std::string& what, const std::exception& reason) {
+  return write_error(what, file_, reason,
+                     fmt::format("go on with: heft resume --db {} --session {}",
+                                 shell_quoted(file_.path()), session_id_));
+}
+
+void SessionLog::Impl::forget_lock() {
+  if (std::exchange(is_locked_, false)) file_.database().setBusyTimeout(busy_timeout_ms);
 }
 
 void SessionLog::Impl::wait_with(RecordedEntry entry) {
@@ -146,30 +173,34 @@ void SessionLog::Impl::commit_or_fail(const std::string& what) {
   try {
     commit_waiting();
   } catch (const std::exception& error) {
-    throw failed(what, error);
+    fail(what, error);
   }
 }
 
 void SessionLog::Impl::commit_waiting() {
+  file_.check_in_place();
+  if (waiting_.empty() && !is_locked_) return;
   try {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
     for (const RecordedEntry& entry : waiting_) writer_.write(session_id_, entry);
     writer_.write_counts(session_id_);
     transaction.commit();
-    waiting_.clear();
   } catch (...) {
     writer_.forget();
     throw;
   }
+  waiting_.clear();
+  forget_lock();
+  file_.check_in_place();
 }
 
+// What a call has told already is not told again.
 void SessionLog::Impl::write_last() noexcept {
-  if (waiting_.empty()) return;
   try {
     commit_waiting();
   } catch (const std::exception& error) {
-    if (!failure_.empty()) return;  // a call has told already
-    std::fprintf(stderr, "heft: %s\n", failed(counted(waiting_), error).what());
+    if (!failure_.empty() || is_locked_) return;
+    std::fprintf(stderr, "heft: %s\n", escaped(told(counted(waiting_), error).what()).c_str());
   }
 }
 

@@ -70,4 +70,10 @@ SqliteFailure explained(const SQLite::Exception& error, const SQLite::Database* 
   return failure;
 }
 
+bool is_busy(const std::exception& error) {
+  const auto* reason = dynamic_cast<const SQLite::Exception*>(&error);
+  const int code = reason ? reason->getErrorCode() & 0xff : SQLITE_OK;
+  return code == SQLITE_BUSY || code == SQLITE_LOCKED;
+}
+
 }  // namespace heft

@@ -1,6 +1,7 @@
 // SQLite's failures in plain words.
 #pragma once
 
+#include <exception>
 #include <string>
 
 namespace SQLite {
@@ -18,5 +19,8 @@ struct SqliteFailure {
 
 /// @param database the connection that failed, for the system's own reason; may be null
 SqliteFailure explained(const SQLite::Exception& error, const SQLite::Database* database);
+
+/// Whether another program's lock was in the way: the same will go well once it is gone.
+bool is_busy(const std::exception& error);
 
 }  // namespace heft

@@ -26,6 +26,9 @@ std::string description(const Event& event, std::optional<int> trial_number) {
 
 Error write_error(const std::string& what, const LogFile& file, const std::exception& reason,
                   const std::string& next) {
+  if (const auto* displaced = dynamic_cast<const DisplacedLog*>(&reason))
+    return Error(fmt::format("{} is not safe in {}: {}. {}, then {}", what, file.path(),
+                             displaced->what(), displaced->remedy(), next));
   SqliteFailure failure{reason.what(), "This is a mistake in heft: please report it"};
   if (const auto* error = dynamic_cast<const SQLite::Exception*>(&reason))
     failure = explained(*error, &file.database());

@@ -16,7 +16,7 @@ class LogFile;
 std::string description(const Event& event, std::optional<int> trial_number);
 
 /// What could not be saved, where, why, and what to do.
-/// @param reason what was caught: SQLite's exception or a row that can't be kept
+/// @param reason what was caught: SQLite's exception, DisplacedLog, or a row that can't be kept
 /// @param next what to do once the cause is gone, e.g. "start again"
 Error write_error(const std::string& what, const LogFile& file, const std::exception& reason,
                   const std::string& next);

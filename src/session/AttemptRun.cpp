@@ -119,7 +119,7 @@ bool AttemptRun::wait_for_camera(const Picture& picture) {
   if (!trouble_since_s_) {
     trouble_since_s_ = journal_.now_s();
     journal_.emit_now(SessionPaused{picture.trouble});
-    parts_.sink.flush();
+    journal_.flush();
   } else if (picture.trouble.empty()) {
     trouble_since_s_.reset();
     journal_.emit_now(SessionContinued{});
@@ -155,7 +155,7 @@ void AttemptRun::show(const ShownFrame& shown, const Picture& picture, FrameRow&
   row.cubes = shown.frame.cubes;
   if (parts_.clock.is_wall()) row.n_dropped = picture.n_dropped;
   count_picture(picture, row);
-  if (options_.keep_frames) parts_.sink.add_frame(row);
+  if (options_.keep_frames) journal_.add_frame(row);
 }
 
 // What happened in the world, in session time.

@@ -21,6 +21,13 @@ std::vector<Touch> Attendant::wait(double seconds) {
   return touches;
 }
 
+void Attendant::stand_still(const std::string& why) {
+  status.trouble = why;
+  if (journal_.clock().is_wall()) screen_.present({}, journal_.engine().screen());
+  attend(holding_step_s);
+  status.trouble.clear();
+}
+
 std::optional<bool> Attendant::ask_to_go_on(const std::string& question) {
   if (!desk_ || !desk_->ask_to_go_on(question)) return std::nullopt;
   asking_ = true;

@@ -22,6 +22,10 @@ class Attendant {
   /// what the participant touched. On a virtual clock it returns at once.
   std::vector<Touch> wait(double seconds);
 
+  /// Keeps the screen and the desk alive a little while, in a session that can't go on at present;
+  /// what is touched meanwhile means nothing.
+  void stand_still(const std::string& why);
+
   /// Asks the experimenter whether to go on, and waits for their answer; who does not want to
   /// leaves the session. None: nobody can be asked, or the session is left by other means.
   std::optional<bool> ask_to_go_on(const std::string& question);

@@ -58,7 +58,7 @@ TouchKind Pages::show(ScreenState screen, double least_s, const Moving& picture_
     screen_.present(picture_at ? picture_at(elapsed_s) : ViewPicture{}, screen);
     const double left_s = std::max(0.0, now_s + step_s - clock.now_s());
     for (const Touch& touch : attendant_.wait(left_s)) {
-      if (touch.kind == TouchKind::entry) journal_.sink().add_info(touch.key, touch.value);
+      if (touch.kind == TouchKind::entry) journal_.add_info(touch.key, touch.value);
       if (touch.kind == TouchKind::decline) return touch.kind;
       if (touch.kind == TouchKind::next && screen.wait_s == 0) return touch.kind;
     }

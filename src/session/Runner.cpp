@@ -6,21 +6,37 @@
 
 namespace heft {
 
+namespace {
+constexpr double longest_wait_alone_s = 30, longest_wait_leaving_s = 10;
+}  // namespace
+
 Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
     : parts_(parts),
       options_(options),
       journal_(parts.engine, parts.sink, parts.clock, options.progress),
       screen_(journal_, parts.view, parts.texts),
       attendant_(journal_, screen_, options.desk, options.stop, parts.has_screen),
-      pages_(parts.protocol, journal_, attendant_, screen_, parts.texts) {}
+      pages_(parts.protocol, journal_, attendant_, screen_, parts.texts) {
+  journal_.while_locked([this](double waited_s) { return wait_for_log(waited_s); });
+}
 
 RunEnd Runner::run() {
   if (!begin()) return RunEnd::declined;
   const RunEnd end = run_blocks();
   if (end == RunEnd::stopped) journal_.leave("stopped by the operator");
-  parts_.sink.flush();
+  journal_.flush();
   if (end == RunEnd::finished && pages_.has_reader()) pages_.thanks();
   return end;
+}
+
+// A person's session waits as long as the experimenter likes; nobody would come to help a model's.
+bool Runner::wait_for_log(double waited_s) {
+  const std::string why = "the log is kept locked by another program; waiting";
+  const std::string told = why + " until it lets go. Nothing is lost; close that program";
+  if (waited_s == 0) options_.desk ? options_.desk->say(told) : options_.tell(told);
+  attendant_.stand_still(why);
+  if (attendant_.leaving()) return waited_s < longest_wait_leaving_s;
+  return pages_.has_reader() || waited_s < longest_wait_alone_s;
 }
 
 void Runner::check_apparatus() {

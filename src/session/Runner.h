@@ -17,6 +17,7 @@ enum class RunEnd {
 class Runner {
  public:
   Runner(const SessionParts& parts, const RunnerOptions& options);
+  Runner(const Runner&) = delete;
 
   /// Runs until the session ends, pauses or is stopped. On a finished session everything is saved.
   /// @throws Error from the log (nothing acknowledged is lost), or when the responder has nothing
@@ -25,6 +26,7 @@ class Runner {
 
  private:
   RunEnd run_blocks();
+  bool wait_for_log(double waited_s);
   bool begin();
   void check_apparatus();
   void ask_whether_failures_matter(const std::string& failed);

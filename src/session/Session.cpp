@@ -7,6 +7,7 @@
 
 #include "base/Build.h"
 #include "base/Error.h"
+#include "base/Printable.h"
 #include "record/SessionLog.h"
 #include "record/SetupJson.h"
 #include "replay/Replay.h"
@@ -29,8 +30,8 @@ void refuse_repetition(const SessionRequest& request) {
     if (is_unfinished(session.state))
       throw Error(fmt::format("participant {} has an unfinished session of {} in {}; go on with "
                               "it: heft resume --db {} --session {}",
-                              request.participant, request.protocol.name, request.db, request.db,
-                              session.session_id),
+                              request.participant, request.protocol.name, request.db,
+                              shell_quoted(request.db), session.session_id),
                   ExitCode::usage);
     if (!request.again)
       throw Error(fmt::format("participant {} has {} {} in {} (session {}); to run it once "
@@ -137,6 +138,7 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   Engine engine(protocol, request.seed);
   tell_setup(engine, log, request.setup);
   const RunEnd end = run_with(equipment, engine, log, runner, 0);
+  log.flush();  // it is still where it is thought to be
   return result_of(engine, end, log.session_id());
 }
 
@@ -155,7 +157,7 @@ LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_
   throw Error(
       fmt::format("{} holds no unfinished session; start one: heft run PROTOCOL "
                   "--participant ID --db {}",
-                  db, db));
+                  db, shell_quoted(db)));
 }
 
 void give_again(LoggedSession& session, const GivenOptions& again) {
@@ -198,6 +200,7 @@ SessionResult resume_session(const LoggedSession& session, const RunnerOptions& 
     tell_setup(reopened.engine, reopened.log, session.setup);
   reopened.log.flush();  // all of the return or nothing of it
   const RunEnd end = run_with(equipment, reopened.engine, reopened.log, runner, now_s);
+  reopened.log.flush();
   return result_of(reopened.engine, end, session.row.session_id);
 }
 

@@ -32,6 +32,8 @@ struct RunnerOptions {
   std::function<void(const Engine&)> progress = [](const Engine&) {};
   /// Set from a signal handler to stop at the next picture; the session can be resumed.
   const std::atomic<bool>* stop = nullptr;
+  /// What is to be said where there is no desk.
+  std::function<void(const std::string&)> tell = [](const std::string&) {};
   Desk* desk = nullptr;  ///< the experimenter's; only on a wall clock
 };
 

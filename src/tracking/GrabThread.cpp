@@ -1,7 +1,12 @@
 #include "tracking/GrabThread.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <exception>
 #include <utility>
+
+#include "base/Error.h"
 
 namespace heft {
 
@@ -17,7 +22,24 @@ GrabThread::GrabThread(Grab grab, double pause_s)
       pause_s_(pause_s),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
+// An exception that leaves a thread ends the program.
 void GrabThread::run(const std::stop_token& stop) {
+  std::string failure;
+  try {
+    return grab_until(stop);
+  } catch (const std::exception& error) {
+    failure = error.what();
+  } catch (...) {
+    failure = "for no reason that it told";
+  }
+  {
+    const std::scoped_lock lock(mutex_);
+    failure_ = failure;
+  }
+  changed_.notify_all();
+}
+
+void GrabThread::grab_until(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::optional<GrabbedPicture> picture = grab_();
     if (picture) {
@@ -42,7 +64,10 @@ void GrabThread::keep(GrabbedPicture picture) {
 std::optional<CameraPicture> GrabThread::next(double timeout_s) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, std::chrono::duration<double>(timeout_s),
-                    [this] { return newest_.has_value(); });
+                    [this] { return newest_.has_value() || !failure_.empty(); });
+  if (!newest_ && !failure_.empty())
+    throw Error(fmt::format("the camera failed and gives no more pictures: {}", failure_),
+                ExitCode::device_missing);
   return std::exchange(newest_, std::nullopt);
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "tracking/Camera.h"
@@ -29,10 +30,12 @@ class GrabThread {
   /// The newest picture that was not given yet; waits for it. None after timeout_s. A picture that
   /// equals the one before it in every byte is none: real sensors have noise, so it tells that the
   /// camera is frozen.
+  /// @throws Error when grab has thrown, after the last picture before: it is not asked again
   std::optional<CameraPicture> next(double timeout_s);
 
  private:
   void run(const std::stop_token& stop);
+  void grab_until(const std::stop_token& stop);
   void keep(GrabbedPicture picture);
 
   Grab grab_;
@@ -40,6 +43,7 @@ class GrabThread {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::optional<CameraPicture> newest_;  ///< not given yet
+  std::string failure_;                  ///< what grab has thrown, if anything
   std::int64_t n_kept_ = 0;
   Image last_;           ///< of the thread alone
   std::jthread thread_;  ///< last: it uses all others

@@ -9,8 +9,10 @@
 #include <sstream>
 
 #include "base/Error.h"
+#include "base/Printable.h"
 #include "base/TextFile.h"
 #include "tracking/Intrinsics.h"
+#include "tracking/PlainYaml.h"
 
 namespace heft {
 
@@ -20,11 +22,20 @@ constexpr int largest_side_px = 20000;
 class Reader {
  public:
   Reader(const std::string& text, const std::string& file) : file_(file), text_(text) {
+    if (const auto fault = fault_in_plain_yaml(text)) {
+      mistakes_.push_back({{file_, fault->line, fault->column},
+                           fmt::format("this is no plain YAML: it holds {}; expected a camera file "
+                                       "as heft calibrate camera writes it",
+                                       fault->what)});
+      throw InvalidFile(std::move(mistakes_));
+    }
     try {
       const std::string whole = has_heading(text) ? text : heading + text;
       storage_.open(whole, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     } catch (const cv::Exception& error) {
       refuse_syntax(error);
+    } catch (const std::exception& error) {  // lengths that it has miscounted
+      refuse(fmt::format("this is no YAML that OpenCV can read: {}", error.what()));
     }
     if (!storage_.isOpened() || !storage_.root().isMap())
       refuse(
@@ -98,8 +109,7 @@ class Reader {
 
   static bool has_heading(const std::string& text) {
     const auto start = text.find_first_not_of(" \t\r\n");
-    return start != std::string::npos &&
-           (text[start] == '%' || text[start] == '<' || text[start] == '{');
+    return start != std::string::npos && text[start] == '%';
   }
 
   // OpenCV 4.6 puts "(LINE): what" where an exception has its function's name.
@@ -200,7 +210,7 @@ std::string read_camera_file(const std::string& path) {
   } catch (const Error& error) {
     throw Error(fmt::format("{}; it is the camera's calibration, which is made with heft calibrate "
                             "camera --camera camera:0 --board BOARD.toml --out {}",
-                            error.what(), path),
+                            error.what(), shell_quoted(path)),
                 error.exit_code());
   }
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/Error.h"
+#include "base/TextFile.h"
 #include "view/SceneDrawing.h"
 
 namespace heft {
@@ -45,6 +46,7 @@ class VideoView final : public ArView {
           fmt::format("{} exists already and would be written over; name another video, or "
                       "remove it first",
                       setup.file));
+    create_file(setup.file, 0600);  // people's hands may be in it
     const Image& first = drawing_.draw({});
     if (!writer_.open(setup.file, writer, four_cc(codec), setup.rate_hz,
                       {first.width, first.height}))

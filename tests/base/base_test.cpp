@@ -120,11 +120,27 @@ TEST(Sha256, gives_the_standard_digest_of_abc) {  // FIPS 180-2, appendix B.1
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
+// A laboratory's machine with an empty battery.
+TEST(Build, times_before_1970_are_read_back) {
+  const auto at = [](std::chrono::milliseconds since_1970) {
+    return utc_of(std::chrono::system_clock::time_point(since_1970));
+  };
+  using std::chrono::milliseconds;
+  EXPECT_EQ(at(milliseconds(-1)), "1969-12-31T23:59:59.999Z");
+  EXPECT_EQ(at(milliseconds(-1000)), "1969-12-31T23:59:59.000Z");
+  EXPECT_EQ(at(milliseconds(1001)), "1970-01-01T00:00:01.001Z");
+  EXPECT_NEAR(seconds_since(at(milliseconds(-1500))) - seconds_since(at(milliseconds(500))), 2, .1);
+  // As it stands in logs that were written before.
+  EXPECT_NEAR(seconds_since("1969-12-31T23:59:59.-500Z") - seconds_since(at(milliseconds(0))), 1.5,
+              .1);
+}
+
 TEST(Build, times_in_utc_are_read_back) {
   EXPECT_NEAR(seconds_since(utc_now()), 0, 5);
   EXPECT_NEAR(seconds_since("2026-01-01T00:00:00.500Z") - seconds_since("2026-01-01T00:01:00.250Z"),
               59.75, 0.1);
   EXPECT_THROW(seconds_since("yesterday"), Error);
+  EXPECT_THROW(seconds_since("2026-01-01T00:00:00.-Z"), Error);
   EXPECT_THAT(build_name(), HasSubstr("build "));
 }
 

@@ -1,6 +1,7 @@
 // A file that replaces another loses nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -63,6 +64,31 @@ TEST(RequireWritable, SaysWhatIsWrongBeforeTheWork) {
   EXPECT_THAT(refusal(folder.file("missing/camera.yaml")), HasSubstr("does its folder exist"));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("it is a folder"));
   EXPECT_THAT(refusal("/dev/null"), HasSubstr("a device"));
+}
+
+TEST(ReadTextFile, NeverWaitsForAPipe) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  for (const std::string& path : {folder.file("pipe"), std::string("/dev/zero")}) try {
+      read_text_file(path);
+      ADD_FAILURE() << path;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("a device or a pipe, expected a file"));
+    }
+}
+
+TEST(CreateFile, WritesOverNothingAndFollowsNoLink) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("new");
+  EXPECT_TRUE(create_file(path, 0600));
+  EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  replace_text_file(path, "kept");
+  EXPECT_FALSE(create_file(path, 0600));
+  EXPECT_EQ(read_text_file(path), "kept");
+  fs::create_symlink("nowhere", folder.file("link"));
+  EXPECT_FALSE(create_file(folder.file("link"), 0600));
+  EXPECT_FALSE(fs::exists(folder.file("nowhere")));
+  EXPECT_THROW(create_file(folder.file("no/such/file"), 0600), Error);
 }
 
 }  // namespace

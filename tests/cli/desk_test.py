@@ -7,6 +7,7 @@ import pty
 import re
 import select
 import shutil
+import sqlite3
 import subprocess
 import tempfile
 import threading
@@ -144,6 +145,26 @@ class Desk(AtADesk):
         self.terminal.reader.join()
         self.assertIn("heft resume", self.terminal.shown)
         self.assertEqual(query(self.db, "select state from session"), [("paused",)])
+
+    def test_a_locked_log_holds_the_session_and_says_so(self):
+        self.until_a_sorting_trial_is_open()
+        other = sqlite3.connect(self.db, isolation_level=None)
+        other.execute("begin immediate")
+        self.terminal.press("nwritten while it was locked\n")
+        self.shows("the log is kept locked by another program; waiting")
+        self.shows("  paused  ")
+        time.sleep(7)  # longer than any timeout of a single write
+        self.assertIsNone(self.terminal.program.poll(), self.terminal.shown)
+        self.assertEqual(self.n("note"), 0)
+        other.execute("rollback")
+        other.close()
+        self.assertTrue(self.terminal.wait_for(lambda: self.n("continued") == 1))
+        self.assertEqual(self.n("paused", "and detail = 'the log is locked by another program'"), 1)
+        self.assertEqual(self.n("note"), 1)
+        self.assertTrue(self.terminal.wait_for(self.person.open_trial))
+        self.terminal.press("ey")
+        self.assertTrue(self.terminal.wait_for(lambda: self.terminal.program.poll() is not None))
+        self.assertEqual(self.terminal.program.returncode, 130)
 
     def test_it_shows_which_page_the_participant_reads(self):
         self.shows("  welcome  nothing tracked  ")

@@ -83,6 +83,14 @@ TEST(Trajectory, damaged_files_are_refused_or_read_but_never_crash) {
   EXPECT_LT(n_refused, 20000);
 }
 
+TEST(Trajectory, numbers_that_physics_can_not_bear_are_refused_where_they_stand) {
+  const auto refused = [](const std::string& row) { return mistakes_of(header + row + "\n"); };
+  EXPECT_EQ(refused("0,-1e6,1e6,0,1,0,0,0"), "");
+  for (const std::string far : {"1e308", "-1e308", "1000001"})
+    EXPECT_EQ(refused("0,0," + far + ",0,1,0,0,0").find("hand.csv:2:5: y_m is "), 0u) << far;
+  EXPECT_EQ(refused("1e308,0,0,0,1,0,0,0").find("hand.csv:2:1: t_s is "), 0u);
+}
+
 TEST(LogTime, durations_are_the_same_wherever_in_a_session_they_lie) {
   RandomStream stream(2, "times");
   for (int i = 0; i < 1000; ++i) {

@@ -55,6 +55,26 @@ TEST(SceneFile, ReadsEveryKey) {
   EXPECT_EQ(scene.cubes[1].yaw_rad, 0.25);
 }
 
+TEST(SceneFile, NumbersThatPhysicsCanNotBearAreRefusedWhereTheyStand) {
+  const auto refusal = [](const std::string& from, const std::string& to) -> std::string {
+    std::string text = everything;
+    try {
+      parse_scene(text.replace(text.find(from), from.size(), to), "far.toml");
+    } catch (const InvalidFile& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal("[-0.1, 0.02, 0.02]", "[1e308, 0.02, 0.02]"),
+              HasSubstr("far.toml:17:15: position_m is 1e+308, expected a number, at "
+                        "least -1000000 and at most 1000000"));
+  EXPECT_THAT(refusal("[-0.1, 0.02, 0.02]", "[-0.1, 2e6, 0.02]"), HasSubstr("at most 1000000"));
+  EXPECT_THAT(refusal("offset_m = [0.01,", "offset_m = [1e9,"), HasSubstr("offset_m"));
+  EXPECT_THAT(refusal("size_m = 0.04", "size_m = 1e7"), HasSubstr("size_m"));
+  EXPECT_THAT(refusal("[0.1, 0.03, 0.02]", "[0.1, 0.03, 1e11]"), HasSubstr("size_m"));
+}
+
 TEST(SceneFile, AbsentKeysAreThePapersDecoupling) {
   const Scene scene = parse_scene("friction = 0.8\n", "short.toml");
   EXPECT_EQ(scene.gravity_m_s2, 9.81);

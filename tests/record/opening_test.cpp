@@ -151,6 +151,9 @@ TEST_F(opening, a_second_writer_is_refused_while_the_first_lives) {
     EXPECT_THAT(failure([&] { SessionArchive archive(file_); }), HasSubstr("in use"));
     std::filesystem::create_symlink(file_, folder_.file("same.db"));
     EXPECT_THAT(failure_to_start(folder_.file("same.db")), HasSubstr("in use"));
+    std::filesystem::create_hard_link(file_, folder_.file("twin.db"));
+    EXPECT_THAT(failure_to_start(folder_.file("twin.db")), HasSubstr("in use"));
+    std::filesystem::remove(folder_.file("twin.db"));
     SessionLog moved = std::move(log);
     EXPECT_THAT(failure_to_start(file_), HasSubstr("in use"));
   }
@@ -165,14 +168,53 @@ TEST_F(opening, the_lock_dies_with_its_owner) {
   });
   ASSERT_TRUE(owner.read_byte());
   EXPECT_THAT(failure_to_start(file_), HasSubstr("in use"));
+  std::filesystem::create_hard_link(file_, folder_.file("twin.db"));
+  EXPECT_THAT(failure_to_start(folder_.file("twin.db")), HasSubstr("in use"));
+  std::filesystem::remove(folder_.file("twin.db"));
+  std::filesystem::rename(file_, folder_.file("moved.db"));
+  EXPECT_THAT(failure_to_start(folder_.file("moved.db")), HasSubstr("in use"));
+  std::filesystem::rename(folder_.file("moved.db"), file_);
   owner.kill();
+  EXPECT_EQ(failure_to_start(file_), "");
+}
+
+TEST_F(opening, who_is_refused_takes_nobodys_lock_away) {
+  Child owner([&](int out) {
+    SessionLog log = SessionLog::start(file_, header_of("P01"));
+    for (int i = 0; i < 3; ++i) failure_to_start(file_);
+    say(out, "!");
+    ::pause();
+  });
+  ASSERT_TRUE(owner.read_byte());
+  // Had they closed the file, another program would believe itself alone, and tidy up as it goes.
+  SQLite::Database(file_, SQLite::OPEN_READWRITE).execAndGet("SELECT count(*) FROM session");
+  EXPECT_TRUE(std::filesystem::exists(file_ + "-wal"));
+}
+
+TEST_F(opening, a_log_is_for_its_owners_eyes_only) {
+  const mode_t before = ::umask(0);
+  SessionLog log = SessionLog::start(file_, header_of("P01"));
+  ::umask(before);
+  for (const char* end : {"", "-wal", "-shm"}) {
+    struct stat file {};
+    ASSERT_EQ(::stat((file_ + end).c_str(), &file), 0) << end;
+    EXPECT_EQ(file.st_mode & 0777, 0600u) << end;
+  }
+  EXPECT_FALSE(std::filesystem::exists(file_ + "-lock"));
+}
+
+TEST_F(opening, a_log_with_two_names_is_not_written_to) {
+  write_log();
+  std::filesystem::create_hard_link(file_, folder_.file("twin.db"));
+  EXPECT_THAT(failure_to_start(file_), AllOf(HasSubstr(file_), HasSubstr("a hard link")));
+  EXPECT_EQ(LogReader(file_).sessions().size(), 1u);
+  std::filesystem::remove(folder_.file("twin.db"));
   EXPECT_EQ(failure_to_start(file_), "");
 }
 
 TEST_F(opening, a_read_only_file_is_refused_before_the_session_starts) {
   write_log();
   ::chmod(folder_.path().c_str(), 0777);
-  ::chmod((file_ + "-lock").c_str(), 0666);
   ::chmod(file_.c_str(), 0444);
   EXPECT_THAT(failure_as_ordinary_user([&] { SessionLog::start(file_, header_of("P02")); }),
               AllOf(HasSubstr(file_), HasSubstr("read-only"), HasSubstr("--db FILE")));

@@ -5,6 +5,7 @@
 #include <queue>
 #include <semaphore>
 
+#include "base/Error.h"
 #include "tracking/GrabThread.h"
 
 namespace heft {
@@ -110,6 +111,24 @@ TEST(GrabThread, GoesOnAfterADeviceWasUnplugged) {
   const auto picture = thread.next(long_s);
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->capture_s, 5);
+}
+
+TEST(GrabThread, WhatTheDeviceThrowsReachesTheReaderAfterTheLastPicture) {
+  int n = 0;
+  GrabThread thread(
+      [&n]() -> std::optional<GrabbedPicture> {
+        if (n++ == 0) return GrabbedPicture{gray(10), 1.5};
+        throw std::runtime_error("the driver is broken");
+      },
+      pause_s);
+  ASSERT_TRUE(thread.next(long_s));
+  for (int i = 0; i < 2; ++i) try {
+      thread.next(long_s);
+      ADD_FAILURE() << "gave a picture";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), ExitCode::device_missing);
+      EXPECT_NE(std::string(error.what()).find("the driver is broken"), std::string::npos);
+    }
 }
 
 TEST(GrabThread, EndsWhileItPausesAfterAFailure) {

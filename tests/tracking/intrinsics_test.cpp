@@ -1,9 +1,12 @@
 // The projection against OpenCV's own, and a camera's file.
 #include "tracking/Intrinsics.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdlib>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
@@ -154,6 +157,8 @@ std::string refusal(const std::string& text) {
     parse_intrinsics(text, "c.yaml");
   } catch (const InvalidFile& error) {
     return error.what();
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << error.what() << " was thrown for\n" << text;
   }
   return "accepted";
 }
@@ -206,6 +211,99 @@ TEST(IntrinsicsFile, RefusesGarbage) {
       yaml[random.below(yaml.size())] = static_cast<char>(random.below(256));
     refusal(yaml);  // whatever it says, it neither crashes nor throws anything else
   }
+}
+
+TEST(IntrinsicsFile, OpenCvNeverSeesWhatItCanNotBear) {
+  const std::string yaml = to_yaml(mild, "");
+  const auto with = [&](const std::string& line) { return refusal(yaml + line + "\n"); };
+  EXPECT_THAT(refusal("<?xml version=\"1.0\"?><opencv_storage/>"), HasSubstr("c.yaml:1:1: "));
+  EXPECT_THAT(refusal(" \n<?xml version="), HasSubstr("it holds XML"));
+  EXPECT_THAT(refusal("{\"image_width\": 640}"), HasSubstr("it holds \"{\""));
+  EXPECT_THAT(with("x: !!binary |"),
+              HasSubstr("c.yaml:15:4: this is no plain YAML: it holds a tag"));
+  EXPECT_THAT(with("x: [ !!binary [ a ] ]"), HasSubstr("a tag"));
+  EXPECT_THAT(with("x: !!opencv-nd-matrix"), HasSubstr("a tag"));
+  EXPECT_THAT(with("x: !!opencv-matrix 3"), HasSubstr("a tag"));
+  EXPECT_THAT(with("x: &a 3"), HasSubstr("an anchor"));
+  EXPECT_THAT(with("x: *a"), HasSubstr("an anchor"));
+  EXPECT_THAT(with("x: |"), HasSubstr("\"|\""));
+  EXPECT_THAT(with("x: " + std::string(100'000, '[')), HasSubstr("a list in a list"));
+  EXPECT_THAT(with("- - - - 1"), HasSubstr("a list in a list"));
+  EXPECT_THAT(with("a: b: c: d: e: f: g"), HasSubstr("a key within a value"));
+  EXPECT_THAT(with(" : 1"), HasSubstr("a colon without a key"));
+  EXPECT_THAT(with("x: [ 1, 2"), HasSubstr("does not end"));
+  EXPECT_THAT(with("x: \"a"), HasSubstr("does not end"));
+  EXPECT_THAT(refusal(yaml + "# " + std::string(5'000'000, '.')), HasSubstr("bytes"));
+  EXPECT_THAT(refusal(yaml + std::string(1, '\0')), HasSubstr("NUL"));
+}
+
+TEST(IntrinsicsFile, StillReadsWhatOtherProgramsWrite) {
+  // OpenCV's own calibration sample adds these; a comment may say anything.
+  const std::string more =
+      "calibration_time: \"Sat Nov 21 23:05:31 2026\"\n# flags: <none> & *more* {}!\nflags: 0\n"
+      "per_view: !!opencv-matrix\n   rows: 2\n   cols: 1\n   dt: f\n"
+      "   data: [ 1.e-01,\n       2.5e+00 ]\nnames:\n   - \"a.png\"\n   - \"b.png\"\n";
+  expect_same(parse_intrinsics(to_yaml(mild, "caf\xc3\xa9") + more, "c.yaml"), mild);
+  // ROS's: lists by dashes or in brackets, and no first line.
+  expect_same(parse_intrinsics("image_width: 640\nimage_height: 480\ncamera_name: left\n"
+                               "camera_matrix:\n  rows: 3\n  cols: 3\n"
+                               "  data: [540, 0, 318, 0, 542, 241, 0, 0, 1]\n"
+                               "distortion_model: plumb_bob\ndistortion_coefficients:\n"
+                               "  data: [.06, -.15, .001, -.0008]\n",
+                               "c.yaml"),
+              mild);
+}
+
+// The seed is printed where one fails; HEFT_FUZZ_SEED gives another.
+TEST(IntrinsicsFile, MutatedFilesAreReadOrRefused) {
+  const char* given = std::getenv("HEFT_FUZZ_SEED");
+  const std::uint64_t seed = given ? std::stoull(given) : 20261121;
+  RandomStream random(seed, "mutations");
+  const std::array<std::string, 20> pieces{"!!binary",
+                                           "<?xml version=\"1.0\"?>",
+                                           "&a ",
+                                           "*a",
+                                           "[",
+                                           "]",
+                                           "{",
+                                           "}",
+                                           "- ",
+                                           ": ",
+                                           "!!opencv-matrix",
+                                           "%YAML:1.0\n",
+                                           "---\n",
+                                           "\"",
+                                           "'",
+                                           "\n",
+                                           "\n   ",
+                                           "1e308",
+                                           "|",
+                                           "...\n"};
+  const std::string yaml = to_yaml(rational, "a comment");
+  int n_accepted = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    SCOPED_TRACE(fmt::format("seed {}, file {}", seed, i));
+    std::string text = yaml;
+    for (auto n = random.below(4) + 1; n > 0; --n) {
+      const auto at = random.below(text.size());
+      switch (random.below(4)) {
+        case 0:
+          text[at] = static_cast<char>(random.below(256));
+          break;
+        case 1:
+          text.insert(at, pieces[random.below(pieces.size())]);
+          break;
+        case 2:
+          text.erase(at, random.below(20));
+          break;
+        default:
+          text.insert(at, text.substr(random.below(text.size()), random.below(60)));
+      }
+      if (text.empty()) text.push_back(' ');
+    }
+    n_accepted += refusal(text) == "accepted" ? 1 : 0;
+  }
+  EXPECT_GT(n_accepted, 200) << "hardly any came as far as OpenCV";
 }
 
 }  // namespace

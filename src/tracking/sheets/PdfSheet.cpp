@@ -18,6 +18,16 @@ constexpr double points_per_mm = 72 / 25.4;
 void set_gray(cairo_t* context, double gray) {
   cairo_set_source_rgb(context, gray, gray, gray);
 }
+// A sheet that was printed, measured and glued stays as it is.
+const std::string& new_file(const std::string& path) {
+  require_writable(path);
+  if (!create_file(path, 0666))
+    throw Error(
+        fmt::format("{} is there already and would be written over; name another file, or remove "
+                    "it first",
+                    path));
+  return path;
+}
 }  // namespace
 
 struct PdfSheet::Parts {
@@ -34,7 +44,7 @@ struct PdfSheet::Parts {
 };
 
 PdfSheet::PdfSheet(const std::string& path, const PointMm& paper_mm, const std::string& title)
-    : parts_(std::make_unique<Parts>(path, paper_mm)), path_(path) {
+    : parts_(std::make_unique<Parts>(new_file(path), paper_mm)), path_(path) {
   cairo_pdf_surface_set_metadata(parts_->surface.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
 }
 

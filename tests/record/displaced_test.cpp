@@ -1,0 +1,159 @@
+// A log that is moved, replaced, deleted or linked while it is written: told before anything more
+// is called saved, and nothing that was saved is lost.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/Error.h"
+#include "record/Integrity.h"
+#include "record/LogReader.h"
+#include "record/SessionArchive.h"
+#include "record/SessionLog.h"
+#include "record/rows.h"
+#include "record/temporary_folder.h"
+
+namespace heft::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+template <typename Work>
+std::string failure(Work&& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class displaced : public testing::Test {
+ protected:
+  displaced() { note(1); }
+
+  void note(double t_s) {
+    log_->append(event(t_s, EventKind::note, "kept"), {}, Durability::acknowledged);
+  }
+  std::string failure_of_note() {
+    return failure([&] { note(2); });
+  }
+  std::string failure_of_flush() {
+    return failure([&] { log_->flush(); });
+  }
+  void expect_whole(const std::string& file) {
+    log_.reset();
+    ASSERT_TRUE(fs::exists(file)) << file;
+    EXPECT_TRUE(!fs::exists(file + "-wal") || fs::is_empty(file + "-wal"))
+        << "rows lie beside the file";
+    EXPECT_TRUE(check_integrity(file).empty());
+    const auto events = LogReader(file).events(1);
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].event.detail, "kept");
+  }
+
+  TemporaryFolder folder_;
+  std::string file_ = folder_.file("my lab.db"), other_ = folder_.file("other.db");
+  std::optional<SessionLog> log_{SessionLog::start(file_, header_of("P01"))};
+};
+
+TEST_F(displaced, a_moved_log_is_noticed_at_the_next_event) {
+  fs::rename(file_, other_);
+  EXPECT_THAT(failure_of_note(),
+              AllOf(HasSubstr("the event \"note\""), HasSubstr("was moved to " + other_),
+                    HasSubstr("All that was saved is in that file"), HasSubstr("Move it back"),
+                    HasSubstr("heft resume --db '" + file_ + "' --session 1")));
+  EXPECT_NE(failure_of_flush(), "");
+  expect_whole(other_);
+}
+
+TEST_F(displaced, a_moved_log_is_noticed_before_it_is_called_saved) {
+  fs::rename(file_, other_);
+  EXPECT_THAT(failure_of_flush(), AllOf(HasSubstr("the session"), HasSubstr("was moved to")));
+}
+
+TEST_F(displaced, a_log_in_a_moved_folder_is_noticed) {
+  const std::string away = folder_.path() + "-away";
+  fs::rename(folder_.path(), away);
+  EXPECT_THAT(failure_of_note(), HasSubstr("was moved to " + away));
+  expect_whole(away + "/my lab.db");
+  fs::rename(away, folder_.path());
+}
+
+TEST_F(displaced, a_deleted_log_is_rescued) {
+  fs::remove(file_);
+  EXPECT_THAT(failure_of_note(), AllOf(HasSubstr("was deleted"), HasSubstr(file_ + ".rescued"),
+                                       HasSubstr("Put that copy in its place")));
+  expect_whole(file_ + ".rescued");
+  EXPECT_EQ(fs::status(file_ + ".rescued").permissions(),
+            fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(displaced, a_log_that_is_deleted_with_what_lies_beside_it_is_rescued) {
+  for (const char* end : {"", "-wal", "-shm"}) fs::remove(file_ + end);
+  EXPECT_THAT(failure_of_flush(), HasSubstr(file_ + ".rescued"));
+  expect_whole(file_ + ".rescued");
+}
+
+TEST_F(displaced, a_replaced_log_is_rescued) {
+  std::ofstream(other_) << "something else";
+  fs::rename(other_, file_);
+  EXPECT_THAT(failure_of_note(), AllOf(HasSubstr("was replaced"), HasSubstr(".rescued")));
+  expect_whole(file_ + ".rescued");
+  EXPECT_EQ(fs::file_size(file_), 14u);
+}
+
+TEST_F(displaced, a_second_name_is_noticed) {
+  fs::create_hard_link(file_, other_);
+  EXPECT_THAT(failure_of_note(), AllOf(HasSubstr("a hard link"), HasSubstr("Remove the other")));
+  expect_whole(file_);
+}
+
+TEST_F(displaced, newest_rows_that_were_deleted_are_noticed) {
+  fs::remove(file_ + "-wal");
+  EXPECT_THAT(failure_of_note(), HasSubstr("-wal"));
+  expect_whole(file_);
+}
+
+TEST_F(displaced, a_link_that_leads_elsewhere_is_noticed) {
+  const std::string link = folder_.file("link.db");
+  log_.reset();
+  fs::create_symlink(file_, link);
+  log_.emplace(SessionLog::reopen(link, 1));
+  std::ofstream(other_) << "";
+  fs::remove(link);
+  fs::create_symlink(other_, link);
+  EXPECT_THAT(failure_of_note(), AllOf(HasSubstr("moved to " + file_)));
+}
+
+TEST_F(displaced, one_that_was_moved_back_can_be_resumed) {
+  fs::rename(file_, other_);
+  ASSERT_NE(failure_of_note(), "");
+  fs::rename(other_, file_);
+  EXPECT_NE(failure_of_note(), "") << "nothing may follow a lost event";
+  log_.reset();
+  log_.emplace(SessionLog::reopen(file_, 1));
+  note(3);
+  EXPECT_EQ(LogReader(file_).events(1).size(), 2u);
+}
+
+TEST_F(displaced, a_simulation_that_lost_its_file_says_so) {
+  log_.reset();
+  SessionArchive archive(file_);
+  fs::rename(file_, other_);
+  RecordedSession session(header_of("P02"));
+  EXPECT_THAT(failure([&] { archive.store(session); }), HasSubstr("was moved to " + other_));
+}
+
+TEST_F(displaced, what_nobody_was_told_of_is_told_at_the_end) {
+  fs::rename(file_, other_);
+  testing::internal::CaptureStderr();
+  log_.reset();
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("was moved to"));
+}
+
+}  // namespace
+}  // namespace heft::test

@@ -1,0 +1,70 @@
+// A log that somebody has put something into: nothing of it runs, for writers and readers.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "record/Integrity.h"
+#include "record/LogFile.h"
+#include "record/LogReader.h"
+#include "record/ReadOnlyDatabase.h"
+#include "record/SessionLog.h"
+#include "record/rows.h"
+#include "record/temporary_folder.h"
+
+namespace heft::test {
+namespace {
+
+using testing::HasSubstr;
+
+class hostile : public testing::Test {
+ protected:
+  hostile() {
+    SessionLog log = SessionLog::start(file_, header_of("P01"));
+    log.append(event(1, EventKind::note, "here"), {}, Durability::acknowledged);
+  }
+  void put_in(const std::string& sql) { SQLite::Database(file_, SQLite::OPEN_READWRITE).exec(sql); }
+
+  static std::string failure(SQLite::Database& database, const std::string& sql) {
+    try {
+      SQLite::Statement(database, sql).executeStep();
+    } catch (const SQLite::Exception& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryFolder folder_;
+  std::string file_ = folder_.file("log.db");
+};
+
+TEST_F(hostile, its_triggers_do_not_run) {
+  put_in(
+      "CREATE TABLE loot (text TEXT);"
+      "CREATE TRIGGER spy AFTER INSERT ON event BEGIN INSERT INTO loot VALUES (new.detail); END");
+  try {
+    SessionLog log = SessionLog::reopen(file_, 1);
+    log.append(event(2, EventKind::note, "secret"), {}, Durability::acknowledged);
+  } catch (const std::exception&) {  // to refuse it altogether is as good
+  }
+  SQLite::Database plain(file_, SQLite::OPEN_READONLY);
+  EXPECT_EQ(plain.execAndGet("SELECT count(*) FROM loot").getInt(), 0);
+}
+
+TEST_F(hostile, its_views_are_not_read) {
+  put_in("DROP VIEW v_trial; CREATE VIEW v_trial AS SELECT 'made up' AS outcome");
+  EXPECT_THAT(failure(*open_for_reading(file_), "SELECT * FROM v_trial"), HasSubstr("prohibited"));
+  EXPECT_THAT(failure(LogFile(file_).database(), "SELECT * FROM v_trial"), HasSubstr("prohibited"));
+}
+
+TEST_F(hostile, its_schema_can_not_be_written_and_names_nothing_that_acts) {
+  LogFile log(file_);
+  SQLite::Database& writer = log.database();
+  EXPECT_EQ(writer.execAndGet("PRAGMA trusted_schema").getInt(), 0);
+  EXPECT_EQ(open_for_reading(file_)->execAndGet("PRAGMA trusted_schema").getInt(), 0);
+  writer.exec("PRAGMA writable_schema = ON");
+  EXPECT_THAT(failure(writer, "DELETE FROM sqlite_master"), HasSubstr("may not be modified"));
+  EXPECT_THAT(failure(writer, "SELECT \"no such word\""), HasSubstr("no such column"));
+}
+
+}  // namespace
+}  // namespace heft::test
