@@ -69,7 +69,7 @@ class Rasterizer {
 
   void shade_row(int y, std::uint8_t* bgr) const;
   void paint_row(int y, std::uint8_t* bgr) const;
-  Layer<Sample>::Span columns_in(int y) const;
+  Span columns_in(int y) const;
   void paint_pixel(const Four& solid, const Four& glass, std::uint8_t* bgr) const;
   std::array<int, 3> color(Sample solid, Sample glass, const std::uint8_t* below) const;
 
