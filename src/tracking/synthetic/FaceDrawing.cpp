@@ -12,10 +12,10 @@ using Eigen::Vector3d;
 // Straight edges appear curved through the lens: a piece of this length is straight to 1e-4 px.
 constexpr double piece_m = 0.0051;
 
-using Quad = Polygon<Vector3d, 5>;  // with a corner cut off
+using CutQuad = Polygon<Vector3d, 5>;  // a corner may be cut off
 
 // The part above the table (z >= 0); corners in the board's frame.
-Quad above_table(const Quad& quad_m) {
+CutQuad above_table(const CutQuad& quad_m) {
   return clipped(
       quad_m, [](const Vector3d& corner_m) { return corner_m.z(); },
       [](const Vector3d& from, const Vector3d& to, double s) -> Vector3d {
@@ -24,7 +24,7 @@ Quad above_table(const Quad& quad_m) {
 }
 
 // The outline in pixels, long edges in pieces.
-void outline(const Quad& corners_m, const Pose& camera_from_board, const Lens& lens,
+void outline(const CutQuad& corners_m, const Pose& camera_from_board, const Lens& lens,
              std::vector<Eigen::Vector2d>& outline_px) {
   outline_px.clear();
   for (std::size_t i = 0; i < corners_m.size(); ++i) {
@@ -53,7 +53,7 @@ std::optional<PixelBox> extent_of(const std::vector<PrintedFace>& faces, const S
                                   const Lens& lens) {
   std::vector<Eigen::Vector2d> corners_px;
   for (const PrintedFace& face : faces) {
-    for (const Vector3d& corner : face.patches.front().corners_m) {
+    for (const Vector3d& corner : face.quads.front().corners_m) {
       const Vector3d in_camera = body.in_camera(corner);
       if (in_camera.z() < Lens::nearest_m) return std::nullopt;
       corners_px.push_back(lens.pixel(in_camera));
@@ -69,11 +69,11 @@ void draw_face(const PrintedFace& face, const SeenBody& body, const Lens& lens,
       body.camera_from_board.orientation * body.board_from_body.orientation;
   const Light light =
       Shading(body.camera_from_board).on((camera_from_body * face.normal).cast<float>());
-  for (const PrintedPatch& patch : face.patches) {
-    Quad corners_m;
-    for (const Vector3d& corner_m : patch.corners_m) corners_m.add(body.in_board(corner_m));
+  for (const PrintedQuad& quad : face.quads) {
+    CutQuad corners_m;
+    for (const Vector3d& corner_m : quad.corners_m) corners_m.add(body.in_board(corner_m));
     outline(above_table(corners_m), body.camera_from_board, lens, outline_px);
-    raster.add(outline_px, patch.light * light);
+    raster.add(outline_px, quad.light * light);
   }
 }
 
