@@ -131,7 +131,7 @@ void Rasterizer::clear() {
 
 std::uint8_t Rasterizer::add_surface(const Surface& surface) {
   if (paints_.size() > surface_bits)
-    throw Error("a picture can't hold more than 255 surfaces (about 40 boxes); show fewer things");
+    throw Error("a frame can't hold more than 255 surfaces (about 40 boxes); show fewer things");
   paints_.push_back(
       {surface.bgr, static_cast<int>(std::lround(256 * surface.opacity)), surface.object});
   return static_cast<std::uint8_t>(paints_.size() - 1);
@@ -215,9 +215,9 @@ Span Rasterizer::columns_in(int y) const {
   return {samples.begin / 2, (samples.end + 1) / 2};
 }
 
-void Rasterizer::paint(Image& picture) const {
+void Rasterizer::paint(Image& frame) const {
   for (int y = 0; y < darkness_.n_rows(); ++y) {
-    std::uint8_t* bgr = picture.pixels.data() + static_cast<std::size_t>(y) * picture.row_bytes();
+    std::uint8_t* bgr = frame.pixels.data() + static_cast<std::size_t>(y) * frame.row_bytes();
     shade_row(y, bgr);
     paint_row(y, bgr);
   }

@@ -17,8 +17,8 @@ constexpr double table_tolerance_m = 1e-4;  // so that rounding hides nothing th
 constexpr double straight_enough_px = 0.1;
 constexpr int most_pieces = 8;
 
-// The rays of the picture's border span the view. Beyond them a distortion model means nothing: its
-// polynomial may fold far things back into the picture.
+// The rays of the frame's border span the view. Beyond them a distortion model means nothing: its
+// polynomial may fold far things back into the frame.
 struct RayBounds {
   Vector2d low{1e9, 1e9}, high{-1e9, -1e9};
 };

@@ -1,5 +1,5 @@
-// Where the picture is taken from: takes points of the board frame to pixels as the camera's lens
-// does, and cuts off what can't be seen: what is behind the camera, beside the picture or below the
+// Where the frame is seen from: takes points of the board frame to pixels as the camera's lens
+// does, and cuts off what can't be seen: what is behind the camera, beside the frame or below the
 // table. Straight edges bend under a lens; whoever draws long ones asks how often to divide them.
 #pragma once
 
@@ -63,7 +63,7 @@ class Viewpoint {
 };
 
 /// A good place to look from when no camera says where it is: the participant's side of the table,
-/// 45 cm from the board's center, which is in the middle of the picture.
+/// 45 cm from the board's center, which is in the middle of the frame.
 Pose default_camera_from_board();
 
 }  // namespace heft
