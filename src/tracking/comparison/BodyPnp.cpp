@@ -5,6 +5,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "tracking/BoxFaces.h"
+#include "tracking/ImageConversion.h"
 
 namespace heft {
 
@@ -26,10 +27,6 @@ double area_px2(const DetectedTag& tag) {
   const auto& c = tag.corners_px;
   const Eigen::Vector2d a = c[2] - c[0], b = c[3] - c[1];
   return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
-}
-
-Pose pose_from(const cv::Vec3d& turn, const cv::Vec3d& shift) {
-  return {{shift[0], shift[1], shift[2]}, rotation_from_vector({turn[0], turn[1], turn[2]})};
 }
 
 std::optional<Pose> solved(const Intrinsics& camera, const Points& points, int method) {
