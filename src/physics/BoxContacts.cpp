@@ -137,16 +137,14 @@ Contact face_contact(const Box& reference, const Box& other, const Vector3d& nor
   face = clipped(face, &FaceCorner::u, -1, reference.half_m[i], 1);
   face = clipped(face, &FaceCorner::v, 1, reference.half_m[j], 2);
   face = clipped(face, &FaceCorner::v, -1, reference.half_m[j], 3);
-  std::size_t n = 0;
-  for (std::size_t c = 0; c < face.n; ++c)
-    if (face.corners[c].w < margin_m) face.corners[n++] = face.corners[c];
-  face.n = n;
+  const auto far = std::remove_if(face.begin(), face.end(),
+                                  [&](const FaceCorner& c) { return !(c.w < margin_m); });
+  face.keep_first(static_cast<std::size_t>(far - face.begin()));
   keep_four(face);
 
   Contact contact;
   contact.normal = reference_is_first ? Vector3d(-normal) : normal;
-  for (std::size_t c = 0; c < face.n; ++c) {
-    const FaceCorner& corner = face.corners[c];
+  for (const FaceCorner& corner : face) {
     const Vector3d on_reference_m = face_center_m + corner.u * u + corner.v * v;
     const Vector3d on_other_m = on_reference_m + corner.w * normal;
     auto& point = contact.points[static_cast<std::size_t>(contact.n_points++)];

@@ -5,28 +5,20 @@
 
 namespace heft {
 
-FacePolygon clipped(const FacePolygon& in, double FaceCorner::*coordinate, double sign,
+FacePolygon clipped(const FacePolygon& face, double FaceCorner::*coordinate, double sign,
                     double limit, int clip) {
-  FacePolygon out;
-  for (std::size_t i = 0; i < in.n; ++i) {
-    const FaceCorner& from = in.corners[i];
-    const FaceCorner& to = in.corners[(i + 1) % in.n];
-    const double from_m = limit - sign * (from.*coordinate);
-    const double to_m = limit - sign * (to.*coordinate);
-    if (from_m >= 0) out.add(from);
-    if ((from_m >= 0) == (to_m >= 0)) continue;
-    const double s = from_m / (from_m - to_m);
-    out.add({from.u + s * (to.u - from.u), from.v + s * (to.v - from.v),
-             from.w + s * (to.w - from.w),
-             16 * (4 * (from.feature % 16) + to.feature % 16) + 4 + clip});
-  }
-  return out;
+  return clipped(
+      face, [&](const FaceCorner& corner) { return limit - sign * (corner.*coordinate); },
+      [&](const FaceCorner& from, const FaceCorner& to, double s) -> FaceCorner {
+        return {from.u + s * (to.u - from.u), from.v + s * (to.v - from.v),
+                from.w + s * (to.w - from.w),
+                16 * (4 * (from.feature % 16) + to.feature % 16) + 4 + clip};
+      });
 }
 
 void keep_four(FacePolygon& polygon) {
-  if (polygon.n <= 4) return;
-  const auto begin = polygon.corners.begin();
-  const auto end = begin + static_cast<std::ptrdiff_t>(polygon.n);
+  if (polygon.size() <= 4) return;
+  const auto begin = polygon.begin(), end = polygon.end();
   const auto pick = [&](auto from, auto score) {
     std::iter_swap(from, std::max_element(from, end, [&](const FaceCorner& x, const FaceCorner& y) {
                      return score(x) < score(y);
@@ -41,7 +33,7 @@ void keep_four(FacePolygon& polygon) {
   };
   pick(begin + 2, side);
   pick(begin + 3, [&](const FaceCorner& c) { return -side(c); });
-  polygon.n = 4;
+  polygon.keep_first(4);
 }
 
 }  // namespace heft

@@ -2,8 +2,7 @@
 // corners to keep.
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include "base/Polygon.h"
 
 namespace heft {
 
@@ -13,18 +12,11 @@ struct FaceCorner {
   int feature = 0;             ///< equal in the next step for the same corner
 };
 
-struct FacePolygon {
-  std::array<FaceCorner, 9> corners;  ///< a quadrilateral clipped by four lines has eight
-  std::size_t n = 0;
+using FacePolygon = Polygon<FaceCorner, 9>;  ///< a quadrilateral cut by four lines has eight
 
-  void add(const FaceCorner& corner) {
-    if (n < corners.size()) corners[n++] = corner;
-  }
-};
-
-/// The part within sign * coordinate <= limit (Sutherland and Hodgman 1974).
+/// The part within sign * coordinate <= limit.
 /// @param clip 0...3, which of the four lines; part of new corners' features
-FacePolygon clipped(const FacePolygon& in, double FaceCorner::*coordinate, double sign,
+FacePolygon clipped(const FacePolygon& face, double FaceCorner::*coordinate, double sign,
                     double limit, int clip);
 
 /// Reduces a polygon to the four corners that hold a body best: the deepest, the farthest from it,

@@ -1,5 +1,7 @@
 #include "protocol/ProcedureReader.h"
 
+#include "base/Printable.h"
+
 #include <fmt/format.h>
 
 #include "protocol/KindReaders.h"

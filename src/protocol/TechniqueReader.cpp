@@ -4,8 +4,9 @@
 
 #include <algorithm>
 
+#include "base/Printable.h"
 #include "protocol/PhysicsReader.h"
-#include "protocol/StaircaseReader.h"
+#include "protocol/ProcedureReader.h"
 
 namespace heft {
 

@@ -84,7 +84,7 @@ std::unique_ptr<SQLite::Database> brought_up_to_date(std::unique_ptr<SQLite::Dat
     LogFile upgraded(path);
     return opened_somehow(file);
   } catch (const Error& error) {
-    if (error.code() == ExitCode::diverged) throw;
+    if (error.exit_code() == ExitCode::diverged) throw;
   }
   auto copy = std::make_unique<SQLite::Database>(":memory:",
                                                  SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);

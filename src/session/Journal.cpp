@@ -26,14 +26,14 @@ void Journal::stand_still(const LogBusy& why) {
   const bool pauses = clock_.is_wall() && engine_.state() == SessionState::running;
   const double since_s = monotonic_s();
   is_standing_still_ = true;
-  if (pauses) emit_now(EventKind::paused, std::string(log_is_locked));
+  if (pauses) emit_now(SessionPaused{std::string(log_is_locked)});
   for (double waited_s = 0; !writes_again(); waited_s = monotonic_s() - since_s)
     if (!wait_for_log_(waited_s)) {
       is_standing_still_ = false;
       throw LogBusy(why);
     }
   is_standing_still_ = false;
-  if (pauses && engine_.state() == SessionState::paused) emit_now(EventKind::continued);
+  if (pauses && engine_.state() == SessionState::paused) emit_now(SessionContinued{});
 }
 
 bool Journal::writes_again() {

@@ -148,11 +148,11 @@ double quality_of(const std::vector<TagObservation>& tags, const BodyFit& fit) {
   double sum = 0;
   for (const TagObservation& tag : tags)
     sum += tag.quality * (1 - tag.saturated * (1 - saturated_quality));
-  const auto share_left = [](double squared) { return 1 / (1 + squared); };
+  const auto halving = [](double squared) { return 1 / (1 + squared); };
   const double place_variance_m2 = fit.covariance.bottomRightCorner<3, 3>().trace();
   return sum / static_cast<double>(tags.size()) * (fit.ambiguous ? 0.5 : 1) *
-         share_left(fit.rms_px * fit.rms_px / (halved_at_px * halved_at_px)) *
-         share_left(place_variance_m2 / (halved_at_m * halved_at_m));
+         halving(fit.rms_px * fit.rms_px / (halved_at_px * halved_at_px)) *
+         halving(place_variance_m2 / (halved_at_m * halved_at_m));
 }
 }  // namespace
 

@@ -29,7 +29,7 @@ struct TagObservation {
   std::array<Edge, 4> edges;
   double outward = 1;  ///< -1 where the detected border is white within black
   double quality = 0;
-  double saturated = 0;  ///< share of its edges
+  double saturated = 0;  ///< fraction of its edges
   double area_px2 = 0;
 };
 

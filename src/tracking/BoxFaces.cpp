@@ -53,4 +53,14 @@ Eigen::Vector3d tag_center_m(const Tag& tag) {
   return (c[0] + c[1] + c[2] + c[3]) / 4;
 }
 
+Pose body_from_tag(const Tag& tag) {
+  const auto& c = tag.corners_m;
+  const Eigen::Vector3d out = tag_normal(tag);
+  const Eigen::Vector3d across = (c[1] + c[2] - c[0] - c[3]).normalized();
+  const Eigen::Vector3d right = (across - across.dot(out) * out).normalized();
+  Eigen::Matrix3d axes;
+  axes << right, out.cross(right), out;
+  return {tag_center_m(tag), Eigen::Quaterniond(axes)};
+}
+
 }  // namespace heft

@@ -44,5 +44,8 @@ Tag tag_on(const FaceFrame& face, int id, const Eigen::Vector2d& center_m, doubl
 /// Out of the tag's front, of length 1.
 Eigen::Vector3d tag_normal(const Tag& tag);
 Eigen::Vector3d tag_center_m(const Tag& tag);
+/// The tag's own frame: origin in its middle, x right, y up, z out. Its corners need not be an
+/// exact square.
+Pose body_from_tag(const Tag& tag);
 
 }  // namespace heft

@@ -17,7 +17,7 @@ constexpr double enough_coverage = 0.7;
 constexpr double enough_tilt_rad = 40 / degrees;
 constexpr double enough_distance_ratio = 1.15;
 constexpr double good_rms_px = 0.15;
-constexpr double good_focal_share = 0.001;
+constexpr double good_relative_focal_sd = 0.001;
 }  // namespace
 
 void Coverage::add(const TagView& view, int width_px, int height_px) {
@@ -88,7 +88,7 @@ std::vector<std::string> doubts(const CameraCalibration& calibration) {
   const auto doubt = [&](bool when, const std::string& text) {
     if (when) list.push_back(text);
   };
-  const double focal_share = calibration.focal_sd_px / calibration.camera.fx_px;
+  const double relative_focal_sd = calibration.focal_sd_px / calibration.camera.fx_px;
   doubt(calibration.n_used() < enough_views,
         fmt::format("{} views are few; take {} or more", calibration.n_used(), enough_views));
   doubt(calibration.coverage.share() < enough_coverage,
@@ -104,10 +104,10 @@ std::vector<std::string> doubts(const CameraCalibration& calibration) {
         fmt::format("corners are {:.2f} px off (rms), expected {} or less; is the board flat, the "
                     "picture sharp, the exposure short, the focus locked?",
                     calibration.rms_px, good_rms_px));
-  doubt(focal_share > good_focal_share,
+  doubt(relative_focal_sd > good_relative_focal_sd,
         fmt::format("the focal length is known to {:.2f} % only, expected {} %; take more views, "
                     "more tilted and nearer",
-                    100 * focal_share, 100 * good_focal_share));
+                    100 * relative_focal_sd, 100 * good_relative_focal_sd));
   return list;
 }
 

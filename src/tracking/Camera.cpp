@@ -15,7 +15,7 @@ namespace {
 constexpr std::array table{
     CameraEntry{"camera", "a live camera: camera:0 is /dev/video0", open_live_camera},
     CameraEntry{"video", "a video file: video:session.avi", open_video_file},
-    CameraEntry{"frames", "a folder of pictures: frames:pictures/", open_frames_folder},
+    CameraEntry{"frames", "a folder of pictures: frames:pictures/", open_picture_folder},
 };
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "base/Error.h"
+#include "tracking/ImageConversion.h"
 
 namespace heft {
 
@@ -107,10 +108,9 @@ double judge(View& view, const Points& points, const Solution& solution, std::si
   }
   view.result.reprojection_px = std::sqrt(sum_px2 / static_cast<double>(projected.size()));
   view.result.bias_px += along / squares;
-  cv::Mat rotation;
-  cv::Rodrigues(solution.turns[i], rotation);
-  for (int row = 0; row < 3; ++row) view.result.normal[row] = rotation.at<double>(row, 2);
-  view.result.distance_m = cv::norm(solution.shifts[i]);
+  const Pose camera_from_board = pose_from(solution.turns[i], solution.shifts[i]);
+  view.result.normal = camera_from_board.orientation * Eigen::Vector3d::UnitZ();
+  view.result.distance_m = camera_from_board.position_m.norm();
   return std::abs(along / squares);
 }
 
@@ -193,17 +193,12 @@ Intrinsics guessed_camera(int width_px, int height_px) {
 std::optional<Pose> rough_pose(const MarkerBody& board, const Intrinsics& camera,
                                const TagView& view) {
   const Points points = points_of({view, {}}, board);
-  cv::Mat turn, shift, rotation;
+  cv::Vec3d turn, shift;
   if (points.on_board.size() < 4 * least_tags_of_a_view ||
       !cv::solvePnP(points.on_board, points.in_picture, matrix_of(camera), cv::noArray(), turn,
                     shift))
     return std::nullopt;
-  cv::Rodrigues(turn, rotation);
-  Eigen::Matrix3d axes;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) axes(row, column) = rotation.at<double>(row, column);
-  return Pose{{shift.at<double>(0), shift.at<double>(1), shift.at<double>(2)},
-              Eigen::Quaterniond(axes)};
+  return pose_from(turn, shift);
 }
 
 CameraCalibration calibrate_camera(const MarkerBody& board, const std::vector<Image>& pictures,

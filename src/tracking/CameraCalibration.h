@@ -21,7 +21,7 @@ struct Coverage {
   std::array<std::array<int, columns>, rows> corners{};
 
   void add(const TagView& view, int width_px, int height_px);
-  /// Share of cells with any corner.
+  /// Fraction of cells with any corner.
   double share() const;
   /// A line a row, '.' where nothing was seen, 'o' some, '#' much.
   std::string drawing() const;

@@ -16,6 +16,6 @@ std::unique_ptr<Camera> open_video_file(const std::string& path, const CameraReq
 
 /// All pictures of a folder in natural order (frame_2 before frame_10). Times from its times.csv
 /// (columns frame and t_s, frame is a file's name) or 30 pictures a second.
-std::unique_ptr<Camera> open_frames_folder(const std::string& path, const CameraRequest& request);
+std::unique_ptr<Camera> open_picture_folder(const std::string& path, const CameraRequest& request);
 
 }  // namespace heft

@@ -19,9 +19,9 @@ enum Unknown { offset, slope, dark, contrast, gain, blur };
 constexpr double least_contrast = 20;  // gray levels between black and white
 constexpr double least_light_contrast = 0.002;
 constexpr double most_light = 3, saturated_light = 0.97, saturated_blur_sd_px = 0.01;
-constexpr double least_seen_noise = 0.7, clipped_noise_share = 0.4;  // gray levels; of black's
+constexpr double least_seen_noise = 0.7, clipped_noise_ratio = 0.4;  // gray levels; of black's
 constexpr double window_cells = 0.5, least_window_px = 1.0, most_window_px = 5;
-constexpr double corner_px = 2, most_corner_share = 0.2;  // left out: two edges blur together there
+constexpr double corner_px = 2, most_corner_fraction = 0.2;  // left out: two edges blur there
 constexpr int least_pixels = 12;
 constexpr double least_blur_px = 0.2, most_blur_px = 3.5;
 constexpr double least_noise = 0.5;  // rounding to 8 bits alone leaves .3
@@ -61,11 +61,11 @@ struct Sample {
 };
 
 // The predicted edge's own axes.
-struct Frame {
+struct EdgeAxes {
   Eigen::Vector2d start, direction, normal;
   double length, sag;
 
-  explicit Frame(const EdgeGuess& guess)
+  explicit EdgeAxes(const EdgeGuess& guess)
       : start(guess.start_px),
         direction((guess.end_px - guess.start_px).normalized()),
         normal(direction.y(), -direction.x()),
@@ -81,18 +81,18 @@ struct Frame {
 // Pixels in a band along the edge, row by row or column by column, whichever crosses it.
 class Band {
  public:
-  Band(const Image& gray, const Frame& frame, double half_width_px, int most_pixels)
-      : gray_(gray), frame_(frame), half_width_px_(half_width_px) {
-    const bool by_rows = std::abs(frame.direction.y()) > std::abs(frame.direction.x());
+  Band(const Image& gray, const EdgeAxes& axes, double half_width_px, int most_pixels)
+      : gray_(gray), axes_(axes), half_width_px_(half_width_px) {
+    const bool by_rows = std::abs(axes.direction.y()) > std::abs(axes.direction.x());
     major_ = by_rows ? 1 : 0;
     minor_ = 1 - major_;
-    const double trim = std::min(corner_px, most_corner_share * frame.length);
-    most_u_ = 1 - 2 * trim / frame.length;
-    const double a = frame.at(-1, 0)(major_), b = frame.at(1, 0)(major_);
+    const double trim = std::min(corner_px, most_corner_fraction * axes.length);
+    most_u_ = 1 - 2 * trim / axes.length;
+    const double a = axes.at(-1, 0)(major_), b = axes.at(1, 0)(major_);
     const int first = std::max(0, static_cast<int>(std::floor(std::min(a, b))));
     const int last = std::min(major_ == 1 ? gray.height - 1 : gray.width - 1,
                               static_cast<int>(std::ceil(std::max(a, b))));
-    const double reach = half_width_px / std::abs(frame.normal(minor_));
+    const double reach = half_width_px / std::abs(axes.normal(minor_));
     const int stride = std::max(
         1, static_cast<int>(std::ceil((last - first) * 2 * reach / std::max(1, most_pixels))));
     for (int line = first; line <= last; line += stride) add_line(line, reach);
@@ -102,9 +102,9 @@ class Band {
 
  private:
   void add_line(int line, double reach) {
-    const double progress = (line - frame_.start(major_)) / frame_.direction(major_);
-    const double center = frame_.start(minor_) + progress * frame_.direction(minor_);
-    const double margin = reach + std::abs(frame_.sag) + 1;
+    const double progress = (line - axes_.start(major_)) / axes_.direction(major_);
+    const double center = axes_.start(minor_) + progress * axes_.direction(minor_);
+    const double margin = reach + std::abs(axes_.sag) + 1;
     const int size = minor_ == 0 ? gray_.width : gray_.height;
     const int first = std::max(0, static_cast<int>(std::floor(center - margin)));
     const int last = std::min(size - 1, static_cast<int>(std::ceil(center + margin)));
@@ -117,17 +117,17 @@ class Band {
   }
 
   void add_pixel(int x, int y) {
-    const Eigen::Vector2d from_start = Eigen::Vector2d(x, y) - frame_.start;
-    const double u = 2 * from_start.dot(frame_.direction) / frame_.length - 1;
+    const Eigen::Vector2d from_start = Eigen::Vector2d(x, y) - axes_.start;
+    const double u = 2 * from_start.dot(axes_.direction) / axes_.length - 1;
     if (std::abs(u) > most_u_) return;
-    const double d = from_start.dot(frame_.normal) - frame_.bend(u);
+    const double d = from_start.dot(axes_.normal) - axes_.bend(u);
     if (std::abs(d) > half_width_px_) return;
     const auto at = static_cast<std::size_t>(y) * gray_.row_bytes() + static_cast<std::size_t>(x);
     samples.push_back({u, d, static_cast<double>(gray_.pixels[at])});
   }
 
   const Image& gray_;
-  const Frame& frame_;
+  const EdgeAxes& axes_;
   double half_width_px_;
   double most_u_ = 1;
   int major_ = 0, minor_ = 1;
@@ -154,7 +154,7 @@ double plateau_noise(const std::vector<Sample>& samples, bool outside) {
 bool is_clipped(const std::vector<Sample>& samples, bool bright_outside) {
   const double black_noise = plateau_noise(samples, !bright_outside);
   return black_noise > least_seen_noise &&
-         plateau_noise(samples, bright_outside) < clipped_noise_share * black_noise;
+         plateau_noise(samples, bright_outside) < clipped_noise_ratio * black_noise;
 }
 
 // The step model on one band of pixels.
@@ -211,7 +211,7 @@ class StepFit {
     return std::abs(change(offset)) + std::abs(change(slope));
   }
 
-  // Share of pixels that the model explains.
+  // Fraction of pixels that the model explains.
   double explained() const {
     const double bound = outlier_bound();
     int n = 0;
@@ -263,7 +263,7 @@ class StepFit {
 // Two points at which a straight line's errors are independent: at its best known place, plus and
 // minus the distance where offset and slope weigh the same.
 // @param leak_px how far the light of the tag's next cells may have moved the edge
-void place_points(FittedEdge& edge, const Frame& frame, const StepFit& fit, double leak_px) {
+void place_points(FittedEdge& edge, const EdgeAxes& axes, const StepFit& fit, double leak_px) {
   const Matrix6 covariance = fit.information.inverse();
   const double slope_variance = covariance(slope, slope);
   const double best_u = -covariance(offset, slope) / slope_variance;
@@ -272,7 +272,7 @@ void place_points(FittedEdge& edge, const Frame& frame, const StepFit& fit, doub
                                                                 slope_variance;
   const double half = std::sqrt(best_variance / slope_variance);
   const auto on_edge = [&](double u) {
-    return frame.at(u, fit.unknowns(offset) + fit.unknowns(slope) * u);
+    return axes.at(u, fit.unknowns(offset) + fit.unknowns(slope) * u);
   };
   edge.points_px = {on_edge(best_u - half), on_edge(best_u + half)};
   edge.start_px = on_edge(-1);
@@ -293,9 +293,9 @@ double leak(double cell_px, double blur_px) {
   return cautious * blur_px * normal_at(-(1 - window_cells) * cell_px / blur_px).below;
 }
 
-FittedEdge described(const Frame& frame, const StepFit& fit, double cell_px) {
+FittedEdge described(const EdgeAxes& axes, const StepFit& fit, double cell_px) {
   FittedEdge edge;
-  place_points(edge, frame, fit, leak(cell_px, fit.unknowns(blur)));
+  place_points(edge, axes, fit, leak(cell_px, fit.unknowns(blur)));
   edge.dark = std::min(fit.inside_value(), fit.outside_value());
   edge.bright = std::max(fit.inside_value(), fit.outside_value());
   edge.blur_px = fit.unknowns(blur);
@@ -314,9 +314,9 @@ FittedEdge fit_edge(const Image& gray, const EdgeGuess& first_guess, int most_pi
   const double furthest_px = std::max(1.0, window_cells * guess.cell_px);
   FittedEdge edge;
   for (int band_number = 0; band_number < most_bands; ++band_number) {
-    const Frame frame(guess);
-    if (!(frame.length >= 4)) return {};
-    const Band band(gray, frame, half_width_px, most_pixels);
+    const EdgeAxes axes(guess);
+    if (!(axes.length >= 4)) return {};
+    const Band band(gray, axes, half_width_px, most_pixels);
     if (band.samples.size() < least_pixels) return {};
     StepFit fit(band.samples, guess);
     if (!fit.has_contrast) return {};
@@ -324,7 +324,7 @@ FittedEdge fit_edge(const Image& gray, const EdgeGuess& first_guess, int most_pi
       if (fit.step(i > 1) < settled_px && i > 1) break;
       if (!(moved_px(fit) < 2 * half_width_px)) return {};
     }
-    edge = described(frame, fit, guess.cell_px);
+    edge = described(axes, fit, guess.cell_px);
     const double from_start = std::max((edge.start_px - first_guess.start_px).norm(),
                                        (edge.end_px - first_guess.end_px).norm());
     if (!(from_start < 2 * furthest_px)) return {};

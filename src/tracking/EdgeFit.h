@@ -38,7 +38,7 @@ struct FittedEdge {
   double blur_px = 0;
   double noise = 0;        ///< rms of what the fit leaves, gray levels
   bool saturated = false;  ///< its bright side is clipped: a less certain edge
-  double quality = 0;      ///< share of its pixels that look like an edge; 0 without contrast
+  double quality = 0;      ///< fraction of its pixels that look like an edge; 0 without contrast
 };
 
 /// @param gray 1 channel  @param most_pixels rows or columns are left out of longer edges

@@ -22,17 +22,6 @@ double side_m(const Tag& tag) {
   return sum / 4;
 }
 
-// The frame of a tag whose corners need not be an exact square.
-Pose body_from_tag(const Tag& tag) {
-  const auto& c = tag.corners_m;
-  const Eigen::Vector3d out = tag_normal(tag);
-  const Eigen::Vector3d across = (c[1] + c[2] - c[0] - c[3]).normalized();
-  const Eigen::Vector3d right = (across - across.dot(out) * out).normalized();
-  Eigen::Matrix3d axes;
-  axes << right, out.cross(right), out;
-  return {tag_center_m(tag), Eigen::Quaterniond(axes)};
-}
-
 // Misfit of a view's corners for a pose, each counted up to a limit: one wrong tag must not decide.
 double misfit(const MarkerBody& effector, const Intrinsics& camera, const TagView& view,
               const Pose& camera_from_body) {

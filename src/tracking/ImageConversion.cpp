@@ -27,4 +27,8 @@ Image image_from(const cv::Mat& mat) {
   return image;
 }
 
+Pose pose_from(const cv::Vec3d& turn, const cv::Vec3d& shift_m) {
+  return {{shift_m[0], shift_m[1], shift_m[2]}, rotation_from_vector({turn[0], turn[1], turn[2]})};
+}
+
 }  // namespace heft

@@ -2,6 +2,8 @@
 
 #include <opencv2/calib3d.hpp>
 
+#include "tracking/ImageConversion.h"
+
 namespace heft {
 
 Eigen::Matrix3d square_to(const std::array<Eigen::Vector2d, 4>& c) {
@@ -17,12 +19,6 @@ Eigen::Matrix3d square_to(const std::array<Eigen::Vector2d, 4>& c) {
 }
 
 namespace {
-Pose pose_of(const cv::Mat& rotation, const cv::Mat& translation) {
-  const auto vector = [](const cv::Mat& m) {
-    return Eigen::Vector3d(m.at<double>(0), m.at<double>(1), m.at<double>(2));
-  };
-  return {vector(translation), rotation_from_vector(vector(rotation))};
-}
 // The corners' own plane: origin in their middle, z along its normal. OpenCV 4.6 mirrors points
 // that are not given with z = 0.
 Pose plane_of(const std::array<Eigen::Vector3d, 4>& corners_m) {
@@ -57,7 +53,7 @@ std::vector<Pose> planar_poses(const std::array<Eigen::Vector3d, 4>& corners_m,
   }
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < rotations.size(); ++i) {
-    const Pose camera_from_plane = pose_of(rotations[i], translations[i]);
+    const Pose camera_from_plane = pose_from(rotations[i], translations[i]);
     const Eigen::Quaterniond turn = camera_from_plane.orientation * plane_from_source;
     const Pose pose{camera_from_plane.position_m - turn * source_from_plane.position_m,
                     turn.normalized()};

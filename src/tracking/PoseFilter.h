@@ -1,6 +1,6 @@
 // Smooths the effector's measured poses and gives their velocity, without lag: a constant-velocity
-// Kalman filter whose process noise is low at rest. One-Euro and other low-pass filters lag 20 to
-// 58 ms at useful smoothing, which over video people would feel as mass.
+// Kalman filter whose process noise adapts: low at rest, high in motion. One-Euro and other
+// low-pass filters lag 20 to 58 ms at useful smoothing, which over video people would feel as mass.
 #pragma once
 
 #include <memory>
@@ -30,8 +30,8 @@ class PoseFilter {
   void reset();
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace heft

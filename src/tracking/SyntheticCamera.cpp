@@ -24,7 +24,7 @@ double largest_move_px(const std::vector<PrintedFace>& faces, const SeenBody& fr
                        const SeenBody& to, const Lens& lens) {
   double largest = 0;
   for (const PrintedFace& face : faces) {
-    for (const Vector3d& corner : face.patches.front().corners_m) {
+    for (const Vector3d& corner : face.quads.front().corners_m) {
       const Vector3d a = from.in_camera(corner), b = to.in_camera(corner);
       if (a.z() < Lens::nearest_m || b.z() < Lens::nearest_m) continue;
       largest = std::max(largest, (lens.pixel(a) - lens.pixel(b)).norm());
@@ -45,8 +45,8 @@ Intrinsics default_camera(int width_px, int height_px) {
 SyntheticSettings::SyntheticSettings()
     : camera_from_board(camera_above_board(0.45, 52 * M_PI / 180)) {}
 
-struct SyntheticCamera::Parts {
-  Parts(const Apparatus& apparatus, const SyntheticSettings& with, std::uint64_t seed);
+struct SyntheticCamera::Impl {
+  Impl(const Apparatus& apparatus, const SyntheticSettings& with, std::uint64_t seed);
 
   SeenBody seen(const Pose& board_from_effector) const {
     return {settings.camera_from_board, board_from_effector};
@@ -72,8 +72,8 @@ struct SyntheticCamera::Parts {
   LightPicture moving;   ///< their mean over the exposure, then before the still scene
 };
 
-SyntheticCamera::Parts::Parts(const Apparatus& apparatus, const SyntheticSettings& with,
-                              std::uint64_t seed)
+SyntheticCamera::Impl::Impl(const Apparatus& apparatus, const SyntheticSettings& with,
+                            std::uint64_t seed)
     : settings(with),
       lens(apparatus.camera),
       effector(printed_effector(apparatus.effector)),
@@ -85,7 +85,7 @@ SyntheticCamera::Parts::Parts(const Apparatus& apparatus, const SyntheticSetting
 }
 
 // As many as the smear is long, so that it has no steps.
-int SyntheticCamera::Parts::motion_samples(const EffectorPath& path, double t_s) const {
+int SyntheticCamera::Impl::motion_samples(const EffectorPath& path, double t_s) const {
   const double half_s = settings.optics.exposure_s / 2;
   const auto opens = path(t_s - half_s), closes = path(t_s + half_s);
   if (!opens || !closes) return settings.motion_samples;
@@ -96,8 +96,8 @@ int SyntheticCamera::Parts::motion_samples(const EffectorPath& path, double t_s)
 }
 
 // At the middles of equal parts of the exposure.
-std::vector<std::optional<Pose>> SyntheticCamera::Parts::poses_while_open(const EffectorPath& path,
-                                                                          double t_s) const {
+std::vector<std::optional<Pose>> SyntheticCamera::Impl::poses_while_open(const EffectorPath& path,
+                                                                         double t_s) const {
   const int n = motion_samples(path, t_s);
   std::vector<std::optional<Pose>> poses;
   for (int i = 0; i < n; ++i)
@@ -105,13 +105,13 @@ std::vector<std::optional<Pose>> SyntheticCamera::Parts::poses_while_open(const 
   return poses;
 }
 
-PixelBox SyntheticCamera::Parts::extent(const Pose& pose) const {
+PixelBox SyntheticCamera::Impl::extent(const Pose& pose) const {
   const auto box = extent_of(effector, seen(pose), lens);
   if (!box) return {};
   return settings.hand ? box->around(hand.extent(seen(pose), lens)) : *box;
 }
 
-void SyntheticCamera::Parts::draw_hand_and_effector(const Pose& pose) {
+void SyntheticCamera::Impl::draw_hand_and_effector(const Pose& pose) {
   const SeenBody body = seen(pose);
   const auto extent = extent_of(effector, body, lens);
   if (!extent) return;
@@ -123,15 +123,15 @@ void SyntheticCamera::Parts::draw_hand_and_effector(const Pose& pose) {
   if (settings.hand) hand.draw(FilmedHand::Side::behind_box, body, lens, instant);
 }
 
-void SyntheticCamera::Parts::draw_moving(const std::vector<std::optional<Pose>>& poses,
-                                         const PixelBox& box) {
+void SyntheticCamera::Impl::draw_moving(const std::vector<std::optional<Pose>>& poses,
+                                        const PixelBox& box) {
   if (poses.size() == 1) {
     instant.reset(box);
     draw_hand_and_effector(*poses[0]);
     return std::swap(moving, instant);
   }
   moving.reset(box);
-  const float share = 1 / static_cast<float>(poses.size());
+  const float weight = 1 / static_cast<float>(poses.size());
   for (const std::optional<Pose>& pose : poses) {
     if (!pose) continue;
     instant.reset(box);
@@ -139,11 +139,11 @@ void SyntheticCamera::Parts::draw_moving(const std::vector<std::optional<Pose>>&
     const RowSpans drawn = RowSpans::covered(instant);
     for (int y = box.y0; y < box.y1; ++y)
       for (int x = drawn.at(y).begin; x < drawn.at(y).end; ++x)
-        moving.row(y)[x - box.x0] += share * instant.row(y)[x - box.x0];
+        moving.row(y)[x - box.x0] += weight * instant.row(y)[x - box.x0];
   }
 }
 
-void SyntheticCamera::Parts::put_before_still(const RowSpans& spans) {
+void SyntheticCamera::Impl::put_before_still(const RowSpans& spans) {
   for (int y = moving.box.y0; y < moving.box.y1; ++y) {
     Light* row = moving.row(y) - moving.box.x0;
     const Light* behind = still.row(y);
@@ -152,7 +152,7 @@ void SyntheticCamera::Parts::put_before_still(const RowSpans& spans) {
   }
 }
 
-void SyntheticCamera::Parts::forget(const RowSpans& changed) {
+void SyntheticCamera::Impl::forget(const RowSpans& changed) {
   for (int y = changed.box().y0; y < changed.box().y1; ++y) {
     const Span& span = changed.at(y);
     const auto begin = sensor.place_of(span.begin, y), end = sensor.place_of(span.end, y);
@@ -162,7 +162,7 @@ void SyntheticCamera::Parts::forget(const RowSpans& changed) {
 
 SyntheticCamera::SyntheticCamera(const Apparatus& apparatus, const SyntheticSettings& settings,
                                  std::uint64_t seed)
-    : parts_(std::make_unique<Parts>(apparatus, settings, seed)) {}
+    : impl_(std::make_unique<Impl>(apparatus, settings, seed)) {}
 SyntheticCamera::~SyntheticCamera() = default;
 SyntheticCamera::SyntheticCamera(SyntheticCamera&&) noexcept = default;
 SyntheticCamera& SyntheticCamera::operator=(SyntheticCamera&&) noexcept = default;
@@ -171,7 +171,7 @@ SyntheticCamera& SyntheticCamera::operator=(SyntheticCamera&&) noexcept = defaul
 // know as much again.
 Image SyntheticCamera::picture(const EffectorPath& board_from_effector, double t_s,
                                std::uint64_t number) {
-  Parts& p = *parts_;
+  Impl& p = *impl_;
   const auto poses = p.poses_while_open(board_from_effector, t_s);
   PixelBox reached;
   for (const auto& pose : poses)

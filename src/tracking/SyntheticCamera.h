@@ -22,7 +22,7 @@ struct Optics {
   double blur_px = 0.6;  ///< sd of the lens' blur, on linear light; more where out of focus
   /// The tone curve: light to the power of 1/gamma is stored, 1 being linear; none: sRGB.
   std::optional<double> gamma = std::nullopt;
-  double vignetting = 0.3;  ///< share of light lost in the corners; grows with distance squared
+  double vignetting = 0.3;  ///< fraction of light lost in the corners; grows with distance squared
   double exposure = 1;      ///< 1: white paper just below saturation
   double noise = 3;  ///< sd, of 255; the same in all three channels, so gray pictures have it too
   double exposure_s = 0.004;  ///< how long the shutter is open; moving things blur
@@ -59,8 +59,8 @@ class SyntheticCamera {
   Image picture(const EffectorPath& board_from_effector, double t_s, std::uint64_t number);
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace heft

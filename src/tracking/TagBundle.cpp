@@ -1,14 +1,14 @@
 #include "tracking/TagBundle.h"
 
-#include <Eigen/Cholesky>
-#include <algorithm>
-#include <cmath>
+#include <array>
+
+#include "base/LevenbergMarquardt.h"
 
 namespace heft {
 
 namespace {
 // Of the springs, beside corners known to 0.05 px.
-constexpr double corner_sd_px = 0.05, huber = 2.5;
+constexpr double corner_sd_px = 0.05;
 constexpr double place_sd_m = 0.005, turn_sd_rad = 0.1, bias_sd_px = 0.1;
 
 // Unknowns: six of each tag, six of each view, the bias. A pose moves by a turn about its own
@@ -26,15 +26,7 @@ Layout layout_of(const TagBundle& bundle) {
           static_cast<Eigen::Index>(bundle.camera_from_body.size())};
 }
 
-struct Equations {
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd pull;
-  double cost = 0, sum_px2 = 0;
-  int n = 0;
-
-  explicit Equations(Eigen::Index size)
-      : matrix(Eigen::MatrixXd::Zero(size, size)), pull(Eigen::VectorXd::Zero(size)) {}
-};
+using Equations = NormalEquations<Eigen::Dynamic>;
 
 Pose moved(const Pose& pose, const Eigen::Matrix<double, 6, 1>& step) {
   return {pose.position_m + step.tail<3>(),
@@ -50,21 +42,6 @@ TagBundle moved(const TagBundle& bundle, const Eigen::VectorXd& step) {
     next.camera_from_body[i] = moved(next.camera_from_body[i], step.segment<6>(at.view(i)));
   next.bias_px += step(at.bias());
   return next;
-}
-
-// A point's pixel by the point, in the camera frame; distortion by small steps of the ray.
-Eigen::Matrix<double, 2, 3> pixel_by_point(const Intrinsics& camera, const Eigen::Vector3d& p) {
-  constexpr double step = 1e-6;
-  const Eigen::Vector2d ray = p.head<2>() / p.z();
-  Eigen::Matrix2d pixel_by_ray;
-  for (int i = 0; i < 2; ++i) {
-    const Eigen::Vector2d aside = step * Eigen::Vector2d::Unit(i);
-    pixel_by_ray.col(i) =
-        (distort(camera, ray + aside) - distort(camera, ray - aside)) / (2 * step);
-  }
-  Eigen::Matrix<double, 2, 3> ray_by_point;
-  ray_by_point << 1 / p.z(), 0, -ray.x() / p.z(), 0, 1 / p.z(), -ray.y() / p.z();
-  return pixel_by_ray * ray_by_point;
 }
 
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
@@ -87,11 +64,14 @@ CornerEquation corner_equation(const TagBundle& bundle, const Intrinsics& camera
   const Pose& body = bundle.camera_from_body[view];
   const Eigen::Vector3d in_tag = corner_in_tag(bundle.side_m[seen.tag], corner);
   const Eigen::Vector3d in_body = tag * in_tag, in_camera = body * in_body;
-  const auto by_point = pixel_by_point(camera, in_camera);
+  const Eigen::Vector2d ray = in_camera.head<2>() / in_camera.z();
+  const DistortedRay seen_at = distort_with_derivative(camera, ray);
+  Eigen::Matrix<double, 2, 3> ray_by_point;
+  ray_by_point << Eigen::Matrix2d::Identity(), -ray;
+  const Eigen::Matrix<double, 2, 3> by_point = seen_at.pixel_by_ray * ray_by_point / in_camera.z();
   const Eigen::Matrix3d turn = body.orientation.toRotationMatrix();
   CornerEquation equation;
-  equation.residual =
-      project(camera, in_camera) + bundle.bias_px * outward - seen.corners_px[corner];
+  equation.residual = seen_at.pixel + bundle.bias_px * outward - seen.corners_px[corner];
   equation.by_view << -by_point * cross_matrix(body.orientation * in_body), by_point;
   equation.by_tag << -by_point * turn * cross_matrix(tag.orientation * in_tag), by_point * turn;
   equation.by_bias = outward;
@@ -102,8 +82,8 @@ void add(Equations& equations, const CornerEquation& corner, const Layout& at, s
          std::size_t view) {
   Eigen::Matrix<double, 13, 2> by;
   by << corner.by_tag.transpose(), corner.by_view.transpose(), corner.by_bias.transpose();
-  const double size = corner.residual.norm() / corner_sd_px;
-  const double weight = (size > huber ? huber / size : 1) / (corner_sd_px * corner_sd_px);
+  const RobustResidual robust = huber(corner.residual.norm() / corner_sd_px);
+  const double weight = robust.weight / (corner_sd_px * corner_sd_px);
   const std::array<Eigen::Index, 3> place{at.tag(tag), at.view(view), at.bias()};
   const std::array<Eigen::Index, 3> from{0, 6, 12}, length{6, 6, 1};
   for (std::size_t a = 0; a < 3; ++a) {
@@ -113,15 +93,9 @@ void add(Equations& equations, const CornerEquation& corner, const Layout& at, s
       equations.matrix.block(place[a], place[b], length[a], length[b]) +=
           weight * rows * by.middleRows(from[b], length[b]).transpose();
   }
-  equations.cost += size > huber ? huber * (2 * size - huber) : size * size;
-  equations.sum_px2 += corner.residual.squaredNorm();
+  equations.cost += robust.cost;
+  equations.sum_squares += corner.residual.squaredNorm();
   ++equations.n;
-}
-
-void add_spring(Equations& equations, Eigen::Index at, double off, double sd) {
-  equations.matrix(at, at) += 1 / (sd * sd);
-  equations.pull(at) -= off / (sd * sd);
-  equations.cost += off * off / (sd * sd);
 }
 
 void add_springs(Equations& equations, const TagBundle& bundle, const TagBundle& start) {
@@ -131,11 +105,11 @@ void add_springs(Equations& equations, const TagBundle& bundle, const TagBundle&
     const Eigen::Vector3d turn = rotation_vector(now.orientation * then.orientation.conjugate());
     const Eigen::Vector3d shift = now.position_m - then.position_m;
     for (Eigen::Index k = 0; k < 3; ++k) {
-      add_spring(equations, at.tag(i) + k, turn[k], turn_sd_rad);
-      add_spring(equations, at.tag(i) + 3 + k, shift[k], place_sd_m);
+      equations.add_prior(at.tag(i) + k, turn[k], turn_sd_rad);
+      equations.add_prior(at.tag(i) + 3 + k, shift[k], place_sd_m);
     }
   }
-  add_spring(equations, at.bias(), bundle.bias_px, bias_sd_px);
+  equations.add_prior(at.bias(), bundle.bias_px, bias_sd_px);
 }
 
 Equations equations_at(const TagBundle& bundle, const TagBundle& start, const Intrinsics& camera,
@@ -160,25 +134,13 @@ Eigen::Vector3d corner_in_tag(double side_m, std::size_t corner) {
 
 double adjust(TagBundle& bundle, const Intrinsics& camera, const std::vector<TagView>& views) {
   constexpr int most_steps = 60;
+  constexpr double settled = 1e-8;
   const TagBundle start = bundle;
-  Equations equations = equations_at(bundle, start, camera, views);
-  double damping = 1e-3;
-  for (int i = 0; i < most_steps && damping < 1e9; ++i) {
-    Eigen::MatrixXd matrix = equations.matrix;
-    matrix.diagonal() *= 1 + damping;
-    const TagBundle there = moved(bundle, matrix.ldlt().solve(equations.pull));
-    Equations next = equations_at(there, start, camera, views);
-    if (!(next.cost <= equations.cost)) {
-      damping *= 10;
-      continue;
-    }
-    const double gained = equations.cost - next.cost;
-    bundle = there;
-    equations = std::move(next);
-    damping = std::max(damping / 10, 1e-9);
-    if (gained <= 1e-8 * equations.cost) break;
-  }
-  return std::sqrt(equations.sum_px2 / std::max(1, equations.n));
+  const auto at_this = [&](const TagBundle& at) { return equations_at(at, start, camera, views); };
+  const auto step_from = [](const TagBundle& at, const Eigen::VectorXd& by) {
+    return moved(at, by);
+  };
+  return levenberg_marquardt(bundle, most_steps, settled, at_this, step_from).rms();
 }
 
 }  // namespace heft

@@ -19,8 +19,8 @@ constexpr int least_side_px = 16;
 // time and finds no tag more. Dim pictures, and pale prints, are searched as closely as their noise
 // allows.
 constexpr int usual_contrast = 30, library_contrast = 5;
-constexpr double contrast_share = 0.25;  // of the whole picture's
-constexpr double noise_range_sd = 8;     // between the extremes of a tile and its neighbors
+constexpr double contrast_fraction = 0.25;  // of the whole picture's
+constexpr double noise_range_sd = 8;        // between the extremes of a tile and its neighbors
 // Its pixels' centers lie at halves.
 constexpr double center_offset_px = 0.5;
 
@@ -40,10 +40,10 @@ Region clipped(const Region& region, const Image& image) {
   return {left, top, right - left, bottom - top};
 }
 
-// The value below which a share of them lies.
-int quantile_of(std::vector<int>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+// The value below which a fraction of them lies.
+int quantile_of(std::vector<int>& values, double fraction) {
+  const auto at = values.begin() +
+                  static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
   std::ranges::nth_element(values, at);
   return *at;
 }
@@ -62,7 +62,7 @@ int searched_contrast(const Image& gray) {
     }
   const double contrast = quantile_of(values, 0.99) - quantile_of(values, 0.01);
   const double noise_sd = sd_per_median_difference * quantile_of(differences, 0.5);
-  const double wanted = std::max(contrast_share * contrast, noise_range_sd * noise_sd);
+  const double wanted = std::max(contrast_fraction * contrast, noise_range_sd * noise_sd);
   return std::clamp(static_cast<int>(wanted), library_contrast, usual_contrast);
 }
 
@@ -82,18 +82,18 @@ Region whole(const Image& image) {
   return {0, 0, image.width, image.height};
 }
 
-struct TagDetector::Parts {
+struct TagDetector::Impl {
   TagFamilyHandle family;
   std::unique_ptr<apriltag_detector_t, DestroyDetector> detector{apriltag_detector_create()};
   std::vector<std::uint8_t> pixels;  ///< of the region, rows together
 };
 
 TagDetector::TagDetector(const std::string& family, double decimate)
-    : parts_(new Parts{make_tag_family(family), {}, {}}) {
-  parts_->detector.reset(apriltag_detector_create());
-  apriltag_detector_add_family_bits(parts_->detector.get(), parts_->family.get(), bits_corrected);
-  parts_->detector->quad_decimate = static_cast<float>(std::max(1.0, decimate));
-  parts_->detector->nthreads = 1;
+    : impl_(new Impl{make_tag_family(family), {}, {}}) {
+  impl_->detector.reset(apriltag_detector_create());
+  apriltag_detector_add_family_bits(impl_->detector.get(), impl_->family.get(), bits_corrected);
+  impl_->detector->quad_decimate = static_cast<float>(std::max(1.0, decimate));
+  impl_->detector->nthreads = 1;
 }
 
 TagDetector::~TagDetector() = default;
@@ -103,20 +103,20 @@ TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 std::vector<DetectedTag> TagDetector::detect(const Image& gray, const Region& wanted,
                                              EdgeSearch search) {
   const Region region = clipped(wanted, gray);
-  const double smallest = least_side_px * static_cast<double>(parts_->detector->quad_decimate);
+  const double smallest = least_side_px * static_cast<double>(impl_->detector->quad_decimate);
   if (std::min(region.width, region.height) < smallest) return {};
   const auto row = static_cast<std::size_t>(region.width);
-  parts_->pixels.resize(row * static_cast<std::size_t>(region.height));
+  impl_->pixels.resize(row * static_cast<std::size_t>(region.height));
   for (int y = 0; y < region.height; ++y)
-    std::memcpy(&parts_->pixels[static_cast<std::size_t>(y) * row],
+    std::memcpy(&impl_->pixels[static_cast<std::size_t>(y) * row],
                 &gray.pixels[static_cast<std::size_t>(region.y + y) * gray.row_bytes() +
                              static_cast<std::size_t>(region.x)],
                 row);
-  parts_->detector->qtp.min_white_black_diff =
+  impl_->detector->qtp.min_white_black_diff =
       search == EdgeSearch::everywhere ? library_contrast : searched_contrast(gray);
-  image_u8_t picture{region.width, region.height, region.width, parts_->pixels.data()};
+  image_u8_t picture{region.width, region.height, region.width, impl_->pixels.data()};
   const std::unique_ptr<zarray_t, DestroyDetections> found(
-      apriltag_detector_detect(parts_->detector.get(), &picture));
+      apriltag_detector_detect(impl_->detector.get(), &picture));
   std::vector<DetectedTag> tags;
   for (int i = 0; i < zarray_size(found.get()); ++i) {
     apriltag_detection_t* detection = nullptr;

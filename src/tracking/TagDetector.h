@@ -52,8 +52,8 @@ class TagDetector {
                                   EdgeSearch search = EdgeSearch::above_noise);
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace heft

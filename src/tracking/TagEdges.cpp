@@ -16,7 +16,7 @@ namespace heft {
 namespace {
 constexpr double unrefined_sd_px = 0.3;
 constexpr double least_edge_quality = 0.6;
-constexpr double alike_blur_share = 0.1;
+constexpr double relative_blur_sd = 0.1;
 
 TagLook look_of(const apriltag_family& family, int id) {
   TagLook look{family.width_at_border, !family.reversed_border, {}};
@@ -80,7 +80,7 @@ EdgeGuess informed(EdgeGuess guess, const std::array<FittedEdge, 4>& edges, std:
   guess.start_px = edges[edge].start_px;
   guess.end_px = edges[edge].end_px;
   guess.blur_px = (edges[edge].blur_px + edges[(edge + 2) % 4].blur_px) / 2;
-  guess.blur_sd_px = alike_blur_share * guess.blur_px;
+  guess.blur_sd_px = relative_blur_sd * guess.blur_px;
   return guess;
 }
 

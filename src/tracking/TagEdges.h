@@ -30,8 +30,8 @@ struct MeasuredTag {
   std::array<FittedEdge, 4> edges;            ///< from top left to top right and on, clockwise
   /// Share of the pixels around its edges that look like an edge, 0 for edges that are not there.
   double quality = 0;
-  double saturated = 0;  ///< share of its edges whose white is clipped
-  double agreement = 0;  ///< share of its data cells that are black or white as they should
+  double saturated = 0;  ///< fraction of its edges whose white is clipped
+  double agreement = 0;  ///< fraction of its data cells that are black or white as they should
 };
 
 /// Edges that are hidden or not there are left where they are expected, with a wide error.

@@ -41,7 +41,7 @@ constexpr std::array families{
 };
 
 // Seen from the outside inwards: cells that carry no bit (corners of round tags) are paper, then a
-// frame around the detected border and the border itself, one white, one black.
+// ring around the detected border and the border itself, one white, one black.
 bool is_white_without_bits(const TagPattern& pattern, bool reversed_border, int column, int row) {
   const int from_edge =
       std::min({column, row, pattern.n_cells - 1 - column, pattern.n_cells - 1 - row});
@@ -50,7 +50,7 @@ bool is_white_without_bits(const TagPattern& pattern, bool reversed_border, int 
   return from_border == (reversed_border ? 0 : -1);
 }
 
-void paint_frame(TagPattern& pattern, bool reversed_border) {
+void paint_borders(TagPattern& pattern, bool reversed_border) {
   for (int row = 0; row < pattern.n_cells; ++row)
     for (int column = 0; column < pattern.n_cells; ++column)
       pattern.white.push_back(is_white_without_bits(pattern, reversed_border, column, row));
@@ -89,7 +89,7 @@ TagPattern tag_pattern(const std::string& family, int id) {
   if (id < 0 || id >= n_tags)
     throw Error(fmt::format("{} has no tag {}: its ids are 0 to {}", family, id, n_tags - 1));
   TagPattern pattern{handle->total_width, handle->width_at_border, {}};
-  paint_frame(pattern, handle->reversed_border);
+  paint_borders(pattern, handle->reversed_border);
   paint_bits(pattern, *handle, handle->codes[id]);
   return pattern;
 }

@@ -1,5 +1,5 @@
 // The tag families of libapriltag: their names, how many tags they have and which cells of a tag
-// are white. Those who draw tags (sheets, the synthetic camera) and those who find them share it.
+// are white. Those who draw tags (sheets, the synthetic camera) and those who find them use it.
 #pragma once
 
 #include <cstdint>

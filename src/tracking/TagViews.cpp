@@ -24,17 +24,17 @@ bool near_detected(const MeasuredTag& measured, const DetectedTag& detected) {
 }
 }  // namespace
 
-struct TagViewer::Parts {
+struct TagViewer::Impl {
   TagDetector detector;
   std::vector<TagLook> looks;
   std::map<int, std::size_t> place;  ///< of an id among the body's tags
 
-  explicit Parts(const MarkerBody& body) : detector(body.family, 1), looks(looks_of(body)) {
+  explicit Impl(const MarkerBody& body) : detector(body.family, 1), looks(looks_of(body)) {
     for (std::size_t i = 0; i < body.tags.size(); ++i) place[body.tags[i].id] = i;
   }
 };
 
-TagViewer::TagViewer(const MarkerBody& body) : parts_(std::make_unique<Parts>(body)) {}
+TagViewer::TagViewer(const MarkerBody& body) : impl_(std::make_unique<Impl>(body)) {}
 TagViewer::~TagViewer() = default;
 TagViewer::TagViewer(TagViewer&&) noexcept = default;
 TagViewer& TagViewer::operator=(TagViewer&&) noexcept = default;
@@ -42,10 +42,10 @@ TagViewer& TagViewer::operator=(TagViewer&&) noexcept = default;
 TagView TagViewer::view(const Image& image, const Intrinsics& camera) {
   const Image gray = gray_of(image);
   TagView view;
-  for (const DetectedTag& detected : parts_->detector.detect(gray, whole(gray))) {
-    const auto known = parts_->place.find(detected.id);
-    if (known == parts_->place.end()) continue;
-    const MeasuredTag measured = measure_tag(gray, camera, parts_->looks[known->second],
+  for (const DetectedTag& detected : impl_->detector.detect(gray, whole(gray))) {
+    const auto known = impl_->place.find(detected.id);
+    if (known == impl_->place.end()) continue;
+    const MeasuredTag measured = measure_tag(gray, camera, impl_->looks[known->second],
                                              detected.corners_px, usual_blur_px, most_edge_pixels);
     if (measured.quality >= least_quality && near_detected(measured, detected))
       view.tags.push_back({known->second, measured.corners_px});

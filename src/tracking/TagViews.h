@@ -38,12 +38,12 @@ class TagViewer {
   TagView view(const Image& image, const Intrinsics& camera);
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// How far a view is from another: the mean way of the corners that both have, pixels; infinite
-/// where they share no tag.
+/// where they have no tag in common.
 double difference_px(const TagView& a, const TagView& b);
 
 /// How a tag's corners move when its four edges move outwards by a pixel.

@@ -20,7 +20,7 @@ constexpr BiasPrior unknown_bias{0, 0.1};
 // the model of edges takes them for.
 constexpr double least_bias_sd_px = 0.006;
 // The effector's edges are in another light and at another slant than the board's.
-constexpr double bias_differs_px = 0.005, bias_differs_share = 0.15;
+constexpr double bias_differs_px = 0.005, bias_differs_relative = 0.15;
 constexpr int tags_that_tell_bias = 4;
 
 // An effector that was not found in so many pictures is out of view: from then on it is looked for
@@ -42,7 +42,7 @@ BiasPrior bias_of_effector(const BodyFit& board) {
   const double sd_px = std::hypot(board.bias_sd_px, least_bias_sd_px);
   const double size = std::max(std::abs(board.bias_px) / sd_px, 1.0);
   const double mean_px = board.bias_px * (1 - 1 / (size * size));
-  return {mean_px, bias_differs_px + bias_differs_share * std::abs(mean_px)};
+  return {mean_px, bias_differs_px + bias_differs_relative * std::abs(mean_px)};
 }
 
 // Poses come out of one another picture by picture: rounding must not add up.
@@ -107,8 +107,8 @@ void require_own_tags(const MarkerBody& board, const MarkerBody& effector) {
 }
 }  // namespace
 
-struct Tracker::Parts {
-  Parts(const Apparatus& apparatus, const TrackerSettings& how)
+struct Tracker::Impl {
+  Impl(const Apparatus& apparatus, const TrackerSettings& how)
       : camera(apparatus.camera),
         settings(how),
         board(camera, apparatus.board, how, board_edge_pixels),
@@ -219,7 +219,7 @@ struct Tracker::Parts {
 
 Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings) {
   require_own_tags(apparatus.board, apparatus.effector);
-  parts_ = std::make_unique<Parts>(apparatus, settings);
+  impl_ = std::make_unique<Impl>(apparatus, settings);
 }
 
 Tracker::~Tracker() = default;
@@ -227,7 +227,7 @@ Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
 TrackedPicture Tracker::track(const Image& image, double t_s) {
-  Parts& parts = *parts_;
+  Impl& parts = *impl_;
   if (image.width != parts.camera.width_px || image.height != parts.camera.height_px ||
       image.empty())
     throw Error(fmt::format(
@@ -249,9 +249,9 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
 }
 
 void Tracker::reset() {
-  parts_->last_board.reset();
-  parts_->seen.reset();
-  parts_->n_unseen = 0;
+  impl_->last_board.reset();
+  impl_->seen.reset();
+  impl_->n_unseen = 0;
 }
 
 }  // namespace heft

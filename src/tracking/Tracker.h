@@ -34,7 +34,7 @@ struct TrackedPicture {
   /// RMS distance of the measured tag edges from where the pose puts them.
   double board_reprojection_px = 0, effector_reprojection_px = 0;
   /// 0...1: how far the effector's pose can be trusted (the board's where there is no effector):
-  /// the share of pixels around its tags' edges that look like edges; halved where two poses fit
+  /// the fraction of pixels around its tags' edges that look like edges; halved where two poses fit
   /// about equally well, where the reprojection error is 1 pixel, and where its tags leave the
   /// effector's place open by half a millimeter, as a single slanted one may; less than half where
   /// the picture is overexposed.
@@ -64,8 +64,8 @@ class Tracker {
   void reset();
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace heft

@@ -19,30 +19,30 @@
 
 namespace heft {
 
-/// One picture to show: the world as of its capture, over the camera picture that it belongs to.
+/// One frame to show: the world as of its capture, over the camera picture that it belongs to.
 struct ViewPicture {
   DisplayedFrame frame;
   std::shared_ptr<const Image> camera;    ///< none: a plain table is drawn
   std::optional<Pose> camera_from_board;  ///< none: where the camera was last, or the default
 };
 
-/// What a view needs to know before the first picture.
+/// What a view needs to know before the first frame.
 struct ViewSetup {
   Stage stage;
   std::optional<Intrinsics> camera;  ///< none: no camera pictures will come
   ScreenTexts texts;
   bool left_handed = false;  ///< mirrors the controls, never the cubes
   std::string file;          ///< what follows the colon: "video:session.mp4"
-  double rate_hz = 15;       ///< pictures a second
+  double rate_hz = 15;       ///< frames a second
 };
 
 class ArView {
  public:
   virtual ~ArView() = default;
 
-  /// Presents one picture and the screen around it.
+  /// Presents one frame and the screen around it.
   /// @return monotonic time (base/Clock.h) at which it was presented; none: there is no display
-  virtual std::optional<double> present(const ViewPicture& picture, const ScreenState& screen) = 0;
+  virtual std::optional<double> present(const ViewPicture& shown, const ScreenState& screen) = 0;
 
   /// Keeps the screen alive for up to `seconds` and returns early with what was touched since the
   /// last call, in order. A view without a screen returns nothing at once.

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/Scan.h"
+
 namespace heft {
 
 template <typename Value>
@@ -20,11 +22,7 @@ class Layer {
   int n_columns() const { return n_columns_; }
   int n_rows() const { return n_rows_; }
 
-  /// Columns of a row, from begin to before end, that may hold something else than Value{}.
-  struct Span {
-    int begin = 0, end = 0;
-    bool empty() const { return begin >= end; }
-  };
+  /// The columns of a row that may hold something else than Value{}.
   Span touched(int row) const { return touched_[static_cast<std::size_t>(row)]; }
 
   const Value* row(int row) const { return values_.data() + start(row); }

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "base/Error.h"
-#include "view/Scan.h"
 
 namespace heft {
 
@@ -132,7 +131,7 @@ void Rasterizer::clear() {
 
 std::uint8_t Rasterizer::add_surface(const Surface& surface) {
   if (paints_.size() > surface_bits)
-    throw Error("a picture can't hold more than 255 surfaces (about 40 boxes); show fewer things");
+    throw Error("a frame can't hold more than 255 surfaces (about 40 boxes); show fewer things");
   paints_.push_back(
       {surface.bgr, static_cast<int>(std::lround(256 * surface.opacity)), surface.object});
   return static_cast<std::uint8_t>(paints_.size() - 1);
@@ -143,7 +142,7 @@ void Rasterizer::fill(const RasterTriangle& triangle, std::uint8_t surface) {
   const auto ramp = ramp_over(triangle, corners, nearness_scale);
   if (!ramp) return;
   Layer<Sample>& layer = paints_[surface].opacity < 256 ? glass_ : solid_;
-  scan(corners, layer.n_columns(), layer.n_rows(), [&](int y, int begin, int end) {
+  scan_points(corners, layer.n_columns(), layer.n_rows(), [&](int y, int begin, int end) {
     draw_row({layer.write(y, begin, end), static_cast<std::size_t>(end - begin)},
              wrapped(ramp->at(begin, y)), wrapped(ramp->per_column), surface);
   });
@@ -153,7 +152,7 @@ void Rasterizer::shade(const RasterTriangle& triangle) {
   const std::array corners{triangle[0].pixel, triangle[1].pixel, triangle[2].pixel};
   const auto ramp = ramp_over(triangle, corners, darkness_scale);
   if (!ramp) return;
-  scan(corners, darkness_.n_columns(), darkness_.n_rows(), [&](int y, int begin, int end) {
+  scan_points(corners, darkness_.n_columns(), darkness_.n_rows(), [&](int y, int begin, int end) {
     dim_row({darkness_.write(y, begin, end), static_cast<std::size_t>(end - begin)},
             wrapped(ramp->at(begin, y)), wrapped(ramp->per_column));
   });
@@ -209,20 +208,16 @@ void Rasterizer::paint_row(int y, std::uint8_t* bgr) const {
 }
 
 // The pixels of a row that have a surface on any of their samples.
-Layer<Rasterizer::Sample>::Span Rasterizer::columns_in(int y) const {
-  int begin = solid_.n_columns(), end = 0;
-  for (const Layer<Sample>* layer : {&solid_, &glass_}) {
-    for (int row : {2 * y, 2 * y + 1}) {
-      begin = std::min(begin, layer->touched(row).begin);
-      end = std::max(end, layer->touched(row).end);
-    }
-  }
-  return {begin / 2, (end + 1) / 2};
+Span Rasterizer::columns_in(int y) const {
+  Span samples;
+  for (const Layer<Sample>* layer : {&solid_, &glass_})
+    samples = samples.around(layer->touched(2 * y)).around(layer->touched(2 * y + 1));
+  return {samples.begin / 2, (samples.end + 1) / 2};
 }
 
-void Rasterizer::paint(Image& picture) const {
+void Rasterizer::paint(Image& frame) const {
   for (int y = 0; y < darkness_.n_rows(); ++y) {
-    std::uint8_t* bgr = picture.pixels.data() + static_cast<std::size_t>(y) * picture.row_bytes();
+    std::uint8_t* bgr = frame.pixels.data() + static_cast<std::size_t>(y) * frame.row_bytes();
     shade_row(y, bgr);
     paint_row(y, bgr);
   }

@@ -1,7 +1,7 @@
 // Triangles to pixels: four samples a pixel in a 2 x 2 grid, a depth for each, one solid and one
 // translucent layer, and soft shade on what lies below both. Knows no cameras and no boxes. A dozen
 // boxes don't need a graphics card; touching only the rows and columns that are drawn on makes this
-// faster than reading a picture back from one.
+// faster than reading a frame back from one.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 
 namespace heft {
 
-/// How a part of the picture is painted.
+/// How a part of the frame is painted.
 struct Surface {
   std::array<std::uint8_t, 3> bgr{};
   double opacity = 1;  ///< less than 1: drawn into the translucent layer
@@ -42,15 +42,15 @@ class Rasterizer {
   std::uint8_t add_surface(const Surface& surface);
 
   /// Draws a triangle, of either winding, where nothing of its layer is nearer. Triangles with an
-  /// edge in common share no sample and leave none out. Translucent ones are seen in front of solid
-  /// ones, not behind them, in whatever order they come; of several only the nearest.
+  /// edge in common cover no sample twice and leave none out. Translucent ones are seen in front of
+  /// solid ones, not behind them, in whatever order they come; of several only the nearest.
   void fill(const RasterTriangle& triangle, std::uint8_t surface);
 
-  /// Darkens the picture below all surfaces. Shades on one another add up as filters do.
+  /// Darkens the frame below all surfaces. Shades on one another add up as filters do.
   void shade(const RasterTriangle& triangle);
 
-  /// Paints everything over a picture of blue, green and red of the rasterizer's size.
-  void paint(Image& picture) const;
+  /// Paints everything over a frame of blue, green and red of the rasterizer's size.
+  void paint(Image& frame) const;
 
   /// The object whose solid surface was filled nearest to a pixel, within so many pixels.
   std::optional<int> find_object(const Eigen::Vector2d& pixel, double reach_px) const;
@@ -69,7 +69,7 @@ class Rasterizer {
 
   void shade_row(int y, std::uint8_t* bgr) const;
   void paint_row(int y, std::uint8_t* bgr) const;
-  Layer<Sample>::Span columns_in(int y) const;
+  Span columns_in(int y) const;
   void paint_pixel(const Four& solid, const Four& glass, std::uint8_t* bgr) const;
   std::array<int, 3> color(Sample solid, Sample glass, const std::uint8_t* below) const;
 

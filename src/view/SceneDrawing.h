@@ -17,20 +17,20 @@ class SceneDrawing {
   SceneDrawing(SceneDrawing&&) noexcept;
   SceneDrawing& operator=(SceneDrawing&&) noexcept;
 
-  /// The picture as shown: blue, green, red, of the camera's size (640 x 480 without a camera).
+  /// The frame as shown: blue, green, red, of the camera's size (640 x 480 without a camera).
   /// Valid until the next call.
-  const Image& draw(const ViewPicture& picture);
+  const Image& draw(const ViewPicture& shown);
 
-  /// The slot (from 1) of the cube drawn at a pixel of the last picture; none: no cube.
+  /// The slot (from 1) of the cube drawn at a pixel of the last frame; none: no cube.
   std::optional<int> slot_at(double x_px, double y_px) const;
 
-  /// The pixel above the middle of a cube's top in the last picture, where its label goes; none:
-  /// not in the picture.
+  /// The pixel above the middle of a cube's top in the last frame, where its label goes; none:
+  /// not in the frame.
   std::optional<Eigen::Vector2d> label_place(int slot) const;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace heft

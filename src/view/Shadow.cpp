@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/Polygon.h"
 #include "view/Shapes.h"
 
 namespace heft {
@@ -19,13 +20,6 @@ constexpr double blur_per_height = 0.6;   // and how it grows as the box is lift
 constexpr double fading_height_m = 0.03;  // lifted so far, a shadow is half as dark
 constexpr std::array rim_darkness{1.0, 0.52, 0.17, 0.0};  // from the polygon outward
 
-// A convex polygon on the table, counterclockwise.
-struct Footprint {
-  std::array<Vector2d, 8> corners_m;
-  std::size_t n = 0;
-  double height_m = 0;  // of the box's lowest corner
-};
-
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -39,6 +33,8 @@ std::array<Vector3d, 8> corners_of(const Pose& board_from_box, const Vector3d& s
   return corners_m;
 }
 
+using Footprint = Polygon<Vector2d, 8>;  // convex, on the table, counterclockwise
+
 // The convex hull, gift wrapped: eight points need nothing better.
 Footprint hull_of(const std::array<Vector2d, 8>& points_m) {
   const auto first = std::ranges::min_element(points_m, [](const Vector2d& a, const Vector2d& b) {
@@ -47,7 +43,7 @@ Footprint hull_of(const std::array<Vector2d, 8>& points_m) {
   Footprint hull;
   const Vector2d* at = &*first;
   do {
-    hull.corners_m[hull.n++] = *at;
+    hull.add(*at);
     const Vector2d* next = nullptr;
     for (const Vector2d& candidate : points_m) {
       if ((candidate - *at).norm() < 1e-6) continue;
@@ -57,43 +53,35 @@ Footprint hull_of(const std::array<Vector2d, 8>& points_m) {
         next = &candidate;
     }
     at = next;
-  } while (at && (*at - *first).norm() > 1e-6 && hull.n < 8);
+  } while (at && (*at - *first).norm() > 1e-6 && hull.size() < 8);
   return hull;
 }
 
-Footprint footprint_of(const Pose& board_from_box, const Vector3d& size_m) {
-  const auto corners_m = corners_of(board_from_box, size_m);
-  if (std::ranges::all_of(corners_m, [](const Vector3d& c) { return c.z() < 0; })) return {};
-  const double low_m =
-      std::max(0.0, std::ranges::min(corners_m, {}, [](const Vector3d& c) { return c.z(); }).z());
+Footprint footprint_of(const std::array<Vector3d, 8>& corners_m) {
   std::array<Vector2d, 8> points_m;
   for (std::size_t i = 0; i < 8; ++i)
     points_m[i] =
         corners_m[i].head<2>() + lean * std::max(0.0, corners_m[i].z()) * Vector2d(0.64, 0.77);
-  Footprint footprint = hull_of(points_m);
-  footprint.height_m = low_m;
-  return footprint;
+  return hull_of(points_m);
 }
 
-// The outline moved outward by a distance, with rounded corners: three directions at each.
-struct Outline {
-  std::array<Vector2d, 24> start_m, outward;
-  std::size_t n = 0;
+// What moves outward by a distance, with rounded corners: three directions at each.
+struct RimCorner {
+  Vector2d start_m, outward;
 };
+using Outline = Polygon<RimCorner, 24>;
 
-Outline outline_of(const Footprint& footprint) {
-  Outline outline;
+Outline outline_of(const Footprint& footprint_m) {
+  const std::size_t n = footprint_m.size();
   const auto outward = [&](std::size_t i) {
-    const Vector2d side =
-        footprint.corners_m[(i + 1) % footprint.n] - footprint.corners_m[i % footprint.n];
+    const Vector2d side = footprint_m[(i + 1) % n] - footprint_m[i % n];
     return Vector2d(side.y(), -side.x()).normalized();
   };
-  for (std::size_t i = 0; i < footprint.n; ++i) {
-    const Vector2d before = outward(i + footprint.n - 1), after = outward(i);
-    for (const Vector2d& direction : {before, Vector2d((before + after).normalized()), after}) {
-      outline.start_m[outline.n] = footprint.corners_m[i];
-      outline.outward[outline.n++] = direction;
-    }
+  Outline outline;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector2d before = outward(i + n - 1), after = outward(i);
+    for (const Vector2d& direction : {before, Vector2d((before + after).normalized()), after})
+      outline.add({footprint_m[i], direction});
   }
   return outline;
 }
@@ -106,14 +94,14 @@ void shade_polygon(Rasterizer& rasterizer, const Viewpoint& viewpoint,
   });
 }
 
-using Ring = std::array<Corner, 24>;
+using Ring = Polygon<Corner, 24>;
 
 Ring ring_at(const Viewpoint& viewpoint, const Outline& outline, double distance_m,
              double darkness) {
   Ring ring;
-  for (std::size_t i = 0; i < outline.n; ++i) {
-    const Vector2d place_m = outline.start_m[i] + distance_m * outline.outward[i];
-    ring[i] = viewpoint.corner({place_m.x(), place_m.y(), 0}, darkness);
+  for (const RimCorner& corner : outline) {
+    const Vector2d place_m = corner.start_m + distance_m * corner.outward;
+    ring.add(viewpoint.corner({place_m.x(), place_m.y(), 0}, darkness));
   }
   return ring;
 }
@@ -121,19 +109,24 @@ Ring ring_at(const Viewpoint& viewpoint, const Outline& outline, double distance
 
 void draw_shadow(Rasterizer& rasterizer, const Viewpoint& viewpoint, const Pose& board_from_box,
                  const Vector3d& size_m, double strength) {
-  const Footprint footprint = footprint_of(board_from_box, size_m);
-  if (footprint.n < 3) return;
-  const Outline outline = outline_of(footprint);
-  const double blur_m = contact_blur_m + blur_per_height * footprint.height_m;
-  const double darkness = strength * fading_height_m / (fading_height_m + footprint.height_m);
+  const auto corners_m = corners_of(board_from_box, size_m);
+  const auto z_m = [](const Vector3d& corner_m) { return corner_m.z(); };
+  if (z_m(std::ranges::max(corners_m, {}, z_m)) < 0) return;  // all of it below the table
+  const double height_m = std::max(0.0, z_m(std::ranges::min(corners_m, {}, z_m)));
+  const Footprint footprint_m = footprint_of(corners_m);
+  if (footprint_m.size() < 3) return;
+  const Outline outline = outline_of(footprint_m);
+  const std::size_t n = outline.size();
+  const double blur_m = contact_blur_m + blur_per_height * height_m;
+  const double darkness = strength * fading_height_m / (fading_height_m + height_m);
   Ring inner = ring_at(viewpoint, outline, 0, darkness * rim_darkness[0]);
-  for (std::size_t i = 2; i < outline.n; ++i)
+  for (std::size_t i = 2; i < n; ++i)
     shade_polygon(rasterizer, viewpoint, std::array{inner[0], inner[i - 1], inner[i]});
   for (std::size_t k = 1; k < rim_darkness.size(); ++k) {
-    const double share = static_cast<double>(k) / (rim_darkness.size() - 1);
-    const Ring outer = ring_at(viewpoint, outline, share * blur_m, darkness * rim_darkness[k]);
-    for (std::size_t i = 0; i < outline.n; ++i) {
-      const std::size_t next = (i + 1) % outline.n;
+    const double outward = static_cast<double>(k) / (rim_darkness.size() - 1);
+    const Ring outer = ring_at(viewpoint, outline, outward * blur_m, darkness * rim_darkness[k]);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t next = (i + 1) % n;
       shade_polygon(rasterizer, viewpoint,
                     std::array{inner[i], inner[next], outer[next], outer[i]});
     }

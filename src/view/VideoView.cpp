@@ -51,14 +51,14 @@ class VideoView final : public ArView {
     if (!writer_.open(setup.file, writer, four_cc(codec), setup.rate_hz,
                       {first.width, first.height}))
       throw Error(
-          fmt::format("can't write the video {} ({} x {}, {:g} pictures a second); check "
+          fmt::format("can't write the video {} ({} x {}, {:g} frames a second); check "
                       "that its folder exists and may be written to",
                       setup.file, first.width, first.height, setup.rate_hz));
   }
 
-  std::optional<double> present(const ViewPicture& picture, const ScreenState&) override {
-    const Image& drawn = drawing_.draw(picture);
-    // OpenCV has no read-only pictures; the writer changes nothing.
+  std::optional<double> present(const ViewPicture& shown, const ScreenState&) override {
+    const Image& drawn = drawing_.draw(shown);
+    // OpenCV has no read-only images; the writer changes nothing.
     writer_.write(cv::Mat(drawn.height, drawn.width, CV_8UC3,
                           const_cast<std::uint8_t*>(drawn.pixels.data())));
     return {};

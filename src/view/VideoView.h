@@ -1,4 +1,4 @@
-// A view into a video file: every picture as it is drawn, one after the other. Pages of text are
+// A view into a video file: every frame as it is drawn, one after the other. Pages of text are
 // not in it; nothing on them is measured.
 #pragma once
 

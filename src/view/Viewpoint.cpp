@@ -17,8 +17,8 @@ constexpr double table_tolerance_m = 1e-4;  // so that rounding hides nothing th
 constexpr double straight_enough_px = 0.1;
 constexpr int most_pieces = 8;
 
-// The rays of the picture's border span the view. Beyond them a distortion model means nothing: its
-// polynomial may fold far things back into the picture.
+// The rays of the frame's border span the view. Beyond them a distortion model means nothing: its
+// polynomial may fold far things back into the frame.
 struct RayBounds {
   Vector2d low{1e9, 1e9}, high{-1e9, -1e9};
 };
@@ -39,6 +39,11 @@ RayBounds ray_bounds(const Intrinsics& camera) {
     }
   }
   return bounds;
+}
+
+Corner corner_between(const Corner& from, const Corner& to, double s) {
+  return {from.camera_m + s * (to.camera_m - from.camera_m),
+          from.darkness + s * (to.darkness - from.darkness)};
 }
 
 bool bends(const Intrinsics& camera) {
@@ -97,9 +102,8 @@ int Viewpoint::pieces(const Vector3d& from_board_m, const Vector3d& to_board_m) 
   return std::clamp(static_cast<int>(needed), 1, most_pieces);
 }
 
-// Sutherland and Hodgman's way: one limit after the other. A polygon that needs no cut is its own
-// result.
-std::span<const Corner> Viewpoint::clip(std::span<const Corner> polygon, Polygon& cut) const {
+// One limit after the other. A polygon that needs no cut is its own result.
+std::span<const Corner> Viewpoint::clip(std::span<const Corner> polygon, CutQuad& cut) const {
   unsigned any = 0, all = ~0u;
   for (const Corner& corner : polygon) {
     any |= corner.hidden_by;
@@ -107,27 +111,13 @@ std::span<const Corner> Viewpoint::clip(std::span<const Corner> polygon, Polygon
   }
   if (all) return {};
   if (!any) return polygon;
-  std::ranges::copy(polygon, cut.corners.begin());
-  cut.n = polygon.size();
+  cut = CutQuad(polygon);
   for (std::size_t limit = 0; limit < n_limits; ++limit)
-    if (any & 1u << limit) cut_at(limit, cut);
-  for (std::size_t i = 0; i < cut.n; ++i)
-    cut.corners[i].pixel = project(camera_, cut.corners[i].camera_m);
-  return std::span(cut.corners).first(cut.n);
-}
-
-void Viewpoint::cut_at(std::size_t limit, Polygon& polygon) const {
-  const Polygon before = polygon;
-  polygon.n = 0;
-  for (std::size_t i = 0; i < before.n; ++i) {
-    const Corner &from = before.corners[i], &to = before.corners[(i + 1) % before.n];
-    const double a = within(limit, from.camera_m), b = within(limit, to.camera_m);
-    if (a >= 0) polygon.corners[polygon.n++] = from;
-    if ((a >= 0) == (b >= 0)) continue;
-    const double s = a / (a - b);
-    polygon.corners[polygon.n++] = {from.camera_m + s * (to.camera_m - from.camera_m),
-                                    from.darkness + s * (to.darkness - from.darkness)};
-  }
+    if (any & 1u << limit)
+      cut = clipped(
+          cut, [&](const Corner& c) { return within(limit, c.camera_m); }, corner_between);
+  for (Corner& corner : cut) corner.pixel = project(camera_, corner.camera_m);
+  return {cut.begin(), cut.end()};
 }
 
 Pose default_camera_from_board() {

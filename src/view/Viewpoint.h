@@ -1,5 +1,5 @@
-// Where the picture is taken from: takes points of the board frame to pixels as the camera's lens
-// does, and cuts off what can't be seen: what is behind the camera, beside the picture or below the
+// Where the frame is seen from: takes points of the board frame to pixels as the camera's lens
+// does, and cuts off what can't be seen: what is behind the camera, beside the frame or below the
 // table. Straight edges bend under a lens; whoever draws long ones asks how often to divide them.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <array>
 #include <span>
 
+#include "base/Polygon.h"
 #include "base/Pose.h"
 #include "tracking/Intrinsics.h"
 #include "view/Rasterizer.h"
@@ -41,22 +42,17 @@ class Viewpoint {
   /// of up to four corners.
   template <typename Emit>
   void triangles(std::span<const Corner> polygon, const Emit& emit) const {
-    Polygon cut;
+    CutQuad cut;
     const std::span<const Corner> visible = clip(polygon, cut);
     for (std::size_t i = 2; i < visible.size(); ++i) emit(visible[0], visible[i - 1], visible[i]);
   }
 
  private:
   static constexpr std::size_t n_limits = 6;
-  // Each limit can add one corner to a polygon.
-  struct Polygon {
-    std::array<Corner, 4 + n_limits> corners;
-    std::size_t n = 0;
-  };
+  using CutQuad = Polygon<Corner, 4 + n_limits>;  // each limit can add one corner
 
   Corner seen(const Eigen::Vector3d& camera_m, double darkness) const;
-  std::span<const Corner> clip(std::span<const Corner> polygon, Polygon& cut) const;
-  void cut_at(std::size_t limit, Polygon& polygon) const;
+  std::span<const Corner> clip(std::span<const Corner> polygon, CutQuad& cut) const;
   double within(std::size_t limit, const Eigen::Vector3d& camera_m) const;
 
   Intrinsics camera_;
@@ -67,7 +63,7 @@ class Viewpoint {
 };
 
 /// A good place to look from when no camera says where it is: the participant's side of the table,
-/// 45 cm from the board's center, which is in the middle of the picture.
+/// 45 cm from the board's center, which is in the middle of the frame.
 Pose default_camera_from_board();
 
 }  // namespace heft

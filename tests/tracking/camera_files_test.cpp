@@ -73,7 +73,7 @@ TEST(ImageFile, NamesWhatItCanNotReadOrWrite) {
   EXPECT_THAT(writing("missing/a.png"), HasSubstr("missing/a.png"));
 }
 
-TEST(FramesFolder, ComesInNaturalOrderAtThirtyASecond) {
+TEST(PictureFolder, ComesInNaturalOrderAtThirtyASecond) {
   const TemporaryFolder folder;
   for (const char* name : {"frame_10.png", "frame_2.png", "frame_1.png", "frame_002b.png"})
     write_image(folder.file(name), plain(50));
@@ -95,7 +95,7 @@ TEST(FramesFolder, ComesInNaturalOrderAtThirtyASecond) {
   EXPECT_FALSE(camera->next(0));
 }
 
-TEST(FramesFolder, TakesItsTimesFromTheTableBesideThePictures) {
+TEST(PictureFolder, TakesItsTimesFromTheTableBesideThePictures) {
   const TemporaryFolder folder;
   for (const char* name : {"a.png", "b.png", "c.png"}) write_image(folder.file(name), plain(50));
   const auto with_times = [&](const std::string& text) {
@@ -116,7 +116,7 @@ TEST(FramesFolder, TakesItsTimesFromTheTableBesideThePictures) {
   EXPECT_THAT(refusal("frame,t_s\na.png,1\nb.png,2\nc.png,2\n"), HasSubstr("increase"));
 }
 
-TEST(FramesFolder, NamesAPictureThatIsDamaged) {
+TEST(PictureFolder, NamesAPictureThatIsDamaged) {
   const TemporaryFolder folder;
   write_image(folder.file("1.png"), plain(50));
   write_text(folder.file("2.png"), "damaged");
@@ -125,7 +125,7 @@ TEST(FramesFolder, NamesAPictureThatIsDamaged) {
   EXPECT_THAT(message_of([&] { camera->next(0); }), HasSubstr("2.png"));
 }
 
-TEST(FramesFolder, RefusesAFolderWithoutPictures) {
+TEST(PictureFolder, RefusesAFolderWithoutPictures) {
   const TemporaryFolder folder;
   const auto opening = [&](const std::string& what) {
     return message_of([&] { open_camera("frames:" + what); });

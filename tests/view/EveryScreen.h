@@ -85,14 +85,14 @@ inline ViewSetup setup_for(const std::string& language, int n_cubes = 3) {
 }
 
 inline ViewPicture picture_of(const ViewSetup& setup, bool cubes = true) {
-  ViewPicture picture;
+  ViewPicture shown;
   const Pose effector = upright_pose({0.02, -0.09, 0.02}, 1.5707963);
-  picture.frame.effector = effector;
-  picture.frame.clone = effector;
+  shown.frame.effector = effector;
+  shown.frame.clone = effector;
   if (cubes)
     for (const auto& slot_m : setup.stage.slots_m)
-      picture.frame.cubes.push_back(upright_pose(slot_m, 0));
-  return picture;
+      shown.frame.cubes.push_back(upright_pose(slot_m, 0));
+  return shown;
 }
 
 }  // namespace heft

@@ -27,11 +27,11 @@ inline Pose pointing_away(double x_m, double y_m, double z_m = 0.02) {
   return upright_pose({x_m, y_m, z_m}, M_PI / 2);
 }
 
-inline std::shared_ptr<Image> gray_film(const Intrinsics& camera, int channels = 3,
-                                        std::uint8_t value = 200) {
-  auto film = std::make_shared<Image>(camera.width_px, camera.height_px, channels);
-  std::fill(film->pixels.begin(), film->pixels.end(), value);
-  return film;
+inline std::shared_ptr<Image> gray_picture(const Intrinsics& camera, int channels = 3,
+                                           std::uint8_t value = 200) {
+  auto picture = std::make_shared<Image>(camera.width_px, camera.height_px, channels);
+  std::fill(picture->pixels.begin(), picture->pixels.end(), value);
+  return picture;
 }
 
 inline ViewSetup setup_with(const std::optional<Intrinsics>& camera) {
@@ -41,13 +41,13 @@ inline ViewSetup setup_with(const std::optional<Intrinsics>& camera) {
   return setup;
 }
 
-/// Three cubes on their slots, nothing else, over a gray film.
+/// Three cubes on their slots, nothing else, over a gray picture.
 inline ViewPicture three_cubes(const ViewSetup& setup) {
-  ViewPicture picture;
+  ViewPicture shown;
   for (const auto& slot_m : setup.stage.slots_m)
-    picture.frame.cubes.push_back(upright_pose(slot_m, 0));
-  if (setup.camera) picture.camera = gray_film(*setup.camera);
-  return picture;
+    shown.frame.cubes.push_back(upright_pose(slot_m, 0));
+  if (setup.camera) shown.camera = gray_picture(*setup.camera);
+  return shown;
 }
 
 struct Bgr {

@@ -99,7 +99,7 @@ std::vector<View> several_views() {
           {"rational", rational, near},           {"1280 x 720", wide, above}};
 }
 
-// The film is gray and so are shadows; whatever is colored is the cube.
+// The picture is gray and so are shadows; whatever is colored is the cube.
 int color_at(const Image& drawn, int x, int y) {
   const Bgr bgr = at(drawn, x, y);
   return bgr.red - bgr.blue;
@@ -109,11 +109,11 @@ void expect_cube_where_projected(const View& view, const Pose& cube, double size
   ViewSetup setup = setup_with(view.camera);
   setup.stage.cube_size_m = size_m;
   SceneDrawing drawing(setup);
-  ViewPicture picture;
-  picture.camera = gray_film(view.camera);
-  picture.camera_from_board = view.camera_from_board;
-  picture.frame.cubes = {cube};
-  const Image& drawn = drawing.draw(picture);
+  ViewPicture shown;
+  shown.camera = gray_picture(view.camera);
+  shown.camera_from_board = view.camera_from_board;
+  shown.frame.cubes = {cube};
+  const Image& drawn = drawing.draw(shown);
   const Silhouette silhouette(view.camera, view.camera_from_board, cube, size_m);
   int n_inside = 0;
   for (int y = 0; y < drawn.height; ++y) {
@@ -156,17 +156,17 @@ TEST(Projection, NothingBesideTheViewIsFoldedBackIntoIt) {
   Intrinsics folding;
   folding.distortion = {0.06, -0.15};
   const Pose straight_down = camera_looking_down(M_PI / 2, 0.3);
-  ViewPicture picture;
-  picture.camera = gray_film(folding);
-  picture.camera_from_board = straight_down;
+  ViewPicture shown;
+  shown.camera = gray_picture(folding);
+  shown.camera_from_board = straight_down;
   for (const auto& [x_m, y_m] : {std::pair{0.46, 0.0}, {-0.46, 0.0}, {0.0, 0.46}, {0.0, -0.46}}) {
     const Eigen::Vector3d center_m(x_m, y_m, 0.0175);
     const Eigen::Vector2d folded = project(folding, straight_down * center_m);
     ASSERT_GT(folded.minCoeff(), 0) << "no fold to test";
     ASSERT_LT(folded.y(), folding.height_px) << "no fold to test";
     SceneDrawing drawing(setup_with(folding));
-    picture.frame.cubes = {upright_pose(center_m, 0)};
-    EXPECT_EQ(drawing.draw(picture).pixels, picture.camera->pixels) << x_m << " " << y_m;
+    shown.frame.cubes = {upright_pose(center_m, 0)};
+    EXPECT_EQ(drawing.draw(shown).pixels, shown.camera->pixels) << x_m << " " << y_m;
     EXPECT_EQ(drawing.label_place(1), std::nullopt);
   }
 }

@@ -1,4 +1,4 @@
-// Triangles: which samples they cover, what is in front, and that nothing of a picture stays for
+// Triangles: which samples they cover, what is in front, and that nothing of a frame stays for
 // the next.
 #include "view/Rasterizer.h"
 
@@ -19,15 +19,15 @@ constexpr int width = 40, height = 30;
 constexpr Surface red{{0, 0, 200}, 1, 1}, green{{0, 200, 0}, 1, 2};
 constexpr Surface glass{{255, 0, 0}, 0.5, 0};
 
-Image gray_picture() {
-  Image picture(width, height, 3);
-  std::ranges::fill(picture.pixels, std::uint8_t{100});
-  return picture;
+Image gray_frame() {
+  Image frame(width, height, 3);
+  std::ranges::fill(frame.pixels, std::uint8_t{100});
+  return frame;
 }
 
-std::array<int, 3> pixel_of(const Image& picture, int x, int y) {
-  const auto at = static_cast<std::size_t>(3 * (y * picture.width + x));
-  return {picture.pixels[at], picture.pixels[at + 1], picture.pixels[at + 2]};
+std::array<int, 3> pixel_of(const Image& frame, int x, int y) {
+  const auto at = static_cast<std::size_t>(3 * (y * frame.width + x));
+  return {frame.pixels[at], frame.pixels[at + 1], frame.pixels[at + 2]};
 }
 
 // A rectangle as two triangles.
@@ -42,53 +42,53 @@ void fill_rectangle(Rasterizer& rasterizer, Vector2d from, Vector2d to, double n
 // Pixel centers are integers, so pixel 10 reaches from 9.5 to 10.5.
 TEST(Rasterizer, PaintsPixelsByTheShareThatIsCovered) {
   Rasterizer rasterizer(width, height);
-  Image picture = gray_picture();
+  Image frame = gray_frame();
   fill_rectangle(rasterizer, {9.5, 9.5}, {12.0, 11.5}, 1, rasterizer.add_surface(red));
-  rasterizer.paint(picture);
+  rasterizer.paint(frame);
   const std::array gray{100, 100, 100}, full{0, 0, 200}, half{50, 50, 150};
-  EXPECT_EQ(pixel_of(picture, 9, 10), gray);
-  EXPECT_EQ(pixel_of(picture, 10, 9), gray);
-  EXPECT_EQ(pixel_of(picture, 10, 10), full);
-  EXPECT_EQ(pixel_of(picture, 11, 11), full);
-  EXPECT_EQ(pixel_of(picture, 12, 10), half);
-  EXPECT_EQ(pixel_of(picture, 13, 10), gray);
-  EXPECT_EQ(pixel_of(picture, 10, 12), gray);
+  EXPECT_EQ(pixel_of(frame, 9, 10), gray);
+  EXPECT_EQ(pixel_of(frame, 10, 9), gray);
+  EXPECT_EQ(pixel_of(frame, 10, 10), full);
+  EXPECT_EQ(pixel_of(frame, 11, 11), full);
+  EXPECT_EQ(pixel_of(frame, 12, 10), half);
+  EXPECT_EQ(pixel_of(frame, 13, 10), gray);
+  EXPECT_EQ(pixel_of(frame, 10, 12), gray);
 }
 
 TEST(Rasterizer, ShowsWhatIsNearerInWhateverOrderItIsDrawn) {
   for (bool red_first : {true, false}) {
     Rasterizer rasterizer(width, height);
-    Image picture = gray_picture();
+    Image frame = gray_frame();
     const auto near = rasterizer.add_surface(red), far = rasterizer.add_surface(green);
     if (red_first) fill_rectangle(rasterizer, {5, 5}, {20, 20}, 2.0, near);
     fill_rectangle(rasterizer, {10, 10}, {30, 25}, 1.9, far);
     if (!red_first) fill_rectangle(rasterizer, {5, 5}, {20, 20}, 2.0, near);
-    rasterizer.paint(picture);
-    EXPECT_EQ(pixel_of(picture, 15, 15), (std::array{0, 0, 200}));
-    EXPECT_EQ(pixel_of(picture, 25, 22), (std::array{0, 200, 0}));
+    rasterizer.paint(frame);
+    EXPECT_EQ(pixel_of(frame, 15, 15), (std::array{0, 0, 200}));
+    EXPECT_EQ(pixel_of(frame, 25, 22), (std::array{0, 200, 0}));
   }
 }
 
 TEST(Rasterizer, TellsDepthsApartThatDifferByAHundredthOfAMillimeter) {
   Rasterizer rasterizer(width, height);
-  Image picture = gray_picture();
+  Image frame = gray_frame();
   fill_rectangle(rasterizer, {5, 5}, {20, 20}, 1 / 0.60001, rasterizer.add_surface(green));
   fill_rectangle(rasterizer, {5, 5}, {20, 20}, 1 / 0.60000, rasterizer.add_surface(red));
   fill_rectangle(rasterizer, {5, 5}, {20, 20}, 1 / 0.60002, rasterizer.add_surface(green));
-  rasterizer.paint(picture);
-  EXPECT_EQ(pixel_of(picture, 10, 10), (std::array{0, 0, 200}));
+  rasterizer.paint(frame);
+  EXPECT_EQ(pixel_of(frame, 10, 10), (std::array{0, 0, 200}));
 }
 
 TEST(Rasterizer, MixesTranslucentSurfacesWithWhatIsBehindThemOnly) {
   for (double depth : {0.5, 2.0}) {
     Rasterizer rasterizer(width, height);
-    Image picture = gray_picture();
+    Image frame = gray_frame();
     fill_rectangle(rasterizer, {5, 5}, {30, 20}, depth, rasterizer.add_surface(glass));
     fill_rectangle(rasterizer, {15, 5}, {30, 20}, 1, rasterizer.add_surface(red));
-    rasterizer.paint(picture);
-    EXPECT_EQ(pixel_of(picture, 10, 10), (std::array{178, 50, 50}));
+    rasterizer.paint(frame);
+    EXPECT_EQ(pixel_of(frame, 10, 10), (std::array{178, 50, 50}));
     const std::array in_front{128, 0, 100}, behind{0, 0, 200};
-    EXPECT_EQ(pixel_of(picture, 20, 10), depth > 1 ? in_front : behind);
+    EXPECT_EQ(pixel_of(frame, 20, 10), depth > 1 ? in_front : behind);
   }
 }
 
@@ -103,12 +103,12 @@ RC_GTEST_PROP(Rasterizer, TrianglesAroundAPointPartASquareWithoutGapOrOverlap, (
   Rasterizer rasterizer(width, height);
   for (std::size_t i = 0; i < 4; ++i)
     rasterizer.shade({RasterCorner{middle, 0.5}, {square[i], 0.5}, {square[(i + 1) % 4], 0.5}});
-  Image picture = gray_picture();
-  rasterizer.paint(picture);
+  Image frame = gray_frame();
+  rasterizer.paint(frame);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const bool inside = x >= 5 && x <= 24 && y >= 5 && y <= 24;
-      RC_ASSERT(pixel_of(picture, x, y)[0] == (inside ? 50 : 100));
+      RC_ASSERT(pixel_of(frame, x, y)[0] == (inside ? 50 : 100));
     }
   }
 }
@@ -134,12 +134,12 @@ RC_GTEST_PROP(Rasterizer, ClearedItDrawsAsANewOneDoes, (std::uint64_t seed)) {
   Rasterizer used(width, height), fresh(width, height);
   draw_some(used, RandomStream(seed, "before"));
   used.clear();
-  Image cleared = gray_picture();
+  Image cleared = gray_frame();
   used.paint(cleared);
-  RC_ASSERT(cleared.pixels == gray_picture().pixels);
+  RC_ASSERT(cleared.pixels == gray_frame().pixels);
   draw_some(used, RandomStream(seed, "after"));
   draw_some(fresh, RandomStream(seed, "after"));
-  Image one = gray_picture(), other = gray_picture();
+  Image one = gray_frame(), other = gray_frame();
   used.paint(one);
   fresh.paint(other);
   RC_ASSERT(one.pixels == other.pixels);
@@ -162,12 +162,12 @@ TEST(Rasterizer, SurvivesTrianglesFarOutsideAndThoseThatAreNoNumbers) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   rasterizer.fill({RasterCorner{{nan, 3}, 1}, {{30, 3}, 1}, {{3, 20}, 1}}, surface);
   rasterizer.fill({RasterCorner{{-1e30, 3}, 1}, {{-1e30, 1e30}, 1}, {{3, -1e30}, 1}}, surface);
-  Image picture = gray_picture();
-  rasterizer.paint(picture);
+  Image frame = gray_frame();
+  rasterizer.paint(frame);
   rasterizer.fill({RasterCorner{{-1e6, -1e6}, 1}, {{1e6, -1e6}, 1}, {{0, 1e6}, 1}}, surface);
-  rasterizer.paint(picture);
-  EXPECT_EQ(pixel_of(picture, 0, 0), (std::array{0, 0, 200}));
-  EXPECT_EQ(pixel_of(picture, width - 1, height - 1), (std::array{0, 0, 200}));
+  rasterizer.paint(frame);
+  EXPECT_EQ(pixel_of(frame, 0, 0), (std::array{0, 0, 200}));
+  EXPECT_EQ(pixel_of(frame, width - 1, height - 1), (std::array{0, 0, 200}));
 }
 
 TEST(Rasterizer, RefusesMoreSurfacesThanItCanTellApart) {

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::Optional;
 using namespace heft::test;
 
-constexpr Bgr film_gray{200, 200, 200};
+constexpr Bgr picture_gray{200, 200, 200};
 
 bool bluer(const Bgr& a, const Bgr& b) {
   return a.blue - a.red > b.blue - b.red + 100;
@@ -26,73 +26,73 @@ class OverFilm : public testing::Test {
  protected:
   const ViewSetup setup = setup_with(Intrinsics{});
   SceneDrawing drawing{setup};
-  ViewPicture picture = three_cubes(setup);
+  ViewPicture shown = three_cubes(setup);
 
   // Middle of a cube's top in the picture.
   Eigen::Vector2d top_of(int slot) const {
     const Eigen::Vector3d half_m(0, 0, setup.stage.cube_size_m / 2);
-    const auto& cube = picture.frame.cubes[static_cast<std::size_t>(slot - 1)];
+    const auto& cube = shown.frame.cubes[static_cast<std::size_t>(slot - 1)];
     return project(*setup.camera, camera_looking_down(55 * M_PI / 180) *
                                       Eigen::Vector3d(cube.position_m + half_m));
   }
 };
 
 TEST_F(OverFilm, TheFilmIsShownAsItIsWhereNothingIsDrawn) {
-  RandomStream draws(1, "film");
-  auto film = gray_film(*setup.camera);
-  for (std::uint8_t& value : film->pixels) value = static_cast<std::uint8_t>(draws.below(256));
-  picture.camera = film;
-  picture.frame.cubes.clear();
-  EXPECT_EQ(drawing.draw(picture).pixels, film->pixels);
+  RandomStream draws(1, "picture");
+  auto picture = gray_picture(*setup.camera);
+  for (std::uint8_t& value : picture->pixels) value = static_cast<std::uint8_t>(draws.below(256));
+  shown.camera = picture;
+  shown.frame.cubes.clear();
+  EXPECT_EQ(drawing.draw(shown).pixels, picture->pixels);
 }
 
 TEST_F(OverFilm, AGrayFilmLooksAsItsGrayInColor) {
-  const Image in_color = drawing.draw(picture);
-  picture.camera = gray_film(*setup.camera, 1);
-  EXPECT_EQ(drawing.draw(picture).pixels, in_color.pixels);
+  const Image in_color = drawing.draw(shown);
+  shown.camera = gray_picture(*setup.camera, 1);
+  EXPECT_EQ(drawing.draw(shown).pixels, in_color.pixels);
 }
 
 TEST_F(OverFilm, NothingIsDrawnFarFromTheThings) {
-  const Image& drawn = drawing.draw(picture);
+  const Image& drawn = drawing.draw(shown);
   for (int y = 0; y < drawn.height; ++y) {
     for (int x = 0; x < drawn.width; ++x) {
       double nearest_px = 1e9;
       for (int slot : {1, 2, 3})
         nearest_px = std::min(nearest_px, (top_of(slot) - Eigen::Vector2d(x, y)).norm());
-      ASSERT_TRUE(nearest_px < 85 || at(drawn, x, y) == film_gray) << x << " " << y;
+      ASSERT_TRUE(nearest_px < 85 || at(drawn, x, y) == picture_gray) << x << " " << y;
     }
   }
 }
 
 TEST_F(OverFilm, CubesLookTheSameWhicheverSlotTheyHave) {
-  const Image in_order = drawing.draw(picture);
-  std::ranges::reverse(picture.frame.cubes);
-  EXPECT_EQ(drawing.draw(picture).pixels, in_order.pixels);
+  const Image in_order = drawing.draw(shown);
+  std::ranges::reverse(shown.frame.cubes);
+  EXPECT_EQ(drawing.draw(shown).pixels, in_order.pixels);
 }
 
 TEST_F(OverFilm, TheCloneHidesACubeOnlyFromInFront) {
   const Eigen::Vector2d top = top_of(2);
-  const Bgr cube = at(drawing.draw(picture), top);
-  picture.frame.clone = pointing_away(0, 0, 0.075);
-  const Bgr in_front = at(drawing.draw(picture), top);
+  const Bgr cube = at(drawing.draw(shown), top);
+  shown.frame.clone = pointing_away(0, 0, 0.075);
+  const Bgr in_front = at(drawing.draw(shown), top);
   EXPECT_TRUE(bluer(in_front, cube));
-  picture.frame.clone = pointing_away(0, 0.085);
-  EXPECT_EQ(at(drawing.draw(picture), top), cube);
+  shown.frame.clone = pointing_away(0, 0.085);
+  EXPECT_EQ(at(drawing.draw(shown), top), cube);
   // Stuck through the cube sideways, it is below the top.
-  picture.frame.clone = upright_pose(picture.frame.cubes[1].position_m, 0);
-  picture.frame.clone->position_m.z() -= 0.01;
-  EXPECT_EQ(at(drawing.draw(picture), top), cube);
+  shown.frame.clone = upright_pose(shown.frame.cubes[1].position_m, 0);
+  shown.frame.clone->position_m.z() -= 0.01;
+  EXPECT_EQ(at(drawing.draw(shown), top), cube);
 }
 
 // It is seen through, so that the filmed effector behind it shows where the two part: 28 % of the
-// film, which its shadow dims by up to 30 %.
+// picture, which its shadow dims by up to 30 %.
 TEST_F(OverFilm, TheCloneLetsSomeOfTheFilmThrough) {
-  picture.frame.cubes.clear();
-  picture.frame.clone = pointing_away(0, 0);
-  const Bgr over_light = at(drawing.draw(picture), 320, 235);
-  picture.camera = gray_film(*setup.camera, 3, 0);
-  const Bgr over_black = at(drawing.draw(picture), 320, 235);
-  EXPECT_TRUE(bluer(over_light, film_gray));
+  shown.frame.cubes.clear();
+  shown.frame.clone = pointing_away(0, 0);
+  const Bgr over_light = at(drawing.draw(shown), 320, 235);
+  shown.camera = gray_picture(*setup.camera, 3, 0);
+  const Bgr over_black = at(drawing.draw(shown), 320, 235);
+  EXPECT_TRUE(bluer(over_light, picture_gray));
   EXPECT_TRUE(bluer(over_black, {0, 0, 0}));
   for (int more : {over_light.red - over_black.red, over_light.blue - over_black.blue}) {
     EXPECT_LE(more, 0.28 * 200 + 2);
@@ -101,14 +101,14 @@ TEST_F(OverFilm, TheCloneLetsSomeOfTheFilmThrough) {
 }
 
 TEST_F(OverFilm, TheTableHidesWhatIsBelowIt) {
-  picture.frame.cubes = {upright_pose({0, 0, -0.03}, 0.2)};
-  EXPECT_EQ(drawing.draw(picture).pixels, picture.camera->pixels);
+  shown.frame.cubes = {upright_pose({0, 0, -0.03}, 0.2)};
+  EXPECT_EQ(drawing.draw(shown).pixels, shown.camera->pixels);
   // Sunk by half, a cube is seen down to the table: nothing of it below that line.
-  picture.frame.cubes = {upright_pose({0, 0, 0}, 0)};
+  shown.frame.cubes = {upright_pose({0, 0, 0}, 0)};
   const double half_m = setup.stage.cube_size_m / 2;
   const Pose camera = camera_looking_down(55 * M_PI / 180);
   const auto foot = project(*setup.camera, camera * Eigen::Vector3d(0, -half_m, 0));
-  const Image& drawn = drawing.draw(picture);
+  const Image& drawn = drawing.draw(shown);
   const Bgr above = at(drawn, Eigen::Vector2d(foot.x(), foot.y() - 3));
   const Bgr below = at(drawn, Eigen::Vector2d(foot.x(), foot.y() + 2));
   EXPECT_GT(above.red - above.blue, 60);
@@ -119,7 +119,7 @@ TEST_F(OverFilm, ShadowsDarkenTheTableBesideACubeAndFadeAsItRises) {
   const Eigen::Vector2d beside = project(
       *setup.camera, camera_looking_down(55 * M_PI / 180) * Eigen::Vector3d(0.085, 0.02, 0));
   const auto gray_beside = [&](double rise_m) {
-    ViewPicture one = picture;
+    ViewPicture one = shown;
     one.frame.cubes = {upright_pose({0.06, 0.02, 0.0175 + rise_m}, 0)};
     const Bgr bgr = at(drawing.draw(one), beside);
     EXPECT_EQ(bgr.blue, bgr.red);
@@ -133,7 +133,7 @@ TEST_F(OverFilm, ShadowsDarkenTheTableBesideACubeAndFadeAsItRises) {
 }
 
 TEST_F(OverFilm, SlotsAreFoundUnderTouchesAndALittleBeside) {
-  drawing.draw(picture);
+  drawing.draw(shown);
   for (int slot : {1, 2, 3}) {
     const auto top = top_of(slot);
     EXPECT_THAT(drawing.slot_at(top.x(), top.y()), Optional(slot));
@@ -144,14 +144,14 @@ TEST_F(OverFilm, SlotsAreFoundUnderTouchesAndALittleBeside) {
 }
 
 TEST_F(OverFilm, ATouchOnTheCloneMeansTheCubeBehindIt) {
-  picture.frame.clone = pointing_away(0, 0, 0.075);
-  drawing.draw(picture);
+  shown.frame.clone = pointing_away(0, 0, 0.075);
+  drawing.draw(shown);
   EXPECT_THAT(drawing.slot_at(top_of(2).x(), top_of(2).y()), Optional(2));
 }
 
 TEST_F(OverFilm, LabelsGoAboveCubesThatAreInThePicture) {
-  picture.frame.cubes[2].position_m.x() = 0.4;
-  drawing.draw(picture);
+  shown.frame.cubes[2].position_m.x() = 0.4;
+  drawing.draw(shown);
   for (int slot : {1, 2}) {
     const auto place = drawing.label_place(slot);
     ASSERT_TRUE(place);
@@ -165,44 +165,44 @@ TEST_F(OverFilm, LabelsGoAboveCubesThatAreInThePicture) {
 }
 
 TEST_F(OverFilm, TheCamerasLastPlaceHoldsUntilItIsKnownAgain) {
-  picture.camera_from_board = camera_looking_down(1.2, 0.35);
-  const Image there = drawing.draw(picture);
-  picture.camera_from_board.reset();
-  EXPECT_EQ(drawing.draw(picture).pixels, there.pixels);
+  shown.camera_from_board = camera_looking_down(1.2, 0.35);
+  const Image there = drawing.draw(shown);
+  shown.camera_from_board.reset();
+  EXPECT_EQ(drawing.draw(shown).pixels, there.pixels);
 }
 
 TEST_F(OverFilm, RefusesFilmsThatDoNotFitTheCalibration) {
-  picture.camera = std::make_shared<Image>(1280, 720, 3);
+  shown.camera = std::make_shared<Image>(1280, 720, 3);
   try {
-    drawing.draw(picture);
+    drawing.draw(shown);
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("1280 x 720"), HasSubstr("640 x 480")));
   }
-  picture.camera = std::make_shared<Image>(640, 480, 4);
-  EXPECT_THROW(drawing.draw(picture), Error);
+  shown.camera = std::make_shared<Image>(640, 480, 4);
+  EXPECT_THROW(drawing.draw(shown), Error);
 }
 
 TEST(WithoutACamera, ThereIsATableAndTheRealEffectorOnlyWhileItIsTracked) {
   const ViewSetup setup = setup_with(std::nullopt);
   SceneDrawing drawing(setup);
-  ViewPicture picture;
-  picture.frame.tracked = false;
-  const Image table = drawing.draw(picture);
+  ViewPicture shown;
+  shown.frame.tracked = false;
+  const Image table = drawing.draw(shown);
   EXPECT_EQ(table.width, 640);
   EXPECT_EQ(table.height, 480);
-  picture.frame.tracked = true;
-  picture.frame.effector = pointing_away(0, 0);
-  const Bgr effector = at(drawing.draw(picture), 320, 230);
+  shown.frame.tracked = true;
+  shown.frame.effector = pointing_away(0, 0);
+  const Bgr effector = at(drawing.draw(shown), 320, 230);
   EXPECT_NE(effector, at(table, 320, 230));
   EXPECT_LT(std::abs(effector.red - effector.blue), 25);  // no color of its own
-  picture.frame.clone = picture.frame.effector;
-  EXPECT_TRUE(bluer(at(drawing.draw(picture), 320, 230), effector));
-  picture = {};
-  picture.frame.tracked = false;
-  EXPECT_EQ(drawing.draw(picture).pixels, table.pixels);
-  picture.camera_from_board = camera_looking_down(1.2, 0.3);
-  EXPECT_NE(drawing.draw(picture).pixels, table.pixels);
+  shown.frame.clone = shown.frame.effector;
+  EXPECT_TRUE(bluer(at(drawing.draw(shown), 320, 230), effector));
+  shown = {};
+  shown.frame.tracked = false;
+  EXPECT_EQ(drawing.draw(shown).pixels, table.pixels);
+  shown.camera_from_board = camera_looking_down(1.2, 0.3);
+  EXPECT_NE(drawing.draw(shown).pixels, table.pixels);
 }
 
 // Now and then a pose is no number, or far away.
@@ -216,12 +216,12 @@ Pose any_pose(RandomStream& draws, double reach_m) {
 }
 
 ViewPicture any_picture(RandomStream draws) {
-  ViewPicture picture;
-  picture.camera_from_board = any_pose(draws, 0.3);
-  for (int i = 0; i < 3; ++i) picture.frame.cubes.push_back(any_pose(draws, 0.15));
-  picture.frame.effector = any_pose(draws, 0.15);
-  if (draws.coin(0.8)) picture.frame.clone = any_pose(draws, 0.15);
-  return picture;
+  ViewPicture shown;
+  shown.camera_from_board = any_pose(draws, 0.3);
+  for (int i = 0; i < 3; ++i) shown.frame.cubes.push_back(any_pose(draws, 0.15));
+  shown.frame.effector = any_pose(draws, 0.15);
+  if (draws.coin(0.8)) shown.frame.clone = any_pose(draws, 0.15);
+  return shown;
 }
 
 // The camera may be inside a cube, behind it, or nowhere; and no picture shows in a later one.
@@ -229,8 +229,8 @@ RC_GTEST_PROP(AnyScene, IsDrawnWithoutHarmAndTheSameWhateverWasDrawnBefore, (std
   const ViewSetup setup = setup_with(strong_lens());
   SceneDrawing used(setup), fresh(setup);
   used.draw(any_picture(RandomStream(seed, "before")));
-  const ViewPicture picture = any_picture(RandomStream(seed, "after"));
-  RC_ASSERT(used.draw(picture).pixels == fresh.draw(picture).pixels);
+  const ViewPicture shown = any_picture(RandomStream(seed, "after"));
+  RC_ASSERT(used.draw(shown).pixels == fresh.draw(shown).pixels);
   used.slot_at(320, 240);
   for (int slot : {1, 2, 3}) used.label_place(slot);
 }

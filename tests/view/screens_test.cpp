@@ -102,7 +102,7 @@ TEST(Screens, ControlsAreLargeApartAndInsideTheWindow) {
       EXPECT_TRUE(inside(control.area, window)) << control.name;
       EXPECT_GE(control.area.width, fixture.measures.target) << control.name;
       EXPECT_GE(control.area.height, fixture.measures.target - 0.01f) << control.name;
-      EXPECT_FALSE(page.picture && overlap(control.area, *page.picture)) << control.name;
+      EXPECT_FALSE(page.scene && overlap(control.area, *page.scene)) << control.name;
       for (const Control& other : page.controls)
         EXPECT_FALSE(&other != &control && overlap(control.area, other.area))
             << control.name << ' ' << other.name;
@@ -125,7 +125,7 @@ TEST(Screens, TextStaysInTheWindowAndOffTheControls) {
       const Rect area{line.x, line.y, fixture.typeface.width_px(line.text, line.size_px),
                       line.size_px};
       EXPECT_TRUE(inside(area, window)) << line.text;
-      EXPECT_FALSE(page.picture && overlap(area, *page.picture)) << line.text;
+      EXPECT_FALSE(page.scene && overlap(area, *page.scene)) << line.text;
       for (const Control& control : page.controls)
         EXPECT_FALSE(overlap(area, control.area)) << line.text << " on " << control.name;
     }
@@ -169,12 +169,12 @@ TEST(Screens, NothingIsThereBeforeTheSessionShowsSomething) {
   EXPECT_THAT(names(fixture.page()), ElementsAre());
 }
 
-TEST(Screens, ThePictureTakesMostOfTheWindow) {
+TEST(Screens, TheSceneTakesMostOfTheWindow) {
   Fixture fixture;
   fixture.screens.show(trial_state(Task::sorting), true);
-  const Rect picture = *fixture.page().picture;
-  EXPECT_GT(picture.width, 0.64f * 1024);
-  EXPECT_GT(picture.height, 0.8f * 600);
+  const Rect scene = *fixture.page().scene;
+  EXPECT_GT(scene.width, 0.64f * 1024);
+  EXPECT_GT(scene.height, 0.8f * 600);
 }
 
 TEST(Screens, EachOffersItsControls) {
@@ -350,13 +350,13 @@ TEST(Screens, TheLeftHandHasTheControlsOnItsSideAndTheCubesInTheirOrder) {
   const auto areas = [](bool left_handed) {
     Fixture fixture("en", {1024, 600}, left_handed);
     fixture.screens.show(trial_state(Task::sorting), true);
-    return std::tuple(*fixture.page().picture, fixture.control("cube_1").area,
+    return std::tuple(*fixture.page().scene, fixture.control("cube_1").area,
                       fixture.control("cube_3").area, fixture.control("validate").area);
   };
   for (const bool left_handed : {false, true}) {
-    const auto [picture, first, last, validate] = areas(left_handed);
-    EXPECT_EQ(validate.right() <= picture.x, left_handed);
-    EXPECT_EQ(validate.x >= picture.right(), !left_handed);
+    const auto [scene, first, last, validate] = areas(left_handed);
+    EXPECT_EQ(validate.right() <= scene.x, left_handed);
+    EXPECT_EQ(validate.x >= scene.right(), !left_handed);
     EXPECT_LT(first.x, last.x);
   }
   Fixture left("en", {1024, 600}, true), right;

@@ -17,18 +17,18 @@ namespace {
 using ::testing::HasSubstr;
 using namespace heft::test;
 
-constexpr int n_pictures = 8;
+constexpr int n_frames = 8;
 
-ViewPicture picture_number(const ViewSetup& setup, int number) {
-  ViewPicture picture = three_cubes(setup);
-  picture.frame.clone = pointing_away(0.01 * number - 0.04, -0.05);
-  return picture;
+ViewPicture shown_as_number(const ViewSetup& setup, int number) {
+  ViewPicture shown = three_cubes(setup);
+  shown.frame.clone = pointing_away(0.01 * number - 0.04, -0.05);
+  return shown;
 }
 
 void write_video(const ViewSetup& setup) {
   const auto view = make_video_view(setup);
-  for (int i = 0; i < n_pictures; ++i) {
-    EXPECT_EQ(view->present(picture_number(setup, i), ScreenState{}), std::nullopt);
+  for (int i = 0; i < n_frames; ++i) {
+    EXPECT_EQ(view->present(shown_as_number(setup, i), ScreenState{}), std::nullopt);
     EXPECT_TRUE(view->wait(1).empty());
   }
 }
@@ -39,7 +39,7 @@ double mean_difference(const cv::Mat& read, const Image& drawn) {
   return cv::norm(read, expected, cv::NORM_L1) / static_cast<double>(drawn.pixels.size());
 }
 
-TEST(VideoView, HoldsEveryPictureAsItIsDrawn) {
+TEST(VideoView, HoldsEveryFrameAsItIsDrawn) {
   const TemporaryFolder folder;
   for (const char* name : {"session.mp4", "session.avi"}) {
     ViewSetup setup = setup_with(Intrinsics{});
@@ -49,9 +49,9 @@ TEST(VideoView, HoldsEveryPictureAsItIsDrawn) {
     EXPECT_DOUBLE_EQ(video.get(cv::CAP_PROP_FPS), setup.rate_hz) << name;
     SceneDrawing drawing(setup);
     cv::Mat read;
-    for (int i = 0; i < n_pictures; ++i) {
+    for (int i = 0; i < n_frames; ++i) {
       ASSERT_TRUE(video.read(read)) << name << " " << i;
-      const Image& drawn = drawing.draw(picture_number(setup, i));
+      const Image& drawn = drawing.draw(shown_as_number(setup, i));
       ASSERT_EQ(read.size(), cv::Size(drawn.width, drawn.height));
       EXPECT_LT(mean_difference(read, drawn), 3) << name << " " << i;
     }

@@ -23,19 +23,19 @@ DetectedTag upright(int id, const std::vector<cv::Point2f>& corners) {
 }
 }  // namespace
 
-struct ArucoDetector::Parts {
+struct ArucoDetector::Impl {
   cv::Ptr<cv::aruco::Dictionary> dictionary =
       cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
   cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
 };
 
 ArucoDetector::ArucoDetector(const std::string& family, ArucoCorners corners)
-    : parts_(std::make_unique<Parts>()) {
+    : impl_(std::make_unique<Impl>()) {
   if (family != "tag36h11")
     throw Error(fmt::format("the aruco comparison knows tag36h11 alone, not {}", family));
-  parts_->parameters->cornerRefinementMethod = corners == ArucoCorners::apriltag
-                                                   ? cv::aruco::CORNER_REFINE_APRILTAG
-                                                   : cv::aruco::CORNER_REFINE_NONE;
+  impl_->parameters->cornerRefinementMethod = corners == ArucoCorners::apriltag
+                                                  ? cv::aruco::CORNER_REFINE_APRILTAG
+                                                  : cv::aruco::CORNER_REFINE_NONE;
 }
 
 ArucoDetector::~ArucoDetector() = default;
@@ -44,7 +44,7 @@ ArucoDetector::ArucoDetector(ArucoDetector&&) noexcept = default;
 std::vector<DetectedTag> ArucoDetector::detect(const Image& gray) {
   std::vector<std::vector<cv::Point2f>> corners;
   std::vector<int> ids;
-  cv::aruco::detectMarkers(mat_of(gray), parts_->dictionary, corners, ids, parts_->parameters);
+  cv::aruco::detectMarkers(mat_of(gray), impl_->dictionary, corners, ids, impl_->parameters);
   std::vector<DetectedTag> tags;
   for (std::size_t i = 0; i < ids.size(); ++i) tags.push_back(upright(ids[i], corners[i]));
   return tags;

@@ -26,8 +26,8 @@ class ArucoDetector {
   std::vector<DetectedTag> detect(const Image& gray);
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace heft

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "tracking/BoxFaces.h"
+#include "tracking/ImageConversion.h"
+
 namespace heft {
 
 namespace {
@@ -26,10 +29,6 @@ double area_px2(const DetectedTag& tag) {
   return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
 }
 
-Pose pose_from(const cv::Vec3d& turn, const cv::Vec3d& shift) {
-  return {{shift[0], shift[1], shift[2]}, rotation_from_vector({turn[0], turn[1], turn[2]})};
-}
-
 std::optional<Pose> solved(const Intrinsics& camera, const Points& points, int method) {
   if (points.on_body_m.empty()) return std::nullopt;
   const cv::Matx33d matrix(camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1);
@@ -46,16 +45,6 @@ std::optional<Pose> solved(const Intrinsics& camera, const Points& points, int m
 const Tag* tag_of(const MarkerBody& body, int id) {
   const auto tag = std::ranges::find(body.tags, id, &Tag::id);
   return tag == body.tags.end() ? nullptr : &*tag;
-}
-
-// A tag's own frame on its body: origin in its middle, x to its right, y up.
-Pose frame_of(const Tag& tag) {
-  Eigen::Matrix3d axes;
-  axes.col(0) = (tag.corners_m[1] - tag.corners_m[0]).normalized();
-  axes.col(1) = (tag.corners_m[0] - tag.corners_m[3]).normalized();
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  const auto& c = tag.corners_m;
-  return {(c[0] + c[1] + c[2] + c[3]) / 4, Eigen::Quaterniond(axes)};
 }
 }  // namespace
 
@@ -83,10 +72,7 @@ std::optional<Pose> pose_of_largest_tag(const Intrinsics& camera, const MarkerBo
   add_tag(points, flat, *largest);
   const auto camera_from_tag = solved(camera, points, cv::SOLVEPNP_IPPE_SQUARE);
   if (!camera_from_tag) return std::nullopt;
-  const Pose body_from_tag = frame_of(tag);
-  const Eigen::Quaterniond turn =
-      camera_from_tag->orientation * body_from_tag.orientation.conjugate();
-  return Pose{camera_from_tag->position_m - turn * body_from_tag.position_m, turn};
+  return *camera_from_tag * body_from_tag(tag).inverse();
 }
 
 }  // namespace heft

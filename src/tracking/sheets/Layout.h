@@ -1,4 +1,4 @@
-// What both sheets share: paper, its printable part, and the strip at the bottom with the ruler.
+// What both sheets have: paper, its printable part, and the strip at the bottom with the ruler.
 #pragma once
 
 #include "tracking/Sheet.h"

@@ -30,11 +30,11 @@ const std::string& new_file(const std::string& path) {
 }
 }  // namespace
 
-struct PdfSheet::Parts {
+struct PdfSheet::Impl {
   std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface;
   std::unique_ptr<cairo_t, void (*)(cairo_t*)> context;
 
-  Parts(const std::string& path, const PointMm& paper_mm)
+  Impl(const std::string& path, const PointMm& paper_mm)
       : surface(cairo_pdf_surface_create(path.c_str(), paper_mm.x() * points_per_mm,
                                          paper_mm.y() * points_per_mm),
                 cairo_surface_destroy),
@@ -44,14 +44,14 @@ struct PdfSheet::Parts {
 };
 
 PdfSheet::PdfSheet(const std::string& path, const PointMm& paper_mm, const std::string& title)
-    : parts_(std::make_unique<Parts>(new_file(path), paper_mm)), path_(path) {
-  cairo_pdf_surface_set_metadata(parts_->surface.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
+    : impl_(std::make_unique<Impl>(new_file(path), paper_mm)), path_(path) {
+  cairo_pdf_surface_set_metadata(impl_->surface.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
 }
 
 PdfSheet::~PdfSheet() = default;
 
 void PdfSheet::tag(const TagPattern& pattern, const std::array<PointMm, 4>& corners_mm) {
-  cairo_t* context = parts_->context.get();
+  cairo_t* context = impl_->context.get();
   const PointMm column = (corners_mm[1] - corners_mm[0]) / pattern.border_cells;
   const PointMm row = (corners_mm[3] - corners_mm[0]) / pattern.border_cells;
   const PointMm first = corners_mm[0] - (column + row) * pattern.margin_cells();
@@ -70,7 +70,7 @@ void PdfSheet::tag(const TagPattern& pattern, const std::array<PointMm, 4>& corn
 }
 
 void PdfSheet::lines(std::span<const PointMm> points_mm, const Stroke& stroke) {
-  cairo_t* context = parts_->context.get();
+  cairo_t* context = impl_->context.get();
   cairo_new_path(context);
   for (const PointMm& point : points_mm) cairo_line_to(context, point.x(), point.y());
   const std::array<double, 2> dashes_mm{2, 1.5};
@@ -86,7 +86,7 @@ void PdfSheet::line(const PointMm& from_mm, const PointMm& to_mm, const Stroke& 
 }
 
 void PdfSheet::text(const PointMm& at_mm, const std::string& text, const Lettering& lettering) {
-  cairo_t* context = parts_->context.get();
+  cairo_t* context = impl_->context.get();
   cairo_select_font_face(context, "sans", CAIRO_FONT_SLANT_NORMAL,
                          lettering.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context, lettering.size_mm);
@@ -118,13 +118,13 @@ void PdfSheet::ruler(const PointMm& from_mm) {
 }
 
 void PdfSheet::next_page() {
-  cairo_show_page(parts_->context.get());
+  cairo_show_page(impl_->context.get());
 }
 
 void PdfSheet::finish() {
-  cairo_surface_finish(parts_->surface.get());
+  cairo_surface_finish(impl_->surface.get());
   for (const cairo_status_t status :
-       {cairo_status(parts_->context.get()), cairo_surface_status(parts_->surface.get())})
+       {cairo_status(impl_->context.get()), cairo_surface_status(impl_->surface.get())})
     if (status != CAIRO_STATUS_SUCCESS && status != CAIRO_STATUS_SURFACE_FINISHED)
       throw Error(fmt::format("can't write {}: {}; does the folder exist, and is there space?",
                               path_, cairo_status_to_string(status)));

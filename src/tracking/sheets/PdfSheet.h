@@ -51,8 +51,8 @@ class PdfSheet {
   void finish();
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
   std::string path_;
 };
 

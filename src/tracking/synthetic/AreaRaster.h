@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "base/Scan.h"
+
 namespace heft {
 
 /// Linear light: blue, green, red, each times the coverage, and the coverage (0...1).
@@ -35,20 +37,6 @@ struct PixelBox {
 
 /// The pixels that hold any part of these points' bounding box.
 PixelBox pixels_around(std::span<const Eigen::Vector2d> points_px);
-
-/// Columns begin <= x < end of a row.
-struct Span {
-  int begin = 0, end = 0;
-
-  int width() const { return end - begin; }
-  bool empty() const { return end <= begin; }
-  /// The shortest that holds both.
-  Span around(const Span& other) const {
-    if (empty()) return other;
-    if (other.empty()) return *this;
-    return {std::min(begin, other.begin), std::max(end, other.end)};
-  }
-};
 
 /// A piece of a picture in linear light.
 struct LightPicture {
@@ -88,9 +76,6 @@ class AreaRaster {
   const PixelBox& box() const { return box_; }
 
  private:
-  void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Light& light);
-  void add_in_row(Light* row, double x0, double x1, double height, const Light& light) const;
-
   PixelBox box_;
   std::vector<Light> steps_;  ///< of each row: what changes from one pixel to the next; width + 1
 };

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/Polygon.h"
+
 namespace heft {
 
 namespace {
@@ -10,21 +12,20 @@ using Eigen::Vector3d;
 // Straight edges appear curved through the lens: a piece of this length is straight to 1e-4 px.
 constexpr double piece_m = 0.0051;
 
-// The part of a polygon above the table (z >= 0); corners in the board's frame.
-void cut_at_table(const std::array<Vector3d, 4>& corners_m, std::vector<Vector3d>& above_m) {
-  above_m.clear();
-  for (std::size_t i = 0; i < corners_m.size(); ++i) {
-    const Vector3d& from = corners_m[i];
-    const Vector3d& to = corners_m[(i + 1) % corners_m.size()];
-    if (from.z() >= 0) above_m.push_back(from);
-    if ((from.z() >= 0) != (to.z() >= 0))
-      above_m.push_back(from + from.z() / (from.z() - to.z()) * (to - from));
-  }
+using CutQuad = Polygon<Vector3d, 5>;  // a corner may be cut off
+
+// The part above the table (z >= 0); corners in the board's frame.
+CutQuad above_table(const CutQuad& quad_m) {
+  return clipped(
+      quad_m, [](const Vector3d& corner_m) { return corner_m.z(); },
+      [](const Vector3d& from, const Vector3d& to, double s) -> Vector3d {
+        return from + s * (to - from);
+      });
 }
 
 // The outline in pixels, long edges in pieces.
-void outline(const std::vector<Vector3d>& corners_m, const Pose& camera_from_board,
-             const Lens& lens, std::vector<Eigen::Vector2d>& outline_px) {
+void outline(const CutQuad& corners_m, const Pose& camera_from_board, const Lens& lens,
+             std::vector<Eigen::Vector2d>& outline_px) {
   outline_px.clear();
   for (std::size_t i = 0; i < corners_m.size(); ++i) {
     const Vector3d& from = corners_m[i];
@@ -52,7 +53,7 @@ std::optional<PixelBox> extent_of(const std::vector<PrintedFace>& faces, const S
                                   const Lens& lens) {
   std::vector<Eigen::Vector2d> corners_px;
   for (const PrintedFace& face : faces) {
-    for (const Vector3d& corner : face.patches.front().corners_m) {
+    for (const Vector3d& corner : face.quads.front().corners_m) {
       const Vector3d in_camera = body.in_camera(corner);
       if (in_camera.z() < Lens::nearest_m) return std::nullopt;
       corners_px.push_back(lens.pixel(in_camera));
@@ -63,20 +64,16 @@ std::optional<PixelBox> extent_of(const std::vector<PrintedFace>& faces, const S
 
 void draw_face(const PrintedFace& face, const SeenBody& body, const Lens& lens,
                AreaRaster& raster) {
-  std::vector<Vector3d> above_m;
   std::vector<Eigen::Vector2d> outline_px;
   const Eigen::Quaterniond camera_from_body =
       body.camera_from_board.orientation * body.board_from_body.orientation;
   const Light light =
       Shading(body.camera_from_board).on((camera_from_body * face.normal).cast<float>());
-  for (const PrintedPatch& patch : face.patches) {
-    std::array<Vector3d, 4> corners_m;
-    for (std::size_t i = 0; i < corners_m.size(); ++i)
-      corners_m[i] = body.in_board(patch.corners_m[i]);
-    cut_at_table(corners_m, above_m);
-    if (above_m.empty()) continue;
-    outline(above_m, body.camera_from_board, lens, outline_px);
-    raster.add(outline_px, patch.light * light);
+  for (const PrintedQuad& quad : face.quads) {
+    CutQuad corners_m;
+    for (const Vector3d& corner_m : quad.corners_m) corners_m.add(body.in_board(corner_m));
+    outline(above_table(corners_m), body.camera_from_board, lens, outline_px);
+    raster.add(outline_px, quad.light * light);
   }
 }
 

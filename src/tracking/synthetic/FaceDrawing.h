@@ -29,16 +29,16 @@ class Shading {
  public:
   explicit Shading(const Pose& camera_from_board);
 
-  /// How much of its full light a surface gives back, as a factor of a patch's light; the table's
+  /// How much of its full light a surface gives back, as a factor of a quad's light; the table's
   /// is 1. @param normal in the camera's frame, of length 1
   Light on(const Eigen::Vector3f& normal) const {
-    return ambient + std::max(0.0F, normal.dot(lamp_)) * lamp_share;
+    return ambient + std::max(0.0F, normal.dot(lamp_)) * direct;
   }
   const Eigen::Vector3f& towards_lamp() const { return lamp_; }
 
-  // Shares of all light and of the lamp's; coverage is not shaded.
+  // Of all light, what comes from all around and what from the lamp; coverage is not shaded.
   inline static const Light ambient{0.45F, 0.45F, 0.45F, 1};
-  inline static const Light lamp_share{0.55F, 0.55F, 0.55F, 0};
+  inline static const Light direct{0.55F, 0.55F, 0.55F, 0};
 
  private:
   Eigen::Vector3f lamp_;  ///< towards it, in the camera's frame; its length makes the table 1

@@ -22,7 +22,7 @@ inline Four dot(const Vector3f& a, const FourVectors& b) {
   return a.x() * b.x + a.y() * b.y + a.z() * b.z;
 }
 
-inline Four share(const Four& value) {
+inline Four clamped(const Four& value) {
   return value.max(0.0F).min(1.0F);
 }
 
@@ -197,11 +197,11 @@ inline FilmedHand::SkinInRow FilmedHand::SeenCone::skin_at(int x, int y, Side si
   const Four start_x = Four(0, 1, 2, 3) + (static_cast<float>(x) - from_px.x());
   const float start_y = static_cast<float>(y) - from_px.y();
   const float per_length2 = 1 / std::max(1e-6F, along_px.squaredNorm());
-  const Four s = share((start_x * along_px.x() + start_y * along_px.y()) * per_length2);
+  const Four s = clamped((start_x * along_px.x() + start_y * along_px.y()) * per_length2);
   const Four aside_x = start_x - s * along_px.x(), aside_y = start_y - s * along_px.y();
   const Four radius_px = from_radius_px + s * (to_radius_px - from_radius_px);
   const Four distance_px = root(aside_x.square() + aside_y.square());
-  const Four within = share(radius_px + 0.5F - distance_px);
+  const Four within = clamped(radius_px + 0.5F - distance_px);
   if ((within <= 0).all()) return {Four::Zero(), Four::Zero()};
 
   const Four per_radius = radius_px.max(distance_px).inverse();
@@ -213,8 +213,8 @@ inline FilmedHand::SkinInRow FilmedHand::SeenCone::skin_at(int x, int y, Side si
                             from_m.y() + s * along_m.y() + radius_m * normal.y,
                             from_m.z() + s * along_m.z() + radius_m * normal.z};
   const float px_per_m = from_radius_px / from_radius_m;
-  const Four before = share(near.before_box_m(point_m) * px_per_m + 0.5F);
-  const Four above_table = share(near.table.above_m(point_m) * px_per_m + 0.5F);
+  const Four before = clamped(near.before_box_m(point_m) * px_per_m + 0.5F);
+  const Four above_table = clamped(near.table.above_m(point_m) * px_per_m + 0.5F);
   return {within * above_table * (side == Side::before_box ? before : 1 - before),
           dot(near.lamp, normal).max(0.0F)};
 }
@@ -227,7 +227,7 @@ inline bool all_covered(std::span<const Light> pixels) {
 void FilmedHand::SeenCone::draw(Side side, const Surroundings& near, LightPicture& picture) const {
   const PixelBox area = box().within(picture.box);
   const Light dark = solid(material::skin) * Shading::ambient;
-  const Light lit = solid(material::skin) * Shading::lamp_share;
+  const Light lit = solid(material::skin) * Shading::direct;
   for (int y = area.y0; y < area.y1; ++y) {
     Light* row = picture.row(y) - picture.box.x0;
     const auto [x0, x1] = columns_in_row(y, area);

@@ -44,8 +44,8 @@ void add_black_cells(PrintedFace& face, const CellGrid& grid, const TagPattern& 
   for (int row = 0; row < pattern.n_cells; ++row)
     for (int column = 0; column < pattern.n_cells; ++column)
       if (!pattern.is_white(column, row))
-        face.patches.push_back({grid.rectangle(column, row, column + 1, row + 1),
-                                change(material::paper, material::ink)});
+        face.quads.push_back({grid.rectangle(column, row, column + 1, row + 1),
+                              change(material::paper, material::ink)});
 }
 
 PrintedFace bare_face(const FaceFrame& frame, const Eigen::Array3f& color) {
@@ -100,8 +100,8 @@ PrintedFace effector_face(const FaceFrame& frame, const MarkerBody& effector) {
     add_black_cells(cells, grid, pattern);
   }
   if (label.empty()) return face;
-  face.patches.push_back({label.rectangle(frame, 0), change(material::box, material::paper)});
-  face.patches.insert(face.patches.end(), cells.patches.begin(), cells.patches.end());
+  face.quads.push_back({label.rectangle(frame, 0), change(material::box, material::paper)});
+  face.quads.insert(face.quads.end(), cells.quads.begin(), cells.quads.end());
   return face;
 }
 
@@ -135,8 +135,8 @@ PrintedFace printed_board(const MarkerBody& board) {
     add_black_cells(face, grid, pattern);
   }
   if (!sheet.empty())
-    face.patches.insert(face.patches.begin(),
-                        {sheet.rectangle(table, sheet_margin_m), solid(material::paper)});
+    face.quads.insert(face.quads.begin(),
+                      {sheet.rectangle(table, sheet_margin_m), solid(material::paper)});
   return face;
 }
 

@@ -1,4 +1,4 @@
-// The board's sheet and the effector's faces as flat patches: paper, labels, and every black cell
+// The board's sheet and the effector's faces as flat quads: paper, labels, and every black cell
 // of the tags' true codes.
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace heft {
 
 /// A quadrilateral, clockwise as seen from its front, and what it adds to what it lies on.
-struct PrintedPatch {
+struct PrintedQuad {
   std::array<Eigen::Vector3d, 4> corners_m;
   Light light;
 };
@@ -20,7 +20,7 @@ struct PrintedPatch {
 /// A flat convex piece of a body. Patches come after what they lie on.
 struct PrintedFace {
   Eigen::Vector3d center_m, normal;  ///< normal outwards
-  std::vector<PrintedPatch> patches;
+  std::vector<PrintedQuad> quads;
 };
 
 /// A white sheet on the table with a margin around the tags. Of a board without tags: nothing.
@@ -40,12 +40,12 @@ inline const Eigen::Array3f skin{0.24F, 0.36F, 0.62F};
 inline const Eigen::Array3f table{0.115F, 0.20F, 0.31F};
 }  // namespace material
 
-/// What a patch of that material and coverage 1 adds to nothing.
+/// What a quad of that material and coverage 1 adds to nothing.
 inline Light solid(const Eigen::Array3f& color) {
   return {color[0], color[1], color[2], 1};
 }
 
-/// What a patch adds where another material was.
+/// What a quad adds where another material was.
 inline Light change(const Eigen::Array3f& from, const Eigen::Array3f& to) {
   const Eigen::Array3f step = to - from;
   return {step[0], step[1], step[2], 0};

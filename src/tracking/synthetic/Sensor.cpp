@@ -32,8 +32,8 @@ std::vector<float> half_kernel(double sd_px) {
 }
 
 int place_in_curve(float light) {
-  constexpr float share = static_cast<float>(1 / most_light);
-  return static_cast<int>(std::sqrt(share * light) * curve_intervals + 0.5F);
+  constexpr float per_most = static_cast<float>(1 / most_light);
+  return static_cast<int>(std::sqrt(per_most * light) * curve_intervals + 0.5F);
 }
 
 double level_of(double light, const std::optional<double>& gamma) {

@@ -50,7 +50,7 @@ LightPicture still_scene(const MarkerBody& board, const Pose& camera_from_board,
   LightPicture picture(lens.picture());
   const PrintedFace sheet = printed_board(board);
   const SeenBody on_table{camera_from_board, {}};
-  if (!sheet.patches.empty() && is_seen(sheet, on_table)) {
+  if (!sheet.quads.empty() && is_seen(sheet, on_table)) {
     AreaRaster raster;
     raster.begin(picture.box);
     draw_face(sheet, on_table, lens, raster);

@@ -94,7 +94,7 @@ struct GlWindow::Video {
 struct GlWindow::Graphics {
   explicit Graphics(SDL_Window* window) : context(SDL_GL_CreateContext(window)) {
     if (!context) throw no_display("no OpenGL 3");
-    SDL_GL_SetSwapInterval(1);  // may be refused: the session paces its pictures by itself
+    SDL_GL_SetSwapInterval(1);  // may be refused: the session paces its frames by itself
     glGenTextures(1, &texture);
   }
   ~Graphics() {
@@ -151,16 +151,16 @@ void GlWindow::toggle_full_screen() {
   if (full) SDL_SetWindowSize(window_.get(), windowed_width_px, windowed_height_px);
 }
 
-void GlWindow::upload(const Image& picture) {
+void GlWindow::upload(const Image& frame) {
   glBindTexture(GL_TEXTURE_2D, graphics_->texture);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, picture.width, picture.height, 0, GL_BGR,
-               GL_UNSIGNED_BYTE, picture.pixels.data());
-  last_picture_ = picture;
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, frame.width, frame.height, 0, GL_BGR, GL_UNSIGNED_BYTE,
+               frame.pixels.data());
+  last_frame_ = frame;
 }
 
 unsigned GlWindow::texture() const {
@@ -170,7 +170,7 @@ unsigned GlWindow::texture() const {
 void GlWindow::renew_graphics() {
   graphics_.reset();
   graphics_ = std::make_unique<Graphics>(window_.get());
-  if (!last_picture_.empty()) upload(last_picture_);
+  if (!last_frame_.empty()) upload(last_frame_);
 }
 
 ImDrawList& GlWindow::begin_frame(std::shared_ptr<ImFontAtlas> fonts) {

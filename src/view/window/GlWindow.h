@@ -1,5 +1,5 @@
 // The window on the display: SDL's window with an OpenGL context, one texture for the scene's
-// picture, and Dear ImGui's draw list to paint with. What is painted, and what events mean, is for
+// frame, and Dear ImGui's draw list to paint with. What is painted, and what events mean, is for
 // WindowView.
 #pragma once
 
@@ -31,8 +31,8 @@ class GlWindow {
   float scale() const;
   void toggle_full_screen();
 
-  /// Makes the picture's pixels (blue, green, red) the texture.
-  void upload(const Image& picture);
+  /// Makes the frame's pixels (blue, green, red) the texture.
+  void upload(const Image& frame);
   unsigned texture() const;
 
   /// Begins a frame with these characters, to be painted on the list that it gives.
@@ -49,7 +49,7 @@ class GlWindow {
   std::unique_ptr<Video> video_;
   std::unique_ptr<SDL_Window, void (*)(SDL_Window*)> window_;
   std::unique_ptr<Graphics> graphics_;
-  Image last_picture_;  ///< to upload again when the graphics were lost
+  Image last_frame_;  ///< to upload again when the graphics were lost
 };
 
 }  // namespace heft

@@ -1,4 +1,4 @@
-// What one screen consists of, as plain data: text, the picture's place, and controls with their
+// What one screen consists of, as plain data: text, the scene's place, and controls with their
 // places and effects. The screens fill a page, the painter draws it, taps are looked up in it.
 #pragma once
 
@@ -58,7 +58,7 @@ struct TextLine {
   Tone tone = Tone::strong;
 };
 
-/// Something written over a cube in the picture; an empty text with `selected` marks it only.
+/// Something written over a cube in the scene; an empty text with `selected` marks it only.
 struct CubeMark {
   int slot = 1;
   std::string text;
@@ -68,8 +68,8 @@ struct CubeMark {
 struct Page {
   std::vector<TextLine> lines;
   std::vector<Control> controls;
-  std::optional<Rect> picture;  ///< where the scene goes, as large as fits; none: no scene
-  std::string notice;           ///< one sentence over the picture's lower edge
+  std::optional<Rect> scene;  ///< where the scene goes, as large as fits; none: no scene
+  std::string notice;         ///< one sentence over the scene's lower edge
   std::vector<CubeMark> marks;
 };
 

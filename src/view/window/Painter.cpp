@@ -79,9 +79,9 @@ void paint_control(ImDrawList& list, const Control& control, const Paint& paint)
   paint_words(list, control, paint, ink_of(control));
 }
 
-void paint_picture(ImDrawList& list, const PaintedPicture& picture) {
-  const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.texture));
-  list.AddImage(id, corner(picture.area), opposite_corner(picture.area));
+void paint_scene(ImDrawList& list, const PaintedScene& scene) {
+  const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture));
+  list.AddImage(id, corner(scene.area), opposite_corner(scene.area));
 }
 
 bool overlap(const Rect& a, const Rect& b) {
@@ -108,11 +108,11 @@ void paint_mark(ImDrawList& list, const PlacedMark& placed, const Paint& paint,
   write_centered(list, paint.typeface, {size, {placed.mark.text}}, flag, colors::on_accent);
 }
 
-void paint_notice(ImDrawList& list, const std::string& notice, const Rect& picture,
+void paint_notice(ImDrawList& list, const std::string& notice, const Rect& scene,
                   const Paint& paint) {
   const Measures& m = paint.measures;
   const FittedText text =
-      paint.typeface.fitted(notice, m.body, picture.width - 4 * m.margin, 0.25f * picture.height);
+      paint.typeface.fitted(notice, m.body, scene.width - 4 * m.margin, 0.25f * scene.height);
   float width = 0;
   for (const std::string& line : text.lines)
     width = std::max(width, paint.typeface.width_px(line, text.size_px));
@@ -120,8 +120,8 @@ void paint_notice(ImDrawList& list, const std::string& notice, const Rect& pictu
   const float height =
       Typeface::line_height_px(text.size_px) * static_cast<float>(text.lines.size()) +
       1.2f * m.margin;
-  const Rect area{picture.x + (picture.width - width) / 2, picture.bottom() - m.margin - height,
-                  width, height};
+  const Rect area{scene.x + (scene.width - width) / 2, scene.bottom() - m.margin - height, width,
+                  height};
   list.AddRectFilled(corner(area), opposite_corner(area), colors::notice, 0.1f * m.target);
   write_centered(list, paint.typeface, text, area, colors::strong);
 }
@@ -145,13 +145,13 @@ ControlWords words_on(const Control& control, const Typeface& typeface, const Me
 
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
   list.AddRectFilled({0, 0}, {paint.measures.width, paint.measures.height}, colors::background);
-  if (paint.picture) {
-    paint_picture(list, *paint.picture);
-    list.PushClipRect(corner(paint.picture->area), opposite_corner(paint.picture->area), true);
+  if (paint.scene) {
+    paint_scene(list, *paint.scene);
+    list.PushClipRect(corner(paint.scene->area), opposite_corner(paint.scene->area), true);
     std::vector<Rect> flags;
     for (const PlacedMark& mark : paint.marks) paint_mark(list, mark, paint, flags);
     list.PopClipRect();
-    if (!page.notice.empty()) paint_notice(list, page.notice, paint.picture->area, paint);
+    if (!page.notice.empty()) paint_notice(list, page.notice, paint.scene->area, paint);
   }
   for (const TextLine& line : page.lines)
     write(list, paint.typeface, line.text, line.x, line.y, line.size_px,
@@ -159,7 +159,7 @@ void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
   for (const Control& control : page.controls) paint_control(list, control, paint);
 }
 
-Rect fitted_picture(const Rect& room, int width_px, int height_px) {
+Rect fitted_scene(const Rect& room, int width_px, int height_px) {
   const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
   const float scale = std::min(room.width / width, room.height / height);
   return {room.x + (room.width - scale * width) / 2, room.y + (room.height - scale * height) / 2,

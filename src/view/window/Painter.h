@@ -1,5 +1,5 @@
 // The look of the participant's screens: paints a page. Calm and of high contrast, dark around the
-// picture, one accent color for what leads on.
+// scene, one accent color for what leads on.
 #pragma once
 
 #include <functional>
@@ -15,8 +15,8 @@ struct ImDrawList;
 
 namespace heft {
 
-/// The scene's picture on the screen.
-struct PaintedPicture {
+/// The scene's frame on the screen.
+struct PaintedScene {
   unsigned texture = 0;
   Rect area;
 };
@@ -31,7 +31,7 @@ struct PlacedMark {
 struct Paint {
   const Typeface& typeface;
   const Measures& measures;
-  std::optional<PaintedPicture> picture;
+  std::optional<PaintedScene> scene;
   std::vector<PlacedMark> marks;
   std::function<bool(const std::string& control)> is_pressed;
 };
@@ -46,7 +46,7 @@ ControlWords words_on(const Control& control, const Typeface& typeface, const Me
 
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
 
-/// The largest place inside `room`, centered, for a picture of that size.
-Rect fitted_picture(const Rect& room, int width_px, int height_px);
+/// The largest place inside `room`, centered, for a frame of that size.
+Rect fitted_scene(const Rect& room, int width_px, int height_px);
 
 }  // namespace heft

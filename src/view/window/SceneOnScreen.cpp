@@ -5,8 +5,8 @@
 
 namespace heft {
 
-const Image& SceneOnScreen::draw(const ViewPicture& picture) {
-  const Image& image = drawing_.draw(picture);
+const Image& SceneOnScreen::draw(const ViewPicture& shown) {
+  const Image& image = drawing_.draw(shown);
   width_px_ = image.width;
   height_px_ = image.height;
   return image;
@@ -14,12 +14,12 @@ const Image& SceneOnScreen::draw(const ViewPicture& picture) {
 
 void SceneOnScreen::place(const std::optional<Rect>& room) {
   area_.reset();
-  if (room && width_px_ > 0) area_ = fitted_picture(*room, width_px_, height_px_);
+  if (room && width_px_ > 0) area_ = fitted_scene(*room, width_px_, height_px_);
 }
 
 std::optional<int> SceneOnScreen::slot_at(float x, float y) const {
   if (!area_ || !area_->contains(x, y)) return std::nullopt;
-  // Pixel centers are integers in the picture, halves on the screen.
+  // Pixel centers are integers in the frame, halves on the screen.
   return drawing_.slot_at((x - area_->x) / scale() - 0.5, (y - area_->y) / scale() - 0.5);
 }
 
@@ -28,9 +28,9 @@ std::optional<int> SceneOnScreen::slot_near(float x, float y, float reach_px) co
   constexpr int n_directions = 16;
   std::optional<int> near;
   for (int i = 0; i < n_directions; ++i)
-    for (const float share : {0.5f, 1.f}) {
+    for (const float fraction : {0.5f, 1.f}) {
       const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / n_directions;
-      const float radius = share * reach_px;
+      const float radius = fraction * reach_px;
       const auto slot = slot_at(x + radius * std::cos(angle), y + radius * std::sin(angle));
       if (slot && near && slot != near) return std::nullopt;
       if (slot) near = slot;

@@ -15,7 +15,7 @@ struct ScreenMemory {
   std::optional<int> selected;                 ///< sorting: the cube that the next label is for
   int part = 0;                                ///< of a long text, or question of a form; from 0
   std::map<std::string, std::string> entries;  ///< of a form, as chosen so far
-  bool cubes_shown = false;                    ///< in the picture
+  bool cubes_shown = false;                    ///< in the scene
 };
 
 // Text: TextScreens.cpp. A text too long for the screen comes in parts.
@@ -31,7 +31,7 @@ void thanks_screen(PageBuilder& builder, const ScreenState& state, const ScreenM
 void about_you_screen(PageBuilder& builder, const ScreenMemory& memory);
 void how_decided_screen(PageBuilder& builder, const ScreenMemory& memory);
 
-// Beside the picture: PictureScreens.cpp.
+// Beside the scene: SceneScreens.cpp.
 void demonstration_screen(PageBuilder& builder, const ScreenState& state);
 void introduction_screen(PageBuilder& builder, const ScreenState& state,
                          const ScreenMemory& memory);

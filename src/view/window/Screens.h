@@ -19,7 +19,7 @@ class Screens {
       : texts_(std::move(texts)), left_handed_(left_handed) {}
 
   /// Takes what the session offers now.
-  /// @param cubes_shown whether the picture has cubes; without, nothing can be answered
+  /// @param cubes_shown whether the scene has cubes; without, nothing can be answered
   /// @return whether the page turned: then what a person was about to tap is gone
   bool show(const ScreenState& state, bool cubes_shown);
 

@@ -40,8 +40,8 @@ double sdl_start_s() {
 }
 }  // namespace
 
-struct WindowView::Parts {
-  explicit Parts(const ViewSetup& setup)
+struct WindowView::Impl {
+  explicit Impl(const ViewSetup& setup)
       : window("Heft"),
         scene(setup),
         screens(setup.texts, setup.left_handed),
@@ -49,7 +49,7 @@ struct WindowView::Parts {
         typeface(std::make_unique<Typeface>(setup.texts, measures)),
         sdl_start(sdl_start_s()) {}
 
-  void show(const ViewPicture& picture, const ScreenState& screen);
+  void show(const ViewPicture& shown, const ScreenState& screen);
   void draw();
   void handle_pending();
   void handle(const SDL_Event& event);
@@ -76,46 +76,46 @@ struct WindowView::Parts {
   bool stale = false;  ///< what is on the display is not the page as it is now
 };
 
-void WindowView::Parts::show(const ViewPicture& shown, const ScreenState& screen) {
+void WindowView::Impl::show(const ViewPicture& shown, const ScreenState& screen) {
   if (screens.show(screen, !shown.frame.cubes.empty())) {
     taps.forget();
     page_since_s = monotonic_s();
   }
   lay_out();
-  if (!page.picture) return;
+  if (!page.scene) return;
   window.upload(scene.draw(shown));
-  scene.place(page.picture);
+  scene.place(page.scene);
 }
 
 // The page for the window's size and the screens' memory as they are now.
-void WindowView::Parts::lay_out() {
+void WindowView::Impl::lay_out() {
   const Measures now = window.measures();
   if (now.width != measures.width || now.height != measures.height) {
     measures = now;
     typeface = std::make_unique<Typeface>(screens.texts(), measures);
   }
   page = screens.page(*typeface, measures);
-  scene.place(page.picture);
+  scene.place(page.scene);
   stale = true;
 }
 
-void WindowView::Parts::draw() {
-  std::optional<PaintedPicture> picture;
-  if (scene.area()) picture = PaintedPicture{window.texture(), *scene.area()};
+void WindowView::Impl::draw() {
+  std::optional<PaintedScene> painted;
+  if (scene.area()) painted = PaintedScene{window.texture(), *scene.area()};
   ImDrawList& list = window.begin_frame(typeface->atlas());
   paint_page(list, page,
-             {*typeface, measures, picture, scene.placed(page.marks),
+             {*typeface, measures, painted, scene.placed(page.marks),
               [&](const std::string& name) { return taps.holds(name); }});
   window.end_frame();
   stale = false;
 }
 
-const Control* WindowView::Parts::enabled_control(const std::string& name) const {
+const Control* WindowView::Impl::enabled_control(const std::string& name) const {
   const auto found = std::ranges::find(page.controls, name, &Control::name);
   return found != page.controls.end() && found->enabled ? &*found : nullptr;
 }
 
-std::optional<std::string> WindowView::Parts::target_at(float x, float y) const {
+std::optional<std::string> WindowView::Impl::target_at(float x, float y) const {
   for (const Control& control : page.controls)
     if (control.area.contains(x, y))
       return control.enabled ? std::optional(control.name) : std::nullopt;
@@ -125,7 +125,7 @@ std::optional<std::string> WindowView::Parts::target_at(float x, float y) const 
   return enabled_control(name) ? std::optional(name) : std::nullopt;
 }
 
-void WindowView::Parts::down(Taps::Pointer pointer, float x, float y, double t_s) {
+void WindowView::Impl::down(Taps::Pointer pointer, float x, float y, double t_s) {
   if (t_s < page_since_s + settle_s) return;
   if (const auto target = target_at(x, y)) {
     taps.down(pointer, *target);
@@ -133,30 +133,30 @@ void WindowView::Parts::down(Taps::Pointer pointer, float x, float y, double t_s
   }
 }
 
-void WindowView::Parts::up(Taps::Pointer pointer, float x, float y, double t_s) {
+void WindowView::Impl::up(Taps::Pointer pointer, float x, float y, double t_s) {
   const auto target = target_at(x, y);
   stale = true;
   if (taps.up(pointer, target)) apply(*enabled_control(*target), t_s);
 }
 
-void WindowView::Parts::key(char key, double t_s) {
+void WindowView::Impl::key(char key, double t_s) {
   if (t_s < page_since_s + settle_s) return;
   const auto found = std::ranges::find_if(
       page.controls, [&](const Control& control) { return control.key == key && control.enabled; });
   if (found != page.controls.end()) apply(*found, t_s);
 }
 
-void WindowView::Parts::apply(const Control& control, double t_s) {
+void WindowView::Impl::apply(const Control& control, double t_s) {
   if (auto touch = screens.tapped(control)) report(std::move(*touch), t_s);
   lay_out();
 }
 
-void WindowView::Parts::report(Touch touch, double t_s) {
+void WindowView::Impl::report(Touch touch, double t_s) {
   touch.monotonic_s = t_s;
   touches.push_back(std::move(touch));
 }
 
-void WindowView::Parts::handle(const SDL_Event& event) {
+void WindowView::Impl::handle(const SDL_Event& event) {
   const double t_s = sdl_start + event.common.timestamp * 1e-3;
   const auto mouse_at = [&](Sint32 place) { return static_cast<float>(place) * window.scale(); };
   switch (event.type) {
@@ -190,18 +190,18 @@ void WindowView::Parts::handle(const SDL_Event& event) {
   }
 }
 
-void WindowView::Parts::handle_pending() {
+void WindowView::Impl::handle_pending() {
   for (SDL_Event event; SDL_PollEvent(&event) != 0;) handle(event);
 }
 
-WindowView::WindowView(const ViewSetup& setup) : parts_(std::make_unique<Parts>(setup)) {}
+WindowView::WindowView(const ViewSetup& setup) : impl_(std::make_unique<Impl>(setup)) {}
 
 WindowView::~WindowView() = default;
 
-std::optional<double> WindowView::present(const ViewPicture& picture, const ScreenState& screen) {
-  parts_->handle_pending();  // what was tapped so far was meant for the page before
-  parts_->show(picture, screen);
-  parts_->draw();
+std::optional<double> WindowView::present(const ViewPicture& shown, const ScreenState& screen) {
+  impl_->handle_pending();  // what was tapped so far was meant for the page before
+  impl_->show(shown, screen);
+  impl_->draw();
   const double presented_s = monotonic_s();
   SDL_PumpEvents();  // events get their times here
   return presented_s;
@@ -210,21 +210,21 @@ std::optional<double> WindowView::present(const ViewPicture& picture, const Scre
 std::vector<Touch> WindowView::wait(double seconds) {
   const double end_s = monotonic_s() + seconds;
   for (;;) {
-    parts_->handle_pending();
-    if (parts_->stale) parts_->draw();
+    impl_->handle_pending();
+    if (impl_->stale) impl_->draw();
     const double left_s = end_s - monotonic_s();
-    if (!parts_->touches.empty() || left_s <= 0) break;
+    if (!impl_->touches.empty() || left_s <= 0) break;
     SDL_WaitEventTimeout(nullptr, static_cast<int>(std::ceil(left_s * 1e3)));
   }
-  return std::exchange(parts_->touches, {});
+  return std::exchange(impl_->touches, {});
 }
 
 const std::vector<Control>& WindowView::controls() const {
-  return parts_->page.controls;
+  return impl_->page.controls;
 }
 
 std::optional<std::string> WindowView::target_at(float x, float y) const {
-  return parts_->target_at(x, y);
+  return impl_->target_at(x, y);
 }
 
 }  // namespace heft

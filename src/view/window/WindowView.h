@@ -1,6 +1,6 @@
 // The participant's window: SDL2 and OpenGL, full screen, for touch at arm's length. Fingers and
 // mouse are equal: a tap is going down and up on the same control, or on the same cube in the
-// picture, which is as good as its button. Targets' sizes: Measures.h. F11 changes between full
+// scene, which is as good as its button. Targets' sizes: Measures.h. F11 changes between full
 // screen and a window.
 //
 // Keyboard: 1...9 a cube or a form's choice; L, I, H lightest, intermediate, heaviest (whatever the
@@ -25,18 +25,18 @@ class WindowView final : public ArView {
   explicit WindowView(const ViewSetup& setup);
   ~WindowView() override;
 
-  std::optional<double> present(const ViewPicture& picture, const ScreenState& screen) override;
+  std::optional<double> present(const ViewPicture& shown, const ScreenState& screen) override;
   std::vector<Touch> wait(double seconds) override;
 
   /// The controls as last shown, in pixels of the window: for tests, and for scripts that tap.
   const std::vector<Control>& controls() const;
-  /// The name of the enabled control that a tap at this pixel is for; a cube in the picture goes by
+  /// The name of the enabled control that a tap at this pixel is for; a cube in the scene goes by
   /// its button's name.
   std::optional<std::string> target_at(float x, float y) const;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace heft

@@ -112,9 +112,9 @@ std::vector<double> times_of(const std::string& folder, const std::vector<std::s
   return times;
 }
 
-class FramesFolder : public Camera {
+class PictureFolder : public Camera {
  public:
-  explicit FramesFolder(const std::string& folder)
+  explicit PictureFolder(const std::string& folder)
       : folder_(folder), names_(picture_names(folder)), times_s_(times_of(folder, names_)) {
     first_ = read_image(path_of(0));
   }
@@ -153,8 +153,8 @@ class FramesFolder : public Camera {
 };
 }  // namespace
 
-std::unique_ptr<Camera> open_frames_folder(const std::string& path, const CameraRequest&) {
-  return std::make_unique<FramesFolder>(path);
+std::unique_ptr<Camera> open_picture_folder(const std::string& path, const CameraRequest&) {
+  return std::make_unique<PictureFolder>(path);
 }
 
 }  // namespace heft

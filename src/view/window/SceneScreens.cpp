@@ -8,7 +8,7 @@
 namespace heft {
 
 namespace {
-// Controls stand in a column on the side of the hand; what is asked is above the picture.
+// Controls stand in a column on the side of the hand; what is asked is above the scene.
 Rect column_of(const PageBuilder& builder) {
   const Measures& m = builder.measures;
   const float width = 3.55f * m.target;
@@ -16,7 +16,7 @@ Rect column_of(const PageBuilder& builder) {
           m.height - 2 * m.margin};
 }
 
-void add_picture(PageBuilder& builder, const std::string& above) {
+void add_scene(PageBuilder& builder, const std::string& above) {
   const Measures& m = builder.measures;
   const Rect column = column_of(builder);
   const float x = builder.left_handed ? column.right() + m.margin : m.margin;
@@ -24,7 +24,7 @@ void add_picture(PageBuilder& builder, const std::string& above) {
   const FittedText words = builder.typeface.fitted(above, m.body, width, 3 * m.body);
   const float bottom = builder.add_lines(words.lines, x, m.margin, words.size_px);
   const float y = bottom + m.gap;
-  builder.page.picture = Rect{x, y, width, m.height - m.margin - y};
+  builder.page.scene = Rect{x, y, width, m.height - m.margin - y};
 }
 
 // A row of the column divided into equal cells.
@@ -126,7 +126,7 @@ void mark_cubes(PageBuilder& builder, const ScreenState& state, const ScreenMemo
 
 // Two cubes, of which one is chosen with one tap.
 void choice_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
-  add_picture(builder, builder.text(text_page(Screen::trial, state.task), "question"));
+  add_scene(builder, builder.text(text_page(Screen::trial, state.task), "question"));
   add_hint(builder, state, memory);
   const Rect column = column_of(builder);
   add_cubes(builder, state, memory, {column.x, column.y, column.width, 2 * builder.measures.target},
@@ -136,13 +136,13 @@ void choice_screen(PageBuilder& builder, const ScreenState& state, const ScreenM
 }  // namespace
 
 void demonstration_screen(PageBuilder& builder, const ScreenState& state) {
-  add_picture(builder, builder.text("demonstration", "title"));
+  add_scene(builder, builder.text("demonstration", "title"));
   const Rect column = column_of(builder);
   const Rect button = bottom_row(builder);
   const auto words =
       builder.typeface.fitted(builder.text("demonstration", "text"), builder.measures.body,
                               column.width, button.y - column.y - builder.measures.gap);
-  builder.add_lines(words.lines, column.x, builder.page.picture->y, words.size_px, Tone::soft);
+  builder.add_lines(words.lines, column.x, builder.page.scene->y, words.size_px, Tone::soft);
   if (state.wait_s > 0) return;
   builder
       .add_button("next", button, builder.text("buttons", "next"), touch_of(TouchKind::next),
@@ -169,7 +169,7 @@ void comparison_screen(PageBuilder& builder, const ScreenState& state, const Scr
 }
 
 void sorting_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
-  add_picture(builder, builder.text("trial_sorting", "question"));
+  add_scene(builder, builder.text("trial_sorting", "question"));
   add_hint(builder, state, memory);
   if (builder.page.notice.empty() && !memory.selected && !all_labeled(state))
     builder.page.notice = builder.text("trial_sorting", "tap_a_cube");
