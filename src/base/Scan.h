@@ -89,11 +89,15 @@ void scan_points(std::array<Eigen::Vector2d, 3> corners, int n_columns, int n_ro
   const auto between = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
     const Edge side(from, to);
     const Edge &left = whole_is_left ? whole : side, &right = whole_is_left ? side : whole;
+    const auto span_at = [&](int y) {
+      return Span{first_line(left.x_at(y), n_columns), first_line(right.x_at(y), n_columns)};
+    };
+    int y = first_line(from.y(), n_rows);
     const int end_row = first_line(to.y(), n_rows);
-    for (int y = first_line(from.y(), n_rows); y < end_row; ++y) {
-      const int begin = first_line(left.x_at(y), n_columns);
-      const int end = first_line(right.x_at(y), n_columns);
-      if (begin < end) row(y, begin, end);
+    for (Span span = span_at(y); y < end_row; ++y) {
+      const Span next = span_at(y + 1);  // worked out while this row is drawn
+      if (!span.empty()) row(y, span.begin, span.end);
+      span = next;
     }
   };
   between(top, middle);
