@@ -33,8 +33,9 @@ SessionRequest demo_session(const Options& options) {
   GivenOptions given;
   given.responder = "simulated";
   given.tracker = "synthetic";
-  request.options = with_defaults(given);
-  complete(request.options);
+  Setup setup = with_defaults(given);
+  complete(setup);
+  request.setup = in_force(std::move(setup), request.protocol);
   request.participant = "demo";
   request.db = options.out + "/demo.db";
   request.seed = options.seed.value_or(usual_seed);
@@ -51,7 +52,7 @@ void demo(const Options& options) {
       "are found in its\npictures, physics pushes back, and everything is logged; seed {}.\n",
       request.seed);
   const SessionResult result =
-      run_session({request.protocol, request.options, request.db},
+      run_session({request.protocol, request.setup, request.db},
                   [&](const RunnerOptions& runner) { return start_session(request, runner); });
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
 
