@@ -37,7 +37,7 @@ std::vector<StaircaseResult> results_of(const SessionData& data) {
     if (row.method != jnd_method || compared == staircases.end()) continue;
     results.push_back({data.session.session_id, data.participant(), row.staircase, compared->second,
                        finite(row.jnd_g), row.n_trials, row.n_reversals, row.n_floor, row.n_ceiling,
-                       row.reason == "trials"});
+                       row.reason == Finish::trials});
   }
   return results;
 }

@@ -137,7 +137,7 @@ struct EstimateRow {
   std::string method;
   std::optional<double> jnd_g, low_g, high_g;
   int n_trials = 0, n_reversals = 0, n_floor = 0, n_ceiling = 0;
-  std::string reason;
+  Finish reason = Finish::reversals;
   std::optional<Censored> censored;
 };
 template <typename Row, typename Visit>

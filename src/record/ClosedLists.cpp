@@ -11,7 +11,7 @@ constexpr ClosedList list() {
 }
 constexpr std::array lists{list<Task>(),         list<Label>(),    list<ActionKind>(),
                            list<TrialStatus>(),  list<Outcome>(),  list<EventKind>(),
-                           list<SessionState>(), list<Censored>(), list<Purpose>()};
+                           list<SessionState>(), list<Finish>(), list<Censored>(), list<Purpose>()};
 }  // namespace
 
 std::span<const ClosedList> closed_lists() {

@@ -30,6 +30,8 @@ inline constexpr std::string_view closed_list<EventKind> = "list_event";
 template <>
 inline constexpr std::string_view closed_list<SessionState> = "list_state";
 template <>
+inline constexpr std::string_view closed_list<Finish> = "list_finish";
+template <>
 inline constexpr std::string_view closed_list<Censored> = "list_censored";
 template <>
 inline constexpr std::string_view closed_list<Purpose> = "list_purpose";

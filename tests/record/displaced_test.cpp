@@ -52,7 +52,7 @@ class displaced : public testing::Test {
     EXPECT_TRUE(check_integrity(file).empty());
     const auto events = LogReader(file).events(1);
     ASSERT_EQ(events.size(), 1u);
-    EXPECT_EQ(events[0].event.detail, "kept");
+    EXPECT_EQ(row_of(events[0].event).detail, "kept");
   }
 
   TemporaryFolder folder_;

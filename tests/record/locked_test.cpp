@@ -27,7 +27,7 @@ class locked : public testing::Test {
   std::vector<std::string> notes() {
     std::vector<std::string> found;
     for (const LoggedEvent& logged : LogReader(file_).events(1))
-      found.push_back(logged.event.detail);
+      found.push_back(row_of(logged.event).detail);
     return found;
   }
 

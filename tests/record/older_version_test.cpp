@@ -1,58 +1,126 @@
-// A log of version 1 is read as it is, keeps its digests, and becomes one of today's when written.
+// Logs of today's release before version 3 (tests/golden/logs): brought up to date when somebody opens
+// them, with the older file kept beside; their sessions keep their digests and what they were run
+// with.
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <filesystem>
+
+#include "base/TextFile.h"
+#include "record/Schema.h"
 #include "record/tampered_log.h"
 
 namespace heft::test {
 namespace {
 
-class older_version : public TamperedLog {
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class older_version : public testing::TestWithParam<int> {
  protected:
-  // What version 1 wrote: the same rows without the columns that came later.
   void SetUp() override {
-    TamperedLog::SetUp();
-    SQLite::Database file(original_, SQLite::OPEN_READWRITE);
+    fs::copy_file(fs::path(HEFT_SOURCE_DIR) / "tests/golden/logs/version_2.db", log_);
+    fs::permissions(log_, fs::perms::owner_write, fs::perm_options::add);
+    if (GetParam() == 2) return;
+    // What version 1 wrote: the same rows without the columns that came later.
     for (const char* column : {"detected_s", "simulated_s", "n_dropped"})
-      file.exec(fmt::format("ALTER TABLE frame DROP COLUMN {}", column));
-    file.exec("PRAGMA user_version = 1");
+      sql(fmt::format("ALTER TABLE frame DROP COLUMN {}", column));
+    sql("PRAGMA user_version = 1");
   }
+
+  void sql(const std::string& text) { SQLite::Database(log_, SQLite::OPEN_READWRITE).exec(text); }
+  int number(const std::string& file, const char* query) {
+    return SQLite::Database(file, SQLite::OPEN_READONLY).execAndGet(query).getInt();
+  }
+  std::string older_file() const { return fmt::format("{}.v{}", log_, GetParam()); }
+
+  TemporaryFolder folder_;
+  std::string log_ = folder_.file("log.db");
 };
 
-TEST_F(older_version, is_read_with_its_digests) {
-  const LogReader reader(original_);
-  for (std::int64_t session_id : {2, 3}) {
-    EXPECT_EQ(reader.frames(session_id, 1).size(), 2U);
-    EXPECT_FALSE(reader.first_broken_digest(session_id));
-  }
-  EXPECT_FALSE(reader.frames(2, 1).front().detected_s);
+TEST_P(older_version, is_brought_up_to_date_with_the_older_file_beside_it) {
+  const int n_events = number(log_, "SELECT count(*) FROM event");
+  const LogReader reader(log_);
+  EXPECT_EQ(number(log_, "PRAGMA user_version"), 3);
+  EXPECT_EQ(number(log_, "SELECT count(*) FROM event"), n_events);
+  EXPECT_THAT(reader.foreign_objects(), testing::IsEmpty());
+  EXPECT_EQ(number(older_file(), "PRAGMA user_version"), GetParam());
+  EXPECT_EQ(number(older_file(), "SELECT count(*) FROM event"), n_events);
+  EXPECT_EQ(fs::status(older_file()).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
-TEST_F(older_version, is_brought_up_to_date_when_somebody_goes_on_with_it) {
+TEST_P(older_version, keeps_its_digests_and_finds_what_was_changed) {
   {
-    SessionLog log = SessionLog::reopen(original_, 2);
-    FrameRow timed = frame(1, 9);
-    timed.detected_s = 9.01;
-    timed.simulated_s = 9.02;
+    const LogReader reader(log_);
+    for (std::int64_t session_id : {1, 2, 3, 4})
+      EXPECT_FALSE(reader.first_broken_digest(session_id)) << session_id;
+  }
+  sql("UPDATE frame SET clone_x_m = clone_x_m + 1e-9 WHERE frame_id = 7");
+  EXPECT_TRUE(LogReader(log_).first_broken_digest(1));
+}
+
+TEST_P(older_version, tells_what_each_trial_was_run_with) {
+  const LogReader reader(log_);
+  EXPECT_EQ(reader.setups(1).size(), 1u);
+  EXPECT_EQ(reader.setups(1).front().setup.responder, "simulated");
+  EXPECT_EQ(reader.setups(3).front().setup.simulator, "boxes");  // that was what `auto` was
+  const auto resumed = reader.setups(2);
+  EXPECT_EQ(resumed.front().setup.responder, "simulated");
+  EXPECT_EQ(resumed.front().setup.tracker, "synthetic");
+  EXPECT_FALSE(resumed.front().setup.board_text.empty());
+  EXPECT_EQ(resumed.back().setup.responder, "coin");
+  EXPECT_EQ(resumed.back().setup.tracker, "hand");
+  const auto trials = reader.trials(2);
+  EXPECT_EQ(trials.front().setup_index, 1);
+  EXPECT_EQ(trials.back().setup_index, static_cast<int>(resumed.size()));
+  int n_told = 0;
+  for (const LoggedEvent& logged : reader.events(2)) n_told += logged.event.as<Setup>() ? 1 : 0;
+  EXPECT_EQ(n_told, static_cast<int>(resumed.size()) - 1);
+}
+
+TEST_P(older_version, goes_on_in_todays_version) {
+  {
+    SessionLog log = SessionLog::reopen(log_, 4);
+    FrameRow timed = frame(1, 99);
+    timed.detected_s = 99.01;
     timed.n_dropped = 1;
     log.add_frame(timed);
   }
-  const LogReader reader(original_);
-  EXPECT_EQ(reader.frames(2, 1).back().n_dropped, 1);
-  EXPECT_EQ(reader.frames(2, 1).front().n_dropped, std::nullopt);
-  for (std::int64_t session_id : {2, 3}) EXPECT_FALSE(reader.first_broken_digest(session_id));
+  {
+    const LogReader reader(log_);
+    EXPECT_EQ(reader.frames(4, 1).back().n_dropped, 1);
+    EXPECT_EQ(reader.frames(4, 1).front().n_dropped, std::nullopt);
+    EXPECT_FALSE(reader.first_broken_digest(4));
+  }
+  sql("UPDATE frame SET detected_s = NULL WHERE detected_s IS NOT NULL");
+  EXPECT_TRUE(LogReader(log_).first_broken_digest(4));
 }
 
-TEST_F(older_version, a_changed_time_of_a_new_row_is_found) {
-  {
-    SessionLog log = SessionLog::reopen(original_, 2);
-    FrameRow timed = frame(1, 9);
-    timed.detected_s = 9.01;
-    log.add_frame(timed);
+TEST_P(older_version, with_something_foreign_in_it_is_refused_and_left_as_it_is) {
+  sql("CREATE TRIGGER bad AFTER INSERT ON event BEGIN DELETE FROM answer; END");
+  try {
+    LogReader reader(log_);
+    FAIL() << "it was opened";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("trigger"));
+    EXPECT_THAT(error.what(), HasSubstr("bad"));
+    EXPECT_EQ(error.exit_code(), ExitCode::diverged);
   }
-  SQLite::Database(original_, SQLite::OPEN_READWRITE)
-      .exec("UPDATE frame SET detected_s = NULL WHERE detected_s IS NOT NULL");
-  EXPECT_TRUE(LogReader(original_).first_broken_digest(2));
+  EXPECT_EQ(number(log_, "PRAGMA user_version"), GetParam());
 }
+
+TEST_P(older_version, is_read_from_memory_while_somebody_else_holds_it) {
+  const int other = ::open(log_.c_str(), O_RDONLY);
+  ASSERT_EQ(::flock(other, LOCK_EX | LOCK_NB), 0);
+  EXPECT_EQ(LogReader(log_).sessions().size(), 4u);
+  EXPECT_EQ(number(log_, "PRAGMA user_version"), GetParam());
+  EXPECT_FALSE(fs::exists(older_file()));
+  ::close(other);
+}
+
+INSTANTIATE_TEST_SUITE_P(versions, older_version, testing::Values(1, 2));
 
 }  // namespace
 }  // namespace heft::test

@@ -233,7 +233,7 @@ TEST_F(opening, a_finished_log_is_read_where_nothing_can_be_written) {
   ::chmod(folder_.path().c_str(), 0555);
   EXPECT_EQ(failure_as_ordinary_user([&] {
               const auto events = LogReader(file_).events(1);
-              if (events.size() != 1 || events[0].event.detail != "here")
+              if (events.size() != 1 || row_of(events[0].event).detail != "here")
                 throw std::runtime_error("not the events that were written");
             }),
             "");

@@ -92,8 +92,49 @@ inline Pose pose() {
   return made;
 }
 
+inline Setup any_setup() {
+  Setup setup;
+  setup.responder = words() + "x";
+  setup.simulator = words();
+  setup.rate_hz = maybe(number);
+  setup.display_w_px = maybe(count);
+  setup.language = words();
+  setup.board_file = words();
+  setup.board_text = words();
+  return setup;
+}
+
+inline Happening any_happening() {
+  switch (*rc::gen::inRange(0, 12)) {
+    case 0:
+      return Action{any_of<ActionKind>(), maybe(slot), maybe(any_of<Label>)};
+    case 1:
+      return TrialVoided{words()};
+    case 2:
+      return CubesReset{maybe(slot)};
+    case 3:
+      return SessionResumed{words(), time_s()};
+    case 4:
+      return SessionEnded{any_of<Ending>()};
+    case 5:
+      return CubeTouch{slot(), maybe(time_s)};
+    case 6:
+      return Consent{flag(), words(), words()};
+    case 7:
+      return TextShown{words(), words(), words()};
+    case 8:
+      return BreakTaken{words(), time_s()};
+    case 9:
+      return CameraReport{count(), count(), count()};
+    case 10:
+      return CheckResult{any_of<CheckVerdict>(), words(), words()};
+    default:
+      return Note{words()};
+  }
+}
+
 inline Event any_event() {
-  return {time_s(), any_of<EventKind>(), maybe(slot), maybe(any_of<Label>), words(), maybe(number)};
+  return {time_s(), any_happening()};
 }
 
 inline TrialRow any_trial(int attempt_index) {
@@ -104,13 +145,13 @@ inline TrialRow any_trial(int attempt_index) {
   plan.attempt = count() / 2 + 1;
   plan.block = words();
   plan.task = any_of<Task>();
-  plan.condition = any_of<Condition>();
+  plan.condition = words();
   plan.staircase = words();
   plan.reference_g = maybe(mass_g);
   plan.level_g = maybe(number);
   plan.is_catch = flag();
   plan.n_reshuffles = count();
-  plan.masses_g.resize(static_cast<std::size_t>(*rc::gen::inRange(0, 4)));
+  plan.masses_g.resize(static_cast<std::size_t>(*rc::gen::inRange(0, 7)));
   for (double& mass : plan.masses_g) mass = mass_g();
   plan.reference_slot = maybe(slot);
   row.status = any_of<TrialStatus>();
@@ -136,7 +177,8 @@ inline CubeRow any_cube(const TrialRow& trial, int slot) {
           count(),
           time_s(),
           maybe(time_s),
-          maybe(time_s)};
+          maybe(time_s),
+          count()};
 }
 
 inline FrameRow any_frame(int attempt_index) {
@@ -155,7 +197,7 @@ inline FrameRow any_frame(int attempt_index) {
   row.effector = exact_pose();
   row.effector_velocity = {exact_vector(), exact_vector()};
   row.clone = maybe(pose);
-  row.cubes.resize(static_cast<std::size_t>(*rc::gen::inRange(0, 4)));
+  row.cubes.resize(static_cast<std::size_t>(*rc::gen::inRange(0, 7)));
   for (Pose& cube : row.cubes) cube = pose();
   row.detected_s = maybe(number);
   row.simulated_s = maybe(number);
@@ -189,11 +231,12 @@ inline Changes any_changes(const TrialRow& trial, int number, Written& written) 
     changes.cubes.push_back(any_cube(trial, slot));
   changes.answers.push_back(
       {trial.attempt_index, time_s(), any_of<ActionKind>(), maybe(slot), maybe(any_of<Label>)});
-  changes.reversals.push_back({words(), number, trial.attempt_index, heft::test::number(),
+  changes.reversals.push_back({trial.attempt_index, words(), number, heft::test::number(),
                                heft::test::number(), heft::test::number()});
   changes.estimates.push_back({words() + std::to_string(number), words(), maybe(heft::test::number),
                                maybe(heft::test::number), maybe(heft::test::number), count(),
-                               count(), count(), count(), flag() ? "reversals" : "trials"});
+                               count(), count(), count(), any_of<Finish>(),
+                               maybe(any_of<Censored>)});
   written.trials.push_back(trial);
   const auto add = [](auto& to, const auto& from) {
     to.insert(to.end(), from.begin(), from.end());

@@ -40,7 +40,7 @@ TEST_F(reading, acknowledged_events_are_seen_at_once_with_all_buffered_before_th
   log.append(event(3, EventKind::note), of_attempt(1), Durability::acknowledged);
   EXPECT_EQ(n_events(), 3u);
   EXPECT_EQ(n_frames(), 1u);
-  EXPECT_EQ(LogReader(file_).events(1)[1].event.kind, EventKind::cubes_shown);
+  EXPECT_EQ(LogReader(file_).events(1)[1].event.kind(), EventKind::cubes_shown);
 }
 
 TEST_F(reading, buffered_rows_are_seen_after_a_flush_and_at_the_end) {
@@ -100,7 +100,7 @@ class damage : public reading {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     Changes changes = starting(sorting_trial(1, 1));
     changes.answers = {{1, 2, ActionKind::label, 2, Label::heaviest}};
-    changes.reversals = {{"15g", 1, 1, 100, 50, 50}};
+    changes.reversals = {{1, "15g", 1, 100, 50, 50}};
     log.append(event(1, EventKind::trial_started), changes, Durability::acknowledged);
     log.add_frame(frame(1, 2));
   }

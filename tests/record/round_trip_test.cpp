@@ -92,8 +92,7 @@ TEST(round_trip, a_later_session_in_the_same_file_has_its_own_attempts) {
 TEST(round_trip, a_value_that_is_no_number_is_refused_instead_of_lost) {
   const TemporaryFolder folder;
   SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
-  Event broken = event(1, EventKind::rest);
-  broken.value = std::nan("");
+  const Event broken{1, BreakTaken{"break", std::nan("")}};
   EXPECT_THROW(log.append(broken, {}, Durability::acknowledged), Error);
   EXPECT_TRUE(LogReader(folder.file("log.db")).events(1).empty());
 }

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "record/EventRow.h"
 #include "record/LogReader.h"
 #include "record/RecordedSession.h"
 
@@ -65,14 +66,15 @@ std::string joined(const Values&... values) {
 }
 
 inline std::string text(const Event& e) {
-  return joined(e.t_s, e.kind, e.slot, e.label, e.detail, e.value);
+  const EventRow row = row_of(e);
+  return joined(row.t_s, row.kind, row.slot, row.label, row.detail, row.value);
 }
 inline std::string text(const LoggedEvent& e) {
   return joined(e.attempt_index, e.event);
 }
 inline std::string text(const TrialRow& t) {
   const TrialPlan& p = t.plan;
-  return joined(t.attempt_index, p.trial_number, p.attempt, p.block, p.task, p.condition,
+  return joined(t.attempt_index, t.setup_index, p.trial_number, p.attempt, p.block, p.task, p.condition,
                 p.staircase, p.reference_g, p.level_g, p.is_catch, p.masses_g, p.reference_slot,
                 p.n_reshuffles, t.status, t.void_reason, t.outcome, t.chosen_slot, t.choice_correct,
                 t.started_s, t.shown_s, t.first_contact_s, t.first_choice_s, t.validated_s,
@@ -80,7 +82,7 @@ inline std::string text(const TrialRow& t) {
 }
 inline std::string text(const CubeRow& c) {
   return joined(c.attempt_index, c.slot, c.mass_g, c.n_pushes, c.contact_s, c.first_contact_s,
-                c.last_contact_s);
+                c.last_contact_s, c.n_resets);
 }
 inline std::string text(const AnswerRow& a) {
   return joined(a.attempt_index, a.t_s, a.action, a.slot, a.label);
@@ -90,7 +92,7 @@ inline std::string text(const ReversalRow& r) {
 }
 inline std::string text(const EstimateRow& e) {
   return joined(e.staircase, e.method, e.jnd_g, e.low_g, e.high_g, e.n_trials, e.n_reversals,
-                e.n_floor, e.n_ceiling, e.reason);
+                e.n_floor, e.n_ceiling, e.reason, e.censored);
 }
 inline std::string text(const FrameRow& f) {
   return joined(f.attempt_index, f.after_event, f.t_s, f.trial_t_s, f.capture_s, f.present_s,
@@ -129,30 +131,28 @@ inline SessionHeader header_of(const std::string& participant) {
   header.heft_version = "0.1.0";
   header.build = "a build";
   header.run_options = R"({"view":"headless"})";
-  header.purpose = "test";
+  header.purpose = Purpose::test;
   header.responder = "coin";
   header.started_utc = "2026-01-02T03:04:05.678Z";
   return header;
 }
 
 inline Event event(double t_s, EventKind kind, std::string detail = "") {
-  Event made;
-  made.t_s = t_s;
-  made.kind = kind;
-  made.detail = std::move(detail);
-  return made;
+  EventRow row;
+  row.t_s = t_s;
+  row.kind = kind;
+  row.detail = std::move(detail);
+  return event_of(row);
 }
 
 inline Event action(double t_s, ActionKind kind, std::optional<int> slot = std::nullopt,
                     std::optional<Label> label = std::nullopt) {
-  Event made = event(t_s, EventKind::action, std::string(name_of(kind)));
-  made.slot = slot;
-  made.label = label;
-  return made;
+  return {t_s, Action{kind, slot, label}};
 }
 
-inline AnswerRow answer_of(int attempt_index, const Event& action) {
-  return {attempt_index, action.t_s, *named<ActionKind>(action.detail), action.slot, action.label};
+inline AnswerRow answer_of(int attempt_index, const Event& event) {
+  const Action& action = *event.as<Action>();
+  return {attempt_index, event.t_s, action.kind, action.slot, action.label};
 }
 
 /// An open sorting trial of 15, 200 and 800 g.

@@ -31,9 +31,8 @@ class TamperedLog : public testing::Test {
     for (int n = 1; n <= 2; ++n) {
       log.append(event(n, EventKind::trial_started), starting(sorting_trial(n, n)),
                  Durability::acknowledged);
-      Event full = action(n + 0.25, ActionKind::label, 2, Label::heaviest);
-      full.value = 0.5;
-      log.append(full, of_attempt(n), Durability::acknowledged);
+      log.append(action(n + 0.25, ActionKind::label, 2, Label::heaviest), of_attempt(n),
+                 Durability::acknowledged);
       for (double t_s : {n + 0.5, n + 0.75}) log.add_frame(picture(n, t_s));
       log.add_frame(picture(0, n + 0.9));
     }

@@ -48,7 +48,7 @@ EstimateRow row_of(const std::string& staircase, const Estimate& estimate, Finis
   row.n_reversals = estimate.n_reversals;
   row.n_floor = estimate.n_floor;
   row.n_ceiling = estimate.n_ceiling;
-  row.reason = name_of(finish);
+  row.reason = finish;
   row.censored = estimate.censored;
   return row;
 }
