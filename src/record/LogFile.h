@@ -45,7 +45,7 @@ class LogFile {
   void check_in_place();
 
  private:
-  void check_kind();
+  void refuse_misfortune() const;
   void prepare();
   std::string misfortune() const;
   bool is_gathered();
