@@ -52,15 +52,12 @@ LogFile::LogFile(const std::string& path)
       file_(resolved_path(path)),
       database_(opened(path, file_)) {
   try {
-    if (const std::string why = misfortune(); !why.empty())
-      throw Error(fmt::format(
-          "can't write to {}: it {}. Remove the other name, or copy the file and name the copy "
-          "with --db FILE.",
-          path_, why));
-    check_kind();
+    refuse_misfortune();
+    holds_log(*database_, path_);
     prepare();
     if (schema::kind_of(*database_) == schema::FileKind::older_log) bring_up_to_date();
   } catch (const SQLite::Exception& error) {
+    refuse_misfortune();
     if (error.getErrorCode() == SQLITE_NOTADB) refuse_foreign_file(path_);
     const SqliteFailure failure = explained(error, database_.get());
     throw Error(fmt::format("can't write to {}: {}. {}.", path_, failure.reason, failure.advice));
@@ -70,8 +67,13 @@ LogFile::LogFile(const std::string& path)
 LogFile::LogFile(LogFile&&) noexcept = default;
 LogFile::~LogFile() = default;
 
-void LogFile::check_kind() {
-  holds_log(*database_, path_);
+void LogFile::refuse_misfortune() const {
+  const std::string why = misfortune();
+  if (why.empty()) return;
+  throw Error(
+      fmt::format("can't write to {}: it {}. Put it in its place and give it no other name, or "
+                  "choose another file with --db FILE.",
+                  path_, why));
 }
 
 void LogFile::prepare() {

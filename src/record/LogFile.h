@@ -46,7 +46,7 @@ class LogFile {
   void check_in_place();
 
  private:
-  void check_kind();
+  void refuse_misfortune() const;
   void prepare();
   void bring_up_to_date();
   std::string misfortune() const;

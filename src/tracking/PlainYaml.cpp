@@ -28,6 +28,14 @@ bool ends_in_spaces(std::string_view rest) {
   return rest.find_first_not_of(" \t") == std::string_view::npos;
 }
 
+// OpenCV's reader never ends on some lines that have none.
+bool has_key(std::string_view line) {
+  const auto key = line.substr(0, line.find(':'));
+  return !key.empty() && key.size() < line.size() && std::ranges::all_of(key, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+  });
+}
+
 class Scan {
  public:
   std::optional<std::string> fault_in(std::string_view line);
@@ -43,6 +51,7 @@ class Scan {
   std::string_view line_;
   std::size_t at_ = 0;
   int n_brackets_ = 0, n_colons_ = 0;
+  bool has_content_ = false;
 };
 
 std::optional<std::string> Scan::fault_in(std::string_view line) {
@@ -65,7 +74,13 @@ std::optional<std::string> Scan::fault_at_start() {
   const auto rest = line_.substr(indent);
   if (rest.starts_with("- -") || rest.starts_with("-  ") || rest.starts_with("-\t"))
     return "a list in a list";
-  return std::nullopt;
+  if (is_open() || rest.starts_with('#')) return std::nullopt;
+  const bool is_mark = rest.starts_with("---") && ends_in_spaces(rest.substr(3));
+  if (is_mark) return has_content_ ? std::optional("a second document") : std::nullopt;
+  has_content_ = true;
+  if (rest.starts_with('<')) return "XML";
+  if (rest.starts_with("- ") || has_key(rest)) return std::nullopt;
+  return "a line without a key";
 }
 
 std::optional<std::string> Scan::fault_here() {

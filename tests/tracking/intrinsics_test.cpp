@@ -184,9 +184,9 @@ TEST(IntrinsicsFile, RefusesWhatCanNotBe) {
 
 TEST(IntrinsicsFile, NamesTheLineOfABrokenOne) {
   const std::string broken = edited("image_height:", "image_height");
-  EXPECT_THAT(refusal(broken), HasSubstr("c.yaml:4: this is no YAML"));
-  EXPECT_THAT(refusal(broken.substr(broken.find("image_width"))), HasSubstr("c.yaml:2: this is"));
-  EXPECT_THAT(refusal("hello"), HasSubstr("c.yaml:1: this is"));
+  EXPECT_THAT(refusal(broken), HasSubstr("c.yaml:4:1: this is no plain YAML"));
+  EXPECT_THAT(refusal(broken.substr(broken.find("image_width"))), HasSubstr("c.yaml:2:1: this is"));
+  EXPECT_THAT(refusal("hello"), HasSubstr("c.yaml:1:1: this is"));
   EXPECT_THAT(refusal("\x89PNG"), HasSubstr("heft calibrate camera"));
 }
 
@@ -218,7 +218,7 @@ TEST(IntrinsicsFile, OpenCvNeverSeesWhatItCanNotBear) {
   const auto with = [&](const std::string& line) { return refusal(yaml + line + "\n"); };
   EXPECT_THAT(refusal("<?xml version=\"1.0\"?><opencv_storage/>"), HasSubstr("c.yaml:1:1: "));
   EXPECT_THAT(refusal(" \n<?xml version="), HasSubstr("it holds XML"));
-  EXPECT_THAT(refusal("{\"image_width\": 640}"), HasSubstr("it holds \"{\""));
+  EXPECT_THAT(refusal("{\"image_width\": 640}"), HasSubstr("c.yaml:1:1: this is no plain YAML"));
   EXPECT_THAT(with("x: !!binary |"),
               HasSubstr("c.yaml:15:4: this is no plain YAML: it holds a tag"));
   EXPECT_THAT(with("x: [ !!binary [ a ] ]"), HasSubstr("a tag"));
@@ -230,7 +230,9 @@ TEST(IntrinsicsFile, OpenCvNeverSeesWhatItCanNotBear) {
   EXPECT_THAT(with("x: " + std::string(100'000, '[')), HasSubstr("a list in a list"));
   EXPECT_THAT(with("- - - - 1"), HasSubstr("a list in a list"));
   EXPECT_THAT(with("a: b: c: d: e: f: g"), HasSubstr("a key within a value"));
-  EXPECT_THAT(with(" : 1"), HasSubstr("a colon without a key"));
+  EXPECT_THAT(with("im--"), HasSubstr("a line without a key"));  // OpenCV would never end
+  EXPECT_THAT(with("---"), HasSubstr("a second document"));
+  EXPECT_THAT(with(" : 1"), HasSubstr("a line without a key"));
   EXPECT_THAT(with("x: [ 1, 2"), HasSubstr("does not end"));
   EXPECT_THAT(with("x: \"a"), HasSubstr("does not end"));
   EXPECT_THAT(refusal(yaml + "# " + std::string(5'000'000, '.')), HasSubstr("bytes"));
