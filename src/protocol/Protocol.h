@@ -8,7 +8,7 @@
 
 #include "experiment/Stage.h"
 #include "experiment/Task.h"
-#include "physics/Drive.h"
+#include "physics/DriveInput.h"
 #include "physics/Scene.h"
 #include "psychophysics/Interleaving.h"
 

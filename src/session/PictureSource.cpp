@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/PlugTable.h"
+#include "base/Pose.h"
 #include "session/CameraPictures.h"
 #include "session/SyntheticPictures.h"
 

@@ -2,6 +2,8 @@
 
 #include <opencv2/calib3d.hpp>
 
+#include "base/Pose.h"
+
 namespace heft {
 
 Eigen::Matrix3d square_to(const std::array<Eigen::Vector2d, 4>& c) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/Pose.h"
+
 namespace heft {
 
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <span>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/Intrinsics.h"
 #include "view/Rasterizer.h"
 

@@ -12,6 +12,7 @@
 #include "Protocols.h"
 #include "Recorded.h"
 #include "base/Build.h"
+#include "base/Pose.h"
 #include "record/SessionArchive.h"
 #include "session/RunOptions.h"
 #include "session/Runner.h"

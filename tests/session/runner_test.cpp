@@ -11,6 +11,7 @@
 #include "Protocols.h"
 #include "Recorded.h"
 #include "base/Error.h"
+#include "base/Pose.h"
 
 namespace heft {
 namespace {
