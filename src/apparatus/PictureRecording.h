@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/Image.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

@@ -8,6 +8,7 @@
 #include "apparatus/CameraPictures.h"
 #include "apparatus/SyntheticPictures.h"
 #include "base/PlugTable.h"
+#include "base/Pose.h"
 
 namespace heft {
 

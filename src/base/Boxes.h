@@ -1,7 +1,7 @@
 // Whether two oriented boxes overlap.
 #pragma once
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

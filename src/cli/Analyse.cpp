@@ -15,7 +15,6 @@
 #include "cli/MissingCharts.h"
 #include "cli/Output.h"
 #include "cli/Talk.h"
-#include "cli/WholeNumber.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -60,21 +59,20 @@ void analyse(const Options& options) {
 }
 }  // namespace
 
-void add_analyse(CLI::App& app) {
+void add_analyse(Command& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      add_command(app, "analyse", "tables, estimates with intervals, charts and a report of a log",
-                  {"heft analyse --db heft.db", "heft analyse --db heft.db --out report",
-                   "heft analyse --db heft.db --session 3 4 --json"});
-  command->add_option("--db", options->database, "the log")->capture_default_str();
-  command->add_option("--out", options->out,
-                      "a new or empty folder for CSV, charts, summary.json and report.html");
-  command->add_option("--session", options->sessions, "only these sessions (default: all)")
-      ->check(session_number());
-  command->add_flag("--json", options->json, "JSON on stdout instead of tables");
-  command->add_flag("--mix", options->mix,
-                    "put sessions of several purposes (main, pilot, test, simulated) together");
-  command->callback([options] { analyse(*options); });
+  Command command =
+      app.add_command("analyse", "tables, estimates with intervals, charts and a report of a log",
+                      {"heft analyse --db heft.db", "heft analyse --db heft.db --out report",
+                       "heft analyse --db heft.db --session 3 4 --json"});
+  command.add_option("--db", &options->database, "the log").shows_default();
+  command.add_option("--out", &options->out,
+                     "a new or empty folder for CSV, charts, summary.json and report.html");
+  command.add_sessions(options->sessions, "only these sessions (default: all)");
+  command.add_flag("--json", options->json, "JSON on stdout instead of tables");
+  command.add_flag("--mix", options->mix,
+                   "put sessions of several purposes (main, pilot, test, simulated) together");
+  command.does([options] { analyse(*options); });
 }
 
 }  // namespace heft::cli

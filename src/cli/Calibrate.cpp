@@ -199,47 +199,47 @@ void calibrate_the_effector(const Options& options) {
   say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
 }
 
-void add_source(CLI::App& command, Options& options) {
-  command.add_option("--camera", options.source, "camera:N, video:FILE or frames:FOLDER")
-      ->required();
+void add_source(Command& command, Options& options) {
+  command.add_option("--camera", &options.source, "camera:N, video:FILE or frames:FOLDER")
+      .required();
 }
 
-void add_camera(CLI::App& parent) {
-  CLI::App* command = parent.add_subcommand("camera", "the camera, from views of the board");
+void add_camera(Command& parent) {
+  Command command = parent.add_command("camera", "the camera, from views of the board");
   const auto options = std::make_shared<Options>();
-  add_source(*command, *options);
-  command->add_option("--board", options->board, "board file")->required();
-  command->add_option("--out", options->out, "the camera file (OpenCV YAML) to write")->required();
-  command->add_option("--size", options->size,
-                      "of a live camera's pictures, WIDTHxHEIGHT (640x480 unless told)");
-  command->add_option("--exposure-ms", options->exposure_ms,
-                      "how long a live camera's shutter is open (4 unless told)");
-  command->callback([options] { calibrate_the_camera(*options); });
+  add_source(command, *options);
+  command.add_option("--board", &options->board, "board file").required();
+  command.add_option("--out", &options->out, "the camera file (OpenCV YAML) to write").required();
+  command.add_option("--size", &options->size,
+                     "of a live camera's pictures, WIDTHxHEIGHT (640x480 unless told)");
+  command.add_option("--exposure-ms", &options->exposure_ms,
+                     "how long a live camera's shutter is open (4 unless told)");
+  command.does([options] { calibrate_the_camera(*options); });
 }
 
-void add_effector(CLI::App& parent) {
-  CLI::App* command =
-      parent.add_subcommand("effector", "where the effector's tags really are, from pictures");
+void add_effector(Command& parent) {
+  Command command =
+      parent.add_command("effector", "where the effector's tags really are, from pictures");
   const auto options = std::make_shared<Options>();
-  add_source(*command, *options);
-  command->add_option("--camera-file", options->camera_file, "the calibrated camera")->required();
-  command->add_option("--effector", options->effector, "effector file as designed")->required();
-  command->add_option("--out", options->out, "the effector file to write")->required();
-  command->callback([options] { calibrate_the_effector(*options); });
+  add_source(command, *options);
+  command.add_option("--camera-file", &options->camera_file, "the calibrated camera").required();
+  command.add_option("--effector", &options->effector, "effector file as designed").required();
+  command.add_option("--out", &options->out, "the effector file to write").required();
+  command.does([options] { calibrate_the_effector(*options); });
 }
 }  // namespace
 
-void add_calibrate(CLI::App& app) {
-  CLI::App* command =
-      add_command(app, "calibrate", "measure the camera, or where the effector's tags are",
-                  {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
-                   "heft calibrate camera --camera camera:0 --size 1280x720 --board BOARD.toml \\\n"
-                   "      --out camera.yaml",
-                   "heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
-                   "      --effector EFFECTOR.toml --out MEASURED.toml"});
-  command->require_subcommand(1);
-  add_camera(*command);
-  add_effector(*command);
+void add_calibrate(Command& app) {
+  Command command = app.add_command(
+      "calibrate", "measure the camera, or where the effector's tags are",
+      {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
+       "heft calibrate camera --camera camera:0 --size 1280x720 --board BOARD.toml \\\n"
+       "      --out camera.yaml",
+       "heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
+       "      --effector EFFECTOR.toml --out MEASURED.toml"});
+  command.needs_command();
+  add_camera(command);
+  add_effector(command);
 }
 
 }  // namespace heft::cli

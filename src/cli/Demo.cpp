@@ -77,15 +77,14 @@ void demo(const Options& options) {
 
 }  // namespace
 
-void add_demo(CLI::App& app) {
+void add_demo(Command& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(
-      app, "demo", "the paper's whole session with a simulated participant, and what was found",
+  Command command = app.add_command(
+      "demo", "the paper's whole session with a simulated participant, and what was found",
       {"heft demo", "heft demo --seed 42 --out trial-run"});
-  command->add_option("--out", options->out, "folder for the log and the report")
-      ->capture_default_str();
-  add_seed(command, options->seed, "always the same session; others may last twice as long");
-  command->callback([options] { demo(*options); });
+  command.add_option("--out", &options->out, "folder for the log and the report").shows_default();
+  command.add_seed(options->seed, "always the same session; others may last twice as long");
+  command.does([options] { demo(*options); });
 }
 
 }  // namespace heft::cli

@@ -58,7 +58,10 @@ std::string output_of(const std::string& command) {
 }
 
 void check_packages(Report& report) {
-  std::istringstream list(read_text_file(installed_file(".packages")));
+  const std::string file = installed_file_or_none(".packages");
+  if (file.empty())
+    return report.line(CheckVerdict::ok, "packages", "came with heft when it was installed");
+  std::istringstream list(read_text_file(file));
   std::string line, missing;
   int n = 0;
   while (std::getline(list, line)) {
@@ -201,27 +204,26 @@ void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) 
 
 }  // namespace
 
-void add_doctor(CLI::App& app) {
+void add_doctor(Command& app) {
   struct Options {
     std::string db = "heft.db", responder;
     GivenOptions given;
     double rate_hz = 15;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(
-      app, "doctor", "check this machine, a camera too, and list what can be plugged in",
+  Command command = app.add_command(
+      "doctor", "check this machine, a camera too, and list what can be plugged in",
       {"heft doctor", "heft doctor --db lab.db", "heft doctor --tracker camera:0",
        "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
        "heft doctor --responder simulated"});
-  command->add_option("--db", options->db, "the log to check, and whose folder")
-      ->capture_default_str();
-  command->add_option("--tracker", options->given.tracker,
-                      "look through this camera: camera:N, video:FILE, frames:FOLDER");
+  command.add_option("--db", &options->db, "the log to check, and whose folder").shows_default();
+  command.add_option("--tracker", &options->given.tracker,
+                     "look through this camera: camera:N, video:FILE, frames:FOLDER");
   add_apparatus_options(command, options->given);
-  command->add_option("--display-rate", options->rate_hz, "pictures a second that are wanted")
-      ->capture_default_str();
-  command->add_option("--responder", options->responder, "only describe its parameters");
-  command->callback([options] {
+  command.add_option("--display-rate", &options->rate_hz, "pictures a second that are wanted")
+      .shows_default();
+  command.add_option("--responder", &options->responder, "only describe its parameters");
+  command.does([options] {
     if (options->responder.empty()) return diagnose(options->db, options->given, options->rate_hz);
     const std::string text = describe_parameters(responder_named(options->responder));
     print("{}", text.empty() ? "it has no parameters\n" : text);

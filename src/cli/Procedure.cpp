@@ -17,11 +17,10 @@ void converse(const std::string& file) {
 }
 }  // namespace
 
-void add_procedure(CLI::App& app) {
-  CLI::App* command = add_command(
-      app, "procedure", "drive psychophysical procedures over JSON lines on stdin and stdout",
-      {"heft procedure staircases.toml",
-       "",
+void add_procedure(Command& app) {
+  Command command = app.add_command(
+      "procedure", "drive psychophysical procedures over JSON lines on stdin and stdout",
+      {"heft procedure staircases.toml", "",
        "A session (> is written by heft, < is your program's answer, a line a trial):",
        R"(  > {"event":"trial","trial":1,"staircase":"15g","level":175})",
        R"(  < {"response":true}                 perceived, correct: the level goes down)",
@@ -43,9 +42,10 @@ void add_procedure(CLI::App& app) {
        R"(Input it can't use is answered by {"event":"error","line":N,"message":...}; the trial)",
        "stays open. It ends, with exit code 0, when all staircases are done or its input ends."});
   const auto file = std::make_shared<std::string>();
-  command->add_option("FILE", *file, "procedure file (TOML): seed, interleave, [[staircase]]...")
-      ->required();
-  command->callback([file] { converse(*file); });
+  command
+      .add_option("FILE", file.get(), "procedure file (TOML): seed, interleave, [[staircase]]...")
+      .required();
+  command.does([file] { converse(*file); });
 }
 
 }  // namespace heft::cli

@@ -9,7 +9,6 @@
 #include "cli/Commands.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
-#include "cli/WholeNumber.h"
 #include "physics/DecouplingSimulator.h"
 #include "record/Integrity.h"
 #include "replay/WhatIf.h"
@@ -175,24 +174,24 @@ void ask_what_if(const LogReader& reader, const Options& options) {
 
 }  // namespace
 
-void add_replay(CLI::App& app) {
+void add_replay(Command& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(
-      app, "replay", "verify a log (exit 5 at a divergence), or ask what a session would have been",
+  Command command = app.add_command(
+      "replay", "verify a log (exit 5 at a divergence), or ask what a session would have been",
       {"heft replay --db lab.db", "heft replay --db lab.db --session 3",
        "heft replay --db lab.db --session 3 --simulator bullet-ea",
        "heft replay --db lab.db --set physics.friction=0.64",
        "heft replay --db lab.db --set physics.predict_s=0.05",
        "heft replay --db lab.db --responder coin"});
-  command->add_option("--db", options->db, "the log")->capture_default_str();
-  command->add_option("--session", options->session, "default: all")->check(session_number());
-  command->add_option("--responder", options->responder,
-                      "run the trials anew with this responder, and compare answers");
-  command->add_option("--simulator", options->simulator,
-                      "run the logged hand through this simulator, and compare paths");
-  command->add_option("--set", options->set,
-                      "change a key of the protocol, such as coupling.stiffness_n_per_m=100");
-  command->callback([options] {
+  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_session(options->session, "all");
+  command.add_option("--responder", &options->responder,
+                     "run the trials anew with this responder, and compare answers");
+  command.add_option("--simulator", &options->simulator,
+                     "run the logged hand through this simulator, and compare paths");
+  command.add_option("--set", &options->set,
+                     "change a key of the protocol, such as coupling.stiffness_n_per_m=100");
+  command.does([options] {
     refuse_special_file(options->db);
     const LogReader reader(options->db);
     if (options->asks_what_if())

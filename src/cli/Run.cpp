@@ -9,7 +9,6 @@
 #include "cli/SessionCommand.h"
 #include "cli/SessionOptions.h"
 #include "cli/Talk.h"
-#include "cli/WholeNumber.h"
 #include "session/NextPart.h"
 
 namespace heft::cli {
@@ -119,10 +118,10 @@ void end(const std::string& db, std::optional<std::int64_t> session_id) {
 
 }  // namespace
 
-void add_run(CLI::App& app) {
+void add_run(Command& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(
-      app, "run", "run one participant's session of a protocol",
+  Command command = app.add_command(
+      "run", "run one participant's session of a protocol",
       {"heft run protocols/paper.toml --participant 07 --camera-file camera.yaml --db lab.db",
        "heft run protocols/quick.toml --participant 07 --tracker synthetic",
        "heft run protocols/quick.toml --participant 07 --responder simulated --tracker synthetic "
@@ -131,38 +130,38 @@ void add_run(CLI::App& app) {
        "heft run protocols/paper.toml --participant 07 --responder simulated --seed 42 --db lab.db",
        "heft run protocols/jnd.toml --participant 07 --responder scripted:recorded/07 --db "
        "lab.db"});
-  command->add_option("PROTOCOL", options->protocol, "a protocol file")->required();
+  command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
   command
-      ->add_option("--participant", options->participant,
-                   "the participant's id; text, kept as it is")
-      ->required();
-  command->add_option("--db", options->db, "the log; an existing one gets one more session")
-      ->capture_default_str();
-  add_seed(command, options->seed);
+      .add_option("--participant", &options->participant,
+                  "the participant's id; text, kept as it is")
+      .required();
+  command.add_option("--db", &options->db, "the log; an existing one gets one more session")
+      .shows_default();
+  command.add_seed(options->seed);
   add_session_options(command, options->given);
-  command->add_option("--simulator", options->given.simulator, "instead of the protocol's");
+  command.add_option("--simulator", &options->given.simulator, "instead of the protocol's");
   add_settings(command, options->given.settings);
-  command->add_option("--language", options->language,
-                      "of the participant's screens: en, fr, or a text FILE.toml; default: the "
-                      "protocol's");
-  command->add_flag("--left-handed", options->left_handed,
-                    "mirror the controls (the cubes stay where they are)");
+  command.add_option("--language", &options->language,
+                     "of the participant's screens: en, fr, or a text FILE.toml; default: the "
+                     "protocol's");
+  command.add_flag("--left-handed", options->left_handed,
+                   "mirror the controls (the cubes stay where they are)");
   command
-      ->add_option("--purpose", options->purpose, "of a person's session; analyse keeps them apart")
-      ->check(CLI::IsMember({"main", "pilot", "test"}))
-      ->capture_default_str();
-  command->add_option("--record-camera", options->record_camera,
-                      "keep the camera's pictures in this folder, their times in its times.csv; "
-                      "without it none are kept. Of a synthetic camera truth.csv has the exact "
-                      "poses: frame (from 0), t_s, and x_m...camera_qz as in heft track");
-  command->add_flag("--unblind", options->unblind,
-                    "show the experimenter masses and conditions; it is logged");
-  command->add_flag("--again", options->again,
-                    "run once more a protocol that the participant has finished");
-  command->callback([options] { run(*options); });
+      .add_option("--purpose", &options->purpose, "of a person's session; analyse keeps them apart")
+      .one_of({"main", "pilot", "test"})
+      .shows_default();
+  command.add_option("--record-camera", &options->record_camera,
+                     "keep the camera's pictures in this folder, their times in its times.csv; "
+                     "without it none are kept. Of a synthetic camera truth.csv has the exact "
+                     "poses: frame (from 0), t_s, and x_m...camera_qz as in heft track");
+  command.add_flag("--unblind", options->unblind,
+                   "show the experimenter masses and conditions; it is logged");
+  command.add_flag("--again", options->again,
+                   "run once more a protocol that the participant has finished");
+  command.does([options] { run(*options); });
 }
 
-void add_resume(CLI::App& app) {
+void add_resume(Command& app) {
   struct ResumeOptions {
     std::string db = "heft.db";
     std::optional<std::int64_t> session;
@@ -170,23 +169,22 @@ void add_resume(CLI::App& app) {
     bool end = false, unblind = false;
   };
   const auto options = std::make_shared<ResumeOptions>();
-  CLI::App* command = add_command(
-      app, "resume",
+  Command command = app.add_command(
+      "resume",
       "go on with an unfinished session; options that are not given again stay as they were",
       {"heft resume --db lab.db", "heft resume --db lab.db --session 3",
        "heft resume --db lab.db --responder scripted:recorded/07-second-half",
        "heft resume --db lab.db --session 3 --end"});
-  command->add_option("--db", options->db, "the log")->capture_default_str();
-  command->add_option("--session", options->session, "default: the newest unfinished one")
-      ->check(session_number());
+  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_session(options->session, "the newest unfinished one");
   add_session_options(command, options->again);
-  command->add_option("--simulator", options->again.simulator,
-                      "from here on; each trial is replayed with the one that it ran with");
-  command->add_flag("--unblind", options->unblind,
-                    "show the experimenter masses and conditions; it is logged");
-  command->add_flag("--end", options->end,
-                    "don't go on: end the session as it is, for somebody who will not come back");
-  command->callback([options] {
+  command.add_option("--simulator", &options->again.simulator,
+                     "from here on; each trial is replayed with the one that it ran with");
+  command.add_flag("--unblind", options->unblind,
+                   "show the experimenter masses and conditions; it is logged");
+  command.add_flag("--end", options->end,
+                   "don't go on: end the session as it is, for somebody who will not come back");
+  command.does([options] {
     if (options->end) return end(options->db, options->session);
     resume(options->db, options->session, options->again, options->unblind);
   });

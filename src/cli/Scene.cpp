@@ -148,24 +148,24 @@ void run_scene(const Options& options) {
 }
 }  // namespace
 
-void add_scene(CLI::App& app) {
-  CLI::App* command = add_command(
-      app, "scene", "physics alone: effector poses in, clone and cube poses out, as CSV",
+void add_scene(Command& app) {
+  Command command = app.add_command(
+      "scene", "physics alone: effector poses in, clone and cube poses out, as CSV",
       {"heft scene tests/scenes/push_200g.toml --trajectory tests/scenes/push.csv > out.csv",
        "heft scene SCENE.toml --trajectory T.csv --simulator bullet-ea --rate 60",
        "heft scene SCENE.toml --trajectory T.csv --simulator auto --rate 60 --explain > out.csv"});
   const auto options = std::make_shared<Options>();
-  command->add_option("SCENE.toml", options->scene, "a scene file")->required();
+  command.add_option("SCENE.toml", &options->scene, "a scene file").required();
   command
-      ->add_option("--trajectory", options->trajectory,
-                   "effector path: CSV t_s,x_m,y_m,z_m,qw,qx,qy,qz")
-      ->required();
-  command->add_option("--simulator", options->simulator, simulator_help())->capture_default_str();
-  command->add_option("--rate", options->rate_hz, "physics steps and rows a second")
-      ->capture_default_str();
-  command->add_flag("--explain", options->explain,
-                    "say on stderr which simulator and step were taken, and why");
-  command->callback([options] { run_scene(*options); });
+      .add_option("--trajectory", &options->trajectory,
+                  "effector path: CSV t_s,x_m,y_m,z_m,qw,qx,qy,qz")
+      .required();
+  command.add_option("--simulator", &options->simulator, simulator_help()).shows_default();
+  command.add_option("--rate", &options->rate_hz, "physics steps and rows a second")
+      .shows_default();
+  command.add_flag("--explain", options->explain,
+                   "say on stderr which simulator and step were taken, and why");
+  command.does([options] { run_scene(*options); });
 }
 
 }  // namespace heft::cli

@@ -14,36 +14,42 @@
 
 namespace heft::cli {
 
-void add_apparatus_options(CLI::App* command, GivenOptions& given) {
-  command->add_option("--camera-file", given.camera_file,
-                      "the camera's calibration, from heft calibrate camera; default: "
-                      "camera.yaml in this folder, for synthetic a made-up one");
-  command->add_option("--board", given.board_file,
-                      "the printed board; default: protocols/apparatus/board.toml");
-  command->add_option("--effector", given.effector_file,
-                      "the effector's tags; default: protocols/apparatus/effector.toml");
+void add_apparatus_options(Command& command, GivenOptions& given) {
+  command.add_option("--camera-file", &given.camera_file,
+                     "the camera's calibration, from heft calibrate camera; default: "
+                     "camera.yaml in this folder, for synthetic a made-up one");
+  command.add_option("--board", &given.board_file,
+                     "the printed board; default: protocols/apparatus/board.toml");
+  command.add_option("--effector", &given.effector_file,
+                     "the effector's tags; default: protocols/apparatus/effector.toml");
 }
 
-void add_settings(CLI::App* command, std::vector<std::string>& settings) {
-  command->add_option("--set", settings,
-                      "change a key of the protocol, such as coupling.stiffness_n_per_m=100; kept "
-                      "with the session");
+void add_settings(Command& command, std::vector<std::string>& settings) {
+  command.add_option("--set", &settings,
+                     "change a key of the protocol, such as coupling.stiffness_n_per_m=100; kept "
+                     "with the session");
 }
 
-void add_session_options(CLI::App* command, GivenOptions& given) {
-  command->add_option("--responder", given.responder,
-                      "human (default), or a model: NAME or NAME:FILE (heft doctor lists them)");
-  command->add_option(
-      "--tracker", given.tracker,
-      "where effector poses come from: camera:N, video:FILE, frames:FOLDER, "
-      "synthetic (a rendered camera films a model's hand; synthetic:FILE.toml says "
-      "what it gets wrong, as protocols/apparatus/synthetic_camera.toml explains), "
-      "hand (that hand as it is); default: camera:0 for a person, hand for a model");
-  command->add_option("--view", given.view,
-                      "what shows the session: window, headless, video:FILE; default: window for a "
-                      "person, headless for a model");
+void add_session_options(Command& command, GivenOptions& given) {
+  command.add_option("--responder", &given.responder,
+                     "human (default), or a model: NAME or NAME:FILE (heft doctor lists them)");
+  command.add_option("--tracker", &given.tracker,
+                     "where effector poses come from: camera:N, video:FILE, frames:FOLDER, "
+                     "synthetic (a rendered camera films a model's hand; synthetic:FILE.toml says "
+                     "what it gets wrong, as protocols/apparatus/synthetic_camera.toml explains), "
+                     "hand (that hand as it is); default: camera:0 for a person, hand for a model");
+  command.add_option("--view", &given.view,
+                     "what shows the session: window, headless, video:FILE; default: window for a "
+                     "person, headless for a model");
   add_apparatus_options(command, given);
 }
+
+namespace {
+// What was given, or the file that comes with the program; looked for only where it is needed.
+std::string or_shipped(const std::optional<std::string>& given, const char* shipped) {
+  return given ? *given : installed_file(shipped);
+}
+}  // namespace
 
 Setup with_defaults(const GivenOptions& given) {
   Setup options;
@@ -54,11 +60,11 @@ Setup with_defaults(const GivenOptions& given) {
   options.simulator = given.simulator.value_or("");
   options.settings = fmt::format("{}", fmt::join(given.settings, "\n"));
   const bool synthetic = split_name(options.tracker).name == "synthetic";
-  options.camera_file = given.camera_file.value_or(
-      synthetic ? installed_file("protocols/apparatus/synthetic_camera.yaml") : "");
-  options.board_file = given.board_file.value_or(installed_file("protocols/apparatus/board.toml"));
-  options.effector_file =
-      given.effector_file.value_or(installed_file("protocols/apparatus/effector.toml"));
+  options.camera_file =
+      synthetic ? or_shipped(given.camera_file, "protocols/apparatus/synthetic_camera.yaml")
+                : given.camera_file.value_or("");
+  options.board_file = or_shipped(given.board_file, "protocols/apparatus/board.toml");
+  options.effector_file = or_shipped(given.effector_file, "protocols/apparatus/effector.toml");
   return options;
 }
 
@@ -88,7 +94,7 @@ std::vector<std::string> cautions(const Protocol& protocol) {
   const auto& [mode, predict_s] = protocol.simulator.input;
   std::vector<std::string> found;
   const std::string& simulator = protocol.simulator.name;
-  if (!simulator_named(simulator).for_sessions)
+  if (!entry_named("simulator", simulator, simulators()).for_sessions)
     found.push_back(fmt::format(
         "[physics] simulator = \"{}\" models one straight push: people's sessions refuse "
         "it, a simulated one ends where a hand does more: use \"boxes\" or \"auto\"",

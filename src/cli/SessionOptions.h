@@ -1,23 +1,23 @@
 // The options that run, resume and their like share: what a session is run with.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apparatus/SessionSetup.h"
+#include "cli/CommandLine.h"
 #include "protocol/Protocol.h"
 
 namespace heft::cli {
 
 /// --camera-file, --board, --effector
-void add_apparatus_options(CLI::App* command, GivenOptions& given);
+void add_apparatus_options(Command& command, GivenOptions& given);
 
 /// --set
-void add_settings(CLI::App* command, std::vector<std::string>& settings);
+void add_settings(Command& command, std::vector<std::string>& settings);
 
-void add_session_options(CLI::App* command, GivenOptions& given);
+void add_session_options(Command& command, GivenOptions& given);
 
 /// A person is filmed and has a window; a model is neither unless somebody says so. Files of the
 /// apparatus that are not given are the shipped ones; a real camera's calibration never is, it

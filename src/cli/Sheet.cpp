@@ -41,25 +41,25 @@ void draw_effector(const Options& options) {
   say_next_step(options, "effector");
 }
 
-void add_body(CLI::App& sheet, const char* name, const char* summary, const char* file_summary,
+void add_body(Command& sheet, const char* name, const char* summary, const char* file_summary,
               void (*draw)(const Options&)) {
-  CLI::App* command = sheet.add_subcommand(name, summary);
+  Command command = sheet.add_command(name, summary);
   const auto options = std::make_shared<Options>();
-  command->add_option(fmt::format("--{}", name), options->body, file_summary)->required();
-  command->add_option("--out", options->out, "the PDF to write; none is written over")->required();
-  command->add_option("--paper", options->paper, "a4 or letter")->capture_default_str();
-  command->callback([options, draw] { draw(*options); });
+  command.add_option(fmt::format("--{}", name), &options->body, file_summary).required();
+  command.add_option("--out", &options->out, "the PDF to write; none is written over").required();
+  command.add_option("--paper", &options->paper, "a4 or letter").shows_default();
+  command.does([options, draw] { draw(*options); });
 }
 }  // namespace
 
-void add_sheet(CLI::App& app) {
-  CLI::App* command = add_command(
-      app, "sheet", "draw the board or the effector's cut-out net as PDF, to print",
+void add_sheet(Command& app) {
+  Command command = app.add_command(
+      "sheet", "draw the board or the effector's cut-out net as PDF, to print",
       {"heft sheet board --board protocols/apparatus/board.toml --out board.pdf",
        "heft sheet effector --effector protocols/apparatus/effector.toml --out effector.pdf"});
-  command->require_subcommand(1);
-  add_body(*command, "board", "the board on the table", "board file", draw_board);
-  add_body(*command, "effector", "the effector's box, to cut out and fold", "effector file",
+  command.needs_command();
+  add_body(command, "board", "the board on the table", "board file", draw_board);
+  add_body(command, "effector", "the effector's box, to cut out and fold", "effector file",
            draw_effector);
 }
 

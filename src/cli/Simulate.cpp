@@ -11,7 +11,6 @@
 #include "cli/SessionOptions.h"
 #include "cli/StopOnSignal.h"
 #include "cli/Talk.h"
-#include "cli/WholeNumber.h"
 #include "session/Simulation.h"
 
 namespace heft::cli {
@@ -75,32 +74,32 @@ void simulate_participants(const Options& options) {
 
 }  // namespace
 
-void add_simulate(CLI::App& app) {
+void add_simulate(Command& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(
-      app, "simulate", "run many sessions with a simulated responder",
+  Command command = app.add_command(
+      "simulate", "run many sessions with a simulated responder",
       {"heft simulate protocols/paper.toml --responder simulated --participants 13 --db sim.db",
        "heft simulate protocols/jnd.toml --responder coin --participants 100 --jobs 2 --seed 1",
        "heft simulate protocols/jnd.toml --responder simulated:mine.toml --participants 50"});
-  command->add_option("PROTOCOL", options->protocol, "a protocol file")->required();
+  command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
   command
-      ->add_option("--responder", options->responder, "NAME or NAME:FILE (heft doctor lists them)")
-      ->capture_default_str();
-  command->add_option("--participants", options->participants, "how many")
-      ->check(whole_number(1, 1'000'000))
-      ->capture_default_str();
+      .add_option("--responder", &options->responder, "NAME or NAME:FILE (heft doctor lists them)")
+      .shows_default();
+  command.add_option("--participants", &options->participants, "how many")
+      .whole_number(1, 1'000'000)
+      .shows_default();
   command
-      ->add_option("--jobs", options->jobs,
-                   "threads; any number gives the same data (default: one a core)")
-      ->check(whole_number(1, 1024));
-  command->add_option("--db", options->db, "the log; an existing one gets more sessions")
-      ->capture_default_str();
-  add_seed(command, options->seed);
-  command->add_option("--simulator", options->simulator, "instead of the protocol's");
-  command->add_flag("--frames", options->frames,
-                    "store every displayed frame too (about 10 MB a session)");
+      .add_option("--jobs", &options->jobs,
+                  "threads; any number gives the same data (default: one a core)")
+      .whole_number(1, 1024);
+  command.add_option("--db", &options->db, "the log; an existing one gets more sessions")
+      .shows_default();
+  command.add_seed(options->seed);
+  command.add_option("--simulator", &options->simulator, "instead of the protocol's");
+  command.add_flag("--frames", options->frames,
+                   "store every displayed frame too (about 10 MB a session)");
   add_settings(command, options->settings);
-  command->callback([options] { simulate_participants(*options); });
+  command.does([options] { simulate_participants(*options); });
 }
 
 }  // namespace heft::cli

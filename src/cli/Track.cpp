@@ -128,23 +128,23 @@ void run_track(const Options& options) {
 }
 }  // namespace
 
-void add_track(CLI::App& app) {
-  CLI::App* command = add_command(
-      app, "track", "tracking alone: pictures in, poses of board and effector out, as CSV",
+void add_track(Command& app) {
+  Command command = app.add_command(
+      "track", "tracking alone: pictures in, poses of board and effector out, as CSV",
       {"heft track --camera-file camera.yaml --board board.toml --effector effector.toml frames/",
        "heft track --camera-file camera.yaml --board board.toml one.png two.png",
        "heft track --camera-file camera.yaml --board board.toml film.mp4 > poses.csv"});
-  command->footer(command->get_footer() + columns_explained);
+  command.add_to_help(columns_explained);
   const auto options = std::make_shared<Options>();
-  command->add_option("--camera-file", options->camera, "the camera's calibration, OpenCV's YAML")
-      ->required();
-  command->add_option("--board", options->board, "a board file")->required();
-  command->add_option("--effector", options->effector, "an effector file");
-  command->add_option("--rate", options->rate_hz, "pictures a second, for single picture files")
-      ->capture_default_str();
-  command->add_option("FRAMES", options->frames, "picture files, a folder of them, or a video")
-      ->required();
-  command->callback([options] { run_track(*options); });
+  command.add_option("--camera-file", &options->camera, "the camera's calibration, OpenCV's YAML")
+      .required();
+  command.add_option("--board", &options->board, "a board file").required();
+  command.add_option("--effector", &options->effector, "an effector file");
+  command.add_option("--rate", &options->rate_hz, "pictures a second, for single picture files")
+      .shows_default();
+  command.add_option("FRAMES", &options->frames, "picture files, a folder of them, or a video")
+      .required();
+  command.does([options] { run_track(*options); });
 }
 
 }  // namespace heft::cli

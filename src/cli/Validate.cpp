@@ -102,14 +102,14 @@ void validate_all(const std::vector<std::string>& paths) {
 }
 }  // namespace
 
-void add_validate(CLI::App& app) {
-  auto* command = add_command(
-      app, "validate",
+void add_validate(Command& app) {
+  Command command = app.add_command(
+      "validate",
       "check protocols, procedure, scene, board, effector, synthetic camera and text files",
       {"heft validate protocols/paper.toml", "heft validate my_study/*.toml"});
   auto paths = std::make_shared<std::vector<std::string>>();
-  command->add_option("FILE", *paths, "files to check; their kind is recognized")->required();
-  command->callback([paths] { validate_all(*paths); });
+  command.add_option("FILE", paths.get(), "files to check; their kind is recognized").required();
+  command.does([paths] { validate_all(*paths); });
 }
 
 }  // namespace heft::cli

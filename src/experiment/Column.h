@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

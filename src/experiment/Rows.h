@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "experiment/Column.h"
 #include "experiment/Setup.h"
 #include "experiment/Task.h"

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/Error.h"
+#include "base/Pose.h"
 #include "base/TextFile.h"
 
 namespace heft {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

@@ -1,5 +1,6 @@
 #include "physics/CloneCoupling.h"
 
+#include "base/Pose.h"
 #include "physics/BoxInertia.h"
 
 namespace heft {

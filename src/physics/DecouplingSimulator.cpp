@@ -1,6 +1,8 @@
 // The table of simulators.
 #include "physics/DecouplingSimulator.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <vector>
 
@@ -8,13 +10,15 @@
 #include "physics/auto/Choice.h"
 #include "physics/boxes/BoxesSimulator.h"
 #include "physics/bullet/BulletSimulator.h"
-#include "physics/bullet/StockSimulators.h"
 #include "physics/push/PushSimulator.h"
 
 namespace heft {
 
 namespace {
-constexpr auto table = std::to_array<SimulatorEntry>({
+// Set-ups that go wrong: heft-bench alone is built with them.
+constexpr MakeSimulator only_for_studies = nullptr;
+
+constinit auto table = std::to_array<SimulatorEntry>({
     {"boxes",
      "the default: our own solver for a few boxes on a table, exact coupling, true friction disk",
      make_boxes},
@@ -29,19 +33,18 @@ constexpr auto table = std::to_array<SimulatorEntry>({
     {"auto", "the cheapest of push, boxes, bullet-lx that stays within 0.1 mm and half a gram",
      make_auto},
     {"bullet-explicit", "stock Bullet, force and torque once a step as the paper writes them",
-     make_bullet_explicit,
+     only_for_studies,
      "blows up at every display rate: the paper's torsional spring needs steps below 0.1 ms"},
-    {"bullet-explicit-held", "the same, held over Bullet's substeps of 1/240 s",
-     make_bullet_explicit_held,
+    {"bullet-explicit-held", "the same, held over Bullet's substeps of 1/240 s", only_for_studies,
      "blows up: the force is set once a step, substeps do not make it fresher"},
-    {"bullet-stable-pd", "stock Bullet, stable PD control", make_bullet_stable_pd,
+    {"bullet-stable-pd", "stock Bullet, stable PD control", only_for_studies,
      "cubes feel too heavy: the lag is (1 + w h)^2 times too long, 1.7 times at 240 Hz"},
     {"bullet-exact-velocity", "stock Bullet, velocity set to the free oscillator's",
-     make_bullet_exact_velocity,
+     only_for_studies,
      "cubes feel too heavy: the lag is e^(w h) times too long, 1.3 times at 240 Hz"},
     {"bullet-soft-rows", "stock Bullet, spring as soft constraint rows (ERP and CFM)",
-     make_bullet_soft_rows, "blows up for small steps: with the paper's spring above 170 Hz"},
-    {"bullet-spring2", "stock Bullet, btGeneric6DofSpring2Constraint", make_bullet_spring2,
+     only_for_studies, "blows up for small steps: with the paper's spring above 170 Hz"},
+    {"bullet-spring2", "stock Bullet, btGeneric6DofSpring2Constraint", only_for_studies,
      "quietly lowers the stiffness: the lag is 1.4 times too long at 240 Hz, 20 times at 60 Hz"},
 });
 }  // namespace
@@ -50,8 +53,19 @@ std::span<const SimulatorEntry> simulators() {
   return table;
 }
 
+void supply_simulator(std::string_view name, MakeSimulator make) {
+  for (SimulatorEntry& entry : table)
+    if (entry.name == name) entry.make = make;
+}
+
 const SimulatorEntry& simulator_named(std::string_view name) {
-  return entry_named("simulator", name, simulators());
+  const SimulatorEntry& entry = entry_named("simulator", name, simulators());
+  if (entry.make == only_for_studies)
+    throw OnlyForStudies(
+        fmt::format("simulator {} {}; only heft-bench is built with it, for the "
+                    "studies",
+                    entry.name, entry.warning));
+  return entry;
 }
 
 std::unique_ptr<DecouplingSimulator> make_simulator(std::string_view name) {

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "base/Error.h"
@@ -16,6 +17,12 @@ namespace heft {
 class OutsideModel : public Error {
  public:
   using Error::Error;
+};
+
+/// Thrown for a simulator that this program is built without.
+class OnlyForStudies : public Error {
+ public:
+  explicit OnlyForStudies(const std::string& what) : Error(what, ExitCode::usage) {}
 };
 
 class DecouplingSimulator {
@@ -42,11 +49,13 @@ class DecouplingSimulator {
   virtual WorldState state() const = 0;
 };
 
+using MakeSimulator = std::unique_ptr<DecouplingSimulator> (*)();
+
 /// A row of the table of simulators.
 struct SimulatorEntry {
   std::string_view name;
   std::string_view summary;
-  std::unique_ptr<DecouplingSimulator> (*make)();
+  MakeSimulator make;  ///< null: only heft-bench is built with it
   /// Where it is known to go wrong, one line; empty for those that do not. Told when it is chosen.
   std::string_view warning = {};
   /// Whether it models all that a person may do; others throw OutsideModel.
@@ -57,7 +66,11 @@ struct SimulatorEntry {
 
 std::span<const SimulatorEntry> simulators();
 
-/// @throws Error (usage) naming the nearest simulator when there is none of that name
+/// Gives this program a simulator that the table only names. Before any other thread starts.
+void supply_simulator(std::string_view name, MakeSimulator make);
+
+/// @throws Error (usage) naming the nearest simulator when there is none of that name;
+///   OnlyForStudies
 const SimulatorEntry& simulator_named(std::string_view name);
 
 /// @throws Error as simulator_named

@@ -7,6 +7,7 @@
 
 #include "base/Boxes.h"
 #include "base/Error.h"
+#include "base/Pose.h"
 
 namespace heft {
 

@@ -6,13 +6,11 @@
 // clock: live and replay feed it the same numbers and get the same bits.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
-#include <string_view>
 
-#include "base/Names.h"
 #include "physics/DecouplingSimulator.h"
+#include "physics/DriveInput.h"
 
 namespace heft {
 
@@ -23,28 +21,6 @@ struct TargetSample {
   Velocity velocity;
   bool tracked = true;  ///< false: out of view; pose and velocity are not used
   bool jump = false;    ///< the tracker says that the pose is not a continuation of the last one
-};
-
-/// Where the target is between two samples' poses.
-enum class InputMode {
-  path,        ///< on the way from the last pose to this one: for what is shown over video
-  hold,        ///< at the last pose until this one is there: for see-through displays
-  extrapolate  ///< on along the line through the last two poses: for see-through displays
-};
-
-template <>
-struct EnumNames<InputMode> {
-  static constexpr std::array<std::string_view, 3> names{"path", "hold", "extrapolate"};
-};
-
-/// How samples become the target's path.
-struct DriveInput {
-  InputMode mode = InputMode::path;
-  /// How much later than its capture a sample's world is seen; the target is where the effector is
-  /// predicted to be by then. More than 0 only on see-through displays: over video the clone would
-  /// run ahead of the filmed effector. A sample without a velocity, as the first one after a jump
-  /// or a loss, is not predicted.
-  double predict_s = 0;
 };
 
 /// The sample's pose carried on along its velocity for that long; 0 gives the pose itself.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/Names.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

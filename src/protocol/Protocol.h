@@ -7,7 +7,7 @@
 
 #include "experiment/Block.h"
 #include "experiment/Stage.h"
-#include "physics/Drive.h"
+#include "physics/DriveInput.h"
 #include "physics/Scene.h"
 
 namespace heft {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/Boxes.h"
+#include "base/Pose.h"
 #include "base/TextFile.h"
 #include "protocol/PhysicsReader.h"
 #include "protocol/TechniqueReader.h"

@@ -14,7 +14,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "record/RowDigest.h"
 
 namespace heft {

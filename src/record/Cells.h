@@ -10,7 +10,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace SQLite {
 class Column;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/Pose.h"
 #include "responders/SeenGeometry.h"
 #include "responders/TrialStream.h"
 

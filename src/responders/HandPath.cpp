@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/Pose.h"
+
 namespace heft {
 
 double minimum_jerk(double u) {

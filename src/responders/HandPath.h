@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

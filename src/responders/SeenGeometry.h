@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "experiment/Stage.h"
 
 namespace heft {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/TagViews.h"
 
 namespace heft {

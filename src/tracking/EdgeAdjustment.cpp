@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/LevenbergMarquardt.h"
+#include "base/Pose.h"
 
 namespace heft {
 

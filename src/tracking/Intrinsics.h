@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

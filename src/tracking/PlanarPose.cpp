@@ -2,6 +2,7 @@
 
 #include <opencv2/calib3d.hpp>
 
+#include "base/Pose.h"
 #include "tracking/ImageConversion.h"
 
 namespace heft {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/Pose.h"
+
 namespace heft {
 
 namespace {

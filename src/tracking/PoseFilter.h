@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/Image.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/MarkerBody.h"
 
 namespace heft {

@@ -4,6 +4,8 @@
 
 #include "base/LevenbergMarquardt.h"
 
+#include "base/Pose.h"
+
 namespace heft {
 
 namespace {

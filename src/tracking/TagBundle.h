@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/TagViews.h"
 
 namespace heft {

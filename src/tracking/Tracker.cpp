@@ -7,6 +7,7 @@
 
 #include "base/Clock.h"
 #include "base/Error.h"
+#include "base/Pose.h"
 #include "tracking/BodyFinder.h"
 #include "tracking/ImageConversion.h"
 #include "tracking/TagDetector.h"

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "view/Rasterizer.h"
 #include "view/Viewpoint.h"
 

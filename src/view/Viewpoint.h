@@ -8,7 +8,7 @@
 #include <span>
 
 #include "base/Polygon.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/Intrinsics.h"
 #include "view/Rasterizer.h"
 

@@ -6,11 +6,11 @@
 
 #include "StudyFolder.h"
 #include "base/Random.h"
+#include "bench/comparison/ComparisonTracker.h"
 #include "bench/tracking/Filters.h"
 #include "bench/tracking/Goals.h"
 #include "bench/tracking/Limits.h"
 #include "bench/tracking/TrackingStudy.h"
-#include "tracking/comparison/ComparisonTracker.h"
 
 namespace heft {
 namespace {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <numbers>
 
+#include "base/Pose.h"
 #include "physics/Pushes.h"
 
 namespace heft {

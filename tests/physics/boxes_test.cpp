@@ -1,6 +1,7 @@
 // `boxes` against closed forms, and what it promises about contacts.
 #include <gtest/gtest.h>
 
+#include "base/Pose.h"
 #include "physics/BoxContacts.h"
 #include "physics/ContactScenes.h"
 #include "physics/Oracles.h"

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "base/Pose.h"
 #include "physics/ContactScenes.h"
 
 namespace heft {

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "base/Pose.h"
 #include "physics/Oracles.h"
 #include "physics/Pushes.h"
 

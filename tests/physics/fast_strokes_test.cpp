@@ -2,6 +2,7 @@
 // all within a few steps. `push` has the closed forms of all of it.
 #include <gtest/gtest.h>
 
+#include "base/Pose.h"
 #include "physics/Pushes.h"
 
 namespace heft {

@@ -1,6 +1,7 @@
 // The clone released at rest beside a still effector, far from everything.
 #include <gtest/gtest.h>
 
+#include "base/Pose.h"
 #include "physics/Oracles.h"
 #include "physics/Pushes.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "base/Pose.h"
 #include "physics/ContactScenes.h"
 #include "physics/Oracles.h"
 #include "physics/push/Oscillation.h"

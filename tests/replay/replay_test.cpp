@@ -12,6 +12,7 @@
 #include "apparatus/SessionSetup.h"
 #include "apparatus/TrialWorld.h"
 #include "base/Build.h"
+#include "base/Pose.h"
 #include "record/SessionArchive.h"
 #include "replay/WhatIf.h"
 #include "session/Protocols.h"

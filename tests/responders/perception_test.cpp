@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "FakeTrial.h"
+#include "base/Pose.h"
 #include "responders/Hand.h"
 
 namespace heft {

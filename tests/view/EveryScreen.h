@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/Pose.h"
 #include "experiment/ScreenState.h"
 #include "protocol/TextsFile.h"
 #include "view/ArView.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/Pose.h"
 #include "view/SceneDrawing.h"
 
 namespace heft::test {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/Gnuplot.h"
+#include "base/Pose.h"
 #include "base/Random.h"
 #include "bench/physics/Paths.h"
 #include "bench/physics/SceneRun.h"

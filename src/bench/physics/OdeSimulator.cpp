@@ -18,6 +18,8 @@ std::unique_ptr<DecouplingSimulator> make_ode_simulator() {
 #include <cstdarg>
 #include <span>
 
+#include "base/Pose.h"
+
 namespace heft {
 
 namespace {

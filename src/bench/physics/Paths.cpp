@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/Pose.h"
 #include "base/Random.h"
 
 namespace heft {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "base/Pose.h"
 #include "bench/physics/OdeSimulator.h"
 #include "physics/BoxInertia.h"
 #include "physics/Oracles.h"

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/Error.h"
+#include "base/Pose.h"
 #include "bench/CpuClock.h"
 
 namespace heft {

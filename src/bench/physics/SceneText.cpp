@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "base/Pose.h"
 #include "bench/physics/Scenes.h"
 
 namespace heft {

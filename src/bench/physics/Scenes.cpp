@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/Error.h"
+#include "base/Pose.h"
 #include "bench/physics/Paths.h"
 
 namespace heft {

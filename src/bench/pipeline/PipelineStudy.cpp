@@ -7,11 +7,11 @@
 
 #include "base/Quantile.h"
 #include "bench/StudyFiles.h"
+#include "bench/comparison/ComparisonTracker.h"
 #include "bench/pipeline/Chain.h"
 #include "bench/pipeline/PipelineChart.h"
 #include "bench/pipeline/RecordedTrial.h"
 #include "bench/tracking/Accuracy.h"
-#include "tracking/comparison/ComparisonTracker.h"
 
 namespace heft {
 

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/Error.h"
+#include "base/Pose.h"
 #include "session/Demonstration.h"
 #include "tracking/ImageFile.h"
 #include "tracking/SyntheticCamera.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "analysis/Gnuplot.h"
+#include "bench/comparison/ComparisonTracker.h"
 #include "bench/tracking/Accuracy.h"
-#include "tracking/comparison/ComparisonTracker.h"
 
 namespace heft {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/Pose.h"
 #include "base/Quantile.h"
 #include "bench/CpuClock.h"
 #include "tracking/BoxFaces.h"

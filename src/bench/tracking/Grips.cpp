@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/Pose.h"
 #include "base/Random.h"
 #include "protocol/MarkerFile.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "base/PlugTable.h"
-#include "tracking/comparison/ComparisonTracker.h"
+#include "bench/comparison/ComparisonTracker.h"
 
 namespace heft {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/Pose.h"
 #include "tracking/PoseFilter.h"
 
 namespace heft {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

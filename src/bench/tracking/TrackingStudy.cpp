@@ -2,8 +2,8 @@
 
 #include <fstream>
 
+#include "bench/comparison/ComparisonTracker.h"
 #include "bench/tracking/Readme.h"
-#include "tracking/comparison/ComparisonTracker.h"
 
 namespace heft {
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "base/Pose.h"
+
 namespace heft::boxes {
 
 using Eigen::Matrix3d;

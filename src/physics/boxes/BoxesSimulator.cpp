@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/Pose.h"
 #include "physics/BoxInertia.h"
 #include "physics/CloneCoupling.h"
 #include "physics/boxes/BoxWorld.h"

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "base/Pose.h"
 #include "physics/BoxInertia.h"
 #include "physics/CloneCoupling.h"
 #include "physics/bullet/ContactWorld.h"

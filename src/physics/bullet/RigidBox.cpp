@@ -1,5 +1,7 @@
 #include "physics/bullet/RigidBox.h"
 
+#include "base/Pose.h"
+
 namespace heft {
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "physics/BoxInertia.h"
 
 namespace heft {

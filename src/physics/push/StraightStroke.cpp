@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/Pose.h"
+
 namespace heft {
 
 namespace {

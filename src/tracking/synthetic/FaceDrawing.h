@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/synthetic/AreaRaster.h"
 #include "tracking/synthetic/Lens.h"
 #include "tracking/synthetic/PrintedFaces.h"

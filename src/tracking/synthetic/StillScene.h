@@ -1,7 +1,7 @@
 // What never changes in the picture: the table and the printed board, in linear light, sharp.
 #pragma once
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/MarkerBody.h"
 #include "tracking/synthetic/AreaRaster.h"
 #include "tracking/synthetic/Lens.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/Image.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/MarkerBody.h"
 #include "tracking/TagDetector.h"
 

@@ -2,8 +2,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/Pose.h"
+#include "bench/stock/StockCoupling.h"
 #include "physics/bullet/RigidBox.h"
-#include "physics/bullet/StockCoupling.h"
 
 namespace heft {
 

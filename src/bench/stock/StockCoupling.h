@@ -6,8 +6,8 @@
 #include <functional>
 #include <memory>
 
+#include "bench/stock/StockWorld.h"
 #include "physics/CouplingLaw.h"
-#include "physics/bullet/StockWorld.h"
 
 namespace heft {
 

@@ -1,9 +1,10 @@
-#include "tracking/comparison/BodyPnp.h"
+#include "bench/comparison/BodyPnp.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "base/Pose.h"
 #include "tracking/BoxFaces.h"
 #include "tracking/ImageConversion.h"
 

@@ -1,12 +1,15 @@
-#include "physics/bullet/StockSimulators.h"
+#include "bench/stock/StockSimulators.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/Error.h"
-#include "physics/bullet/StockCoupling.h"
+#include "bench/stock/StockCoupling.h"
+#include "physics/DecouplingSimulator.h"
 
 namespace heft {
 
@@ -67,30 +70,34 @@ class StockSimulator : public DecouplingSimulator {
   Pose target_;
   double t_s_ = 0;
 };
+
+struct StockSetup {
+  std::string_view name;
+  MakeStockCoupling couple;
+};
+
+constexpr std::array table{
+    StockSetup{"bullet-explicit", explicit_force},
+    StockSetup{"bullet-explicit-held", held_force},
+    StockSetup{"bullet-stable-pd", stable_pd},
+    StockSetup{"bullet-exact-velocity", exact_velocity},
+    StockSetup{"bullet-soft-rows", soft_rows},
+    StockSetup{"bullet-spring2", six_dof_spring},
+};
+
+template <std::size_t row>
+std::unique_ptr<DecouplingSimulator> make() {
+  return std::make_unique<StockSimulator>(std::string(table[row].name), table[row].couple);
+}
+
+template <std::size_t... rows>
+void supply(std::index_sequence<rows...>) {
+  (supply_simulator(table[rows].name, make<rows>), ...);
+}
 }  // namespace
 
-std::unique_ptr<DecouplingSimulator> make_bullet_explicit() {
-  return std::make_unique<StockSimulator>("bullet-explicit", explicit_force);
-}
-
-std::unique_ptr<DecouplingSimulator> make_bullet_explicit_held() {
-  return std::make_unique<StockSimulator>("bullet-explicit-held", held_force);
-}
-
-std::unique_ptr<DecouplingSimulator> make_bullet_stable_pd() {
-  return std::make_unique<StockSimulator>("bullet-stable-pd", stable_pd);
-}
-
-std::unique_ptr<DecouplingSimulator> make_bullet_exact_velocity() {
-  return std::make_unique<StockSimulator>("bullet-exact-velocity", exact_velocity);
-}
-
-std::unique_ptr<DecouplingSimulator> make_bullet_soft_rows() {
-  return std::make_unique<StockSimulator>("bullet-soft-rows", soft_rows);
-}
-
-std::unique_ptr<DecouplingSimulator> make_bullet_spring2() {
-  return std::make_unique<StockSimulator>("bullet-spring2", six_dof_spring);
+void supply_stock_simulators() {
+  supply(std::make_index_sequence<table.size()>());
 }
 
 }  // namespace heft

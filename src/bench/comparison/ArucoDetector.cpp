@@ -1,4 +1,4 @@
-#include "tracking/comparison/ArucoDetector.h"
+#include "bench/comparison/ArucoDetector.h"
 
 #ifdef HEFT_HAVE_ARUCO
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/MarkerBody.h"
 #include "tracking/TagDetector.h"
 

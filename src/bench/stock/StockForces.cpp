@@ -4,8 +4,9 @@
 #include <cmath>
 #include <complex>
 
+#include "base/Pose.h"
+#include "bench/stock/StockCoupling.h"
 #include "physics/bullet/RigidBox.h"
-#include "physics/bullet/StockCoupling.h"
 
 namespace heft {
 

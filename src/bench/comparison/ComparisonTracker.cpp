@@ -1,11 +1,11 @@
-#include "tracking/comparison/ComparisonTracker.h"
+#include "bench/comparison/ComparisonTracker.h"
 
 #include <array>
 #include <opencv2/core/utility.hpp>
 
+#include "bench/comparison/ArucoDetector.h"
+#include "bench/comparison/BodyPnp.h"
 #include "tracking/ImageConversion.h"
-#include "tracking/comparison/ArucoDetector.h"
-#include "tracking/comparison/BodyPnp.h"
 
 namespace heft {
 

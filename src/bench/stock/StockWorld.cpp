@@ -1,8 +1,9 @@
-#include "physics/bullet/StockWorld.h"
+#include "bench/stock/StockWorld.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/Pose.h"
 #include "physics/bullet/RigidBox.h"
 
 namespace heft {

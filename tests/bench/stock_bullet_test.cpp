@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
+#include "base/Pose.h"
+#include "bench/stock/StockSimulators.h"
 #include "physics/Oracles.h"
 #include "physics/Pushes.h"
 
@@ -34,6 +36,11 @@ std::string error_of(const std::string& name, double rate_hz) {
   }
   return "";
 }
+
+// As the program does; for all tests of this room.
+const struct Supplied {
+  Supplied() { supply_stock_simulators(); }
+} supplied;
 
 TEST(StockBullet, EveryVariantWarnsOfItself) {
   for (const std::string& name : variants)

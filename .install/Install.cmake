@@ -1,0 +1,76 @@
+# What `cmake --install` and `cpack` put where. Components: heft with its data, bench, and the
+# libraries psychophysics, engine and physics, of which each can be had without those that it does
+# not use.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS heft_program COMPONENT heft)
+install(DIRECTORY protocols DESTINATION ${CMAKE_INSTALL_DATADIR}/heft COMPONENT heft)
+install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT heft)
+install(TARGETS heft_bench_program COMPONENT bench)
+
+set(heft_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/heft)
+# heft_install(component rooms...): their libraries and headers.
+function(heft_install component)
+  foreach(room ${ARGN})
+    if(TARGET heft_${room})
+      install(TARGETS heft_${room} EXPORT heft-${component} COMPONENT ${component})
+      install(DIRECTORY src/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/heft
+              COMPONENT ${component} FILES_MATCHING PATTERN "*.h" PATTERN "*.inc")
+    endif()
+  endforeach()
+  list(GET ARGN -1 last)
+  if(TARGET heft_${last})
+    install(EXPORT heft-${component} NAMESPACE heft:: DESTINATION ${heft_cmake_folder}
+            COMPONENT ${component})
+  endif()
+endfunction()
+heft_install(psychophysics base psychophysics)
+heft_install(engine experiment engine)
+heft_install(physics physics)
+configure_file(.install/heft-config.cmake ${PROJECT_BINARY_DIR}/heft-config.cmake COPYONLY)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/heft-config-version.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/heft-config.cmake
+        ${PROJECT_BINARY_DIR}/heft-config-version.cmake DESTINATION ${heft_cmake_folder}
+        COMPONENT psychophysics)
+
+# Three Debian packages: heft, heft-bench, and libheft-dev to build C++ programs with.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "Heft's authors <heft@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+
+set(CPACK_DEBIAN_HEFT_PACKAGE_NAME heft)
+set(CPACK_DEBIAN_HEFT_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_HEFT_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_HEFT_PACKAGE_DEPENDS fonts-dejavu-core)
+set(CPACK_DEBIAN_HEFT_PACKAGE_RECOMMENDS gnuplot-nox)
+set(CPACK_DEBIAN_HEFT_PACKAGE_SUGGESTS heft-bench)
+
+set(CPACK_DEBIAN_BENCH_PACKAGE_NAME heft-bench)
+set(CPACK_DEBIAN_BENCH_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_BENCH_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_BENCH_PACKAGE_DEPENDS "heft (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_BENCH_PACKAGE_RECOMMENDS gnuplot-nox)
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libheft-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libmd-dev")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS libbullet-dev)  # heft::physics alone needs it
+
+include(CPack)
+cpack_add_component(heft GROUP heft)
+cpack_add_component_group(heft DESCRIPTION "Psychophysics experiments on perceived mass
+Heft runs them in augmented reality, simulates, replays and analyzes them.")
+cpack_add_component(bench GROUP bench)
+cpack_add_component_group(bench DESCRIPTION "Heft's studies of speed and accuracy
+The program heft-bench, which heft bench starts.")
+foreach(component psychophysics engine physics)
+  cpack_add_component(${component} GROUP library)
+endforeach()
+cpack_add_component_group(library DESCRIPTION "Heft's procedures, session engine and physics
+C++ libraries, for find_package(heft).")

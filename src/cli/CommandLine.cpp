@@ -1,0 +1,160 @@
+#include "cli/CommandLine.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <sstream>
+
+#include "base/Error.h"
+#include "base/Names.h"
+
+namespace heft::cli {
+
+namespace {
+
+constexpr std::uint64_t most_sessions = std::numeric_limits<std::int64_t>::max();
+
+bool is_whole_number(const std::string& text, std::uint64_t least, std::uint64_t most) {
+  if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos) return false;
+  if (text.size() > 1 && text.front() == '0') return false;
+  std::uint64_t value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  return result.ec == std::errc() && value >= least && value <= most;
+}
+
+std::string nearest_hint(const std::string& wanted, const std::vector<std::string>& names) {
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  const auto nearest = nearest_name(wanted, candidates);
+  return nearest ? fmt::format(" (did you mean {}?)", *nearest) : "";
+}
+
+// CLI11 would only say that a subcommand is required.
+void refuse_unknown_command(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return;
+  throw Error(fmt::format("there is no command \"{}\"{}; {} --help lists all", word,
+                          nearest_hint(word, names), app.get_name()),
+              ExitCode::usage);
+}
+
+// CLI11 lists what it could not use backwards.
+std::string unexpected_words(const CLI::App& app, const CLI::App& command) {
+  const std::vector<std::string> words = app.remaining(true);
+  std::vector<std::string> options;
+  for (const CLI::Option* option : command.get_options()) options.push_back(option->get_name());
+  const auto option =
+      std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("--"); });
+  return fmt::format("unexpected: {}{}", fmt::join(words, " "),
+                     option == words.end() ? "" : nearest_hint(*option, options));
+}
+
+// A usage mistake as CLI11 found it, with where to read on.
+Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
+  const auto given = app.get_subcommands();
+  const CLI::App& command = given.empty() ? app : *given.front();
+  const std::string name = app.get_name() + (given.empty() ? "" : " " + command.get_name());
+  std::string what = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error))
+    what = unexpected_words(app, command);
+  else if (given.empty() && dynamic_cast<const CLI::RequiredError*>(&error))
+    what = "a command is missing";
+  return Error(fmt::format("{}; see {} --help", what, name), ExitCode::usage);
+}
+
+}  // namespace
+
+Option& Option::required() {
+  option_.required();
+  return *this;
+}
+
+Option& Option::shows_default() {
+  option_.capture_default_str();
+  return *this;
+}
+
+Option& Option::whole_number(std::uint64_t least, std::uint64_t most) {
+  const auto refusal = [least, most](const std::string& text) {
+    if (is_whole_number(text, least, most)) return std::string();
+    return fmt::format("expected a whole number {}...{} in decimal digits, got \"{}\"", least, most,
+                       text);
+  };
+  option_.check(CLI::Validator([refusal](std::string& text) { return refusal(text); }, ""));
+  return *this;
+}
+
+Option& Option::one_of(const std::vector<std::string>& names) {
+  option_.check(CLI::IsMember(names));
+  return *this;
+}
+
+Command Command::add_command(const std::string& name, const std::string& summary,
+                             std::initializer_list<const char*> examples) {
+  CLI::App& command = *app_.add_subcommand(name, summary);
+  std::string footer = examples.size() == 0 ? "" : "Examples:";
+  for (const char* example : examples) footer += fmt::format("\n  {}", example);
+  command.footer(footer);
+  return Command(command);
+}
+
+Option Command::add_option(const std::string& name, Destination destination,
+                           const std::string& help) {
+  const auto add = [&](auto* value) { return app_.add_option(name, *value, help); };
+  return Option(*std::visit(add, destination));
+}
+
+void Command::add_flag(const std::string& name, bool& flag, const std::string& help) {
+  app_.add_flag(name, flag, help);
+}
+
+void Command::add_session(std::optional<std::int64_t>& session, const std::string& without_it) {
+  add_option("--session", &session, "default: " + without_it).whole_number(1, most_sessions);
+}
+
+void Command::add_sessions(std::vector<std::int64_t>& sessions, const std::string& help) {
+  add_option("--session", &sessions, help).whole_number(1, most_sessions);
+}
+
+void Command::add_seed(std::optional<std::uint64_t>& seed, const std::string& without_it) {
+  add_option("--seed", &seed, "0...2^63-1; without it " + without_it)
+      .whole_number(0, (std::uint64_t{1} << 63) - 1);
+}
+
+void Command::add_to_help(const std::string& text) {
+  app_.footer(app_.get_footer() + text);
+}
+
+void Command::needs_command() {
+  app_.require_subcommand(1);
+}
+
+void Command::does(std::function<void()> action) {
+  app_.callback(std::move(action));
+}
+
+void run_command_line(const ProgramDescription& program, int argc, char** argv) {
+  CLI::App app{program.purpose};
+  app.name(program.name);
+  app.set_help_flag("-h,--help", "print this help");
+  app.set_version_flag("--version", program.name + " " + HEFT_VERSION, "print the version");
+  app.require_subcommand(1);
+  app.footer(program.footer);
+  Command all(app);
+  program.add_commands(all);
+  if (argc > 1) refuse_unknown_command(app, argv[1]);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) throw usage_error(app, error);
+    std::ostringstream text;  // --help and --version
+    app.exit(error, text);
+    fmt::print("{}", text.str());
+  }
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,84 @@
+// The command line as commands see it: each option, and the variable that it ends in. Only
+// CommandLine.cpp knows the library that reads it (CLI11).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace heft::cli {
+
+/// Where an option's value goes. Optionals tell whether it was given; lists take several.
+using Destination =
+    std::variant<std::string*, std::optional<std::string>*, std::vector<std::string>*, int*,
+                 double*, std::optional<double>*, std::optional<std::int64_t>*,
+                 std::optional<std::uint64_t>*, std::vector<std::int64_t>*>;
+
+/// An option that was just added, to say more of it.
+class Option {
+ public:
+  explicit Option(CLI::Option& option) : option_(option) {}
+
+  Option& required();
+  /// --help shows what the variable holds.
+  Option& shows_default();
+  /// Decimal digits and nothing else, so that 010 is not read as octal 8, nor 1e3 as 1.
+  Option& whole_number(std::uint64_t least, std::uint64_t most);
+  Option& one_of(const std::vector<std::string>& names);
+
+ private:
+  CLI::Option& option_;
+};
+
+/// A command, or the program itself. A copy is the same command.
+class Command {
+ public:
+  explicit Command(CLI::App& app) : app_(app) {}
+
+  /// A command of this one; its --help ends with examples, a line each.
+  Command add_command(const std::string& name, const std::string& summary,
+                      std::initializer_list<const char*> examples = {});
+  /// @param name "--db", or "PROTOCOL" for what is told by its place
+  Option add_option(const std::string& name, Destination destination, const std::string& help);
+  void add_flag(const std::string& name, bool& flag, const std::string& help);
+
+  /// --session of a log.
+  void add_session(std::optional<std::int64_t>& session, const std::string& without_it);
+  void add_sessions(std::vector<std::int64_t>& sessions, const std::string& help);
+  /// --seed.
+  /// @param without_it what --help says of that
+  void add_seed(std::optional<std::uint64_t>& seed,
+                const std::string& without_it = "a fresh one is drawn, printed and logged");
+
+  /// Ends --help with this.
+  void add_to_help(const std::string& text);
+  /// One of its commands has to be given.
+  void needs_command();
+  /// What the command does; it may throw Error.
+  void does(std::function<void()> action);
+
+ private:
+  CLI::App& app_;
+};
+
+/// A program's name, what it is for, and its commands.
+struct ProgramDescription {
+  std::string name, purpose, footer;
+  void (*add_commands)(Command& program);
+};
+
+/// Finds the command in argv and does it. --help and --version print to stdout.
+/// @throws Error (usage) for what can't be understood, with the nearest that can; what the command
+///   throws
+void run_command_line(const ProgramDescription& program, int argc, char** argv);
+
+}  // namespace heft::cli

@@ -1,0 +1,117 @@
+#include "cli/Program.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <new>
+#include <system_error>
+
+#include "base/Error.h"
+#include "cli/Commands.h"
+#include "cli/Installation.h"
+#include "cli/Output.h"
+#include "cli/Talk.h"
+#include "physics/DecouplingSimulator.h"
+
+namespace heft::cli {
+
+namespace {
+
+// What a library threw, as an error for people.
+Error explained(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return Error("out of memory");
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return Error(fmt::format("can't use {}: {}", file->path1().string(), file->code().message()));
+  if (const auto* system = dynamic_cast<const std::system_error*>(&error))
+    return std::ferror(stdout) != 0 ? output_error(system->code().message())
+                                    : Error(system->what());
+  return Error(fmt::format("unexpected: {}", error.what()));
+}
+
+int fail(const Error& error) {
+  say("heft: {}\n", error.what());
+  return static_cast<int>(error.exit_code());
+}
+
+// A reader that goes away (SIGPIPE) and a file that may not grow (SIGXFSZ) are errors of a write,
+// told where the write is. Programs started from here get back what is usual, which they would not
+// if the signals were ignored.
+void survive_failed_writes() {
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, [](int) {});
+}
+
+int exit_code_of(const std::function<void()>& work) {
+  survive_failed_writes();
+  try {
+    work();
+    flush_output();
+    return static_cast<int>(ExitCode::ok);
+  } catch (const InvalidFile& error) {
+    say("{}\n", error.what());  // each line starts with file:line:column
+    return static_cast<int>(error.exit_code());
+  } catch (const Error& error) {
+    return fail(error);
+  } catch (const std::exception& error) {
+    return fail(explained(error));
+  }
+}
+
+// With the same words.
+void hand_over_to_bench(const OnlyForStudies& wanted, int argc, char** argv) {
+  if (bench_program().empty())
+    throw Error(fmt::format("{}. {}", wanted.what(), how_to_get_bench()), wanted.exit_code());
+  become_bench({argv + 1, argv + argc});
+}
+
+}  // namespace
+
+void add_commands(Command& app) {
+  add_demo(app);
+  add_run(app);
+  add_resume(app);
+  add_simulate(app);
+  add_replay(app);
+  add_analyse(app);
+  add_validate(app);
+  add_procedure(app);
+  add_scene(app);
+  add_sheet(app);
+  add_calibrate(app);
+  add_track(app);
+  add_doctor(app);
+}
+
+void become_bench(const std::vector<std::string>& words) {
+  const std::string program = bench_program();
+  if (program.empty())
+    throw Error(fmt::format("heft-bench, the program with the studies, is not here. {}",
+                            how_to_get_bench()));
+  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  flush_output();
+  execv(program.c_str(), arguments.data());
+  throw Error(fmt::format("can't start {}: {}", program, std::strerror(errno)));
+}
+
+int become_bench_or_fail(const std::vector<std::string>& words) {
+  return exit_code_of([&] { become_bench(words); });
+}
+
+int run_program(const ProgramDescription& program, int argc, char** argv) {
+  return exit_code_of([&] {
+    try {
+      run_command_line(program, argc, argv);
+    } catch (const OnlyForStudies& wanted) {
+      hand_over_to_bench(wanted, argc, argv);
+    }
+  });
+}
+
+}  // namespace heft::cli
