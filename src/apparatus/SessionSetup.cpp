@@ -32,8 +32,6 @@ NameAndFile split_name(const std::string& option) {
 
 namespace {
 
-constexpr std::string_view automatic = "auto";
-
 // A session may be resumed from another folder than it was started in.
 std::string absolute_path(const std::string& file) {
   std::error_code error;

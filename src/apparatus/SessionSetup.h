@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiment/Setup.h"
@@ -47,6 +48,9 @@ void complete(Setup& options);
 
 /// As complete(), for options from a log: the parameters stay those that were read then.
 void check(const Setup& options);
+
+/// The simulator that in_force() picks for the protocol; the log then has the name of its pick.
+inline constexpr std::string_view automatic = "auto";
 
 /// Whether the two names in the table of simulators mean the same one.
 /// @throws Error (usage) for an unknown name

@@ -167,7 +167,9 @@ void give_again(LoggedSession& session, const GivenOptions& again) {
                             session.row.session_id),
                 ExitCode::usage);
   Setup setup = session.setup;
-  if (again.simulator && !is_same_simulator(*again.simulator, setup.simulator)) {
+  // What `auto` was at the start it stays, whatever the error table says now.
+  const bool stays_auto = again.simulator == automatic && !setup.simulator_why.empty();
+  if (again.simulator && !stays_auto && !is_same_simulator(*again.simulator, setup.simulator)) {
     setup.simulator = *again.simulator;
     setup.simulator_why.clear();
     setup.rate_hz.reset();

@@ -9,7 +9,7 @@
 namespace heft::made_up {
 
 inline SessionData session(std::int64_t id, const std::string& participant,
-                           const std::string& purpose = "main",
+                           Purpose purpose = Purpose::main,
                            const std::string& responder = "human") {
   SessionData data;
   data.session.session_id = id;
@@ -18,6 +18,9 @@ inline SessionData session(std::int64_t id, const std::string& participant,
   data.session.header.protocol_sha256 = "0123456789abcdef";
   data.session.header.purpose = purpose;
   data.session.header.responder = responder;
+  LoggedSetup logged{1, 1, {}};
+  logged.setup.responder = responder;
+  data.setups = {logged};
   data.session.state = SessionState::finished;
   return data;
 }
@@ -36,6 +39,7 @@ inline std::vector<CubeRow> cubes(const std::vector<double>& masses_g) {
 inline Attempt& add_attempt(SessionData& data, Task task, std::vector<double> masses_g) {
   Attempt attempt;
   attempt.trial.attempt_index = static_cast<int>(data.attempts.size()) + 1;
+  attempt.trial.setup_index = 1;
   attempt.trial.plan.trial_number = attempt.trial.attempt_index;
   attempt.trial.plan.task = task;
   attempt.trial.status = TrialStatus::completed;
@@ -59,14 +63,14 @@ inline AnswerRow select(int slot) {
   return row;
 }
 
-inline Attempt& add_sorting(SessionData& data, Condition condition, Outcome outcome) {
+inline Attempt& add_sorting(SessionData& data, const std::string& condition, Outcome outcome) {
   Attempt& attempt = add_attempt(data, Task::sorting, {15, 200, 800});
   attempt.trial.plan.condition = condition;
   attempt.trial.outcome = outcome;
   return attempt;
 }
 
-inline void add_sortings(SessionData& data, Condition condition, Outcome outcome, int n) {
+inline void add_sortings(SessionData& data, const std::string& condition, Outcome outcome, int n) {
   for (int i = 0; i < n; ++i) add_sorting(data, condition, outcome);
 }
 

@@ -31,7 +31,7 @@ class LogFile : public testing::Test {
   std::string path() const { return (folder_ / "log.db").string(); }
 
   /// A finished session with one sorting trial, light and intermediate taken for each other.
-  void write_session(const std::string& participant, const std::string& purpose) {
+  void write_session(const std::string& participant, Purpose purpose) {
     SessionHeader header = session(0, participant, purpose).session.header;
     header.heft_version = "0.1.0";
     header.run_options = "{}";
@@ -42,10 +42,10 @@ class LogFile : public testing::Test {
     TrialRow trial;
     trial.attempt_index = 1;
     trial.plan.trial_number = 1;
-    trial.plan.condition = Condition::C2;
+    trial.plan.condition = "C2";
     trial.plan.masses_g = {800, 15, 200};
     started.trial = trial;
-    log.append({0, EventKind::trial_started, {}, {}, "", {}}, started, Durability::acknowledged);
+    log.append({0, TrialStarted{}}, started, Durability::acknowledged);
     Changes validated = started;
     validated.trial->status = TrialStatus::completed;
     validated.trial->outcome = Outcome::incorrect;
@@ -53,7 +53,7 @@ class LogFile : public testing::Test {
                          label(3, Label::lightest)};
     for (AnswerRow& answer : validated.answers) answer.attempt_index = 1;
     validated.state = SessionState::finished;
-    log.append({9, EventKind::action, {}, {}, "validate", {}}, validated, Durability::acknowledged);
+    log.append({9, Action{ActionKind::validate}}, validated, Durability::acknowledged);
   }
 
  private:
@@ -70,7 +70,7 @@ TEST(Dataset, JoinsTheRowsOfAnAttempt) {
   }
   rows.answers.push_back({2, 1, ActionKind::validate, {}, {}});
   rows.answers.push_back({7, 1, ActionKind::validate, {}, {}});  // of no attempt
-  rows.reversals.push_back({"15g", 1, 2, 100, 50, 50});
+  rows.reversals.push_back({2, "15g", 1, 100, 50, 50});
   const SessionData data = join_rows({}, rows);
   ASSERT_EQ(data.attempts.size(), 2);
   EXPECT_THAT(data.attempts[1].masses_g(), ElementsAre(201, 202));
@@ -81,17 +81,18 @@ TEST(Dataset, JoinsTheRowsOfAnAttempt) {
 }
 
 TEST(Dataset, SimulatedRespondersOfOneNameAreSeveralParticipants) {
-  EXPECT_NE(session(1, "1", "simulated", "simulated").participant(),
-            session(2, "1", "simulated", "coin").participant());
-  EXPECT_EQ(session(1, "1", "pilot").participant(), session(2, "1", "main").participant());
-  EXPECT_TRUE(session(1, "1", "test", "coin").simulated());
-  EXPECT_FALSE(session(1, "1", "pilot", "human").simulated());
+  EXPECT_NE(session(1, "1", Purpose::simulated, "simulated").participant(),
+            session(2, "1", Purpose::simulated, "coin").participant());
+  EXPECT_EQ(session(1, "1", Purpose::pilot).participant(),
+            session(2, "1", Purpose::main).participant());
+  EXPECT_TRUE(session(1, "1", Purpose::test, "coin").simulated());
+  EXPECT_FALSE(session(1, "1", Purpose::pilot, "human").simulated());
 }
 
 TEST(Dataset, SeveralPurposesAreRefused) {
-  Dataset dataset{"x.db", {session(1, "a", "main"), session(2, "b", "main")}};
+  Dataset dataset{"x.db", {session(1, "a", Purpose::main), session(2, "b", Purpose::main)}};
   EXPECT_NO_THROW(refuse_mixed_purposes(dataset));
-  dataset.sessions.push_back(session(3, "c", "pilot"));
+  dataset.sessions.push_back(session(3, "c", Purpose::pilot));
   try {
     refuse_mixed_purposes(dataset);
     FAIL() << "several purposes were not refused";
@@ -103,7 +104,7 @@ TEST(Dataset, SeveralPurposesAreRefused) {
 }
 
 TEST_F(LogFile, IsReadBack) {
-  write_session("P01", "main");
+  write_session("P01", Purpose::main);
   const Summary summary = analyze({path(), {}, false, ""});
   EXPECT_EQ(summary.sessions.size(), 1);
   EXPECT_EQ(summary.data, "human");
@@ -114,8 +115,8 @@ TEST_F(LogFile, IsReadBack) {
 }
 
 TEST_F(LogFile, PurposesAreMixedOnlyOnDemandAndSessionsCanBeNamed) {
-  write_session("P01", "main");
-  write_session("P02", "pilot");
+  write_session("P01", Purpose::main);
+  write_session("P02", Purpose::pilot);
   EXPECT_THROW(analyze({path(), {}, false, ""}), Error);
   EXPECT_EQ(analyze({path(), {}, true, ""}).sorting[1].n_trials, 2);
   EXPECT_EQ(analyze({path(), {2}, false, ""}).sorting[1].n_trials, 1);
@@ -125,10 +126,9 @@ TEST_F(LogFile, PurposesAreMixedOnlyOnDemandAndSessionsCanBeNamed) {
 
 TEST(Dataset, pictures_are_counted_over_a_sessions_camera_events) {
   std::vector<LoggedEvent> events(3);
-  events[0].event.kind = events[1].event.kind = EventKind::camera;
-  events[0].event.detail = R"({"shown":100,"dropped":2,"late":1})";
-  events[1].event.detail = R"({"shown":50,"dropped":0,"late":3})";
-  events[2].event.detail = R"({"shown":9})";  // of another kind
+  events[0].event.what = CameraReport{100, 2, 1};
+  events[1].event.what = CameraReport{50, 0, 3};
+  events[2].event.what = Note{R"({"shown":9})"};  // of another kind
   const PictureCounts counts = count_pictures(events);
   EXPECT_EQ(counts.shown, 150);
   EXPECT_EQ(counts.dropped, 2);

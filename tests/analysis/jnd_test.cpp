@@ -120,7 +120,7 @@ TEST(Jnd, AProtocolTellsWhichStaircasesHaveNone) {
 TEST(Jnd, PublishedFiguresNeedReferenceAndConditionOfThePaper) {
   SessionData data = session(1, "a");
   add_staircase(data, "coupled", 15, 100);
-  data.attempts.back().trial.plan.condition = Condition::C1;
+  data.attempts.back().trial.plan.condition = "C1";
   add_staircase(data, "other", 100, 100);
   add_staircase(data, "paper", 800, 100);
   const auto jnds = jnd_of({&data, 1});

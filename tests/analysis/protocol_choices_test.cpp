@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -51,11 +52,31 @@ TEST(ProtocolChoices, are_told_once_a_protocol_and_versions_are_told_apart) {
   changed.text += "\n# changed\n";
   changed.sha256 = "0123456789abcdef";
   const auto once = protocol_choices({session_of(quick), session_of(quick)});
-  EXPECT_EQ(once.size(), choices_in(quick).size());
+  EXPECT_EQ(once.size(), choices_in(quick).size() + 2);  // and what was in force
   EXPECT_EQ(once.front().protocol, "quick");
   const auto both = protocol_choices({session_of(quick), session_of(changed)});
   EXPECT_EQ(both.size(), 2 * once.size());
   EXPECT_EQ(both.back().protocol, "quick 01234567");
+}
+
+TEST(ProtocolChoices, tell_what_was_in_force_in_any_of_the_sessions) {
+  const Protocol quick = shipped("quick.toml");
+  SessionData plain = session_of(quick), resumed = session_of(quick);
+  LoggedSetup logged{1, 1, {}};
+  plain.setups = {logged};  // as an older log: what does not differ from the protocol is not told
+  logged.setup.simulator = "bullet";
+  logged.setup.rate_hz = 500;
+  logged.setup.display_rate_hz = 60;
+  logged.setup.source_rate_hz = 30;
+  logged.setup.settings = "coupling.stiffness_n_per_m=25";
+  resumed.setups = {plain.setups[0], logged};
+  const auto choices = protocol_choices({plain, resumed});
+  EXPECT_EQ(value_of(choices, "simulator"),
+            fmt::format("{} at {:g} Hz; bullet at 500 Hz", quick.simulator.name,
+                        quick.simulator.rate_hz));
+  EXPECT_EQ(value_of(choices, "frames a second"),
+            fmt::format("{:g}; 60, of a source that gives 30", quick.display_rate_hz));
+  EXPECT_EQ(value_of(choices, "changed by --set"), "coupling.stiffness_n_per_m=25");
 }
 
 TEST(ProtocolChoices, a_text_that_is_no_protocol_has_none) {

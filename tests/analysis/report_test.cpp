@@ -37,9 +37,9 @@ class ReportFolder : public testing::Test {
 };
 
 Summary summary_with_everything() {
-  SessionData data = session(1, "it's <P01>", "simulated", "simulated");
+  SessionData data = session(1, "it's <P01>", Purpose::simulated, "simulated");
   add_introduction(data, 1);
-  add_sortings(data, Condition::C1, Outcome::correct, 2);  // and nothing in C2
+  add_sortings(data, "C1", Outcome::correct, 2);  // and nothing in C2
   add_staircase(data, "15g", 15, 100);
   add_staircase(data, "800g", 800, 700);
   return summarize({"x.db", {data}}, "heft analyse --db x.db --out 'a folder'");

@@ -65,10 +65,10 @@ TEST(FinalLabels, AUsedLabelMovesAndAnUnlabelRemoves) {
 
 TEST(Sorting, PercentagesOverAllAndOverAnsweredTrials) {
   SessionData a = session(1, "a"), b = session(2, "b");
-  add_sortings(a, Condition::C1, Outcome::correct, 1);
-  add_sortings(a, Condition::C1, Outcome::incorrect, 1);
-  add_sortings(a, Condition::C1, Outcome::dont_know, 3);
-  add_sortings(b, Condition::C1, Outcome::dont_know, 5);  // answered none
+  add_sortings(a, "C1", Outcome::correct, 1);
+  add_sortings(a, "C1", Outcome::incorrect, 1);
+  add_sortings(a, "C1", Outcome::dont_know, 3);
+  add_sortings(b, "C1", Outcome::dont_know, 5);  // answered none
   const auto sorting = sorting_of(std::vector{a, b});
   EXPECT_EQ(sorting[0].n_trials, 10);
   EXPECT_DOUBLE_EQ(*sorting[0].correct.mean_percent, 10);
@@ -83,8 +83,8 @@ TEST(Sorting, PercentagesOverAllAndOverAnsweredTrials) {
 
 TEST(Sorting, SessionsOfOneParticipantCountTogether) {
   SessionData first = session(1, "a"), again = session(2, "a");
-  add_sortings(first, Condition::C2, Outcome::correct, 5);
-  add_sortings(again, Condition::C2, Outcome::incorrect, 5);
+  add_sortings(first, "C2", Outcome::correct, 5);
+  add_sortings(again, "C2", Outcome::incorrect, 5);
   const auto sorting = sorting_of(std::vector{first, again});
   EXPECT_EQ(sorting[1].n_participants, 1);
   EXPECT_DOUBLE_EQ(*sorting[1].correct.mean_percent, 50);
@@ -92,27 +92,25 @@ TEST(Sorting, SessionsOfOneParticipantCountTogether) {
 
 TEST(Sorting, OnlyCompletedTrialsCount) {
   SessionData data = session(1, "a");
-  add_sorting(data, Condition::C2, Outcome::correct);
-  add_sorting(data, Condition::C2, Outcome::incorrect).trial.status = TrialStatus::voided;
-  add_sorting(data, Condition::C2, Outcome::incorrect).trial.status = TrialStatus::open;
+  add_sorting(data, "C2", Outcome::correct);
+  add_sorting(data, "C2", Outcome::incorrect).trial.status = TrialStatus::voided;
+  add_sorting(data, "C2", Outcome::incorrect).trial.status = TrialStatus::open;
   EXPECT_EQ(sorting_of({&data, 1})[1].n_trials, 1);
 }
 
 TEST(Sorting, CountsSwapsOfIncorrectTrials) {
   SessionData data = session(1, "a");
-  add_sorting(data, Condition::C2, Outcome::incorrect).answers = {label(1, I), label(2, L),
-                                                                  label(3, H)};
-  add_sorting(data, Condition::C2, Outcome::correct).answers = {label(1, L), label(2, I),
-                                                                label(3, H)};
+  add_sorting(data, "C2", Outcome::incorrect).answers = {label(1, I), label(2, L), label(3, H)};
+  add_sorting(data, "C2", Outcome::correct).answers = {label(1, L), label(2, I), label(3, H)};
   EXPECT_THAT(sorting_of({&data, 1})[1].swaps, ElementsAre(1, 0, 0, 0));
 }
 
 TEST(Sorting, PublishedFiguresNeedThePublishedMasses) {
   SessionData data = session(1, "a");
-  add_sorting(data, Condition::C1, Outcome::correct);
+  add_sorting(data, "C1", Outcome::correct);
   EXPECT_EQ(sorting_of({&data, 1})[0].correct.published_percent, 6.2);
   EXPECT_EQ(sorting_of({&data, 1})[0].answered_correct.published_percent, 10.1);
-  add_sorting(data, Condition::C1, Outcome::correct).cubes = cubes({15, 250, 800});
+  add_sorting(data, "C1", Outcome::correct).cubes = cubes({15, 250, 800});
   EXPECT_FALSE(sorting_of({&data, 1})[0].correct.published_percent.has_value());
 }
 

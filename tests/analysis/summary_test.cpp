@@ -24,9 +24,9 @@ using testing::Not;
 SessionData full_session(std::int64_t id, const std::string& participant) {
   SessionData data = session(id, participant);
   add_introduction(data, 1);
-  add_sortings(data, Condition::C1, Outcome::dont_know, 5);
-  add_sortings(data, Condition::C2, Outcome::correct, static_cast<int>(id) + 1);
-  add_sortings(data, Condition::C2, Outcome::incorrect, 1);
+  add_sortings(data, "C1", Outcome::dont_know, 5);
+  add_sortings(data, "C2", Outcome::correct, static_cast<int>(id) + 1);
+  add_sortings(data, "C2", Outcome::incorrect, 1);
   add_staircase(data, "15g", 15, 100 + 10 * static_cast<double>(id));
   add_staircase(data, "200g", 200, 200);
   return data;
@@ -87,8 +87,8 @@ TEST(SummaryJson, NamesThatAreNoUtf8DoNotBreakIt) {
 
 TEST(Summary, SimulatedFiguresSayEverywhereThatTheyAre) {
   SessionData data = full_session(1, "a");
-  data.session.header.purpose = "simulated";
-  data.session.header.responder = "simulated";
+  data.session.header.purpose = Purpose::simulated;
+  data.setups[0].setup.responder = "simulated";
   const Summary summary = summarize({"x.db", {data}}, "");
   EXPECT_TRUE(summary.simulated());
   for (const Table& table : tables_of(summary)) {
@@ -119,7 +119,7 @@ TEST(Summary, AnOrdinaryLogHasNoNotes) {
 TEST(Summary, NothingIsSaidClearly) {
   EXPECT_THAT(text_of({}), HasSubstr("x.db holds no sessions."));
   SessionData data = session(1, "a");
-  add_sorting(data, Condition::C1, Outcome::correct).trial.status = TrialStatus::voided;
+  add_sorting(data, "C1", Outcome::correct).trial.status = TrialStatus::voided;
   const std::string text = text_of({data});
   EXPECT_THAT(text, HasSubstr("No trial was completed"));
   EXPECT_THAT(text, HasSubstr("Sorting: no completed trials."));

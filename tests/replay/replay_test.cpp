@@ -73,14 +73,15 @@ class Replay : public ::testing::Test {
     header.seed = 5;
     header.heft_version = "test";
     header.build = build_name();
-    Setup options;
-    options.tracker = "camera:0";  // whose pictures and touches keep no common beat
-    header.run_options = to_json(options);
-    header.purpose = "test";
+    heft::Setup setup;
+    setup.tracker = "camera:0";  // whose pictures and touches keep no common beat
+    header.purpose = Purpose::test;
     header.responder = "late";
     header.started_utc = utc_now();
     RecordedSession recorded(header);
     Engine engine(std::make_shared<const Protocol>(protocol), header.seed);
+    const Event told{0, in_force(setup, protocol)};
+    recorded.append(told, engine.apply(told), Durability::buffered);
     HandPictures pictures(responder, protocol.display_rate_hz);
     const auto view = view_named("headless").make({});
     SessionClock clock = SessionClock::virtual_from(0);
@@ -104,7 +105,7 @@ TEST_F(Replay, answers_later_than_the_next_pictures_are_replayed_exactly) {
   for (double delay_s : {0.0, 0.05, 0.07, 0.2}) {
     LateAnswers responder(delay_s);
     const Verification found = run_and_verify(responder);
-    EXPECT_GT(found.n_pictures, 100);
+    EXPECT_GT(found.n_frames, 100);
     EXPECT_TRUE(found.same_build);
     EXPECT_FALSE(found.first) << delay_s << " s: " << found.first->what << ", logged "
                               << found.first->logged << ", came out " << found.first->came_out;
@@ -117,7 +118,7 @@ TEST_F(Replay, a_prediction_to_when_it_is_seen_is_replayed_exactly) {
   see_through("input = \"extrapolate\"\npredict_s = 0.05\n");
   LateAnswers responder(0.05);
   const Verification found = run_and_verify(responder);
-  EXPECT_GT(found.n_pictures, 100);
+  EXPECT_GT(found.n_frames, 100);
   EXPECT_TRUE(found.same_build);
   EXPECT_FALSE(found.first) << found.first->what << ", logged " << found.first->logged
                             << ", came out " << found.first->came_out;

@@ -17,7 +17,7 @@ namespace heft::fake {
 
 struct TrialSetup {
   Task task = Task::sorting;
-  Condition condition = Condition::C2;
+  std::string condition = "C2";
   std::vector<double> masses_g{15, 200, 800};
   int trial_number = 1;
   int attempt = 1;

@@ -22,7 +22,7 @@ inline Stage row_of(int n_cubes, double rate_hz = 15, double pitch_m = 0.08) {
 
 class World {
  public:
-  World(const Stage& stage, Condition condition, std::vector<double> masses_g,
+  World(const Stage& stage, const std::string& condition, std::vector<double> masses_g,
         bool clone_drawn = true)
       : stage_(stage),
         condition_(condition),
@@ -84,9 +84,9 @@ class World {
     }
     if (touching_[i] && rising_) ++n_lifts_in_touch_;
     if (!touching_[i]) begin_touch(i, depth_m);
-    const double most_m = condition_ == Condition::C1 ? 0 : lag_m_per_g * masses_g_[i];
+    const double most_m = condition_ == "C1" ? 0 : lag_m_per_g * masses_g_[i];
     cube_m.y() += std::max(0.0, depth_m - most_m);
-    if (condition_ == Condition::C2)
+    if (condition_ == "C2")
       clone_.position_m.y() = effector_.position_m.y() - std::min(depth_m, most_m);
   }
 
@@ -103,7 +103,7 @@ class World {
   }
 
   Stage stage_;
-  Condition condition_;
+  std::string condition_;
   std::vector<double> masses_g_;
   bool clone_drawn_;
   bool shown_ = false;

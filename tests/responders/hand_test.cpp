@@ -64,7 +64,7 @@ TEST(Hand, strokes_have_human_length_and_speed_and_a_minimum_jerk_shape) {
   int n_strokes = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Stage stage = fake::row_of(3);
-    World world(stage, Condition::C2, {15, 200, 800});
+    World world(stage, "C2", {15, 200, 800});
     for (const HandMove& move : explore(world, stage, seed)) {
       if (!is_stroke(move)) continue;
       ++n_strokes;
@@ -90,7 +90,7 @@ TEST(Hand, strokes_have_human_length_and_speed_and_a_minimum_jerk_shape) {
 TEST(Hand, pushes_every_cube_from_the_front_and_never_touches_a_neighbor) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Stage stage = fake::row_of(3);
-    World world(stage, seed % 2 ? Condition::C1 : Condition::C2, {15, 200, 800});
+    World world(stage, seed % 2 ? "C1" : "C2", {15, 200, 800});
     explore(world, stage, seed);
     EXPECT_EQ(world.n_side_hits(), 0) << "seed " << seed;
     EXPECT_EQ(world.n_lifts_in_touch(), 0) << "seed " << seed;
@@ -118,7 +118,7 @@ TEST(Hand, waits_at_rest_until_the_cubes_appear) {
   Hand hand(default_parameters(), 1, {1, 1, Task::comparison, stage});
   const std::vector<int> cubes{0, 1};
   hand.explore(cubes);
-  World world(stage, Condition::C2, {15, 200});
+  World world(stage, "C2", {15, 200});
   const Pose rest = resting_pose(stage, default_parameters().hover_m);
   for (int i = 0; i < 50; ++i) {
     world.move_effector(hand.at(i / 15.0));
@@ -133,7 +133,7 @@ TEST(Hand, waits_at_rest_until_the_cubes_appear) {
 
 TEST(Hand, approaches_cubes_where_it_sees_them) {
   const Stage stage = fake::row_of(2);
-  World world(stage, Condition::C2, {15, 15});
+  World world(stage, "C2", {15, 15});
   world.cubes()[0].position_m += Eigen::Vector3d(-0.02, 0.05, 0);
   world.cubes()[1].position_m += Eigen::Vector3d(0.01, -0.03, 0);
   const std::vector<Pose> seen = world.cubes();
@@ -152,7 +152,7 @@ TEST(Hand, approaches_cubes_where_it_sees_them) {
 
 TEST(Hand, leaves_a_cube_that_others_hem_in) {
   const Stage stage = fake::row_of(2);
-  World world(stage, Condition::C2, {15, 15});
+  World world(stage, "C2", {15, 15});
   world.cubes()[1].position_m = world.cubes()[0].position_m + Eigen::Vector3d(0, -0.05, 0);
   explore(world, stage, 2);
   EXPECT_EQ(world.n_side_hits(), 0);
@@ -164,7 +164,7 @@ TEST(Hand, goes_home_when_the_cubes_are_taken_away) {
   Hand hand(default_parameters(), 1, {1, 1, Task::comparison, stage});
   const std::vector<int> cubes{0, 1};
   hand.explore(cubes);
-  World world(stage, Condition::C2, {800, 800});
+  World world(stage, "C2", {800, 800});
   world.show_cubes();
   double t_s = 0;
   for (; t_s < 2; t_s += 1 / 15.0) {

@@ -83,7 +83,7 @@ std::string trace(const std::vector<Parameter>& parameters) {
     const auto responder = fake::make("simulated", seed, parameters);
     fake::TrialSetup setup;
     setup.trial_number = static_cast<int>(seed) + 1;
-    setup.condition = seed % 3 ? Condition::C2 : Condition::C1;
+    setup.condition = seed % 3 ? "C2" : "C1";
     setup.task = seed % 2 ? Task::sorting : Task::comparison;
     if (setup.task == Task::comparison) setup.masses_g = {100, 160};
     const auto result = fake::run_trial(*responder, setup);

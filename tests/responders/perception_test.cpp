@@ -46,7 +46,7 @@ std::vector<double> percepts_mm(const ResponderParameters& parameters, const Sta
 std::vector<double> percepts_mm(const ResponderParameters& parameters,
                                 const std::vector<double>& masses_g, double rate_hz = 15) {
   const Stage stage = fake::row_of(static_cast<int>(masses_g.size()), rate_hz);
-  return percepts_mm(parameters, stage, World(stage, Condition::C2, masses_g));
+  return percepts_mm(parameters, stage, World(stage, "C2", masses_g));
 }
 
 TEST(Perception, percepts_grow_with_mass_until_the_cube_does_not_move) {
@@ -71,9 +71,9 @@ TEST(Perception, attributes_the_offset_to_the_cube_that_is_pushed) {
 TEST(Perception, in_C1_or_without_a_clone_every_percept_is_exactly_nothing) {
   const Stage stage = fake::row_of(3);
   const std::vector<double> masses{15, 200, 800};
-  EXPECT_THAT(percepts_mm(default_parameters(), stage, World(stage, Condition::C1, masses)),
+  EXPECT_THAT(percepts_mm(default_parameters(), stage, World(stage, "C1", masses)),
               ElementsAre(0, 0, 0));
-  EXPECT_THAT(percepts_mm(default_parameters(), stage, World(stage, Condition::C2, masses, false)),
+  EXPECT_THAT(percepts_mm(default_parameters(), stage, World(stage, "C2", masses, false)),
               ElementsAre(0, 0, 0));
 }
 
@@ -104,9 +104,9 @@ TEST(Perception, the_missing_motion_of_a_cube_is_a_cue_as_well) {
   }
   // In C1 it is what the tip travels before it meets the cube, for any mass.
   const Stage stage = fake::row_of(2);
-  const auto in_C1 = percepts_mm(parameters, stage, World(stage, Condition::C1, {15, 800}));
+  const auto in_C1 = percepts_mm(parameters, stage, World(stage, "C1", {15, 800}));
   for (double percept_mm : in_C1) EXPECT_LE(percept_mm, 4.001);
-  EXPECT_EQ(percepts_mm(parameters, stage, World(stage, Condition::C1, {800, 15})), in_C1);
+  EXPECT_EQ(percepts_mm(parameters, stage, World(stage, "C1", {800, 15})), in_C1);
 }
 
 class PictureTest : public testing::Test {

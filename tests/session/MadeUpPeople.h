@@ -48,7 +48,7 @@ inline Touch touch(TouchKind kind) {
 
 inline Touch touch(ActionKind kind, std::optional<int> slot = {}, std::optional<Label> label = {}) {
   Touch made;
-  made.action = {0, kind, slot, label};
+  made.action = {kind, slot, label};
   return made;
 }
 

@@ -25,7 +25,7 @@ inline Protocol small_protocol() {
   protocol.name = "small";
   protocol.text = "small";
   IntroductionBlock introduction{"introduction", {15, 800}};
-  SortingBlock sorting{"sorting", {15, 200, 800}, 4, 2};
+  SortingBlock sorting{"sorting", {15, 200, 800}, {{"C1", 2}, {"C2", 2}}, 2};
   ComparisonBlock comparison;
   comparison.name = "comparison";
   comparison.staircases = {{15, staircase("15g", 175, 50)}, {200, staircase("200g", 600, 150)}};
@@ -38,7 +38,7 @@ inline Protocol small_protocol() {
 inline Protocol quick_protocol() {
   Protocol protocol = small_protocol();
   protocol.display_rate_hz = 200;
-  protocol.blocks = {SortingBlock{"sorting", {15, 200, 800}, 2, 0}};
+  protocol.blocks = {SortingBlock{"sorting", {15, 200, 800}, {{"C2", 2}}, 0}};
   return protocol;
 }
 

@@ -1,7 +1,6 @@
 // What a session that was kept in memory holds.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,7 @@ inline std::vector<Event> events_of(const RecordedSession& session, EventKind ki
   std::vector<Event> found;
   for (const RecordedEntry& entry : session.entries())
     if (const auto* recorded = std::get_if<RecordedEvent>(&entry);
-        recorded && recorded->event.kind == kind)
+        recorded && recorded->event.kind() == kind)
       found.push_back(recorded->event);
   return found;
 }
@@ -22,7 +21,7 @@ inline std::vector<Event> events_of(const RecordedSession& session, EventKind ki
 inline std::vector<std::string> pages_of(const RecordedSession& session) {
   std::vector<std::string> pages;
   for (const Event& event : events_of(session, EventKind::text_shown))
-    pages.push_back(nlohmann::json::parse(event.detail).at("page"));
+    pages.push_back(event.as<TextShown>()->page);
   return pages;
 }
 

@@ -18,7 +18,7 @@ class AutoSimulator : public ::testing::Test {
  protected:
   void SetUp() override {
     request.protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
-    request.options.simulator = "auto";
+    request.setup.simulator = "auto";
     request.participant = "1";
     request.seed = 3;
     request.db = (std::filesystem::temp_directory_path() /
@@ -34,12 +34,13 @@ class AutoSimulator : public ::testing::Test {
     RunnerOptions runner;
     runner.stop = &stop;
     runner.progress = [&](const Engine& engine) { stop = engine.n_completed() >= n_trials; };
+    request.setup = in_force(request.setup, request.protocol);
     return start_session(request, runner);
   }
   LoggedSession logged() const { return load_session(LogReader(request.db), request.db, 1); }
   std::string divergence() const {
     const Verification found = verify_session(LogReader(request.db), 1, [](double) {});
-    return found.n_pictures == 0 ? "no pictures" : found.first ? found.first->what : "";
+    return found.n_frames == 0 ? "no frames" : found.first ? found.first->what : "";
   }
 
   SessionRequest request;
@@ -65,18 +66,18 @@ TEST_F(AutoSimulator, is_logged_with_its_reason_and_replayed) {
   EXPECT_EQ(run_until(100).end, RunEnd::finished);
   const SimulatorPick pick = resolve_auto(request.protocol);
   const LoggedSession session = logged();
-  EXPECT_EQ(session.options.simulator, "auto");
-  EXPECT_EQ(session.options.auto_simulator, pick.simulator);
-  EXPECT_THAT(session.options.auto_why, HasSubstr("models everything"));
+  EXPECT_EQ(session.setup.simulator, pick.simulator);
+  EXPECT_EQ(session.setup.rate_hz, pick.rate_hz);
+  EXPECT_THAT(session.setup.simulator_why, HasSubstr("models everything"));
   EXPECT_EQ(session.protocol->simulator.name, pick.simulator);
   EXPECT_EQ(session.protocol->simulator.rate_hz, pick.rate_hz);
   EXPECT_EQ(divergence(), "");
 }
 
 TEST_F(AutoSimulator, stays_as_the_log_says_when_the_session_goes_on_and_the_table_says_another) {
-  request.options.auto_simulator = "bullet-lx";  // as if the table had picked it at the start
-  request.options.auto_rate_hz = "120";
-  request.options.auto_why = "was the best then";
+  request.setup.simulator = "bullet-lx";  // as if the table had picked it at the start
+  request.setup.rate_hz = 120;
+  request.setup.simulator_why = "was the best then";
   ASSERT_EQ(run_until(2).end, RunEnd::stopped);
   LoggedSession session = session_to_resume(request.db, std::nullopt);
   GivenOptions again;
@@ -84,26 +85,40 @@ TEST_F(AutoSimulator, stays_as_the_log_says_when_the_session_goes_on_and_the_tab
   give_again(session, again);
   EXPECT_EQ(session.protocol->simulator.name, "bullet-lx");
   EXPECT_EQ(session.protocol->simulator.rate_hz, 120);
-  EXPECT_TRUE(session.changes.empty());
+  EXPECT_EQ(session.setup, session.setups.back().setup);
   EXPECT_EQ(resume_session(session, {}).end, RunEnd::finished);
-  EXPECT_EQ(logged().options.auto_why, "was the best then");
+  EXPECT_EQ(logged().setup.simulator_why, "was the best then");
+  EXPECT_EQ(logged().setups.size(), 1U);
   EXPECT_EQ(divergence(), "");
+}
+
+TEST_F(AutoSimulator, gives_way_to_one_that_is_named_when_the_session_goes_on) {
+  ASSERT_EQ(run_until(2).end, RunEnd::stopped);
+  LoggedSession session = session_to_resume(request.db, std::nullopt);
+  GivenOptions again;
   again.simulator = "bullet-ea";
-  EXPECT_THROW(give_again(session, again), Error);
+  give_again(session, again);
+  EXPECT_EQ(session.setup.simulator, "bullet-ea");
+  EXPECT_EQ(session.setup.simulator_why, "");
+  EXPECT_EQ(session.protocol->simulator.name, "bullet-ea");
+  EXPECT_EQ(resume_session(session, {}).end, RunEnd::finished);
+  EXPECT_EQ(logged().setups.size(), 2U);
+  EXPECT_EQ(divergence(), "");
 }
 
 TEST_F(AutoSimulator, may_be_asked_for_in_the_protocol) {
-  request.options.simulator.clear();
+  request.setup.simulator.clear();
   request.protocol.simulator.name = "auto";
-  const Setup resolved = with_auto_resolved(request.options, request.protocol);
+  const heft::Setup resolved = in_force(request.setup, request.protocol);
   EXPECT_EQ(protocol_for(request.protocol, resolved)->simulator.name,
             resolve_auto(request.protocol).simulator);
 }
 
 TEST_F(AutoSimulator, leaves_no_trace_where_nobody_asked_for_it) {
-  request.options.simulator = "bullet";
-  const Setup resolved = with_auto_resolved(request.options, request.protocol);
-  EXPECT_EQ(resolved.auto_simulator + resolved.auto_rate_hz + resolved.auto_why, "");
+  request.setup.simulator = "bullet";
+  const heft::Setup resolved = in_force(request.setup, request.protocol);
+  EXPECT_EQ(resolved.simulator_why, "");
+  EXPECT_EQ(resolved.rate_hz, request.protocol.simulator.rate_hz);
   EXPECT_EQ(protocol_for(request.protocol, resolved)->simulator.name, "bullet");
 }
 

@@ -27,16 +27,18 @@ struct Answer {
   // The same actions at the same times.
   bool operator==(const Answer& other) const {
     return labels == other.labels &&
-           std::ranges::equal(actions, other.actions, [](const TimedAction& a, const TimedAction& b) {
-             return a.t_s == b.t_s && a.kind == b.kind && a.slot == b.slot && a.label == b.label;
-           });
+           std::ranges::equal(actions, other.actions,
+                              [](const TimedAction& a, const TimedAction& b) {
+                                return a.t_s == b.t_s && a.kind == b.kind && a.slot == b.slot &&
+                                       a.label == b.label;
+                              });
   }
 };
 
 // One sorting trial from its start to its answer.
 Answer sort_cubes(
-    const Protocol& protocol, Condition condition, std::vector<double> masses_g, std::uint64_t seed,
-    const Change& change = [](DisplayedFrame&) {}) {
+    const Protocol& protocol, const std::string& condition, std::vector<double> masses_g,
+    std::uint64_t seed, const Change& change = [](DisplayedFrame&) {}) {
   TrialPlan plan;
   plan.trial_number = 1;
   plan.task = Task::sorting;
@@ -47,24 +49,21 @@ Answer sort_cubes(
   const auto responder = responder_named("simulated").make(options);
   responder->begin_trial({1, 1, Task::sorting, stage_of(protocol, 3)});
   TrialWorld world(protocol, plan);
-  RunningAttempt attempt(1, plan, 0, false);
+  TrialRow row;
+  row.attempt_index = 1;
+  RunningAttempt attempt(row, plan, false);
   HandPictures pictures(*responder, protocol.display_rate_hz);
   pictures.begin_attempt({});
   Answer answer;
   for (;;) {
     ShownFrame shown = world.advance(pictures.next()->sample);
     for (const Event& event : shown.events)
-      if (event.kind == EventKind::cubes_shown) attempt.show(event);
+      if (event.as<CubesShown>()) attempt.show(event.t_s);
     change(shown.frame);
     for (const TimedAction& action : responder->see(shown.frame, attempt.screen())) {
-      Event event;
-      event.kind = EventKind::action;
-      event.detail = name_of(action.kind);
-      event.slot = action.slot;
-      event.label = action.label;
-      EXPECT_EQ(attempt.refusal(event), std::nullopt);
+      EXPECT_EQ(attempt.refusal({action.t_s, Action(action)}), std::nullopt);
       answer.actions.push_back(action);
-      if (const auto outcome = attempt.act(event)) {
+      if (const auto outcome = attempt.act(action, action.t_s)) {
         answer.outcome = *outcome;
         answer.labels = attempt.screen().labels;
         return answer;
@@ -77,9 +76,9 @@ TEST(Blindness, permuting_the_masses_in_c1_leaves_every_answer_unchanged) {
   const Protocol protocol = small_protocol();
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     std::vector<double> masses_g{15, 200, 800};
-    const Answer first = sort_cubes(protocol, Condition::C1, masses_g, seed);
+    const Answer first = sort_cubes(protocol, "C1", masses_g, seed);
     while (std::ranges::next_permutation(masses_g).found)
-      EXPECT_EQ(sort_cubes(protocol, Condition::C1, masses_g, seed), first) << "seed " << seed;
+      EXPECT_EQ(sort_cubes(protocol, "C1", masses_g, seed), first) << "seed " << seed;
   }
 }
 
@@ -90,11 +89,10 @@ TEST(Blindness, hiding_the_clone_drops_c2_sorting_to_chance) {
   for (std::uint64_t seed = 0; seed < n; ++seed) {
     std::vector<double> masses_g{15, 200, 800};
     RandomStream(seed, "order").shuffle(std::span(masses_g));
-    n_right += sort_cubes(protocol, Condition::C2, masses_g, seed).outcome == Outcome::correct;
-    const Outcome hidden =
-        sort_cubes(protocol, Condition::C2, masses_g, seed, [](DisplayedFrame& frame) {
-          frame.clone.reset();
-        }).outcome;
+    n_right += sort_cubes(protocol, "C2", masses_g, seed).outcome == Outcome::correct;
+    const Outcome hidden = sort_cubes(protocol, "C2", masses_g, seed, [](DisplayedFrame& frame) {
+                             frame.clone.reset();
+                           }).outcome;
     n_right_hidden += hidden == Outcome::correct;
     n_answered_hidden += hidden != Outcome::dont_know;
   }
@@ -111,9 +109,9 @@ TEST(Blindness, halving_the_display_rate_changes_what_is_perceived) {
   int n_changed = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     protocol.display_rate_hz = 15;
-    const Answer at_15 = sort_cubes(protocol, Condition::C2, {15, 200, 800}, seed);
+    const Answer at_15 = sort_cubes(protocol, "C2", {15, 200, 800}, seed);
     protocol.display_rate_hz = 7.5;
-    n_changed += !(sort_cubes(protocol, Condition::C2, {15, 200, 800}, seed) == at_15);
+    n_changed += !(sort_cubes(protocol, "C2", {15, 200, 800}, seed) == at_15);
   }
   EXPECT_GT(n_changed, 5);
 }

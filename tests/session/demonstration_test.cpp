@@ -172,7 +172,7 @@ TEST(Demonstration, shows_the_printed_board_and_effector_without_a_camera_too) {
 }
 
 TEST(Demonstration, shows_the_sessions_own_apparatus_where_there_is_one) {
-  Setup options = options_of("human", "synthetic");
+  heft::Setup options = options_of("human", "synthetic");
   options.camera_file = shipped + "synthetic_camera.yaml";
   const Apparatus shown = demonstrated_with(options, quick_protocol());
   EXPECT_EQ(shown.camera.distortion, apparatus().camera.distortion);

@@ -7,6 +7,7 @@
 #include "apparatus/CameraPictures.h"
 #include "protocol/MarkerFile.h"
 #include "protocol/TextsFile.h"
+#include "record/EventRow.h"
 #include "record/temporary_folder.h"
 #include "session/MadeUpPeople.h"
 #include "session/Protocols.h"
@@ -174,8 +175,8 @@ void expect_void_and_again(Does what) {
   ASSERT_THAT(paused, SizeIs(1));
   ASSERT_THAT(continued, SizeIs(1));
   ASSERT_THAT(voided, SizeIs(1));
-  EXPECT_EQ(paused[0].detail, "camera_lost");
-  EXPECT_EQ(voided[0].detail, "camera_lost");
+  EXPECT_EQ(paused[0].as<SessionPaused>()->reason, "camera_lost");
+  EXPECT_EQ(voided[0].as<TrialVoided>()->reason, "camera_lost");
   EXPECT_GE(voided[0].t_s - paused[0].t_s, 0.3);
   EXPECT_GE(continued[0].t_s, voided[0].t_s);
   EXPECT_THAT(frames_between(*session, paused[0].t_s, continued[0].t_s), IsEmpty());
@@ -236,10 +237,11 @@ TEST(LiveCamera, is_checked_before_the_session_and_that_is_logged) {
   LiveSession session(5, patient);
   session.run();
   std::vector<std::string> checks;
-  for (const Event& event : session.events(EventKind::check)) checks.push_back(event.detail);
-  for (const char* what : {"\"camera\"", "\"frame rate\"", "\"exposure\"", "\"print scale\"",
-                           "\"light\"", "\"board\"", "\"effector\"", "\"latency\""})
-    EXPECT_THAT(checks, Contains(::testing::HasSubstr(what)));
+  for (const Event& event : session.events(EventKind::check))
+    checks.push_back(event.as<CheckResult>()->name);
+  for (const char* what :
+       {"camera", "frame rate", "exposure", "print scale", "light", "board", "effector", "latency"})
+    EXPECT_THAT(checks, Contains(what));
 }
 
 // A file is looked at in full before the session, which then has all of its pictures.
@@ -295,7 +297,7 @@ TEST(PicturesOfAModelsHand, count_those_that_came_too_late_to_be_made) {
 
 // Names of verdicts reach the log as they are called here.
 TEST(Check, is_logged_by_its_verdicts_name) {
-  EXPECT_EQ(to_json({CheckVerdict::warning, "light", "too dark"}),
+  EXPECT_EQ(row_of({0, CheckResult{CheckVerdict::warning, "light", "too dark"}}).detail,
             R"({"name":"light","verdict":"warning","finding":"too dark"})");
 }
 

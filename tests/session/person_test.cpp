@@ -2,8 +2,6 @@
 // made-up desk.
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
 #include "protocol/TextsFile.h"
 #include "session/MadeUpPeople.h"
 #include "session/Protocols.h"
@@ -64,12 +62,13 @@ TEST(Person, goes_through_all_pages_and_trials) {
       ElementsAre("consent", "welcome", "about_you", "demonstration", "instructions_sorting",
                   "trial_sorting", "rest", "instructions_introduction", "trial_introduction",
                   "how_decided", "thanks"));
-  const auto consent = nlohmann::json::parse(session.events(EventKind::consent).at(0).detail);
-  EXPECT_EQ(consent.at("agreed"), true);
-  EXPECT_EQ(consent.at("language"), "fr");
-  EXPECT_EQ(std::string(consent.at("sha256")).size(), 64U);
+  const Event consented = session.events(EventKind::consent).at(0);
+  const Consent& consent = *consented.as<Consent>();
+  EXPECT_TRUE(consent.agreed);
+  EXPECT_EQ(consent.language, "fr");
+  EXPECT_EQ(consent.sha256.size(), 64U);
   EXPECT_EQ(session.engine.n_completed(), 3);
-  EXPECT_GE(session.events(EventKind::rest).at(0).value, 0.1);
+  EXPECT_GE(session.events(EventKind::rest).at(0).as<BreakTaken>()->duration_s, 0.1);
 }
 
 TEST(Person, who_does_not_agree_takes_no_part) {
@@ -105,7 +104,7 @@ TEST(Person, a_touch_that_can_not_be_taken_is_noted_and_ends_nothing) {
   });
   EXPECT_EQ(session.run(), RunEnd::finished);
   ASSERT_EQ(session.events(EventKind::note).size(), 1U);
-  EXPECT_THAT(session.events(EventKind::note)[0].detail, HasSubstr("validate"));
+  EXPECT_THAT(session.events(EventKind::note)[0].as<Note>()->text, HasSubstr("validate"));
 }
 
 TEST(Person, what_they_tell_about_themselves_is_kept) {
@@ -137,7 +136,8 @@ TEST(Person, the_cubes_go_back_at_a_touch) {
   });
   EXPECT_EQ(session.run(), RunEnd::finished);
   ASSERT_EQ(session.events(EventKind::cubes_reset).size(), 1U);
-  EXPECT_EQ(session.events(EventKind::cubes_reset)[0].detail, "button");
+  EXPECT_EQ(session.events(EventKind::cubes_reset)[0].as<CubesReset>()->slot, std::nullopt)
+      << "all of them, by the button";
 }
 
 TEST(Person, who_closes_the_window_can_come_back) {
@@ -148,7 +148,7 @@ TEST(Person, who_closes_the_window_can_come_back) {
   });
   EXPECT_EQ(session.run(), RunEnd::stopped);
   EXPECT_EQ(session.engine.state(), SessionState::paused);
-  EXPECT_EQ(session.events(EventKind::voided).at(0).detail, void_interrupted);
+  EXPECT_EQ(session.events(EventKind::voided).at(0).as<TrialVoided>()->reason, void_interrupted);
 }
 
 TEST(Person, every_picture_has_its_times) {
@@ -180,7 +180,7 @@ TEST(Experimenter, holds_the_session_and_lets_it_go_on) {
   AtTheDesk desk({{DeskCommandKind::pause, {}}, {DeskCommandKind::go_on, {}}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&desk), RunEnd::finished);
-  EXPECT_EQ(session.events(EventKind::paused).at(0).detail, "experimenter");
+  EXPECT_EQ(session.events(EventKind::paused).at(0).as<SessionPaused>()->reason, "experimenter");
   EXPECT_EQ(session.events(EventKind::continued).size(), 1U);
   EXPECT_THAT(session.screen.screens, Contains(Field(&ScreenState::screen, Screen::paused)));
   EXPECT_THAT(pages_of(session.sink),
@@ -244,9 +244,10 @@ class FailedCheck : public ::testing::Test {
         .run();
   }
   std::vector<std::string> notes() const {
-    std::vector<std::string> details;
-    for (const Event& event : session.events(EventKind::note)) details.push_back(event.detail);
-    return details;
+    std::vector<std::string> texts;
+    for (const Event& event : session.events(EventKind::note))
+      texts.push_back(event.as<Note>()->text);
+    return texts;
   }
 
   Session session{quick_protocol()};
@@ -304,7 +305,7 @@ TEST(Experimenter, vetoes_a_trial_and_it_comes_again) {
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&desk), RunEnd::finished);
   ASSERT_EQ(session.events(EventKind::voided).size(), 1U);
-  EXPECT_EQ(session.events(EventKind::voided)[0].detail, "veto: disturbance");
+  EXPECT_EQ(session.events(EventKind::voided)[0].as<TrialVoided>()->reason, "veto: disturbance");
   EXPECT_EQ(session.engine.n_attempts(), 3);
   EXPECT_EQ(session.engine.n_completed(), 2);
 }
@@ -315,7 +316,7 @@ TEST(Experimenter, notes_takes_a_break_and_ends) {
                   {DeskCommandKind::end, {}}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&desk), RunEnd::stopped);
-  EXPECT_EQ(session.events(EventKind::note).at(0).detail, "door slammed");
+  EXPECT_EQ(session.events(EventKind::note).at(0).as<Note>()->text, "door slammed");
   EXPECT_EQ(session.engine.state(), SessionState::paused);
 }
 
@@ -323,7 +324,7 @@ TEST(Experimenter, gets_the_break_that_was_asked_for) {
   AtTheDesk desk({{DeskCommandKind::rest, {}}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&desk), RunEnd::finished);
-  EXPECT_EQ(session.events(EventKind::rest).at(0).detail, "asked for");
+  EXPECT_EQ(session.events(EventKind::rest).at(0).as<BreakTaken>()->name, "asked for");
 }
 
 TEST(Experimenter, is_blind_until_they_unblind_themselves) {

@@ -91,7 +91,7 @@ class Nothing final : public ArView {
 // Two sorting trials and nothing else.
 Protocol two_trials() {
   Protocol protocol = small_protocol();
-  protocol.blocks = {SortingBlock{"sorting", {15, 200, 800}, 2, 0}};
+  protocol.blocks = {SortingBlock{"sorting", {15, 200, 800}, {{"C2", 2}}, 0}};
   return protocol;
 }
 
@@ -135,7 +135,7 @@ TEST(Runner, runs_a_whole_session_to_its_end) {
   EXPECT_EQ(bench.engine.state(), SessionState::finished);
   EXPECT_EQ(bench.events(EventKind::demonstration_shown).size(), 1u);
   ASSERT_EQ(bench.events(EventKind::rest).size(), 1u);
-  EXPECT_EQ(bench.events(EventKind::rest)[0].value, 60);
+  EXPECT_EQ(bench.events(EventKind::rest)[0].as<BreakTaken>()->duration_s, 60);
 }
 
 TEST(Runner, every_displayed_picture_is_a_frame_at_the_display_rate) {
@@ -171,7 +171,7 @@ TEST(Runner, a_short_camera_loss_pauses_the_trial_and_it_goes_on) {
   EXPECT_EQ(bench.run(), RunEnd::finished);
   EXPECT_THAT(bench.events(EventKind::voided), ElementsAre());
   ASSERT_EQ(bench.events(EventKind::paused).size(), 1u);
-  EXPECT_EQ(bench.events(EventKind::paused)[0].detail, "camera_lost");
+  EXPECT_EQ(bench.events(EventKind::paused)[0].as<SessionPaused>()->reason, "camera_lost");
   EXPECT_NEAR(bench.trials()[0].paused_s, 2.7, 0.1);
 }
 
@@ -223,12 +223,10 @@ TEST(Runner, a_pushed_cube_that_leaves_its_area_comes_back_once_untouched) {
   bench.run();
   const auto back = bench.events(EventKind::cubes_reset);
   ASSERT_FALSE(back.empty());
-  EXPECT_EQ(back[0].detail, "out_of_area");
-  EXPECT_EQ(back[0].slot, 2);
+  EXPECT_EQ(back[0].as<CubesReset>()->slot, 2) << "out of its area, not by the button";
   const auto contacts = bench.events(EventKind::cube_contact);
   ASSERT_GE(contacts.size(), 2u);
-  EXPECT_EQ(contacts[0].detail, "began");
-  EXPECT_EQ(contacts[0].slot, 2);
+  EXPECT_EQ(contacts[0].what, Happening(CubeTouch{2, std::nullopt})) << "it began";
   EXPECT_GT(back[0].t_s, contacts[0].t_s);
   EXPECT_NEAR(bench.view.frames.back().cubes[1].position_m.y(), 0, 1e-6);
   for (const FrameRow& frame : bench.frames())
@@ -276,10 +274,7 @@ TEST(Runner, a_stop_leaves_a_session_that_can_be_resumed) {
   EXPECT_EQ(bench.engine.state(), SessionState::paused);
   EXPECT_EQ(bench.engine.n_completed(), 1);
   stop = false;
-  Event resumed;
-  resumed.t_s = bench.engine.last_s();
-  resumed.kind = EventKind::resumed;
-  bench.engine.apply(resumed);
+  bench.engine.apply({bench.engine.last_s(), SessionResumed{}});
   EXPECT_EQ(bench.run(options), RunEnd::finished);
   EXPECT_EQ(bench.engine.n_completed(), 2);
 }

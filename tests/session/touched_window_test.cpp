@@ -153,18 +153,16 @@ class TouchedWindow : public ::testing::Test {
 
   // What fingers gave is what is in the log, one for one.
   void expect_every_answer() const {
-    std::vector<TimedAction> answers;
+    std::vector<Action> answers;
     for (const Touch& touch : fingers->given)
       if (touch.kind == TouchKind::action) answers.push_back(touch.action);
     const auto logged = events_of(sink, EventKind::action);
     ASSERT_EQ(logged.size(), answers.size());
     for (std::size_t i = 0; i < answers.size(); ++i) {
-      EXPECT_EQ(logged[i].detail, name_of(answers[i].kind)) << i;
-      EXPECT_EQ(logged[i].slot, answers[i].slot) << i;
-      EXPECT_EQ(logged[i].label, answers[i].label) << i;
+      EXPECT_EQ(logged[i].what, Happening(answers[i])) << i;
     }
     std::vector<std::optional<Label>> first_trial;
-    for (std::size_t i = 0; i < 5; ++i) first_trial.push_back(logged.at(i).label);
+    for (std::size_t i = 0; i < 5; ++i) first_trial.push_back(logged.at(i).as<Action>()->label);
     EXPECT_THAT(first_trial, ElementsAre(Label::heaviest, Label::lightest, Label::intermediate,
                                          Label::heaviest, std::nullopt))
         << "corrected, then validated";
