@@ -76,7 +76,7 @@ std::optional<BrokenDigest> DigestCheck::first_broken() {
 std::optional<BrokenDigest> DigestCheck::broken_header() {
   SQLite::Statement query(
       database_,
-      fmt::format("SELECT session_id, {}, digest, state FROM session WHERE session_id = ?1",
+      fmt::format("SELECT session_id, {}, state, digest FROM session WHERE session_id = ?1",
                   columns_of<SessionHeader>()));
   query.bind(1, session_id_);
   if (!query.executeStep()) throw Error(fmt::format("{} holds no session {}", file_, session_id_));
@@ -88,6 +88,7 @@ std::optional<BrokenDigest> DigestCheck::broken_header() {
   try {
     Cells cells(query, file_, "session");
     row_from<SessionHeader>(cells);
+    cells.name<SessionState>();
   } catch (const Error& error) {
     broken.damage = error.what();
   }

@@ -19,8 +19,9 @@ using Json = nlohmann::ordered_json;
 }
 
 // What each kind of event puts into the row's columns.
-struct ToRow {
-  EventRow& row;
+class ToRow {
+ public:
+  explicit ToRow(EventRow& to) : row(to) {}
 
   void operator()(const Action& action) const {
     row.detail = name_of(action.kind);
@@ -46,13 +47,10 @@ struct ToRow {
     row.value = contact.ended_after_s;
   }
   void operator()(const Consent& consent) const {
-    row.detail =
-        Json{{"agreed", consent.agreed}, {"language", consent.language}, {"sha256", consent.sha256}}
-            .dump();
+    tell({{"agreed", consent.agreed}, {"language", consent.language}, {"sha256", consent.sha256}});
   }
   void operator()(const TextShown& text) const {
-    row.detail =
-        Json{{"page", text.page}, {"language", text.language}, {"sha256", text.sha256}}.dump();
+    tell({{"page", text.page}, {"language", text.language}, {"sha256", text.sha256}});
   }
   void operator()(const BreakTaken& taken) const {
     row.detail = taken.name;
@@ -62,18 +60,22 @@ struct ToRow {
   void operator()(const Deviation& deviation) const { row.detail = deviation.text; }
   void operator()(const Unblinding& unblinding) const { row.detail = unblinding.who; }
   void operator()(const CameraReport& report) const {
-    row.detail =
-        Json{{"shown", report.n_shown}, {"dropped", report.n_dropped}, {"late", report.n_late}}
-            .dump();
+    tell({{"shown", report.n_shown}, {"dropped", report.n_dropped}, {"late", report.n_late}});
   }
   void operator()(const CheckResult& check) const {
-    row.detail =
-        Json{{"name", check.name}, {"verdict", name_of(check.verdict)}, {"finding", check.finding}}
-            .dump();
+    tell({{"name", check.name}, {"verdict", name_of(check.verdict)}, {"finding", check.finding}});
   }
   // Trial started, continued, cubes shown, effector lost and found: there is nothing to tell.
   template <typename Plain>
   void operator()(const Plain&) const {}
+
+ private:
+  // Bytes that are no text must not keep an event from being saved.
+  void tell(const Json& json) const {
+    row.detail = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+
+  EventRow& row;
 };
 
 // The JSON object in a row's detail.
@@ -206,7 +208,7 @@ EventRow row_of(const Event& event) {
   EventRow row;
   row.t_s = event.t_s;
   row.kind = event.kind();
-  std::visit(ToRow{row}, event.what);
+  std::visit(ToRow(row), event.what);
   return row;
 }
 

@@ -75,8 +75,8 @@ std::unique_ptr<SQLite::Database> opened_somehow(const std::string& path) {
   return opened_where_nothing_can_be_written(path);
 }
 
-// An older log is brought up to date where it lies, or, where that can't be (a medium or folder that
-// can't be written, a writer of the older program), in memory for whoever looks.
+// An older log is brought up to date where it lies, or, where that can't be (a medium or folder
+// that can't be written, a writer of the older program), in memory for whoever looks.
 std::unique_ptr<SQLite::Database> brought_up_to_date(std::unique_ptr<SQLite::Database> older,
                                                      const std::string& path,
                                                      const std::string& file) {
@@ -86,8 +86,8 @@ std::unique_ptr<SQLite::Database> brought_up_to_date(std::unique_ptr<SQLite::Dat
   } catch (const Error& error) {
     if (error.exit_code() == ExitCode::diverged) throw;
   }
-  auto copy = std::make_unique<SQLite::Database>(":memory:",
-                                                 SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  auto copy =
+      std::make_unique<SQLite::Database>(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   distrust(*copy);
   SQLite::Backup(*copy, *older).executeStep();
   schema::upgrade(*copy);

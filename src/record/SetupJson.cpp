@@ -53,7 +53,7 @@ std::string to_json(const Setup& setup) {
   Json json = Json::object();
   visit_columns(setup, Write{json});
   visit_contents(setup, Write{json});
-  return json.dump();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 Setup setup_from_json(const std::string& text) try {

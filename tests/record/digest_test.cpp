@@ -79,7 +79,7 @@ TEST_F(digest, the_earliest_is_named_for_a_person) {
       "UPDATE event SET detail = 'x' WHERE event_id = 3; UPDATE frame SET quality = 1 WHERE "
       "frame_id IN (2, 5); UPDATE event SET slot = 1 WHERE event_id = 4");
   ASSERT_TRUE(broken);
-  EXPECT_EQ(broken->row, "the picture of attempt 1 at 1.750 s");
+  EXPECT_EQ(broken->row, "the frame of attempt 1 at 1.750 s");
   EXPECT_EQ(broken->attempt_index, 1);
   EXPECT_EQ(broken->t_s, 1.75);
   EXPECT_EQ(broken->damage, "");

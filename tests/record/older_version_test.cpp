@@ -1,6 +1,6 @@
-// Logs of today's release before version 3 (tests/golden/logs): brought up to date when somebody opens
-// them, with the older file kept beside; their sessions keep their digests and what they were run
-// with.
+// Logs of today's release before version 3 (tests/golden/logs): brought up to date when somebody
+// opens them, with the older file kept beside; their sessions keep their digests and what they were
+// run with.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/file.h>
@@ -76,7 +76,8 @@ TEST_P(older_version, tells_what_each_trial_was_run_with) {
   EXPECT_EQ(trials.front().setup_index, 1);
   EXPECT_EQ(trials.back().setup_index, static_cast<int>(resumed.size()));
   int n_told = 0;
-  for (const LoggedEvent& logged : reader.events(2)) n_told += logged.event.as<heft::Setup>() ? 1 : 0;
+  for (const LoggedEvent& logged : reader.events(2))
+    n_told += logged.event.as<heft::Setup>() ? 1 : 0;
   EXPECT_EQ(n_told, static_cast<int>(resumed.size()) - 1);
 }
 

@@ -48,6 +48,11 @@ inline std::string words() {
                                                        "NULL", std::string("a\0b", 3)));
 }
 
+/// Texts as JSON keeps them.
+inline std::string plain() {
+  return *rc::gen::element<std::string>("", "naïve – 質量 🧊", "a'b\"c;--\n", "\\ {}");
+}
+
 template <typename Value>
 std::optional<Value> maybe(Value (*make)()) {
   return *rc::gen::arbitrary<bool>() ? std::optional(make()) : std::nullopt;
@@ -94,18 +99,18 @@ inline Pose pose() {
 
 inline Setup any_setup() {
   Setup setup;
-  setup.responder = words() + "x";
-  setup.simulator = words();
+  setup.responder = "model:" + plain();
+  setup.simulator = plain();
   setup.rate_hz = maybe(number);
   setup.display_w_px = maybe(count);
-  setup.language = words();
-  setup.board_file = words();
-  setup.board_text = words();
+  setup.language = plain();
+  setup.board_file = plain();
+  setup.board_text = plain();
   return setup;
 }
 
 inline Happening any_happening() {
-  switch (*rc::gen::inRange(0, 12)) {
+  switch (*rc::gen::inRange(0, 13)) {
     case 0:
       return Action{any_of<ActionKind>(), maybe(slot), maybe(any_of<Label>)};
     case 1:
@@ -119,15 +124,17 @@ inline Happening any_happening() {
     case 5:
       return CubeTouch{slot(), maybe(time_s)};
     case 6:
-      return Consent{flag(), words(), words()};
+      return Consent{flag(), plain(), plain()};
     case 7:
-      return TextShown{words(), words(), words()};
+      return TextShown{plain(), plain(), plain()};
     case 8:
       return BreakTaken{words(), time_s()};
     case 9:
       return CameraReport{count(), count(), count()};
     case 10:
-      return CheckResult{any_of<CheckVerdict>(), words(), words()};
+      return CheckResult{any_of<CheckVerdict>(), plain(), plain()};
+    case 11:
+      return any_setup();
     default:
       return Note{words()};
   }

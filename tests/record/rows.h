@@ -74,11 +74,11 @@ inline std::string text(const LoggedEvent& e) {
 }
 inline std::string text(const TrialRow& t) {
   const TrialPlan& p = t.plan;
-  return joined(t.attempt_index, t.setup_index, p.trial_number, p.attempt, p.block, p.task, p.condition,
-                p.staircase, p.reference_g, p.level_g, p.is_catch, p.masses_g, p.reference_slot,
-                p.n_reshuffles, t.status, t.void_reason, t.outcome, t.chosen_slot, t.choice_correct,
-                t.started_s, t.shown_s, t.first_contact_s, t.first_choice_s, t.validated_s,
-                t.ended_s, t.paused_s, t.lost_s);
+  return joined(t.attempt_index, t.setup_index, p.trial_number, p.attempt, p.block, p.task,
+                p.condition, p.staircase, p.reference_g, p.level_g, p.is_catch, p.masses_g,
+                p.reference_slot, p.n_reshuffles, t.status, t.void_reason, t.outcome, t.chosen_slot,
+                t.choice_correct, t.started_s, t.shown_s, t.first_contact_s, t.first_choice_s,
+                t.validated_s, t.ended_s, t.paused_s, t.lost_s);
 }
 inline std::string text(const CubeRow& c) {
   return joined(c.attempt_index, c.slot, c.mass_g, c.n_pushes, c.contact_s, c.first_contact_s,

@@ -25,7 +25,17 @@ class schema_rules : public testing::Test {
       const Event answer = action(2, ActionKind::label, 2, Label::heaviest);
       changes.answers = {answer_of(1, answer)};
       changes.reversals = {{1, "15g", 1, 100, 50, 50}};
-      changes.estimates = {{"15g", "mean_of_reversals", 70.0, {}, {}, 30, 10, 0, 0, Finish::reversals, Censored::none}};
+      changes.estimates = {{"15g",
+                            "mean_of_reversals",
+                            70.0,
+                            {},
+                            {},
+                            30,
+                            10,
+                            0,
+                            0,
+                            Finish::reversals,
+                            Censored::none}};
       log.append(answer, changes, Durability::acknowledged);
       log.add_frame(frame(1, 2));
     }

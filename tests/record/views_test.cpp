@@ -81,7 +81,8 @@ TEST_F(views, jnd_names_the_reference_of_its_staircase) {
   trial.plan.staircase = "fine";
   trial.plan.reference_g = 800;
   Changes changes = starting(trial);
-  changes.estimates = {{"fine", "mean_of_reversals", 101.5, {}, {}, 32, 10, 1, 0, Finish::reversals, {}}};
+  changes.estimates = {
+      {"fine", "mean_of_reversals", 101.5, {}, {}, 32, 10, 1, 0, Finish::reversals, {}}};
   log_.append(event(10, EventKind::trial_started), changes, Durability::acknowledged);
   EXPECT_EQ(of("SELECT participant || ' ' || staircase || ' ' || reference_g || ' ' || jnd_g || ' "
                "' || n_trials || ' ' || reason FROM v_jnd"),
