@@ -5,12 +5,18 @@
 
 #include <memory>
 
+#include "base/Clock.h"
 #include "base/Error.h"
 #include "cli/Commands.h"
+#include "cli/Judged.h"
 #include "cli/Output.h"
 #include "cli/Progress.h"
+#include "cli/SessionOptions.h"
+#include "cli/StopOnSignal.h"
 #include "physics/DecouplingSimulator.h"
+#include "protocol/TextsFile.h"
 #include "record/Integrity.h"
+#include "replay/Showing.h"
 #include "replay/WhatIf.h"
 #include "session/Session.h"
 
@@ -21,10 +27,28 @@ namespace {
 struct Options {
   std::string db = "heft.db";
   std::optional<std::int64_t> session;
-  std::string responder, simulator;
+  std::string responder, simulator, view;
   std::vector<std::string> set;
-  bool asks_what_if() const { return !responder.empty() || !simulator.empty() || !set.empty(); }
+  bool rerun = false, json = false;
+  bool supposes() const { return !simulator.empty() || !set.empty(); }
+  bool judges() const { return !responder.empty() && !rerun; }
 };
+
+void check(const Options& options) {
+  const auto refuse = [](const char* why) { throw Error(why, ExitCode::usage); };
+  if (options.rerun && options.responder.empty())
+    refuse("--rerun runs the trials anew with a --responder, and none is named");
+  if (options.judges() && options.supposes())
+    refuse(
+        "a --responder judges what was displayed, which --set and --simulator would change; add "
+        "--rerun to run the trials anew");
+  if (options.json && !options.judges())
+    refuse("--json is for what a --responder judges, without --rerun");
+  if (!options.view.empty() && !options.responder.empty())
+    refuse(
+        "--view shows the logged frames, with --set or --simulator another clone beside them; "
+        "it takes no --responder");
+}
 
 std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const Options& options) {
   if (options.session) return {reader.session(*options.session).session_id};
@@ -45,13 +69,15 @@ std::string how_frames_were_checked(const Verification& found) {
   if (found.n_frames == 0) return "no frames logged, so the simulator was not checked";
   std::string how = fmt::format("{} frames simulated again, ", found.n_frames);
   if (found.n_other_edition > 0)
-    how += fmt::format("{} of them logged with an edition of the simulator that this heft does not "
-                       "have: only measured, they differ by up to {:.3g} m; of the others ",
-                       found.n_other_edition, found.largest_difference_m);
+    how += fmt::format(
+        "{} of them logged with an edition of the simulator that this heft does not "
+        "have: only measured, they differ by up to {:.3g} m; of the others ",
+        found.n_other_edition, found.largest_difference_m);
   if (found.same_build) return how + "equal bits demanded";
-  return how + fmt::format("logged by another build: poses within 1e-6 m demanded, largest "
-                           "difference {:.3g} m",
-                           found.largest_difference_m);
+  return how + fmt::format(
+                   "logged by another build: poses within 1e-6 m demanded, largest "
+                   "difference {:.3g} m",
+                   found.largest_difference_m);
 }
 
 // @return whether the log says what its events give
@@ -61,11 +87,10 @@ bool verify(const LogReader& reader, std::int64_t session_id) {
     bar.update(share, fmt::format("{:.0f} %", 100 * share));
   });
   const std::string verified =
-      found.ended ? "verified"
-                  : fmt::format("verified up to event {}, unfinished", found.n_events);
+      found.ended ? "verified" : fmt::format("verified up to event {}, unfinished", found.n_events);
   print("session {}: {}: {} events folded, {} rows in {} attempts compared; {}\n", session_id,
-             found.first ? "DIVERGED" : verified, found.n_events, found.n_rows, found.n_attempts,
-             how_frames_were_checked(found));
+        found.first ? "DIVERGED" : verified, found.n_events, found.n_rows, found.n_attempts,
+        how_frames_were_checked(found));
   if (found.first) print_divergence(*found.first);
   return !found.first;
 }
@@ -95,8 +120,41 @@ void print_paths(const std::vector<PathDifference>& differences) {
       "task", "", "pictures", "clone RMS", "clone max", "cubes RMS", "cubes max");
   for (const PathDifference& d : differences)
     print("  {:<13} {:<4} {:>9} {:>11.4f} {:>10.4f} {:>11.4f} {:>10.4f}\n", name_of(d.task),
-               d.condition, d.n_pictures, 1e3 * d.clone_rms_m, 1e3 * d.clone_max_m,
-               1e3 * d.cubes_rms_m, 1e3 * d.cubes_max_m);
+          d.condition, d.n_pictures, 1e3 * d.clone_rms_m, 1e3 * d.clone_max_m, 1e3 * d.cubes_rms_m,
+          1e3 * d.cubes_max_m);
+}
+
+std::string both(const std::string& logged, const std::string& would_be) {
+  return fmt::format("{:>7} > {:<7}", logged, would_be);
+}
+
+std::string millimeters(double logged_m, double would_be_m) {
+  return both(fmt::format("{:.2f}", 1e3 * logged_m), fmt::format("{:.2f}", 1e3 * would_be_m));
+}
+
+std::string as_grams(double lag_m, const std::optional<double>& g_per_m) {
+  return g_per_m ? fmt::format("{:.1f}", *g_per_m * lag_m) : "-";
+}
+
+// Of each push its largest lag, mean over pushes; of each pushed cube its path, mean over cubes.
+void print_noticed(const std::vector<PathDifference>& differences) {
+  print(
+      "  what a participant would notice, logged > as it would be: of a push the clone's largest "
+      "lag along it\n  (mean, largest, and as grams where lag tells mass), of a pushed cube its "
+      "path "
+      "and how far from its start it ends (means)\n"
+      "  {:<13} {:<4} {:>7} {:^17} {:^17} {:^17} {:^17} {:^17} {:^17}\n",
+      "task", "", "cube g", "pushes", "lag mm", "largest lag mm", "lag as g", "path mm", "end mm");
+  for (const PathDifference& d : differences)
+    for (const auto& [mass_g, logged, would_be] : d.noticed)
+      print("  {:<13} {:<4} {:>7g} {} {} {} {} {} {}\n", name_of(d.task), d.condition, mass_g,
+            both(std::to_string(logged.n_pushes), std::to_string(would_be.n_pushes)),
+            millimeters(logged.mean_lag_m(), would_be.mean_lag_m()),
+            millimeters(logged.largest_lag_m, would_be.largest_lag_m),
+            both(as_grams(logged.mean_lag_m(), d.logged_g_per_m),
+                 as_grams(would_be.mean_lag_m(), d.would_be_g_per_m)),
+            millimeters(logged.mean_path_m(), would_be.mean_path_m()),
+            millimeters(logged.mean_end_m(), would_be.mean_end_m()));
 }
 
 std::string grams(const std::optional<double>& value_g) {
@@ -107,8 +165,8 @@ void print_responder(const OtherResponder& other) {
   print("  {:<13} {:<4} {:>20} {:>20}\n", "task", "", "logged, right of n", "would be, right of n");
   for (const OutcomeDifference& o : other.outcomes)
     print("  {:<13} {:<4} {:>20} {:>20}\n", name_of(o.task), o.condition,
-               fmt::format("{} of {}", o.n_logged_correct, o.n_logged),
-               fmt::format("{} of {}", o.n_would_be_correct, o.n_would_be));
+          fmt::format("{} of {}", o.n_logged_correct, o.n_logged),
+          fmt::format("{} of {}", o.n_would_be_correct, o.n_would_be));
   for (const EstimateDifference& e : other.estimates)
     print("  JND of staircase {:<12} logged {:>9}, would be {:>9}\n", '"' + e.staircase + '"',
           grams(e.logged_g), grams(e.would_be_g));
@@ -135,7 +193,10 @@ std::pair<Protocol, Setup> supposed(const LoggedSession& session, const Options&
     setup.responder = options.responder;
     setup.tracker = "hand";
     setup.view = "headless";
-    setup.record_camera.clear();
+    // Of the logged session's files none is opened; a model reads no texts and is not filmed.
+    for (std::string* file : {&setup.record_camera, &setup.camera_file, &setup.board_file,
+                              &setup.effector_file, &setup.texts_file})
+      file->clear();
     complete(setup);
   }
   setup = in_force(std::move(setup), protocol);
@@ -165,11 +226,64 @@ void ask_what_if(const LogReader& reader, const Options& options) {
     const LoggedSession session = load_session(reader, options.db, session_id);
     const auto [protocol, setup] = supposed(session, options);
     print("session {}, participant {}:\n", session_id, session.row.header.participant);
-    if (options.responder.empty())
-      print_paths(compare_paths(reader, session, protocol));
-    else
+    if (options.rerun) {
       print_responder(run_anew(reader, session, protocol, setup));
+      continue;
+    }
+    const auto differences = compare_paths(reader, session, protocol);
+    print_paths(differences);
+    print_noticed(differences);
   }
+}
+
+void judge(const LogReader& reader, const Options& options) {
+  std::vector<JudgedSession> judged;
+  for (const std::int64_t session_id : chosen_sessions(reader, options)) {
+    ProgressBar bar(fmt::format("session {}", session_id));
+    const double start_s = monotonic_s();
+    const LoggedSession session = load_session(reader, options.db, session_id);
+    Judgments judgments = judge_session(reader, session, options.responder, [&](double part) {
+      bar.update(part, fmt::format("{:.0f} %", 100 * part));
+    });
+    judged.push_back({session_id, session.row.header.participant, options.responder,
+                      std::move(judgments), monotonic_s() - start_s});
+  }
+  if (options.json) return fmt::print("{}", as_json(judged));
+  for (const JudgedSession& session : judged) print_judged(session);
+}
+
+// The words are the log's, where it keeps any.
+ScreenTexts texts_of(const Setup& setup) {
+  if (!setup.texts_text.empty()) return parse_texts(setup.texts_text, setup.texts_file);
+  return load_texts(texts_file("en"));
+}
+
+void show(const LogReader& reader, const Options& options) {
+  const auto ids = chosen_sessions(reader, options);
+  if (ids.size() > 1)
+    throw Error(fmt::format("{} holds {} sessions; say with --session which one --view is to show",
+                            options.db, ids.size()),
+                ExitCode::usage);
+  const auto [name, file] = split_name(options.view);
+  const ViewEntry& entry = view_named(name);
+  if (entry.has_file == file.empty() || !(entry.has_file || entry.has_screen))
+    throw Error(fmt::format("can't show a replay with --view {}; expected window or video:FILE",
+                            options.view),
+                ExitCode::usage);
+  const LoggedSession session = load_session(reader, options.db, ids.front());
+  const Protocol what_if = supposed(session, options).first;
+  ViewSetup setup;
+  setup.stage = stage_of(*session.protocol, 3);
+  if (entry.has_screen) setup.texts = texts_of(session.setup);
+  setup.left_handed = session.setup.handed == "left";
+  setup.file = file;
+  setup.rate_hz = session.protocol->display_rate_hz;
+  const StopOnSignal stop;
+  const auto view = entry.make(setup);
+  const int n =
+      show_session(reader, session, *view,
+                   {options.supposes() ? &what_if : nullptr, entry.has_screen, &stop.requested()});
+  print("session {}: {} frames shown\n", session.row.session_id, n);
 }
 
 }  // namespace
@@ -182,19 +296,32 @@ void add_replay(Command& app) {
        "heft replay --db lab.db --session 3 --simulator bullet-ea",
        "heft replay --db lab.db --set physics.friction=0.64",
        "heft replay --db lab.db --set physics.predict_s=0.05",
-       "heft replay --db lab.db --responder coin"});
+       "heft replay --db lab.db --responder simulated",
+       "heft replay --db lab.db --responder coin --rerun",
+       "heft replay --db lab.db --session 3 --view video:three.mp4 --set physics.friction=0.64"});
   command.add_option("--db", &options->db, "the log").shows_default();
   command.add_session(options->session, "all");
   command.add_option("--responder", &options->responder,
-                     "run the trials anew with this responder, and compare answers");
+                     "NAME[:FILE]: give this responder the frames that were displayed, and compare "
+                     "its answers; the logged one without a file has its logged parameters");
+  command.add_flag("--rerun", options->rerun, "run the trials anew with the responder instead");
+  command.add_flag("--json", options->json, "what the responder answers as JSON");
   command.add_option("--simulator", &options->simulator,
-                     "run the logged hand through this simulator, and compare paths");
+                     "run the logged hand through this simulator, and compare lags and paths");
   command.add_option("--set", &options->set,
                      "change a key of the protocol, such as coupling.stiffness_n_per_m=100");
+  command.add_option("--view", &options->view,
+                     "window or video:FILE: show the logged frames, with --set or --simulator also "
+                     "the clone as it would be");
   command.does([options] {
+    check(*options);
     refuse_special_file(options->db);
     const LogReader reader(options->db);
-    if (options->asks_what_if())
+    if (!options->view.empty())
+      show(reader, *options);
+    else if (options->judges())
+      judge(reader, *options);
+    else if (options->rerun || options->supposes())
       ask_what_if(reader, *options);
     else
       verify_all(reader, *options);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "replay/AttemptReplay.h"
+#include "replay/LoggedFrames.h"
 
 namespace heft {
 
@@ -27,13 +28,21 @@ struct Distances {
 struct Paths {
   int n_pictures = 0;
   Distances clone, cubes;
+  NoticedByMass logged, would_be;
 };
 
 void add_attempt(const AttemptFold& attempt, const std::vector<FrameRow>& frames,
                  const Protocol& protocol, Paths& paths) {
   AttemptReplay replay(protocol, attempt);
+  NoticedMeter logged(paths.logged), would_be(paths.would_be);
+  const std::vector<double>* masses_g = &attempt.first_plan.masses_g;
+  auto event = attempt.events.begin();
   for (const FrameRow& frame : frames) {
+    for (; event != attempt.events.end() && event->before < frame.after_event; ++event)
+      if (event->plan_after.n_reshuffles > 0) masses_g = &event->plan_after.masses_g;
     const ShownFrame shown = replay.advance(frame);
+    logged.add(displayed(frame), frame.contact_slot, *masses_g);
+    would_be.add(shown.frame, shown.contact_slot, *masses_g);
     ++paths.n_pictures;
     if (frame.clone && shown.frame.clone) paths.clone.add(*frame.clone, *shown.frame.clone);
     for (std::size_t i = 0; i < std::min(frame.cubes.size(), shown.frame.cubes.size()); ++i)
@@ -60,21 +69,41 @@ void count(const std::vector<TrialRow>& rows, std::map<Kind, OutcomeDifference>&
   }
 }
 
+std::vector<NoticedDifference> noticed_differences(const Paths& paths) {
+  std::map<double, NoticedDifference> by_mass;
+  for (const auto& [mass_g, noticed] : paths.logged) by_mass[mass_g].logged = noticed;
+  for (const auto& [mass_g, noticed] : paths.would_be) by_mass[mass_g].would_be = noticed;
+  std::vector<NoticedDifference> differences;
+  for (auto& [mass_g, difference] : by_mass) {
+    difference.mass_g = mass_g;
+    differences.push_back(difference);
+  }
+  return differences;
+}
+
 }  // namespace
+
+std::optional<double> grams_per_lag(const Protocol& protocol, const std::string& technique) {
+  constexpr double g_per_kg = 1000;
+  const Scene scene = scene_of(protocol, technique, {});
+  if (!scene.coupling.decoupled) return std::nullopt;
+  return g_per_kg * scene.coupling.stiffness_n_per_m / (scene.friction * scene.gravity_m_s2);
+}
 
 std::vector<PathDifference> compare_paths(const LogReader& reader, const LoggedSession& session,
                                           const Protocol& protocol) {
   const std::int64_t session_id = session.row.session_id;
-  const Projection fold = fold_session(session.protocol, session.row.header.seed,
-                                       reader.events(session_id), session.before());
+  const Projection fold = sound_fold(reader, session);
   std::map<Kind, Paths> by_kind;
   for (const auto& [index, attempt] : fold.attempts)
     add_attempt(attempt, reader.frames(session_id, index), protocol,
                 by_kind[{attempt.first_plan.task, attempt.first_plan.condition}]);
   std::vector<PathDifference> differences;
   for (const auto& [kind, paths] : by_kind)
-    differences.push_back({kind.first, kind.second, paths.n_pictures, paths.clone.rms_m(),
-                           paths.clone.largest_m, paths.cubes.rms_m(), paths.cubes.largest_m});
+    differences.push_back(
+        {kind.first, kind.second, paths.n_pictures, paths.clone.rms_m(), paths.clone.largest_m,
+         paths.cubes.rms_m(), paths.cubes.largest_m, noticed_differences(paths),
+         grams_per_lag(*session.protocol, kind.second), grams_per_lag(protocol, kind.second)});
   return differences;
 }
 

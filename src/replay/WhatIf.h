@@ -7,8 +7,15 @@
 
 #include "apparatus/LoggedSession.h"
 #include "record/RecordedSession.h"
+#include "replay/Noticed.h"
 
 namespace heft {
+
+/// What a participant would notice in one kind of trial of cubes of one mass.
+struct NoticedDifference {
+  double mass_g = 0;
+  Noticed logged, would_be;
+};
 
 /// How far bodies end up from where they were logged, over all pictures of one kind of trial.
 struct PathDifference {
@@ -17,7 +24,13 @@ struct PathDifference {
   int n_pictures = 0;
   double clone_rms_m = 0, clone_max_m = 0;
   double cubes_rms_m = 0, cubes_max_m = 0;
+  std::vector<NoticedDifference> noticed;  ///< by mass
+  /// Where the technique's lag tells mass, as a spring's does (μ m g / k): grams a meter of lag.
+  std::optional<double> logged_g_per_m, would_be_g_per_m;
 };
+
+/// Grams that a meter of lag tells; none where the technique's lag tells no mass.
+std::optional<double> grams_per_lag(const Protocol& protocol, const std::string& technique);
 
 /// Runs the logged effector poses through `protocol`'s physics. Trials without pictures are
 /// skipped.

@@ -3,23 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/Random.h"
 #include "experiment/Task.h"
+#include "responders/Answer.h"
 #include "responders/ResponderParameters.h"
 
 namespace heft {
-
-/// What a participant has made up their mind to say.
-struct Answer {
-  std::optional<int> slot;             ///< comparison: the heavier cube, none: no difference;
-                                       ///< introduction: the heaviest cube; from 1
-  std::vector<Label> labels;           ///< sorting: by slot; empty: I don't know
-  bool first_label_corrected = false;  ///< sorting: the first label is put wrong and moved
-};
 
 class Decision {
  public:

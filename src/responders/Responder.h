@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@
 #include "experiment/Parameter.h"
 #include "experiment/ScreenState.h"
 #include "experiment/Stage.h"
+#include "responders/Answer.h"
 
 namespace heft {
 
@@ -51,6 +53,16 @@ class Responder {
   /// False when it has nothing left to do in this trial though the trial is still open (a recording
   /// that ended): the runner then stops the session instead of waiting forever.
   virtual bool has_more(double t_s) const = 0;
+
+  /// Its one answer to a whole trial, whoever's hand moved in it: what its mind says to all of
+  /// these frames, and in the introduction its first choice. Changes nothing of the trial that it
+  /// is in.
+  /// @return none: it has no answer to this trial
+  virtual std::optional<Answer> judge(const TrialView& trial [[maybe_unused]],
+                                      std::span<const DisplayedFrame> frames
+                                      [[maybe_unused]]) const {
+    return std::nullopt;
+  }
 };
 
 /// What follows the colon in NAME:FILE.

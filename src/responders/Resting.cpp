@@ -45,6 +45,11 @@ class Resting : public Responder {
 
   bool has_more(double t_s) const override { return !answering_->gave_up(t_s); }
 
+  std::optional<Answer> judge(const TrialView& trial,
+                              std::span<const DisplayedFrame>) const override {
+    return make_mind_(trial)({});
+  }
+
  private:
   std::uint64_t seed_;
   MakeMind make_mind_;

@@ -42,6 +42,33 @@ void check(const std::vector<RecordedAction>& actions, const TrialView& trial) {
   if (!mistakes.empty()) throw InvalidFile(std::move(mistakes));
 }
 
+// What recorded actions come to; none: the trial is still open after them.
+std::optional<Answer> answer_of(const std::vector<RecordedAction>& actions,
+                                const TrialView& trial) {
+  std::vector<std::optional<Label>> labels(trial.stage.slots_m.size());
+  for (const auto& [action, place] : actions) {
+    switch (action.kind) {
+      case ActionKind::select:
+        return Answer{.slot = action.slot, .labels = {}};
+      case ActionKind::no_difference:
+      case ActionKind::dont_know:
+        return Answer{};
+      case ActionKind::label:
+        std::ranges::replace(labels, action.label, std::optional<Label>());
+        [[fallthrough]];
+      case ActionKind::unlabel:
+        labels.at(static_cast<std::size_t>(action.slot.value() - 1)) = action.label;
+        break;
+      case ActionKind::validate:
+        Answer sorted;
+        for (const auto& label : labels)
+          if (label) sorted.labels.push_back(*label);
+        if (sorted.labels.size() == labels.size()) return sorted;
+    }
+  }
+  return std::nullopt;
+}
+
 class Scripted : public Responder {
  public:
   explicit Scripted(Recording recording) : recording_(std::move(recording)) {}
@@ -85,6 +112,14 @@ class Scripted : public Responder {
 
   bool has_more(double t_s) const override {
     return paused_ || t_s <= end_s_ + (to_do_.empty() ? 0 : waits_for_validate_s);
+  }
+
+  std::optional<Answer> judge(const TrialView& trial,
+                              std::span<const DisplayedFrame>) const override {
+    const auto actions = recording_.actions.find(trial.trial_number);
+    if (actions == recording_.actions.end()) return std::nullopt;
+    check(actions->second, trial);
+    return answer_of(actions->second, trial);
   }
 
  private:

@@ -56,6 +56,13 @@ class Simulated : public Responder {
 
   bool has_more(double t_s) const override { return !trial_->answering.gave_up(t_s); }
 
+  std::optional<Answer> judge(const TrialView& trial,
+                              std::span<const DisplayedFrame> frames) const override {
+    Perception perception(parameters_, seed_, trial);
+    for (const DisplayedFrame& frame : frames) perception.see(frame);
+    return Decision(parameters_, seed_, trial).decide(perception.percepts_mm(), {});
+  }
+
  private:
   void look_again_or_answer(double t_s) {
     SimulatedTrial& trial = *trial_;

@@ -24,6 +24,7 @@ struct ViewPicture {
   DisplayedFrame frame;
   std::shared_ptr<const Image> camera;    ///< none: a plain table is drawn
   std::optional<Pose> camera_from_board;  ///< none: where the camera was last, or the default
+  std::optional<Pose> other_clone = {};   ///< of a what-if, in another color; none: not drawn
 };
 
 /// What a view needs to know before the first frame.

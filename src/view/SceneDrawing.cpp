@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 // black or skin of what is filmed. Blue, green, red.
 constexpr std::array cube_face{52, 182, 255}, cube_edge{10, 84, 146};
 constexpr std::array clone_face{228, 110, 8}, clone_edge{110, 34, 0};
+constexpr std::array other_face{167, 121, 204}, other_edge{96, 52, 120};
 constexpr std::array effector_face{140, 146, 150}, effector_edge{84, 88, 92};
 
 // The filmed effector shows through its clone: where they part, both are seen.
@@ -62,7 +63,7 @@ struct SceneDrawing::Impl {
   void draw_plain_table();
   void draw_background(const ViewPicture& shown);
   void draw_real_effector(const Pose& effector);
-  void draw_virtual(const DisplayedFrame& shown);
+  void draw_virtual(const DisplayedFrame& shown, const std::optional<Pose>& other_clone);
 
   Vector3d cube_size_m() const { return Vector3d::Constant(stage.cube_size_m); }
 
@@ -103,7 +104,8 @@ void SceneDrawing::Impl::draw_background(const ViewPicture& shown) {
 }
 
 // Shadows first, then solid things, then the translucent one: the rasterizer's order.
-void SceneDrawing::Impl::draw_virtual(const DisplayedFrame& shown) {
+void SceneDrawing::Impl::draw_virtual(const DisplayedFrame& shown,
+                                      const std::optional<Pose>& other_clone) {
   rasterizer.clear();
   for (const Pose& cube : shown.cubes)
     draw_shadow(rasterizer, viewpoint, cube, cube_size_m(), cube_shadow);
@@ -115,6 +117,9 @@ void SceneDrawing::Impl::draw_virtual(const DisplayedFrame& shown) {
   if (shown.clone)
     draw_box(rasterizer, viewpoint, *shown.clone, stage.effector_size_m,
              {clone_face, clone_edge, clone_opacity, 0});
+  if (other_clone)
+    draw_box(rasterizer, viewpoint, *other_clone, stage.effector_size_m,
+             {other_face, other_edge, clone_opacity, 0});
   rasterizer.paint(frame);
 }
 
@@ -130,7 +135,7 @@ const Image& SceneDrawing::draw(const ViewPicture& shown) {
     impl_->plain_table = {};
   }
   impl_->draw_background(shown);
-  impl_->draw_virtual(shown.frame);
+  impl_->draw_virtual(shown.frame, shown.other_clone);
   impl_->cubes = shown.frame.cubes;
   return impl_->frame;
 }

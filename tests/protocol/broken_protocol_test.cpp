@@ -153,7 +153,7 @@ const Broken blocks[] = {
     {"mass_negative", {"[15, 800]", "[15, ^-800]"}, {"masses_g is -800", "above 0"}},
     {"mass_not_finite", {"800.0", "^inf"}, {"masses_g is inf", "finite"}},
     {"three_masses_to_compare", {"[15, 800]", "^[15, 200, 800]"}, {"3 masses, expected 2"}},
-    {"two_masses_to_sort", {"[15, 200, 800.0]", "^[15, 800]"}, {"2 masses, expected 3"}},
+    {"one_mass_to_sort", {"[15, 200, 800.0]", "^[15]"}, {"1 masses, expected 2 to 6"}},
     {"no_masses",
      {"[[block]]\nkind = \"introduction\"\nname = \"intro\"\nmasses_g = [15, 800]",
       "^[[block]]\nkind = \"introduction\"\nname = \"intro\""},
@@ -177,7 +177,7 @@ const Broken blocks[] = {
     {"negative_c1", {"c1_trials = 5", "c1_trials = ^-1"}, {"c1_trials is -1"}},
     {"impossible_run",
      {"c1_trials = 5\nmax_run = 2", "c1_trials = 2\nmax_run = ^2"},
-     {"2 C1 and 8 C2 trials", "at least 3"}},
+     {"8 trials of one technique and 2 of others", "at least 3"}},
 };
 
 const Broken comparisons[] = {

@@ -71,7 +71,9 @@ TEST_F(digest_columns, of_a_picture_are_found) {
 
 TEST_F(digest_columns, of_the_header_are_found) {
   // Without its id the session is another one; its state is told by its events.
-  expect_every_column_found("session", 2, {}, {"session_id", "state"});
+  // What digests what the participant told is found there.
+  expect_every_column_found("session", 2, {}, {"session_id", "state", "info_digest"});
+  expect_found("UPDATE session SET info_digest = 'x' WHERE session_id = 2", "participant_info", 2);
   EXPECT_FALSE(found_after("UPDATE session SET state = 'aborted'"));
   EXPECT_TRUE(found_after("UPDATE session SET seed = 1 WHERE session_id = 1", 1));
 }

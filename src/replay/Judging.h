@@ -1,0 +1,70 @@
+// A responder judges what somebody else saw: it gets the logged frames of each completed trial,
+// and its answer is set beside the logged one.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apparatus/LoggedSession.h"
+#include "psychophysics/Detection.h"
+
+namespace heft {
+
+/// Two answers to one trial, of the participant and of the responder who saw the same.
+/// comparison: "reference", "comparison" (the cube that was chosen) or "none";
+/// sorting: "correct", "incorrect", "dont_know";
+/// introduction: "heaviest", "other" (the first choice).
+struct JudgedTrial {
+  int trial_number = 0;
+  Task task = Task::sorting;
+  std::string condition;  ///< technique
+  std::optional<double> reference_g;
+  bool has_difference = true;  ///< between the cubes' masses
+  std::string logged, judged;
+  /// sorting: by slot, "none" for a cube without one
+  std::vector<std::string> logged_labels, judged_labels;
+};
+
+struct Judgments {
+  std::vector<JudgedTrial> trials;
+  int n_without_frames = 0;  ///< completed trials that the log keeps no frames of
+  int n_without_answer = 0;  ///< completed trials that the responder has no answer to
+  double shown_s = 0;        ///< how long the judged frames took to be seen
+};
+
+/// Judges every completed trial of the session; of the introduction, the frames up to the first
+/// choice.
+/// @param responder NAME or NAME:FILE; the logged one without a file has its logged parameters
+/// @param progress called with the fraction of trials done, 0...1
+/// @throws Error (usage) for an unknown responder or a person; Error as sound_fold()
+Judgments judge_session(const LogReader& reader, const LoggedSession& session,
+                        const std::string& responder, const std::function<void(double)>& progress);
+
+/// How often which logged answer met which judged one.
+struct Confusion {
+  std::map<std::pair<std::string, std::string>, int> n_by_pair;  ///< logged, judged
+
+  void add(const std::string& logged, const std::string& judged) { ++n_by_pair[{logged, judged}]; }
+  int n() const;
+  int n_agree() const;
+};
+
+/// Trials of one task, technique and reference.
+struct Agreement {
+  Task task = Task::sorting;
+  std::string condition;
+  std::optional<double> reference_g;
+  Confusion answers;
+  Confusion labels;  ///< sorting: of each cube
+  /// Comparisons, where there are trials with and without a difference (catch trials).
+  std::optional<Detection> logged, judged;
+};
+
+/// By task, technique and reference.
+std::vector<Agreement> agreements(const std::vector<JudgedTrial>& trials);
+
+}  // namespace heft

@@ -1,0 +1,66 @@
+// What a participant could notice of cubes: how far the clone lags behind the effector in each
+// push, how far cubes go and where they end. Measured from displayed frames alone.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "experiment/DisplayedFrame.h"
+
+namespace heft {
+
+/// Sums over the pushes and cubes of one mass.
+struct Noticed {
+  int n_pushes = 0;
+  double lag_m = 0, largest_lag_m = 0;  ///< of each push its largest lag: their sum, the largest
+  int n_cubes = 0;                      ///< that were pushed, each anew in each attempt
+  double path_m = 0, end_m = 0;         ///< of these: length of path, distance of end from start
+
+  double mean_lag_m() const { return n_pushes == 0 ? 0 : lag_m / n_pushes; }
+  double mean_path_m() const { return n_cubes == 0 ? 0 : path_m / n_cubes; }
+  double mean_end_m() const { return n_cubes == 0 ? 0 : end_m / n_cubes; }
+};
+
+/// By mass of the cube, g.
+using NoticedByMass = std::map<double, Noticed>;
+
+/// Measures the frames of one attempt.
+class NoticedMeter {
+ public:
+  /// @param noticed where it is added; outlives this
+  explicit NoticedMeter(NoticedByMass& noticed) : noticed_(noticed) {}
+  ~NoticedMeter() { finish(); }
+  NoticedMeter(const NoticedMeter&) = delete;
+  NoticedMeter& operator=(const NoticedMeter&) = delete;
+
+  /// @param contact_slot the cube pressed hardest
+  /// @param masses_g of the cubes, by slot
+  void add(const DisplayedFrame& frame, std::optional<int> contact_slot,
+           const std::vector<double>& masses_g);
+
+ private:
+  struct Push {
+    std::size_t cube = 0;
+    double last_s = 0;
+    Eigen::Vector2d effector_at_start_m{0, 0};
+    double lag_m = 0;
+  };
+  struct Cube {
+    Eigen::Vector3d start_m, last_m;
+    double path_m = 0;
+    bool pushed = false;
+  };
+
+  void follow_cubes(const std::vector<Pose>& cubes, const std::vector<double>& masses_g);
+  void follow_push(const DisplayedFrame& frame, std::size_t cube);
+  void end_push();
+  void finish();
+
+  NoticedByMass& noticed_;
+  std::vector<double> masses_g_;
+  std::optional<Push> push_;
+  std::vector<Cube> cubes_;
+};
+
+}  // namespace heft

@@ -1,0 +1,60 @@
+// A session that a model ran in memory, stored in a log and read back.
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "record/SessionArchive.h"
+#include "session/Session.h"
+
+namespace heft::testing {
+
+class StoredSession {
+ public:
+  StoredSession(const Protocol& protocol, const std::string& responder, std::uint64_t seed,
+                bool keep_frames = true)
+      : path_(std::filesystem::temp_directory_path() /
+              ("heft-stored-" + std::to_string(::getpid()) + ".db")) {
+    remove();
+    SessionRequest request;
+    request.protocol = protocol;
+    request.setup.responder = responder;
+    complete(request.setup);
+    request.setup = in_force(request.setup, protocol);
+    request.participant = "1";
+    request.seed = seed;
+    RunnerOptions runner;
+    runner.keep_frames = keep_frames;
+    const std::int64_t id = SessionArchive(path_.string()).store(compute_session(request, runner));
+    reader_.emplace(path_.string());
+    session_ = load_session(*reader_, path_.string(), id);
+  }
+  ~StoredSession() { remove(); }
+
+  const LogReader& reader() const { return *reader_; }
+  const LoggedSession& session() const { return session_; }
+  std::int64_t id() const { return session_.row.session_id; }
+  int n_completed() const {
+    int n = 0;
+    for (const TrialRow& row : reader().trials(id())) n += row.status == TrialStatus::completed;
+    return n;
+  }
+
+ private:
+  void remove() {
+    for (const char* end : {"", "-wal", "-shm", "-lock"})
+      std::filesystem::remove(path_.string() + end);
+  }
+
+  std::filesystem::path path_;
+  std::optional<LogReader> reader_;
+  LoggedSession session_;
+};
+
+inline Protocol shipped_protocol(const std::string& name) {
+  return load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/" + name + ".toml");
+}
+
+}  // namespace heft::testing

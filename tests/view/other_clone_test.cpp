@@ -1,0 +1,55 @@
+// A what-if's clone beside the logged one.
+#include <gmock/gmock.h>
+
+#include "view/Scenes.h"
+
+namespace heft {
+namespace {
+using namespace heft::test;
+
+// Pixels that differ from the frame without anything drawn over it and lean to a color.
+int count(const Image& image, bool (*leans)(const Bgr&)) {
+  int n = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) n += leans(at(image, x, y));
+  return n;
+}
+
+bool purple(const Bgr& p) {
+  return p.red > p.green + 40 && p.blue > p.green + 15;
+}
+bool blue(const Bgr& p) {
+  return p.blue > p.red + 80 && p.green > p.red + 20;
+}
+
+class OtherClone : public testing::Test {
+ protected:
+  OtherClone() {
+    shown.frame.cubes.clear();
+    shown.frame.clone = pointing_away(-0.05, -0.05);
+  }
+  const ViewSetup setup = setup_with(Intrinsics{});
+  SceneDrawing drawing{setup};
+  ViewPicture shown = three_cubes(setup);
+};
+
+TEST_F(OtherClone, BothAreSeenEachInItsColor) {
+  const Image alone = drawing.draw(shown);
+  shown.other_clone = pointing_away(0.05, -0.05);
+  const Image both = drawing.draw(shown);
+  EXPECT_EQ(count(alone, purple), 0);
+  EXPECT_GT(count(alone, blue), 2000);
+  EXPECT_EQ(count(both, blue), count(alone, blue));
+  EXPECT_NEAR(count(both, purple), count(both, blue), 0.3 * count(both, blue));
+}
+
+TEST_F(OtherClone, AFrameWithoutOneIsDrawnAsBefore) {
+  const Image before = drawing.draw(shown);
+  shown.other_clone = pointing_away(0.05, -0.05);
+  drawing.draw(shown);
+  shown.other_clone.reset();
+  EXPECT_EQ(drawing.draw(shown).pixels, before.pixels);
+}
+
+}  // namespace
+}  // namespace heft
