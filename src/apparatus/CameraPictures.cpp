@@ -1,5 +1,7 @@
 #include "apparatus/CameraPictures.h"
 
+#include <cmath>
+
 namespace heft {
 
 namespace {
@@ -20,7 +22,18 @@ CameraPictures::CameraPictures(OpenCamera open, const PictureParts& parts)
 void CameraPictures::begin_attempt(const AttemptStart& attempt) {
   attempt_start_s_ = attempt.start_s;
   attempt_capture_s_ = last_capture_s_;
-  heard_s_ = clock_.now_s();  // nobody listened between attempts
+  listen_anew();  // nobody listened between attempts
+}
+
+void CameraPictures::listen_anew() {
+  heard_s_ = clock_.now_s();
+  last_number_.reset();
+  tracker_.look_anew();
+}
+
+std::optional<double> CameraPictures::rate_hz() const {
+  const double told_hz = camera_->mode().rate_hz;
+  return std::isfinite(told_hz) && told_hz > 0 ? std::optional(told_hz) : std::nullopt;
 }
 
 std::optional<Picture> CameraPictures::next() {

@@ -21,6 +21,8 @@ class CameraPictures final : public PictureSource {
 
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
+  void listen_anew() override;
+  std::optional<double> rate_hz() const override;
   std::vector<CheckResult> check(double wanted_rate_hz) override;
   bool ended() const override { return camera_->ended(); }
 

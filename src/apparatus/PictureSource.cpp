@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apparatus/CameraPictures.h"
+#include "apparatus/PacedPictures.h"
 #include "apparatus/SyntheticPictures.h"
 #include "base/PlugTable.h"
 #include "base/Pose.h"
@@ -68,6 +69,12 @@ const TrackerEntry& tracker_named(const std::string& tracker) {
   if (entry.what == TrackerWhat::nothing && has_colon)
     throw Error(fmt::format("tracker \"{}\" takes nothing after it", name), ExitCode::usage);
   return entry;
+}
+
+std::unique_ptr<PictureSource> open_pictures(const std::string& tracker,
+                                             const PictureParts& parts) {
+  return std::make_unique<PacedPictures>(tracker_named(tracker).make(parts),
+                                         parts.protocol.display_rate_hz);
 }
 
 void PictureCount::skip_to(double t_s) {

@@ -51,6 +51,13 @@ class PictureSource {
   /// waited for. Only on a wall clock; a camera does so by itself.
   virtual void skip_to(double) {}
 
+  /// What came until now was not listened to: the session was held, or a break taken. Nothing of it
+  /// is dropped, and a camera or board that is missing now is missing since now.
+  virtual void listen_anew() {}
+
+  /// Pictures a second that come by themselves, as the source tells; none: as many as are shown.
+  virtual std::optional<double> rate_hz() const { return std::nullopt; }
+
   /// Looks at the camera before a session; nothing where there is none.
   /// @param wanted_rate_hz of the display
   virtual std::vector<CheckResult> check(double wanted_rate_hz [[maybe_unused]]) { return {}; }
@@ -95,6 +102,10 @@ std::span<const TrackerEntry> trackers();
 /// @throws Error (usage) naming the nearest when there is none of that name, or what is missing
 const TrackerEntry& tracker_named(const std::string& tracker);
 
+/// The tracker's pictures, at the display's rate.
+/// @throws Error as tracker_named, and as the tracker's `make`
+std::unique_ptr<PictureSource> open_pictures(const std::string& tracker, const PictureParts& parts);
+
 /// Numbers the pictures of a display's rate, from 0 at an attempt's start.
 class PictureCount {
  public:
@@ -124,6 +135,7 @@ class HandPictures final : public PictureSource {
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { count_.skip_to(t_s); }
+  void listen_anew() override { count_.skipped(); }
 
  private:
   Responder& responder_;

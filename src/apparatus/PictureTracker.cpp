@@ -26,7 +26,7 @@ void PictureTracker::reset() {
   tracker_.reset();
   filter_.reset();
   camera_from_board_.reset();
-  board_seen_s_.reset();
+  look_anew();
 }
 
 Picture PictureTracker::track(std::shared_ptr<const Image> image, double t_s) {

@@ -18,6 +18,9 @@ class PictureTracker {
   /// @param t_s of its capture, increasing; Picture::sample has the same time
   Picture track(std::shared_ptr<const Image> image, double t_s);
 
+  /// How long the board is out of view is counted from the next picture on.
+  void look_anew() { board_seen_s_.reset(); }
+
   /// What comes next is no continuation.
   void reset();
 

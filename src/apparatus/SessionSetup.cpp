@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -253,6 +254,15 @@ Setup in_force(Setup setup, const Protocol& protocol) {
   setup.texts_sha256 = hash_of(setup.texts_text);
   setup.heft_version = HEFT_VERSION;
   setup.build = build_name();
+  return setup;
+}
+
+Setup with_source_rate(Setup setup, std::optional<double> rate_hz) {
+  constexpr double same_rate = 0.01;  // 29.97 is 30
+  setup.source_rate_hz = rate_hz;
+  if (rate_hz && setup.display_rate_hz &&
+      std::abs(*rate_hz / *setup.display_rate_hz - 1) < same_rate)
+    setup.source_rate_hz.reset();
   return setup;
 }
 

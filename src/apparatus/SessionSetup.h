@@ -63,6 +63,9 @@ std::unique_ptr<Responder> make_responder(const Setup& options, std::uint64_t se
 /// stays, whatever the error table of `auto` says now.
 Setup in_force(Setup setup, const Protocol& protocol);
 
+/// The setup with the rate of its pictures' source, where that is not about the display's.
+Setup with_source_rate(Setup setup, std::optional<double> rate_hz);
+
 /// The protocol with the setup's simulator, rate and input in place of its own.
 std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const Setup& setup);
 

@@ -44,6 +44,11 @@ void SyntheticPictures::begin_attempt(const AttemptStart& attempt) {
   tracker_.reset();
 }
 
+void SyntheticPictures::listen_anew() {
+  count_.skipped();
+  tracker_.look_anew();
+}
+
 std::optional<Picture> SyntheticPictures::next() {
   const std::uint64_t count = count_.take();
   const double t_s = count_.time_s(count);

@@ -14,6 +14,7 @@ class SyntheticPictures final : public PictureSource {
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { count_.skip_to(t_s); }
+  void listen_anew() override;
   std::vector<CheckResult> check(double wanted_rate_hz) override;
 
  private:

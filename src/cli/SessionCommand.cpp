@@ -15,7 +15,7 @@ namespace {
 void add_progress(RunnerOptions& options, ProgressBar& bar, double expected) {
   // Nothing that would unblind whoever watches: no mass, level, condition or correctness.
   options.progress = [&bar, expected](const Engine& engine) {
-    bar.update(engine.n_completed() / expected,
+    bar.update(expected > 0 ? engine.n_completed() / expected : 0,  // a demonstration has no trials
                fmt::format("{} of about {:.0f} trials, {:.0f} min", engine.n_completed(), expected,
                            engine.last_s() / 60));
   };

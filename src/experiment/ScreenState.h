@@ -35,7 +35,7 @@ struct ScreenState {
   int n_slots = 0;                                ///< trial only
   std::vector<std::optional<Label>> labels = {};  ///< sorting: given so far, by slot
   bool can_answer = true;  ///< false until all that must be done first is done (touch every cube)
-  bool can_validate = false;  ///< sorting: all three labels are given
+  bool can_validate = false;  ///< sorting: every cube has a label
   bool try_again = false;     ///< introduction: the cube chosen last was not the heaviest
   int n_choices = 0;          ///< select, label and unlabel actions so far in this trial
   double wait_s = 0;          ///< pages: the button to go on appears in so many seconds

@@ -80,9 +80,10 @@ std::vector<Label> labels_in_order(std::span<const double> values) {
   std::vector<std::size_t> from_lightest(values.size());
   std::iota(from_lightest.begin(), from_lightest.end(), std::size_t{0});
   std::ranges::stable_sort(from_lightest, {}, [&](std::size_t i) { return values[i]; });
+  const auto from_lightest_on = labels_for(static_cast<int>(values.size()));
   std::vector<Label> labels(values.size());
   for (std::size_t rank = 0; rank < labels.size(); ++rank)
-    labels[from_lightest[rank]] = static_cast<Label>(rank);
+    labels[from_lightest[rank]] = from_lightest_on[rank];
   return labels;
 }
 

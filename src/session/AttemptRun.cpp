@@ -40,6 +40,7 @@ void AttemptRun::run(const TrialPlan& plan) {
   parts_.responder.begin_trial(
       {plan.trial_number, plan.attempt, plan.task, stage_of(protocol, plan.n_slots())});
   parts_.pictures.begin_attempt({start_s_, plan.trial_number, plan.attempt});
+  n_continued_ = journal_.n_continued();
   world_.emplace(protocol, plan);
   while (run_picture()) {
   }
@@ -87,10 +88,11 @@ bool AttemptRun::run_picture() {
 std::optional<Picture> AttemptRun::next_picture() {
   for (;;) {
     if (attendant_.leaving()) return std::nullopt;
-    if (parts_.clock.is_wall()) parts_.pictures.skip_to(parts_.clock.now_s() - start_s_);
+    listen();
     if (auto picture = parts_.pictures.next()) {
       if (!wait_until(start_s_ + picture->sample.t_capture_s)) return std::nullopt;
-      return picture;
+      if (journal_.n_continued() == n_continued_) return picture;
+      continue;  // of before a pause
     }
     if (parts_.pictures.ended()) {
       journal_.leave("there are no more pictures");
@@ -99,6 +101,14 @@ std::optional<Picture> AttemptRun::next_picture() {
     take_touches(attendant_.wait(look_up_s));
     if (is_over()) return std::nullopt;
   }
+}
+
+// Of a pause nothing is made up for, missed or counted.
+void AttemptRun::listen() {
+  if (parts_.clock.is_wall()) parts_.pictures.skip_to(parts_.clock.now_s() - start_s_);
+  if (journal_.n_continued() == n_continued_) return;
+  n_continued_ = journal_.n_continued();
+  parts_.pictures.listen_anew();
 }
 
 // On a wall clock. @return whether the attempt goes on

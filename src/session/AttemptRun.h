@@ -25,6 +25,7 @@ class AttemptRun {
 
   bool run_picture();
   std::optional<Picture> next_picture();
+  void listen();
   bool wait_until(double t_s);
   bool wait_for_camera(const Picture& picture);
   void show(const ShownFrame& shown, const Picture& picture, FrameRow& row);
@@ -50,6 +51,7 @@ class AttemptRun {
   std::optional<double> trouble_since_s_;
   ViewPicture shown_;
   std::optional<double> presented_s_;  // session time of the last picture
+  int n_continued_ = 0;                // of the journal, when pictures were last listened for
   int n_shown_ = 0, n_dropped_ = 0, n_late_ = 0;
 };
 

@@ -83,9 +83,9 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const Setup& opti
   setup_ = view_setup(*protocol_, options, apparatus);
   demonstrated_ =
       apparatus.board.tags.empty() ? unfilmed_apparatus(*protocol_, options) : apparatus;
-  pictures_ = tracker_named(options.tracker)
-                  .make({*protocol_, *responder_, apparatus, split_name(options.tracker).file,
-                         clock, seed, options.record_camera, options.tracker_text});
+  pictures_ = open_pictures(
+      options.tracker, {*protocol_, *responder_, apparatus, split_name(options.tracker).file, clock,
+                        seed, options.record_camera, options.tracker_text});
   const ViewEntry& view = view_named(split_name(options.view).name);
   has_screen_ = view.has_screen;
   view_ = view.make(setup_);

@@ -18,6 +18,11 @@ class Equipment {
 
   SessionParts parts(Engine& engine, EventSink& sink);
 
+  /// The setup with what only the opened devices tell.
+  Setup told_by_devices(const Setup& setup) const {
+    return with_source_rate(setup, pictures_->rate_hz());
+  }
+
   SessionClock clock;
 
  private:

@@ -57,6 +57,7 @@ void Journal::emit(const AdmittedEvent& admitted, Durability durability) {
 }
 
 void Journal::keep(const Event& event, const Changes& changes, Durability durability) {
+  if (event.as<SessionContinued>()) ++n_continued_;
   write([&] { sink_.append(event, changes, durability); });
   told_(engine_);
 }

@@ -50,6 +50,9 @@ class Journal {
   /// The same where the last time was a while ago.
   void flush_now_and_then();
 
+  /// How often the session went on after a pause.
+  int n_continued() const { return n_continued_; }
+
   const Engine& engine() const { return engine_; }
   SessionClock& clock() { return clock_; }
   double now_s() const { return log_time(clock_.now_s()); }
@@ -67,6 +70,7 @@ class Journal {
   std::function<void(const Engine&)> told_;
   WaitForLog wait_for_log_;
   bool is_standing_still_ = false;
+  int n_continued_ = 0;
   double flushed_s_ = 0;
 };
 

@@ -55,6 +55,7 @@ TouchKind Pages::show(ScreenState screen, double least_s, const Moving& picture_
   while (!attendant_.leaving()) {
     const double now_s = clock.now_s(), elapsed_s = now_s - since_s;
     screen.wait_s = std::max(0.0, least_s - elapsed_s);
+    if (!texts_ && screen.wait_s == 0) return TouchKind::next;  // only looked on at
     screen_.present(picture_at ? picture_at(elapsed_s) : ViewPicture{}, screen);
     const double left_s = std::max(0.0, now_s + step_s - clock.now_s());
     for (const Touch& touch : attendant_.wait(left_s)) {

@@ -11,7 +11,8 @@ namespace heft {
 
 class Pages {
  public:
-  /// @param texts what the person reads; null: nobody reads, and no page is shown
+  /// @param texts what the person reads; null: nobody reads; who looks on sees the
+  ///   demonstration and breaks, which go on by themselves
   Pages(const Protocol& protocol, Journal& journal, Attendant& attendant, ParticipantScreen& screen,
         const ScreenTexts* texts)
       : protocol_(protocol),

@@ -106,7 +106,7 @@ RunEnd Runner::finish() {
 
 void Runner::take_break(const std::string& name, double least_s) {
   const double since_s = journal_.now_s();
-  if (pages_.has_reader())
+  if (is_looked_at())
     pages_.rest(least_s);
   else
     parts_.clock.advance_to(since_s + least_s);
@@ -115,7 +115,7 @@ void Runner::take_break(const std::string& name, double least_s) {
 }
 
 void Runner::show_demonstration(const DemonstrationBlock& block) {
-  if (pages_.has_reader())
+  if (is_looked_at())
     pages_.demonstration(block, parts_.apparatus);
   else
     parts_.clock.advance_to(journal_.now_s() + block.duration_s);

@@ -34,6 +34,7 @@ class Runner {
   void take_break(const std::string& name, double least_s);
   void show_demonstration(const DemonstrationBlock& block);
   void run_trial(const TrialPlan& plan);
+  bool is_looked_at() const { return parts_.has_screen || pages_.has_reader(); }
 
   SessionParts parts_;
   RunnerOptions options_;

@@ -44,7 +44,7 @@ void refuse_repetition(const SessionRequest& request) {
 }
 
 // The `session` row of a request that starts now.
-SessionHeader header_of(const SessionRequest& request) {
+SessionHeader header_of(const SessionRequest& request, const Setup& setup) {
   SessionHeader header;
   header.participant = request.participant;
   header.protocol_name = request.protocol.name;
@@ -53,7 +53,7 @@ SessionHeader header_of(const SessionRequest& request) {
   header.seed = request.seed;
   header.heft_version = HEFT_VERSION;
   header.build = build_name();
-  header.run_options = to_json(request.setup);
+  header.run_options = to_json(setup);
   header.purpose = has_person(request.setup) ? request.purpose : Purpose::simulated;
   header.responder = request.setup.responder;
   header.started_utc = utc_now();
@@ -134,9 +134,10 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   refuse_repetition(request);
   const auto protocol = protocol_for(request.protocol, request.setup);
   Equipment equipment(protocol, request.setup, request.seed);
-  SessionLog log = SessionLog::start(request.db, header_of(request));
+  const Setup setup = equipment.told_by_devices(request.setup);
+  SessionLog log = SessionLog::start(request.db, header_of(request, setup));
   Engine engine(protocol, request.seed);
-  tell_setup(engine, log, request.setup);
+  tell_setup(engine, log, setup);
   const RunEnd end = run_with(equipment, engine, log, runner, 0);
   log.flush();  // it is still where it is thought to be
   return result_of(engine, end, log.session_id());
@@ -198,8 +199,9 @@ SessionResult resume_session(const LoggedSession& session, const RunnerOptions& 
   reopened.close_attempt(void_interrupted);
   const double now_s = log_time(std::max(last_s, seconds_since(session.row.header.started_utc)));
   reopened.append({now_s, SessionResumed{utc_now(), now_s - last_s}});
-  if (session.setup != session.setups.back().setup)
-    tell_setup(reopened.engine, reopened.log, session.setup);
+  if (const Setup setup = equipment.told_by_devices(session.setup);
+      setup != session.setups.back().setup)
+    tell_setup(reopened.engine, reopened.log, setup);
   reopened.log.flush();  // all of the return or nothing of it
   const RunEnd end = run_with(equipment, reopened.engine, reopened.log, runner, now_s);
   reopened.log.flush();
@@ -214,11 +216,12 @@ void abort_session(const LoggedSession& session) {
 }
 
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {
-  RecordedSession recorded(header_of(request));
   const auto protocol = protocol_for(request.protocol, request.setup);
   Equipment equipment(protocol, request.setup, request.seed);
+  const Setup setup = equipment.told_by_devices(request.setup);
+  RecordedSession recorded(header_of(request, setup));
   Engine engine(protocol, request.seed);
-  tell_setup(engine, recorded, request.setup);
+  tell_setup(engine, recorded, setup);
   run_with(equipment, engine, recorded, runner, 0);
   return recorded;
 }

@@ -69,12 +69,11 @@ class AtADesk(unittest.TestCase):
         self.folder = Path(folder.name)
         self.db = str(self.folder / "desk.db")
 
-    def start(self, *options):
+    def start(self, *options, protocol=PROTOCOLS / "quick.toml"):
         self.screen = Screen()
         self.addCleanup(self.screen.close)
         self.terminal = Terminal(
-            [HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07", "--db", self.db,
-             "--seed", "5", "--purpose", "test", *options], self.screen.environment())
+            [HEFT, "run", str(protocol), "--participant", "07", "--db", self.db, "--seed", "5", "--purpose", "test", *options], self.screen.environment())
         self.addCleanup(self.end)
         self.person = Person(self.screen, self.db, self.terminal.program)
 
@@ -173,6 +172,51 @@ class Desk(AtADesk):
         self.shows("  trial  ")
         self.terminal.press("p")
         self.shows("  paused  nothing tracked  ")
+
+
+DEMONSTRATION = """title = "Nothing but a demonstration"
+display_rate_hz = 15
+[[block]]
+kind = "demonstration"
+name = "demonstration"
+duration_s = 1
+"""
+
+
+@unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
+class DemonstrationAlone(AtADesk):
+    """A session without a trial."""
+
+    def setUp(self):
+        super().setUp()
+        self.protocol = self.folder / "demonstration.toml"
+        self.protocol.write_text(DEMONSTRATION, encoding="utf-8")
+
+    def wait_for_end(self):
+        self.assertTrue(self.terminal.wait_for(lambda: self.terminal.program.poll() is not None))
+        self.terminal.reader.join()
+        self.assertEqual(self.terminal.program.returncode, 0, self.terminal.shown)
+        self.assertEqual(query(self.db, "select state from session"), [("finished",)])
+
+    def test_of_a_model_ends_well(self):
+        self.start("--responder", "coin", protocol=self.protocol)
+        self.wait_for_end()
+
+    def test_the_last_page_can_not_be_paused_and_that_is_said(self):
+        self.start("--tracker", "hand", protocol=self.protocol)
+
+        def is_last_page():
+            page = self.person.page()
+            if page and page[1] != "thanks":
+                self.screen.key("Return")
+                time.sleep(0.5)
+            return page and page[1] == "thanks"
+        self.assertTrue(self.terminal.wait_for(is_last_page), self.terminal.shown)
+        self.terminal.press("p")
+        self.shows("the session is over; there is nothing to pause")
+        self.assertEqual(self.n("paused"), 0)
+        self.person.take_part(30)
+        self.wait_for_end()
 
 
 @unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")

@@ -80,5 +80,15 @@ RC_GTEST_PROP(HeaviestSlot, is_the_largest_that_is_not_ruled_out, ()) {
                                       values[static_cast<std::size_t>(slot - 1)]);
 }
 
+// Words for three cubes, ranks for any other number: what the screen offers.
+TEST(Decision, labels_are_those_that_a_trial_of_so_many_cubes_has) {
+  EXPECT_THAT(labels_in_order(std::vector{3.0, 1.0}), ElementsAre(Label::rank_2, Label::rank_1));
+  EXPECT_THAT(labels_in_order(std::vector{3.0, 1.0, 2.0}),
+              ElementsAre(Label::heaviest, Label::lightest, Label::intermediate));
+  EXPECT_THAT(labels_in_order(std::vector{6.0, 1.0, 5.0, 2.0, 4.0, 3.0}),
+              ElementsAre(Label::rank_6, Label::rank_1, Label::rank_5, Label::rank_2, Label::rank_4,
+                          Label::rank_3));
+}
+
 }  // namespace
 }  // namespace heft

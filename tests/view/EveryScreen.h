@@ -21,6 +21,15 @@ inline ScreenTexts shipped_texts(const std::string& language) {
   return load_texts(std::string(HEFT_SOURCE_DIR) + "/protocols/texts/" + language + ".toml");
 }
 
+inline ScreenState sorting_state(int n_slots) {
+  ScreenState state;
+  state.screen = Screen::trial;
+  state.task = Task::sorting;
+  state.n_slots = n_slots;
+  state.labels.assign(static_cast<std::size_t>(n_slots), std::nullopt);
+  return state;
+}
+
 inline ScreenState trial_state(Task task) {
   ScreenState state;
   state.screen = Screen::trial;
@@ -64,9 +73,19 @@ inline std::vector<NamedScreen> trial_screens() {
   labeled.labels = {Label::intermediate, Label::lightest, Label::heaviest};
   labeled.can_validate = true;
   labeled.n_choices = 3;
-  return {{"sorting_without_cubes", untouched, false},       {"sorting_untouched", untouched},
-          {"sorting", trial_state(Task::sorting)},           {"sorting_labeled", labeled},
-          {"introduction", trial_state(Task::introduction)}, {"introduction_again", again},
+  ScreenState ranked = sorting_state(6);
+  ranked.labels[4] = Label::rank_1;
+  ranked.labels[0] = Label::rank_6;
+  return {{"sorting_2", sorting_state(2)},
+          {"sorting_4", sorting_state(4)},
+          {"sorting_5", sorting_state(5)},
+          {"sorting_6", ranked},
+          {"sorting_without_cubes", untouched, false},
+          {"sorting_untouched", untouched},
+          {"sorting", trial_state(Task::sorting)},
+          {"sorting_labeled", labeled},
+          {"introduction", trial_state(Task::introduction)},
+          {"introduction_again", again},
           {"comparison", trial_state(Task::comparison)}};
 }
 

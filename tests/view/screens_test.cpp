@@ -19,6 +19,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
+using testing::UnorderedElementsAreArray;
 
 const std::vector<Measures> windows{
     {800, 480}, {1024, 600}, {1280, 800}, {1920, 1080}, {800, 1280}};
@@ -200,6 +201,24 @@ TEST(Screens, EachOffersItsControls) {
       offered("sorting"),
       UnorderedElementsAre("cube_1", "cube_2", "cube_3", "label_lightest", "label_intermediate",
                            "label_heaviest", "validate", "dont_know", "put_cubes_back"));
+}
+
+TEST(Screens, CubesOfAnyOtherNumberThanThreeAreRanked) {
+  for (const int n : {2, 4, 5, 6}) {
+    Fixture fixture;
+    fixture.screens.show(sorting_state(n), true);
+    std::vector<std::string> expected{"validate", "dont_know", "put_cubes_back"};
+    for (int i = 1; i <= n; ++i) {
+      expected.push_back("cube_" + std::to_string(i));
+      expected.push_back("label_" + std::to_string(i));
+    }
+    EXPECT_THAT(names(fixture.page()), UnorderedElementsAreArray(expected));
+    fixture.tap("cube_2");
+    const auto given = action(fixture.tap("label_" + std::to_string(n)));
+    EXPECT_EQ(given.kind, ActionKind::label);
+    EXPECT_EQ(given.slot, 2);
+    EXPECT_EQ(given.label, labels_for(n).back());
+  }
 }
 
 TEST(Screens, NothingCanBeAnsweredTooEarly) {

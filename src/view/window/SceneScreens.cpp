@@ -33,6 +33,15 @@ Rect cell(const Rect& row, int i, int n, float gap) {
   return {row.x + static_cast<float>(i) * (width + gap), row.y, width, row.height};
 }
 
+// So many buttons beside each other are large enough to be touched.
+int in_a_row(int n) {
+  return n <= 3 ? n : (n + 1) / 2;
+}
+
+Rect rows_below(const Rect& row, int n, float gap) {
+  return {row.x, row.y + static_cast<float>(n) * (row.height + gap), row.width, row.height};
+}
+
 Rect bottom_row(const PageBuilder& builder) {
   const Rect column = column_of(builder);
   const float height = builder.measures.target;
@@ -40,7 +49,8 @@ Rect bottom_row(const PageBuilder& builder) {
 }
 
 std::string slot_words(const PageBuilder& builder, int slot, int n_slots) {
-  if (n_slots != 2 && n_slots != 3) return fmt::format("{}", slot);
+  if (n_slots != 2 && n_slots != 3)  // numbers are ranks
+    return std::string(1, static_cast<char>('A' + slot - 1));
   if (slot == 1) return builder.text("slots", "left");
   return builder.text("slots", slot == n_slots ? "right" : "middle");
 }
@@ -53,22 +63,40 @@ Touch answer(ActionKind kind, std::optional<int> slot = {}, std::optional<Label>
   return touch;
 }
 
-// The words of a label given to a cube; empty: none is given.
-std::string label_words(const PageBuilder& builder, const ScreenState& state, int slot) {
-  const auto i = static_cast<std::size_t>(slot - 1);
-  if (i >= state.labels.size() || !state.labels[i]) return {};
-  return builder.text("trial_sorting", std::string(name_of(*state.labels[i])));
+// A label as it stands on a cube; ranks are numbers in every language.
+std::string label_words(const PageBuilder& builder, Label label) {
+  const std::string name(name_of(label));
+  return label < Label::rank_1 ? builder.text("trial_sorting", name) : name;
 }
 
-// Buttons that stand for the cubes, in the cubes' order for either hand.
+// Which end of the order the first and last rank are.
+std::string end_words(const PageBuilder& builder, int n_slots, Label end) {
+  const auto labels = labels_for(n_slots);
+  return fmt::format("{}: {}", name_of(end == Label::lightest ? labels.front() : labels.back()),
+                     label_words(builder, end));
+}
+
+// What a sorting trial asks, and of ranks which end is which.
+std::string sorting_question(const PageBuilder& builder, int n_slots) {
+  const std::string question = builder.text("trial_sorting", "question");
+  if (n_slots == 3) return question;
+  return fmt::format("{} {}, {}", question, end_words(builder, n_slots, Label::lightest),
+                     end_words(builder, n_slots, Label::heaviest));
+}
+
+// Buttons that stand for the cubes, in the cubes' order for either hand; in two rows where there
+// are too many for one.
 template <typename EffectOf>
 void add_cubes(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory,
                const Rect& row, const EffectOf& effect_of) {
+  const int n_beside = in_a_row(state.n_slots);
   for (int slot = 1; slot <= state.n_slots; ++slot) {
-    Control& button = builder.add_button(fmt::format("cube_{}", slot),
-                                         cell(row, slot - 1, state.n_slots, builder.measures.gap),
-                                         slot_words(builder, slot, state.n_slots), effect_of(slot),
-                                         slot <= 9 ? static_cast<char>('0' + slot) : '\0');
+    const Rect its_row = rows_below(row, (slot - 1) / n_beside, builder.measures.gap);
+    Control& button =
+        builder.add_button(fmt::format("cube_{}", slot),
+                           cell(its_row, (slot - 1) % n_beside, n_beside, builder.measures.gap),
+                           slot_words(builder, slot, state.n_slots), effect_of(slot),
+                           slot <= 9 ? static_cast<char>('0' + slot) : '\0');
     button.enabled = state.can_answer && memory.cubes_shown;
     button.chosen = memory.selected == slot;
   }
@@ -110,7 +138,7 @@ void add_label(PageBuilder& builder, const ScreenState& state, const ScreenMemor
   const bool given = slot > 0 && i < state.labels.size() && state.labels[i] == label;
   const std::string name(name_of(label));
   Control& button = builder.add_button(
-      "label_" + name, area, builder.text("trial_sorting", name),
+      "label_" + name, area, label_words(builder, label),
       given ? answer(ActionKind::unlabel, slot) : answer(ActionKind::label, slot, label), key);
   button.note = labeled_place(builder, state, label);
   button.enabled = state.can_answer && memory.cubes_shown && slot > 0;
@@ -119,8 +147,25 @@ void add_label(PageBuilder& builder, const ScreenState& state, const ScreenMemor
 
 void mark_cubes(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
   for (int slot = 1; slot <= state.n_slots; ++slot) {
-    CubeMark mark{slot, label_words(builder, state, slot), memory.selected == slot};
+    const auto i = static_cast<std::size_t>(slot - 1);
+    CubeMark mark{slot, "", memory.selected == slot};
+    if (i < state.labels.size() && state.labels[i])
+      mark.text = label_words(builder, *state.labels[i]);
     if (mark.selected || !mark.text.empty()) builder.page.marks.push_back(std::move(mark));
+  }
+}
+
+// The words each in a row of its own, where there is room for them; ranks like the cubes.
+void add_labels(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory,
+                const Rect& first_row) {
+  const auto labels = labels_for(state.n_slots);
+  const int n = state.n_slots, n_beside = n <= 3 ? 1 : in_a_row(n);
+  const float gap = builder.measures.gap;
+  for (int i = 0; i < n; ++i) {
+    const Label label = labels[static_cast<std::size_t>(i)];
+    const char key = label < Label::rank_1 ? name_of(label).front() : '\0';
+    add_label(builder, state, memory, label,
+              cell(rows_below(first_row, i / n_beside, gap), i % n_beside, n_beside, gap), key);
   }
 }
 
@@ -169,26 +214,25 @@ void comparison_screen(PageBuilder& builder, const ScreenState& state, const Scr
 }
 
 void sorting_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
-  add_scene(builder, builder.text("trial_sorting", "question"));
+  add_scene(builder, sorting_question(builder, state.n_slots));
   add_hint(builder, state, memory);
   if (builder.page.notice.empty() && !memory.selected && !all_labeled(state))
     builder.page.notice = builder.text("trial_sorting", "tap_a_cube");
   mark_cubes(builder, state, memory);
 
-  constexpr int n_rows = 6;
+  const int n_cube_rows = state.n_slots > 3 ? 2 : 1;
+  const int n_label_rows = state.n_slots > 3 ? 2 : state.n_slots;
+  const int n_rows = n_cube_rows + n_label_rows + 2;
   const Measures& m = builder.measures;
   const Rect column = column_of(builder);
-  const float height = std::min((column.height - (n_rows - 1) * m.gap) / n_rows, 1.2f * m.target);
-  const auto row = [&](int i) {
-    return Rect{column.x, column.y + static_cast<float>(i) * (height + m.gap), column.width,
-                height};
-  };
-  add_cubes(builder, state, memory, row(0), [](int slot) { return SelectCube{slot}; });
-  add_label(builder, state, memory, Label::lightest, row(1), 'l');
-  add_label(builder, state, memory, Label::intermediate, row(2), 'i');
-  add_label(builder, state, memory, Label::heaviest, row(3), 'h');
+  const auto n = static_cast<float>(n_rows);
+  const float height = std::min((column.height - (n - 1) * m.gap) / n, 1.2f * m.target);
+  const Rect first{column.x, column.y, column.width, height};
+  add_cubes(builder, state, memory, first, [](int slot) { return SelectCube{slot}; });
+  add_labels(builder, state, memory, rows_below(first, n_cube_rows, m.gap));
+  const Rect below = rows_below(first, n_cube_rows + n_label_rows, m.gap);
   Control& validate =
-      builder.add_button("validate", row(4), builder.text("trial_sorting", "validate"),
+      builder.add_button("validate", below, builder.text("trial_sorting", "validate"),
                          answer(ActionKind::validate), key_enter);
   validate.look = Look::primary;
   validate.enabled = state.can_validate && memory.cubes_shown;
