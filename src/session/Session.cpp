@@ -134,9 +134,10 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   refuse_repetition(request);
   const auto protocol = protocol_for(request.protocol, request.setup);
   Equipment equipment(protocol, request.setup, request.seed);
-  SessionLog log = SessionLog::start(request.db, header_of(request));
   Engine engine(protocol, request.seed);
-  tell_setup(engine, log, request.setup);
+  const Event told{0, request.setup};
+  SessionLog log =
+      SessionLog::start(request.db, header_of(request), RecordedEvent{told, engine.apply(told)});
   const RunEnd end = run_with(equipment, engine, log, runner, 0);
   log.flush();  // it is still where it is thought to be
   return result_of(engine, end, log.session_id());
