@@ -38,7 +38,7 @@ class SessionLog::Impl {
   Impl(const Impl&) = delete;
   ~Impl() { write_last(); }
 
-  void start(const SessionHeader& header);
+  void start(const SessionHeader& header, const std::optional<RecordedEvent>& first);
   void reopen(std::int64_t session_id);
   void append(const Event& event, const Changes& changes, Durability durability);
   void add_frame(const FrameRow& frame);
@@ -67,11 +67,16 @@ class SessionLog::Impl {
   bool is_locked_ = false;  ///< by another program, as the last call has thrown
 };
 
-void SessionLog::Impl::start(const SessionHeader& header) {
+void SessionLog::Impl::start(const SessionHeader& header,
+                             const std::optional<RecordedEvent>& first) {
   try {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
     schema::create(file_.database());
     session_id_ = writer_.write_session(header);
+    if (first) {
+      writer_.write(session_id_, *first);
+      writer_.write_counts(session_id_);
+    }
     transaction.commit();
   } catch (const std::exception& error) {
     throw write_error("the start of the session", file_, error, "start again");
@@ -213,9 +218,10 @@ std::string SessionLog::Impl::described(const Event& event, const Changes& chang
   return description(event, trial_number);
 }
 
-SessionLog SessionLog::start(const std::string& path, const SessionHeader& header) {
+SessionLog SessionLog::start(const std::string& path, const SessionHeader& header,
+                             const std::optional<RecordedEvent>& first) {
   auto impl = std::make_unique<Impl>(path);
-  impl->start(header);
+  impl->start(header, first);
   return SessionLog(std::move(impl));
 }
 

@@ -5,20 +5,24 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "record/EventSink.h"
+#include "record/RecordedSession.h"
 #include "record/SessionHeader.h"
 
 namespace heft {
 
 class SessionLog final : public EventSink {
  public:
-  /// Opens or creates the database at `path` and starts a new session in it: the schema and the
-  /// session's row are committed together. A missing or empty file becomes a log.
+  /// Opens or creates the database at `path` and starts a new session in it: the schema, the
+  /// session's row and its first event, the setup, are committed together, so that no session is
+  /// in a log that does not say what it is run with. A missing or empty file becomes a log.
   /// @throws Error when another writer has the file, or it is no heft log, newer than this program,
   ///   read-only, or the disk is full
-  static SessionLog start(const std::string& path, const SessionHeader& header);
+  static SessionLog start(const std::string& path, const SessionHeader& header,
+                          const std::optional<RecordedEvent>& first = {});
 
   /// Opens the database to go on with a session.
   /// @throws Error as start(), and when there is no such session

@@ -32,11 +32,11 @@ class Verifier {
     } catch (const Error& error) {  // a row that can't be read is a difference too
       unreadable = error.what();
     }
+    if (!unreadable.empty())
+      differ(0, fold_.last_s, "the log", unreadable, "rows that can be read");
     compare_digests();
     for (const std::string& foreign : reader_.foreign_objects())
       differ(0, 0, "the file's schema", foreign, "nothing but what heft makes");
-    if (!unreadable.empty() && !result_.first)
-      differ(0, fold_.last_s, "the log", unreadable, "rows that can be read");
     return result_;
   }
 

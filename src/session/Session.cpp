@@ -135,9 +135,10 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   const auto protocol = protocol_for(request.protocol, request.setup);
   Equipment equipment(protocol, request.setup, request.seed);
   const Setup setup = equipment.told_by_devices(request.setup);
-  SessionLog log = SessionLog::start(request.db, header_of(request, setup));
   Engine engine(protocol, request.seed);
-  tell_setup(engine, log, setup);
+  const Event told{0, setup};
+  SessionLog log = SessionLog::start(request.db, header_of(request, setup),
+                                     RecordedEvent{told, engine.apply(told)});
   const RunEnd end = run_with(equipment, engine, log, runner, 0);
   log.flush();  // it is still where it is thought to be
   return result_of(engine, end, log.session_id());

@@ -159,9 +159,12 @@ class GoingOn(CommandLine):
         except Exception:  # the file is still being made
             return 0
 
-    def deviations(self, db):
-        return [json.loads(detail) for (detail,) in
-                query(db, "select detail from event where kind = 'deviation' order by event_id")]
+    def changes(self, db):
+        """What each setup after the first changed: name, before, after."""
+        setups = [json.loads(detail) for (detail,) in
+                  query(db, "select detail from event where kind = 'setup' order by event_id")]
+        return [(key, old.get(key, ""), new.get(key, "")) for old, new in zip(setups, setups[1:])
+                for key in sorted(old | new) if old.get(key, "") != new.get(key, "")]
 
     def test_a_closed_terminal_saves_everything(self):
         db = self.folder / "s.db"
@@ -175,10 +178,9 @@ class GoingOn(CommandLine):
         said = self.run_heft("resume", "--db", db, "--responder", "coin", "--tracker", "hand",
                              "--view", "headless", "--simulator", "boxes").stderr
         self.assertIn("coin instead of simulated", said)
-        self.assertEqual(self.deviations(db),
-                         [{"option": "responder", "from": "simulated", "to": "coin"}])
+        self.assertEqual(self.changes(db), [("responder", "simulated", "coin")])
         kinds = [kind for (kind,) in query(db, "select kind from event order by event_id")]
-        self.assertEqual(kinds[kinds.index("resumed") + 1], "deviation")
+        self.assertEqual(kinds[kinds.index("resumed") + 1], "setup")
         [(touched,)] = query(db, "select max(n_pushes) from cube join trial using (trial_id) where "
                                  "started_s > (select t_s from event where kind = 'resumed')")
         self.assertEqual(touched, 0, "a coin touches no cube")
@@ -189,13 +191,14 @@ class GoingOn(CommandLine):
         parameters.write_text("criterion_mm = 3\n")
         self.start_and_stop(db, "--responder", "coin")
         self.stop(["resume", "--db", db, "--responder", "simulated:mine.toml"],
-                  lambda: self.count(db, "kind = 'deviation'") == 2)
-        self.assertEqual([(d["option"], d["to"]) for d in self.deviations(db)],
-                         [("responder", f"simulated:{parameters}"),
-                          ("responder_text", "criterion_mm = 3\n")])
+                  lambda: self.count(db, "kind = 'setup'") == 2)
+        self.assertEqual(self.changes(db),
+                         [("responder", "coin", f"simulated:{parameters}"),
+                          ("responder_text", "", "criterion_mm = 3\n")])
         parameters.unlink()
         self.run_heft("resume", "--db", db)
-        self.assertEqual(self.count(db, "kind = 'deviation'"), 2)
+        self.assertEqual(self.count(db, "kind = 'setup'"), 2)
+        self.assertEqual(self.count(db, "kind = 'deviation'"), 0)
         [(least_touched,)] = query(db, "select min(n) from (select sum(n_pushes) n from cube join "
                                        "trial using (trial_id) where status = 'completed' and "
                                        "started_s > (select max(t_s) from event where kind = "
@@ -203,11 +206,20 @@ class GoingOn(CommandLine):
         self.assertGreater(least_touched, 0, "not the coin, which touches no cube")
         self.run_heft("replay", "--db", db)
 
-    def test_another_simulator_is_refused(self):
+    def test_another_simulator_holds_for_the_rest_and_is_logged(self):
+        db = self.folder / "s.db"
+        self.start_and_stop(db, "--responder", "simulated")
+        said = self.run_heft("resume", "--db", db, "--simulator", "bullet-ea").stderr
+        self.assertIn("bullet-ea instead of boxes", said)
+        self.assertEqual([key for key, _, _ in self.changes(db)][:1], ["simulator"])
+        self.assertEqual(query(db, "select distinct simulator from trial join setup using "
+                                   "(setup_id) order by trial_id"), [("boxes",), ("bullet-ea",)])
+        self.assertIn("verified", self.run_heft("replay", "--db", db).stdout)
+
+    def test_what_is_not_there_is_refused_and_nothing_is_logged(self):
         db = self.folder / "s.db"
         self.start_and_stop(db, "--responder", "simulated")
         before = query(db, "select count(*) from event")
-        self.assertIn("bullet-ea", self.says(2, "resume", "--db", db, "--simulator", "bullet-ea"))
         self.says(2, "resume", "--db", db, "--simulator", "bulet")
         self.says(2, "resume", "--db", db, "--responder", "coyn")
         self.says(4, "resume", "--db", db, "--tracker", "camera:0")

@@ -1,0 +1,240 @@
+// A session's log that somebody changed: whatever was changed, replay finds it, and soon.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "base/Random.h"
+#include "record/Integrity.h"
+#include "record/SessionArchive.h"
+#include "record/temporary_folder.h"
+#include "replay/Replay.h"
+#include "session/Recorded.h"
+#include "session/Session.h"
+
+namespace heft {
+namespace {
+
+using ::testing::HasSubstr;
+
+RecordedSession simulated_session() {
+  SessionRequest request;
+  request.protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
+  request.setup = in_force({}, request.protocol);
+  request.participant = "1";
+  request.seed = 5;
+  RecordedSession session = compute_session(request, {});
+  session.add_info("age", "30");
+  return session;
+}
+
+// The session with entries changed or left out, as if it had been logged so: its digests hold.
+using Forge = std::function<bool(RecordedEntry&)>;
+RecordedSession forged(const RecordedSession& session, const Forge& keeps) {
+  RecordedSession copy(session.header());
+  for (RecordedEntry entry : session.entries()) {
+    if (!keeps(entry)) continue;
+    if (const auto* recorded = std::get_if<RecordedEvent>(&entry))
+      copy.append(recorded->event, recorded->changes, Durability::buffered);
+    else
+      copy.add_frame(std::get<FrameRow>(entry));
+  }
+  return copy;
+}
+
+class TamperedReplay : public ::testing::Test {
+ protected:
+  static const RecordedSession& session() {
+    static const RecordedSession made = simulated_session();
+    return made;
+  }
+  void store(const RecordedSession& made) {
+    std::filesystem::remove(file);
+    SessionArchive(file).store(made);
+  }
+  Verification verified() const {
+    return verify_session(LogReader(file), 1, [](double) {});
+  }
+  std::string divergence() const {
+    const Verification found = verified();
+    return found.first ? found.first->what : "";
+  }
+  // With every rule of the schema off.
+  int change(const std::string& sql) const {
+    SQLite::Database database(file, SQLite::OPEN_READWRITE);
+    database.exec("PRAGMA ignore_check_constraints = ON; PRAGMA foreign_keys = OFF");
+    return database.exec(sql);
+  }
+
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("log.db"), whole = folder.file("whole.db");
+};
+
+TEST_F(TamperedReplay, frames_that_the_simulator_does_not_give_are_named_by_their_column) {
+  const auto forge = [&](const std::string& column, const std::function<bool(FrameRow&)>& keeps) {
+    bool done = false;
+    store(forged(session(), [&](RecordedEntry& entry) {
+      auto* frame = std::get_if<FrameRow>(&entry);
+      if (done || !frame || !frame->contact_slot) return true;
+      done = true;
+      return keeps(*frame);
+    }));
+    ASSERT_TRUE(done);
+    EXPECT_THAT(divergence(), HasSubstr(column));
+  };
+  forge("state_hash", [](FrameRow& frame) {
+    frame.effector.position_m.y() += 1e-9;
+    return true;
+  });
+  forge("clone", [](FrameRow& frame) {
+    frame.clone->position_m.x() += 1e-9;
+    return true;
+  });
+  forge("cube1", [](FrameRow& frame) {
+    frame.cubes[0].position_m.z() += 1e-9;
+    return true;
+  });
+  forge("contact_slot", [](FrameRow& frame) {
+    frame.contact_slot = 3 - *frame.contact_slot;
+    return true;
+  });
+  forge("trial_t_s", [](FrameRow&) { return false; });
+}
+
+TEST_F(TamperedReplay, a_log_without_its_end_is_verified_up_to_there_and_unfinished) {
+  const auto n = session().entries().size();
+  for (std::size_t kept : {n - 1, n / 2, n / 3}) {
+    std::size_t count = 0;
+    int n_events = 0;
+    store(forged(session(), [&](RecordedEntry& entry) {
+      if (count++ >= kept) return false;
+      n_events += std::holds_alternative<RecordedEvent>(entry);
+      return true;
+    }));
+    const Verification found = verified();
+    EXPECT_FALSE(found.first) << found.first->what;
+    EXPECT_FALSE(found.ended);
+    EXPECT_EQ(found.n_events, n_events);
+  }
+  store(session());
+  EXPECT_TRUE(verified().ended);
+}
+
+TEST_F(TamperedReplay, an_end_that_is_cut_off_is_missed) {
+  store(session());
+  ASSERT_EQ(change("DELETE FROM event WHERE kind = 'ended'"), 1);
+  change("UPDATE session SET state = 'running'");
+  EXPECT_NE(divergence(), "");
+  store(session());
+  change("DELETE FROM frame WHERE frame_id = (SELECT max(frame_id) FROM frame)");
+  EXPECT_NE(divergence(), "");
+}
+
+// Nobody simulates a thousand million seconds to find out.
+TEST_F(TamperedReplay, times_that_are_far_off_are_found_before_they_are_simulated) {
+  store(session());
+  ASSERT_GT(change("UPDATE frame SET trial_t_s = trial_t_s + 1e9"), 100);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_THAT(divergence(), HasSubstr("frame"));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST_F(TamperedReplay, what_no_log_holds_is_named) {
+  for (const char* foreign :
+       {"CREATE TABLE loot (text TEXT)", "CREATE VIEW loot AS SELECT 1 AS one",
+        "CREATE INDEX loot ON trial (block)",
+        "CREATE TRIGGER loot AFTER INSERT ON event BEGIN DELETE FROM answer; END"}) {
+    store(session());
+    change(foreign);
+    const Verification found = verified();
+    ASSERT_TRUE(found.first) << foreign;
+    EXPECT_EQ(found.first->what, "the file's schema");
+    EXPECT_THAT(found.first->logged, HasSubstr("loot"));
+  }
+}
+
+TEST_F(TamperedReplay, run_options_change_nothing_but_the_digest) {
+  store(session());
+  const heft::Setup before = load_session(LogReader(file), file, 1).setup;
+  ASSERT_EQ(change("UPDATE session SET run_options = '{}'"), 1);
+  EXPECT_EQ(load_session(LogReader(file), file, 1).setup, before);
+  EXPECT_THAT(divergence(), HasSubstr("header"));
+}
+
+class EveryColumn : public TamperedReplay {
+ protected:
+  std::vector<std::string> list(const std::string& sql) const {
+    SQLite::Database database(whole, SQLite::OPEN_READONLY);
+    SQLite::Statement query(database, sql);
+    std::vector<std::string> found;
+    while (query.executeStep()) found.push_back(query.getColumn(0).getString());
+    return found;
+  }
+
+  // Changes the value as little as it can be. @return whether the table took it
+  bool step(const std::string& table, const std::string& column, std::int64_t rowid) const try {
+    std::filesystem::copy_file(whole, file, std::filesystem::copy_options::overwrite_existing);
+    SQLite::Database database(file, SQLite::OPEN_READWRITE);
+    database.exec("PRAGMA ignore_check_constraints = ON; PRAGMA foreign_keys = OFF");
+    SQLite::Statement read(database,
+                           fmt::format("SELECT {} FROM {} WHERE rowid = ?", column, table));
+    read.bind(1, rowid);
+    read.executeStep();
+    const SQLite::Column value = read.getColumn(0);
+    SQLite::Statement write(database,
+                            fmt::format("UPDATE {} SET {} = ? WHERE rowid = ?", table, column));
+    write.bind(2, rowid);
+    if (value.isInteger())
+      write.bind(1, value.getInt64() + 1);
+    else if (value.isFloat())
+      write.bind(1, std::nextafter(value.getDouble(), std::numeric_limits<double>::infinity()));
+    else if (value.isText())
+      write.bind(1, fmt::format("{}x", value.getString()));
+    else
+      write.bind(1, "1");  // as a number where the column is one
+    read.reset();
+    return write.exec() == 1;
+  } catch (const SQLite::Exception&) {  // another row has that value, or it is of another type
+    return false;
+  }
+
+  // As `heft replay` does.
+  bool is_found() const {
+    if (!check_integrity(file).empty()) return true;
+    return verified().first.has_value();
+  }
+};
+
+TEST_F(EveryColumn, changed_by_one_step_is_found) {
+  store(session());
+  std::filesystem::copy_file(file, whole);
+  const std::uint64_t seed = 20261122;
+  RandomStream random(seed, "rows");
+  int n_columns = 0;
+  // The closed lists hold no data; a row's own number is nothing but its place.
+  for (const std::string& table : list("SELECT name FROM sqlite_master WHERE type = 'table' AND "
+                                       "name NOT LIKE 'list_%' AND name NOT LIKE 'sqlite_%'"))
+    for (const std::string& column :
+         list(fmt::format("SELECT name FROM pragma_table_info('{}')", table))) {
+      if (column == fmt::format("{}_id", table)) continue;
+      std::vector<std::string> rows = list(fmt::format("SELECT rowid FROM {}", table));
+      random.shuffle(std::span(rows));
+      bool taken = false;
+      for (std::size_t i = 0; i < rows.size() && !taken; ++i) {
+        taken = step(table, column, std::stoll(rows[i]));
+        if (taken) {
+          EXPECT_TRUE(is_found()) << table << "." << column << ", row " << rows[i] << ", seed "
+                                  << seed;
+        }
+      }
+      EXPECT_TRUE(taken) << table << "." << column << ", seed " << seed;
+      ++n_columns;
+    }
+  EXPECT_GT(n_columns, 200);
+}
+
+}  // namespace
+}  // namespace heft

@@ -1,0 +1,198 @@
+// Sessions that go on with something else in force, and logs that nobody may go on with.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+
+#include <atomic>
+
+#include "analysis/Dataset.h"
+#include "protocol/TextsFile.h"
+#include "record/SessionLog.h"
+#include "record/temporary_folder.h"
+#include "replay/Replay.h"
+#include "session/MadeUpPeople.h"
+#include "session/Session.h"
+
+namespace heft {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::MadeUpScreen;
+using testing::patient;
+
+class Resumed : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    request.protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
+    request.setup = in_force({}, request.protocol);
+    request.participant = "1";
+    request.seed = 3;
+    request.db = folder.file("log.db");
+  }
+
+  RunnerOptions until(int n_trials) {
+    RunnerOptions runner;
+    stop = false;
+    runner.stop = &stop;
+    runner.progress = [this, n_trials](const Engine& engine) {
+      stop = engine.n_completed() >= n_trials;
+    };
+    return runner;
+  }
+  void start() { ASSERT_EQ(start_session(request, until(2)).end, RunEnd::stopped); }
+
+  // A person at a made-up window, who leaves after two trials.
+  void start_as_a_person() {
+    request.setup.responder = "human";
+    request.setup.view = "window";
+    request.setup.texts_file = HEFT_SOURCE_DIR "/protocols/texts/en.toml";
+    complete(request.setup);
+    request.setup = in_force(request.setup, request.protocol);
+    SessionHeader header;
+    header.participant = request.participant;
+    header.protocol_name = request.protocol.name;
+    header.protocol_text = request.protocol.text;
+    header.protocol_sha256 = request.protocol.sha256;
+    header.seed = request.seed;
+    header.started_utc = "2026-01-01T00:00:00.000Z";
+    header.responder = "human";
+    const auto protocol = protocol_for(request.protocol, request.setup);
+    Engine engine(protocol, request.seed);
+    const Event told{0, request.setup};
+    SessionLog log = SessionLog::start(request.db, header, RecordedEvent{told, engine.apply(told)});
+    SessionClock clock = SessionClock::wall_from(0);
+    const auto hand = make_responder(request.setup, request.seed);
+    HandPictures pictures(*hand, protocol->display_rate_hz);
+    MadeUpScreen screen(patient);
+    const ScreenTexts texts = load_texts(request.setup.texts_file);
+    Runner runner({*protocol, engine, log, pictures, *hand, screen, clock, true, &texts}, until(2));
+    ASSERT_EQ(runner.run(), RunEnd::stopped);
+    log.flush();
+  }
+
+  SessionResult go_on_with(const GivenOptions& again, int n_trials) {
+    LoggedSession session = session_to_resume(request.db, std::nullopt);
+    give_again(session, again);
+    return resume_session(session, until(n_trials));
+  }
+
+  // The responders that trials were answered by, in order, each once in a row.
+  std::vector<std::string> responders() const {
+    const LogReader reader(request.db);
+    const LoggedSession session = load_session(reader, request.db, 1);
+    std::vector<std::string> names;
+    for (const TrialRow& trial : reader.trials(1))
+      if (const std::string& name = session.setup_of(trial).responder;
+          trial.status == TrialStatus::completed && (names.empty() || names.back() != name))
+        names.push_back(name);
+    return names;
+  }
+  void expect_verified() const {
+    const Verification found = verify_session(LogReader(request.db), 1, [](double) {});
+    EXPECT_FALSE(found.first) << found.first->what << ", logged " << found.first->logged
+                              << ", came out " << found.first->came_out;
+    EXPECT_GT(found.n_frames, 0);
+    EXPECT_TRUE(found.ended);
+  }
+  SessionData analysed() const { return read_dataset(request.db, {}).sessions.at(0); }
+  void change(const std::string& sql) const {
+    SQLite::Database(request.db, SQLite::OPEN_READWRITE).exec(sql);
+  }
+
+  const test::TemporaryFolder folder;
+  SessionRequest request;
+  std::atomic<bool> stop = false;
+};
+
+GivenOptions a_model(const std::string& name) {
+  GivenOptions given;
+  given.responder = name;
+  given.view = "headless";
+  return given;
+}
+
+TEST_F(Resumed, after_a_person_a_model_goes_on_and_nobody_takes_it_for_a_persons) {
+  start_as_a_person();
+  EXPECT_FALSE(analysed().simulated());
+  EXPECT_EQ(go_on_with(a_model("simulated"), 1000).end, RunEnd::finished);
+  expect_verified();
+  EXPECT_THAT(responders(), ::testing::ElementsAre("human", "simulated"));
+  EXPECT_TRUE(analysed().simulated());
+  EXPECT_EQ(analysed().participant(), "1 (simulated)");
+}
+
+TEST_F(Resumed, one_model_follows_the_other) {
+  start();
+  ASSERT_EQ(go_on_with(a_model("coin"), 4).end, RunEnd::stopped);
+  EXPECT_EQ(go_on_with(a_model("simulated"), 1000).end, RunEnd::finished);
+  expect_verified();
+  EXPECT_THAT(responders(), ::testing::ElementsAre("simulated", "coin", "simulated"));
+  EXPECT_TRUE(analysed().simulated());
+}
+
+TEST_F(Resumed, another_simulator_is_in_force_from_there_on) {
+  start();
+  GivenOptions given;
+  given.simulator = "bullet-ea";
+  EXPECT_EQ(go_on_with(given, 1000).end, RunEnd::finished);
+  expect_verified();
+  const auto setups = LogReader(request.db).setups(1);
+  ASSERT_EQ(setups.size(), 2U);
+  EXPECT_EQ(setups[0].setup.simulator, request.setup.simulator);
+  EXPECT_EQ(setups[1].setup.simulator, "bullet-ea");
+  EXPECT_EQ(changes_between(setups[0].setup, setups[1].setup).front().column, "simulator");
+}
+
+TEST_F(Resumed, what_is_given_again_as_it_was_is_not_told_again) {
+  start();
+  GivenOptions given = a_model("simulated");
+  given.simulator = request.setup.simulator;
+  EXPECT_EQ(go_on_with(given, 1000).end, RunEnd::finished);
+  EXPECT_EQ(LogReader(request.db).setups(1).size(), 1U);
+  expect_verified();
+}
+
+// A crash right after the start must leave a session that says what it is run with.
+TEST_F(Resumed, the_first_setup_is_in_the_file_as_soon_as_the_session) {
+  Engine engine(protocol_for(request.protocol, request.setup), request.seed);
+  const Event told{0, request.setup};
+  SessionHeader header;
+  header.protocol_text = request.protocol.text;
+  header.protocol_name = request.protocol.name;
+  const SessionLog log =
+      SessionLog::start(request.db, header, RecordedEvent{told, engine.apply(told)});
+  EXPECT_EQ(load_session(LogReader(request.db), request.db, 1).setup, request.setup);
+  EXPECT_EQ(LogReader(request.db).first_broken_digest(1), std::nullopt);
+}
+
+TEST_F(Resumed, a_session_without_a_trial_says_what_it_is_run_with) {
+  ASSERT_EQ(start_session(request, until(0)).end, RunEnd::stopped);
+  EXPECT_EQ(load_session(LogReader(request.db), request.db, 1).setup, request.setup);
+  EXPECT_EQ(go_on_with({}, 1000).end, RunEnd::finished);
+  expect_verified();
+}
+
+TEST_F(Resumed, is_no_log_that_is_not_as_it_was_written) {
+  for (const char* sql : {"UPDATE session SET run_options = '{}'", "CREATE TABLE loot (text TEXT)",
+                          "CREATE VIEW loot AS SELECT 1 AS one",
+                          "CREATE TRIGGER loot AFTER INSERT ON event BEGIN DELETE FROM answer; END",
+                          "DELETE FROM event WHERE event_id = (SELECT max(event_id) FROM event)"}) {
+    std::filesystem::remove(request.db);
+    start();
+    change(sql);
+    const std::size_t n_events = LogReader(request.db).events(1).size();
+    try {
+      go_on_with({}, 1000);
+      ADD_FAILURE() << "it went on after " << sql;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), ExitCode::diverged) << sql;
+      EXPECT_THAT(error.what(), HasSubstr("not as it was written")) << sql;
+      if (std::string_view(sql).starts_with("CREATE")) {
+        EXPECT_THAT(error.what(), HasSubstr("loot"));
+      }
+    }
+    EXPECT_EQ(LogReader(request.db).events(1).size(), n_events) << sql;
+  }
+}
+
+}  // namespace
+}  // namespace heft
