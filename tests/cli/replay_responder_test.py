@@ -202,7 +202,8 @@ class ReplayResponder(SessionTest):
         videos = {}
         for name, words in (("logged", []), ("both", ["--set", "coupling.stiffness_n_per_m=200"])):
             path = self.folder / f"{name}.avi"
-            said = self.run_heft("replay", "--db", self.db, "--view", f"video:{path}", *words).stdout
+            said = self.run_heft("replay", "--db", self.db, "--view", f"video:{path}",
+                                 *words).stdout
             self.assertIn(f"{n} frames shown", said)
             videos[name] = path.read_bytes()
             header = videos[name].find(b"avih")  # dwTotalFrames: its fifth number
