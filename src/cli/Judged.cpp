@@ -134,7 +134,7 @@ void print_judged(const JudgedSession& session) {
   if (judgments.n_without_answer > 0)
     print("  {} completed trials were not judged: {} has no answer to them\n",
           judgments.n_without_answer, session.responder);
-  if (judgments.trials.empty()) return;
+  if (judgments.trials.empty()) return print("  no trial was judged\n");
   print(
       "  95 % intervals: exact (Clopper-Pearson) over trials for agreement; 1.96 standard errors "
       "(Gourevitch & Galanter)\n  for d' and criterion, from log-linear rates\n"

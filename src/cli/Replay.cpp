@@ -284,6 +284,7 @@ void show(const LogReader& reader, const Options& options) {
       show_session(reader, session, *view,
                    {options.supposes() ? &what_if : nullptr, entry.has_screen, &stop.requested()});
   print("session {}: {} frames shown\n", session.row.session_id, n);
+  if (stop.requested()) throw Error("stopped before the last frame", ExitCode::interrupted);
 }
 
 }  // namespace
