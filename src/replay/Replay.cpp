@@ -24,8 +24,8 @@ class Verifier {
   Verification rows() {
     std::string unreadable;
     try {
-      session_ = load_session(reader_, "", session_id_);
       compare_protocol();
+      session_ = load_session(reader_, "", session_id_);
       fold();
       compare_rows();
       compare_state();
@@ -54,7 +54,7 @@ class Verifier {
 
  private:
   void compare_protocol() {
-    const SessionHeader& header = session_.row.header;
+    const SessionHeader header = reader_.session(session_id_).header;
     const std::string sha256_of_text = sha256(header.protocol_text);
     if (sha256_of_text != header.protocol_sha256)
       differ(0, 0, "session.protocol_sha256", header.protocol_sha256, sha256_of_text);

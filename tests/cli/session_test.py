@@ -253,9 +253,10 @@ class Replaying(SessionTest):
         # for frames that have a digest but not what the simulator gives.
         for change in ("effector_y_m = effector_y_m + 1e-9", "clone_x_m = clone_x_m + 1e-9",
                        "cube1_z_m = cube1_z_m + 1e-9", "contact_slot = contact_slot % 2 + 1",
-                       "effector_vx_m_s = effector_vx_m_s + 1e-9", "trial_t_s = 0",
-                       "effector_qw = 7"):
+                       "effector_vx_m_s = effector_vx_m_s + 1e-9", "trial_t_s = 0"):
             self.tampered(f"update frame set {change} where {middle}", "the frame of", "digest")
+        self.tampered(f"update frame set effector_qw = 7 where {middle}", "the frame of",
+                      "effector_qw")
         self.tampered(f"delete from frame where {middle}", "the frame of", "digest")
         self.tampered("delete from frame where frame_id = (select max(frame_id) from frame)",
                       "frame")
