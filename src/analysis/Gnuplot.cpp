@@ -22,7 +22,8 @@ constexpr int caption_character_px = 6;
 }  // namespace
 
 std::string gnuplot_quoted(std::string_view text) {
-  std::string quoted = "'";
+  // gnuplot takes a quote that comes first for the end of an empty string, escaped or not.
+  std::string quoted = text.starts_with('\'') ? "' " : "'";
   for (char c : text) {
     if (c == '\'')
       quoted += "''";

@@ -1,0 +1,16 @@
+// Texts in gnuplot's scripts.
+#include "analysis/Gnuplot.h"
+
+#include <gtest/gtest.h>
+
+namespace heft {
+namespace {
+
+TEST(GnuplotQuoted, KeepsQuotesAndMovesOneThatWouldEndTheText) {
+  EXPECT_EQ(gnuplot_quoted("heft analyse"), "'heft analyse'");
+  EXPECT_EQ(gnuplot_quoted("it's"), "'it''s'");
+  EXPECT_EQ(gnuplot_quoted("'a b.db'"), "' ''a b.db'''");
+}
+
+}  // namespace
+}  // namespace heft
