@@ -58,7 +58,7 @@ TEST(Jnd, CountsTrialsLimitsAndBounds) {
   add_staircase(data, "two", 15, 100, 200);
   data.estimates[0].n_floor = 3;
   data.estimates[1].n_ceiling = 2;
-  data.estimates[1].reason = "trials";
+  data.estimates[1].reason = Finish::trials;
   data.estimates[1].jnd_g.reset();
   const ReferenceJnd jnd = jnd_of({&data, 1}).at(0);
   EXPECT_DOUBLE_EQ(jnd.mean_trials, 109);

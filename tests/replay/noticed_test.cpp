@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/Pose.h"
 #include "replay/StoredSession.h"
 #include "replay/WhatIf.h"
 

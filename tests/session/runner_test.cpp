@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using testing::shared;
 using testing::small_protocol;
 
-constexpr double rate_hz = 15;
+constexpr double display_rate_hz = 15;
 
 // The effector with its tip away from the participant, at a height where it hovers.
 Pose hand_at(double x_m, double y_m) {
@@ -61,7 +61,7 @@ class MadeUpPictures final : public PictureSource {
  public:
   using Change = std::function<void(int attempt, double t_s, Picture&)>;
   MadeUpPictures(Responder& responder, Change change)
-      : hand_(responder, rate_hz), change_(std::move(change)) {}
+      : hand_(responder, display_rate_hz), change_(std::move(change)) {}
   void begin_attempt(const AttemptStart& attempt) override {
     ++attempt_;
     hand_.begin_attempt(attempt);
@@ -145,7 +145,7 @@ TEST(Runner, every_displayed_picture_is_a_frame_at_the_display_rate) {
   EXPECT_EQ(frames.size(), bench.view.frames.size());
   for (std::size_t i = 1; i < frames.size(); ++i)
     if (frames[i].attempt_index == frames[i - 1].attempt_index) {
-      EXPECT_NEAR(frames[i].trial_t_s - frames[i - 1].trial_t_s, 1 / rate_hz, 1e-9);
+      EXPECT_NEAR(frames[i].trial_t_s - frames[i - 1].trial_t_s, 1 / display_rate_hz, 1e-9);
     }
 }
 
