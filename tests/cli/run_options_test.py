@@ -28,7 +28,7 @@ class Options(SessionTest):
     def test_broken_files_of_the_apparatus_are_refused_with_their_lines(self):
         camera = self.write("camera.yaml", "%YAML:1.0\n---\nimage_width: 640\nimage_height 480\n")
         said = self.refused(3, "--tracker", "synthetic", "--camera-file", camera)
-        self.assertIn(f"{camera}:4: ", said)
+        self.assertIn(f"{camera}:4:1: ", said)
         self.assertIn("heft calibrate camera", said)
         text = (APPARATUS / "board.toml").read_text(encoding="utf-8")
         board = self.write("board.toml", text.replace("pitch_m", "pich_m"))

@@ -273,7 +273,7 @@ class Replaying(SessionTest):
                                "coupling.stiffness_n_per_m=25").stdout
         rows = [line.split() for line in softer.splitlines() if line.strip().startswith("comparison")]
         self.assertGreater(float(rows[0][3]), 1, "half the stiffness, twice the offset: millimeters")
-        coin = self.run_heft("replay", "--db", self.whole, "--responder", "coin").stdout
+        coin = self.run_heft("replay", "--db", self.whole, "--responder", "coin", "--rerun").stdout
         self.assertIn("would be", coin)
         self.run_heft("replay", "--db", self.whole, "--set", "coupling.stifness=1", expect=3)
         self.run_heft("replay", "--db", self.whole, "--set", "nonsense", expect=2)

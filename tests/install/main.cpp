@@ -2,24 +2,25 @@
 #include <cmath>
 #include <cstdio>
 
-#include "psychophysics/Staircase.h"
+#include "psychophysics/Procedure.h"
 
 int main() {
-  heft::StaircaseConfig config;
-  config.start = 200;
-  config.steps = {50, 25, 10, 5};
-  config.floor = 0;
-  config.stop_reversals = 12;
-  config.discard_reversals = 4;
-  heft::Staircase staircase(config);
-
-  constexpr double threshold_g = 62;  // of a person who never errs
+  heft::UpDownConfig rule;
+  rule.start = 200;
+  rule.steps = {50, 25, 10, 5};
+  rule.floor = 0;
+  rule.stop_reversals = 12;
+  rule.discard_reversals = 4;
+  heft::Procedure staircase({"mass", rule});
+  const heft::RandomStream stream = heft::level_stream(1, "mass");  // for kinds that draw levels
+  constexpr double threshold_g = 62;                                // of a person who never errs
   while (!staircase.finished()) {
-    const double shown_g = staircase.level();
+    const double shown_g = staircase.next_level(stream);
     const bool felt = shown_g > threshold_g;
     std::printf("%3d  %6.1f g  %s\n", staircase.n_trials() + 1, shown_g, felt ? "felt" : "-");
-    staircase.respond(felt);
+    staircase.respond({felt}, shown_g);
   }
-  std::printf("threshold: %.2f g\n", *staircase.estimate());
-  return std::abs(*staircase.estimate() - threshold_g) < 5 ? 0 : 1;
+  const double estimate_g = *staircase.estimates().front().value;
+  std::printf("threshold: %.2f g\n", estimate_g);
+  return std::abs(estimate_g - threshold_g) < 5 ? 0 : 1;
 }
