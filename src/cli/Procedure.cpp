@@ -20,7 +20,8 @@ void converse(const std::string& file) {
 void add_procedure(Command& app) {
   Command command = app.add_command(
       "procedure", "drive psychophysical procedures over JSON lines on stdin and stdout",
-      {"heft procedure staircases.toml", "",
+      {"heft procedure staircases.toml",
+       "",
        "A session (> is written by heft, < is your program's answer, a line a trial):",
        R"(  > {"event":"trial","trial":1,"staircase":"15g","level":175})",
        R"(  < {"response":true}                 perceived, correct: the level goes down)",

@@ -45,8 +45,10 @@ struct Setup {
 template <typename Row, typename Visit>
 requires std::same_as<std::remove_const_t<Row>, Setup>
 void visit_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"responder", "", "who answered: human, or a model NAME[:FILE]", 3}, row.responder);
-  visit(LogColumn{"tracker", "", "where the effector's poses came from, NAME[:WHAT]", 3}, row.tracker);
+  visit(LogColumn{"responder", "", "who answered: human, or a model NAME[:FILE]", 3},
+        row.responder);
+  visit(LogColumn{"tracker", "", "where the effector's poses came from, NAME[:WHAT]", 3},
+        row.tracker);
   visit(LogColumn{"simulator", "", "simulator of the decoupling; empty: the protocol's", 3},
         row.simulator);
   visit(LogColumn{"simulator_edition", "", "edition of that simulator", 3}, row.simulator_edition);
@@ -60,17 +62,20 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"display_h_mm", "mm", "height of the display", 3}, row.display_h_mm);
   visit(LogColumn{"refresh_hz", "Hz", "refresh rate of the display", 3}, row.refresh_hz);
   visit(LogColumn{"eye_distance_mm", "mm", "from the eyes to the display", 3}, row.eye_distance_mm);
-  visit(LogColumn{"language", "", "of the participant's texts; empty: nobody reads", 3}, row.language);
+  visit(LogColumn{"language", "", "of the participant's texts; empty: nobody reads", 3},
+        row.language);
   visit(LogColumn{"heft_version", "", "version of the program", 3}, row.heft_version);
   visit(LogColumn{"build", "", "compiler and machine that built the program", 3}, row.build);
   visit(LogColumn{"simulator_why", "", "why `auto` picked this simulator; empty: it was named", 3},
         row.simulator_why);
-  visit(LogColumn{"input", "", "how poses between two pictures are taken: path, hold, extrapolate", 3},
+  visit(LogColumn{"input", "", "how poses between two pictures are taken: path, hold, extrapolate",
+                  3},
         row.input);
   visit(LogColumn{"predict_s", "s", "how far ahead poses are predicted", 3}, row.predict_s);
-  visit(LogColumn{"source_rate_hz", "Hz",
-               "pictures a second that the source gives; empty: as many as the display shows", 3},
-        row.source_rate_hz);
+  visit(
+      LogColumn{"source_rate_hz", "Hz",
+                "pictures a second that the source gives; empty: as many as the display shows", 3},
+      row.source_rate_hz);
   visit(LogColumn{"settings", "", "changes to the protocol by --set, one KEY=VALUE a line", 3},
         row.settings);
   visit(LogColumn{"handed", "", "hand that the controls are laid out for: left, right", 3},

@@ -1,9 +1,8 @@
 #include "protocol/ProcedureReader.h"
 
-#include "base/Printable.h"
-
 #include <fmt/format.h>
 
+#include "base/Printable.h"
 #include "protocol/KindReaders.h"
 
 namespace heft {

@@ -5,9 +5,8 @@
 #include <optional>
 #include <tuple>
 
-#include "protocol/KindReaders.h"
-
 #include "base/Printable.h"
+#include "protocol/KindReaders.h"
 
 namespace heft {
 

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "base/LevenbergMarquardt.h"
-
 #include "base/Pose.h"
 
 namespace heft {

@@ -496,8 +496,8 @@ TEST(Engine, an_impossible_event_throws_and_changes_nothing) {
 Event random_event(RandomStream& stream, double t_s) {
   const int slot = static_cast<int>(stream.below(5));
   const auto some_slot = stream.coin(0.7) ? std::optional(slot) : std::nullopt;
-  const auto label = stream.coin(0.5) ? std::optional(static_cast<Label>(stream.below(9)))
-                                      : std::nullopt;
+  const auto label =
+      stream.coin(0.5) ? std::optional(static_cast<Label>(stream.below(9))) : std::nullopt;
   const auto value = stream.coin(0.5) ? std::optional(stream.uniform() * 2 - 0.5) : std::nullopt;
   const std::vector<Happening> all{
       TrialStarted{},
