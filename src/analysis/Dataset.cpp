@@ -35,7 +35,7 @@ std::string SessionData::participant() const {
 }
 
 SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
-  SessionData data{session, {}, rows.estimates, {}, {}};
+  SessionData data{session, {}, rows.estimates, {}, {}, {}};
   std::map<int, std::size_t> place;  // attempt index -> its place in data.attempts
   for (const TrialRow& trial : rows.trials) {
     place[trial.attempt_index] = data.attempts.size();

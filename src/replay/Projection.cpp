@@ -55,11 +55,11 @@ Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t s
     put(projection, changes, n_answers);
     if (changes.attempt_index > 0) {
       AttemptFold& attempt = projection.attempts[changes.attempt_index];
-      const TrialPlan plan = engine.next().plan.value_or(TrialPlan{});
+      const TrialPlan presented = engine.next().plan.value_or(TrialPlan{});
       if (logged.event.as<TrialStarted>())
-        attempt.first_plan = plan;
+        attempt.first_plan = presented;
       else
-        attempt.events.push_back({projection.n_events, projection.last_s, logged.event, plan});
+        attempt.events.push_back({projection.n_events, projection.last_s, logged.event, presented});
     }
     ++projection.n_events;
     projection.last_s = logged.event.t_s;

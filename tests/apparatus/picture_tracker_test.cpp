@@ -1,0 +1,39 @@
+// When the board counts as lost: after half a second without it, counted anew after every pause.
+#include <gtest/gtest.h>
+
+#include "apparatus/PictureTracker.h"
+#include "protocol/MarkerFile.h"
+
+namespace heft {
+namespace {
+
+const Apparatus& apparatus() {
+  static const std::string folder = std::string(HEFT_SOURCE_DIR) + "/protocols/apparatus/";
+  static const Apparatus shipped{load_intrinsics(folder + "synthetic_camera.yaml"),
+                                 load_board(folder + "board.toml"),
+                                 load_effector(folder + "effector.toml")};
+  return shipped;
+}
+
+std::string trouble_at(PictureTracker& tracker, double t_s) {
+  return tracker.track(std::make_shared<const Image>(640, 480, 3), t_s).trouble;
+}
+
+TEST(PictureTracker, ABoardIsLostAfterHalfASecondWithoutIt) {
+  PictureTracker tracker(apparatus());
+  EXPECT_EQ(trouble_at(tracker, 1), "");
+  EXPECT_EQ(trouble_at(tracker, 1.4), "");
+  EXPECT_EQ(trouble_at(tracker, 1.6), "board_lost");
+}
+
+TEST(PictureTracker, OnePictureWithoutBoardAfterABreakIsNoLostBoard) {
+  PictureTracker tracker(apparatus());
+  trouble_at(tracker, 1);
+  tracker.look_anew();  // as after a break, a pause, between attempts
+  EXPECT_EQ(trouble_at(tracker, 61), "");
+  EXPECT_EQ(trouble_at(tracker, 61.4), "");
+  EXPECT_EQ(trouble_at(tracker, 61.6), "board_lost");
+}
+
+}  // namespace
+}  // namespace heft
