@@ -109,8 +109,15 @@ class InForce {
   std::set<std::string> simulators_, rates_, settings_;
 };
 
+std::vector<std::string> settings_of(const SessionData& data) {
+  return data.setups.empty() ? std::vector<std::string>{} : settings_of(data.setups.front().setup);
+}
+
+// Sessions with one key had one protocol.
 std::string key_of(const SessionData& data) {
-  return data.session.header.protocol_name + data.session.header.protocol_sha256;
+  const SessionHeader& header = data.session.header;
+  return fmt::format("{}{}{}", header.protocol_name, header.protocol_sha256,
+                     fmt::join(settings_of(data), "\n"));
 }
 
 }  // namespace
@@ -129,10 +136,12 @@ std::vector<ProtocolChoice> protocol_choices(const std::vector<SessionData>& ses
     const SessionHeader& header = data.session.header;
     if (!seen.insert(key_of(data)).second) continue;
     try {
-      Protocol protocol = parse_protocol(header.protocol_text, header.protocol_name);
+      Protocol protocol =
+          parse_protocol(header.protocol_text, header.protocol_name, settings_of(data));
       protocol.name = header.protocol_name;
       if (hashes_by_name[header.protocol_name].size() > 1)
         protocol.name = fmt::format("{} {:.8}", header.protocol_name, header.protocol_sha256);
+      if (!settings_of(data).empty()) protocol.name += " with --set";
       InForce in_force;
       for (const SessionData& other : sessions)
         if (key_of(other) == key_of(data)) in_force.add(other, protocol);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <sstream>
 
 #include "apparatus/AutoSimulator.h"
 #include "apparatus/PictureSource.h"
@@ -272,13 +271,6 @@ std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const Setup& set
   if (const auto mode = named<InputMode>(setup.input)) protocol.simulator.input.mode = *mode;
   if (setup.predict_s) protocol.simulator.input.predict_s = *setup.predict_s;
   return std::make_shared<const Protocol>(std::move(protocol));
-}
-
-std::vector<std::string> settings_of(const Setup& setup) {
-  std::vector<std::string> settings;
-  std::istringstream lines(setup.settings);
-  for (std::string line; std::getline(lines, line);) settings.push_back(line);
-  return settings;
 }
 
 std::vector<SetupChange> changes_between(const Setup& from, const Setup& to) {

@@ -69,9 +69,6 @@ Setup with_source_rate(Setup setup, std::optional<double> rate_hz);
 /// The protocol with the setup's simulator, rate and input in place of its own.
 std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const Setup& setup);
 
-/// The setup's changes to the protocol, KEY=VALUE each.
-std::vector<std::string> settings_of(const Setup& setup);
-
 /// Each column that differs, for people: name, before, after.
 struct SetupChange {
   std::string column, from, to;

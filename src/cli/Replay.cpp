@@ -117,7 +117,7 @@ void print_paths(const std::vector<PathDifference>& differences) {
   print(
       "  where things would have been, against the log (mm):\n"
       "  {:<13} {:<4} {:>9} {:>11} {:>10} {:>11} {:>10}\n",
-      "task", "", "pictures", "clone RMS", "clone max", "cubes RMS", "cubes max");
+      "task", "", "frames", "clone RMS", "clone max", "cubes RMS", "cubes max");
   for (const PathDifference& d : differences)
     print("  {:<13} {:<4} {:>9} {:>11.4f} {:>10.4f} {:>11.4f} {:>10.4f}\n", name_of(d.task),
           d.condition, d.n_pictures, 1e3 * d.clone_rms_m, 1e3 * d.clone_max_m, 1e3 * d.cubes_rms_m,

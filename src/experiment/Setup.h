@@ -6,6 +6,7 @@
 #include <concepts>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiment/Column.h"
 
@@ -103,6 +104,9 @@ void visit_contents(Row& row, Visit&& visit) {
   visit("effector_text", row.effector_text);
   visit("texts_text", row.texts_text);
 }
+
+/// Its changes to the protocol, KEY=VALUE each.
+std::vector<std::string> settings_of(const Setup& setup);
 
 /// A person answers, not a model.
 inline bool has_person(const Setup& setup) {

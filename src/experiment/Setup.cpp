@@ -1,0 +1,14 @@
+#include "experiment/Setup.h"
+
+#include <sstream>
+
+namespace heft {
+
+std::vector<std::string> settings_of(const Setup& setup) {
+  std::vector<std::string> settings;
+  std::istringstream lines(setup.settings);
+  for (std::string line; std::getline(lines, line);) settings.push_back(line);
+  return settings;
+}
+
+}  // namespace heft
