@@ -22,11 +22,6 @@ std::shared_ptr<const Protocol> LoggedSession::protocol_of(const TrialRow& trial
   return protocol_for(*protocol, setup_of(trial));
 }
 
-bool LoggedSession::has_model() const {
-  return std::ranges::any_of(setups,
-                             [](const LoggedSetup& logged) { return !has_person(logged.setup); });
-}
-
 LoggedSession load_session(const LogReader& reader, const std::string& db,
                            std::int64_t session_id) {
   LoggedSession session;

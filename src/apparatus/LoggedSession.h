@@ -25,8 +25,6 @@ struct LoggedSession {
   /// The protocol with what was in force in a trial.
   std::shared_ptr<const Protocol> protocol_of(const TrialRow& trial) const;
   const Setup& setup_of(const TrialRow& trial) const;
-  /// Whether a model answered in any of its setups.
-  bool has_model() const;
 };
 
 /// @throws Error when there is no such session, or its protocol or setups can't be read
