@@ -8,6 +8,7 @@
 #include "analysis/Published.h"
 #include "protocol/Mistakes.h"
 #include "protocol/Protocol.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 

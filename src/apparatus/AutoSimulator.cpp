@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "physics/auto/ErrorTable.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 

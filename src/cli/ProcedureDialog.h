@@ -9,6 +9,7 @@
 
 #include "cli/AnswerLine.h"
 #include "psychophysics/Interleaving.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft::cli {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/Random.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "psychophysics/Procedure.h"
+
 namespace heft {
 
 namespace {

@@ -1,15 +1,20 @@
 // Which of several staircases the next trial belongs to.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "base/Names.h"
 #include "base/Random.h"
-#include "psychophysics/Procedure.h"
+#include "psychophysics/ProcedureConfig.h"
 
 namespace heft {
+
+class Procedure;
 
 /// Uniform among the unfinished; each unfinished in file order; finish one first.
 enum class Interleave { random, round_robin, sequential };

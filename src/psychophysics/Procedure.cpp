@@ -5,7 +5,7 @@
 namespace heft {
 
 namespace {
-ProcedureKinds::Value made_from(const ProcedureKinds::Config& kind) {
+ProcedureKinds::Value made_from(const KindConfig& kind) {
   return std::visit(
       [](const auto& config) {
         using Kind = typename std::decay_t<decltype(config)>::Procedure;
@@ -15,8 +15,13 @@ ProcedureKinds::Value made_from(const ProcedureKinds::Config& kind) {
 }
 }  // namespace
 
+ProcedureConfig::ProcedureConfig() : ProcedureConfig({}, {}) {}
+
+ProcedureConfig::ProcedureConfig(std::string its_name, const KindConfig& its_kind)
+    : name(std::move(its_name)), kind(std::make_shared<KindConfig>(its_kind)) {}
+
 Procedure::Procedure(const ProcedureConfig& config)
-    : name_(config.name), value_(made_from(config.kind)) {}
+    : name_(config.name), value_(made_from(*config.kind)) {}
 
 double Procedure::next_level(const RandomStream& stream) const {
   return std::visit([&](const auto& kind) { return kind.next_level(stream); }, value_);

@@ -13,6 +13,7 @@
 
 #include "base/Random.h"
 #include "psychophysics/Constant.h"
+#include "psychophysics/ProcedureConfig.h"
 #include "psychophysics/UpDown.h"
 
 namespace heft {
@@ -35,9 +36,9 @@ struct KindsOfProcedure {
 /// here, a file beside this one, and a reader (protocol/KindReaders.h).
 using ProcedureKinds = KindsOfProcedure<UpDownConfig, ConstantConfig>;
 
-struct ProcedureConfig {
-  std::string name{};
-  ProcedureKinds::Config kind{};
+struct KindConfig : ProcedureKinds::Config {
+  using variant::variant;
+  KindConfig(const ProcedureKinds::Config& config) : variant(config) {}
 };
 
 class Procedure {

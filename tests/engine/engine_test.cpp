@@ -10,6 +10,7 @@
 
 #include "base/Error.h"
 #include "base/Random.h"
+#include "psychophysics/Procedure.h"
 #include "record/EventRow.h"
 #include "session/Protocols.h"
 

@@ -3,6 +3,7 @@
 
 #include "EditedFile.h"
 #include "protocol/ProcedureFile.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 namespace {
@@ -48,7 +49,7 @@ TEST(ProcedureFile, ReadsEveryKey) {
   EXPECT_EQ(config.interleaving.max_lag, 3);
   ASSERT_EQ(config.staircases.size(), 2u);
   EXPECT_EQ(config.staircases[0].name, "15g");
-  const auto& first = std::get<UpDownConfig>(config.staircases[0].kind);
+  const auto& first = std::get<UpDownConfig>(*config.staircases[0].kind);
   EXPECT_EQ(first.start, 175);
   EXPECT_EQ(first.step, 50);
   EXPECT_EQ(first.halve_every, 2);
@@ -65,7 +66,7 @@ TEST(ProcedureFile, ReadsEveryKey) {
   EXPECT_EQ(first.min_trials, 4);
   EXPECT_EQ(first.stop_trials, 90);
   EXPECT_EQ(first.discard_reversals, 3);
-  const auto& second = std::get<UpDownConfig>(config.staircases[1].kind);
+  const auto& second = std::get<UpDownConfig>(*config.staircases[1].kind);
   EXPECT_THAT(second.steps, ElementsAre(8, 4.5, 2));
   EXPECT_THAT(second.steps_up, ElementsAre(3));
   EXPECT_EQ(second.step_scale, StepScale::db);
@@ -76,7 +77,7 @@ TEST(ProcedureFile, AbsentKeysHaveTheDocumentedDefaults) {
       parse_procedure("[[staircase]]\nname = \"a\"\nstart = 10\nstep = 2\n", "short.toml");
   EXPECT_EQ(config.interleaving.interleave, Interleave::random);
   EXPECT_EQ(config.interleaving.max_lag, 0);
-  const auto& staircase = std::get<UpDownConfig>(config.staircases.at(0).kind);
+  const auto& staircase = std::get<UpDownConfig>(*config.staircases.at(0).kind);
   EXPECT_EQ(staircase.up, 1);
   EXPECT_EQ(staircase.down, 1);
   EXPECT_EQ(staircase.halve_every, 0);
@@ -211,11 +212,11 @@ TEST(ProcedureFile, ReadsConstantStimuli) {
   const auto staircases = parse_procedure(constants, "f").staircases;
   ASSERT_EQ(staircases.size(), 2u);
   EXPECT_EQ(staircases[0].name, "a");
-  const auto& first = std::get<ConstantConfig>(staircases[0].kind);
+  const auto& first = std::get<ConstantConfig>(*staircases[0].kind);
   EXPECT_THAT(first.levels, ElementsAre(-20, 0, 20.5));
   EXPECT_EQ(first.n_per_level, 4);
   EXPECT_EQ(first.order, ConstantOrder::shuffled);
-  EXPECT_EQ(std::get<ConstantConfig>(staircases[1].kind).order, ConstantOrder::blocks);
+  EXPECT_EQ(std::get<ConstantConfig>(*staircases[1].kind).order, ConstantOrder::blocks);
 }
 
 class BrokenConstants : public testing::TestWithParam<Broken> {};

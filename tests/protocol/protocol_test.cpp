@@ -7,6 +7,7 @@
 
 #include "EditedFile.h"
 #include "base/Sha256.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 namespace {
@@ -66,7 +67,7 @@ TEST(PaperProtocol, HasThePapersStaircases) {
   EXPECT_EQ(comparison.interleaving.interleave, Interleave::random);
   std::vector<std::vector<double>> table;
   for (const auto& [reference_g, procedure, technique] : comparison.staircases) {
-    const auto& staircase = std::get<UpDownConfig>(procedure.kind);
+    const auto& staircase = std::get<UpDownConfig>(*procedure.kind);
     table.push_back({reference_g, staircase.start, staircase.step});
     EXPECT_EQ(staircase.halve_every, 2);
     EXPECT_EQ(staircase.stop_reversals, 10);
@@ -122,7 +123,7 @@ TEST(PaperProtocol, SpellsOutTheDefaultsOfBlocks) {
   EXPECT_EQ(comparison.positive_answer, ComparisonBlock{}.positive_answer);
   EXPECT_EQ(comparison.interleaving.interleave, InterleaveConfig{}.interleave);
   EXPECT_EQ(comparison.interleaving.max_lag, InterleaveConfig{}.max_lag);
-  const auto& written = std::get<UpDownConfig>(comparison.staircases[0].staircase.kind);
+  const auto& written = std::get<UpDownConfig>(*comparison.staircases[0].staircase.kind);
   const UpDownConfig defaults;
   EXPECT_EQ(written.min_step, defaults.min_step);
   EXPECT_EQ(written.step_scale, defaults.step_scale);
@@ -143,7 +144,7 @@ TEST(RecommendedProtocol, StartsEachReferenceFromAboveAndFromNearZero) {
   EXPECT_EQ(comparison.catch_fraction, 0.15);
   std::map<double, std::pair<int, int>> starts;  // above, near zero
   for (const auto& [reference_g, procedure, technique] : comparison.staircases) {
-    const auto& staircase = std::get<UpDownConfig>(procedure.kind);
+    const auto& staircase = std::get<UpDownConfig>(*procedure.kind);
     ++(staircase.start > 2 * staircase.step ? starts[reference_g].first
                                             : starts[reference_g].second);
   }

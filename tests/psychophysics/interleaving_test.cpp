@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "psychophysics/Procedure.h"
 #include "psychophysics/staircases.h"
 
 namespace heft {

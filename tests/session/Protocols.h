@@ -4,17 +4,19 @@
 #include <memory>
 
 #include "protocol/Protocol.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft::testing {
 
-inline ProcedureConfig staircase(const std::string& name, double start_g, double step_g) {
+inline ProcedureConfig staircase(const std::string& name, double start_g, double step_g,
+                                 int stop_trials = 30) {
   UpDownConfig config;
   config.start = start_g;
   config.step = step_g;
   config.halve_every = 2;
   config.floor = 0;
   config.stop_reversals = 4;
-  config.stop_trials = 30;
+  config.stop_trials = stop_trials;
   config.discard_reversals = 2;
   return {name, config};
 }

@@ -114,8 +114,7 @@ Protocol touched_protocol() {
   protocol.display_rate_hz = 30;
   ComparisonBlock comparison;
   comparison.name = "comparison";
-  comparison.staircases = {{15, testing::staircase("15g", 175, 50)}};
-  std::get<UpDownConfig>(comparison.staircases[0].staircase.kind).stop_trials = 4;
+  comparison.staircases = {{15, testing::staircase("15g", 175, 50, 4)}};
   protocol.blocks.push_back(comparison);
   return protocol;
 }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/tasks/TaskRules.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 
@@ -66,6 +67,9 @@ ComparisonRun::ComparisonRun(const ComparisonBlock& block) : block_(block) {
   for (const ReferenceStaircase& entry : block_.staircases)
     staircases_.emplace_back(entry.staircase);
 }
+ComparisonRun::ComparisonRun(ComparisonRun&&) noexcept = default;
+ComparisonRun& ComparisonRun::operator=(ComparisonRun&&) noexcept = default;
+ComparisonRun::~ComparisonRun() = default;
 
 bool ComparisonRun::done() const {
   return std::ranges::none_of(staircases_, is_unfinished);
