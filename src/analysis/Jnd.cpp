@@ -6,8 +6,8 @@
 #include <map>
 
 #include "analysis/Published.h"
-#include "protocol/Mistakes.h"
 #include "protocol/Protocol.h"
+#include "protocol/TomlDocument.h"
 #include "psychophysics/Procedure.h"
 
 namespace heft {

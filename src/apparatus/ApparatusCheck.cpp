@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apparatus/ApparatusVerdicts.h"
 #include "base/Clock.h"
 #include "protocol/Protocol.h"
 

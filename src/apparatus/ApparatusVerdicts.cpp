@@ -1,11 +1,10 @@
-#include "apparatus/ApparatusVerdicts.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "apparatus/ApparatusCheck.h"
 #include "base/Quantile.h"
 
 namespace heft {

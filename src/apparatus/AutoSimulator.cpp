@@ -1,8 +1,8 @@
-#include "apparatus/AutoSimulator.h"
-
 #include <algorithm>
 #include <optional>
 
+#include "apparatus/SessionSetup.h"
+#include "physics/auto/Choice.h"
 #include "physics/auto/ErrorTable.h"
 #include "psychophysics/Procedure.h"
 

@@ -5,9 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "apparatus/CameraPictures.h"
+#include "apparatus/FilmedPictures.h"
 #include "apparatus/PacedPictures.h"
-#include "apparatus/SyntheticPictures.h"
 #include "base/PlugTable.h"
 #include "base/Pose.h"
 

@@ -7,19 +7,19 @@
 #include <filesystem>
 #include <map>
 
-#include "apparatus/AutoSimulator.h"
 #include "apparatus/PictureSource.h"
 #include "base/Build.h"
 #include "base/PlugTable.h"
 #include "base/Random.h"
 #include "base/Sha256.h"
 #include "base/TextFile.h"
+#include "experiment/Parameter.h"
+#include "experiment/ScreenTexts.h"
 #include "physics/DecouplingSimulator.h"
-#include "protocol/MarkerFile.h"
-#include "protocol/ParameterFile.h"
-#include "protocol/SyntheticCameraFile.h"
-#include "protocol/TextsFile.h"
+#include "physics/auto/Choice.h"
+#include "protocol/Files.h"
 #include "tracking/Camera.h"
+#include "tracking/SyntheticCamera.h"
 #include "view/ArView.h"
 
 namespace heft {

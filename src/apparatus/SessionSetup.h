@@ -17,6 +17,8 @@
 
 namespace heft {
 
+struct SimulatorPick;
+
 /// Options as somebody gives them; for what is not given there is a default, or it stays as it was.
 struct GivenOptions {
   std::optional<std::string> responder, tracker, view, simulator;
@@ -51,6 +53,11 @@ void check(const Setup& options);
 
 /// The simulator that in_force() picks for the protocol; the log then has the name of its pick.
 inline constexpr std::string_view automatic = "auto";
+
+/// The cheapest simulator that models all a person may do and stays within the tolerance in every
+/// trial of the protocol; resolved once, before the first trial, by nothing that happens in a
+/// session. Its rate is at least the display's; the protocol's own rate is not asked.
+SimulatorPick resolve_auto(const Protocol& protocol);
 
 /// Whether the two names in the table of simulators mean the same one.
 /// @throws Error (usage) for an unknown name

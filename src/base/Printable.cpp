@@ -6,12 +6,6 @@
 
 namespace heft {
 
-namespace {
-struct Letter {
-  char32_t code = 0;
-  std::size_t n_bytes = 0;  ///< 0: no UTF-8
-};
-
 Letter first_letter(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -28,13 +22,14 @@ Letter first_letter(std::string_view text) {
   return is_too_long || is_half_a_pair || code > 0x10FFFF ? Letter{} : Letter{code, n};
 }
 
+bool is_control(char32_t code) {
+  return code < 0x20 || (code >= 0x7F && code < 0xA0);
+}
+
+namespace {
 bool turns_direction(char32_t code) {
   return (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) ||
          code == 0x200E || code == 0x200F || code == 0x061C;
-}
-
-bool is_control(char32_t code) {
-  return code < 0x20 || (code >= 0x7F && code < 0xA0);
 }
 
 std::string escaped_but(std::string_view text, std::string_view kept) {

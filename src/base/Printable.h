@@ -6,6 +6,17 @@
 
 namespace heft {
 
+/// A character, and how many bytes of UTF-8 it takes; 0: there is none.
+struct Letter {
+  char32_t code = 0;
+  std::size_t n_bytes = 0;
+};
+
+/// The one that a text begins with, which must not be empty.
+Letter first_letter(std::string_view text);
+
+bool is_control(char32_t code);
+
 /// What a terminal would obey instead of showing it stands there as \x1b or \u202e: control
 /// characters but line ends and tabs, bytes that are no UTF-8, and marks that turn the direction of
 /// writing.

@@ -8,8 +8,7 @@
 #include "bench/Study.h"
 #include "bench/stock/StockSimulators.h"
 #include "cli/Commands.h"
-#include "cli/Program.h"
-#include "cli/Talk.h"
+#include "cli/Terminal.h"
 
 namespace {
 

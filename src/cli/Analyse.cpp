@@ -12,9 +12,7 @@
 #include "analysis/Tables.h"
 #include "base/Printable.h"
 #include "cli/Commands.h"
-#include "cli/MissingCharts.h"
-#include "cli/Output.h"
-#include "cli/Talk.h"
+#include "cli/Terminal.h"
 #include "session/Session.h"
 
 namespace heft::cli {

@@ -11,14 +11,12 @@
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
-#include "cli/Output.h"
-#include "cli/Progress.h"
-#include "cli/StopOnSignal.h"
-#include "cli/Talk.h"
-#include "protocol/MarkerFile.h"
+#include "cli/Terminal.h"
+#include "protocol/Files.h"
 #include "tracking/Camera.h"
 #include "tracking/EffectorCalibration.h"
 #include "tracking/EffectorViews.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/ViewCollector.h"
 
 namespace heft::cli {

@@ -1,5 +1,6 @@
-// One file per command; each adds itself to the program. A command's action does the work, writes
-// data to stdout and talk to stderr, and throws Error to end with a message and an exit code.
+// The program: its commands, one file each, and what heft and heft-bench have in common. A
+// command's action does the work, writes data to stdout and messages to stderr, and throws Error to
+// end with a message and an exit code.
 #pragma once
 
 #include "cli/CommandLine.h"
@@ -22,5 +23,10 @@ void add_validate(Command& app);
 
 /// All of the above.
 void add_commands(Command& app);
+
+/// @return the exit code. heft-bench takes over where heft is asked for `bench`, and with the same
+/// words
+///   where it is asked for a simulator that only heft-bench has.
+int run_program(const ProgramDescription& program, int argc, char** argv);
 
 }  // namespace heft::cli

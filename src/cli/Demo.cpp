@@ -10,11 +10,9 @@
 #include "analysis/Tables.h"
 #include "cli/Commands.h"
 #include "cli/Installation.h"
-#include "cli/MissingCharts.h"
-#include "cli/Output.h"
-#include "cli/SessionCommand.h"
 #include "cli/SessionOptions.h"
-#include "cli/Talk.h"
+#include "cli/Terminal.h"
+#include "session/Session.h"
 
 namespace heft::cli {
 

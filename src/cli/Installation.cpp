@@ -76,8 +76,4 @@ std::string bench_program() {
   return "";
 }
 
-std::string how_to_get_bench() {
-  return "In a checkout ./heft bench builds it; otherwise install heft-bench";
-}
-
 }  // namespace heft::cli

@@ -18,7 +18,4 @@ std::string installed_file_or_none(const std::string& name);
 /// none.
 std::string bench_program();
 
-/// A sentence for who needs it.
-std::string how_to_get_bench();
-
 }  // namespace heft::cli

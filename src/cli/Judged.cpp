@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/Statistics.h"
-#include "cli/Output.h"
+#include "cli/Terminal.h"
 
 namespace heft::cli {
 

@@ -1,5 +1,3 @@
-#include "cli/Program.h"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -15,8 +13,7 @@
 #include "base/Error.h"
 #include "cli/Commands.h"
 #include "cli/Installation.h"
-#include "cli/Output.h"
-#include "cli/Talk.h"
+#include "cli/Terminal.h"
 #include "physics/DecouplingSimulator.h"
 
 namespace heft::cli {
@@ -62,11 +59,28 @@ int exit_code_of(const std::function<void()>& work) {
   }
 }
 
+constexpr const char* how_to_get_bench =
+    "In a checkout ./heft bench builds it; otherwise install heft-bench";
+
+// Goes on as heft-bench, from the arguments at `first` on.
+[[noreturn]] void become_bench(char** first, char** last) {
+  const std::string program = bench_program();
+  if (program.empty())
+    throw Error(
+        fmt::format("heft-bench, the program with the studies, is not here. {}", how_to_get_bench));
+  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
+  arguments.insert(arguments.end(), first, last);
+  arguments.push_back(nullptr);
+  flush_output();
+  execv(program.c_str(), arguments.data());
+  throw Error(fmt::format("can't start {}: {}", program, std::strerror(errno)));
+}
+
 // With the same words.
 void hand_over_to_bench(const OnlyForStudies& wanted, int argc, char** argv) {
   if (bench_program().empty())
-    throw Error(fmt::format("{}. {}", wanted.what(), how_to_get_bench()), wanted.exit_code());
-  become_bench({argv + 1, argv + argc});
+    throw Error(fmt::format("{}. {}", wanted.what(), how_to_get_bench), wanted.exit_code());
+  become_bench(argv + 1, argv + argc);
 }
 
 }  // namespace
@@ -87,25 +101,10 @@ void add_commands(Command& app) {
   add_doctor(app);
 }
 
-void become_bench(const std::vector<std::string>& words) {
-  const std::string program = bench_program();
-  if (program.empty())
-    throw Error(fmt::format("heft-bench, the program with the studies, is not here. {}",
-                            how_to_get_bench()));
-  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  flush_output();
-  execv(program.c_str(), arguments.data());
-  throw Error(fmt::format("can't start {}: {}", program, std::strerror(errno)));
-}
-
-int become_bench_or_fail(const std::vector<std::string>& words) {
-  return exit_code_of([&] { become_bench(words); });
-}
-
 int run_program(const ProgramDescription& program, int argc, char** argv) {
   return exit_code_of([&] {
+    if (program.name == "heft" && argc > 1 && std::strcmp(argv[1], "bench") == 0)
+      become_bench(argv + 2, argv + argc);
     try {
       run_command_line(program, argc, argv);
     } catch (const OnlyForStudies& wanted) {

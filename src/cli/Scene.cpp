@@ -1,5 +1,7 @@
 // heft scene: physics alone. A scene and the effector's path in, the clone's and the cubes' paths
 // out, as CSV on stdout.
+#include "physics/Scene.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +12,11 @@
 #include "base/Error.h"
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
-#include "cli/Talk.h"
+#include "cli/Terminal.h"
 #include "experiment/Trajectory.h"
 #include "physics/Drive.h"
 #include "physics/auto/Choice.h"
-#include "protocol/SceneFile.h"
+#include "protocol/Files.h"
 
 namespace heft::cli {
 

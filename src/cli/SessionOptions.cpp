@@ -5,12 +5,16 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/Error.h"
 #include "base/PlugTable.h"
 #include "cli/Installation.h"
-#include "cli/Talk.h"
+#include "cli/Terminal.h"
+#include "cli/TerminalDesk.h"
 #include "physics/DecouplingSimulator.h"
 #include "physics/Oracles.h"
 #include "physics/auto/Choice.h"
+#include "protocol/ExpectedLength.h"
+#include "session/Session.h"
 
 namespace heft::cli {
 
@@ -133,6 +137,38 @@ std::string texts_file(const std::string& language) {
     throw unknown_name("language", language,
                        std::vector<std::string_view>(shipped.begin(), shipped.end()));
   return (folder / (language + ".toml")).string();
+}
+
+SessionResult run_session(const CommandedSession& session,
+                          const std::function<SessionResult(const RunnerOptions&)>& run) {
+  const StopOnSignal stop_on_signal;
+  ProgressBar bar("session");
+  std::optional<TerminalDesk> desk;
+  const double expected = expected_length(session.protocol).trials;
+  RunnerOptions options;
+  options.stop = &stop_on_signal.requested();
+  options.tell = [](const std::string& text) { say("heft: {}\n", text); };
+  if (runs_on_wall_clock(session.setup))
+    options.desk = &desk.emplace(expected, session.unblind);
+  else  // nothing that would unblind whoever watches: no mass, level, condition or correctness
+    options.progress = [&](const Engine& engine) {
+      bar.update(expected > 0 ? engine.n_completed() / expected : 0,  // a demonstration alone: 0
+                 fmt::format("{} of about {:.0f} trials, {:.0f} min", engine.n_completed(),
+                             expected, engine.last_s() / 60));
+    };
+  const SessionResult result = run(options);
+  desk.reset();
+  const std::string resume =
+      fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
+  if (result.end == RunEnd::stopped)
+    throw Error("stopped; everything up to the last answer is saved. Go on with: " + resume,
+                ExitCode::interrupted);
+  if (result.end == RunEnd::paused)
+    throw Error(
+        fmt::format("the session paused itself: one trial was void {} times. Look at the "
+                    "camera and the board, then go on with: {}",
+                    max_voids, resume));
+  return result;
 }
 
 }  // namespace heft::cli

@@ -1,6 +1,8 @@
-// The options that run, resume and their like share: what a session is run with.
+// What the commands that run sessions share: what a session is run with, Ctrl-C, progress, and what
+// is said at the end.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +10,11 @@
 #include "apparatus/SessionSetup.h"
 #include "cli/CommandLine.h"
 #include "protocol/Protocol.h"
+
+namespace heft {
+struct RunnerOptions;
+struct SessionResult;
+}  // namespace heft
 
 namespace heft::cli {
 
@@ -41,5 +48,19 @@ std::vector<std::string> cautions(const Protocol& protocol);
 /// A file of protocols/texts/ by its language, or any other by its path.
 /// @throws Error (usage) naming the languages that there are
 std::string texts_file(const std::string& language);
+
+struct CommandedSession {
+  const Protocol& protocol;
+  const Setup& setup;
+  std::string db;
+  bool unblind = false;
+};
+
+/// Runs `run` with Ctrl-C turned into a clean stop, and with a progress bar, or the experimenter's
+/// desk where the session keeps the time of day. Who declines to take part ends it as well.
+/// @throws Error (interrupted) when stopped, with how to go on; Error when the session paused
+/// itself
+SessionResult run_session(const CommandedSession& session,
+                          const std::function<SessionResult(const RunnerOptions&)>& run);
 
 }  // namespace heft::cli

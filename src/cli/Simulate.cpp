@@ -7,10 +7,8 @@
 
 #include "base/Error.h"
 #include "cli/Commands.h"
-#include "cli/Progress.h"
 #include "cli/SessionOptions.h"
-#include "cli/StopOnSignal.h"
-#include "cli/Talk.h"
+#include "cli/Terminal.h"
 #include "session/Simulation.h"
 
 namespace heft::cli {

@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "cli/Talk.h"
+#include "cli/Terminal.h"
 
 namespace heft::cli {
 

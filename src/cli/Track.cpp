@@ -10,10 +10,11 @@
 
 #include "base/Error.h"
 #include "cli/Commands.h"
-#include "cli/Talk.h"
-#include "protocol/MarkerFile.h"
+#include "cli/Terminal.h"
+#include "protocol/Files.h"
 #include "tracking/Camera.h"
 #include "tracking/ImageFile.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/PoseColumns.h"
 #include "tracking/Tracker.h"
 

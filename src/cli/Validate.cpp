@@ -5,20 +5,20 @@
 #include <algorithm>
 #include <memory>
 
-#include "apparatus/AutoSimulator.h"
+#include "apparatus/SessionSetup.h"
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
-#include "cli/Output.h"
 #include "cli/SessionOptions.h"
-#include "cli/Talk.h"
+#include "cli/Terminal.h"
+#include "experiment/ScreenTexts.h"
+#include "physics/Scene.h"
+#include "physics/auto/Choice.h"
 #include "protocol/ExpectedLength.h"
-#include "protocol/FileKind.h"
-#include "protocol/MarkerFile.h"
-#include "protocol/ProcedureFile.h"
-#include "protocol/SceneFile.h"
-#include "protocol/SyntheticCameraFile.h"
-#include "protocol/TextsFile.h"
+#include "protocol/Files.h"
+#include "psychophysics/Interleaving.h"
+#include "tracking/MarkerBody.h"
+#include "tracking/SyntheticCamera.h"
 
 namespace heft::cli {
 

@@ -1,9 +1,6 @@
 // The program heft. `heft bench` is another one, heft-bench, which has the studies and what only
 // they need.
-#include <cstring>
-
 #include "cli/Commands.h"
-#include "cli/Program.h"
 
 namespace {
 
@@ -15,8 +12,6 @@ void add_all(heft::cli::Command& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::strcmp(argv[1], "bench") == 0)
-    return heft::cli::become_bench_or_fail({argv + 2, argv + argc});
   return heft::cli::run_program(
       {"heft", "Heft runs psychophysics experiments on perceived mass in augmented reality.",
        "Start with: heft demo. Each command explains itself: heft COMMAND --help", add_all},

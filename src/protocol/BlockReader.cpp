@@ -1,5 +1,3 @@
-#include "protocol/BlockReader.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "experiment/Rows.h"
 #include "protocol/ProcedureReader.h"
+#include "protocol/ProtocolTables.h"
 
 namespace heft {
 

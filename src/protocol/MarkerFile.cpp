@@ -1,11 +1,11 @@
-#include "protocol/MarkerFile.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/TextFile.h"
-#include "protocol/TagShorthand.h"
+#include "protocol/Files.h"
+#include "protocol/Tags.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/TagFamily.h"
 
 namespace heft {

@@ -7,7 +7,8 @@
 
 #include "base/Error.h"
 #include "base/TextFile.h"
-#include "protocol/MarkerFile.h"
+#include "protocol/Files.h"
+#include "tracking/MarkerBody.h"
 
 namespace heft {
 

@@ -1,5 +1,3 @@
-#include "protocol/SceneFile.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +5,9 @@
 #include "base/Boxes.h"
 #include "base/Pose.h"
 #include "base/TextFile.h"
-#include "protocol/PhysicsReader.h"
-#include "protocol/TechniqueReader.h"
+#include "physics/Scene.h"
+#include "protocol/Files.h"
+#include "protocol/ProtocolTables.h"
 
 namespace heft {
 
@@ -73,25 +72,14 @@ std::vector<Cube> read_cubes(TableReader& reader) {
 Pose read_clone_offset(TableReader& reader) {
   Pose offset;
   Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();
-  if (auto table = reader.table("clone")) {
-    table->read("offset_m", offset.position_m, on_earth);
-    table->read("offset_rotvec_rad", rotation_rad);
-    table->close();
-  }
+  reader.in_table("clone", [&](TableReader& table) {
+    table.read("offset_m", offset.position_m, on_earth);
+    table.read("offset_rotvec_rad", rotation_rad);
+  });
   offset.orientation = rotation_from_vector(rotation_rad);
   return offset;
 }
 
-void read_tolerance(TableReader& reader, Tolerance& tolerance) {
-  auto table = reader.table("tolerance");
-  if (!table) return;
-  table->read("clone_rms_m", tolerance.clone_rms_m, above_zero);
-  table->read("lag_g", tolerance.lag_g, above_zero);
-  table->close();
-}
-}  // namespace
-
-namespace {
 // [coupling] as the paper's technique has it, with `condition` to name another; or [[technique]]s
 // and which of them it is.
 Coupling read_scene_coupling(TableReader& reader) {
@@ -121,7 +109,10 @@ Scene parse_scene(const std::string& text, const std::string& file) {
   scene.coupling = read_scene_coupling(reader);
   scene.clone_offset = read_clone_offset(reader);
   scene.cubes = read_cubes(reader);
-  read_tolerance(reader, scene.tolerance);
+  reader.in_table("tolerance", [&](TableReader& table) {
+    table.read("clone_rms_m", scene.tolerance.clone_rms_m, above_zero);
+    table.read("lag_g", scene.tolerance.lag_g, above_zero);
+  });
   reader.close();
   mistakes.throw_if_any();
   return scene;

@@ -1,8 +1,8 @@
-#include "protocol/Settings.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "protocol/ProtocolTables.h"
 
 namespace heft {
 

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -14,11 +15,34 @@
 #include <vector>
 
 #include "base/Names.h"
-#include "protocol/Mistakes.h"
-#include "protocol/Ranges.h"
 #include "protocol/TomlDocument.h"
 
 namespace heft {
+
+/// Beyond this much of any unit lies no experiment, only overflow.
+inline constexpr double furthest = 1e12;
+/// Below this much of what must be above zero lies only underflow.
+inline constexpr double least = 1e-9;
+
+/// The numbers a key takes.
+struct Range {
+  double low = -furthest, high = furthest;
+  bool low_open = false, high_open = false;
+  bool holds(double value) const;
+  std::string text() const;  ///< what it adds to "a number", e.g. ", at least 0"
+};
+inline constexpr Range any_number{};
+inline constexpr Range above_zero{least, furthest};
+inline constexpr Range zero_or_more{0};
+/// Places and sizes in meters.
+inline constexpr Range on_earth{-1e6, 1e6};
+inline constexpr Range size_on_earth{least, 1e6};
+
+/// Whole numbers that a key takes.
+struct WholeRange {
+  std::int64_t low = 0;
+  std::int64_t high = std::numeric_limits<int>::max();
+};
 
 class TableReader {
  public:
@@ -54,6 +78,14 @@ class TableReader {
                                                std::span<const std::string_view> names);
   /// The table [key], if it is there.
   std::optional<TableReader> table(std::string_view key);
+  /// Reads the table [key] and closes it, if it is there.
+  template <typename Read>
+  void in_table(std::string_view key, const Read& read) {
+    auto inner = table(key);
+    if (!inner) return;
+    read(*inner);
+    inner->close();
+  }
   /// The tables [[key]], in order.
   std::vector<TableReader> tables(std::string_view key);
 

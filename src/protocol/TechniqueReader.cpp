@@ -1,14 +1,25 @@
-#include "protocol/TechniqueReader.h"
-
+// Effector, coupling and techniques, as protocols and scene files have them.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/Printable.h"
-#include "protocol/PhysicsReader.h"
 #include "protocol/ProcedureReader.h"
+#include "protocol/ProtocolTables.h"
 
 namespace heft {
+
+void read_effector(TableReader& reader, Eigen::Vector3d& size_m) {
+  reader.in_table("effector", [&](auto& table) { table.read("size_m", size_m, size_on_earth); });
+}
+
+Coupling read_coupling(TableReader& table, Coupling coupling) {
+  table.read("stiffness_n_per_m", coupling.stiffness_n_per_m, above_zero);
+  table.read("torsional_stiffness_nm_per_rad", coupling.torsional_stiffness_nm_per_rad, above_zero);
+  table.read("clone_mass_kg", coupling.clone_mass_kg, above_zero);
+  table.read("damping_ratio", coupling.damping_ratio, zero_or_more);
+  return coupling;
+}
 
 namespace {
 Technique read_technique(TableReader& table, const Coupling& defaults) {

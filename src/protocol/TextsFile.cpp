@@ -1,72 +1,47 @@
-#include "protocol/TextsFile.h"
-
 #include <fmt/format.h>
 
-#include <span>
-#include <vector>
+#include <array>
+#include <sstream>
 
 #include "base/TextFile.h"
+#include "experiment/ScreenTexts.h"
+#include "protocol/Files.h"
 #include "protocol/TableReader.h"
 
 namespace heft {
 
 namespace {
 struct PageKeys {
-  std::string_view page;
-  std::vector<std::string_view> keys;
+  std::string_view page, keys;  ///< keys: parted by spaces
 };
 
-const std::vector<PageKeys>& required_pages() {
-  static const std::vector<PageKeys> pages{
-      {"buttons", {"start", "next", "back", "skip", "more", "finish", "put_cubes_back"}},
-      {"slots", {"left", "middle", "right"}},
-      {"consent", {"title", "text", "agree", "decline"}},
-      {"welcome", {"title", "text"}},
-      {"about_you",
-       {"title",
-        "age",
-        "age_under_18",
-        "age_18_24",
-        "age_25_34",
-        "age_35_44",
-        "age_45_54",
-        "age_55_or_more",
-        "gender",
-        "gender_woman",
-        "gender_man",
-        "gender_other",
-        "gender_not_said",
-        "handedness",
-        "handedness_right",
-        "handedness_left",
-        "handedness_both",
-        "eyesight",
-        "eyesight_unaided",
-        "eyesight_glasses",
-        "eyesight_lenses",
-        "ar_experience",
-        "ar_experience_never",
-        "ar_experience_once_or_twice",
-        "ar_experience_several_times",
-        "ar_experience_often"}},
-      {"demonstration", {"title", "text"}},
-      {"instructions_introduction", {"title", "text"}},
-      {"instructions_sorting", {"title", "text"}},
-      {"instructions_comparison", {"title", "text"}},
-      {"trial", {"wait_for_cubes", "touch_every_cube"}},
-      {"trial_introduction", {"question", "try_again"}},
-      {"trial_sorting",
-       {"question", "tap_a_cube", "lightest", "intermediate", "heaviest", "validate", "dont_know"}},
-      {"trial_comparison", {"question", "no_difference"}},
-      {"rest", {"title", "text", "time_left"}},
-      {"paused", {"title", "text"}},
-      {"how_decided",
-       {"title", "basis", "basis_seen", "basis_felt", "basis_both", "basis_guessed", "certainty",
-        "certainty_very", "certainty_fairly", "certainty_little", "certainty_none", "movement",
-        "movement_slow", "movement_fast", "movement_varied", "movement_unaware"}},
-      {"thanks", {"title", "text"}}};
-  return pages;
-}
+constexpr std::array required_pages{
+    PageKeys{"buttons", "start next back skip more finish put_cubes_back"},
+    PageKeys{"slots", "left middle right"},
+    PageKeys{"consent", "title text agree decline"},
+    PageKeys{"welcome", "title text"},
+    PageKeys{"about_you",
+             "title age age_under_18 age_18_24 age_25_34 age_35_44 age_45_54 age_55_or_more gender "
+             "gender_woman gender_man gender_other gender_not_said handedness handedness_right "
+             "handedness_left handedness_both eyesight eyesight_unaided eyesight_glasses "
+             "eyesight_lenses ar_experience ar_experience_never ar_experience_once_or_twice "
+             "ar_experience_several_times ar_experience_often"},
+    PageKeys{"demonstration", "title text"},
+    PageKeys{"instructions_introduction", "title text"},
+    PageKeys{"instructions_sorting", "title text"},
+    PageKeys{"instructions_comparison", "title text"},
+    PageKeys{"trial", "wait_for_cubes touch_every_cube"},
+    PageKeys{"trial_introduction", "question try_again"},
+    PageKeys{"trial_sorting",
+             "question tap_a_cube lightest intermediate heaviest validate dont_know"},
+    PageKeys{"trial_comparison", "question no_difference"},
+    PageKeys{"rest", "title text time_left"},
+    PageKeys{"paused", "title text"},
+    PageKeys{"how_decided",
+             "title basis basis_seen basis_felt basis_both basis_guessed certainty certainty_very "
+             "certainty_fairly certainty_little certainty_none movement movement_slow "
+             "movement_fast movement_varied movement_unaware"},
+    PageKeys{"thanks", "title text"}};
 
 std::string trimmed(const std::string& text) {
   std::string kept;
@@ -87,10 +62,10 @@ std::string read_text(TableReader& table, std::string_view key) {
   return text;
 }
 
-std::map<std::string, std::string> read_page(TableReader& table,
-                                             std::span<const std::string_view> keys) {
+std::map<std::string, std::string> read_page(TableReader& table, std::string_view keys) {
   std::map<std::string, std::string> texts;
-  for (const std::string_view key : keys) texts.emplace(key, read_text(table, key));
+  std::istringstream words{std::string(keys)};
+  for (std::string key; words >> key;) texts.emplace(key, read_text(table, key));
   table.close();
   return texts;
 }
@@ -102,7 +77,7 @@ ScreenTexts parse_texts(const std::string& text, const std::string& file) {
   TableReader reader(root, mistakes);
   ScreenTexts texts;
   texts.language = read_text(reader, "language");
-  for (const auto& [page, keys] : required_pages()) {
+  for (const auto& [page, keys] : required_pages) {
     reader.require({page});
     if (auto table = reader.table(page)) texts.pages.emplace(page, read_page(*table, keys));
   }

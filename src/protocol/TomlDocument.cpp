@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "base/Printable.h"
@@ -132,6 +133,22 @@ std::string shown(const TomlNode& node) {
     std::string operator()(const TomlOverflow& value) const { return printable(value.text); }
   };
   return std::visit(Shown{}, node.value);
+}
+
+void Mistakes::add(TomlPlace place, std::string message) {
+  mistakes_.push_back({{file_, place.line, place.column}, std::move(message)});
+}
+
+InvalidFile Mistakes::as_error() const {
+  std::vector<Mistake> sorted = mistakes_;
+  std::ranges::stable_sort(sorted, {}, [](const Mistake& mistake) {
+    return std::tuple(mistake.place.line, mistake.place.column);
+  });
+  return InvalidFile(std::move(sorted));
+}
+
+void Mistakes::throw_if_any() const {
+  if (!mistakes_.empty()) throw as_error();
 }
 
 }  // namespace heft

@@ -1,5 +1,6 @@
-// A TOML file as a tree of values that know their places. The only door to the TOML library; what
-// the values mean is for the readers of procedures, scenes and protocols.
+// A TOML file as a tree of values that know their places, and the mistakes found in it. The only
+// door to the TOML library; what the values mean is for the readers of procedures, scenes and
+// protocols.
 #pragma once
 
 #include <cstdint>
@@ -48,5 +49,19 @@ TomlTable parse_toml(const std::string& text, const std::string& file);
 
 /// A value as a message shows it: short, on one line, without control characters.
 std::string shown(const TomlNode& node);
+
+class Mistakes {
+ public:
+  explicit Mistakes(std::string file) : file_(std::move(file)) {}
+  void add(TomlPlace place, std::string message);
+  /// All of them in order of place.
+  InvalidFile as_error() const;
+  /// @throws InvalidFile if there are any
+  void throw_if_any() const;
+
+ private:
+  std::string file_;
+  std::vector<Mistake> mistakes_;
+};
 
 }  // namespace heft

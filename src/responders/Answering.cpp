@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "responders/TrialStream.h"
+#include "responders/Responder.h"
 
 namespace heft {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "responders/TrialStream.h"
+#include "responders/Responder.h"
 
 namespace heft {
 

@@ -8,7 +8,7 @@
 
 #include "base/Random.h"
 #include "experiment/Task.h"
-#include "responders/Answer.h"
+#include "responders/Responder.h"
 #include "responders/ResponderParameters.h"
 
 namespace heft {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "responders/Responder.h"
 #include "responders/SeenGeometry.h"
-#include "responders/TrialStream.h"
 
 namespace heft {
 

@@ -5,9 +5,6 @@
 
 #include "base/PlugTable.h"
 #include "responders/ResponderParameters.h"
-#include "responders/Resting.h"
-#include "responders/Scripted.h"
-#include "responders/Simulated.h"
 
 namespace heft {
 

@@ -14,14 +14,23 @@
 #include <string_view>
 #include <vector>
 
+#include "base/Random.h"
 #include "experiment/Action.h"
 #include "experiment/DisplayedFrame.h"
 #include "experiment/Parameter.h"
 #include "experiment/ScreenState.h"
 #include "experiment/Stage.h"
-#include "responders/Answer.h"
+#include "experiment/Task.h"
 
 namespace heft {
+
+/// What a participant has made up their mind to say of a trial.
+struct Answer {
+  std::optional<int> slot;             ///< comparison: the heavier cube, none: no difference;
+                                       ///< introduction: the heaviest cube; from 1
+  std::vector<Label> labels;           ///< sorting: by slot; empty: I don't know
+  bool first_label_corrected = false;  ///< sorting: the first label is put wrong and moved
+};
 
 /// What a participant sees when a trial begins.
 struct TrialView {
@@ -94,5 +103,29 @@ std::string describe_parameters(const ResponderEntry& responder);
 
 /// @throws Error (usage) naming the nearest responder when there is none of that name
 const ResponderEntry& responder_named(std::string_view name);
+
+/// The random stream of one attempt at a trial: a trial run again draws the same.
+inline RandomStream trial_stream(std::uint64_t seed, std::string_view purpose,
+                                 const TrialView& trial) {
+  return {seed, purpose, static_cast<std::uint64_t>(trial.trial_number),
+          static_cast<std::uint64_t>(trial.attempt)};
+}
+
+// What the table makes them with.
+
+/// A hand, an eye and a judgment, put together. Looks at every cube, comes back, answers; looks
+/// again when told to try again or when an answer was not taken.
+std::unique_ptr<Responder> make_simulated(const ResponderOptions& options);
+
+/// Plays a recording back: a real hand's trajectories and timed actions.
+/// @throws Error and InvalidFile as load_recording; at a trial's start, where the recording lacks
+///   that trial or has an action that its task does not offer
+std::unique_ptr<Responder> make_scripted(const ResponderOptions& options);
+
+// Whose hand stays at rest and whose answers owe nothing to what the cubes do: baselines.
+std::unique_ptr<Responder> make_always_yes(const ResponderOptions& options);
+std::unique_ptr<Responder> make_always_no(const ResponderOptions& options);
+std::unique_ptr<Responder> make_coin(const ResponderOptions& options);
+std::unique_ptr<Responder> make_criterion_only(const ResponderOptions& options);
 
 }  // namespace heft

@@ -1,5 +1,3 @@
-#include "responders/Resting.h"
-
 #include <functional>
 #include <optional>
 #include <vector>
@@ -8,8 +6,8 @@
 #include "responders/Answering.h"
 #include "responders/Decision.h"
 #include "responders/Hand.h"
+#include "responders/Responder.h"
 #include "responders/ResponderParameters.h"
-#include "responders/TrialStream.h"
 
 namespace heft {
 

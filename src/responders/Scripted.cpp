@@ -1,5 +1,3 @@
-#include "responders/Scripted.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <deque>
 
 #include "responders/Recording.h"
+#include "responders/Responder.h"
 
 namespace heft {
 

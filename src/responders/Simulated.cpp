@@ -1,5 +1,3 @@
-#include "responders/Simulated.h"
-
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -8,6 +6,7 @@
 #include "responders/Decision.h"
 #include "responders/Hand.h"
 #include "responders/Perception.h"
+#include "responders/Responder.h"
 #include "responders/ResponderParameters.h"
 
 namespace heft {

@@ -4,7 +4,7 @@
 
 #include "apparatus/TrialWorld.h"
 #include "session/Attendant.h"
-#include "session/SessionParts.h"
+#include "session/Runner.h"
 
 namespace heft {
 

@@ -5,7 +5,23 @@
 #include <thread>
 #include <utility>
 
+#include "base/Sha256.h"
+#include "protocol/Files.h"
+
 namespace heft {
+
+std::optional<double> ParticipantScreen::present(const ViewPicture& picture,
+                                                 const ScreenState& screen) {
+  if (texts_) log_text(text_page(screen.screen, screen.task));
+  shown_ = screen;
+  return view_.present(picture, screen);
+}
+
+void ParticipantScreen::log_text(const std::string& page) {
+  if (page == page_) return;
+  page_ = page;
+  journal_.emit_now(TextShown{page, texts_->language, sha256(page_text(*texts_, page))});
+}
 
 namespace {
 constexpr double holding_step_s = 0.05;

@@ -1,15 +1,47 @@
-// Attends to a session while it waits: keeps the screen alive, listens to the experimenter, holds
-// the session while they want it held, and puts what waits in memory on disk.
+// The two people around a session: the participant before their screen, and the experimenter.
 #pragma once
 
 #include <atomic>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "experiment/ScreenTexts.h"
 #include "session/Desk.h"
-#include "session/ParticipantScreen.h"
+#include "session/Journal.h"
+#include "view/ArView.h"
 
 namespace heft {
 
+/// What the participant has in front of them. Everything that is presented goes through here, so
+/// that each text that comes to stand there is logged, in which language, with its hash, and when;
+/// and so that the experimenter's monitor knows which page it is.
+class ParticipantScreen {
+ public:
+  /// @param texts what the person reads; null: nobody reads
+  ParticipantScreen(Journal& journal, ArView& view, const ScreenTexts* texts)
+      : journal_(journal), view_(view), texts_(texts) {}
+
+  /// As ArView::present; logs the screen's text unless it is the one that stands there already.
+  std::optional<double> present(const ViewPicture& picture, const ScreenState& screen);
+
+  std::vector<Touch> wait(double seconds) { return view_.wait(seconds); }
+
+  /// What was presented last; none: nothing yet.
+  const std::optional<ScreenState>& shown() const { return shown_; }
+
+ private:
+  void log_text(const std::string& page);
+
+  Journal& journal_;
+  ArView& view_;
+  const ScreenTexts* texts_;
+  std::optional<ScreenState> shown_;
+  std::string page_;  // of texts, that stands there
+};
+
+/// Attends to a session while it waits: keeps the screen alive, listens to the experimenter, holds
+/// the session while they want it held, and puts what waits in memory on disk.
 class Attendant {
  public:
   /// @param desk may be null  @param stop set from a signal handler; may be null

@@ -4,8 +4,7 @@
 
 #include "base/Error.h"
 #include "physics/DecouplingSimulator.h"
-#include "protocol/MarkerFile.h"
-#include "protocol/TextsFile.h"
+#include "protocol/Files.h"
 
 namespace heft {
 

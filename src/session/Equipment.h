@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "apparatus/SessionSetup.h"
-#include "session/SessionParts.h"
+#include "session/Runner.h"
 
 namespace heft {
 

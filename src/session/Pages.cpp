@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/Sha256.h"
-#include "protocol/TextsFile.h"
+#include "protocol/Files.h"
 #include "session/Demonstration.h"
 
 namespace heft {

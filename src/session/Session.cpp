@@ -12,9 +12,27 @@
 #include "record/SetupJson.h"
 #include "replay/Replay.h"
 #include "session/Equipment.h"
-#include "session/NextPart.h"
 
 namespace heft {
+
+namespace fs = std::filesystem;
+
+std::string next_part(const std::string& path) {
+  const fs::path whole(path);
+  std::string candidate = path;
+  for (int part = 2; fs::exists(candidate); ++part)
+    candidate = (whole.parent_path() /
+                 fmt::format("{}-{}{}", whole.stem().string(), part, whole.extension().string()))
+                    .string();
+  return candidate;
+}
+
+Setup with_next_parts(Setup options) {
+  const auto [view, file] = split_name(options.view);
+  if (!file.empty()) options.view = view + ":" + next_part(file);
+  if (!options.record_camera.empty()) options.record_camera = next_part(options.record_camera);
+  return options;
+}
 
 namespace {
 
@@ -24,7 +42,7 @@ namespace {
 void refuse_repetition(const SessionRequest& request) {
   refuse_special_file(request.db);
   std::error_code unknown;  // what can't be looked at is explained when it is opened for writing
-  if (!std::filesystem::exists(request.db, unknown)) return;
+  if (!fs::exists(request.db, unknown)) return;
   for (const SessionRow& session :
        LogReader(request.db).sessions_of(request.participant, request.protocol.name)) {
     if (is_unfinished(session.state))
@@ -120,9 +138,9 @@ std::uint64_t fresh_seed() {
 
 void refuse_special_file(const std::string& db) {
   std::error_code unknown;
-  const auto status = std::filesystem::status(db, unknown);
-  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status) ||
-      std::filesystem::is_directory(status))  // a folder is explained when it is opened
+  const auto status = fs::status(db, unknown);
+  if (!fs::exists(status) || fs::is_regular_file(status) ||
+      fs::is_directory(status))  // a folder is explained when it is opened
     return;
   throw Error(
       fmt::format("{} is a device, pipe or socket, expected a log file. Choose another "
@@ -176,19 +194,19 @@ void give_again(LoggedSession& session, const GivenOptions& again) {
     setup.simulator_why.clear();
     setup.rate_hz.reset();
   }
-  if (again.tracker) setup.tracker = *again.tracker;
   if (again.view) setup.view = *again.view;
-  if (again.camera_file) setup.camera_file = *again.camera_file;
-  if (again.board_file) setup.board_file = *again.board_file;
-  if (again.effector_file) setup.effector_file = *again.effector_file;
-  if (again.texts_file) setup.texts_file = *again.texts_file;
-  if (again.responder) setup.responder = *again.responder;
-  const bool files_stay = !again.responder && !again.tracker && !again.camera_file &&
-                          !again.board_file && !again.effector_file && !again.texts_file;
-  if (files_stay)
-    check(setup);
-  else
-    complete(setup);
+  bool files_stay = true;
+  for (const auto& [held, given] : {std::pair(&setup.tracker, &again.tracker),
+                                    {&setup.camera_file, &again.camera_file},
+                                    {&setup.board_file, &again.board_file},
+                                    {&setup.effector_file, &again.effector_file},
+                                    {&setup.texts_file, &again.texts_file},
+                                    {&setup.responder, &again.responder}}) {
+    if (!*given) continue;
+    *held = **given;
+    files_stay = false;
+  }
+  files_stay ? check(setup) : complete(setup);
   session.setup = in_force(std::move(setup), *session.protocol);
   session.protocol = protocol_for(*session.protocol, session.setup);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apparatus/LoggedSession.h"
+#include "apparatus/SessionSetup.h"
 #include "record/RecordedSession.h"
 #include "session/Runner.h"
 
@@ -59,5 +60,14 @@ void abort_session(const LoggedSession& session);
 
 /// A simulated session that is kept in memory.
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner);
+
+/// Where a session that goes on writes what it wrote to a file before: beside it. A video can't be
+/// added to, and a recording must not be mixed with the one of before.
+/// @return the path itself where nothing is there, else the first free one of "film-2.avi",
+/// "film-3.avi"...
+std::string next_part(const std::string& path);
+
+/// The options with free paths for the view's video and the kept camera pictures.
+Setup with_next_parts(Setup options);
 
 }  // namespace heft

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apparatus/ApparatusVerdicts.h"
+#include "apparatus/ApparatusCheck.h"
 
 namespace heft {
 namespace {

@@ -3,10 +3,11 @@
 
 #include <thread>
 
-#include "apparatus/CameraPictures.h"
+#include "apparatus/FilmedPictures.h"
 #include "apparatus/PacedPictures.h"
-#include "protocol/MarkerFile.h"
+#include "protocol/Files.h"
 #include "tracking/LiveCamera.h"
+#include "tracking/MarkerBody.h"
 
 namespace heft {
 namespace {

@@ -1,8 +1,9 @@
 // When the board counts as lost: after half a second without it, counted anew after every pause.
 #include <gtest/gtest.h>
 
-#include "apparatus/PictureTracker.h"
-#include "protocol/MarkerFile.h"
+#include "apparatus/FilmedPictures.h"
+#include "protocol/Files.h"
+#include "tracking/MarkerBody.h"
 
 namespace heft {
 namespace {

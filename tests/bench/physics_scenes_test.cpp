@@ -11,7 +11,8 @@
 #include "bench/physics/OdeSimulator.h"
 #include "bench/physics/Reference.h"
 #include "physics/Oracles.h"
-#include "protocol/SceneFile.h"
+#include "physics/Scene.h"
+#include "protocol/Files.h"
 
 namespace heft {
 namespace {

@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "EditedFile.h"
+#include "physics/Scene.h"
 #include "protocol/ExpectedLength.h"
-#include "protocol/MarkerFile.h"
-#include "protocol/ProcedureFile.h"
-#include "protocol/SceneFile.h"
-#include "protocol/SyntheticCameraFile.h"
+#include "protocol/Files.h"
+#include "psychophysics/Interleaving.h"
+#include "tracking/MarkerBody.h"
+#include "tracking/SyntheticCamera.h"
 
 namespace heft {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
-#include "protocol/FileKind.h"
-#include "protocol/MarkerFile.h"
+#include "protocol/Files.h"
+#include "tracking/MarkerBody.h"
 
 namespace heft {
 namespace {

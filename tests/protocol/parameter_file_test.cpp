@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
-#include "protocol/ParameterFile.h"
+#include "experiment/Parameter.h"
+#include "protocol/Files.h"
 
 namespace heft {
 namespace {

@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
-#include "protocol/ProcedureFile.h"
+#include "protocol/Files.h"
+#include "psychophysics/Interleaving.h"
 #include "psychophysics/Procedure.h"
 
 namespace heft {

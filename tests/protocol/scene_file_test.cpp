@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "EditedFile.h"
-#include "protocol/SceneFile.h"
+#include "physics/Scene.h"
+#include "protocol/Files.h"
 
 namespace heft {
 namespace {

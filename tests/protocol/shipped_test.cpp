@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "EditedFile.h"
-#include "protocol/FileKind.h"
+#include "protocol/Files.h"
 #include "protocol/Protocol.h"
 
 namespace heft {

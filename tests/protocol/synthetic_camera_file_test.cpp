@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
-#include "protocol/FileKind.h"
-#include "protocol/SyntheticCameraFile.h"
+#include "protocol/Files.h"
+#include "tracking/SyntheticCamera.h"
 
 namespace heft {
 namespace {

@@ -2,8 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
+#include "physics/Scene.h"
+#include "protocol/Files.h"
 #include "protocol/Protocol.h"
-#include "protocol/SceneFile.h"
 
 namespace heft {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
-#include "protocol/FileKind.h"
-#include "protocol/TextsFile.h"
+#include "experiment/ScreenTexts.h"
+#include "protocol/Files.h"
 
 namespace heft {
 namespace {

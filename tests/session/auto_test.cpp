@@ -5,7 +5,8 @@
 #include <atomic>
 #include <filesystem>
 
-#include "apparatus/AutoSimulator.h"
+#include "apparatus/SessionSetup.h"
+#include "physics/auto/Choice.h"
 #include "replay/Replay.h"
 #include "session/Session.h"
 

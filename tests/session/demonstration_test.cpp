@@ -6,13 +6,14 @@
 
 #include <cstdlib>
 
-#include "protocol/MarkerFile.h"
-#include "protocol/TextsFile.h"
+#include "experiment/ScreenTexts.h"
+#include "protocol/Files.h"
 #include "session/Equipment.h"
 #include "session/MadeUpPeople.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/Tracker.h"
 
 namespace heft {

@@ -4,9 +4,9 @@
 
 #include <atomic>
 
-#include "apparatus/CameraPictures.h"
-#include "protocol/MarkerFile.h"
-#include "protocol/TextsFile.h"
+#include "apparatus/FilmedPictures.h"
+#include "experiment/ScreenTexts.h"
+#include "protocol/Files.h"
 #include "record/EventRow.h"
 #include "record/temporary_folder.h"
 #include "session/MadeUpPeople.h"
@@ -15,6 +15,7 @@
 #include "session/Runner.h"
 #include "tracking/ImageFile.h"
 #include "tracking/LiveCamera.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/SyntheticCamera.h"
 
 namespace heft {

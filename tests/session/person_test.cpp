@@ -2,7 +2,8 @@
 // made-up desk.
 #include <gmock/gmock.h>
 
-#include "protocol/TextsFile.h"
+#include "experiment/ScreenTexts.h"
+#include "protocol/Files.h"
 #include "session/MadeUpPeople.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"

@@ -5,7 +5,8 @@
 #include <atomic>
 
 #include "analysis/Dataset.h"
-#include "protocol/TextsFile.h"
+#include "experiment/ScreenTexts.h"
+#include "protocol/Files.h"
 #include "record/SessionLog.h"
 #include "record/temporary_folder.h"
 #include "replay/Replay.h"

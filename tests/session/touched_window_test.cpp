@@ -4,7 +4,8 @@
 
 #include <cstdlib>
 
-#include "protocol/TextsFile.h"
+#include "experiment/ScreenTexts.h"
+#include "protocol/Files.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"

@@ -6,7 +6,8 @@
 
 #include "base/Pose.h"
 #include "experiment/ScreenState.h"
-#include "protocol/TextsFile.h"
+#include "experiment/ScreenTexts.h"
+#include "protocol/Files.h"
 #include "view/ArView.h"
 
 namespace heft {

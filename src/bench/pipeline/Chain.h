@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apparatus/PictureTracker.h"
+#include "apparatus/FilmedPictures.h"
 #include "apparatus/TrialWorld.h"
 #include "base/Names.h"
 #include "protocol/Protocol.h"

@@ -7,7 +7,8 @@
 
 #include "base/Pose.h"
 #include "base/Random.h"
-#include "protocol/MarkerFile.h"
+#include "protocol/Files.h"
+#include "tracking/MarkerBody.h"
 
 namespace heft {
 

@@ -1,4 +1,5 @@
-// Whether a tag, as a file gives it, can be one: a square of paper with a code of its family.
+// The tags of board and effector files: the tables [grid] and [box] that stand for many of them,
+// and whether a tag, as a file gives it, can be one: a square of paper with a code of its family.
 #pragma once
 
 #include <string>
@@ -27,5 +28,14 @@ void check_outwards(PlacedTag& placed);
 
 /// Notes ids that the family does not have, and those given twice.
 void check_ids(std::vector<PlacedTag>& tags, const std::string& family);
+
+/// A grid around the board's center: columns, rows, tag_m, pitch_m, first_id (0), counted row by
+/// row from the far left.
+std::vector<Tag> read_grid(TableReader& table, const std::string& family);
+
+/// Tags at the tip's end of a box, in the middle of its faces' width: tag_m, tip_margin_m (from
+/// the tip's edge; as little as the family allows), and an id for each face that has a tag.
+std::vector<PlacedTag> read_box(TableReader& table, const std::string& family,
+                                const Eigen::Vector3d& size_m);
 
 }  // namespace heft
