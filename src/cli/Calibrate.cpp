@@ -18,7 +18,6 @@
 #include "protocol/MarkerFile.h"
 #include "tracking/Camera.h"
 #include "tracking/EffectorCalibration.h"
-#include "tracking/EffectorViews.h"
 #include "tracking/ViewCollector.h"
 
 namespace heft::cli {
@@ -100,7 +99,7 @@ std::string name_of_picture(const CameraPicture& picture) {
 
 void say_progress(const ViewCollector& views) {
   say("{}{} views of {}; {:.0f} % of the picture\n", views.coverage().drawing(), views.size(),
-      ViewCollector::enough, 100 * views.coverage().share());
+      ViewCollector::enough, 100 * views.coverage().fraction());
   if (!views.wanted().empty()) say("next: {}\n", views.wanted());
 }
 
@@ -186,7 +185,7 @@ void calibrate_the_effector(const Options& options) {
     ProgressBar bar("effector");
     while (const auto picture = next_picture(*camera, stop)) {
       views.offer(picture->image, name_of_picture(*picture));
-      bar.update(views.share(), views.counts());
+      bar.update(views.progress(), views.counts());
       if (camera->is_live() ? views.complete() || views.full() : views.full()) break;
     }
   }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tracking/BoxFaces.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/TagFamily.h"
 
 namespace heft {

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/BoxFaces.h"
-#include "tracking/EdgeAdjustment.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/PlanarPose.h"
 
 namespace heft {
