@@ -53,8 +53,11 @@ struct BodyFit {
   int n_faces = 0;    ///< directions that they face
   /// A second pose, far from this one, fits nearly as well: a flat body seen from afar.
   bool ambiguous = false;
-  /// Mean of its tags', halved where ambiguous or where their white is clipped, less where rms_px
-  /// or the shift's covariance is large.
+  /// How far the tags' farthest corner is elsewhere in other poses that fit, near or far, squared
+  /// and weighted by how likely they are beside this one.
+  double spread_m2 = 0;
+  /// Mean of its tags', halved where ambiguous or where their white is clipped, less where rms_px,
+  /// the covariance or the spread is large.
   double quality = 0;
 };
 

@@ -203,10 +203,12 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
   gray_ = gray_of(image);
   board_family_tags_.reset();
   result_ = {};
-  const auto board = find_board();
+  auto board = find_board();
+  if (board && !has_effector() && board->quality < least_pose_quality) board.reset();
   take_board(board);
   if (board && has_effector()) {
-    if (const auto effector = find_effector(*board, t_s))
+    const auto effector = find_effector(*board, t_s);
+    if (effector && effector->quality >= least_pose_quality)
       take_effector(*effector, t_s);
     else
       ++n_unseen_;

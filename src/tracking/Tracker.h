@@ -13,6 +13,9 @@
 
 namespace heft {
 
+/// A pose of less quality is no pose: it may be centimeters off.
+inline constexpr double least_pose_quality = 0.05;
+
 struct TrackedPicture {
   std::optional<Pose> camera_from_board;
   std::optional<Pose> board_from_effector;  ///< only with the board
@@ -23,8 +26,9 @@ struct TrackedPicture {
   /// 0...1: how far the effector's pose can be trusted (the board's where there is no effector):
   /// the fraction of pixels around its tags' edges that look like edges; halved where two poses fit
   /// about equally well, where the reprojection error is 1 pixel, and where its tags leave the
-  /// effector's place open by half a millimeter, as a single slanted one may; less than half where
-  /// the picture is overexposed.
+  /// effector's place open by half a millimeter, as a single slanted one may, or its farthest tag
+  /// corner by two, as two tilts do that look alike; less than half where the picture is
+  /// overexposed. 0 where nothing was found, never between that and least_pose_quality.
   double quality = 0;
   /// The effector is not where motion could have taken it since it was last seen, or was not seen
   /// for so long that nothing can be said.
