@@ -22,8 +22,8 @@ ViewSetup usual_view(const Intrinsics& camera) {
   return setup;
 }
 
-ViewPicture usual_picture(const CameraPicture& picture, const TrackedPicture& tracked) {
-  ViewPicture shown;
+ViewFrame usual_frame(const CameraPicture& picture, const TrackedPicture& tracked) {
+  ViewFrame shown;
   shown.camera = std::make_shared<const Image>(picture.image);
   shown.camera_from_board = tracked.camera_from_board;
   shown.frame.tracked = tracked.board_from_effector.has_value();
@@ -72,7 +72,7 @@ void ApparatusCheck::see(const CameraPicture& picture, double waited_s) {
   const double began_s = monotonic_s();
   seen.tracked = tracker_.track(picture.image, picture.capture_s);
   seen.tracked_in_s = monotonic_s() - began_s;
-  const ViewPicture shown = usual_picture(picture, seen.tracked);
+  const ViewFrame shown = usual_frame(picture, seen.tracked);
   const double draw_s = monotonic_s();
   drawing_.draw(shown);
   seen.drawn_in_s = monotonic_s() - draw_s;

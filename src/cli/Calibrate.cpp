@@ -15,8 +15,6 @@
 #include "protocol/Files.h"
 #include "tracking/Camera.h"
 #include "tracking/EffectorCalibration.h"
-#include "tracking/EffectorViews.h"
-#include "tracking/MarkerBody.h"
 #include "tracking/ViewCollector.h"
 
 namespace heft::cli {
@@ -98,7 +96,7 @@ std::string name_of_picture(const CameraPicture& picture) {
 
 void say_progress(const ViewCollector& views) {
   say("{}{} views of {}; {:.0f} % of the picture\n", views.coverage().drawing(), views.size(),
-      ViewCollector::enough, 100 * views.coverage().share());
+      ViewCollector::enough, 100 * views.coverage().fraction());
   if (!views.wanted().empty()) say("next: {}\n", views.wanted());
 }
 
@@ -184,7 +182,7 @@ void calibrate_the_effector(const Options& options) {
     ProgressBar bar("effector");
     while (const auto picture = next_picture(*camera, stop)) {
       views.offer(picture->image, name_of_picture(*picture));
-      bar.update(views.share(), views.counts());
+      bar.update(views.progress(), views.counts());
       if (camera->is_live() ? views.complete() || views.full() : views.full()) break;
     }
   }

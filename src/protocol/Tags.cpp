@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/BoxFaces.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/TagFamily.h"
 
 namespace heft {

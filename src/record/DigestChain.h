@@ -1,5 +1,5 @@
 // Where the next row's digest goes on from. A session's header has a digest of its own; the chain
-// of its events and one chain of pictures for each attempt (and for those outside of attempts)
+// of its events and one chain of frames for each attempt (and for those outside of attempts)
 // start from who took part in what with which seed, and each row's digest takes in the one before.
 // Ids and the date are left out: a session keeps its digests in whatever file it is, and equal
 // simulations have equal ones.

@@ -1,4 +1,4 @@
-// Where a session's events and pictures go: a log on disk (SessionLog) or memory (RecordedSession).
+// Where a session's events and frames go: a log on disk (SessionLog) or memory (RecordedSession).
 // The runner writes to either and can't tell which.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace heft {
 /// order, with the next acknowledged event or within a second. A sink in memory keeps both alike.
 enum class Durability { acknowledged, buffered };
 
-/// Another program keeps the log locked. Nothing is lost: an event or a picture that was given is
+/// Another program keeps the log locked. Nothing is lost: an event or a frame that was given is
 /// kept and written, in its order, by the first flush() that succeeds.
 class LogBusy : public Error {
  public:
@@ -30,7 +30,7 @@ class EventSink {
   ///   it could not be saved yet
   virtual void append(const Event& event, const Changes& changes, Durability durability) = 0;
 
-  /// Takes a displayed picture; pictures keep their order among the events.
+  /// Takes a displayed frame; frames keep their order among the events.
   virtual void add_frame(const FrameRow& frame) = 0;
 
   /// What the participant told about themselves (table participant_info), at once to where it

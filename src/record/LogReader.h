@@ -68,7 +68,7 @@ class LogReader {
   std::vector<AnswerRow> answers(std::int64_t session_id) const;
   std::vector<ReversalRow> reversals(std::int64_t session_id) const;
   std::vector<EstimateRow> estimates(std::int64_t session_id) const;
-  /// @param attempt_index 0: the pictures outside of trials
+  /// @param attempt_index 0: the frames outside of trials
   std::vector<FrameRow> frames(std::int64_t session_id, int attempt_index) const;
 
   /// What the file holds that a log does not; see schema::foreign_objects.

@@ -16,7 +16,7 @@ struct RecordedEvent {
   Changes changes;
 };
 
-/// An event with what it changes, or a displayed picture.
+/// An event with what it changes, or a displayed frame.
 using RecordedEntry = std::variant<RecordedEvent, FrameRow>;
 
 class RecordedSession final : public EventSink {
@@ -33,7 +33,7 @@ class RecordedSession final : public EventSink {
   void flush() override {}
 
   const SessionHeader& header() const { return header_; }
-  /// Events and pictures in the order they came.
+  /// Events and frames in the order they came.
   const std::vector<RecordedEntry>& entries() const { return entries_; }
 
  private:

@@ -13,7 +13,7 @@ class AttemptReplay {
  public:
   AttemptReplay(const Protocol& protocol, const AttemptFold& attempt);
 
-  /// Runs the world to the next logged picture.
+  /// Runs the world to the next logged frame.
   ShownFrame advance(const FrameRow& frame);
 
   /// Lets go of what is still touched when the attempt ends.

@@ -131,7 +131,7 @@ void FrameCheck::check_events(const std::vector<Event>& derived) {
   for (std::size_t i = 0; i < n; ++i) {
     const Event& event = logged[i].event;
     Event came_out = derived[i];
-    // Cubes are shown when the picture is; nothing is logged before what was logged already.
+    // Cubes are shown when the frame is; nothing is logged before what was logged already.
     came_out.t_s =
         came_out.as<CubesShown>() ? event.t_s : std::max(came_out.t_s, logged[i].previous_s);
     if (event != came_out)

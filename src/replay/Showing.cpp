@@ -20,12 +20,12 @@ class Show {
     std::optional<AttemptReplay> what_if;
     if (showing_.what_if) what_if.emplace(*showing_.what_if, attempt);
     for (const FrameRow& frame : frames) {
-      ViewPicture picture;
-      picture.frame = displayed(frame);
-      if (what_if) picture.other_clone = what_if->advance(frame).frame.clone;
+      ViewFrame shown;
+      shown.frame = displayed(frame);
+      if (what_if) shown.other_clone = what_if->advance(frame).frame.clone;
       wait_until(start_s + frame.trial_t_s);
       if (stopped()) return;
-      view_.present(picture, screen_of(attempt.first_plan));
+      view_.present(shown, screen_of(attempt.first_plan));
       ++n_shown_;
     }
   }

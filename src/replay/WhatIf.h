@@ -17,7 +17,7 @@ struct NoticedDifference {
   Noticed logged, would_be;
 };
 
-/// How far bodies end up from where they were logged, over all pictures of one kind of trial.
+/// How far bodies end up from where they were logged, over all frames of one kind of trial.
 struct PathDifference {
   Task task = Task::sorting;
   std::string condition;  ///< technique
@@ -32,7 +32,7 @@ struct PathDifference {
 /// Grams that a meter of lag tells; none where the technique's lag tells no mass.
 std::optional<double> grams_per_lag(const Protocol& protocol, const std::string& technique);
 
-/// Runs the logged effector poses through `protocol`'s physics. Trials without pictures are
+/// Runs the logged effector poses through `protocol`'s physics. Trials without frames are
 /// skipped.
 std::vector<PathDifference> compare_paths(const LogReader& reader, const LoggedSession& session,
                                           const Protocol& protocol);

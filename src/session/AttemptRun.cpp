@@ -13,7 +13,7 @@ constexpr double look_up_s = 0.004;  // a live camera is asked for its next pict
 constexpr double longest_wait_s = 0.02;
 constexpr double late_pictures = 2;  // a picture is late when it is shown so many pictures after it
 
-// What a picture's row of the log takes over from its effector sample.
+// What a frame's row of the log takes over from its picture's effector sample.
 FrameRow row_of(const Picture& picture, double start_s) {
   const TargetSample& sample = picture.sample;
   FrameRow row;
@@ -137,7 +137,7 @@ bool AttemptRun::wait_for_camera(const Picture& picture) {
   }
   if (open && journal_.now_s() - *trouble_since_s_ > parts_.protocol.void_after_s)
     journal_.emit_now(TrialVoided{picture.trouble});
-  ViewPicture nothing;
+  ViewFrame nothing;
   nothing.frame.t_s = picture.sample.t_capture_s;
   nothing.frame.tracked = false;
   screen_.present(nothing, engine().screen());

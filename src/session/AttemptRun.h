@@ -1,4 +1,4 @@
-// One attempt at a trial, from its start to its end: poses in, physics, the picture shown, and what
+// One attempt at a trial, from its start to its end: poses in, physics, the frame shown, and what
 // the participant does.
 #pragma once
 
@@ -49,7 +49,7 @@ class AttemptRun {
   double start_s_ = 0;  // session time
   std::optional<TrialWorld> world_;
   std::optional<double> trouble_since_s_;
-  ViewPicture shown_;
+  ViewFrame shown_;
   std::optional<double> presented_s_;  // session time of the last picture
   int n_continued_ = 0;                // of the journal, when pictures were last listened for
   int n_shown_ = 0, n_dropped_ = 0, n_late_ = 0;

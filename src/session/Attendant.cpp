@@ -10,11 +10,11 @@
 
 namespace heft {
 
-std::optional<double> ParticipantScreen::present(const ViewPicture& picture,
+std::optional<double> ParticipantScreen::present(const ViewFrame& frame,
                                                  const ScreenState& screen) {
   if (texts_) log_text(text_page(screen.screen, screen.task));
   shown_ = screen;
-  return view_.present(picture, screen);
+  return view_.present(frame, screen);
 }
 
 void ParticipantScreen::log_text(const std::string& page) {

@@ -23,7 +23,7 @@ class ParticipantScreen {
       : journal_(journal), view_(view), texts_(texts) {}
 
   /// As ArView::present; logs the screen's text unless it is the one that stands there already.
-  std::optional<double> present(const ViewPicture& picture, const ScreenState& screen);
+  std::optional<double> present(const ViewFrame& frame, const ScreenState& screen);
 
   std::vector<Touch> wait(double seconds) { return view_.wait(seconds); }
 

@@ -58,7 +58,7 @@ Demonstration::Demonstration(const Protocol& protocol, const Apparatus& apparatu
   last_.camera_from_board = camera_settings().camera_from_board;
 }
 
-ViewPicture Demonstration::at(double t_s) {
+ViewFrame Demonstration::at(double t_s) {
   const std::uint64_t before = count_;
   while (static_cast<double>(count_) * step_s_ <= t_s) advance();
   if (camera_ && count_ > before) film();

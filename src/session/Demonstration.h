@@ -20,8 +20,8 @@ class Demonstration {
   Demonstration(const Protocol& protocol, const Apparatus& apparatus, std::uint64_t seed);
   Demonstration(Protocol&&, const Apparatus&, std::uint64_t) = delete;
 
-  /// The picture at a time since its start; times increase.
-  ViewPicture at(double t_s);
+  /// The frame at a time since its start; times increase.
+  ViewFrame at(double t_s);
 
  private:
   void advance();
@@ -33,7 +33,7 @@ class Demonstration {
   TrialWorld world_;
   std::optional<SyntheticCamera> camera_;
   std::uint64_t count_ = 0;  // of pictures so far
-  ViewPicture last_;
+  ViewFrame last_;
 };
 
 }  // namespace heft

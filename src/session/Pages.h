@@ -41,10 +41,10 @@ class Pages {
   void thanks();
 
  private:
-  using Moving = std::function<ViewPicture(double t_s)>;
+  using Moving = std::function<ViewFrame(double t_s)>;
 
   /// @return the touch that ended it: next, decline, or close when the session is left
-  TouchKind show(ScreenState screen, double least_s = 0, const Moving& picture_at = {});
+  TouchKind show(ScreenState screen, double least_s = 0, const Moving& frame_at = {});
   TouchKind show(Screen screen) { return show(ScreenState{.screen = screen}); }
 
   const Protocol& protocol_;

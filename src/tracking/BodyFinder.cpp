@@ -13,18 +13,14 @@ constexpr double usual_blur_px = 0.65;
 constexpr double least_expected_edge_px = 9;
 constexpr double least_agreement = 0.85;  // of the data cells of a tag that no detector read
 
-// Adds the time from its making to its end.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& sum_s) : sum_s_(sum_s), start_s_(monotonic_s()) {}
-  ~Stopwatch() { sum_s_ += monotonic_s() - start_s_; }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& sum_s_;
-  double start_s_;
-};
+// Adds the time that it takes.
+template <typename Work>
+auto timed(double& sum_s, const Work& work) {
+  const double start_s = monotonic_s();
+  auto result = work();
+  sum_s += monotonic_s() - start_s;
+  return result;
+}
 
 // Seen from its front, with all corners well in the picture and edges long enough to measure.
 bool measurable(const Intrinsics& camera, const Corners& c) {
@@ -66,7 +62,7 @@ BodyFinder::BodyFinder(const Intrinsics& camera, const MarkerBody& body,
       body_(body),
       settings_(settings),
       most_edge_pixels_(most_edge_pixels),
-      looks_(looks_of(body)),
+      patterns_(patterns_of(body)),
       blur_px_(usual_blur_px) {}
 
 std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<DetectedTag>& detected,
@@ -74,40 +70,24 @@ std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<Det
                                         TrackerTimes& times) {
   const BiasPrior bias = prior_for(settings_, prior);
   std::vector<bool> done(body_.tags.size(), false);
-  std::vector<TagObservation> tags;
-  {
-    const Stopwatch watch(times.refine_s);
-    tags = measure_detected(gray, detected, done);
-  }
-  std::optional<BodyFit> fit;
-  {
-    const Stopwatch watch(times.pose_s);
-    fit = solve_body(tags, expected, bias);
-  }
+  auto tags = timed(times.refine_s, [&] { return measure_detected(gray, detected, done); });
+  const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
   if (!fit || !settings_.refine_edges) return fit;
-  std::vector<TagObservation> more;
-  {
-    const Stopwatch watch(times.refine_s);
-    more = measure_expected(gray, fit->camera_from_body, done);
-  }
+  const auto more =
+      timed(times.refine_s, [&] { return measure_expected(gray, fit->camera_from_body, done); });
   if (more.empty()) return fit;
   tags.insert(tags.end(), more.begin(), more.end());
-  const Stopwatch watch(times.pose_s);
-  return solve_body(tags, fit->camera_from_body, bias);
+  return timed(times.pose_s, [&] { return solve_body(tags, fit->camera_from_body, bias); });
 }
 
 std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& expected,
                                               int least_tags, const BiasPrior& prior,
                                               TrackerTimes& times) {
   std::vector<bool> done(body_.tags.size(), false);
-  std::vector<TagObservation> tags;
-  {
-    const Stopwatch watch(times.refine_s);
-    tags = measure_expected(gray, expected, done);
-  }
+  const auto tags = timed(times.refine_s, [&] { return measure_expected(gray, expected, done); });
   if (static_cast<int>(tags.size()) < least_tags) return std::nullopt;
-  const Stopwatch watch(times.pose_s);
-  const auto fit = solve_body(tags, expected, prior_for(settings_, prior));
+  const BiasPrior bias = prior_for(settings_, prior);
+  const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
   return fit && fit->n_tags >= least_tags ? fit : std::nullopt;
 }
 
@@ -123,7 +103,7 @@ std::vector<TagObservation> BodyFinder::measure_detected(const Image& gray,
       tags.push_back(unrefined(index, found.corners_px));
     } else {
       const auto seen = observe(camera_, *tag, measure(gray, index, found.corners_px),
-                                looks_[index].bright_outside);
+                                patterns_[index].bright_outside);
       const bool good = seen.quality >= settings_.least_quality;
       (good ? tags : fallback).push_back(seen);
       done[index] = good;
@@ -144,7 +124,7 @@ std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,
     const MeasuredTag measured = measure(gray, i, *corners);
     if (measured.quality < settings_.least_quality || measured.agreement < least_agreement)
       continue;
-    tags.push_back(observe(camera_, body_.tags[i], measured, looks_[i].bright_outside));
+    tags.push_back(observe(camera_, body_.tags[i], measured, patterns_[i].bright_outside));
     done[i] = true;
   }
   return tags;
@@ -152,7 +132,7 @@ std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,
 
 MeasuredTag BodyFinder::measure(const Image& gray, std::size_t tag, const Corners& corners_px) {
   const MeasuredTag seen =
-      measure_tag(gray, camera_, looks_[tag], corners_px, blur_px_, most_edge_pixels_);
+      measure_tag(gray, camera_, patterns_[tag], corners_px, blur_px_, most_edge_pixels_);
   // Clipped edges look more blurred than they are: learning from them, the blur would grow.
   if (seen.quality < settings_.least_quality || seen.saturated > 0) return seen;
   double sum = 0;
@@ -163,7 +143,8 @@ MeasuredTag BodyFinder::measure(const Image& gray, std::size_t tag, const Corner
 }
 
 TagObservation BodyFinder::unrefined(std::size_t tag, const Corners& corners_px) const {
-  return observe(camera_, body_.tags[tag], unrefined_tag(corners_px), looks_[tag].bright_outside);
+  return observe(camera_, body_.tags[tag], unrefined_tag(corners_px),
+                 patterns_[tag].bright_outside);
 }
 
 }  // namespace heft

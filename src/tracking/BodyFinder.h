@@ -10,13 +10,27 @@
 #include "base/Image.h"
 #include "tracking/BodyPose.h"
 #include "tracking/TagDetector.h"
-#include "tracking/Tracker.h"
 
 namespace heft {
 
+struct TrackerSettings {
+  /// Detection on a picture smaller by this factor; 0: 1 up to 800 pixels wide, 1.5 above.
+  double decimate = 0;
+  bool refine_edges = true;  ///< false: the detector's own corners
+  bool remove_bias = true;   ///< the edge bias that blur and the tone curve cause
+  /// Look where things were in the last picture, and everywhere only when they are not there.
+  bool region_of_interest = true;
+  double least_quality = 0.85;  ///< of a tag's edges, 0...1
+};
+
+/// Where the time of a picture went, seconds.
+struct TrackerTimes {
+  double detect_s = 0, refine_s = 0, pose_s = 0;
+};
+
 class BodyFinder {
  public:
-  /// @throws Error as looks_of in TagEdges.h
+  /// @throws Error as tag_pattern
   BodyFinder(const Intrinsics& camera, const MarkerBody& body, const TrackerSettings& settings,
              int most_edge_pixels);
 
@@ -45,7 +59,7 @@ class BodyFinder {
   MarkerBody body_;
   TrackerSettings settings_;
   int most_edge_pixels_;
-  std::vector<TagLook> looks_;
+  std::vector<TagPattern> patterns_;
   double blur_px_;  ///< of this body's edges in the last picture
 };
 

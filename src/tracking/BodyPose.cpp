@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/BoxFaces.h"
-#include "tracking/EdgeAdjustment.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/PlanarPose.h"
 
 namespace heft {
@@ -21,6 +20,11 @@ constexpr double saturated_quality = 0.4;
 // What halves the quality: residuals, and how uncertain the body's place is, which for a single
 // small or slanted tag is several times what it is for tags on two faces.
 constexpr double halved_at_px = 1.0, halved_at_m = 0.0005;
+// ... and where its farthest corner may be, which a wrong tilt takes away: with a pose that leaves
+// it open by a centimeter nothing can be done.
+constexpr double halved_at_end_m = 0.002;
+constexpr double same_pose_rad = 0.01;
+constexpr double expected_sd_rad = 0.1;  // of a turn that was foreseen a picture before
 
 TagObservation::Edge observe_edge(const Intrinsics& camera, const FittedEdge& edge) {
   TagObservation::Edge seen;
@@ -90,12 +94,48 @@ std::vector<Start> starts(const std::vector<TagObservation>& tags,
   return distinct;
 }
 
+Eigen::Vector3d farthest_corner_m(const std::vector<TagObservation>& tags) {
+  Eigen::Vector3d farthest = Eigen::Vector3d::Zero();
+  for (const TagObservation& tag : tags)
+    for (const Eigen::Vector3d& corner_m : tag.corners_m)
+      if (corner_m.squaredNorm() > farthest.squaredNorm()) farthest = corner_m;
+  return farthest;
+}
+
+// How likely a pose is beside the chosen one, at most 1, by what they cost and by what was expected
+// where that speaks for the chosen one. Costs count half: what is wrong with edges is not noise
+// alone.
+double likelihood(const BodyFit& other, const BodyFit& best, double scale,
+                  const std::optional<Pose>& previous) {
+  double exponent = std::max(0.0, (other.cost - best.cost) / scale / 2);
+  if (previous) {
+    const double other_rad = angle_between(other.camera_from_body, *previous);
+    const double best_rad = angle_between(best.camera_from_body, *previous);
+    exponent += std::max(0.0, other_rad * other_rad - best_rad * best_rad) /
+                (expected_sd_rad * expected_sd_rad);
+  }
+  return std::exp(-exponent / 2);
+}
+
+double spread_m2(const std::vector<BodyFit>& fits, const BodyFit& best, double scale,
+                 const std::vector<TagObservation>& tags, const std::optional<Pose>& previous) {
+  const Eigen::Vector3d end_m = farthest_corner_m(tags);
+  double spread = 0;
+  for (const BodyFit& other : fits) {
+    const Pose &there = other.camera_from_body, &here = best.camera_from_body;
+    if (angle_between(there, here) > same_pose_rad)
+      spread = std::max(spread, likelihood(other, best, scale, previous) *
+                                    (there * end_m - here * end_m).squaredNorm());
+  }
+  return spread;
+}
+
 // The cheapest; among those that the picture can't tell apart, the one nearest to what was
 // expected.
-BodyFit decided(std::vector<BodyFit> fits, const std::optional<Pose>& previous,
-                std::size_t n_tags) {
+BodyFit decided(std::vector<BodyFit> fits, const std::vector<TagObservation>& tags,
+                const std::optional<Pose>& previous) {
   std::ranges::sort(fits, {}, &BodyFit::cost);
-  const double scale = std::max(1.0, fits[0].cost / static_cast<double>(8 * n_tags));
+  const double scale = std::max(1.0, fits[0].cost / static_cast<double>(8 * tags.size()));
   BodyFit best = fits[0];
   bool ambiguous = false;
   for (const BodyFit& other : fits) {
@@ -107,6 +147,7 @@ BodyFit decided(std::vector<BodyFit> fits, const std::optional<Pose>& previous,
       best = other;
   }
   best.ambiguous = ambiguous;
+  best.spread_m2 = spread_m2(fits, best, scale, tags, previous);
   return best;
 }
 
@@ -114,7 +155,7 @@ BodyFit fit_all(const std::vector<TagObservation>& tags, const std::vector<Start
                 const std::optional<Pose>& previous, const BiasPrior& prior) {
   std::vector<BodyFit> fits;
   for (const Start& start : from) fits.push_back(adjust(tags, start.pose, prior));
-  return decided(std::move(fits), previous, tags.size());
+  return decided(std::move(fits), tags, previous);
 }
 
 // Tags that the fit leaves far off: read wrongly, or measured on something else.
@@ -150,9 +191,14 @@ double quality_of(const std::vector<TagObservation>& tags, const BodyFit& fit) {
     sum += tag.quality * (1 - tag.saturated * (1 - saturated_quality));
   const auto halving = [](double squared) { return 1 / (1 + squared); };
   const double place_variance_m2 = fit.covariance.bottomRightCorner<3, 3>().trace();
+  // Of the farthest corner, which two of three turns move.
+  const double end_variance_m2 =
+      place_variance_m2 + fit.spread_m2 +
+      fit.covariance.topLeftCorner<3, 3>().trace() * 2 / 3 * farthest_corner_m(tags).squaredNorm();
   return sum / static_cast<double>(tags.size()) * (fit.ambiguous ? 0.5 : 1) *
          halving(fit.rms_px * fit.rms_px / (halved_at_px * halved_at_px)) *
-         halving(place_variance_m2 / (halved_at_m * halved_at_m));
+         halving(place_variance_m2 / (halved_at_m * halved_at_m)) *
+         halving(end_variance_m2 / (halved_at_end_m * halved_at_end_m));
 }
 }  // namespace
 

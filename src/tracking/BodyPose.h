@@ -53,8 +53,11 @@ struct BodyFit {
   int n_faces = 0;    ///< directions that they face
   /// A second pose, far from this one, fits nearly as well: a flat body seen from afar.
   bool ambiguous = false;
-  /// Mean of its tags', halved where ambiguous or where their white is clipped, less where rms_px
-  /// or the shift's covariance is large.
+  /// How far the tags' farthest corner is elsewhere in other poses that fit, near or far, squared
+  /// and weighted by how likely they are beside this one.
+  double spread_m2 = 0;
+  /// Mean of its tags', halved where ambiguous or where their white is clipped, less where rms_px,
+  /// the covariance or the spread is large.
   double quality = 0;
 };
 
@@ -63,5 +66,11 @@ struct BodyFit {
 ///   others are left out.
 std::optional<BodyFit> solve_body(const std::vector<TagObservation>& tags,
                                   const std::optional<Pose>& previous, const BiasPrior& prior);
+
+/// The pose and bias with the smallest robust cost near `start`, with rms_px and cost filled in.
+BodyFit adjust(const std::vector<TagObservation>& tags, const Pose& start, const BiasPrior& prior);
+
+/// Root mean square distance of a tag's measured points from its edges, pixels.
+double tag_rms_px(const TagObservation& tag, const BodyFit& fit);
 
 }  // namespace heft

@@ -30,7 +30,7 @@ void Coverage::add(const TagView& view, int width_px, int height_px) {
     }
 }
 
-double Coverage::share() const {
+double Coverage::fraction() const {
   int n = 0;
   for (const auto& row : corners) n += static_cast<int>(row.size() - std::ranges::count(row, 0));
   return static_cast<double>(n) / (columns * rows);
@@ -91,9 +91,9 @@ std::vector<std::string> doubts(const CameraCalibration& calibration) {
   const double relative_focal_sd = calibration.focal_sd_px / calibration.camera.fx_px;
   doubt(calibration.n_used() < enough_views,
         fmt::format("{} views are few; take {} or more", calibration.n_used(), enough_views));
-  doubt(calibration.coverage.share() < enough_coverage,
+  doubt(calibration.coverage.fraction() < enough_coverage,
         fmt::format("the board was in {:.0f} % of the picture; take views with it in {}",
-                    100 * calibration.coverage.share(), calibration.coverage.emptiest()));
+                    100 * calibration.coverage.fraction(), calibration.coverage.emptiest()));
   doubt(calibration.tilt_range_rad() < enough_tilt_rad,
         fmt::format("views differ by {:.0f} degrees at most; tilt the board (or the camera) to all "
                     "sides, by 30 degrees or so",
@@ -116,7 +116,7 @@ std::string summary(const CameraCalibration& calibration) {
       "{} views used of {}, reprojection {:.3f} px rms, standard errors: focal length {:.2f} px, "
       "center {:.2f} px\nboard seen in {:.0f} % of the picture, tilts differ by {:.0f} degrees\n",
       calibration.n_used(), calibration.views.size(), calibration.rms_px, calibration.focal_sd_px,
-      calibration.center_sd_px, 100 * calibration.coverage.share(),
+      calibration.center_sd_px, 100 * calibration.coverage.fraction(),
       calibration.tilt_range_rad() * degrees);
   const auto list = doubts(calibration);
   text += list.empty() ? "verdict: good\n" : "verdict: doubtful\n";

@@ -7,7 +7,6 @@
 
 #include "base/Error.h"
 #include "base/PlugTable.h"
-#include "tracking/CameraSources.h"
 
 namespace heft {
 

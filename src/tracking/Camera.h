@@ -88,4 +88,14 @@ std::span<const CameraEntry> cameras();
 ///   Error (usage) for an unknown name; Error for a file or folder without readable pictures
 std::unique_ptr<Camera> open_camera(const std::string& source, const CameraRequest& request = {});
 
+/// @param number N of /dev/videoN
+std::unique_ptr<Camera> open_live_camera(const std::string& number, const CameraRequest& request);
+
+/// Times are the file's own where they increase, else picture number over rate.
+std::unique_ptr<Camera> open_video_file(const std::string& path, const CameraRequest& request);
+
+/// All pictures of a folder in natural order (frame_2 before frame_10). Times from its times.csv
+/// (columns frame and t_s, frame is a file's name) or 30 pictures a second.
+std::unique_ptr<Camera> open_picture_folder(const std::string& path, const CameraRequest& request);
+
 }  // namespace heft

@@ -22,7 +22,7 @@ struct Coverage {
 
   void add(const TagView& view, int width_px, int height_px);
   /// Fraction of cells with any corner.
-  double share() const;
+  double fraction() const;
   /// A line a row, '.' where nothing was seen, 'o' some, '#' much.
   std::string drawing() const;
   /// "the upper left", where the emptiest part is; empty where there is none.

@@ -1,10 +1,9 @@
-#include "tracking/EdgeAdjustment.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/LevenbergMarquardt.h"
 #include "base/Pose.h"
+#include "tracking/BodyPose.h"
 
 namespace heft {
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "base/Error.h"
-#include "tracking/BoxFaces.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/PlanarPose.h"
 #include "tracking/TagBundle.h"
 

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <sstream>
 
@@ -21,26 +19,13 @@ constexpr int largest_side_px = 20000;
 
 class Reader {
  public:
-  Reader(const std::string& text, const std::string& file) : file_(file), text_(text) {
-    if (const auto fault = fault_in_plain_yaml(text)) {
-      mistakes_.push_back({{file_, fault->line, fault->column},
-                           fmt::format("this is no plain YAML: it holds {}; expected a camera file "
-                                       "as heft calibrate camera writes it",
-                                       fault->what)});
-      throw InvalidFile(std::move(mistakes_));
-    }
-    try {
-      const std::string whole = has_heading(text) ? text : heading + text;
-      storage_.open(whole, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-    } catch (const cv::Exception& error) {
-      refuse_syntax(error);
-    } catch (const std::exception& error) {  // lengths that it has miscounted
-      refuse(fmt::format("this is no YAML that OpenCV can read: {}", error.what()));
-    }
-    if (!storage_.isOpened() || !storage_.root().isMap())
-      refuse(
-          "the file has no keys; expected OpenCV's YAML with image_width, image_height, "
-          "camera_matrix and distortion_coefficients");
+  Reader(const std::string& text, const std::string& file)
+      : file_(file), values_(parse_plain_yaml(text, file)) {
+    if (!values_.empty()) return;
+    mistake(
+        "the file has no keys; expected OpenCV's YAML with image_width, image_height, "
+        "camera_matrix and distortion_coefficients");
+    finish();
   }
 
   int side(const char* key) {
@@ -84,7 +69,7 @@ class Reader {
 
   // A number that a file may lack.
   std::optional<double> extra(const char* key, double least, double most, const char* expected) {
-    if (storage_[key].empty()) return std::nullopt;
+    if (!values_.contains(key)) return std::nullopt;
     const std::vector<double> value = numbers(key, expected);
     if (value.size() == 1 && value[0] >= least && value[0] <= most) return value[0];
     if (!value.empty())
@@ -94,8 +79,10 @@ class Reader {
 
   // Its message begins with the key.
   void mistake(std::string message) {
-    const std::string key = message.substr(0, message.find(' '));
-    mistakes_.push_back({place_of(key), std::move(message)});
+    const auto key = values_.find(message.substr(0, message.find(' ')));
+    SourcePlace place{file_};
+    if (key != values_.end()) place = {file_, key->second.line, key->second.column};
+    mistakes_.push_back({place, std::move(message)});
   }
 
   void finish() {
@@ -103,69 +90,24 @@ class Reader {
   }
 
  private:
-  // Files written by hand often lack the first line that OpenCV insists on.
-  static constexpr const char* heading = "%YAML:1.0\n---\n";
-  static constexpr int heading_lines = 2;
-
-  static bool has_heading(const std::string& text) {
-    const auto start = text.find_first_not_of(" \t\r\n");
-    return start != std::string::npos && text[start] == '%';
-  }
-
-  // OpenCV 4.6 puts "(LINE): what" where an exception has its function's name.
-  [[noreturn]] void refuse_syntax(const cv::Exception& error) {
-    int line = 0, length = 0;
-    const bool told = std::sscanf(error.func.c_str(), "(%d): %n", &line, &length) == 1;
-    const std::string what = told && length > 0
-                                 ? error.func.substr(static_cast<std::size_t>(length))
-                                 : "it does not look like one";
-    SourcePlace place{file_};
-    if (told) place.line = std::max(1, line - (has_heading(text_) ? 0 : heading_lines));
-    mistakes_.push_back({place, fmt::format("this is no YAML that OpenCV can read: {}; expected a "
-                                            "camera file as heft calibrate camera writes it",
-                                            what)});
-    throw InvalidFile(std::move(mistakes_));
-  }
-
-  // Where a key is; no line where it is not.
-  SourcePlace place_of(std::string_view key) const {
-    const std::vector<std::string_view> lines = lines_of(text_);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const auto start = lines[i].find_first_not_of(" \t\"");
-      if (start != std::string_view::npos && lines[i].substr(start).starts_with(key))
-        return {file_, static_cast<int>(i) + 1, static_cast<int>(start) + 1};
-    }
-    return {file_};
-  }
-
   // The numbers of a scalar, a list, or a matrix (a map with a list named data).
-  std::vector<double> numbers(const char* key, const char* expected) {
-    cv::FileNode node = storage_[key];
-    if (node.isMap()) node = node["data"];
-    std::vector<double> values;
-    if (node.isInt() || node.isReal()) values.push_back(static_cast<double>(node));
-    bool usable = !node.isString();
-    if (node.isSeq())
-      for (const cv::FileNode& item : node) {
-        usable = usable && (item.isInt() || item.isReal());
-        values.push_back(usable ? static_cast<double>(item) : 0);
-      }
-    usable = usable && std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
-    if (node.empty() || values.empty() || !usable) {
-      mistake(fmt::format("{} {}, expected {}", key, node.empty() ? "is missing" : "is unusable",
-                          expected));
-      return {};
-    }
-    return values;
+  std::vector<double> numbers(const std::string& key, const char* expected) {
+    auto value = values_.find(key + ".data");
+    if (value == values_.end()) value = values_.find(key);
+    std::vector<double> numbers;
+    if (value != values_.end())
+      for (const std::string& scalar : value->second.scalars)
+        numbers.push_back(number_in(scalar).value_or(NAN));
+    const bool usable =
+        !numbers.empty() && std::ranges::none_of(numbers, [](double n) { return std::isnan(n); });
+    if (usable) return numbers;
+    mistake(fmt::format("{} {}, expected {}", key,
+                        value == values_.end() ? "is missing" : "is unusable", expected));
+    return {};
   }
 
-  [[noreturn]] void refuse(std::string message) {
-    mistakes_.push_back({{file_}, std::move(message)});
-    throw InvalidFile(std::move(mistakes_));
-  }
-
-  std::string file_, text_;
-  cv::FileStorage storage_;
+  std::string file_;
+  YamlValues values_;
   std::vector<Mistake> mistakes_;
 };
 

@@ -1,207 +1,75 @@
-// A V4L2 camera through OpenCV.
 #include "tracking/LiveCamera.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdlib>
-#include <opencv2/videoio.hpp>
+#include <chrono>
+#include <exception>
+#include <utility>
 
-#include "base/Clock.h"
 #include "base/Error.h"
-#include "tracking/CameraSources.h"
-#include "tracking/ImageConversion.h"
-#include "tracking/VideoDevices.h"
 
 namespace heft {
 
 namespace {
-constexpr double driver_exposure_s = 1e-4;  // V4L2 counts exposure in 100 microseconds
-constexpr double manual_exposure = 1;       // V4L2_EXPOSURE_MANUAL
-constexpr double first_picture_s = 5;       // some cameras take long to start
-
-// The four letters of a pixel format.
-std::string letters_of(double code) {
-  const auto bits = static_cast<std::uint32_t>(code > 0 ? code : 0);
-  std::string letters;
-  for (int i = 0; i < 4; ++i)
-    if (const auto letter = static_cast<char>(bits >> (8 * i) & 0xff); letter > ' ')
-      letters += letter;
-  return letters;
-}
-
-// Uncompressed where USB 2 has room for it: JPEG's blocks disturb edges.
-double wanted_format(const CameraRequest& request) {
-  const bool fits = request.width_px * request.height_px * request.rate_hz <= 640 * 480 * 30;
-  return fits ? cv::VideoWriter::fourcc('Y', 'U', 'Y', 'V')
-              : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-}
-
-bool takes(const CameraControls& controls, int property, double value) {
-  return controls.set(property, value) && std::abs(controls.get(property) - value) < 0.5;
-}
-
-constexpr std::string_view exposure_drifts =
-    "exposure: the camera chooses it, so in dim light it gets long and fast movements smear; add "
-    "light";
-constexpr std::string_view focus_moves =
-    "focus: if the lens refocuses, the calibration no longer holds; cameras without autofocus are "
-    "fine";
-
-void lock_exposure(const CameraControls& controls, double exposure_s, CameraMode& mode) {
-  const double wanted = std::max(1.0, std::round(exposure_s / driver_exposure_s));
-  const bool manual = takes(controls, cv::CAP_PROP_AUTO_EXPOSURE, manual_exposure);
-  const bool set = manual && controls.set(cv::CAP_PROP_EXPOSURE, wanted);
-  const double got_s = controls.get(cv::CAP_PROP_EXPOSURE) * driver_exposure_s;
-  if (!manual)
-    mode.not_locked.emplace_back(exposure_drifts);
-  else if (!set || got_s > 1.5 * exposure_s)
-    mode.not_locked.push_back(
-        fmt::format("exposure: fixed at {:.1f} ms instead of {:.1f} ms, so "
-                    "fast movements smear more",
-                    1e3 * got_s, 1e3 * exposure_s));
-  else
-    mode.held.exposure_s = got_s;
-  if (mode.held.exposure_s) mode.locked.push_back(fmt::format("exposure {:.1f} ms", 1e3 * got_s));
-}
-
-// A lens that stands elsewhere than it was calibrated at magnifies otherwise.
-void lock_focus(const CameraControls& controls, std::optional<double> wanted, CameraMode& mode) {
-  const bool still = takes(controls, cv::CAP_PROP_AUTOFOCUS, 0);
-  if (wanted && !takes(controls, cv::CAP_PROP_FOCUS, *wanted)) {
-    const double at = controls.get(cv::CAP_PROP_FOCUS);
-    mode.not_locked.push_back(fmt::format(
-        "focus: calibrated at {:g}, but {}, so the calibration may not hold: calibrate once more",
-        *wanted,
-        at < 0 ? std::string("this driver can't set it")
-               : fmt::format("it is at {:g} and the driver does not change that", at)));
-  } else if (!still) {
-    mode.not_locked.emplace_back(focus_moves);
-  } else {
-    // Being sent to where it says it is, a lens is there, and a driver without the control is found
-    // out.
-    const double at = controls.get(cv::CAP_PROP_FOCUS);
-    if (at >= 0 && takes(controls, cv::CAP_PROP_FOCUS, at)) mode.held.focus = at;
-    mode.locked.push_back(mode.held.focus ? fmt::format("focus {:g}", at) : "focus");
-  }
+bool equal(const Image& a, const Image& b) {
+  return a.width == b.width && a.height == b.height && a.channels == b.channels &&
+         a.pixels == b.pixels;
 }
 }  // namespace
 
-double capture_time_s(double driver_s, double arrival_s, double exposure_s) {
-  const bool believable = driver_s <= arrival_s && driver_s > arrival_s - 1;
-  return (believable ? driver_s : arrival_s) - exposure_s / 2;
-}
+LiveCamera::LiveCamera(Grab grab, CameraMode mode, double pause_s)
+    : grab_(std::move(grab)),
+      mode_(std::move(mode)),
+      pause_s_(pause_s),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-void lock_controls(const CameraControls& controls, const CameraRequest& request, CameraMode& mode) {
-  lock_exposure(controls, request.exposure_s, mode);
-  lock_focus(controls, request.focus, mode);
-  if (takes(controls, cv::CAP_PROP_AUTO_WB, 0))
-    mode.locked.push_back("white balance");
-  else
-    mode.not_locked.emplace_back("white balance: colors may drift; tracking does not mind");
-}
-
-namespace {
-
-// The device itself; after the constructor only the grabbing thread touches it.
-class Device {
- public:
-  Device(int number, const CameraRequest& request) : number_(number), request_(request) { open(); }
-
-  bool is_open() const { return capture_.isOpened(); }
-  CameraMode mode();
-
-  // A device that was unplugged is opened again when it is back.
-  std::optional<GrabbedPicture> grab() {
-    cv::Mat picture;
-    if (!is_open() || !capture_.read(picture) || picture.empty()) {
-      capture_.release();
-      open();
-      return std::nullopt;
-    }
-    const double arrival_s = monotonic_s();
-    const double driver_s = capture_.get(cv::CAP_PROP_POS_MSEC) / 1e3;
-    return GrabbedPicture{image_from(picture), capture_time_s(driver_s, arrival_s, exposure_s_)};
-  }
-
- private:
-  void open();
-
-  int number_;
-  CameraRequest request_;
-  cv::VideoCapture capture_;
-  CameraMode locks_;
-  double exposure_s_ = 0;
-};
-
-void Device::open() {
+// An exception that leaves a thread ends the program.
+void LiveCamera::run(const std::stop_token& stop) {
+  std::string failure;
   try {
-    check_device(number_);
-  } catch (const Error&) {
-    return;  // not there at present
+    return grab_until(stop);
+  } catch (const std::exception& error) {
+    failure = error.what();
+  } catch (...) {
+    failure = "for no reason that it told";
   }
-  if (!capture_.open(number_, cv::CAP_V4L2)) return;
-  capture_.set(cv::CAP_PROP_FOURCC, wanted_format(request_));
-  capture_.set(cv::CAP_PROP_FRAME_WIDTH, request_.width_px);
-  capture_.set(cv::CAP_PROP_FRAME_HEIGHT, request_.height_px);
-  capture_.set(cv::CAP_PROP_FPS, request_.rate_hz);
-  locks_ = {};
-  lock_controls({[this](int property, double value) { return capture_.set(property, value); },
-                 [this](int property) { return capture_.get(property); }},
-                request_, locks_);
-  const double said_s = capture_.get(cv::CAP_PROP_EXPOSURE) * driver_exposure_s;
-  exposure_s_ = said_s > 0 && said_s < 0.1 ? said_s : request_.exposure_s;
+  {
+    const std::scoped_lock lock(mutex_);
+    failure_ = failure;
+  }
+  changed_.notify_all();
 }
 
-CameraMode Device::mode() {
-  CameraMode mode = locks_;
-  mode.width_px = static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_WIDTH));
-  mode.height_px = static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_HEIGHT));
-  mode.rate_hz = capture_.get(cv::CAP_PROP_FPS);
-  mode.pixel_format = letters_of(capture_.get(cv::CAP_PROP_FOURCC));
-  return mode;
+void LiveCamera::grab_until(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::optional<GrabbedPicture> picture = grab_();
+    if (picture) {
+      keep(std::move(*picture));
+      continue;
+    }
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, stop, std::chrono::duration<double>(pause_s_), [] { return false; });
+  }
 }
 
-class LiveCamera : public Camera {
- public:
-  LiveCamera(GrabThread::Grab grab, CameraMode mode)
-      : mode_(std::move(mode)), thread_(std::move(grab)) {}
-
-  std::optional<CameraPicture> next(double timeout_s) override { return thread_.next(timeout_s); }
-  bool ended() const override { return false; }
-  CameraMode mode() const override { return mode_; }
-  bool is_live() const override { return true; }
-
- private:
-  CameraMode mode_;
-  GrabThread thread_;
-};
-
-}  // namespace
-
-std::unique_ptr<Camera> live_camera(GrabThread::Grab grab, CameraMode mode) {
-  return std::make_unique<LiveCamera>(std::move(grab), std::move(mode));
+void LiveCamera::keep(GrabbedPicture picture) {
+  if (equal(picture.image, last_)) return;
+  last_ = picture.image;
+  {
+    const std::scoped_lock lock(mutex_);
+    newest_ = {std::move(picture.image), picture.capture_s, n_kept_++, ""};
+  }
+  changed_.notify_all();
 }
 
-std::unique_ptr<Camera> open_live_camera(const std::string& number, const CameraRequest& request) {
-  const int n = device_number(number);
-  check_device(n);
-  // OpenCV waits 10 s for a frozen camera, and a program that ends has to wait with it.
-  setenv("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "1", 0);
-  const auto device = std::make_shared<Device>(n, request);
-  if (!device->is_open())
-    throw Error(fmt::format("the camera /dev/video{} can't be opened: another program may be using "
-                            "it, or it is no camera (many have a second device for their data); "
-                            "cameras here: {}",
-                            n, list_of(video_devices())),
+std::optional<CameraPicture> LiveCamera::next(double timeout_s) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, std::chrono::duration<double>(timeout_s),
+                    [this] { return newest_.has_value() || !failure_.empty(); });
+  if (!newest_ && !failure_.empty())
+    throw Error(fmt::format("the camera failed and gives no more pictures: {}", failure_),
                 ExitCode::device_missing);
-  auto camera = live_camera([device] { return device->grab(); }, device->mode());
-  if (!camera->next(first_picture_s))
-    throw Error(fmt::format("the camera /dev/video{} is there but gives no pictures in {:.0f} s: "
-                            "unplug it and plug it in again, on another port if need be",
-                            n, first_picture_s),
-                ExitCode::device_missing);
-  return camera;
+  return std::exchange(newest_, std::nullopt);
 }
 
 }  // namespace heft

@@ -8,7 +8,6 @@
 #include "tracking/synthetic/FaceDrawing.h"
 #include "tracking/synthetic/FilmedHand.h"
 #include "tracking/synthetic/Sensor.h"
-#include "tracking/synthetic/StillScene.h"
 
 namespace heft {
 

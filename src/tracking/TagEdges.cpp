@@ -1,15 +1,10 @@
 #include "tracking/TagEdges.h"
 
-#include <apriltag/apriltag.h>
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "base/Error.h"
 #include "tracking/PlanarPose.h"
-#include "tracking/TagFamily.h"
 
 namespace heft {
 
@@ -17,19 +12,6 @@ namespace {
 constexpr double unrefined_sd_px = 0.3;
 constexpr double least_edge_quality = 0.6;
 constexpr double relative_blur_sd = 0.1;
-
-TagLook look_of(const apriltag_family& family, int id) {
-  TagLook look{family.width_at_border, !family.reversed_border, {}};
-  const std::uint64_t code = family.codes[id];
-  for (std::uint32_t bit = 0; bit < family.nbits; ++bit) {
-    // Places count from the border's corner, and below 0 outside of it.
-    const Eigen::Vector2d cell(static_cast<int>(family.bit_x[bit]),
-                               static_cast<int>(family.bit_y[bit]));
-    look.data.push_back({(cell + Eigen::Vector2d(0.5, 0.5)) / family.width_at_border,
-                         (code >> (family.nbits - 1 - bit) & 1) != 0});
-  }
-  return look;
-}
 
 using Corners = std::array<Eigen::Vector2d, 4>;
 
@@ -95,31 +77,29 @@ double value_at(const Image& gray, const Eigen::Vector2d& pixel) {
          down * ((1 - right) * below[0] + right * below[1]);
 }
 
-double agreement(const Image& gray, const TagLook& look, const MeasuredTag& tag) {
+double agreement(const Image& gray, const TagPattern& pattern, const MeasuredTag& tag) {
   double middle = 0;
   for (const FittedEdge& edge : tag.edges) middle += (edge.dark + edge.bright) / 8;
   const Eigen::Matrix3d pixel_from_square = square_to(tag.corners_px);
-  const auto agrees = [&](const TagLook::Cell& cell) {
-    return (value_at(gray, through(pixel_from_square, cell.place)) > middle) == cell.white;
+  const int margin = pattern.margin_cells();
+  const auto agrees = [&](const TagPattern::Cell& cell) {
+    const Eigen::Vector2d from_border(cell.column - margin, cell.row - margin);
+    const Eigen::Vector2d place = (from_border + Eigen::Vector2d(0.5, 0.5)) / pattern.border_cells;
+    return (value_at(gray, through(pixel_from_square, place)) > middle) ==
+           pattern.is_white(cell.column, cell.row);
   };
-  return static_cast<double>(std::ranges::count_if(look.data, agrees)) /
-         static_cast<double>(look.data.size());
+  return static_cast<double>(std::ranges::count_if(pattern.data, agrees)) /
+         static_cast<double>(pattern.data.size());
 }
 }  // namespace
 
-std::vector<TagLook> looks_of(const MarkerBody& body) {
-  const TagFamilyHandle family = make_tag_family(body.family);
-  std::vector<TagLook> looks;
-  for (const Tag& tag : body.tags) {
-    if (tag.id < 0 || tag.id >= static_cast<int>(family->ncodes))
-      throw Error(fmt::format("{} has no tag {}: its ids are 0 to {}", body.family, tag.id,
-                              family->ncodes - 1));
-    looks.push_back(look_of(*family, tag.id));
-  }
-  return looks;
+std::vector<TagPattern> patterns_of(const MarkerBody& body) {
+  std::vector<TagPattern> patterns;
+  for (const Tag& tag : body.tags) patterns.push_back(tag_pattern(body.family, tag.id));
+  return patterns;
 }
 
-MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagLook& look,
+MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPattern& pattern,
                         const Corners& corners_px, double blur_px, int most_pixels) {
   const Eigen::Matrix3d pixel_from_square = square_to(corners_px);
   MeasuredTag tag = unrefined_tag(corners_px);
@@ -129,9 +109,9 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagLo
     guess.start_px = corners_px[i];
     guess.end_px = corners_px[(i + 1) % 4];
     guess.sag_px = sag_px(camera, guess.start_px, guess.end_px);
-    guess.cell_px = cell_px(pixel_from_square, look.border_cells, i);
+    guess.cell_px = cell_px(pixel_from_square, pattern.border_cells, i);
     guess.blur_px = blur_px;
-    guess.bright_outside = look.bright_outside;
+    guess.bright_outside = pattern.bright_outside;
     take_edge(tag.edges[i], fit_edge(gray, guess, most_pixels));
   }
   if (std::ranges::all_of(tag.edges, tells_blur))
@@ -144,7 +124,7 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagLo
   }
   for (std::size_t i = 0; i < 4; ++i)
     tag.corners_px[i] = crossing(tag.edges[(i + 3) % 4], tag.edges[i]);
-  tag.agreement = agreement(gray, look, tag);
+  tag.agreement = agreement(gray, pattern, tag);
   return tag;
 }
 

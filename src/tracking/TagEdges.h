@@ -7,23 +7,13 @@
 
 #include "tracking/EdgeFit.h"
 #include "tracking/MarkerBody.h"
+#include "tracking/TagFamily.h"
 
 namespace heft {
 
-/// What measuring needs to know of a printed tag. Made from libapriltag's families.
-struct TagLook {
-  struct Cell {
-    Eigen::Vector2d place;  ///< 0...1 between the detected corners, from the top left
-    bool white;
-  };
-  int border_cells = 8;
-  bool bright_outside = true;  ///< of the detected border
-  std::vector<Cell> data;      ///< the cells that tell tags apart
-};
-
 /// One for each tag of a body, in its order.
-/// @throws Error (usage) for a family that there is not; Error for an id that it does not have
-std::vector<TagLook> looks_of(const MarkerBody& body);
+/// @throws Error as tag_pattern
+std::vector<TagPattern> patterns_of(const MarkerBody& body);
 
 struct MeasuredTag {
   std::array<Eigen::Vector2d, 4> corners_px;  ///< where the edges meet
@@ -36,7 +26,7 @@ struct MeasuredTag {
 
 /// Edges that are hidden or not there are left where they are expected, with a wide error.
 /// @param corners_px where they are expected, within half a cell  @param most_pixels an edge
-MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagLook& look,
+MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPattern& pattern,
                         const std::array<Eigen::Vector2d, 4>& corners_px, double blur_px,
                         int most_pixels);
 

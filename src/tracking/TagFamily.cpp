@@ -42,18 +42,18 @@ constexpr std::array families{
 
 // Seen from the outside inwards: cells that carry no bit (corners of round tags) are paper, then a
 // ring around the detected border and the border itself, one white, one black.
-bool is_white_without_bits(const TagPattern& pattern, bool reversed_border, int column, int row) {
+bool is_white_without_bits(const TagPattern& pattern, int column, int row) {
   const int from_edge =
       std::min({column, row, pattern.n_cells - 1 - column, pattern.n_cells - 1 - row});
   const int from_border = from_edge - pattern.margin_cells();
   if (from_border < -1) return true;
-  return from_border == (reversed_border ? 0 : -1);
+  return from_border == (pattern.bright_outside ? -1 : 0);
 }
 
-void paint_borders(TagPattern& pattern, bool reversed_border) {
+void paint_borders(TagPattern& pattern) {
   for (int row = 0; row < pattern.n_cells; ++row)
     for (int column = 0; column < pattern.n_cells; ++column)
-      pattern.white.push_back(is_white_without_bits(pattern, reversed_border, column, row));
+      pattern.white.push_back(is_white_without_bits(pattern, column, row));
 }
 
 // Bits count from the code's most significant one; their places, from the detected border.
@@ -62,6 +62,7 @@ void paint_bits(TagPattern& pattern, const apriltag_family_t& family, std::uint6
   for (std::uint32_t bit = 0; bit < family.nbits; ++bit) {
     const int column = static_cast<int>(family.bit_x[bit]) + margin;
     const int row = static_cast<int>(family.bit_y[bit]) + margin;
+    pattern.data.push_back({column, row});
     pattern.white[static_cast<std::size_t>(row * pattern.n_cells + column)] =
         (code >> (family.nbits - 1 - bit) & 1) != 0;
   }
@@ -88,8 +89,9 @@ TagPattern tag_pattern(const std::string& family, int id) {
   const auto n_tags = static_cast<int>(handle->ncodes);
   if (id < 0 || id >= n_tags)
     throw Error(fmt::format("{} has no tag {}: its ids are 0 to {}", family, id, n_tags - 1));
-  TagPattern pattern{handle->total_width, handle->width_at_border, {}};
-  paint_borders(pattern, handle->reversed_border);
+  TagPattern pattern{
+      handle->total_width, handle->width_at_border, !handle->reversed_border, {}, {}};
+  paint_borders(pattern);
   paint_bits(pattern, *handle, handle->codes[id]);
   return pattern;
 }

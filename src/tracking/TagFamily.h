@@ -14,10 +14,15 @@ namespace heft {
 
 /// What is printed: n_cells x n_cells squares, the quiet zone or outer data ring included.
 struct TagPattern {
+  struct Cell {
+    int column, row;
+  };
   int n_cells = 0;
   /// The detected corners are those of the border_cells x border_cells squares in the middle.
   int border_cells = 0;
-  std::vector<bool> white;  ///< rows from the top
+  bool bright_outside = true;  ///< of the detected border
+  std::vector<bool> white;     ///< rows from the top
+  std::vector<Cell> data;      ///< the cells that tell tags apart
 
   bool is_white(int column, int row) const {
     return white[static_cast<std::size_t>(row * n_cells + column)];

@@ -2,10 +2,8 @@
 
 #include <Eigen/LU>
 #include <limits>
-#include <map>
 
 #include "tracking/ImageConversion.h"
-#include "tracking/TagDetector.h"
 #include "tracking/TagEdges.h"
 
 namespace heft {
@@ -24,28 +22,18 @@ bool near_detected(const MeasuredTag& measured, const DetectedTag& detected) {
 }
 }  // namespace
 
-struct TagViewer::Impl {
-  TagDetector detector;
-  std::vector<TagLook> looks;
-  std::map<int, std::size_t> place;  ///< of an id among the body's tags
-
-  explicit Impl(const MarkerBody& body) : detector(body.family, 1), looks(looks_of(body)) {
-    for (std::size_t i = 0; i < body.tags.size(); ++i) place[body.tags[i].id] = i;
-  }
-};
-
-TagViewer::TagViewer(const MarkerBody& body) : impl_(std::make_unique<Impl>(body)) {}
-TagViewer::~TagViewer() = default;
-TagViewer::TagViewer(TagViewer&&) noexcept = default;
-TagViewer& TagViewer::operator=(TagViewer&&) noexcept = default;
+TagViewer::TagViewer(const MarkerBody& body)
+    : detector_(body.family, 1), patterns_(patterns_of(body)) {
+  for (std::size_t i = 0; i < body.tags.size(); ++i) place_[body.tags[i].id] = i;
+}
 
 TagView TagViewer::view(const Image& image, const Intrinsics& camera) {
   const Image gray = gray_of(image);
   TagView view;
-  for (const DetectedTag& detected : impl_->detector.detect(gray, whole(gray))) {
-    const auto known = impl_->place.find(detected.id);
-    if (known == impl_->place.end()) continue;
-    const MeasuredTag measured = measure_tag(gray, camera, impl_->looks[known->second],
+  for (const DetectedTag& detected : detector_.detect(gray, whole(gray))) {
+    const auto known = place_.find(detected.id);
+    if (known == place_.end()) continue;
+    const MeasuredTag measured = measure_tag(gray, camera, patterns_[known->second],
                                              detected.corners_px, usual_blur_px, most_edge_pixels);
     if (measured.quality >= least_quality && near_detected(measured, detected))
       view.tags.push_back({known->second, measured.corners_px});

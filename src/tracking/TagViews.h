@@ -4,12 +4,14 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <memory>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "base/Image.h"
 #include "tracking/MarkerBody.h"
+#include "tracking/TagDetector.h"
+#include "tracking/TagFamily.h"
 
 namespace heft {
 
@@ -29,17 +31,14 @@ class TagViewer {
  public:
   /// @throws Error for a family that the detector does not have
   explicit TagViewer(const MarkerBody& body);
-  ~TagViewer();
-  TagViewer(TagViewer&&) noexcept;
-  TagViewer& operator=(TagViewer&&) noexcept;
-
   /// Tags with four clear edges. @param image 1 or 3 channels  @param camera how far the lens bends
   /// edges; a guess without distortion does for choosing pictures
   TagView view(const Image& image, const Intrinsics& camera);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  TagDetector detector_;
+  std::vector<TagPattern> patterns_;
+  std::map<int, std::size_t> place_;  ///< of an id among the body's tags
 };
 
 /// How far a view is from another: the mean way of the corners that both have, pixels; infinite

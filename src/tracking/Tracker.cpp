@@ -8,9 +8,7 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "tracking/BodyFinder.h"
 #include "tracking/ImageConversion.h"
-#include "tracking/TagDetector.h"
 
 namespace heft {
 
@@ -52,23 +50,10 @@ Pose normalized(Pose pose) {
   return pose;
 }
 
-struct SeenEffector {
-  double t_s;
-  Pose board_from_effector;
-  Velocity velocity;
-
-  Pose expected_at(double then_s) const {
-    const double dt_s = then_s - t_s;
-    return {board_from_effector.position_m + dt_s * velocity.linear_m_s,
-            (rotation_from_vector(dt_s * velocity.angular_rad_s) * board_from_effector.orientation)
-                .normalized()};
-  }
-};
-
-bool could_have_moved(const SeenEffector& from, const Pose& to, double dt_s) {
+bool could_have_moved(const Pose& from, const Pose& to, double dt_s) {
   if (dt_s > longest_gap_s) return false;
-  const double way_m = (to.position_m - from.board_from_effector.position_m).norm();
-  const double turn_rad = to.orientation.angularDistance(from.board_from_effector.orientation);
+  const double way_m = (to.position_m - from.position_m).norm();
+  const double turn_rad = to.orientation.angularDistance(from.orientation);
   return way_m < fastest_m_s * dt_s + jitter_m && turn_rad < fastest_rad_s * dt_s + jitter_rad;
 }
 
@@ -108,151 +93,133 @@ void require_own_tags(const MarkerBody& board, const MarkerBody& effector) {
 }
 }  // namespace
 
-struct Tracker::Impl {
-  Impl(const Apparatus& apparatus, const TrackerSettings& how)
-      : camera(apparatus.camera),
-        settings(how),
-        board(camera, apparatus.board, how, board_edge_pixels),
-        effector(camera, apparatus.effector, how, effector_edge_pixels) {
-    const double decimate = how.decimate > 0 ? how.decimate : camera.width_px <= 800 ? 1 : 1.5;
-    detectors.emplace_back(apparatus.board.family, decimate);
-    if (has_effector() && apparatus.effector.family != apparatus.board.family)
-      detectors.emplace_back(apparatus.effector.family, decimate);
-  }
-
-  bool has_effector() const { return !effector.body().tags.empty(); }
-
-  std::vector<DetectedTag> detect(TagDetector& detector, const Region& region,
-                                  EdgeSearch search = EdgeSearch::above_noise) {
-    const double start_s = monotonic_s();
-    std::vector<DetectedTag> tags = detector.detect(gray, region, search);
-    // Of two tags with one id the one that was read more clearly counts.
-    std::ranges::sort(tags, std::greater{}, &DetectedTag::decision_margin);
-    std::ranges::stable_sort(tags, {}, &DetectedTag::id);
-    const auto repeated = std::ranges::unique(tags, {}, &DetectedTag::id);
-    tags.erase(repeated.begin(), repeated.end());
-    result.times.detect_s += monotonic_s() - start_s;
-    return tags;
-  }
-
-  // Everywhere, once a picture.
-  const std::vector<DetectedTag>& all_board_tags() {
-    if (!board_family_tags) board_family_tags = detect(detectors.front(), whole(gray));
-    return *board_family_tags;
-  }
-
-  std::vector<DetectedTag> all_effector_tags() {
-    if (detectors.size() == 1 && board_family_tags) return *board_family_tags;
-    if (n_unseen < pictures_searched_whole || !settings.region_of_interest)
-      return detectors.size() == 1 ? all_board_tags() : detect(detectors.back(), whole(gray));
-    return detect(detectors.back(), half_of(gray, n_unseen % 2 == 0));
-  }
-
-  std::optional<BodyFit> find_board() {
-    if (settings.region_of_interest && settings.refine_edges && last_board) {
-      const int least_tags = std::max(1, (last_n_board_tags + 1) / 2);
-      const auto fit = board.find_again(gray, *last_board, least_tags, unknown_bias, result.times);
-      // A single tag tells too little to go on without reading it.
-      if (fit && fit->n_tags > 1) return fit;
-    }
-    const auto fit = board.find(gray, all_board_tags(), last_board, unknown_bias, result.times);
-    if (fit) return fit;
-    // Nothing goes on without the board, so a shadow over it is worth the time.
-    board_family_tags = detect(detectors.front(), whole(gray), EdgeSearch::everywhere);
-    return board.find(gray, *board_family_tags, last_board, unknown_bias, result.times);
-  }
-
-  std::optional<BodyFit> find_effector(const BodyFit& seen_board, double t_s) {
-    const BiasPrior prior = bias_of_effector(seen_board);
-    std::optional<Pose> expected;
-    if (seen && t_s - seen->t_s <= longest_gap_s)
-      expected = normalized(seen_board.camera_from_body * seen->expected_at(t_s));
-    if (settings.region_of_interest && expected && !board_family_tags) {
-      const Region region = region_around(camera, effector.body(), *expected);
-      const auto fit =
-          effector.find(gray, detect(detectors.back(), region), expected, prior, result.times);
-      if (fit) return fit;
-    }
-    return effector.find(gray, all_effector_tags(), expected, prior, result.times);
-  }
-
-  void take_board(const std::optional<BodyFit>& fit) {
-    last_board.reset();
-    if (!fit) return;
-    last_board = result.camera_from_board = fit->camera_from_body;
-    last_n_board_tags = result.n_board_tags = fit->n_tags;
-    result.board_reprojection_px = fit->rms_px;
-    result.edge_bias_px = fit->bias_px;
-    if (!has_effector()) result.quality = fit->quality;
-  }
-
-  void take_effector(const BodyFit& fit, double t_s) {
-    const Pose pose = normalized(result.camera_from_board->inverse() * fit.camera_from_body);
-    const double dt_s = seen ? t_s - seen->t_s : 0;
-    result.jump = !seen || !could_have_moved(*seen, pose, dt_s);
-    n_unseen = 0;
-    const bool moves_on = !result.jump && dt_s > 0;
-    seen = SeenEffector{
-        t_s, pose, moves_on ? mean_velocity(seen->board_from_effector, pose, dt_s) : Velocity{}};
-    result.board_from_effector = pose;
-    result.n_effector_tags = fit.n_tags;
-    result.n_effector_faces = fit.n_faces;
-    result.effector_reprojection_px = fit.rms_px;
-    result.quality = fit.quality;
-  }
-
-  Intrinsics camera;
-  TrackerSettings settings;
-  BodyFinder board, effector;
-  std::vector<TagDetector> detectors;  ///< one, or the board's and the effector's
-
-  // Of the picture at hand.
-  Image gray;
-  std::optional<std::vector<DetectedTag>> board_family_tags;
-  TrackedPicture result;
-
-  // Of the pictures before it.
-  std::optional<Pose> last_board;
-  int last_n_board_tags = 0;
-  std::optional<SeenEffector> seen;
-  int n_unseen = 0;  ///< pictures since, or since the start
-};
-
-Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings) {
+Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings)
+    : camera_(apparatus.camera),
+      settings_(settings),
+      board_(camera_, apparatus.board, settings, board_edge_pixels),
+      effector_(camera_, apparatus.effector, settings, effector_edge_pixels) {
   require_own_tags(apparatus.board, apparatus.effector);
-  impl_ = std::make_unique<Impl>(apparatus, settings);
+  const double decimate = settings.decimate > 0     ? settings.decimate
+                          : camera_.width_px <= 800 ? 1
+                                                    : 1.5;
+  detectors_.emplace_back(apparatus.board.family, decimate);
+  if (has_effector() && apparatus.effector.family != apparatus.board.family)
+    detectors_.emplace_back(apparatus.effector.family, decimate);
 }
 
-Tracker::~Tracker() = default;
-Tracker::Tracker(Tracker&&) noexcept = default;
-Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+Pose Tracker::SeenEffector::expected_at(double then_s) const {
+  const double dt_s = then_s - t_s;
+  return normalized(
+      {board_from_effector.position_m + dt_s * velocity.linear_m_s,
+       rotation_from_vector(dt_s * velocity.angular_rad_s) * board_from_effector.orientation});
+}
+
+std::vector<DetectedTag> Tracker::detect(TagDetector& detector, const Region& region,
+                                         EdgeSearch search) {
+  const double start_s = monotonic_s();
+  std::vector<DetectedTag> tags = detector.detect(gray_, region, search);
+  // Of two tags with one id the one that was read more clearly counts.
+  std::ranges::sort(tags, std::greater{}, &DetectedTag::decision_margin);
+  std::ranges::stable_sort(tags, {}, &DetectedTag::id);
+  const auto repeated = std::ranges::unique(tags, {}, &DetectedTag::id);
+  tags.erase(repeated.begin(), repeated.end());
+  result_.times.detect_s += monotonic_s() - start_s;
+  return tags;
+}
+
+// Everywhere, once a picture.
+const std::vector<DetectedTag>& Tracker::all_board_tags() {
+  if (!board_family_tags_) board_family_tags_ = detect(detectors_.front(), whole(gray_));
+  return *board_family_tags_;
+}
+
+std::vector<DetectedTag> Tracker::all_effector_tags() {
+  if (detectors_.size() == 1 && board_family_tags_) return *board_family_tags_;
+  if (n_unseen_ < pictures_searched_whole || !settings_.region_of_interest)
+    return detectors_.size() == 1 ? all_board_tags() : detect(detectors_.back(), whole(gray_));
+  return detect(detectors_.back(), half_of(gray_, n_unseen_ % 2 == 0));
+}
+
+std::optional<BodyFit> Tracker::find_board() {
+  if (settings_.region_of_interest && settings_.refine_edges && last_board_) {
+    const int least_tags = std::max(1, (last_n_board_tags_ + 1) / 2);
+    const auto fit =
+        board_.find_again(gray_, *last_board_, least_tags, unknown_bias, result_.times);
+    // A single tag tells too little to go on without reading it.
+    if (fit && fit->n_tags > 1) return fit;
+  }
+  const auto fit = board_.find(gray_, all_board_tags(), last_board_, unknown_bias, result_.times);
+  if (fit) return fit;
+  // Nothing goes on without the board, so a shadow over it is worth the time.
+  board_family_tags_ = detect(detectors_.front(), whole(gray_), EdgeSearch::everywhere);
+  return board_.find(gray_, *board_family_tags_, last_board_, unknown_bias, result_.times);
+}
+
+std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double t_s) {
+  const BiasPrior prior = bias_of_effector(seen_board);
+  std::optional<Pose> expected;
+  if (seen_ && t_s - seen_->t_s <= longest_gap_s)
+    expected = normalized(seen_board.camera_from_body * seen_->expected_at(t_s));
+  if (settings_.region_of_interest && expected && !board_family_tags_) {
+    const Region region = region_around(camera_, effector_.body(), *expected);
+    const auto fit =
+        effector_.find(gray_, detect(detectors_.back(), region), expected, prior, result_.times);
+    if (fit) return fit;
+  }
+  return effector_.find(gray_, all_effector_tags(), expected, prior, result_.times);
+}
+
+void Tracker::take_board(const std::optional<BodyFit>& fit) {
+  last_board_.reset();
+  if (!fit) return;
+  last_board_ = result_.camera_from_board = fit->camera_from_body;
+  last_n_board_tags_ = result_.n_board_tags = fit->n_tags;
+  result_.board_reprojection_px = fit->rms_px;
+  result_.edge_bias_px = fit->bias_px;
+  if (!has_effector()) result_.quality = fit->quality;
+}
+
+void Tracker::take_effector(const BodyFit& fit, double t_s) {
+  const Pose pose = normalized(result_.camera_from_board->inverse() * fit.camera_from_body);
+  const double dt_s = seen_ ? t_s - seen_->t_s : 0;
+  result_.jump = !seen_ || !could_have_moved(seen_->board_from_effector, pose, dt_s);
+  n_unseen_ = 0;
+  const bool moves_on = !result_.jump && dt_s > 0;
+  seen_ = SeenEffector{
+      t_s, pose, moves_on ? mean_velocity(seen_->board_from_effector, pose, dt_s) : Velocity{}};
+  result_.board_from_effector = pose;
+  result_.n_effector_tags = fit.n_tags;
+  result_.n_effector_faces = fit.n_faces;
+  result_.effector_reprojection_px = fit.rms_px;
+  result_.quality = fit.quality;
+}
 
 TrackedPicture Tracker::track(const Image& image, double t_s) {
-  Impl& parts = *impl_;
-  if (image.width != parts.camera.width_px || image.height != parts.camera.height_px ||
-      image.empty())
+  if (image.width != camera_.width_px || image.height != camera_.height_px || image.empty())
     throw Error(fmt::format(
         "the picture has {} x {} pixels, but the camera was calibrated for {} x {}: calibrate it "
         "at the size that it is used at",
-        image.width, image.height, parts.camera.width_px, parts.camera.height_px));
-  parts.gray = gray_of(image);
-  parts.board_family_tags.reset();
-  parts.result = {};
-  const auto board = parts.find_board();
-  parts.take_board(board);
-  if (board && parts.has_effector()) {
-    if (const auto effector = parts.find_effector(*board, t_s))
-      parts.take_effector(*effector, t_s);
+        image.width, image.height, camera_.width_px, camera_.height_px));
+  gray_ = gray_of(image);
+  board_family_tags_.reset();
+  result_ = {};
+  auto board = find_board();
+  if (board && !has_effector() && board->quality < least_pose_quality) board.reset();
+  take_board(board);
+  if (board && has_effector()) {
+    const auto effector = find_effector(*board, t_s);
+    if (effector && effector->quality >= least_pose_quality)
+      take_effector(*effector, t_s);
     else
-      ++parts.n_unseen;
+      ++n_unseen_;
   }
-  return parts.result;
+  return result_;
 }
 
 void Tracker::reset() {
-  impl_->last_board.reset();
-  impl_->seen.reset();
-  impl_->n_unseen = 0;
+  last_board_.reset();
+  seen_.reset();
+  n_unseen_ = 0;
 }
 
 }  // namespace heft

@@ -2,29 +2,19 @@
 // light, and solves for both poses. Unfiltered: PoseFilter.h smooths.
 #pragma once
 
-#include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/Image.h"
 #include "base/PoseTypes.h"
+#include "tracking/BodyFinder.h"
 #include "tracking/MarkerBody.h"
+#include "tracking/TagDetector.h"
 
 namespace heft {
 
-struct TrackerSettings {
-  /// Detection on a picture smaller by this factor; 0: 1 up to 800 pixels wide, 1.5 above.
-  double decimate = 0;
-  bool refine_edges = true;  ///< false: the detector's own corners
-  bool remove_bias = true;   ///< the edge bias that blur and the tone curve cause
-  /// Look where things were in the last picture, and everywhere only when they are not there.
-  bool region_of_interest = true;
-  double least_quality = 0.85;  ///< of a tag's edges, 0...1
-};
-
-/// Where the time of a picture went, seconds.
-struct TrackerTimes {
-  double detect_s = 0, refine_s = 0, pose_s = 0;
-};
+/// A pose of less quality is no pose: it may be centimeters off.
+inline constexpr double least_pose_quality = 0.05;
 
 struct TrackedPicture {
   std::optional<Pose> camera_from_board;
@@ -36,8 +26,9 @@ struct TrackedPicture {
   /// 0...1: how far the effector's pose can be trusted (the board's where there is no effector):
   /// the fraction of pixels around its tags' edges that look like edges; halved where two poses fit
   /// about equally well, where the reprojection error is 1 pixel, and where its tags leave the
-  /// effector's place open by half a millimeter, as a single slanted one may; less than half where
-  /// the picture is overexposed.
+  /// effector's place open by half a millimeter, as a single slanted one may, or its farthest tag
+  /// corner by two, as two tilts do that look alike; less than half where the picture is
+  /// overexposed. 0 where nothing was found, never between that and least_pose_quality.
   double quality = 0;
   /// The effector is not where motion could have taken it since it was last seen, or was not seen
   /// for so long that nothing can be said.
@@ -52,9 +43,6 @@ class Tracker {
   /// @throws Error for a board without tags, a family that the detector does not have, an id that a
   ///   family does not have, or a tag that is on both bodies
   explicit Tracker(const Apparatus& apparatus, const TrackerSettings& settings = {});
-  ~Tracker();
-  Tracker(Tracker&&) noexcept;
-  Tracker& operator=(Tracker&&) noexcept;
 
   /// @param t_s the picture's capture time; times increase
   /// @throws Error when the picture is not of the size that the camera was calibrated for
@@ -64,8 +52,40 @@ class Tracker {
   void reset();
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  /// The effector when it was last seen.
+  struct SeenEffector {
+    double t_s;
+    Pose board_from_effector;
+    Velocity velocity;
+
+    Pose expected_at(double then_s) const;
+  };
+
+  bool has_effector() const { return !effector_.body().tags.empty(); }
+  std::vector<DetectedTag> detect(TagDetector& detector, const Region& region,
+                                  EdgeSearch search = EdgeSearch::above_noise);
+  const std::vector<DetectedTag>& all_board_tags();
+  std::vector<DetectedTag> all_effector_tags();
+  std::optional<BodyFit> find_board();
+  std::optional<BodyFit> find_effector(const BodyFit& seen_board, double t_s);
+  void take_board(const std::optional<BodyFit>& fit);
+  void take_effector(const BodyFit& fit, double t_s);
+
+  Intrinsics camera_;
+  TrackerSettings settings_;
+  BodyFinder board_, effector_;
+  std::vector<TagDetector> detectors_;  ///< one, or the board's and the effector's
+
+  // Of the picture at hand.
+  Image gray_;
+  std::optional<std::vector<DetectedTag>> board_family_tags_;
+  TrackedPicture result_;
+
+  // Of the pictures before it.
+  std::optional<Pose> last_board_;
+  int last_n_board_tags_ = 0;
+  std::optional<SeenEffector> seen_;
+  int n_unseen_ = 0;  ///< pictures since, or since the start
 };
 
 }  // namespace heft

@@ -1,5 +1,6 @@
 // Which pictures of a stream are worth calibrating from, and what is still wanted: views of the
-// board that differ, cover the picture and are tilted to all sides.
+// board that differ, cover the picture and are tilted to all sides; views of the effector with two
+// tags or more.
 #pragma once
 
 #include <array>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "tracking/CameraCalibration.h"
+#include "tracking/TagViews.h"
 
 namespace heft {
 
@@ -54,6 +56,35 @@ class ViewCollector {
   std::array<int, 4> tilted_{};  ///< views in which that side of the board is farther away
   double nearest_m_ = 0, farthest_m_ = 0;
   std::size_t n_offered_ = 0, n_without_board_ = 0, n_moving_ = 0, n_alike_ = 0;
+};
+
+class EffectorViews {
+ public:
+  EffectorViews(const MarkerBody& effector, const Intrinsics& camera);
+
+  /// @throws Error for a picture of another size than the camera was calibrated at
+  void offer(const Image& image, const std::string& name);
+
+  /// Enough of them, and of every tag.
+  bool complete() const;
+  bool full() const { return views_.size() >= most; }
+  /// How far towards enough of them: 1 is there.
+  double progress() const { return static_cast<double>(views_.size()) / enough; }
+  /// "12 pictures; tag 30: 7 tag 31: 5".
+  std::string counts() const;
+  const std::vector<TagView>& views() const { return views_; }
+
+ private:
+  static constexpr std::size_t enough = 46, most = 120;
+  static constexpr int enough_of_a_tag = 12;
+
+  void require_size(const Image& image, const std::string& name) const;
+
+  MarkerBody effector_;
+  Intrinsics camera_;
+  TagViewer viewer_;
+  std::vector<TagView> views_;
+  std::vector<int> counts_;  ///< of each tag
 };
 
 }  // namespace heft

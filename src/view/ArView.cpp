@@ -1,19 +1,89 @@
 #include "view/ArView.h"
 
-#include <array>
+#include <fmt/format.h>
 
+#include <array>
+#include <filesystem>
+#include <opencv2/videoio.hpp>
+#include <string_view>
+
+#include "base/Error.h"
 #include "base/PlugTable.h"
-#include "view/VideoView.h"
+#include "base/TextFile.h"
+#include "view/SceneDrawing.h"
 #include "view/window/WindowView.h"
 
 namespace heft {
+
+namespace {
+struct Format {
+  std::string_view ending;
+  std::array<char, 4> codec;
+  cv::VideoCaptureAPIs writer;  // named, or OpenCV tries them all and each complains on stderr
+};
+
+constexpr std::array formats{Format{".mp4", {'m', 'p', '4', 'v'}, cv::CAP_FFMPEG},
+                             Format{".avi", {'M', 'J', 'P', 'G'}, cv::CAP_OPENCV_MJPEG}};
+
+int four_cc(const std::array<char, 4>& codec) {
+  return cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]);
+}
+
+const Format& format_of(const std::string& file) {
+  const std::string ending = std::filesystem::path(file).extension().string();
+  for (const Format& format : formats)
+    if (format.ending == ending) return format;
+  throw Error(fmt::format("can't tell how to write the video \"{}\": its name must end in .mp4 or "
+                          ".avi, as in video:session.mp4",
+                          file),
+              ExitCode::usage);
+}
+
+class VideoView final : public ArView {
+ public:
+  explicit VideoView(const ViewSetup& setup) : drawing_(setup) {
+    const auto& [ending, codec, writer] = format_of(setup.file);
+    if (std::filesystem::exists(setup.file))
+      throw Error(
+          fmt::format("{} exists already and would be written over; name another video, or "
+                      "remove it first",
+                      setup.file));
+    create_file(setup.file, 0600);  // people's hands may be in it
+    const Image& first = drawing_.draw({});
+    if (!writer_.open(setup.file, writer, four_cc(codec), setup.rate_hz,
+                      {first.width, first.height}))
+      throw Error(
+          fmt::format("can't write the video {} ({} x {}, {:g} frames a second); check "
+                      "that its folder exists and may be written to",
+                      setup.file, first.width, first.height, setup.rate_hz));
+  }
+
+  std::optional<double> present(const ViewFrame& shown, const ScreenState&) override {
+    const Image& drawn = drawing_.draw(shown);
+    // OpenCV has no read-only images; the writer changes nothing.
+    writer_.write(cv::Mat(drawn.height, drawn.width, CV_8UC3,
+                          const_cast<std::uint8_t*>(drawn.pixels.data())));
+    return {};
+  }
+
+  std::vector<Touch> wait(double) override { return {}; }
+
+ private:
+  SceneDrawing drawing_;
+  cv::VideoWriter writer_;  // finishes the file when it goes
+};
+}  // namespace
+
+std::unique_ptr<ArView> make_video_view(const ViewSetup& setup) {
+  return std::make_unique<VideoView>(setup);
+}
 
 namespace {
 // Shows nothing: for simulated responders and machines without a display.
 class HeadlessView final : public ArView {
  public:
   explicit HeadlessView(const ViewSetup&) {}
-  std::optional<double> present(const ViewPicture&, const ScreenState&) override { return {}; }
+  std::optional<double> present(const ViewFrame&, const ScreenState&) override { return {}; }
   std::vector<Touch> wait(double) override { return {}; }
 };
 

@@ -20,7 +20,7 @@
 namespace heft {
 
 /// One frame to show: the world as of its capture, over the camera picture that it belongs to.
-struct ViewPicture {
+struct ViewFrame {
   DisplayedFrame frame;
   std::shared_ptr<const Image> camera;    ///< none: a plain table is drawn
   std::optional<Pose> camera_from_board;  ///< none: where the camera was last, or the default
@@ -43,7 +43,7 @@ class ArView {
 
   /// Presents one frame and the screen around it.
   /// @return monotonic time (base/Clock.h) at which it was presented; none: there is no display
-  virtual std::optional<double> present(const ViewPicture& shown, const ScreenState& screen) = 0;
+  virtual std::optional<double> present(const ViewFrame& shown, const ScreenState& screen) = 0;
 
   /// Keeps the screen alive for up to `seconds` and returns early with what was touched since the
   /// last call, in order. A view without a screen returns nothing at once.
@@ -64,5 +64,10 @@ std::span<const ViewEntry> views();
 
 /// @throws Error (usage) naming the nearest view when there is none of that name
 const ViewEntry& view_named(std::string_view name);
+
+/// setup.file names the video: .mp4 (MPEG-4) or .avi (Motion JPEG, which stays readable however the
+/// program ends). It plays at setup.rate_hz and is complete once the view is gone.
+/// @throws Error for another ending, a file that exists already, or one that can't be written
+std::unique_ptr<ArView> make_video_view(const ViewSetup& setup);
 
 }  // namespace heft

@@ -53,104 +53,86 @@ void copy_picture(const Image& picture, Image& frame) {
 }
 }  // namespace
 
-struct SceneDrawing::Impl {
-  Impl(const Stage& trial_stage, const Intrinsics& camera)
-      : stage(trial_stage),
-        viewpoint(camera),
-        frame(camera.width_px, camera.height_px, 3),
-        rasterizer(camera.width_px, camera.height_px) {}
+SceneDrawing::SceneDrawing(const ViewSetup& setup)
+    : SceneDrawing(setup.stage, setup.camera.value_or(Intrinsics{})) {}
 
-  void draw_plain_table();
-  void draw_background(const ViewPicture& shown);
-  void draw_real_effector(const Pose& effector);
-  void draw_virtual(const DisplayedFrame& shown, const std::optional<Pose>& other_clone);
-
-  Vector3d cube_size_m() const { return Vector3d::Constant(stage.cube_size_m); }
-
-  Stage stage;
-  Viewpoint viewpoint;
-  Image frame;
-  Rasterizer rasterizer;
-  Image plain_table;        // as seen from the viewpoint; empty: not drawn from there yet
-  std::vector<Pose> cubes;  // of the last frame
-};
+SceneDrawing::SceneDrawing(const Stage& stage, const Intrinsics& camera)
+    : stage_(stage),
+      viewpoint_(camera),
+      frame_(camera.width_px, camera.height_px, 3),
+      rasterizer_(camera.width_px, camera.height_px) {}
 
 // A table and a sheet of paper where the board would be.
-void SceneDrawing::Impl::draw_plain_table() {
+void SceneDrawing::draw_plain_table() {
   constexpr std::array<std::uint8_t, 3> table{150, 168, 182};
-  plain_table = frame;
-  for (std::size_t i = 0; i < frame.pixels.size(); ++i) plain_table.pixels[i] = table[i % 3];
-  rasterizer.clear();
+  plain_table_ = frame_;
+  for (std::size_t i = 0; i < frame_.pixels.size(); ++i) plain_table_.pixels[i] = table[i % 3];
+  rasterizer_.clear();
   const Vector2d a4_m(0.297, 0.210);
-  draw_shadow(rasterizer, viewpoint, Pose{}, {a4_m.x(), a4_m.y(), 0}, 0.25);
-  draw_sheet(rasterizer, viewpoint, a4_m, 0.002, rasterizer.add_surface({{238, 242, 244}}),
-             rasterizer.add_surface({{214, 220, 224}}));
-  rasterizer.paint(plain_table);
+  draw_shadow(rasterizer_, viewpoint_, Pose{}, {a4_m.x(), a4_m.y(), 0}, 0.25);
+  draw_sheet(rasterizer_, viewpoint_, a4_m, 0.002, rasterizer_.add_surface({{238, 242, 244}}),
+             rasterizer_.add_surface({{214, 220, 224}}));
+  rasterizer_.paint(plain_table_);
 }
 
-void SceneDrawing::Impl::draw_real_effector(const Pose& effector) {
-  rasterizer.clear();
-  draw_shadow(rasterizer, viewpoint, effector, stage.effector_size_m, cube_shadow);
-  draw_box(rasterizer, viewpoint, effector, stage.effector_size_m,
+void SceneDrawing::draw_real_effector(const Pose& effector) {
+  rasterizer_.clear();
+  draw_shadow(rasterizer_, viewpoint_, effector, stage_.effector_size_m, cube_shadow);
+  draw_box(rasterizer_, viewpoint_, effector, stage_.effector_size_m,
            {effector_face, effector_edge, 1, 0});
-  rasterizer.paint(frame);
+  rasterizer_.paint(frame_);
 }
 
-void SceneDrawing::Impl::draw_background(const ViewPicture& shown) {
-  if (shown.camera) return copy_picture(*shown.camera, frame);
-  if (plain_table.empty()) draw_plain_table();
-  std::ranges::copy(plain_table.pixels, frame.pixels.begin());
+void SceneDrawing::draw_background(const ViewFrame& shown) {
+  if (shown.camera) return copy_picture(*shown.camera, frame_);
+  if (plain_table_.empty()) draw_plain_table();
+  std::ranges::copy(plain_table_.pixels, frame_.pixels.begin());
   if (shown.frame.tracked) draw_real_effector(shown.frame.effector);
 }
 
 // Shadows first, then solid things, then the translucent one: the rasterizer's order.
-void SceneDrawing::Impl::draw_virtual(const DisplayedFrame& shown,
-                                      const std::optional<Pose>& other_clone) {
-  rasterizer.clear();
+void SceneDrawing::draw_virtual(const DisplayedFrame& shown,
+                                const std::optional<Pose>& other_clone) {
+  rasterizer_.clear();
+  const Vector3d cube_size_m = Vector3d::Constant(stage_.cube_size_m);
   for (const Pose& cube : shown.cubes)
-    draw_shadow(rasterizer, viewpoint, cube, cube_size_m(), cube_shadow);
+    draw_shadow(rasterizer_, viewpoint_, cube, cube_size_m, cube_shadow);
   if (shown.clone)
-    draw_shadow(rasterizer, viewpoint, *shown.clone, stage.effector_size_m, clone_shadow);
+    draw_shadow(rasterizer_, viewpoint_, *shown.clone, stage_.effector_size_m, clone_shadow);
   int slot = 0;
   for (const Pose& cube : shown.cubes)
-    draw_box(rasterizer, viewpoint, cube, cube_size_m(), cube_look(++slot));
+    draw_box(rasterizer_, viewpoint_, cube, cube_size_m, cube_look(++slot));
   if (shown.clone)
-    draw_box(rasterizer, viewpoint, *shown.clone, stage.effector_size_m,
+    draw_box(rasterizer_, viewpoint_, *shown.clone, stage_.effector_size_m,
              {clone_face, clone_edge, clone_opacity, 0});
   if (other_clone)
-    draw_box(rasterizer, viewpoint, *other_clone, stage.effector_size_m,
+    draw_box(rasterizer_, viewpoint_, *other_clone, stage_.effector_size_m,
              {other_face, other_edge, clone_opacity, 0});
-  rasterizer.paint(frame);
+  rasterizer_.paint(frame_);
 }
 
-SceneDrawing::SceneDrawing(const ViewSetup& setup)
-    : impl_(std::make_unique<Impl>(setup.stage, setup.camera.value_or(Intrinsics{}))) {}
-SceneDrawing::~SceneDrawing() = default;
-SceneDrawing::SceneDrawing(SceneDrawing&&) noexcept = default;
-SceneDrawing& SceneDrawing::operator=(SceneDrawing&&) noexcept = default;
-
-const Image& SceneDrawing::draw(const ViewPicture& shown) {
+const Image& SceneDrawing::draw(const ViewFrame& shown) {
   if (shown.camera_from_board) {
-    impl_->viewpoint.place(*shown.camera_from_board);
-    impl_->plain_table = {};
+    viewpoint_.place(*shown.camera_from_board);
+    plain_table_ = {};
   }
-  impl_->draw_background(shown);
-  impl_->draw_virtual(shown.frame, shown.other_clone);
-  impl_->cubes = shown.frame.cubes;
-  return impl_->frame;
+  draw_background(shown);
+  draw_virtual(shown.frame, shown.other_clone);
+  cubes_ = shown.frame.cubes;
+  return frame_;
 }
 
 std::optional<int> SceneDrawing::slot_at(double x_px, double y_px) const {
-  const double reach_px = finger_px * impl_->frame.width / 640;
-  return impl_->rasterizer.find_object({x_px, y_px}, reach_px);
+  const double reach_px = finger_px * frame_.width / 640;
+  return rasterizer_.find_object({x_px, y_px}, reach_px);
 }
 
 std::optional<Vector2d> SceneDrawing::label_place(int slot) const {
-  if (slot < 1 || slot > static_cast<int>(impl_->cubes.size())) return {};
+  if (slot < 1 || slot > static_cast<int>(cubes_.size())) return {};
   // Half a cube above its top: in the frame, behind the top's far edge.
-  const Pose& cube = impl_->cubes[static_cast<std::size_t>(slot - 1)];
-  const Vector3d above_m(0, 0, impl_->stage.cube_size_m);
-  const Corner place = impl_->viewpoint.corner(cube.position_m + above_m);
+  const Pose& cube = cubes_[static_cast<std::size_t>(slot - 1)];
+  const Vector3d above_m(0, 0, stage_.cube_size_m);
+  const Corner place = viewpoint_.corner(cube.position_m + above_m);
   if (place.hidden_by) return {};
   return place.pixel;
 }

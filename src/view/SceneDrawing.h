@@ -3,23 +3,22 @@
 // software rasterizer for every view, so what is recorded is what was seen.
 #pragma once
 
-#include <memory>
 #include <optional>
+#include <vector>
 
 #include "view/ArView.h"
+#include "view/Rasterizer.h"
+#include "view/Viewpoint.h"
 
 namespace heft {
 
 class SceneDrawing {
  public:
   explicit SceneDrawing(const ViewSetup& setup);
-  ~SceneDrawing();
-  SceneDrawing(SceneDrawing&&) noexcept;
-  SceneDrawing& operator=(SceneDrawing&&) noexcept;
 
   /// The frame as shown: blue, green, red, of the camera's size (640 x 480 without a camera).
   /// Valid until the next call.
-  const Image& draw(const ViewPicture& shown);
+  const Image& draw(const ViewFrame& shown);
 
   /// The slot (from 1) of the cube drawn at a pixel of the last frame; none: no cube.
   std::optional<int> slot_at(double x_px, double y_px) const;
@@ -29,8 +28,18 @@ class SceneDrawing {
   std::optional<Eigen::Vector2d> label_place(int slot) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  SceneDrawing(const Stage& stage, const Intrinsics& camera);
+  void draw_plain_table();
+  void draw_background(const ViewFrame& shown);
+  void draw_real_effector(const Pose& effector);
+  void draw_virtual(const DisplayedFrame& shown, const std::optional<Pose>& other_clone);
+
+  Stage stage_;
+  Viewpoint viewpoint_;
+  Image frame_;
+  Rasterizer rasterizer_;
+  Image plain_table_;        ///< as seen from the viewpoint; empty: not drawn from there yet
+  std::vector<Pose> cubes_;  ///< of the last frame
 };
 
 }  // namespace heft

@@ -140,7 +140,7 @@ TEST(PacedPictures, OfALiveCameraComeAtTheDisplaysRateAndNoneIsDropped) {
   Protocol protocol;
   PacedPictures paced(std::make_unique<CameraPictures>(
                           [&] {
-                            return live_camera(grab, {640, 480, 60, "YUYV", {}, {}});
+                            return std::make_unique<LiveCamera>(grab, CameraMode{640, 480, 60, "YUYV", {}, {}});
                           },
                           PictureParts{protocol, *hand, apparatus, "", clock, 0, ""}),
                       15);

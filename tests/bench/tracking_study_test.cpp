@@ -7,9 +7,6 @@
 #include "StudyFolder.h"
 #include "base/Random.h"
 #include "bench/comparison/ComparisonTracker.h"
-#include "bench/tracking/Filters.h"
-#include "bench/tracking/Goals.h"
-#include "bench/tracking/Limits.h"
 #include "bench/tracking/TrackingStudy.h"
 
 namespace heft {
@@ -98,8 +95,8 @@ TEST(SummaryOf, CountsWhatWasNotFound) {
   errors[3].tip_mm = 4;
   const ErrorSummary summary = summary_of(errors);
   EXPECT_EQ(summary.effector_found, 0.5);
-  EXPECT_EQ(summary.tip_median_mm, 3);
-  EXPECT_FALSE(summary.board_p95_mm);
+  EXPECT_EQ(summary.tip_mm.median, 3);
+  EXPECT_FALSE(summary.board_mm.p95);
 }
 
 // A swipe covers the way that its speeds add up to, and is 0.5 m/s fast in the middle.

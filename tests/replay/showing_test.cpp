@@ -13,14 +13,14 @@ using testing::StoredSession;
 
 class Onlooker final : public ArView {
  public:
-  std::optional<double> present(const ViewPicture& shown, const ScreenState& screen) override {
+  std::optional<double> present(const ViewFrame& shown, const ScreenState& screen) override {
     pictures.push_back(shown);
     only_trials = only_trials && screen.screen == Screen::trial;
     return {};
   }
   std::vector<Touch> wait(double) override { return {}; }
 
-  std::vector<ViewPicture> pictures;
+  std::vector<ViewFrame> pictures;
   bool only_trials = true;
 };
 
@@ -52,7 +52,7 @@ TEST(Showing, AWhatIfsCloneStandsBesideTheLoggedOne) {
   show_session(stored.reader(), stored.session(), same, {stored.session().protocol.get()});
   show_session(stored.reader(), stored.session(), other, {&stiffer});
   double largest_m = 0;
-  const ViewPicture* farthest = nullptr;
+  const ViewFrame* farthest = nullptr;
   for (std::size_t i = 0; i < same.pictures.size(); ++i) {
     ASSERT_TRUE(same.pictures[i].other_clone);
     EXPECT_EQ(same.pictures[i].other_clone->position_m, same.pictures[i].frame.clone->position_m);
@@ -68,7 +68,7 @@ TEST(Showing, AWhatIfsCloneStandsBesideTheLoggedOne) {
   ViewSetup setup;
   setup.stage = stage_of(stiffer, 3);
   SceneDrawing drawing(setup);
-  ViewPicture alone = *farthest;
+  ViewFrame alone = *farthest;
   alone.other_clone.reset();
   const Image without = drawing.draw(alone);
   EXPECT_NE(drawing.draw(*farthest).pixels, without.pixels);

@@ -16,10 +16,10 @@ namespace heft::testing {
 // What somebody does about each screen they are shown; presented screens are kept.
 class MadeUpScreen final : public ArView {
  public:
-  using Person = std::function<std::vector<Touch>(const ViewPicture&, const ScreenState&)>;
+  using Person = std::function<std::vector<Touch>(const ViewFrame&, const ScreenState&)>;
   explicit MadeUpScreen(Person person) : person_(std::move(person)) {}
 
-  std::optional<double> present(const ViewPicture& picture, const ScreenState& screen) override {
+  std::optional<double> present(const ViewFrame& picture, const ScreenState& screen) override {
     picture_ = picture;
     screen_ = screen;
     screens.push_back(screen);
@@ -36,7 +36,7 @@ class MadeUpScreen final : public ArView {
 
  private:
   Person person_;
-  ViewPicture picture_;
+  ViewFrame picture_;
   ScreenState screen_;
 };
 
@@ -53,7 +53,7 @@ inline Touch touch(ActionKind kind, std::optional<int> slot = {}, std::optional<
 }
 
 // Turns pages, labels the cubes from left to right, sees no differences.
-inline std::vector<Touch> patient(const ViewPicture& picture, const ScreenState& screen) {
+inline std::vector<Touch> patient(const ViewFrame& picture, const ScreenState& screen) {
   if (screen.screen != Screen::trial)
     return screen.wait_s > 0 ? std::vector<Touch>{} : std::vector{touch(TouchKind::next)};
   if (picture.frame.cubes.empty() || !screen.can_answer) return {};

@@ -46,7 +46,7 @@ TEST(Demonstration, shows_a_filmed_effector_under_its_clone_with_two_faces_to_th
   constexpr int n_pictures = 60;
   for (int i = 0; i < n_pictures; ++i) {
     const double t_s = i / 3.0;
-    const ViewPicture shown = demonstration.at(t_s);
+    const ViewFrame shown = demonstration.at(t_s);
     ASSERT_TRUE(shown.camera && shown.camera_from_board && shown.frame.clone);
     const TrackedPicture tracked = tracker.track(*shown.camera, t_s);
     ASSERT_TRUE(tracked.board_from_effector) << t_s;
@@ -92,7 +92,7 @@ TEST(Demonstration, never_dips_the_effector_into_the_table) {
 TEST(Demonstration, is_drawn_on_a_plain_table_where_nothing_can_be_filmed) {
   const Protocol protocol;
   Demonstration demonstration(protocol, {}, 7);
-  const ViewPicture shown = demonstration.at(3);
+  const ViewFrame shown = demonstration.at(3);
   EXPECT_FALSE(shown.camera);
   EXPECT_TRUE(shown.frame.tracked);
 }
@@ -108,7 +108,7 @@ struct Demonstrated {
     SessionClock clock = has_person ? SessionClock::wall_from(0) : SessionClock::virtual_from(0);
     const auto hand = responder_named("simulated").make({});
     HandPictures pictures(*hand, protocol->display_rate_hz);
-    MadeUpScreen screen([this](const ViewPicture& picture, const ScreenState& state) {
+    MadeUpScreen screen([this](const ViewFrame& picture, const ScreenState& state) {
       if (state.screen == Screen::demonstration) shown.push_back(picture);
       return patient(picture, state);
     });
@@ -120,7 +120,7 @@ struct Demonstrated {
   }
 
   std::shared_ptr<const Protocol> protocol;
-  std::vector<ViewPicture> shown;
+  std::vector<ViewFrame> shown;
   RunEnd end;
 };
 
@@ -128,7 +128,7 @@ TEST(Demonstration, is_filmed_for_a_person_at_their_page) {
   const Demonstrated session(apparatus(), true);
   EXPECT_EQ(session.end, RunEnd::finished);
   ASSERT_FALSE(session.shown.empty());
-  for (const ViewPicture& picture : session.shown) EXPECT_TRUE(picture.camera);
+  for (const ViewFrame& picture : session.shown) EXPECT_TRUE(picture.camera);
 }
 
 TEST(Demonstration, is_not_rendered_for_a_model) {

@@ -90,8 +90,8 @@ struct LiveSession {
   RunEnd run() {
     Engine engine(protocol, 7);
     const auto open = [&] {
-      return live_camera([this] { return device.grab(); },
-                         {640, 480, rate_hz, "YUYV", {"exposure 4.0 ms"}, {}});
+      return std::make_unique<LiveCamera>([this] { return device.grab(); },
+                         CameraMode{640, 480, rate_hz, "YUYV", {"exposure 4.0 ms"}, {}});
     };
     CameraPictures pictures(open, {*protocol, *hand, apparatus(), "", clock, 0, ""});
     const RunEnd end =
@@ -123,7 +123,7 @@ class Incident {
   using IsOver = std::function<bool(LiveSession&)>;
   Incident(Does what, IsOver is_over) : what_(what), is_over_(std::move(is_over)) {}
 
-  std::vector<Touch> operator()(const ViewPicture& picture, const ScreenState& screen) {
+  std::vector<Touch> operator()(const ViewFrame& picture, const ScreenState& screen) {
     if (!began_ && can_answer(screen)) {
       began_ = true;
       session->device.does = what_;
@@ -144,7 +144,7 @@ std::unique_ptr<LiveSession> session_with(Does what, Incident::IsOver is_over,
                                           double void_after_s) {
   const auto incident = std::make_shared<Incident>(what, std::move(is_over));
   auto session = std::make_unique<LiveSession>(
-      void_after_s, [incident](const ViewPicture& picture, const ScreenState& screen) {
+      void_after_s, [incident](const ViewFrame& picture, const ScreenState& screen) {
         return (*incident)(picture, screen);
       });
   incident->session = session.get();

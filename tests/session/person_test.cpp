@@ -75,7 +75,7 @@ TEST(Person, goes_through_all_pages_and_trials) {
 TEST(Person, who_does_not_agree_takes_no_part) {
   Protocol protocol = quick_protocol();
   protocol.screens.consent = true;
-  Session session(protocol, [](const ViewPicture&, const ScreenState&) {
+  Session session(protocol, [](const ViewFrame&, const ScreenState&) {
     return std::vector{touch(TouchKind::decline)};
   });
   EXPECT_EQ(session.run(), RunEnd::declined);
@@ -96,7 +96,7 @@ TEST(Person, answers_are_logged_at_the_time_of_the_touch_and_shown_at_once) {
 
 TEST(Person, a_touch_that_can_not_be_taken_is_noted_and_ends_nothing) {
   bool tried = false;
-  Session session(quick_protocol(), [&](const ViewPicture& picture, const ScreenState& screen) {
+  Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
     if (screen.screen == Screen::trial && screen.can_answer && !tried) {
       tried = true;
       return std::vector{touch(ActionKind::validate)};
@@ -112,7 +112,7 @@ TEST(Person, what_they_tell_about_themselves_is_kept) {
   Protocol protocol = quick_protocol();
   protocol.screens.about_you = true;
   bool told = false;
-  Session session(protocol, [&](const ViewPicture& picture, const ScreenState& screen) {
+  Session session(protocol, [&](const ViewFrame& picture, const ScreenState& screen) {
     if (screen.screen == Screen::about_you && !told) {
       told = true;
       Touch entry = touch(TouchKind::entry);
@@ -128,7 +128,7 @@ TEST(Person, what_they_tell_about_themselves_is_kept) {
 
 TEST(Person, the_cubes_go_back_at_a_touch) {
   bool asked = false;
-  Session session(quick_protocol(), [&](const ViewPicture& picture, const ScreenState& screen) {
+  Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
     if (screen.screen == Screen::trial && screen.can_answer && !asked) {
       asked = true;
       return std::vector{touch(TouchKind::put_cubes_back)};
@@ -142,7 +142,7 @@ TEST(Person, the_cubes_go_back_at_a_touch) {
 }
 
 TEST(Person, who_closes_the_window_can_come_back) {
-  Session session(quick_protocol(), [](const ViewPicture& picture, const ScreenState& screen) {
+  Session session(quick_protocol(), [](const ViewFrame& picture, const ScreenState& screen) {
     return screen.screen == Screen::trial && !picture.frame.cubes.empty()
                ? std::vector{touch(TouchKind::close)}
                : patient(picture, screen);
@@ -287,7 +287,7 @@ TEST_F(FailedCheck, can_be_left_by_closing_the_window) {
   class Silent : public MadeUpDesk {
     bool ask_to_go_on(const std::string&) override { return true; }
   } silent;
-  Session other(quick_protocol(), [](const ViewPicture&, const ScreenState&) {
+  Session other(quick_protocol(), [](const ViewFrame&, const ScreenState&) {
     return std::vector{touch(TouchKind::close)};
   });
   OutOfOrder pictures(other.pictures);

@@ -80,7 +80,7 @@ class MadeUpPictures final : public PictureSource {
 
 class Nothing final : public ArView {
  public:
-  std::optional<double> present(const ViewPicture& picture, const ScreenState&) override {
+  std::optional<double> present(const ViewFrame& picture, const ScreenState&) override {
     frames.push_back(picture.frame);
     return {};
   }

@@ -27,7 +27,7 @@ class FingersOnTheWindow final : public ArView {
  public:
   explicit FingersOnTheWindow(const ViewSetup& setup) : window_(setup) {}
 
-  std::optional<double> present(const ViewPicture& picture, const ScreenState& screen) override {
+  std::optional<double> present(const ViewFrame& picture, const ScreenState& screen) override {
     cubes_shown_ = !picture.frame.cubes.empty();
     screen_ = screen;
     looked_ = false;

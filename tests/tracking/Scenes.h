@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/Random.h"
-#include "tracking/BoxFaces.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/SyntheticCamera.h"
 
 namespace heft {

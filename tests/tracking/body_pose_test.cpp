@@ -1,6 +1,8 @@
 // Poses from edges that are known exactly.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tracking/BodyPose.h"
 #include "tracking/PlanarPose.h"
 #include "tracking/Scenes.h"
@@ -116,6 +118,35 @@ TEST(BodyPose, WhereThePictureCanNotDecideTheExpectedPoseDoes) {
     EXPECT_LE(fit->quality, 0.5);
     EXPECT_LT(fit->camera_from_body.orientation.angularDistance(expected.orientation), 0.1);
   }
+}
+
+// The top face's tag alone, a little tilted: its mirror image is so near that both are one flat
+// minimum.
+TEST(BodyPose, TwoTiltsThatLookAlikeAreToldByTheQuality) {
+  MarkerBody top = box_effector(0.032);
+  top.tags = {top.tags[1]};
+  const Eigen::Quaterniond facing(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
+  const auto tilted = [&](double rad) {
+    const Pose pose{{0, 0, 0.45}, Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitY()) * facing};
+    const auto fit = solve_body(observations(top, pose), pose, {0, 0});
+    EXPECT_TRUE(fit);
+    return fit.value_or(BodyFit{});
+  };
+  const BodyFit little = tilted(0.03), much = tilted(0.6);
+  EXPECT_FALSE(little.ambiguous);
+  EXPECT_LT(little.quality, 0.8 * much.quality);
+}
+
+TEST(BodyPose, WithoutAnExpectedPoseOneOfTwoThatFitIsNoPose) {
+  const MarkerBody tag = grid_board(1, 1, .040, .040);
+  const Eigen::Quaterniond facing(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
+  const Pose pose{{0, 0, 2.5}, Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()) * facing};
+  const auto unknown = solve_body(observations(tag, pose), std::nullopt, {0, 0});
+  const auto known = solve_body(observations(tag, pose), pose, {0, 0});
+  ASSERT_TRUE(unknown && known);
+  EXPECT_TRUE(unknown->ambiguous);
+  EXPECT_GT(std::sqrt(unknown->spread_m2), 0.005);
+  EXPECT_LT(std::sqrt(known->spread_m2), 0.002);
 }
 
 TEST(BodyPose, NoTagsNoPose) {

@@ -61,14 +61,14 @@ TEST(CameraCalibration, RefusesPicturesWithoutTheBoard) {
 
 TEST(Coverage, NamesTheEmptiestPart) {
   Coverage coverage;
-  EXPECT_EQ(coverage.share(), 0);
+  EXPECT_EQ(coverage.fraction(), 0);
   for (auto& row : coverage.corners) row.fill(20);
   EXPECT_EQ(coverage.emptiest(), "");
   coverage.corners[5][7] = 0;
   EXPECT_EQ(coverage.emptiest(), "the lower right");
   coverage.corners[0][0] = coverage.corners[0][1] = 0;
   EXPECT_EQ(coverage.emptiest(), "the upper left");
-  EXPECT_NEAR(coverage.share(), 45.0 / 48, 1e-12);
+  EXPECT_NEAR(coverage.fraction(), 45.0 / 48, 1e-12);
   EXPECT_EQ(coverage.drawing().substr(0, 17), " . . # # # # # #\n");
 }
 

@@ -6,7 +6,7 @@
 #include <semaphore>
 
 #include "base/Error.h"
-#include "tracking/GrabThread.h"
+#include "tracking/LiveCamera.h"
 
 namespace heft {
 namespace {
@@ -31,7 +31,7 @@ class FakeDevice {
     while (n_asked_ == asked) std::this_thread::yield();
   }
 
-  GrabThread::Grab grab() {
+  LiveCamera::Grab grab() {
     return [this]() -> std::optional<GrabbedPicture> {
       ++n_asked_;
       const std::scoped_lock lock(mutex_);
@@ -61,69 +61,69 @@ class FakeDevice {
 
 constexpr double soon_s = 0.02, long_s = 20, pause_s = 0.001;
 
-TEST(GrabThread, GivesAPictureWithItsTimeOnce) {
+TEST(LiveCamera, GivesAPictureWithItsTimeOnce) {
   FakeDevice device;
-  GrabThread thread(device.grab(), pause_s);
+  LiveCamera camera(device.grab(), {}, pause_s);
   device.give(10, 1.5);
-  const auto picture = thread.next(long_s);
+  const auto picture = camera.next(long_s);
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->image.pixels, gray(10).pixels);
   EXPECT_EQ(picture->capture_s, 1.5);
   EXPECT_EQ(picture->number, 0);
-  EXPECT_FALSE(thread.next(soon_s));
+  EXPECT_FALSE(camera.next(soon_s));
 }
 
-TEST(GrabThread, ASlowReaderGetsTheNewestAndItsNumberCountsTheOthers) {
+TEST(LiveCamera, ASlowReaderGetsTheNewestAndItsNumberCountsTheOthers) {
   FakeDevice device;
-  GrabThread thread(device.grab(), pause_s);
+  LiveCamera camera(device.grab(), {}, pause_s);
   for (int i = 0; i < 5; ++i) device.give(static_cast<std::uint8_t>(i), 0.1 * i);
   device.wait_until_taken();
-  const auto picture = thread.next(long_s);
+  const auto picture = camera.next(long_s);
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->image.pixels, gray(4).pixels);
   EXPECT_EQ(picture->number, 4);
-  EXPECT_FALSE(thread.next(soon_s));
+  EXPECT_FALSE(camera.next(soon_s));
 }
 
-TEST(GrabThread, TheSamePictureOverAndOverIsAFrozenCamera) {
+TEST(LiveCamera, TheSamePictureOverAndOverIsAFrozenCamera) {
   FakeDevice device;
-  GrabThread thread(device.grab(), pause_s);
+  LiveCamera camera(device.grab(), {}, pause_s);
   device.give(10, 0);
-  ASSERT_TRUE(thread.next(long_s));
+  ASSERT_TRUE(camera.next(long_s));
   for (int i = 1; i < 20; ++i) device.give(10, i);
   device.wait_until_taken();
-  EXPECT_FALSE(thread.next(soon_s));
+  EXPECT_FALSE(camera.next(soon_s));
   device.give(11, 21);
-  const auto thawed = thread.next(long_s);
+  const auto thawed = camera.next(long_s);
   ASSERT_TRUE(thawed);
   EXPECT_EQ(thawed->capture_s, 21);
 }
 
-TEST(GrabThread, GoesOnAfterADeviceWasUnplugged) {
+TEST(LiveCamera, GoesOnAfterADeviceWasUnplugged) {
   FakeDevice device;
-  GrabThread thread(device.grab(), pause_s);
+  LiveCamera camera(device.grab(), {}, pause_s);
   device.give(1, 0);
-  ASSERT_TRUE(thread.next(long_s));
+  ASSERT_TRUE(camera.next(long_s));
   for (int i = 0; i < 3; ++i) device.fail();
   device.wait_until_taken();
-  EXPECT_FALSE(thread.next(soon_s));
+  EXPECT_FALSE(camera.next(soon_s));
   device.give(2, 5);
-  const auto picture = thread.next(long_s);
+  const auto picture = camera.next(long_s);
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->capture_s, 5);
 }
 
-TEST(GrabThread, WhatTheDeviceThrowsReachesTheReaderAfterTheLastPicture) {
+TEST(LiveCamera, WhatTheDeviceThrowsReachesTheReaderAfterTheLastPicture) {
   int n = 0;
-  GrabThread thread(
+  LiveCamera camera(
       [&n]() -> std::optional<GrabbedPicture> {
         if (n++ == 0) return GrabbedPicture{gray(10), 1.5};
         throw std::runtime_error("the driver is broken");
       },
-      pause_s);
-  ASSERT_TRUE(thread.next(long_s));
+      {}, pause_s);
+  ASSERT_TRUE(camera.next(long_s));
   for (int i = 0; i < 2; ++i) try {
-      thread.next(long_s);
+      camera.next(long_s);
       ADD_FAILURE() << "gave a picture";
     } catch (const Error& error) {
       EXPECT_EQ(error.exit_code(), ExitCode::device_missing);
@@ -131,9 +131,9 @@ TEST(GrabThread, WhatTheDeviceThrowsReachesTheReaderAfterTheLastPicture) {
     }
 }
 
-TEST(GrabThread, EndsWhileItPausesAfterAFailure) {
-  GrabThread thread([] { return std::nullopt; }, 3600);
-  EXPECT_FALSE(thread.next(soon_s));
+TEST(LiveCamera, EndsWhileItPausesAfterAFailure) {
+  LiveCamera camera([] { return std::nullopt; }, {}, 3600);
+  EXPECT_FALSE(camera.next(soon_s));
 }  // hangs here if the pause can't be ended
 
 }  // namespace

@@ -134,11 +134,41 @@ TEST(Tracker, KnowsThatOneFaceTellsLessThanTwo) {
   EXPECT_LT(one.quality, two.quality - 0.05);
 }
 
-TEST(Tracker, IsAnOrderOfMagnitudeBetterThanTheDetectorsCorners) {
+// Small tags, noise and blur by motion: much is lost, and what is not lost is not far off.
+TEST(Tracker, WhatIsCentimetersOffIsNoPose) {
+  Apparatus apparatus = default_apparatus(640);
+  apparatus.effector = box_effector(0.025);
+  SyntheticSettings scene;
+  scene.optics.noise = 6;
+  scene.optics.exposure_s = 0.008;
+  SyntheticCamera camera(apparatus, scene, 1);
+  Tracker tracker(apparatus);
+  RandomStream random(4, "poses");
+  int n_found = 0, n_lost = 0;
+  for (int i = 0; i < 80; ++i) {
+    const Pose pose = random_held_pose(random);
+    const auto path = [&](double at_s) -> std::optional<Pose> {
+      return Pose{pose.position_m + at_s * Eigen::Vector3d(0.3, 0.2, 0), pose.orientation};
+    };
+    tracker.reset();
+    const auto seen = tracker.track(camera.picture(path, 0, static_cast<std::uint64_t>(i)), 0);
+    EXPECT_EQ(seen.board_from_effector.has_value(), seen.quality >= least_pose_quality);
+    ++(seen.board_from_effector ? n_found : n_lost);
+    if (seen.board_from_effector)
+      EXPECT_LT((*seen.board_from_effector * tip_m - pose * tip_m).norm(), 0.010) << i;
+    else
+      EXPECT_EQ(seen.quality, 0) << i;
+  }
+  EXPECT_GT(n_found, 15);
+  EXPECT_GT(n_lost, 15);
+}
+
+// Its worst poses, which the detector's corners have more of, are no poses.
+TEST(Tracker, IsSeveralTimesBetterThanTheDetectorsCorners) {
   TrackerSettings plain;
   plain.refine_edges = plain.remove_bias = plain.region_of_interest = false;
   const double plain_mm = Errors::p95(errors_at_random_places(640, plain, 50).tip_mm);
-  EXPECT_GT(plain_mm, 8 * Errors::p95(errors_at_random_places(640, {}, 50).tip_mm));
+  EXPECT_GT(plain_mm, 6 * Errors::p95(errors_at_random_places(640, {}, 50).tip_mm));
 }
 
 TEST(Tracker, TakesTheBiasOfAnUnknownToneCurveFromTheBoard) {

@@ -105,8 +105,8 @@ inline ViewSetup setup_for(const std::string& language, int n_cubes = 3) {
   return setup;
 }
 
-inline ViewPicture picture_of(const ViewSetup& setup, bool cubes = true) {
-  ViewPicture shown;
+inline ViewFrame picture_of(const ViewSetup& setup, bool cubes = true) {
+  ViewFrame shown;
   const Pose effector = upright_pose({0.02, -0.09, 0.02}, 1.5707963);
   shown.frame.effector = effector;
   shown.frame.clone = effector;

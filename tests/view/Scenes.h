@@ -43,8 +43,8 @@ inline ViewSetup setup_with(const std::optional<Intrinsics>& camera) {
 }
 
 /// Three cubes on their slots, nothing else, over a gray picture.
-inline ViewPicture three_cubes(const ViewSetup& setup) {
-  ViewPicture shown;
+inline ViewFrame three_cubes(const ViewSetup& setup) {
+  ViewFrame shown;
   for (const auto& slot_m : setup.stage.slots_m)
     shown.frame.cubes.push_back(upright_pose(slot_m, 0));
   if (setup.camera) shown.camera = gray_picture(*setup.camera);

@@ -30,7 +30,7 @@ class OtherClone : public testing::Test {
   }
   const ViewSetup setup = setup_with(Intrinsics{});
   SceneDrawing drawing{setup};
-  ViewPicture shown = three_cubes(setup);
+  ViewFrame shown = three_cubes(setup);
 };
 
 TEST_F(OtherClone, BothAreSeenEachInItsColor) {

@@ -110,7 +110,7 @@ void expect_cube_where_projected(const View& view, const Pose& cube, double size
   ViewSetup setup = setup_with(view.camera);
   setup.stage.cube_size_m = size_m;
   SceneDrawing drawing(setup);
-  ViewPicture shown;
+  ViewFrame shown;
   shown.camera = gray_picture(view.camera);
   shown.camera_from_board = view.camera_from_board;
   shown.frame.cubes = {cube};
@@ -157,7 +157,7 @@ TEST(Projection, NothingBesideTheViewIsFoldedBackIntoIt) {
   Intrinsics folding;
   folding.distortion = {0.06, -0.15};
   const Pose straight_down = camera_looking_down(M_PI / 2, 0.3);
-  ViewPicture shown;
+  ViewFrame shown;
   shown.camera = gray_picture(folding);
   shown.camera_from_board = straight_down;
   for (const auto& [x_m, y_m] : {std::pair{0.46, 0.0}, {-0.46, 0.0}, {0.0, 0.46}, {0.0, -0.46}}) {

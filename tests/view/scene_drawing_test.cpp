@@ -27,7 +27,7 @@ class OverFilm : public testing::Test {
  protected:
   const ViewSetup setup = setup_with(Intrinsics{});
   SceneDrawing drawing{setup};
-  ViewPicture shown = three_cubes(setup);
+  ViewFrame shown = three_cubes(setup);
 
   // Middle of a cube's top in the picture.
   Eigen::Vector2d top_of(int slot) const {
@@ -120,7 +120,7 @@ TEST_F(OverFilm, ShadowsDarkenTheTableBesideACubeAndFadeAsItRises) {
   const Eigen::Vector2d beside = project(
       *setup.camera, camera_looking_down(55 * M_PI / 180) * Eigen::Vector3d(0.085, 0.02, 0));
   const auto gray_beside = [&](double rise_m) {
-    ViewPicture one = shown;
+    ViewFrame one = shown;
     one.frame.cubes = {upright_pose({0.06, 0.02, 0.0175 + rise_m}, 0)};
     const Bgr bgr = at(drawing.draw(one), beside);
     EXPECT_EQ(bgr.blue, bgr.red);
@@ -187,7 +187,7 @@ TEST_F(OverFilm, RefusesFilmsThatDoNotFitTheCalibration) {
 TEST(WithoutACamera, ThereIsATableAndTheRealEffectorOnlyWhileItIsTracked) {
   const ViewSetup setup = setup_with(std::nullopt);
   SceneDrawing drawing(setup);
-  ViewPicture shown;
+  ViewFrame shown;
   shown.frame.tracked = false;
   const Image table = drawing.draw(shown);
   EXPECT_EQ(table.width, 640);
@@ -216,8 +216,8 @@ Pose any_pose(RandomStream& draws, double reach_m) {
   return pose;
 }
 
-ViewPicture any_picture(RandomStream draws) {
-  ViewPicture shown;
+ViewFrame any_picture(RandomStream draws) {
+  ViewFrame shown;
   shown.camera_from_board = any_pose(draws, 0.3);
   for (int i = 0; i < 3; ++i) shown.frame.cubes.push_back(any_pose(draws, 0.15));
   shown.frame.effector = any_pose(draws, 0.15);
@@ -230,7 +230,7 @@ RC_GTEST_PROP(AnyScene, IsDrawnWithoutHarmAndTheSameWhateverWasDrawnBefore, (std
   const ViewSetup setup = setup_with(strong_lens());
   SceneDrawing used(setup), fresh(setup);
   used.draw(any_picture(RandomStream(seed, "before")));
-  const ViewPicture shown = any_picture(RandomStream(seed, "after"));
+  const ViewFrame shown = any_picture(RandomStream(seed, "after"));
   RC_ASSERT(used.draw(shown).pixels == fresh.draw(shown).pixels);
   used.slot_at(320, 240);
   for (int slot : {1, 2, 3}) used.label_place(slot);

@@ -9,7 +9,7 @@
 #include "base/TextFile.h"
 #include "record/temporary_folder.h"
 #include "view/Scenes.h"
-#include "view/VideoView.h"
+#include "view/ArView.h"
 
 namespace heft {
 namespace {
@@ -19,8 +19,8 @@ using namespace heft::test;
 
 constexpr int n_frames = 8;
 
-ViewPicture shown_as_number(const ViewSetup& setup, int number) {
-  ViewPicture shown = three_cubes(setup);
+ViewFrame shown_as_number(const ViewSetup& setup, int number) {
+  ViewFrame shown = three_cubes(setup);
   shown.frame.clone = pointing_away(0.01 * number - 0.04, -0.05);
   return shown;
 }

@@ -5,7 +5,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "base/Pose.h"
-#include "tracking/BoxFaces.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/ImageConversion.h"
 
 namespace heft {

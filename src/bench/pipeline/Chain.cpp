@@ -55,7 +55,7 @@ StageTimes Chain::run(const std::string& file, double t_s) {
   track(*image, t_s, times);
   TargetSample sample;
   of(times, PictureStage::filter) = timed_ms([&] { sample = smoothed(filter_, tracked_, t_s); });
-  ViewPicture picture;
+  ViewFrame picture;
   of(times, PictureStage::physics) =
       timed_ms([&] { picture.frame = world_->advance(sample).frame; });
   picture.camera = image;

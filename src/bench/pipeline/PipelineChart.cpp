@@ -4,7 +4,7 @@
 
 #include "analysis/Gnuplot.h"
 #include "bench/StudyFiles.h"
-#include "bench/tracking/Accuracy.h"
+#include "bench/tracking/TrackingStudy.h"
 
 namespace heft {
 

@@ -11,7 +11,7 @@
 #include "bench/pipeline/Chain.h"
 #include "bench/pipeline/PipelineChart.h"
 #include "bench/pipeline/RecordedTrial.h"
-#include "bench/tracking/Accuracy.h"
+#include "bench/tracking/TrackingStudy.h"
 
 namespace heft {
 

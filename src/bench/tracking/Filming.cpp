@@ -8,26 +8,14 @@
 #include "base/Pose.h"
 #include "base/Quantile.h"
 #include "bench/CpuClock.h"
-#include "tracking/BoxFaces.h"
+#include "bench/tracking/TrackingStudy.h"
+#include "tracking/MarkerBody.h"
 
 namespace heft {
 
 namespace {
 double degrees_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return rotation_vector(a.conjugate() * b).norm() * 180 / M_PI;
-}
-
-// Those of one kind that there are.
-std::vector<double> all_of(const std::vector<TrackedError>& errors,
-                           std::optional<double> TrackedError::*kind) {
-  std::vector<double> values;
-  for (const TrackedError& error : errors)
-    if (error.*kind) values.push_back(*(error.*kind));
-  return values;
-}
-
-double share(const std::vector<double>& found, const std::vector<TrackedError>& errors) {
-  return static_cast<double>(found.size()) / static_cast<double>(errors.size());
 }
 
 bool well_seen(const Intrinsics& camera, const Tag& tag, const Pose& camera_from_board,
@@ -63,12 +51,11 @@ class Studio {
         settings_(placed(place)),
         camera_(apparatus, settings_, seed) {}
 
-  void film_take(const FilmPlan& plan, int number,
-                 std::vector<std::unique_ptr<TrackingMethod>>& methods,
+  void film_take(const FilmPlan& plan, int number, const std::vector<TrackingMethod>& methods,
                  std::vector<MethodFilm>& films) {
     const Take what = take(plan.motion, plan.seed, static_cast<std::uint64_t>(number), plan.grip);
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      methods[m]->reset();
+      methods[m].reset();
       films[m].takes.push_back(what);
       films[m].pictures.emplace_back();
     }
@@ -77,7 +64,7 @@ class Studio {
       const Image image = camera_.picture([&](double at_s) { return what.at(at_s); }, t_s,
                                           static_cast<std::uint64_t>(number * plan.n_pictures + i));
       for (std::size_t m = 0; m < methods.size(); ++m)
-        films[m].pictures.back().push_back(measure(*methods[m], image, t_s, what.at(t_s)));
+        films[m].pictures.back().push_back(measure(methods[m], image, t_s, what.at(t_s)));
     }
   }
 
@@ -88,7 +75,8 @@ class Studio {
     return settings;
   }
 
-  Measured measure(TrackingMethod& method, const Image& image, double t_s, const Pose& truth) {
+  Measured measure(const TrackingMethod& method, const Image& image, double t_s,
+                   const Pose& truth) {
     const double began_s = thread_cpu_s();
     const MethodPoses poses = method.track(image, t_s);
     const double took_s = thread_cpu_s() - began_s;
@@ -140,7 +128,7 @@ TrackedError error_of(const MethodPoses& poses, const Pose& camera_from_board,
 
 std::vector<MethodFilm> film(const FilmPlan& plan, const std::vector<MethodName>& names) {
   const Apparatus apparatus = bench_apparatus(plan.width_px);
-  std::vector<std::unique_ptr<TrackingMethod>> methods;
+  std::vector<TrackingMethod> methods;
   for (const MethodName& name : names) methods.push_back(make_method(name, apparatus));
   std::vector<MethodFilm> films(methods.size());
   const int n_places = std::min(plan.n_takes, static_cast<int>(places.size()));
@@ -159,27 +147,50 @@ std::vector<TrackedError> MethodFilm::errors() const {
 }
 
 ErrorSummary summary_of(const std::vector<TrackedError>& errors) {
+  double found = 0;  // fraction, of the kind at hand
+  const auto quantiles_of = [&](auto TrackedError::*kind) {
+    std::vector<double> values;
+    for (const TrackedError& error : errors)
+      if (const std::optional<double> value = error.*kind) values.push_back(*value);
+    found = static_cast<double>(values.size()) / static_cast<double>(errors.size());
+    return Quantiles{quantile(values, 0.5), quantile(values, 0.95)};
+  };
   ErrorSummary summary;
   summary.n = static_cast<int>(errors.size());
-  const auto board_mm = all_of(errors, &TrackedError::board_mm);
-  const auto board_deg = all_of(errors, &TrackedError::board_deg);
-  const auto tip_mm = all_of(errors, &TrackedError::tip_mm);
-  const auto effector_deg = all_of(errors, &TrackedError::effector_deg);
-  summary.board_found = share(board_mm, errors);
-  summary.effector_found = share(tip_mm, errors);
-  summary.board_median_mm = quantile(board_mm, 0.5);
-  summary.board_p95_mm = quantile(board_mm, 0.95);
-  summary.board_median_deg = quantile(board_deg, 0.5);
-  summary.board_p95_deg = quantile(board_deg, 0.95);
-  summary.tip_median_mm = quantile(tip_mm, 0.5);
-  summary.tip_p95_mm = quantile(tip_mm, 0.95);
-  summary.effector_median_deg = quantile(effector_deg, 0.5);
-  summary.effector_p95_deg = quantile(effector_deg, 0.95);
-  std::vector<double> times_ms;
-  for (const TrackedError& error : errors) times_ms.push_back(error.time_ms);
-  summary.time_median_ms = quantile(times_ms, 0.5).value_or(0);
-  summary.time_p95_ms = quantile(times_ms, 0.95).value_or(0);
+  summary.board_mm = quantiles_of(&TrackedError::board_mm);
+  summary.board_found = found;
+  summary.board_deg = quantiles_of(&TrackedError::board_deg);
+  summary.tip_mm = quantiles_of(&TrackedError::tip_mm);
+  summary.effector_found = found;
+  summary.effector_deg = quantiles_of(&TrackedError::effector_deg);
+  summary.time_ms = quantiles_of(&TrackedError::time_ms);
   return summary;
+}
+
+namespace {
+FilmPlan plan_for(int width_px, Motion motion, bool quick) {
+  FilmPlan plan{width_px, motion, 1, 12, 2, Grip::any};
+  if (quick) return plan;
+  const int times = width_px == 640 ? 2 : 1;
+  plan.n_takes = motion == Motion::hold ? 10 * times : 20 * times;
+  plan.n_pictures = motion == Motion::swipe ? 15 : 30;
+  return plan;
+}
+}  // namespace
+
+Headline film_headline(int width_px, bool quick, StudyProgress& progress) {
+  Headline headline;
+  headline.width_px = width_px;
+  const std::vector methods{our_method(width_px), plain_method(width_px)};
+  const auto filmed = [&](Motion motion, const std::string& name) {
+    progress.next(name + " at " + size_name(width_px));
+    auto films = film(plan_for(width_px, motion, quick), methods);
+    return Headline::Pair{std::move(films[0]), std::move(films[1])};
+  };
+  headline.strokes = filmed(Motion::stroke, "strokes");
+  headline.swipes = filmed(Motion::swipe, "swipes");
+  headline.holds = filmed(Motion::hold, "holds");
+  return headline;
 }
 
 }  // namespace heft

@@ -1,14 +1,50 @@
-// Films takes with the synthetic camera and lets methods track the same pictures one after the
-// other, each timed; what they got wrong against the poses that were rendered.
+// What the study films, who tracks it, and what they got wrong against the poses that were
+// rendered: our tracker with its settings and the comparisons behind one face, on the same pictures
+// one after the other, each timed.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "base/Image.h"
+#include "bench/Study.h"
+#include "bench/StudyFiles.h"
 #include "bench/tracking/Grips.h"
-#include "bench/tracking/Methods.h"
+#include "tracking/Tracker.h"
 
 namespace heft {
+
+struct MethodPoses {
+  std::optional<Pose> camera_from_board, board_from_effector;
+  double quality = 1;
+};
+
+/// What a method is, in the words of the charts and tables.
+struct MethodName {
+  std::string detector;    ///< "heft", "apriltag + solvePnP"...
+  std::string refinement;  ///< "corners", "corners + bias removed", "edges", "edges + bias removed"
+  double decimate = 1;
+  bool region_of_interest = false;
+
+  bool operator==(const MethodName&) const = default;
+};
+
+struct TrackingMethod {
+  std::function<MethodPoses(const Image& image, double t_s)> track;
+  std::function<void()> reset;  ///< what comes next is no continuation
+};
+
+TrackingMethod make_method(const MethodName& name, const Apparatus& apparatus);
+
+/// What our tracker does unless it is told otherwise.
+MethodName our_method(int width_px);
+/// AprilTag's corners and cv::solvePnP, decimated so that it keeps up: what most people build.
+MethodName plain_method(int width_px);
+
+/// Every detector, refinement and decimation; fewer where `quick`.
+std::vector<MethodName> all_methods(int width_px, bool quick);
 
 /// One picture, one method.
 struct TrackedError {
@@ -51,13 +87,16 @@ struct MethodFilm {
 /// @return one for each method
 std::vector<MethodFilm> film(const FilmPlan& plan, const std::vector<MethodName>& methods);
 
+/// Of what there is; none of nothing.
+struct Quantiles {
+  std::optional<double> median, p95;
+};
+
 /// What many pictures come to.
 struct ErrorSummary {
   int n = 0;
-  double board_found = 0, effector_found = 0;  ///< shares, 0...1
-  std::optional<double> board_median_mm, board_p95_mm, board_median_deg, board_p95_deg;
-  std::optional<double> tip_median_mm, tip_p95_mm, effector_median_deg, effector_p95_deg;
-  double time_median_ms = 0, time_p95_ms = 0;
+  double board_found = 0, effector_found = 0;  ///< fractions
+  Quantiles board_mm, board_deg, tip_mm, effector_deg, time_ms;
 };
 
 /// @param errors at least one
@@ -73,5 +112,19 @@ Eigen::Vector3d tip_of(const MarkerBody& effector);
 
 /// Of median and p95: not a number where there is none.
 double or_nan(const std::optional<double>& value);
+
+struct Headline {
+  int width_px = 0;
+  struct Pair {
+    MethodFilm ours, plain;
+  };
+  Pair strokes, swipes, holds;
+};
+
+inline constexpr int headline_parts = 3;  ///< of progress, a picture size
+Headline film_headline(int width_px, bool quick, StudyProgress& progress);
+
+/// Swipes count while they are this fast.
+inline constexpr double swiping_m_s = 0.45;
 
 }  // namespace heft

@@ -1,12 +1,9 @@
-#include "bench/tracking/Goals.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/Quantile.h"
-#include "bench/tracking/Accuracy.h"
-#include "bench/tracking/Filters.h"
+#include "bench/tracking/TrackingStudy.h"
 #include "physics/Drive.h"
 #include "tracking/CameraCalibration.h"
 #include "tracking/ViewCollector.h"
@@ -91,13 +88,13 @@ void add_size(std::vector<Goal>& goals, const Headline& headline) {
                        double reached, bool at_least = false) {
     goals.push_back({what + at, goal, unit, at_least, reached});
   };
-  add("board in camera, p95", 0.05, "mm", or_nan(ours.board_p95_mm));
-  add("board in camera, p95", 0.03, "deg", or_nan(ours.board_p95_deg));
-  add("effector's tip in board, p95", small ? 0.6 : 0.45, "mm", or_nan(ours.tip_p95_mm));
-  add("effector in board, p95", small ? 0.5 : 0.3, "deg", or_nan(ours.effector_p95_deg));
+  add("board in camera, p95", 0.05, "mm", or_nan(ours.board_mm.p95));
+  add("board in camera, p95", 0.03, "deg", or_nan(ours.board_deg.p95));
+  add("effector's tip in board, p95", small ? 0.6 : 0.45, "mm", or_nan(ours.tip_mm.p95));
+  add("effector in board, p95", small ? 0.5 : 0.3, "deg", or_nan(ours.effector_deg.p95));
   const auto swiping = while_swiping(headline.swipes.ours);
   if (!swiping.empty())
-    add("tip at 0.5 m/s, 4 ms exposure, p95", 1.2, "mm", or_nan(summary_of(swiping).tip_p95_mm));
+    add("tip at 0.5 m/s, 4 ms exposure, p95", 1.2, "mm", or_nan(summary_of(swiping).tip_mm.p95));
   add("tip's jitter when held still, filtered, RMS", 0.12, "mm",
       or_nan(jitter_mm(filtered(headline.holds.ours, our_filter()), tip_m)));
   add("C1's clone over the filmed effector at 0.5 m/s, p95", 1, "mm",
@@ -108,9 +105,9 @@ void add_size(std::vector<Goal>& goals, const Headline& headline) {
   if (both.ours.empty()) return;
   const ErrorSummary our = summary_of(both.ours), plain = summary_of(both.plain);
   add("tip p95 of apriltag + solvePnP over ours", 8, "times",
-      ratio(plain.tip_p95_mm, our.tip_p95_mm), true);
+      ratio(plain.tip_mm.p95, our.tip_mm.p95), true);
   add("our time over that of apriltag + solvePnP", 1.5, "times",
-      our.time_median_ms / plain.time_median_ms);
+      ratio(our.time_ms.median, plain.time_ms.median));
 }
 
 // Strokes with two faces in view, in which the effector came out turned round.

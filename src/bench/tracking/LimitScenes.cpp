@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "base/Random.h"
-#include "bench/tracking/Limits.h"
+#include "bench/tracking/TrackingStudy.h"
 
 namespace heft {
 
@@ -17,8 +17,15 @@ LimitScene usual(std::uint64_t number, const EffectorPrint& print = {}) {
   return {bench_apparatus(width_px, print), {}, take(Motion::hold, seed, number), 0};
 }
 
+using SceneOf = std::function<LimitScene(double, std::uint64_t)>;
+
+Limit limit(const char* name, const char* label, std::vector<double> values, SceneOf scene,
+            bool logarithmic = false) {
+  return {name, label, logarithmic, std::move(values), std::move(scene)};
+}
+
 template <typename Change>
-std::function<LimitScene(double, std::uint64_t)> changed(Change change) {
+SceneOf changed(Change change) {
   return [change](double value, std::uint64_t number) {
     LimitScene scene = usual(number);
     change(scene, value);
@@ -64,53 +71,32 @@ LimitScene smeared(double cells, std::uint64_t number) {
 }  // namespace
 
 std::vector<Limit> limits() {
-  return {{"tag_size_px",
-           "side of the effector's tags (pixels)",
-           false,
-           {38, 32, 27, 23, 20, 17, 14, 11},
-           small_tags},
-          {"obliqueness_deg",
-           "single tag, angle off its front (degrees)",
-           false,
-           {0, 15, 30, 45, 60, 68, 74, 80},
-           oblique},
-          {"motion_blur_cells",
-           "motion during the exposure (cells of a tag)",
-           false,
-           {0, 0.25, 0.5, 0.75, 1, 1.4, 1.8, 2.4},
-           smeared},
-          {"noise_sd",
-           "noise (gray levels of 255, SD)",
-           false,
-           {0, 3, 6, 10, 15, 20, 30},
-           changed([](LimitScene& s, double sd) { s.settings.optics.noise = sd; })},
-          {"defocus_px",
-           "blur by lens and focus (pixels, SD)",
-           false,
-           {0.4, 0.6, 0.9, 1.2, 1.6, 2, 2.5, 3},
-           changed([](LimitScene& s, double sd) { s.settings.optics.blur_px = sd; })},
-          {"exposure",
-           "light (1: paper just below white)",
-           true,
-           {0.05, 0.1, 0.2, 0.4, 0.7, 1, 1.4, 2, 3},
-           changed([](LimitScene& s, double light) { s.settings.optics.exposure = light; })},
-          {"tags_from_tip_mm",
-           "tags moved towards the fingers (mm from the tip)",
-           false,
-           {4, 8, 12, 16, 20, 26, 34, 42},
-           tags_under_fingers},
-          {"distance_m",
-           "camera to board (m)",
-           false,
-           {0.3, 0.4, 0.5, 0.65, 0.8, 1, 1.25, 1.5},
-           changed([](LimitScene& s, double distance_m) {
-             s.settings.camera_from_board = camera_above_board(distance_m, usual_pitch_rad);
-           })},
-          {"gamma",
-           "tone curve (gamma; 1: linear, elsewhere here: sRGB)",
-           false,
-           {2.2, 2, 1.8, 1.6, 1.4, 1.2, 1},
-           changed([](LimitScene& s, double gamma) { s.settings.optics.gamma = gamma; })}};
+  using S = LimitScene;
+  const auto noise = [](S& s, double sd) { s.settings.optics.noise = sd; };
+  const auto blur = [](S& s, double sd_px) { s.settings.optics.blur_px = sd_px; };
+  const auto exposure = [](S& s, double light) { s.settings.optics.exposure = light; };
+  const auto distance = [](S& s, double distance_m) {
+    s.settings.camera_from_board = camera_above_board(distance_m, usual_pitch_rad);
+  };
+  const auto tone = [](S& s, double gamma) { s.settings.optics.gamma = gamma; };
+  return {limit("tag_size_px", "side of the effector's tags (pixels)",
+                {38, 32, 27, 23, 20, 17, 14, 11}, small_tags),
+          limit("obliqueness_deg", "single tag, angle off its front (degrees)",
+                {0, 15, 30, 45, 60, 68, 74, 80}, oblique),
+          limit("motion_blur_cells", "motion during the exposure (cells of a tag)",
+                {0, 0.25, 0.5, 0.75, 1, 1.4, 1.8, 2.4}, smeared),
+          limit("noise_sd", "noise (gray levels of 255, SD)", {0, 3, 6, 10, 15, 20, 30},
+                changed(noise)),
+          limit("defocus_px", "blur by lens and focus (pixels, SD)",
+                {0.4, 0.6, 0.9, 1.2, 1.6, 2, 2.5, 3}, changed(blur)),
+          limit("exposure", "light (1: paper just below white)",
+                {0.05, 0.1, 0.2, 0.4, 0.7, 1, 1.4, 2, 3}, changed(exposure), true),
+          limit("tags_from_tip_mm", "tags moved towards the fingers (mm from the tip)",
+                {4, 8, 12, 16, 20, 26, 34, 42}, tags_under_fingers),
+          limit("distance_m", "camera to board (m)", {0.3, 0.4, 0.5, 0.65, 0.8, 1, 1.25, 1.5},
+                changed(distance)),
+          limit("gamma", "tone curve (gamma; 1: linear, elsewhere here: sRGB)",
+                {2.2, 2, 1.8, 1.6, 1.4, 1.2, 1}, changed(tone))};
 }
 
 }  // namespace heft

@@ -1,9 +1,8 @@
-#include "bench/tracking/Methods.h"
-
 #include <array>
 
 #include "base/PlugTable.h"
 #include "bench/comparison/ComparisonTracker.h"
+#include "bench/tracking/Filming.h"
 
 namespace heft {
 
@@ -31,40 +30,6 @@ TrackerSettings settings_of(const MethodName& name) {
   return settings;
 }
 
-class OurMethod final : public TrackingMethod {
- public:
-  OurMethod(const Apparatus& apparatus, const MethodName& name)
-      : tracker_(apparatus, settings_of(name)) {}
-
-  MethodPoses track(const Image& image, double t_s) override {
-    const TrackedPicture seen = tracker_.track(image, t_s);
-    return {seen.camera_from_board, seen.board_from_effector, seen.quality};
-  }
-  void reset() override { tracker_.reset(); }
-
- private:
-  Tracker tracker_;
-};
-
-class ComparisonMethod final : public TrackingMethod {
- public:
-  ComparisonMethod(const Apparatus& apparatus, const MethodName& name)
-      : tracker_(entry_named("comparison", name.detector, comparison_trackers())
-                     .make(apparatus, name.decimate)) {}
-
-  MethodPoses track(const Image& image, double) override {
-    const ComparisonPoses seen = tracker_->track(image);
-    MethodPoses poses{seen.camera_from_board, std::nullopt};
-    if (seen.camera_from_board && seen.camera_from_effector)
-      poses.board_from_effector = seen.camera_from_board->inverse() * *seen.camera_from_effector;
-    return poses;
-  }
-  void reset() override {}
-
- private:
-  std::unique_ptr<ComparisonTracker> tracker_;
-};
-
 void add_ours(std::vector<MethodName>& methods, double decimate) {
   for (const Refinement& refinement : refinements)
     methods.push_back({std::string(ours), std::string(refinement.name), decimate, true});
@@ -72,9 +37,27 @@ void add_ours(std::vector<MethodName>& methods, double decimate) {
 }
 }  // namespace
 
-std::unique_ptr<TrackingMethod> make_method(const MethodName& name, const Apparatus& apparatus) {
-  if (name.detector == ours) return std::make_unique<OurMethod>(apparatus, name);
-  return std::make_unique<ComparisonMethod>(apparatus, name);
+TrackingMethod make_method(const MethodName& name, const Apparatus& apparatus) {
+  if (name.detector == ours) {
+    const auto tracker = std::make_shared<Tracker>(apparatus, settings_of(name));
+    return {[tracker](const Image& image, double t_s) -> MethodPoses {
+              const TrackedPicture seen = tracker->track(image, t_s);
+              return {seen.camera_from_board, seen.board_from_effector, seen.quality};
+            },
+            [tracker] { tracker->reset(); }};
+  }
+  const std::shared_ptr<ComparisonTracker> tracker =
+      entry_named("comparison", name.detector, comparison_trackers())
+          .make(apparatus, name.decimate);
+  return {[tracker](const Image& image, double) {
+            const ComparisonPoses seen = tracker->track(image);
+            MethodPoses poses{seen.camera_from_board, std::nullopt};
+            if (seen.camera_from_board && seen.camera_from_effector)
+              poses.board_from_effector =
+                  seen.camera_from_board->inverse() * *seen.camera_from_effector;
+            return poses;
+          },
+          [] {}};
 }
 
 MethodName our_method(int width_px) {

@@ -1,11 +1,10 @@
-#include "bench/tracking/Smoothers.h"
-
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <optional>
 
 #include "base/Pose.h"
+#include "bench/tracking/TrackingStudy.h"
 #include "tracking/PoseFilter.h"
 
 namespace heft {
@@ -55,36 +54,22 @@ class NumberSmoother : public Smoother {
   std::optional<double> last_s_;
 };
 
-class Exponential final : public NumberSmoother {
- public:
-  explicit Exponential(double share_of_new) : share_(share_of_new) {}
-
- private:
-  Vector6 begin(const Vector6& measured) override { return value_ = measured; }
-  Vector6 next(const Vector6& measured, double) override {
-    return value_ += share_ * (measured - value_);
-  }
-
-  double share_;
-  Vector6 value_;
-};
-
-class OneEuro final : public NumberSmoother {
+class OneEuro : public NumberSmoother {
  public:
   /// @param beta Hz per m/s, and per ten rad/s
   OneEuro(double least_cutoff_hz, double beta) : least_(least_cutoff_hz), beta_(beta) {}
 
  private:
-  static double share(double cutoff_hz, double dt_s) {
+  static double fraction(double cutoff_hz, double dt_s) {
     return 1 / (1 + 1 / (2 * M_PI * cutoff_hz * dt_s));
   }
   Vector6 begin(const Vector6& measured) override { return value_ = measured; }
   Vector6 next(const Vector6& measured, double dt_s) override {
     constexpr double derivative_cutoff_hz = 1;
-    slope_ += share(derivative_cutoff_hz, dt_s) * ((measured - value_) / dt_s - slope_);
+    slope_ += fraction(derivative_cutoff_hz, dt_s) * ((measured - value_) / dt_s - slope_);
     const double moving = slope_.head<3>().norm(), turning = slope_.tail<3>().norm() / 10;
-    value_.head<3>() += share(least_ + beta_ * moving, dt_s) * (measured - value_).head<3>();
-    value_.tail<3>() += share(least_ + beta_ * turning, dt_s) * (measured - value_).tail<3>();
+    value_.head<3>() += fraction(least_ + beta_ * moving, dt_s) * (measured - value_).head<3>();
+    value_.tail<3>() += fraction(least_ + beta_ * turning, dt_s) * (measured - value_).tail<3>();
     return value_;
   }
 
@@ -140,36 +125,32 @@ class Kalman final : public NumberSmoother {
   Vector6 value_, slope_ = Vector6::Zero();
 };
 
-template <typename Filter>
-std::unique_ptr<Smoother> plain() {
-  return std::make_unique<Filter>();
-}
-template <int percent>
-std::unique_ptr<Smoother> exponential() {
-  return std::make_unique<Exponential>(percent / 100.0);
-}
-template <int cutoff_tenth_hz, int beta>
-std::unique_ptr<Smoother> one_euro() {
-  return std::make_unique<OneEuro>(cutoff_tenth_hz / 10.0, beta);
-}
-template <int hundredth_m_s2>
-std::unique_ptr<Smoother> kalman() {
-  return std::make_unique<Kalman>(hundredth_m_s2 / 100.0);
+// One-Euro that does not look at speed, at film_rate_hz.
+class Exponential final : public OneEuro {
+ public:
+  explicit Exponential(double fraction_of_new)
+      : OneEuro(fraction_of_new / (1 - fraction_of_new) * film_rate_hz / (2 * M_PI), 0) {}
+};
+
+template <typename Filter, typename... Settings>
+SmootherEntry entry(const char* family, const char* setting, Settings... settings) {
+  return {family, setting,
+          [=]() -> std::unique_ptr<Smoother> { return std::make_unique<Filter>(settings...); }};
 }
 }  // namespace
 
 const std::vector<SmootherEntry>& smoothers() {
-  static const std::vector<SmootherEntry> table{{"none", "", plain<Unfiltered>},
-                                                {"heft", "", plain<OurFilter>},
-                                                {"exponential", "0.7", exponential<70>},
-                                                {"exponential", "0.4", exponential<40>},
-                                                {"exponential", "0.2", exponential<20>},
-                                                {"One-Euro", "1 Hz beta 1", one_euro<10, 1>},
-                                                {"One-Euro", "1 Hz beta 10", one_euro<10, 10>},
-                                                {"One-Euro", "1 Hz beta 100", one_euro<10, 100>},
-                                                {"Kalman", "0.1 m/s2", kalman<10>},
-                                                {"Kalman", "1 m/s2", kalman<100>},
-                                                {"Kalman", "10 m/s2", kalman<1000>}};
+  static const std::vector table{entry<Unfiltered>("none", ""),
+                                 entry<OurFilter>("heft", ""),
+                                 entry<Exponential>("exponential", "0.7", 0.7),
+                                 entry<Exponential>("exponential", "0.4", 0.4),
+                                 entry<Exponential>("exponential", "0.2", 0.2),
+                                 entry<OneEuro>("One-Euro", "1 Hz beta 1", 1.0, 1),
+                                 entry<OneEuro>("One-Euro", "1 Hz beta 10", 1.0, 10),
+                                 entry<OneEuro>("One-Euro", "1 Hz beta 100", 1.0, 100),
+                                 entry<Kalman>("Kalman", "0.1 m/s2", 0.1),
+                                 entry<Kalman>("Kalman", "1 m/s2", 1.0),
+                                 entry<Kalman>("Kalman", "10 m/s2", 10.0)};
   return table;
 }
 

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "base/Error.h"
-#include "tracking/BoxFaces.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/Sheet.h"
-#include "tracking/sheets/Layout.h"
+#include "tracking/sheets/PdfSheet.h"
 
 namespace heft {
 

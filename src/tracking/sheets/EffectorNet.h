@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "tracking/BoxFaces.h"
+#include "tracking/MarkerBody.h"
 
 namespace heft {
 

@@ -6,7 +6,7 @@
 #include "base/Error.h"
 #include "tracking/Sheet.h"
 #include "tracking/sheets/EffectorNet.h"
-#include "tracking/sheets/Layout.h"
+#include "tracking/sheets/PdfSheet.h"
 
 namespace heft {
 

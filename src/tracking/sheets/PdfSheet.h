@@ -1,4 +1,5 @@
-// Draws a PDF in true millimeters: x right and y down from the paper's top left corner.
+// Draws a PDF in true millimeters: x right and y down from the paper's top left corner; and what
+// both sheets have: paper, its printable part, tags, the strip at the bottom with the ruler.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tracking/Sheet.h"
 #include "tracking/TagFamily.h"
 
 namespace heft {
@@ -58,5 +60,21 @@ class PdfSheet {
 
 /// A page of words: a heading, then numbered steps, each broken into lines by hand with '\n'.
 void write_steps(PdfSheet& sheet, const std::string& heading, std::span<const std::string> steps);
+
+inline constexpr double unprintable_mm = 5;   ///< at each edge, of common printers
+inline constexpr double ruler_strip_mm = 10;  ///< height, above the unprintable edge
+
+/// Upright.
+PointMm paper_mm(Paper paper);
+
+/// The length of the strip's ruler starts at the left; beside it, how to print.
+void draw_ruler_strip(PdfSheet& sheet, const PointMm& paper_mm, const std::string& note);
+
+/// A tag with its id in small gray print below it, away from where the detector looks.
+void draw_tag(PdfSheet& sheet, const std::string& family, int id,
+              const std::array<PointMm, 4>& corners_mm);
+
+/// Lengths as they were before the print was measured.
+MarkerBody as_designed(const MarkerBody& body);
 
 }  // namespace heft

@@ -1,16 +1,39 @@
-// Draws printed faces as the camera sees them: those that look its way, lit from above, cut off
-// where they go into the table.
+// Draws what is printed as the camera sees it: faces that look its way, through the lens, lit from
+// above, cut off where they go into the table; and what never changes, the table with the board.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "base/PoseTypes.h"
+#include "tracking/Intrinsics.h"
+#include "tracking/MarkerBody.h"
 #include "tracking/synthetic/AreaRaster.h"
-#include "tracking/synthetic/Lens.h"
 #include "tracking/synthetic/PrintedFaces.h"
 
 namespace heft {
+
+class Lens {
+ public:
+  explicit Lens(const Intrinsics& camera);
+
+  /// Pixel of a point in the camera frame, z >= nearest_m. Exact within the picture; outside, on
+  /// the right side of it.
+  Eigen::Vector2d pixel(const Eigen::Vector3d& point_m) const;
+
+  /// How many pixels a meter across is at that depth, roughly.
+  double px_per_m(double z_m) const { return (camera_.fx_px + camera_.fy_px) / 2 / z_m; }
+
+  const Intrinsics& camera() const { return camera_; }
+  PixelBox picture() const { return {0, 0, camera_.width_px, camera_.height_px}; }
+
+  /// What comes nearer than this is not drawn.
+  static constexpr double nearest_m = 0.03;
+
+ private:
+  Intrinsics camera_;
+  double widest_ray_ = 0;  ///< length of (x/z, y/z) up to which the model is used
+};
 
 /// Where a body is, for the camera and for the light.
 struct SeenBody {
@@ -52,5 +75,8 @@ std::optional<PixelBox> extent_of(const std::vector<PrintedFace>& faces, const S
                                   const Lens& lens);
 
 void draw_face(const PrintedFace& face, const SeenBody& body, const Lens& lens, AreaRaster& raster);
+
+/// @throws Error as printed_board
+LightPicture still_scene(const MarkerBody& board, const Pose& camera_from_board, const Lens& lens);
 
 }  // namespace heft

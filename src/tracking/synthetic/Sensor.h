@@ -6,7 +6,7 @@
 
 #include "base/Image.h"
 #include "tracking/SyntheticCamera.h"
-#include "tracking/synthetic/RowSpans.h"
+#include "tracking/synthetic/AreaRaster.h"
 
 namespace heft {
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/Image.h"
-#include "view/window/Measures.h"
+#include "view/window/Page.h"
 
 struct ImDrawList;
 struct ImFontAtlas;

@@ -2,8 +2,12 @@
 // places and effects. The screens fill a page, the painter draws it, taps are looked up in it.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -71,6 +75,52 @@ struct Page {
   std::optional<Rect> scene;  ///< where the scene goes, as large as fits; none: no scene
   std::string notice;         ///< one sentence over the scene's lower edge
   std::vector<CubeMark> marks;
+};
+
+/// The rule: touch targets are at least 0.14 of the window's height (of 0.6 of its width, if that
+/// is less). On a 7" touch screen of 1024 x 600 that is 84 px or 12.5 mm, at 1280 x 800 107 px or
+/// 12.7 mm, on one of 1920 x 1080 151 px or 12.2 mm; on larger screens more.
+struct Measures {
+  float width, height;       ///< of the window, in pixels
+  float target;              ///< least width and height of what can be tapped
+  float gap, margin;         ///< between controls; around them
+  float small, body, title;  ///< text
+
+  Measures(float width_px, float height_px) : width(width_px), height(height_px) {
+    const float unit = std::min(height_px, 0.6f * width_px);
+    target = 0.14f * unit;
+    gap = 0.016f * unit;
+    margin = 0.025f * unit;
+    small = 0.031f * unit;
+    body = 0.042f * unit;
+    title = 0.065f * unit;
+  }
+};
+
+class Taps {
+ public:
+  /// A finger's number, or that of the mouse.
+  using Pointer = std::int64_t;
+  static constexpr Pointer mouse = -1;
+
+  void down(Pointer pointer, const std::string& target) { pressed_[pointer] = target; }
+
+  /// @param target what the pointer left the screen over; none: nothing
+  /// @return whether that was a tap on the target
+  bool up(Pointer pointer, const std::optional<std::string>& target) {
+    const auto press = pressed_.extract(pointer);
+    return target && !press.empty() && press.mapped() == *target;
+  }
+
+  /// The page turned: no tap may begin on one page and end on the next.
+  void forget() { pressed_.clear(); }
+
+  bool holds(std::string_view target) const {
+    return std::ranges::any_of(pressed_, [&](const auto& press) { return press.second == target; });
+  }
+
+ private:
+  std::map<Pointer, std::string> pressed_;
 };
 
 }  // namespace heft

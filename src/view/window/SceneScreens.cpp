@@ -87,100 +87,100 @@ std::string sorting_question(const PageBuilder& builder, int n_slots) {
 // Buttons that stand for the cubes, in the cubes' order for either hand; in two rows where there
 // are too many for one.
 template <typename EffectOf>
-void add_cubes(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory,
-               const Rect& row, const EffectOf& effect_of) {
-  const int n_beside = in_a_row(state.n_slots);
-  for (int slot = 1; slot <= state.n_slots; ++slot) {
+void add_cubes(PageBuilder& builder, const Rect& row, const EffectOf& effect_of) {
+  const int n_beside = in_a_row(builder.state.n_slots);
+  for (int slot = 1; slot <= builder.state.n_slots; ++slot) {
     const Rect its_row = rows_below(row, (slot - 1) / n_beside, builder.measures.gap);
     Control& button =
         builder.add_button(fmt::format("cube_{}", slot),
                            cell(its_row, (slot - 1) % n_beside, n_beside, builder.measures.gap),
-                           slot_words(builder, slot, state.n_slots), effect_of(slot),
+                           slot_words(builder, slot, builder.state.n_slots), effect_of(slot),
                            slot <= 9 ? static_cast<char>('0' + slot) : '\0');
-    button.enabled = state.can_answer && memory.cubes_shown;
-    button.chosen = memory.selected == slot;
+    button.enabled = builder.state.can_answer && builder.memory.cubes_shown;
+    button.chosen = builder.memory.selected == slot;
   }
 }
 
-void add_put_back(PageBuilder& builder, const ScreenMemory& memory, const Rect& area) {
+void add_put_back(PageBuilder& builder, const Rect& area) {
   builder
       .add_button("put_cubes_back", area, builder.text("buttons", "put_cubes_back"),
                   touch_of(TouchKind::put_cubes_back), key_backspace)
-      .enabled = memory.cubes_shown;
+      .enabled = builder.memory.cubes_shown;
 }
 
 // What must be done before an answer is possible.
-void add_hint(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
-  if (!memory.cubes_shown)
+void add_hint(PageBuilder& builder) {
+  if (!builder.memory.cubes_shown)
     builder.page.notice = builder.text("trial", "wait_for_cubes");
-  else if (!state.can_answer)
+  else if (!builder.state.can_answer)
     builder.page.notice = builder.text("trial", "touch_every_cube");
 }
 
-bool all_labeled(const ScreenState& state) {
-  return static_cast<int>(std::ranges::count_if(
-             state.labels, [](const auto& label) { return label.has_value(); })) == state.n_slots;
+bool all_labeled(const PageBuilder& builder) {
+  return static_cast<int>(std::ranges::count_if(builder.state.labels, [](const auto& label) {
+           return label.has_value();
+         })) == builder.state.n_slots;
 }
 
 // The place of the cube that a label is given to; empty: to none. On the labels' buttons, which
 // have the room for it: three labels beside each other would be too small to read.
-std::string labeled_place(const PageBuilder& builder, const ScreenState& state, Label label) {
-  const auto found = std::ranges::find(state.labels, label);
-  if (found == state.labels.end()) return {};
-  return slot_words(builder, static_cast<int>(found - state.labels.begin()) + 1, state.n_slots);
+std::string labeled_place(const PageBuilder& builder, Label label) {
+  const auto found = std::ranges::find(builder.state.labels, label);
+  if (found == builder.state.labels.end()) return {};
+  return slot_words(builder, static_cast<int>(found - builder.state.labels.begin()) + 1,
+                    builder.state.n_slots);
 }
 
 // Gives the selected cube a label, or takes back the one it has.
-void add_label(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory,
-               Label label, const Rect& area, char key) {
-  const int slot = memory.selected.value_or(0);
+void add_label(PageBuilder& builder, Label label, const Rect& area, char key) {
+  const int slot = builder.memory.selected.value_or(0);
   const auto i = static_cast<std::size_t>(slot - 1);
-  const bool given = slot > 0 && i < state.labels.size() && state.labels[i] == label;
+  const bool given =
+      slot > 0 && i < builder.state.labels.size() && builder.state.labels[i] == label;
   const std::string name(name_of(label));
   Control& button = builder.add_button(
       "label_" + name, area, label_words(builder, label),
       given ? answer(ActionKind::unlabel, slot) : answer(ActionKind::label, slot, label), key);
-  button.note = labeled_place(builder, state, label);
-  button.enabled = state.can_answer && memory.cubes_shown && slot > 0;
+  button.note = labeled_place(builder, label);
+  button.enabled = builder.state.can_answer && builder.memory.cubes_shown && slot > 0;
   button.chosen = given;
 }
 
-void mark_cubes(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
-  for (int slot = 1; slot <= state.n_slots; ++slot) {
+void mark_cubes(PageBuilder& builder) {
+  for (int slot = 1; slot <= builder.state.n_slots; ++slot) {
     const auto i = static_cast<std::size_t>(slot - 1);
-    CubeMark mark{slot, "", memory.selected == slot};
-    if (i < state.labels.size() && state.labels[i])
-      mark.text = label_words(builder, *state.labels[i]);
+    CubeMark mark{slot, "", builder.memory.selected == slot};
+    if (i < builder.state.labels.size() && builder.state.labels[i])
+      mark.text = label_words(builder, *builder.state.labels[i]);
     if (mark.selected || !mark.text.empty()) builder.page.marks.push_back(std::move(mark));
   }
 }
 
 // The words each in a row of its own, where there is room for them; ranks like the cubes.
-void add_labels(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory,
-                const Rect& first_row) {
-  const auto labels = labels_for(state.n_slots);
-  const int n = state.n_slots, n_beside = n <= 3 ? 1 : in_a_row(n);
+void add_labels(PageBuilder& builder, const Rect& first_row) {
+  const auto labels = labels_for(builder.state.n_slots);
+  const int n = builder.state.n_slots, n_beside = n <= 3 ? 1 : in_a_row(n);
   const float gap = builder.measures.gap;
   for (int i = 0; i < n; ++i) {
     const Label label = labels[static_cast<std::size_t>(i)];
     const char key = label < Label::rank_1 ? name_of(label).front() : '\0';
-    add_label(builder, state, memory, label,
+    add_label(builder, label,
               cell(rows_below(first_row, i / n_beside, gap), i % n_beside, n_beside, gap), key);
   }
 }
 
 // Two cubes, of which one is chosen with one tap.
-void choice_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
-  add_scene(builder, builder.text(text_page(Screen::trial, state.task), "question"));
-  add_hint(builder, state, memory);
+void choice_screen(PageBuilder& builder) {
+  add_scene(builder, builder.text(text_page(Screen::trial, builder.state.task), "question"));
+  add_hint(builder);
   const Rect column = column_of(builder);
-  add_cubes(builder, state, memory, {column.x, column.y, column.width, 2 * builder.measures.target},
+  add_cubes(builder, {column.x, column.y, column.width, 2 * builder.measures.target},
             [](int slot) { return answer(ActionKind::select, slot); });
-  add_put_back(builder, memory, bottom_row(builder));
+  add_put_back(builder, bottom_row(builder));
 }
 }  // namespace
 
-void demonstration_screen(PageBuilder& builder, const ScreenState& state) {
+void demonstration_screen(PageBuilder& builder) {
   add_scene(builder, builder.text("demonstration", "title"));
   const Rect column = column_of(builder);
   const Rect button = bottom_row(builder);
@@ -188,60 +188,56 @@ void demonstration_screen(PageBuilder& builder, const ScreenState& state) {
       builder.typeface.fitted(builder.text("demonstration", "text"), builder.measures.body,
                               column.width, button.y - column.y - builder.measures.gap);
   builder.add_lines(words.lines, column.x, builder.page.scene->y, words.size_px, Tone::soft);
-  if (state.wait_s > 0) return;
-  builder
-      .add_button("next", button, builder.text("buttons", "next"), touch_of(TouchKind::next),
-                  key_enter)
-      .look = Look::primary;
+  if (builder.state.wait_s > 0) return;
+  builder.add_primary("next", button, builder.text("buttons", "next"), touch_of(TouchKind::next));
 }
 
-void introduction_screen(PageBuilder& builder, const ScreenState& state,
-                         const ScreenMemory& memory) {
-  choice_screen(builder, state, memory);
-  if (state.try_again && builder.page.notice.empty())
+void introduction_screen(PageBuilder& builder) {
+  choice_screen(builder);
+  if (builder.state.try_again && builder.page.notice.empty())
     builder.page.notice = builder.text("trial_introduction", "try_again");
 }
 
-void comparison_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
-  choice_screen(builder, state, memory);
+void comparison_screen(PageBuilder& builder) {
+  choice_screen(builder);
   const Measures& m = builder.measures;
   const Rect column = column_of(builder);
   const Rect area{column.x, column.y + 2 * m.target + m.gap, column.width, 1.25f * m.target};
   builder
       .add_button("no_difference", area, builder.text("trial_comparison", "no_difference"),
                   answer(ActionKind::no_difference), 'n')
-      .enabled = state.can_answer && memory.cubes_shown;
+      .enabled = builder.state.can_answer && builder.memory.cubes_shown;
 }
 
-void sorting_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
-  add_scene(builder, sorting_question(builder, state.n_slots));
-  add_hint(builder, state, memory);
-  if (builder.page.notice.empty() && !memory.selected && !all_labeled(state))
+void sorting_screen(PageBuilder& builder) {
+  add_scene(builder, sorting_question(builder, builder.state.n_slots));
+  add_hint(builder);
+  if (builder.page.notice.empty() && !builder.memory.selected && !all_labeled(builder))
     builder.page.notice = builder.text("trial_sorting", "tap_a_cube");
-  mark_cubes(builder, state, memory);
+  mark_cubes(builder);
 
-  const int n_cube_rows = state.n_slots > 3 ? 2 : 1;
-  const int n_label_rows = state.n_slots > 3 ? 2 : state.n_slots;
+  const int n_cube_rows = builder.state.n_slots > 3 ? 2 : 1;
+  const int n_label_rows = builder.state.n_slots > 3 ? 2 : builder.state.n_slots;
   const int n_rows = n_cube_rows + n_label_rows + 2;
   const Measures& m = builder.measures;
   const Rect column = column_of(builder);
   const auto n = static_cast<float>(n_rows);
   const float height = std::min((column.height - (n - 1) * m.gap) / n, 1.2f * m.target);
   const Rect first{column.x, column.y, column.width, height};
-  add_cubes(builder, state, memory, first, [](int slot) { return SelectCube{slot}; });
-  add_labels(builder, state, memory, rows_below(first, n_cube_rows, m.gap));
+  add_cubes(builder, first, [](int slot) { return SelectCube{slot}; });
+  add_labels(builder, rows_below(first, n_cube_rows, m.gap));
   const Rect below = rows_below(first, n_cube_rows + n_label_rows, m.gap);
   Control& validate =
       builder.add_button("validate", below, builder.text("trial_sorting", "validate"),
                          answer(ActionKind::validate), key_enter);
   validate.look = Look::primary;
-  validate.enabled = state.can_validate && memory.cubes_shown;
+  validate.enabled = builder.state.can_validate && builder.memory.cubes_shown;
   const Rect last{column.x, column.bottom() - height, column.width, height};
   builder
       .add_button("dont_know", cell(last, 0, 2, m.gap), builder.text("trial_sorting", "dont_know"),
                   answer(ActionKind::dont_know), 'd')
-      .enabled = state.can_answer && memory.cubes_shown;
-  add_put_back(builder, memory, cell(last, 1, 2, m.gap));
+      .enabled = builder.state.can_answer && builder.memory.cubes_shown;
+  add_put_back(builder, cell(last, 1, 2, m.gap));
 }
 
 }  // namespace heft

@@ -1,12 +1,17 @@
-// One function per screen of the participant: fills a page with what the screen shows and offers.
+// One function per screen of the participant: fills a page with what the screen shows and offers,
+// by a builder that looks words up and places text and buttons by the measures, on the side of the
+// hand that taps.
 #pragma once
 
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiment/ScreenState.h"
-#include "view/window/PageBuilder.h"
+#include "experiment/ScreenTexts.h"
+#include "view/window/Page.h"
+#include "view/window/Typeface.h"
 
 namespace heft {
 
@@ -18,24 +23,62 @@ struct ScreenMemory {
   bool cubes_shown = false;                    ///< in the scene
 };
 
+class PageBuilder {
+ public:
+  PageBuilder(const ScreenState& offered, const ScreenMemory& remembered, const ScreenTexts& texts,
+              const Typeface& face, const Measures& sizes, bool left_hand)
+      : state(offered),
+        memory(remembered),
+        measures(sizes),
+        typeface(face),
+        left_handed(left_hand),
+        texts_(texts) {}
+
+  const std::string& text(const std::string& of_page, const std::string& key) const {
+    return texts_.at(of_page, key);
+  }
+
+  /// Lines below each other; an empty one is half as high.
+  /// @return the bottom of the last
+  float add_lines(const std::vector<std::string>& lines, float x, float y, float size_px,
+                  Tone tone = Tone::strong);
+  float height_px(const std::vector<std::string>& lines, float size_px) const;
+
+  Control& add_button(std::string name, const Rect& area, std::string words, Effect effect,
+                      char key = 0);
+
+  /// The one that leads on; the key is Enter.
+  Control& add_primary(std::string name, const Rect& area, std::string words, Effect effect);
+
+  /// The i-th button of the row along the lower edge, counted from the side of the hand.
+  Rect bottom_button(int i) const;
+  /// Where text pages write: centered, of a width that reads well, above the row of buttons.
+  Rect text_area() const;
+
+  Page page;
+  const ScreenState& state;
+  const ScreenMemory& memory;
+  const Measures& measures;
+  const Typeface& typeface;
+  const bool left_handed;
+
+ private:
+  const ScreenTexts& texts_;
+};
+
+/// A touch that is no answer: it turns the page, or asks for something.
+Touch touch_of(TouchKind kind);
+
+inline constexpr char key_enter = '\r', key_backspace = '\b';
+
+using FillPage = void(PageBuilder& builder);
+
 // Text: TextScreens.cpp. A text too long for the screen comes in parts.
-void consent_screen(PageBuilder& builder, const ScreenMemory& memory);
-void welcome_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory);
-void instructions_screen(PageBuilder& builder, const ScreenState& state,
-                         const ScreenMemory& memory);
-void rest_screen(PageBuilder& builder, const ScreenState& state);
-void paused_screen(PageBuilder& builder);
-void thanks_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory);
-
-// Forms of one question at a time, each to be skipped at will: FormScreens.cpp.
-void about_you_screen(PageBuilder& builder, const ScreenMemory& memory);
-void how_decided_screen(PageBuilder& builder, const ScreenMemory& memory);
-
+FillPage consent_screen, welcome_screen, instructions_screen, rest_screen, paused_screen,
+    thanks_screen;
+// Forms of one question at a time, each to be skipped at will: there, too.
+FillPage about_you_screen, how_decided_screen;
 // Beside the scene: SceneScreens.cpp.
-void demonstration_screen(PageBuilder& builder, const ScreenState& state);
-void introduction_screen(PageBuilder& builder, const ScreenState& state,
-                         const ScreenMemory& memory);
-void sorting_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory);
-void comparison_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory);
+FillPage demonstration_screen, introduction_screen, sorting_screen, comparison_screen;
 
 }  // namespace heft

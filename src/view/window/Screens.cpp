@@ -1,8 +1,80 @@
 #include "view/window/Screens.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
+
+#include "view/window/ScreenPages.h"
 
 namespace heft {
+
+namespace {
+float advance_px(const std::string& line, float size_px) {
+  return Typeface::line_height_px(size_px) * (line.empty() ? 0.5f : 1.f);
+}
+
+// In the order of Screen and of Task.
+constexpr std::array<FillPage*, EnumNames<Screen>::names.size()> pages{
+    consent_screen, welcome_screen, about_you_screen, demonstration_screen, instructions_screen,
+    nullptr,        rest_screen,    paused_screen,    how_decided_screen,   thanks_screen};
+constexpr std::array<FillPage*, EnumNames<Task>::names.size()> trial_pages{
+    introduction_screen, sorting_screen, comparison_screen};
+}  // namespace
+
+float PageBuilder::add_lines(const std::vector<std::string>& lines, float x, float y, float size_px,
+                             Tone tone) {
+  for (const std::string& line : lines) {
+    if (!line.empty()) page.lines.push_back({line, x, y, size_px, tone});
+    y += advance_px(line, size_px);
+  }
+  return y;
+}
+
+float PageBuilder::height_px(const std::vector<std::string>& lines, float size_px) const {
+  float height = 0;
+  for (const std::string& line : lines) height += advance_px(line, size_px);
+  return height;
+}
+
+Control& PageBuilder::add_button(std::string name, const Rect& area, std::string words,
+                                 Effect effect, char key) {
+  Control control;
+  control.name = std::move(name);
+  control.area = area;
+  control.text = std::move(words);
+  control.effect = std::move(effect);
+  control.key = key;
+  return page.controls.emplace_back(std::move(control));
+}
+
+Rect PageBuilder::bottom_button(int i) const {
+  const Rect area = text_area();
+  const float width = (area.width - 2 * measures.gap) / 3;
+  const float offset = static_cast<float>(i) * (width + measures.gap);
+  return {left_handed ? area.x + offset : area.right() - width - offset,
+          measures.height - 2 * measures.margin - measures.target, width, measures.target};
+}
+
+Rect PageBuilder::text_area() const {
+  const float width = std::min(measures.width - 4 * measures.margin, 10.5f * measures.target);
+  const float bottom = measures.height - 2 * measures.margin - measures.target - 2 * measures.gap;
+  const float top = 2 * measures.margin;
+  return {(measures.width - width) / 2, top, width, bottom - top};
+}
+
+Control& PageBuilder::add_primary(std::string name, const Rect& area, std::string words,
+                                  Effect effect) {
+  Control& control =
+      add_button(std::move(name), area, std::move(words), std::move(effect), key_enter);
+  control.look = Look::primary;
+  return control;
+}
+
+Touch touch_of(TouchKind kind) {
+  Touch touch;
+  touch.kind = kind;
+  return touch;
+}
 
 // A trial after a trial has the same page; it is told by its cubes that are not there yet, or by
 // its count of choices that begins anew.
@@ -25,42 +97,11 @@ bool Screens::show(const ScreenState& state, bool cubes_shown) {
 
 Page Screens::page(const Typeface& typeface, const Measures& measures) const {
   if (!shown_) return {};
-  PageBuilder builder(texts_, typeface, measures, left_handed_);
-  const auto trial = [&] {
-    switch (state_.task) {
-      case Task::introduction:
-        return introduction_screen(builder, state_, memory_);
-      case Task::sorting:
-        return sorting_screen(builder, state_, memory_);
-      case Task::comparison:
-        return comparison_screen(builder, state_, memory_);
-    }
-  };
-  const auto fill = [&] {
-    switch (state_.screen) {
-      case Screen::consent:
-        return consent_screen(builder, memory_);
-      case Screen::welcome:
-        return welcome_screen(builder, state_, memory_);
-      case Screen::about_you:
-        return about_you_screen(builder, memory_);
-      case Screen::demonstration:
-        return demonstration_screen(builder, state_);
-      case Screen::instructions:
-        return instructions_screen(builder, state_, memory_);
-      case Screen::trial:
-        return trial();
-      case Screen::rest:
-        return rest_screen(builder, state_);
-      case Screen::paused:
-        return paused_screen(builder);
-      case Screen::how_decided:
-        return how_decided_screen(builder, memory_);
-      case Screen::thanks:
-        return thanks_screen(builder, state_, memory_);
-    }
-  };
-  fill();
+  PageBuilder builder(state_, memory_, texts_, typeface, measures, left_handed_);
+  if (state_.screen == Screen::trial)
+    trial_pages[static_cast<std::size_t>(state_.task)](builder);
+  else
+    pages[static_cast<std::size_t>(state_.screen)](builder);
   return std::move(builder.page);
 }
 

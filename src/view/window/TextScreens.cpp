@@ -1,7 +1,11 @@
+// Pages without a scene: texts and forms.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <string_view>
 
 #include "view/window/ScreenPages.h"
 
@@ -23,6 +27,11 @@ std::vector<Lines> in_parts(const PageBuilder& builder, const Lines& lines, floa
   return parts;
 }
 
+void add_back(PageBuilder& builder) {
+  builder.add_button("back", builder.bottom_button(2), builder.text("buttons", "back"),
+                     TurnPart{-1}, key_backspace);
+}
+
 // Writes the title and the text's part in the middle of the space above the buttons.
 // @return whether it was the last part
 bool add_text(PageBuilder& builder, const std::string& page, int wished_part) {
@@ -40,54 +49,122 @@ bool add_text(PageBuilder& builder, const std::string& page, int wished_part) {
   const float y = n_parts > 1 ? area.y : area.y + std::max(0.f, 0.4f * free_px);
   builder.add_lines(title, area.x, y, m.title);
   builder.add_lines(lines, area.x, y + title_px, m.body, Tone::soft);
-  if (part > 0)
-    builder.add_button("back", builder.bottom_button(2), builder.text("buttons", "back"),
-                       TurnPart{-1}, key_backspace);
+  if (part > 0) add_back(builder);
   if (part + 1 == n_parts) return true;
-  builder
-      .add_button("more", builder.bottom_button(0), builder.text("buttons", "more"), TurnPart{1},
-                  key_enter)
-      .look = Look::primary;
+  builder.add_primary("more", builder.bottom_button(0), builder.text("buttons", "more"),
+                      TurnPart{1});
   return false;
 }
 
 void add_next(PageBuilder& builder, const std::string& word) {
-  builder
-      .add_button("next", builder.bottom_button(0), builder.text("buttons", word),
-                  touch_of(TouchKind::next), key_enter)
-      .look = Look::primary;
+  builder.add_primary("next", builder.bottom_button(0), builder.text("buttons", word),
+                      touch_of(TouchKind::next));
 }
 
-void text_screen(PageBuilder& builder, const std::string& page, const ScreenState& state,
-                 const ScreenMemory& memory, const std::string& next_word) {
-  if (add_text(builder, page, memory.part) && state.wait_s <= 0) add_next(builder, next_word);
+void text_screen(PageBuilder& builder, const std::string& page, const std::string& next_word) {
+  if (add_text(builder, page, builder.memory.part) && builder.state.wait_s <= 0)
+    add_next(builder, next_word);
+}
+
+/// A question and the values that an answer can have: a touch's key and value, whatever the
+/// language. The words are at KEY and KEY_VALUE of the page.
+struct Question {
+  std::string_view key;
+  std::vector<std::string_view> values;
+};
+
+const std::array about_you{
+    Question{"age", {"under_18", "18_24", "25_34", "35_44", "45_54", "55_or_more"}},
+    Question{"gender", {"woman", "man", "other", "not_said"}},
+    Question{"handedness", {"right", "left", "both"}},
+    Question{"eyesight", {"unaided", "glasses", "lenses"}},
+    Question{"ar_experience", {"never", "once_or_twice", "several_times", "often"}}};
+
+const std::array how_decided{Question{"basis", {"seen", "felt", "both", "guessed"}},
+                             Question{"certainty", {"very", "fairly", "little", "none"}},
+                             Question{"movement", {"slow", "fast", "varied", "unaware"}}};
+
+Touch entry(std::string_view key, std::string_view value) {
+  Touch touch = touch_of(TouchKind::entry);
+  touch.key = key;
+  touch.value = value;
+  return touch;
+}
+
+// @return the bottom of the question
+float add_question(PageBuilder& builder, const std::string& page, const Question& question,
+                   const std::string& progress) {
+  const Measures& m = builder.measures;
+  const Rect area = builder.text_area();
+  const float y = builder.add_lines({fmt::format("{}   {}", builder.text(page, "title"), progress)},
+                                    area.x, area.y, m.body, Tone::soft);
+  const auto words = builder.typeface.fitted(builder.text(page, std::string(question.key)),
+                                             0.7f * m.title, area.width, 2 * m.title);
+  return builder.add_lines(words.lines, area.x, y + m.gap, words.size_px);
+}
+
+void add_choices(PageBuilder& builder, const std::string& page, const Question& question,
+                 const std::string& chosen, float top) {
+  const Measures& m = builder.measures;
+  const Rect area = builder.text_area();
+  const float width = (area.width - m.gap) / 2;
+  for (std::size_t i = 0; i < question.values.size(); ++i) {
+    const std::string_view value = question.values[i];
+    const Rect place{area.x + static_cast<float>(i % 2) * (width + m.gap),
+                     top + static_cast<float>(i / 2) * (m.target + m.gap), width, m.target};
+    const std::string name = fmt::format("{}_{}", question.key, value);
+    builder
+        .add_button(name, place, builder.text(page, name), entry(question.key, value),
+                    static_cast<char>('1' + i))
+        .chosen = value == chosen;
+  }
+}
+
+void add_turning(PageBuilder& builder, int i, int n, bool answered) {
+  const bool last = i + 1 == n;
+  builder
+      .add_button("next", builder.bottom_button(0),
+                  builder.text("buttons", answered ? "next" : "skip"),
+                  last ? Effect(touch_of(TouchKind::next)) : Effect(TurnPart{1}), key_enter)
+      .look = answered ? Look::primary : Look::plain;
+  if (i > 0) add_back(builder);
+}
+
+void form_screen(PageBuilder& builder, const std::string& page,
+                 std::span<const Question> questions) {
+  const int n = static_cast<int>(questions.size());
+  const int i = std::min(builder.memory.part, n - 1);
+  const Question& question = questions[static_cast<std::size_t>(i)];
+  const auto chosen = builder.memory.entries.find(std::string(question.key));
+  const bool answered = chosen != builder.memory.entries.end();
+  const float bottom = add_question(builder, page, question, fmt::format("{} / {}", i + 1, n));
+  add_choices(builder, page, question, answered ? chosen->second : "",
+              bottom + builder.measures.gap);
+  add_turning(builder, i, n, answered);
 }
 }  // namespace
 
-void consent_screen(PageBuilder& builder, const ScreenMemory& memory) {
-  if (!add_text(builder, "consent", memory.part)) return;
-  builder
-      .add_button("next", builder.bottom_button(0), builder.text("consent", "agree"),
-                  touch_of(TouchKind::next), key_enter)
-      .look = Look::primary;
+void consent_screen(PageBuilder& builder) {
+  if (!add_text(builder, "consent", builder.memory.part)) return;
+  builder.add_primary("next", builder.bottom_button(0), builder.text("consent", "agree"),
+                      touch_of(TouchKind::next));
   builder.add_button("decline", builder.bottom_button(1), builder.text("consent", "decline"),
                      touch_of(TouchKind::decline), 'n');
 }
 
-void welcome_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
-  text_screen(builder, "welcome", state, memory, "start");
+void welcome_screen(PageBuilder& builder) {
+  text_screen(builder, "welcome", "start");
 }
 
-void instructions_screen(PageBuilder& builder, const ScreenState& state,
-                         const ScreenMemory& memory) {
-  text_screen(builder, text_page(Screen::instructions, state.task), state, memory, "next");
+void instructions_screen(PageBuilder& builder) {
+  text_screen(builder, text_page(Screen::instructions, builder.state.task), "next");
 }
 
-void rest_screen(PageBuilder& builder, const ScreenState& state) {
+void rest_screen(PageBuilder& builder) {
   add_text(builder, "rest", 0);
-  if (state.wait_s <= 0) return add_next(builder, "next");
+  if (builder.state.wait_s <= 0) return add_next(builder, "next");
   const Rect area = builder.bottom_button(0);
-  const auto left_s = static_cast<int>(std::ceil(state.wait_s));
+  const auto left_s = static_cast<int>(std::ceil(builder.state.wait_s));
   const float x = builder.text_area().x;
   const float y = builder.add_lines({builder.text("rest", "time_left")}, x, area.y,
                                     builder.measures.body, Tone::soft);
@@ -99,8 +176,16 @@ void paused_screen(PageBuilder& builder) {
   add_text(builder, "paused", 0);
 }
 
-void thanks_screen(PageBuilder& builder, const ScreenState& state, const ScreenMemory& memory) {
-  text_screen(builder, "thanks", state, memory, "finish");
+void thanks_screen(PageBuilder& builder) {
+  text_screen(builder, "thanks", "finish");
+}
+
+void about_you_screen(PageBuilder& builder) {
+  form_screen(builder, "about_you", about_you);
+}
+
+void how_decided_screen(PageBuilder& builder) {
+  form_screen(builder, "how_decided", how_decided);
 }
 
 }  // namespace heft

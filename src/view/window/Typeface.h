@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiment/ScreenTexts.h"
-#include "view/window/Measures.h"
+#include "view/window/Page.h"
 
 struct ImFont;
 struct ImFontAtlas;

@@ -7,11 +7,6 @@
 #include <utility>
 
 #include "base/Clock.h"
-#include "view/window/GlWindow.h"
-#include "view/window/Painter.h"
-#include "view/window/SceneOnScreen.h"
-#include "view/window/Screens.h"
-#include "view/window/Taps.h"
 
 namespace heft {
 
@@ -33,140 +28,108 @@ std::optional<char> key_of(const SDL_Keysym& key) {
   if (key.sym > 0 && key.sym < 128) return static_cast<char>(key.sym);
   return std::nullopt;
 }
-
-// SDL counts events' times in milliseconds of the same clock, from its own start.
-double sdl_start_s() {
-  return monotonic_s() - static_cast<double>(SDL_GetTicks64()) * 1e-3;
-}
 }  // namespace
 
-struct WindowView::Impl {
-  explicit Impl(const ViewSetup& setup)
-      : window("Heft"),
-        scene(setup),
-        screens(setup.texts, setup.left_handed),
-        measures(window.measures()),
-        typeface(std::make_unique<Typeface>(setup.texts, measures)),
-        sdl_start(sdl_start_s()) {}
+WindowView::WindowView(const ViewSetup& setup)
+    : window_("Heft"),
+      scene_(setup),
+      screens_(setup.texts, setup.left_handed),
+      measures_(window_.measures()),
+      typeface_(std::make_unique<Typeface>(setup.texts, measures_)),
+      sdl_start_s_(monotonic_s() - static_cast<double>(SDL_GetTicks64()) * 1e-3) {}
 
-  void show(const ViewPicture& shown, const ScreenState& screen);
-  void draw();
-  void handle_pending();
-  void handle(const SDL_Event& event);
-  void down(Taps::Pointer pointer, float x, float y, double t_s);
-  void up(Taps::Pointer pointer, float x, float y, double t_s);
-  void key(char key, double t_s);
-  void apply(const Control& control, double t_s);
-  void report(Touch touch, double t_s);
-
-  void lay_out();
-  const Control* enabled_control(const std::string& name) const;
-  std::optional<std::string> target_at(float x, float y) const;
-
-  GlWindow window;
-  SceneOnScreen scene;
-  Screens screens;
-  Measures measures;
-  std::unique_ptr<Typeface> typeface;
-  Page page;
-  Taps taps;
-  std::vector<Touch> touches;
-  double sdl_start;
-  double page_since_s = 0;
-  bool stale = false;  ///< what is on the display is not the page as it is now
-};
-
-void WindowView::Impl::show(const ViewPicture& shown, const ScreenState& screen) {
-  if (screens.show(screen, !shown.frame.cubes.empty())) {
-    taps.forget();
-    page_since_s = monotonic_s();
+void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
+  if (screens_.show(screen, !shown.frame.cubes.empty())) {
+    taps_.forget();
+    page_since_s_ = monotonic_s();
   }
   lay_out();
-  if (!page.scene) return;
-  window.upload(scene.draw(shown));
-  scene.place(page.scene);
+  if (!page_.scene) return;
+  window_.upload(scene_.draw(shown));
+  scene_.place(page_.scene);
 }
 
 // The page for the window's size and the screens' memory as they are now.
-void WindowView::Impl::lay_out() {
-  const Measures now = window.measures();
-  if (now.width != measures.width || now.height != measures.height) {
-    measures = now;
-    typeface = std::make_unique<Typeface>(screens.texts(), measures);
+void WindowView::lay_out() {
+  const Measures now = window_.measures();
+  if (now.width != measures_.width || now.height != measures_.height) {
+    measures_ = now;
+    typeface_ = std::make_unique<Typeface>(screens_.texts(), measures_);
   }
-  page = screens.page(*typeface, measures);
-  scene.place(page.scene);
-  stale = true;
+  page_ = screens_.page(*typeface_, measures_);
+  scene_.place(page_.scene);
+  stale_ = true;
 }
 
-void WindowView::Impl::draw() {
+void WindowView::draw() {
   std::optional<PaintedScene> painted;
-  if (scene.area()) painted = PaintedScene{window.texture(), *scene.area()};
-  ImDrawList& list = window.begin_frame(typeface->atlas());
-  paint_page(list, page,
-             {*typeface, measures, painted, scene.placed(page.marks),
-              [&](const std::string& name) { return taps.holds(name); }});
-  window.end_frame();
-  stale = false;
+  if (scene_.area()) painted = PaintedScene{window_.texture(), *scene_.area()};
+  ImDrawList& list = window_.begin_frame(typeface_->atlas());
+  paint_page(list, page_,
+             {*typeface_, measures_, painted, scene_.placed(page_.marks),
+              [&](const std::string& name) { return taps_.holds(name); }});
+  window_.end_frame();
+  stale_ = false;
 }
 
-const Control* WindowView::Impl::enabled_control(const std::string& name) const {
-  const auto found = std::ranges::find(page.controls, name, &Control::name);
-  return found != page.controls.end() && found->enabled ? &*found : nullptr;
+const Control* WindowView::enabled_control(const std::string& name) const {
+  const auto found = std::ranges::find(page_.controls, name, &Control::name);
+  return found != page_.controls.end() && found->enabled ? &*found : nullptr;
 }
 
-std::optional<std::string> WindowView::Impl::target_at(float x, float y) const {
-  for (const Control& control : page.controls)
+std::optional<std::string> WindowView::target_at(float x, float y) const {
+  for (const Control& control : page_.controls)
     if (control.area.contains(x, y))
       return control.enabled ? std::optional(control.name) : std::nullopt;
-  const auto slot = scene.slot_near(x, y, around * measures.target);
+  const auto slot = scene_.slot_near(x, y, around * measures_.target);
   if (!slot) return std::nullopt;
   const std::string name = fmt::format("cube_{}", *slot);
   return enabled_control(name) ? std::optional(name) : std::nullopt;
 }
 
-void WindowView::Impl::down(Taps::Pointer pointer, float x, float y, double t_s) {
-  if (t_s < page_since_s + settle_s) return;
+void WindowView::down(Taps::Pointer pointer, float x, float y, double t_s) {
+  if (t_s < page_since_s_ + settle_s) return;
   if (const auto target = target_at(x, y)) {
-    taps.down(pointer, *target);
-    stale = true;
+    taps_.down(pointer, *target);
+    stale_ = true;
   }
 }
 
-void WindowView::Impl::up(Taps::Pointer pointer, float x, float y, double t_s) {
+void WindowView::up(Taps::Pointer pointer, float x, float y, double t_s) {
   const auto target = target_at(x, y);
-  stale = true;
-  if (taps.up(pointer, target)) apply(*enabled_control(*target), t_s);
+  stale_ = true;
+  if (taps_.up(pointer, target)) apply(*enabled_control(*target), t_s);
 }
 
-void WindowView::Impl::key(char key, double t_s) {
-  if (t_s < page_since_s + settle_s) return;
-  const auto found = std::ranges::find_if(
-      page.controls, [&](const Control& control) { return control.key == key && control.enabled; });
-  if (found != page.controls.end()) apply(*found, t_s);
+void WindowView::key(char key, double t_s) {
+  if (t_s < page_since_s_ + settle_s) return;
+  const auto found = std::ranges::find_if(page_.controls, [&](const Control& control) {
+    return control.key == key && control.enabled;
+  });
+  if (found != page_.controls.end()) apply(*found, t_s);
 }
 
-void WindowView::Impl::apply(const Control& control, double t_s) {
-  if (auto touch = screens.tapped(control)) report(std::move(*touch), t_s);
+void WindowView::apply(const Control& control, double t_s) {
+  if (auto touch = screens_.tapped(control)) report(std::move(*touch), t_s);
   lay_out();
 }
 
-void WindowView::Impl::report(Touch touch, double t_s) {
+void WindowView::report(Touch touch, double t_s) {
   touch.monotonic_s = t_s;
-  touches.push_back(std::move(touch));
+  touches_.push_back(std::move(touch));
 }
 
-void WindowView::Impl::handle(const SDL_Event& event) {
-  const double t_s = sdl_start + event.common.timestamp * 1e-3;
-  const auto mouse_at = [&](Sint32 place) { return static_cast<float>(place) * window.scale(); };
+void WindowView::handle(const SDL_Event& event) {
+  const double t_s = sdl_start_s_ + event.common.timestamp * 1e-3;
+  const auto mouse_at = [&](Sint32 place) { return static_cast<float>(place) * window_.scale(); };
   switch (event.type) {
     case SDL_FINGERDOWN:
       SDL_ShowCursor(SDL_DISABLE);
-      return down(event.tfinger.fingerId, event.tfinger.x * measures.width,
-                  event.tfinger.y * measures.height, t_s);
+      return down(event.tfinger.fingerId, event.tfinger.x * measures_.width,
+                  event.tfinger.y * measures_.height, t_s);
     case SDL_FINGERUP:
-      return up(event.tfinger.fingerId, event.tfinger.x * measures.width,
-                event.tfinger.y * measures.height, t_s);
+      return up(event.tfinger.fingerId, event.tfinger.x * measures_.width,
+                event.tfinger.y * measures_.height, t_s);
     case SDL_MOUSEMOTION:
       SDL_ShowCursor(SDL_ENABLE);
       return;
@@ -180,7 +143,7 @@ void WindowView::Impl::handle(const SDL_Event& event) {
       return;
     case SDL_KEYDOWN:
       if (event.key.repeat != 0) return;
-      if (event.key.keysym.sym == SDLK_F11) return window.toggle_full_screen();
+      if (event.key.keysym.sym == SDLK_F11) return window_.toggle_full_screen();
       if (const auto pressed = key_of(event.key.keysym)) key(*pressed, t_s);
       return;
     case SDL_WINDOWEVENT:
@@ -190,18 +153,14 @@ void WindowView::Impl::handle(const SDL_Event& event) {
   }
 }
 
-void WindowView::Impl::handle_pending() {
+void WindowView::handle_pending() {
   for (SDL_Event event; SDL_PollEvent(&event) != 0;) handle(event);
 }
 
-WindowView::WindowView(const ViewSetup& setup) : impl_(std::make_unique<Impl>(setup)) {}
-
-WindowView::~WindowView() = default;
-
-std::optional<double> WindowView::present(const ViewPicture& shown, const ScreenState& screen) {
-  impl_->handle_pending();  // what was tapped so far was meant for the page before
-  impl_->show(shown, screen);
-  impl_->draw();
+std::optional<double> WindowView::present(const ViewFrame& shown, const ScreenState& screen) {
+  handle_pending();  // what was tapped so far was meant for the page before
+  show(shown, screen);
+  draw();
   const double presented_s = monotonic_s();
   SDL_PumpEvents();  // events get their times here
   return presented_s;
@@ -210,21 +169,13 @@ std::optional<double> WindowView::present(const ViewPicture& shown, const Screen
 std::vector<Touch> WindowView::wait(double seconds) {
   const double end_s = monotonic_s() + seconds;
   for (;;) {
-    impl_->handle_pending();
-    if (impl_->stale) impl_->draw();
+    handle_pending();
+    if (stale_) draw();
     const double left_s = end_s - monotonic_s();
-    if (!impl_->touches.empty() || left_s <= 0) break;
+    if (!touches_.empty() || left_s <= 0) break;
     SDL_WaitEventTimeout(nullptr, static_cast<int>(std::ceil(left_s * 1e3)));
   }
-  return std::exchange(impl_->touches, {});
-}
-
-const std::vector<Control>& WindowView::controls() const {
-  return impl_->page.controls;
-}
-
-std::optional<std::string> WindowView::target_at(float x, float y) const {
-  return impl_->target_at(x, y);
+  return std::exchange(touches_, {});
 }
 
 }  // namespace heft

@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "view/ArView.h"
-#include "view/window/Page.h"
+#include "view/window/GlWindow.h"
+#include "view/window/Painter.h"
+#include "view/window/Screens.h"
 
 namespace heft {
 
@@ -23,20 +25,40 @@ class WindowView final : public ArView {
   /// @throws Error (device_missing) without a display or the typeface, (invalid_file) when the
   /// typeface lacks a character of the texts
   explicit WindowView(const ViewSetup& setup);
-  ~WindowView() override;
 
-  std::optional<double> present(const ViewPicture& shown, const ScreenState& screen) override;
+  std::optional<double> present(const ViewFrame& shown, const ScreenState& screen) override;
   std::vector<Touch> wait(double seconds) override;
 
   /// The controls as last shown, in pixels of the window: for tests, and for scripts that tap.
-  const std::vector<Control>& controls() const;
+  const std::vector<Control>& controls() const { return page_.controls; }
   /// The name of the enabled control that a tap at this pixel is for; a cube in the scene goes by
   /// its button's name.
   std::optional<std::string> target_at(float x, float y) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void show(const ViewFrame& shown, const ScreenState& screen);
+  void draw();
+  void handle_pending();
+  void handle(const SDL_Event& event);
+  void down(Taps::Pointer pointer, float x, float y, double t_s);
+  void up(Taps::Pointer pointer, float x, float y, double t_s);
+  void key(char key, double t_s);
+  void apply(const Control& control, double t_s);
+  void report(Touch touch, double t_s);
+  void lay_out();
+  const Control* enabled_control(const std::string& name) const;
+
+  GlWindow window_;
+  SceneOnScreen scene_;
+  Screens screens_;
+  Measures measures_;
+  std::unique_ptr<Typeface> typeface_;
+  Page page_;
+  Taps taps_;
+  std::vector<Touch> touches_;
+  double sdl_start_s_;  ///< SDL counts events' times from there, in milliseconds of the same clock
+  double page_since_s_ = 0;
+  bool stale_ = false;  ///< what is on the display is not the page as it is now
 };
 
 }  // namespace heft

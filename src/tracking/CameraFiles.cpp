@@ -1,14 +1,17 @@
-// A folder of pictures as a camera.
+// Files as cameras: a folder of pictures, and a video.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <opencv2/videoio.hpp>
+#include <utility>
 
 #include "base/Error.h"
 #include "base/TextFile.h"
-#include "tracking/CameraSources.h"
+#include "tracking/Camera.h"
+#include "tracking/ImageConversion.h"
 #include "tracking/ImageFile.h"
 
 namespace heft {
@@ -18,30 +21,19 @@ namespace fs = std::filesystem;
 
 constexpr double rate_without_times_hz = 30;
 
-// A number in a name counts as a number: frame_2 before frame_10.
-bool natural_less(std::string_view a, std::string_view b) {
-  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-  const auto take_number = [&](std::string_view& text) {
-    text.remove_prefix(std::min(text.find_first_not_of('0'), text.size()));
-    const auto end = std::ranges::find_if_not(text, is_digit);
-    const std::string_view number(text.begin(), end);
-    text.remove_prefix(number.size());
-    return number;
-  };
-  const std::string_view whole_a = a, whole_b = b;
-  while (!a.empty() && !b.empty()) {
-    if (is_digit(a[0]) && is_digit(b[0])) {
-      const std::string_view x = take_number(a), y = take_number(b);
-      if (x.size() != y.size()) return x.size() < y.size();
-      if (x != y) return x < y;
-    } else {
-      if (a[0] != b[0]) return a[0] < b[0];
-      a.remove_prefix(1);
-      b.remove_prefix(1);
-    }
+// A number in a name counts as a number, frame_2 before frame_10: before each digit that counts
+// stands how many there are.
+std::string natural_key(std::string_view name) {
+  constexpr std::string_view digits = "0123456789";
+  std::string key;
+  while (!name.empty()) {
+    const auto n = std::min(name.find_first_not_of(digits), name.size());
+    const auto zeros = std::min(name.find_first_not_of('0'), n);
+    if (n > 0) key.append(1, '0').append(1, static_cast<char>(n - zeros + 1));
+    key += n > 0 ? name.substr(zeros, n - zeros) : name.substr(0, 1);
+    name.remove_prefix(std::max<std::size_t>(n, 1));
   }
-  if (a.empty() != b.empty()) return a.empty();
-  return whole_a < whole_b;  // img_1 and img_01
+  return key;
 }
 
 std::vector<std::string> picture_names(const std::string& folder) {
@@ -55,7 +47,9 @@ std::vector<std::string> picture_names(const std::string& folder) {
         fmt::format("{} can't be read as a folder of pictures: {}", folder, error.message()));
   if (names.empty())
     throw Error(fmt::format("{} holds no pictures (png, jpg, bmp, pgm, ppm, tif)", folder));
-  std::ranges::sort(names, natural_less);
+  std::ranges::sort(names, {}, [](const std::string& name) {
+    return std::pair(natural_key(name), name);  // img_1 and img_01
+  });
   return names;
 }
 
@@ -155,6 +149,79 @@ class PictureFolder : public Camera {
 
 std::unique_ptr<Camera> open_picture_folder(const std::string& path, const CameraRequest&) {
   return std::make_unique<PictureFolder>(path);
+}
+
+namespace {
+
+class VideoFile : public Camera {
+ public:
+  explicit VideoFile(const std::string& path);
+
+  std::optional<CameraPicture> next(double timeout_s) override;
+  bool ended() const override { return !ahead_; }
+  CameraMode mode() const override { return mode_; }
+  bool is_live() const override { return false; }
+
+ private:
+  std::optional<CameraPicture> read();
+  double time_of(std::int64_t number);
+
+  cv::VideoCapture video_;
+  CameraMode mode_;
+  std::int64_t n_read_ = 0;
+  double first_s_ = 0, last_s_ = 0;
+  std::optional<CameraPicture> ahead_;  ///< read one ahead: that is how the end shows
+};
+
+VideoFile::VideoFile(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw Error(fmt::format("there is no video {}", path));
+  // The decoders that come with OpenCV; with any other backend a name with % in it means a series.
+  for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG})
+    if (!video_.isOpened()) video_.open(path, backend);
+  if (video_.isOpened()) {
+    mode_.rate_hz = video_.get(cv::CAP_PROP_FPS);
+    ahead_ = read();
+  }
+  if (!ahead_)
+    throw Error(
+        fmt::format("{} can't be read as a video: it is damaged, empty, not readable for "
+                    "you, or of a kind that OpenCV has no decoder for here; a Motion-JPEG "
+                    ".avi can be read everywhere",
+                    path));
+  mode_.width_px = ahead_->image.width;
+  mode_.height_px = ahead_->image.height;
+}
+
+// The file's own times where they go on; a picture at least, by the rate, where they don't.
+double VideoFile::time_of(std::int64_t number) {
+  const double rate_hz = mode_.rate_hz > 0 && std::isfinite(mode_.rate_hz) ? mode_.rate_hz : 30;
+  const double own_s = video_.get(cv::CAP_PROP_POS_MSEC) / 1e3;
+  if (number == 0) {
+    first_s_ = std::isfinite(own_s) ? own_s : 0;
+    return 0;
+  }
+  const double t_s = own_s - first_s_;
+  return std::isfinite(t_s) && t_s > last_s_ ? t_s : last_s_ + 1 / rate_hz;
+}
+
+std::optional<CameraPicture> VideoFile::read() {
+  cv::Mat picture;
+  if (!video_.read(picture) || picture.empty()) return std::nullopt;
+  const std::int64_t number = n_read_++;
+  last_s_ = time_of(number);
+  return CameraPicture{image_from(picture), last_s_, number, ""};
+}
+
+std::optional<CameraPicture> VideoFile::next(double) {
+  std::optional<CameraPicture> given = std::move(ahead_);
+  ahead_ = given ? read() : std::nullopt;
+  return given;
+}
+
+}  // namespace
+
+std::unique_ptr<Camera> open_video_file(const std::string& path, const CameraRequest&) {
+  return std::make_unique<VideoFile>(path);
 }
 
 }  // namespace heft

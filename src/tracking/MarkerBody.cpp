@@ -1,31 +1,13 @@
-#include "tracking/BoxFaces.h"
+#include "tracking/MarkerBody.h"
 
 #include <cmath>
 
 namespace heft {
 
-namespace {
-Eigen::Vector3d outwards(BoxFace face) {
-  switch (face) {
-    case BoxFace::tip:
-      return Eigen::Vector3d::UnitX();
-    case BoxFace::top:
-      return Eigen::Vector3d::UnitZ();
-    case BoxFace::left:
-      return Eigen::Vector3d::UnitY();
-    case BoxFace::right:
-      return -Eigen::Vector3d::UnitY();
-    case BoxFace::bottom:
-      return -Eigen::Vector3d::UnitZ();
-    case BoxFace::back:
-      return -Eigen::Vector3d::UnitX();
-  }
-  return {};
-}
-}  // namespace
-
 FaceFrame face_frame(const Eigen::Vector3d& size_m, BoxFace face) {
-  const Eigen::Vector3d normal = outwards(face);
+  static const std::array<Eigen::Vector3d, 6> outwards{
+      {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {-1, 0, 0}}};  // as box_faces
+  const Eigen::Vector3d& normal = outwards[static_cast<std::size_t>(face)];
   const bool is_end = face == BoxFace::tip || face == BoxFace::back;
   const Eigen::Vector3d up = is_end ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
   const Eigen::Vector3d right = up.cross(normal);
