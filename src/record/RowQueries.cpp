@@ -14,9 +14,10 @@ std::string attempt_of(std::string_view table) {
 }
 }  // namespace
 
-std::string in_session(std::string_view table, std::string_view id, std::string_view columns) {
-  return fmt::format("SELECT {}, {}, {} FROM {} WHERE session_id = ?1 ORDER BY {}", id,
-                     attempt_of(table), columns, table, id);
+std::string in_session(std::string_view table, std::string_view id, std::string_view columns,
+                       std::string_view condition) {
+  return fmt::format("SELECT {}, {}, {} FROM {} WHERE session_id = ?1 AND {} ORDER BY {}", id,
+                     attempt_of(table), columns, table, condition, id);
 }
 
 std::string frames_in_session(std::string_view columns) {

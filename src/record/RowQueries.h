@@ -13,8 +13,9 @@ inline constexpr auto chain_start_sql =
 // First column the row's id, then the attempt (0 where the row names no trial; a text, which Cells
 // refuses, where its session has no such trial), then `columns`; ordered by id. ?1 is the session.
 
-/// Rows that carry the session's id themselves.
-std::string in_session(std::string_view table, std::string_view id, std::string_view columns);
+/// Rows that carry the session's id themselves. @param condition that they fulfill, as SQL
+std::string in_session(std::string_view table, std::string_view id, std::string_view columns,
+                       std::string_view condition = "true");
 
 /// The same for frames of all attempts, which are many: without a look at other sessions'.
 std::string frames_in_session(std::string_view columns);

@@ -37,6 +37,14 @@ SQLite::Statement& RowWriter::statement(const std::string& sql) {
   return *prepared;
 }
 
+template <typename... Keys>
+std::optional<std::int64_t> RowWriter::first_cell(const std::string& sql, const Keys&... keys) {
+  SQLite::Statement& query = statement(sql);
+  Binding binding(query, keys...);
+  if (!binding.step()) return std::nullopt;
+  return query.getColumn(0).getInt64();
+}
+
 template <typename Row, typename... Keys>
 void RowWriter::insert(const std::string& sql, const Row& row, const Keys&... keys) {
   Binding places(statement(sql), keys...);
@@ -127,20 +135,13 @@ std::optional<std::int64_t> RowWriter::trial_id_or_none(std::int64_t session_id,
 std::optional<std::int64_t> RowWriter::setup_id(std::int64_t session_id, int setup_index) {
   static const std::string sql =
       "SELECT setup_id FROM setup WHERE session_id = ? AND setup_index = ?";
-  SQLite::Statement& query = statement(sql);
-  Binding binding(query, session_id, setup_index);
-  if (!binding.step()) return std::nullopt;
-  return query.getColumn(0).getInt64();
+  return first_cell(sql, session_id, setup_index);
 }
 
 int RowWriter::log_version(std::int64_t session_id) {
-  if (!log_version_ || log_version_->first != session_id) {
-    static const std::string sql = "SELECT log_version FROM session WHERE session_id = ?";
-    SQLite::Statement& query = statement(sql);
-    Binding binding(query, session_id);
-    binding.step();
-    log_version_ = {session_id, query.getColumn(0).getInt()};
-  }
+  static const std::string sql = "SELECT log_version FROM session WHERE session_id = ?";
+  if (!log_version_ || log_version_->first != session_id)
+    log_version_ = {session_id, static_cast<int>(first_cell(sql, session_id).value())};
   return log_version_->second;
 }
 
@@ -148,7 +149,7 @@ void RowWriter::write_event(std::int64_t session_id, const RecordedEvent& record
   const auto& [event, changes] = recorded;
   if (changes.trial) write_trial(session_id, *changes.trial);
   write_event_row(session_id, changes.attempt_index, event);
-  if (changes.setup) write_setup(session_id, *changes.setup);
+  if (changes.setup) write_setup(session_id, database_.getLastInsertRowid(), *changes.setup);
   for (const CubeRow& cube : changes.cubes) write_cube(session_id, cube);
   static const std::string answer = keyed_insert<AnswerRow>("answer", "trial_id"),
                            reversal = keyed_insert<ReversalRow>("reversal", "session_id, trial_id"),
@@ -174,20 +175,13 @@ void RowWriter::write_event_row(std::int64_t session_id, int attempt_index, cons
   ++n_new_events_;
 }
 
-// The setup's event was written just now.
-void RowWriter::write_setup(std::int64_t session_id, const Setup& setup) {
-  static const std::string sql = schema::insert_sql(
-      "setup", fmt::format("session_id, from_event_id, setup_index, {}", columns_of<Setup>()));
-  static const std::string count = "SELECT count(*) FROM setup WHERE session_id = ?";
-  const std::int64_t event_id = database_.getLastInsertRowid();
-  SQLite::Statement& query = statement(count);
-  int index = 0;
-  {
-    Binding binding(query, session_id);
-    binding.step();
-    index = query.getColumn(0).getInt() + 1;
-  }
-  insert(sql, setup, session_id, event_id, index);
+std::int64_t RowWriter::write_setup(std::int64_t session_id, std::optional<std::int64_t> event_id,
+                                    const Setup& setup) {
+  static const std::string sql =
+      keyed_insert<Setup>("setup", "session_id, from_event_id, setup_index");
+  static const std::string n_before = "SELECT count(*) FROM setup WHERE session_id = ?";
+  insert(sql, setup, session_id, event_id, first_cell(n_before, session_id).value() + 1);
+  return database_.getLastInsertRowid();
 }
 
 void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {

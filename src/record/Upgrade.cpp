@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
+#include <utility>
 
 #include "base/Error.h"
 #include "record/Binding.h"
@@ -12,6 +12,7 @@
 #include "record/OlderSetups.h"
 #include "record/RowSql.h"
 #include "record/RowVisitors.h"
+#include "record/RowWriter.h"
 #include "record/Schema.h"
 #include "record/Tables.h"
 
@@ -73,51 +74,35 @@ void copy(SQLite::Database& database, const std::string& table, std::string_view
                             table, columns, more, values, older(table)));
 }
 
-struct OlderSession {
-  std::int64_t id = 0;
-  Setup setup;
-};
-
-std::vector<OlderSession> sessions_in(SQLite::Database& database, const std::string& path) {
-  std::vector<OlderSession> sessions;
+std::vector<std::pair<std::int64_t, SessionHeader>> sessions_in(SQLite::Database& database,
+                                                                const std::string& path) {
+  std::vector<std::pair<std::int64_t, SessionHeader>> sessions;
   SQLite::Statement query(
       database, fmt::format("SELECT session_id, {} FROM session", columns_of<SessionHeader>()));
   while (query.executeStep()) {
     Cells cells(query, path, "session");
-    sessions.push_back({cells.id(), older_setup(row_from<SessionHeader>(cells))});
+    sessions.emplace_back(cells.id(), row_from<SessionHeader>(cells));
   }
   return sessions;
 }
 
-std::int64_t insert_setup(SQLite::Database& database, std::int64_t session_id, int index,
-                          std::optional<std::int64_t> event_id, const Setup& setup) {
-  SQLite::Statement insert(
-      database, insert_sql("setup", fmt::format("session_id, setup_index, from_event_id, {}",
-                                                columns_of<Setup>())));
-  Binding row(insert, session_id, index, event_id);
-  visit_columns(setup, BindRow(row));
-  row.run();
-  return database.getLastInsertRowid();
-}
-
 // A session's setups, and each trial's: that in force when it started.
-void tell_setups(SQLite::Database& database, const OlderSession& session) {
-  Setup setup = session.setup;
-  int index = 1;
-  std::int64_t setup_id = insert_setup(database, session.id, index, std::nullopt, setup);
+void tell_setups(SQLite::Database& database, std::int64_t session_id, const SessionHeader& header) {
+  RowWriter writer(database);
+  OlderSetups older(header);
+  std::int64_t setup_id = writer.write_setup(session_id, std::nullopt, older.first().value());
   SQLite::Statement point(database, "UPDATE trial SET setup_id = ? WHERE trial_id = ?");
   SQLite::Statement events(
       database,
-      "SELECT event_id, kind, detail, trial_id FROM event WHERE session_id = ? AND kind IN "
-      "('trial_started', 'deviation') ORDER BY event_id");
-  events.bind(1, session.id);
+      "SELECT event_id, CASE kind WHEN 'trial_started' THEN trial_id END, detail FROM event WHERE "
+      "session_id = ? AND kind IN ('trial_started', 'deviation') ORDER BY event_id");
+  events.bind(1, session_id);
   while (events.executeStep()) {
-    if (events.getColumn(1).getString() == "trial_started") {
-      if (!events.getColumn(3).isNull()) run(point, setup_id, events.getColumn(3).getInt64());
-    } else if (const auto after = after_deviation(setup, events.getColumn(2))) {
-      setup = *after;
-      setup_id = insert_setup(database, session.id, ++index, events.getColumn(0).getInt64(), setup);
-    }
+    if (const auto trial = events.getColumn(1); !trial.isNull())
+      run(point, setup_id, trial.getInt64());
+    const Event told = older.told({0, Deviation{events.getColumn(2)}});
+    if (const auto* setup = told.as<Setup>())
+      setup_id = writer.write_setup(session_id, events.getColumn(0).getInt64(), *setup);
   }
 }
 
@@ -137,7 +122,7 @@ void rebuild(SQLite::Database& database, const std::string& path) {
        ", (SELECT count(*) FROM older_event e WHERE e.trial_id = o.trial_id AND e.kind = "
        "'cubes_reset' AND (e.slot IS NULL OR e.slot = o.slot))");
   for (const char* table : {"answer", "reversal", "estimate", "frame"}) copy(database, table);
-  for (const OlderSession& session : sessions_in(database, path)) tell_setups(database, session);
+  for (const auto& [id, header] : sessions_in(database, path)) tell_setups(database, id, header);
   for (const char* table : older_tables) database.exec(fmt::format("DROP TABLE {}", older(table)));
 }
 
