@@ -10,14 +10,13 @@
 #include "record/Binding.h"
 #include "record/DigestCheck.h"
 #include "record/EventRow.h"
+#include "record/Failures.h"
 #include "record/LogFile.h"
 #include "record/OlderSetups.h"
 #include "record/ReadOnlyDatabase.h"
-#include "record/RowQueries.h"
 #include "record/RowSql.h"
 #include "record/RowVisitors.h"
 #include "record/Schema.h"
-#include "record/SqliteError.h"
 
 namespace heft {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "record/Digests.h"
 #include "record/EventRow.h"
-#include "record/InfoDigest.h"
 #include "record/RowSql.h"
 #include "record/RowVisitors.h"
 #include "record/Schema.h"
@@ -17,13 +17,13 @@ namespace heft {
 namespace {
 template <typename Row>
 std::string keyed_insert(std::string_view table, std::string_view keys) {
-  return schema::insert_sql(table, fmt::format("{}, {}", keys, columns_of<Row>()));
+  return insert_sql(table, fmt::format("{}, {}", keys, columns_of<Row>()));
 }
 
 // The row's digest is bound last.
 template <typename Row>
 std::string digested_insert(std::string_view table, std::string_view keys) {
-  return schema::insert_sql(table, fmt::format("{}, {}, digest", keys, columns_of<Row>()));
+  return insert_sql(table, fmt::format("{}, {}, digest", keys, columns_of<Row>()));
 }
 }  // namespace
 
@@ -75,7 +75,7 @@ std::int64_t RowWriter::write_session(const SessionHeader& header) {
 void RowWriter::write_info(std::int64_t session_id, const std::string& key,
                            const std::string& value) {
   static const std::string sql =
-      schema::upsert_sql("participant_info", "session_id, key, value", "session_id, key");
+      upsert_sql("participant_info", "session_id, key, value", "session_id, key");
   run(statement(sql), session_id, key, value);
   write_info_digest(session_id);
 }
@@ -186,8 +186,8 @@ std::int64_t RowWriter::write_setup(std::int64_t session_id, std::optional<std::
 
 void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {
   static const std::string sql =
-      schema::upsert_sql("trial", fmt::format("session_id, setup_id, {}", columns_of<TrialRow>()),
-                         "session_id, attempt_index");
+      upsert_sql("trial", fmt::format("session_id, setup_id, {}", columns_of<TrialRow>()),
+                 "session_id, attempt_index");
   insert(sql, trial, session_id, setup_id(session_id, trial.setup_index));
   write_masses(session_id, trial);
 }
@@ -206,8 +206,8 @@ void RowWriter::write_masses(std::int64_t session_id, const TrialRow& trial) {
 }
 
 void RowWriter::write_cube(std::int64_t session_id, const CubeRow& cube) {
-  static const std::string sql = schema::upsert_sql(
-      "cube", fmt::format("trial_id, {}", columns_of<CubeRow>()), "trial_id, slot");
+  static const std::string sql =
+      upsert_sql("cube", fmt::format("trial_id, {}", columns_of<CubeRow>()), "trial_id, slot");
   insert(sql, cube, trial_id(session_id, cube.attempt_index));
 }
 

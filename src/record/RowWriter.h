@@ -7,9 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "record/DigestChain.h"
+#include "record/Digests.h"
 #include "record/RecordedSession.h"
-#include "record/RowDigest.h"
 
 namespace SQLite {
 class Database;

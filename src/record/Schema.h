@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace SQLite {
@@ -37,10 +36,8 @@ std::vector<std::string> foreign_objects(SQLite::Database& database);
 /// @throws Error (diverged) naming what is foreign in it; SQLite::Exception
 void upgrade(SQLite::Database& database);
 
-/// INSERT INTO table(columns) VALUES (?, ?, ...)
-std::string insert_sql(std::string_view table, std::string_view columns);
-
-/// insert_sql, but a row with the same key columns takes over the new values.
-std::string upsert_sql(std::string_view table, std::string_view columns, std::string_view key);
+/// CREATE statements of all tables and indexes, from the rows' descriptions; of the views.
+std::string tables();
+extern const char* const views;
 
 }  // namespace heft::schema

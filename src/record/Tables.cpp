@@ -1,10 +1,8 @@
-#include "record/Tables.h"
-
 #include <fmt/format.h>
 
-#include "record/ClosedLists.h"
 #include "record/EventRow.h"
 #include "record/RowSql.h"
+#include "record/Schema.h"
 
 namespace heft::schema {
 

@@ -14,7 +14,6 @@
 #include "record/RowVisitors.h"
 #include "record/RowWriter.h"
 #include "record/Schema.h"
-#include "record/Tables.h"
 
 namespace heft::schema {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "record/ClosedLists.h"
+#include "record/RowSql.h"
 #include "record/Integrity.h"
 #include "record/SessionLog.h"
 #include "record/rows.h"
