@@ -38,6 +38,11 @@ class ToRow {
   void detail_is(std::string_view text, std::string_view) { row_.detail = text; }
   ToRow& slot(std::optional<int> slot) { return set(row_.slot, slot); }
   ToRow& label(std::optional<Label> label) { return set(row_.label, label); }
+  ToRow& push(const CubeTouch& touch) {
+    row_.deepest_push_m = touch.deepest_push_m;
+    row_.peak_lag_m = touch.peak_lag_m;
+    return *this;
+  }
   ToRow& duration(std::optional<double> duration_s, std::optional<double> = {}) {
     return set(row_.value, duration_s);
   }
@@ -85,6 +90,11 @@ class FromRow {
   }
   FromRow& slot(auto& slot) { return take(slot, row_.slot, "a cube's slot"); }
   FromRow& label(std::optional<Label>& label) { return take(label, row_.label, "a label"); }
+  FromRow& push(CubeTouch& touch) {
+    touch.deepest_push_m = row_.deepest_push_m;
+    touch.peak_lag_m = row_.peak_lag_m;
+    return *this;
+  }
   FromRow& duration(auto& duration_s, std::optional<double> if_none = {}) {
     const auto value = row_.value ? row_.value : if_none;
     if (value && !(*value >= 0)) refuse(row_, "a duration");
@@ -150,6 +160,7 @@ struct Tell {
   void operator()(RowOf<CubeTouch> auto& touch) const {
     row.slot(touch.slot)
         .duration(touch.ended_after_s)
+        .push(touch)
         .detail_is(touch.ended_after_s ? "ended" : "began",
                    "\"began\", or \"ended\" with a duration");
   }
@@ -208,6 +219,8 @@ std::string text_of(const Event& event) {
   if (row.label) text += fmt::format(" {}", name_of(*row.label));
   text += fmt::format(" at {} s", row.t_s);
   if (row.value) text += fmt::format(", {} s", *row.value);
+  if (row.deepest_push_m && row.peak_lag_m)
+    text += fmt::format(", {} m deep, {} m behind", *row.deepest_push_m, *row.peak_lag_m);
   return text;
 }
 

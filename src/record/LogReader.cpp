@@ -223,6 +223,23 @@ std::vector<EstimateRow> LogReader::estimates(std::int64_t session_id) const {
       session_id);
 }
 
+std::vector<ParticipantParameterRow> LogReader::participant_parameters(
+    std::int64_t session_id) const {
+  const auto parameter_from = [](Cells& cells) {
+    const int setup_index = cells.integer();
+    auto row = row_from<ParticipantParameterRow>(cells);
+    row.setup_index = setup_index;
+    return row;
+  };
+  return impl_->rows(
+      parameter_from, "participant_parameter",
+      fmt::format("SELECT rowid, ifnull((SELECT setup_index FROM setup s WHERE s.setup_id = "
+                  "p.setup_id AND s.session_id = p.session_id), 0), {} FROM participant_parameter "
+                  "p WHERE session_id = ? ORDER BY rowid",
+                  columns_of<ParticipantParameterRow>()),
+      session_id);
+}
+
 std::vector<FrameRow> LogReader::frames(std::int64_t session_id, int attempt_index) const {
   const std::string of_attempt =
       attempt_index == 0 ? "trial_id IS NULL AND ?2 = 0"

@@ -79,6 +79,7 @@ class LogReader {
   std::vector<AnswerRow> answers(std::int64_t session_id) const;
   std::vector<ReversalRow> reversals(std::int64_t session_id) const;
   std::vector<EstimateRow> estimates(std::int64_t session_id) const;
+  std::vector<ParticipantParameterRow> participant_parameters(std::int64_t session_id) const;
   /// @param attempt_index 0: the pictures outside of trials
   std::vector<FrameRow> frames(std::int64_t session_id, int attempt_index) const;
 

@@ -153,12 +153,16 @@ void RowWriter::write_event(std::int64_t session_id, const RecordedEvent& record
   for (const CubeRow& cube : changes.cubes) write_cube(session_id, cube);
   static const std::string answer = keyed_insert<AnswerRow>("answer", "trial_id"),
                            reversal = keyed_insert<ReversalRow>("reversal", "session_id, trial_id"),
-                           estimate = keyed_insert<EstimateRow>("estimate", "session_id");
+                           estimate = keyed_insert<EstimateRow>("estimate", "session_id"),
+                           parameter = keyed_insert<ParticipantParameterRow>(
+                               "participant_parameter", "session_id, setup_id");
   for (const AnswerRow& row : changes.answers)
     insert(answer, row, trial_id(session_id, row.attempt_index));
   for (const ReversalRow& row : changes.reversals)
     insert(reversal, row, session_id, trial_id(session_id, row.attempt_index));
   for (const EstimateRow& row : changes.estimates) insert(estimate, row, session_id);
+  for (const ParticipantParameterRow& row : changes.parameters)
+    insert(parameter, row, session_id, setup_id(session_id, row.setup_index));
   static const std::string state = "UPDATE session SET state = ? WHERE session_id = ?";
   if (changes.state) run(statement(state), *changes.state, session_id);
 }
@@ -170,7 +174,7 @@ void RowWriter::write_event_row(std::int64_t session_id, int attempt_index, cons
   digest_.integer(attempt_index);
   row.also_into(digest_);
   const EventRow columns = row_of(event);
-  visit_columns(columns, BindRow(row));
+  visit_columns(columns, BindRow(row, {log_version(session_id)}));
   chain_.event_written(row.run_with_digest());
   ++n_new_events_;
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "experiment/Column.h"
+
 namespace SQLite {
 class Database;
 }
@@ -16,7 +18,7 @@ namespace heft::schema {
 inline constexpr std::int64_t application_id = 0x48656674;
 
 /// The version that this program writes; the file's is its user_version.
-inline constexpr int current_version = 3;
+inline constexpr int current_version = todays_log_version;
 
 /// What a database file holds.
 enum class FileKind { empty, log, older_log, newer_log, foreign };
@@ -30,9 +32,8 @@ void create(SQLite::Database& database);
 /// entries of closed lists likewise; one line each. Empty: it is as this program made it.
 std::vector<std::string> foreign_objects(SQLite::Database& database);
 
-/// Brings a log of version 1 or 2 up to date, in one transaction of its own. What its sessions were
-/// run with, which stood in their headers, becomes rows of `setup`; their digests stay as they
-/// were.
+/// Brings an older log up to date, in one transaction of its own. What sessions of versions 1 and 2
+/// were run with, which stood in their headers, becomes rows of `setup`; digests stay as they were.
 /// @throws Error (diverged) naming what is foreign in it; SQLite::Exception
 void upgrade(SQLite::Database& database);
 

@@ -1,4 +1,4 @@
-// Logs of versions 1 and 2: their tables are made anew and their rows copied over as they are, so
+// Logs of versions 1 to 3: their tables are made anew and their rows copied over as they are, so
 // that one program text serves all versions from there on.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -19,15 +19,21 @@ namespace heft::schema {
 
 namespace {
 
-constexpr int older_version = 2;  // version 1 differs in columns that may be NULL alone
+constexpr int without_setups = 2;  // version 1 differs in columns that may be NULL alone
 
-constexpr std::array older_tables{"session", "participant_info", "trial",    "event", "cube",
+std::vector<std::string> tables_of(int version) {
+  std::vector<std::string> tables{"session", "participant_info", "trial",    "event", "cube",
                                   "answer",  "reversal",         "estimate", "frame"};
+  if (version <= without_setups) return tables;
+  tables.emplace_back("setup");
+  for (const ClosedList& list : closed_lists()) tables.emplace_back(list.table);
+  return tables;
+}
 constexpr std::array older_others{"index event_by_session", "index answer_by_trial",
                                   "index frame_by_trial",   "view v_sorting",
                                   "view v_trial",           "view v_jnd"};
 
-void refuse_foreign(SQLite::Database& database) {
+void refuse_foreign(SQLite::Database& database, const std::vector<std::string>& older_tables) {
   SQLite::Statement query(database,
                           "SELECT type, name FROM sqlite_master WHERE name NOT LIKE 'sqlite\\_%' "
                           "ESCAPE '\\'");
@@ -49,9 +55,9 @@ std::string older(std::string_view table) {
   return fmt::format("older_{}", table);
 }
 
-void set_aside(SQLite::Database& database) {
+void set_aside(SQLite::Database& database, const std::vector<std::string>& older_tables) {
   for (const std::string_view other : older_others) database.exec(fmt::format("DROP {}", other));
-  for (const char* table : older_tables)
+  for (const std::string& table : older_tables)
     database.exec(fmt::format("ALTER TABLE {} RENAME TO {}", table, older(table)));
 }
 
@@ -105,24 +111,34 @@ void tell_setups(SQLite::Database& database, std::int64_t session_id, const Sess
   }
 }
 
-void rebuild(SQLite::Database& database, const std::string& path) {
-  refuse_foreign(database);
-  set_aside(database);
-  database.exec("PRAGMA user_version = 0");
-  create(database);
+void copy_rows_without_setups(SQLite::Database& database) {
   copy(database, "session", ", log_version, n_events, n_frames",
        fmt::format(", {}, (SELECT count(*) FROM older_event e WHERE e.session_id = o.session_id), "
                    "(SELECT count(*) FROM older_frame f WHERE f.session_id = o.session_id)",
-                   older_version));
-  copy(database, "participant_info");
-  copy(database, "trial");
-  copy(database, "event");
+                   without_setups));
   copy(database, "cube", ", n_resets",
        ", (SELECT count(*) FROM older_event e WHERE e.trial_id = o.trial_id AND e.kind = "
        "'cubes_reset' AND (e.slot IS NULL OR e.slot = o.slot))");
-  for (const char* table : {"answer", "reversal", "estimate", "frame"}) copy(database, table);
-  for (const auto& [id, header] : sessions_in(database, path)) tell_setups(database, id, header);
-  for (const char* table : older_tables) database.exec(fmt::format("DROP TABLE {}", older(table)));
+}
+
+void rebuild(SQLite::Database& database, const std::string& path) {
+  const int version = database.execAndGet("PRAGMA user_version").getInt();
+  const std::vector<std::string> older_tables = tables_of(version);
+  refuse_foreign(database, older_tables);
+  set_aside(database, older_tables);
+  database.exec("PRAGMA user_version = 0");
+  create(database);
+  if (version <= without_setups)
+    copy_rows_without_setups(database);
+  else
+    for (const char* table : {"session", "setup", "cube"}) copy(database, table);
+  copy(database, "trial", ", is_practice", ", 0");  // there was none
+  for (const char* table : {"participant_info", "event", "answer", "reversal", "estimate", "frame"})
+    copy(database, table);
+  if (version <= without_setups)
+    for (const auto& [id, header] : sessions_in(database, path)) tell_setups(database, id, header);
+  for (const std::string& table : older_tables)
+    database.exec(fmt::format("DROP TABLE {}", older(table)));
 }
 
 }  // namespace
