@@ -18,6 +18,7 @@
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"
 #include "protocol/Files.h"
+#include "responders/ResponderParameters.h"
 #include "tracking/Camera.h"
 #include "tracking/SyntheticCamera.h"
 #include "view/ArView.h"
@@ -189,17 +190,37 @@ bool is_same_simulator(const std::string& a, const std::string& b) {
   return simulator_named(a).make == simulator_named(b).make;
 }
 
-std::unique_ptr<Responder> make_responder(const Setup& options, std::uint64_t seed) {
-  // Of a person only the hand is a model's, where no camera films theirs.
-  const auto [name, file] = split_name(has_person(options) ? "simulated" : options.responder);
-  const ResponderEntry& entry = responder_named(name);
-  ResponderOptions made_with;
+namespace {
+// What a responder is made with.
+struct Making {
+  const ResponderEntry& entry;
+  ResponderOptions options;
+};
+
+Making making(const std::string& responder, const Setup& setup, std::uint64_t seed) {
+  const auto [name, file] = split_name(responder);
+  Making made{responder_named(name), {}};
   // A seed of its own: nobody could draw the session's trials from it.
-  made_with.seed = RandomStream(seed, "responder").bits();
-  if (entry.file == ResponderFile::folder) made_with.folder = file;
-  if (entry.file == ResponderFile::parameters && !options.responder_text.empty())
-    made_with.parameters = parse_parameters(options.responder_text, file);
-  return entry.make(made_with);
+  made.options.seed = RandomStream(seed, "responder").bits();
+  if (made.entry.file == ResponderFile::folder) made.options.folder = file;
+  if (made.entry.file == ResponderFile::parameters && !setup.responder_text.empty())
+    made.options.parameters = parse_parameters(setup.responder_text, file);
+  return made;
+}
+}  // namespace
+
+std::unique_ptr<Responder> make_responder(const Setup& setup, std::uint64_t seed) {
+  // Of a person only the hand is a model's, where no camera films theirs.
+  const Making made = making(has_person(setup) ? "simulated" : setup.responder, setup, seed);
+  return made.entry.make(made.options);
+}
+
+Setup with_participant(Setup setup, std::uint64_t seed) {
+  setup.participant_parameters.clear();
+  if (has_person(setup)) return setup;
+  const Making made = making(setup.responder, setup, seed);
+  setup.participant_parameters = drawn_values(made.options, made.entry.parts);
+  return setup;
 }
 
 namespace {

@@ -70,6 +70,9 @@ std::unique_ptr<Responder> make_responder(const Setup& options, std::uint64_t se
 /// stays, whatever the error table of `auto` says now.
 Setup in_force(Setup setup, const Protocol& protocol);
 
+/// The setup with what its simulated participant is drawn as from the session's seed.
+Setup with_participant(Setup setup, std::uint64_t seed);
+
 /// The setup with the rate of its pictures' source, where that is not about the display's.
 Setup with_source_rate(Setup setup, std::optional<double> rate_hz);
 

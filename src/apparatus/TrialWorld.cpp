@@ -54,7 +54,7 @@ ShownFrame TrialWorld::advance(const TargetSample& sample) {
   if (drive_) {
     advance_drive(sample);
     return_cubes(sample.t_capture_s, shown);
-    note_contacts(sample.t_capture_s, shown);
+    note_contacts(sample, shown);
     world = drive_->state();
   } else {
     world.clone_present = sample.tracked;
@@ -79,7 +79,10 @@ void TrialWorld::note_view(const TargetSample& sample, ShownFrame& shown) {
     shown.events.push_back({t_s, EffectorLost{}});
 }
 
-void TrialWorld::note_contacts(double t_s, ShownFrame& shown) {
+void TrialWorld::note_contacts(const TargetSample& sample, ShownFrame& shown) {
+  const double t_s = sample.t_capture_s;
+  const Eigen::Vector3d& effector_m = sample.pose.position_m;
+  const double lag_m = (drive_->state().clone.pose.position_m - effector_m).norm();
   const std::vector<CubeContact>& touching = drive_->state().contacts;
   const auto hardest = std::ranges::max_element(
       touching, {}, [](const CubeContact& contact) { return contact.force_n.norm(); });
@@ -90,9 +93,14 @@ void TrialWorld::note_contacts(double t_s, ShownFrame& shown) {
         touching, [&](const CubeContact& c) { return c.cube == static_cast<int>(i); });
     if (touched) {
       contact.left_s.reset();
-      if (contact.since_s) continue;
+      const bool begins = !contact.since_s;
+      if (begins) contact.from_m = effector_m;
+      contact.deepest_push_m =
+          std::max(contact.deepest_push_m, (effector_m - contact.from_m).norm());
+      contact.peak_lag_m = std::max(contact.peak_lag_m, lag_m);
+      if (!begins) continue;
       contact.since_s = t_s;
-      shown.events.push_back({log_time(t_s), CubeTouch{slot_of(i), std::nullopt}});
+      shown.events.push_back({log_time(t_s), CubeTouch{slot_of(i)}});
     } else if (contact.since_s) {
       if (!contact.left_s) contact.left_s = t_s;
       if (t_s - *contact.left_s >= push_gap_s) end_contact(i, *contact.left_s, t_s, shown.events);
@@ -102,8 +110,10 @@ void TrialWorld::note_contacts(double t_s, ShownFrame& shown) {
 
 void TrialWorld::end_contact(std::size_t cube, double end_s, double now_s,
                              std::vector<Event>& events) {
-  const double duration_s = log_time(end_s) - log_time(*contacts_[cube].since_s);
-  events.push_back({log_time(now_s), CubeTouch{slot_of(cube), duration_s}});
+  const Contact& contact = contacts_[cube];
+  const double duration_s = log_time(end_s) - log_time(*contact.since_s);
+  events.push_back({log_time(now_s), CubeTouch{slot_of(cube), duration_s, contact.deepest_push_m,
+                                               contact.peak_lag_m}});
   contacts_[cube] = {};
 }
 

@@ -45,13 +45,15 @@ class TrialWorld {
  private:
   struct Contact {
     std::optional<double> since_s, left_s;  // left: first picture without it, if there was one
+    Eigen::Vector3d from_m{0, 0, 0};        // the effector's place at since_s
+    double deepest_push_m = 0, peak_lag_m = 0;
   };
 
   void advance_drive(const TargetSample& sample);
   bool clear_of(const Eigen::Vector3d& slot_m, const Pose& effector) const;
   bool clear_of_all(const Pose& effector) const;
   void note_view(const TargetSample& sample, ShownFrame& shown);
-  void note_contacts(double t_s, ShownFrame& shown);
+  void note_contacts(const TargetSample& sample, ShownFrame& shown);
   void return_cubes(double t_s, ShownFrame& shown);
   bool is_out(std::size_t cube) const;
   bool place_is_free(std::size_t cube) const;

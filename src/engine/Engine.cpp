@@ -95,8 +95,7 @@ void Engine::fold(const Event& event, Changes& changes) {
   if (const auto* voided = event.as<TrialVoided>())
     return void_trial(voided->reason, event.t_s, changes);
   if (const auto* setup = event.as<Setup>()) {
-    ++n_setups_;
-    changes.setup = *setup;
+    set_up(*setup, changes);
   } else if (event.as<SessionPaused>()) {
     paused_ = true;
     set_state(SessionState::paused, changes);
@@ -126,6 +125,15 @@ void Engine::fold(const Event& event, Changes& changes) {
   } else if (event.as<EffectorFound>()) {
     open_->find_effector();
   }
+}
+
+void Engine::set_up(const Setup& setup, Changes& changes) {
+  ++n_setups_;
+  changes.setup = setup;
+  if (setup.participant_parameters == parameters_) return;
+  parameters_ = setup.participant_parameters;
+  for (const auto& [name, value] : parameters_)
+    changes.parameters.push_back({n_setups_, name, value});
 }
 
 void Engine::start_trial(double t_s, Changes& changes) {

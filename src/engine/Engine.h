@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -98,6 +99,7 @@ class Engine {
   void act(const Action& action, double t_s, Changes& changes);
   void complete(Outcome outcome, double t_s, Changes& changes);
   void void_trial(const std::string& reason, double t_s, Changes& changes);
+  void set_up(const Setup& setup, Changes& changes);
   void set_state(SessionState state, Changes& changes);
 
   void enter_block(std::size_t index);
@@ -107,6 +109,7 @@ class Engine {
   std::uint64_t seed_;
   SessionState state_ = SessionState::running;
   int n_setups_;
+  std::map<std::string, double> parameters_;  // of the participant, as told last
   int n_events_ = 0, n_attempts_ = 0, n_completed_ = 0;
   double last_s_ = 0;
   bool paused_ = false, over_ = false;

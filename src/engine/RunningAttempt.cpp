@@ -14,6 +14,10 @@ bool names_cube(ActionKind kind) {
   return kind == ActionKind::select || kind == ActionKind::label || kind == ActionKind::unlabel;
 }
 
+std::optional<double> larger(std::optional<double> a, std::optional<double> b) {
+  return a && b ? std::max(a, b) : a ? a : b;
+}
+
 std::vector<CubeRow> fresh_cubes(int attempt_index, const TrialPlan& plan) {
   std::vector<CubeRow> cubes;
   for (const double mass_g : plan.masses_g) {
@@ -30,7 +34,7 @@ std::vector<CubeRow> fresh_cubes(int attempt_index, const TrialPlan& plan) {
 
 RunningAttempt::RunningAttempt(const TrialRow& row, const TrialPlan& plan, bool require_contact)
     : rules_(&rules_of(plan.task)),
-      state_{plan, std::vector<std::optional<Label>>(plan.masses_g.size()), 0, {}, {}},
+      state_{plan, std::vector<std::optional<Label>>(plan.masses_g.size()), 0, {}, {}, {}},
       row_(row),
       require_contact_(require_contact),
       accounted_s_(row.started_s),
@@ -42,6 +46,7 @@ TrialRow RunningAttempt::row() const {
   row.plan = state_.plan;
   row.chosen_slot = state_.chosen_slot;
   row.choice_correct = state_.choice_correct;
+  row.value = state_.value;
   return row;
 }
 
@@ -121,6 +126,8 @@ void RunningAttempt::touch(const CubeTouch& contact, double t_s) {
   if (contact.ended_after_s) {
     cube.contact_s += *contact.ended_after_s;
     cube.last_contact_s = *contact_since_s_[index] + *contact.ended_after_s;
+    cube.deepest_push_m = larger(cube.deepest_push_m, contact.deepest_push_m);
+    cube.peak_lag_m = larger(cube.peak_lag_m, contact.peak_lag_m);
     contact_since_s_[index].reset();
     return;
   }

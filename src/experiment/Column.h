@@ -13,6 +13,9 @@
 
 namespace heft {
 
+/// The version of the log that this program writes.
+inline constexpr int todays_log_version = 4;
+
 struct LogColumn {
   std::string_view name;
   std::string_view unit;  ///< "s", "g"; empty: none

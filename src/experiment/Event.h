@@ -70,7 +70,10 @@ struct CubesShown {
 
 struct CubeTouch {
   int slot = 0;
-  std::optional<double> ended_after_s;  ///< none: it began
+  std::optional<double> ended_after_s{};  ///< none: it began
+  /// Of an ended touch, over its frames; not told before version 4 of the log. How far the effector
+  /// went from where it was in the first of them, and the clone's largest distance from it.
+  std::optional<double> deepest_push_m{}, peak_lag_m{};
   bool operator==(const CubeTouch&) const = default;
 };
 

@@ -30,6 +30,7 @@ struct TrialRow {
   std::optional<Outcome> outcome;
   std::optional<int> chosen_slot;
   std::optional<bool> choice_correct;
+  std::optional<double> value;  ///< what was estimated or adjusted
   double started_s = 0;
   std::optional<double> shown_s, first_contact_s, first_choice_s, validated_s, ended_s;
   double paused_s = 0;  ///< time the trial stood still between shown and validated
@@ -55,6 +56,7 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"level_g", "g", "comparison - reference, as presented"}, row.plan.level_g);
   visit(LogColumn{"is_catch", "", "the difference is 0 on purpose; drives no staircase"},
         row.plan.is_catch);
+  visit(LogColumn{"is_practice", "", "practice: counts in no figure", 4}, row.plan.is_practice);
   visit(LogColumn{"n_reshuffles", "", "times the cubes were newly shuffled in it", 1, ">= 0"},
         row.plan.n_reshuffles);
   visit(LogColumn{"status", "", "what became of the attempt"}, row.status);
@@ -65,6 +67,11 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"reference_slot", "", "where the reference stood", 1, "BETWEEN 1 AND 6"},
         row.plan.reference_slot);
   visit(LogColumn{"choice_correct", "", "the chosen cube was the heaviest"}, row.choice_correct);
+  visit(LogColumn{"value", "",
+                  "what was estimated or adjusted, in the task's unit (adjustment: g); none: the "
+                  "task asks for neither",
+                  4},
+        row.value);
   visit(LogColumn{"started_s", "s", "session time of its start", 1, ">= 0"}, row.started_s);
   visit(LogColumn{"shown_s", "s", "first frame with all cubes", 1, ">= 0"}, row.shown_s);
   visit(LogColumn{"first_contact_s", "s", "first touch of a cube", 1, ">= 0"}, row.first_contact_s);
@@ -77,6 +84,19 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"ended_s", "s", "session time of its end", 1, ">= 0"}, row.ended_s);
 }
 
+/// What a push came to, of one touch or the most of all touches of a cube; see CubeTouch.
+template <typename Row, typename Visit>
+void visit_push_columns(Row& row, Visit&& visit) {
+  visit(LogColumn{"deepest_push_m", "m",
+                  "farthest that the effector went from where it was when the touch began", 4,
+                  ">= 0"},
+        row.deepest_push_m);
+  visit(LogColumn{"peak_lag_m", "m",
+                  "largest distance of the clone from the effector during the touch, as displayed",
+                  4, ">= 0"},
+        row.peak_lag_m);
+}
+
 struct CubeRow {
   int attempt_index = 0;
   int slot = 0;  ///< from 1, leftmost
@@ -85,6 +105,7 @@ struct CubeRow {
   double contact_s = 0;
   std::optional<double> first_contact_s, last_contact_s;
   int n_resets = 0;
+  std::optional<double> deepest_push_m{}, peak_lag_m{};
 };
 template <typename Row, typename Visit>
 requires RowOf<Row, CubeRow>
@@ -98,6 +119,7 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"last_contact_s", "s", "session time of the end of its last touch", 1, ">= 0"},
         row.last_contact_s);
   visit(LogColumn{"n_resets", "", "times it was put back to its start", 3, ">= 0"}, row.n_resets);
+  visit_push_columns(row, visit);
 }
 
 struct AnswerRow {
@@ -159,6 +181,22 @@ void visit_columns(Row& row, Visit&& visit) {
         row.censored);
 }
 
+/// A number that a simulated participant was drawn as. A session has it once, unless somebody else
+/// went on with it.
+struct ParticipantParameterRow {
+  int setup_index = 0;  ///< that told it
+  std::string name;
+  double value = 0;
+};
+template <typename Row, typename Visit>
+requires RowOf<Row, ParticipantParameterRow>
+void visit_columns(Row& row, Visit&& visit) {
+  visit(LogColumn{"name", "", "parameter of the model, as its parameter file names it", 4},
+        row.name);
+  visit(LogColumn{"value", "", "what this participant was drawn as, in the parameter's unit", 4},
+        row.value);
+}
+
 enum class SessionState { running, paused, finished, aborted };
 template <>
 struct EnumNames<SessionState> {
@@ -175,6 +213,7 @@ struct Changes {
   std::vector<AnswerRow> answers;
   std::vector<ReversalRow> reversals;
   std::vector<EstimateRow> estimates;
+  std::vector<ParticipantParameterRow> parameters;
   std::optional<SessionState> state;
 };
 

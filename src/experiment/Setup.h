@@ -4,6 +4,7 @@
 #pragma once
 
 #include <concepts>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ struct Setup {
   std::string texts_file, texts_sha256;
   std::string record_camera;
   std::string heft_version, build;
+  /// What a simulated participant was drawn as, by name; in a table of its own.
+  std::map<std::string, double> participant_parameters;
   // The files' contents, so that a session goes on and is replayed without them. In the event, not
   // in the table.
   std::string responder_text, tracker_text, camera_text, board_text, effector_text, texts_text;
@@ -93,10 +96,11 @@ void visit_columns(Row& row, Visit&& visit) {
         row.record_camera);
 }
 
-/// The contents of its files, which only the event keeps.
+/// What only the event keeps: the contents of its files, and the drawn participant.
 template <typename Row, typename Visit>
 requires std::same_as<std::remove_const_t<Row>, Setup>
 void visit_contents(Row& row, Visit&& visit) {
+  visit("participant_parameters", row.participant_parameters);
   visit("responder_text", row.responder_text);
   visit("tracker_text", row.tracker_text);
   visit("camera_text", row.camera_text);

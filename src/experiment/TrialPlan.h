@@ -20,6 +20,7 @@ struct TrialPlan {
   std::optional<double> reference_g;  ///< comparisons only
   std::optional<double> level_g;      ///< comparison - reference, as presented
   bool is_catch = false;
+  bool is_practice = false;
   std::vector<double> masses_g;       ///< by slot, leftmost first
   std::optional<int> reference_slot;  ///< comparisons only; slots count from 1
   int n_reshuffles = 0;               ///< times the cubes were newly shuffled in this attempt

@@ -15,7 +15,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/PoseTypes.h"
-#include "record/RowDigest.h"
+#include "record/Digests.h"
 
 namespace heft {
 

@@ -7,12 +7,11 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "record/Digests.h"
 #include "record/EventRow.h"
-#include "record/InfoDigest.h"
-#include "record/RowQueries.h"
+#include "record/Failures.h"
 #include "record/RowSql.h"
 #include "record/RowVisitors.h"
-#include "record/WriteFailure.h"
 
 namespace heft {
 

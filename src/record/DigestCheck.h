@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "record/BrokenDigest.h"
-#include "record/RowDigest.h"
+#include "record/Digests.h"
+#include "record/LogReader.h"
 
 namespace SQLite {
 class Database;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <concepts>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/Error.h"
 #include "record/SetupJson.h"
@@ -18,188 +20,177 @@ using Json = nlohmann::ordered_json;
                           row.t_s, expected, row.detail));
 }
 
-// What each kind of event puts into the row's columns.
+// Puts what an event tells into the row's columns.
 class ToRow {
  public:
-  explicit ToRow(EventRow& to) : row(to) {}
-
-  void operator()(const Action& action) const {
-    row.detail = name_of(action.kind);
-    row.slot = action.slot;
-    row.label = action.label;
-  }
-  void operator()(const TrialVoided& voided) const { row.detail = voided.reason; }
-  void operator()(const SessionPaused& paused) const { row.detail = paused.reason; }
-  void operator()(const CubesReset& reset) const {
-    row.detail = reset.slot ? "out_of_area" : "button";
-    row.slot = reset.slot;
-  }
-  void operator()(const DemonstrationShown& shown) const { row.detail = shown.block; }
-  void operator()(const SessionResumed& resumed) const {
-    row.detail = resumed.utc;
-    row.value = resumed.away_s;
-  }
-  void operator()(const SessionEnded& ended) const { row.detail = name_of(ended.how); }
-  void operator()(const Setup& setup) const { row.detail = to_json(setup); }
-  void operator()(const CubeTouch& contact) const {
-    row.detail = contact.ended_after_s ? "ended" : "began";
-    row.slot = contact.slot;
-    row.value = contact.ended_after_s;
-  }
-  void operator()(const Consent& consent) const {
-    tell({{"agreed", consent.agreed}, {"language", consent.language}, {"sha256", consent.sha256}});
-  }
-  void operator()(const TextShown& text) const {
-    tell({{"page", text.page}, {"language", text.language}, {"sha256", text.sha256}});
-  }
-  void operator()(const BreakTaken& taken) const {
-    row.detail = taken.name;
-    row.value = taken.duration_s;
-  }
-  void operator()(const Note& note) const { row.detail = note.text; }
-  void operator()(const Deviation& deviation) const { row.detail = deviation.text; }
-  void operator()(const Unblinding& unblinding) const { row.detail = unblinding.who; }
-  void operator()(const CameraReport& report) const {
-    tell({{"shown", report.n_shown}, {"dropped", report.n_dropped}, {"late", report.n_late}});
-  }
-  void operator()(const CheckResult& check) const {
-    tell({{"name", check.name}, {"verdict", name_of(check.verdict)}, {"finding", check.finding}});
-  }
-  // Trial started, continued, cubes shown, effector lost and found: there is nothing to tell.
-  template <typename Plain>
-  void operator()(const Plain&) const {}
-
- private:
-  // Bytes that are no text must not keep an event from being saved.
-  void tell(const Json& json) const {
-    row.detail = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  }
-
-  EventRow& row;
-};
-
-// The JSON object in a row's detail.
-class Detail {
- public:
-  explicit Detail(const EventRow& row)
-      : row_(row), json_(Json::parse(row.detail, nullptr, /*allow_exceptions=*/false)) {
-    if (!json_.is_object()) refuse(row_, "a JSON object");
-  }
+  explicit ToRow(EventRow& row) : row_(row) {}
 
   template <typename Value>
-  Value at(const char* key) const try {
-    return json_.at(key).get<Value>();
+  ToRow& detail(const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+      row_.detail = name_of(value);
+    else if constexpr (std::same_as<Value, Setup>)
+      row_.detail = to_json(value);
+    else
+      row_.detail = value;
+    return *this;
+  }
+  void detail_is(std::string_view text, std::string_view) { row_.detail = text; }
+  ToRow& slot(std::optional<int> slot) { return set(row_.slot, slot); }
+  ToRow& label(std::optional<Label> label) { return set(row_.label, label); }
+  ToRow& push(const CubeTouch& touch) {
+    row_.deepest_push_m = touch.deepest_push_m;
+    row_.peak_lag_m = touch.peak_lag_m;
+    return *this;
+  }
+  ToRow& duration(std::optional<double> duration_s, std::optional<double> = {}) {
+    return set(row_.value, duration_s);
+  }
+  template <typename Value>
+  ToRow& json(const char* key, const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+      json_[key] = name_of(value);
+    else
+      json_[key] = value;
+    return *this;
+  }
+  // Bytes that are no text must not keep an event from being saved.
+  void finish() {
+    if (!json_.empty()) row_.detail = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+
+ private:
+  template <typename Value>
+  ToRow& set(std::optional<Value>& column, std::optional<Value> value) {
+    column = value;
+    return *this;
+  }
+
+  EventRow& row_;
+  Json json_;
+};
+
+// Takes it out of them again.
+class FromRow {
+ public:
+  explicit FromRow(const EventRow& row) : row_(row) {}
+
+  template <typename Value>
+  FromRow& detail(Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+      value = named_in<Value>(row_.detail);
+    else if constexpr (std::same_as<Value, Setup>)
+      value = setup_from_json(row_.detail);
+    else
+      value = row_.detail;
+    return *this;
+  }
+  void detail_is(std::string_view text, std::string_view expected) {
+    if (row_.detail != text) refuse(row_, expected);
+  }
+  FromRow& slot(auto& slot) { return take(slot, row_.slot, "a cube's slot"); }
+  FromRow& label(std::optional<Label>& label) { return take(label, row_.label, "a label"); }
+  FromRow& push(CubeTouch& touch) {
+    touch.deepest_push_m = row_.deepest_push_m;
+    touch.peak_lag_m = row_.peak_lag_m;
+    return *this;
+  }
+  FromRow& duration(auto& duration_s, std::optional<double> if_none = {}) {
+    const auto value = row_.value ? row_.value : if_none;
+    if (value && !(*value >= 0)) refuse(row_, "a duration");
+    return take(duration_s, value, "a duration");
+  }
+  template <typename Value>
+  FromRow& json(const char* key, Value& value) try {
+    if (json_.is_null()) json_ = Json::parse(row_.detail, nullptr, /*allow_exceptions=*/false);
+    if (!json_.is_object()) refuse(row_, "a JSON object");
+    if constexpr (std::is_enum_v<Value>)
+      value = named_in<Value>(json_.at(key).template get<std::string>());
+    else
+      value = json_.at(key).template get<Value>();
+    return *this;
   } catch (const nlohmann::json::exception&) {
     refuse(row_, fmt::format("JSON with \"{}\"", key));
   }
 
  private:
+  template <typename To, typename Value>
+  FromRow& take(To& to, const std::optional<Value>& value, std::string_view expected) {
+    if constexpr (std::same_as<To, Value>) {
+      if (!value) refuse(row_, expected);
+      to = *value;
+    } else {
+      to = value;
+    }
+    return *this;
+  }
+  template <typename Enum>
+  Enum named_in(const std::string& text) {
+    if (const auto value = named<Enum>(text)) return *value;
+    refuse(row_, quoted_list(EnumNames<Enum>::names));
+  }
+
   const EventRow& row_;
   Json json_;
 };
 
-template <typename Enum>
-Enum name_in(const EventRow& row, const std::string& text) {
-  if (const auto value = named<Enum>(text)) return *value;
-  refuse(row, quoted_list(EnumNames<Enum>::names));
-}
+// Where each kind of event keeps what it tells, both ways.
+template <typename Row>
+struct Tell {
+  Row& row;
 
-int slot_of(const EventRow& row) {
-  if (!row.slot) refuse(row, "a cube's slot");
-  return *row.slot;
-}
-
-double value_of(const EventRow& row) {
-  if (!row.value || !(*row.value >= 0)) refuse(row, "a duration");
-  return *row.value;
-}
-
-CubeTouch contact_in(const EventRow& row) {
-  CubeTouch contact{slot_of(row), std::nullopt};
-  if (row.detail == "ended")
-    contact.ended_after_s = value_of(row);
-  else if (row.detail != "began")
-    refuse(row, "\"began\" or \"ended\"");
-  return contact;
-}
-
-CubesReset reset_in(const EventRow& row) {
-  if (row.detail != (row.slot ? "out_of_area" : "button"))
-    refuse(row, "\"button\", or \"out_of_area\" with a cube's slot");
-  return {row.slot};
-}
-
-CheckResult check_in(const EventRow& row) {
-  const Detail detail(row);
-  return {name_in<CheckVerdict>(row, detail.at<std::string>("verdict")),
-          detail.at<std::string>("name"), detail.at<std::string>("finding")};
-}
-
-TextShown text_in(const EventRow& row) {
-  const Detail detail(row);
-  return {detail.at<std::string>("page"), detail.at<std::string>("language"),
-          detail.at<std::string>("sha256")};
-}
-
-Consent consent_in(const EventRow& row) {
-  const Detail detail(row);
-  return {detail.at<bool>("agreed"), detail.at<std::string>("language"),
-          detail.at<std::string>("sha256")};
-}
-
-CameraReport report_in(const EventRow& row) {
-  const Detail detail(row);
-  return {detail.at<int>("shown"), detail.at<int>("dropped"), detail.at<int>("late")};
-}
-
-Happening happening_in(const EventRow& row) {
-  switch (row.kind) {
-    case EventKind::trial_started:
-      return TrialStarted{};
-    case EventKind::action:
-      return Action{name_in<ActionKind>(row, row.detail), row.slot, row.label};
-    case EventKind::voided:
-      return TrialVoided{row.detail};
-    case EventKind::paused:
-      return SessionPaused{row.detail};
-    case EventKind::continued:
-      return SessionContinued{};
-    case EventKind::cubes_reset:
-      return reset_in(row);
-    case EventKind::demonstration_shown:
-      return DemonstrationShown{row.detail};
-    case EventKind::resumed:
-      return SessionResumed{row.detail, row.value.value_or(0)};
-    case EventKind::ended:
-      return SessionEnded{name_in<Ending>(row, row.detail)};
-    case EventKind::setup:
-      return setup_from_json(row.detail);
-    case EventKind::cubes_shown:
-      return CubesShown{};
-    case EventKind::cube_contact:
-      return contact_in(row);
-    case EventKind::effector_lost:
-      return EffectorLost{};
-    case EventKind::effector_found:
-      return EffectorFound{};
-    case EventKind::consent:
-      return consent_in(row);
-    case EventKind::text_shown:
-      return text_in(row);
-    case EventKind::rest:
-      return BreakTaken{row.detail, value_of(row)};
-    case EventKind::note:
-      return Note{row.detail};
-    case EventKind::deviation:
-      return Deviation{row.detail};
-    case EventKind::unblinding:
-      return Unblinding{row.detail};
-    case EventKind::camera:
-      return report_in(row);
-    case EventKind::check:
-      return check_in(row);
+  // Trial started, continued, cubes shown, effector lost and found: there is nothing to tell.
+  void operator()(auto&) const {}
+  void operator()(RowOf<Action> auto& action) const {
+    row.detail(action.kind).slot(action.slot).label(action.label);
   }
-  refuse(row, "an event");
+  void operator()(RowOf<TrialVoided> auto& voided) const { row.detail(voided.reason); }
+  void operator()(RowOf<SessionPaused> auto& paused) const { row.detail(paused.reason); }
+  void operator()(RowOf<CubesReset> auto& reset) const {
+    row.slot(reset.slot)
+        .detail_is(reset.slot ? "out_of_area" : "button",
+                   "\"button\", or \"out_of_area\" with a cube's slot");
+  }
+  void operator()(RowOf<DemonstrationShown> auto& shown) const { row.detail(shown.block); }
+  void operator()(RowOf<SessionResumed> auto& resumed) const {
+    row.detail(resumed.utc).duration(resumed.away_s, /*if_none=*/0.0);
+  }
+  void operator()(RowOf<SessionEnded> auto& ended) const { row.detail(ended.how); }
+  void operator()(RowOf<Setup> auto& setup) const { row.detail(setup); }
+  void operator()(RowOf<CubeTouch> auto& touch) const {
+    row.slot(touch.slot)
+        .duration(touch.ended_after_s)
+        .push(touch)
+        .detail_is(touch.ended_after_s ? "ended" : "began",
+                   "\"began\", or \"ended\" with a duration");
+  }
+  void operator()(RowOf<Consent> auto& consent) const {
+    row.json("agreed", consent.agreed);
+    row.json("language", consent.language).json("sha256", consent.sha256);
+  }
+  void operator()(RowOf<TextShown> auto& text) const {
+    row.json("page", text.page).json("language", text.language).json("sha256", text.sha256);
+  }
+  void operator()(RowOf<BreakTaken> auto& taken) const {
+    row.detail(taken.name).duration(taken.duration_s);
+  }
+  void operator()(RowOf<Note> auto& note) const { row.detail(note.text); }
+  void operator()(RowOf<Deviation> auto& deviation) const { row.detail(deviation.text); }
+  void operator()(RowOf<Unblinding> auto& unblinding) const { row.detail(unblinding.who); }
+  void operator()(RowOf<CameraReport> auto& report) const {
+    row.json("shown", report.n_shown).json("dropped", report.n_dropped);
+    row.json("late", report.n_late);
+  }
+  void operator()(RowOf<CheckResult> auto& check) const {
+    row.json("name", check.name).json("verdict", check.verdict).json("finding", check.finding);
+  }
+};
+
+template <std::size_t... Kinds>
+Happening empty_of(EventKind kind, std::index_sequence<Kinds...>) {
+  Happening what;
+  ((static_cast<std::size_t>(kind) == Kinds ? void(what.emplace<Kinds>()) : void()), ...);
+  return what;
 }
 
 }  // namespace
@@ -208,12 +199,17 @@ EventRow row_of(const Event& event) {
   EventRow row;
   row.t_s = event.t_s;
   row.kind = event.kind();
-  std::visit(ToRow(row), event.what);
+  ToRow to(row);
+  std::visit(Tell<ToRow>{to}, event.what);
+  to.finish();
   return row;
 }
 
 Event event_of(const EventRow& row) {
-  return {row.t_s, happening_in(row)};
+  Happening what = empty_of(row.kind, std::make_index_sequence<std::variant_size_v<Happening>>());
+  FromRow from(row);
+  std::visit(Tell<FromRow>{from}, what);
+  return {row.t_s, std::move(what)};
 }
 
 std::string text_of(const Event& event) {
@@ -223,6 +219,8 @@ std::string text_of(const Event& event) {
   if (row.label) text += fmt::format(" {}", name_of(*row.label));
   text += fmt::format(" at {} s", row.t_s);
   if (row.value) text += fmt::format(", {} s", *row.value);
+  if (row.deepest_push_m && row.peak_lag_m)
+    text += fmt::format(", {} m deep, {} m behind", *row.deepest_push_m, *row.peak_lag_m);
   return text;
 }
 

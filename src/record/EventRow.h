@@ -17,6 +17,7 @@ struct EventRow {
   std::optional<Label> label;
   std::string detail;
   std::optional<double> value;
+  std::optional<double> deepest_push_m, peak_lag_m;
 
   bool operator==(const EventRow&) const = default;
 };
@@ -29,6 +30,7 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"label", "", "with which label"}, row.label);
   visit(LogColumn{"detail", "", "the action, the reason, a text, or JSON, by kind"}, row.detail);
   visit(LogColumn{"value", "", "a duration in seconds, by kind"}, row.value);
+  visit_push_columns(row, visit);
 }
 
 EventRow row_of(const Event& event);

@@ -4,7 +4,6 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
-#include "record/Distrust.h"
 #include "record/LogFile.h"
 #include "record/ReadOnlyDatabase.h"
 #include "record/Schema.h"

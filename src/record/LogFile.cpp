@@ -11,9 +11,9 @@
 #include "base/Error.h"
 #include "base/Printable.h"
 #include "base/TextFile.h"
-#include "record/Distrust.h"
+#include "record/Failures.h"
+#include "record/ReadOnlyDatabase.h"
 #include "record/Schema.h"
-#include "record/SqliteError.h"
 
 namespace heft {
 

@@ -3,18 +3,20 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
+#include <deque>
+#include <type_traits>
+
 #include "base/Error.h"
 #include "record/Binding.h"
 #include "record/DigestCheck.h"
 #include "record/EventRow.h"
+#include "record/Failures.h"
 #include "record/LogFile.h"
 #include "record/OlderSetups.h"
 #include "record/ReadOnlyDatabase.h"
-#include "record/RowQueries.h"
 #include "record/RowSql.h"
 #include "record/RowVisitors.h"
 #include "record/Schema.h"
-#include "record/SqliteError.h"
 
 namespace heft {
 
@@ -30,14 +32,6 @@ SessionRow session_from(Cells& cells) {
 std::pair<std::string, std::string> info_from(Cells& cells) {
   std::string key = cells.text();
   return {std::move(key), cells.text()};
-}
-
-LoggedSetup setup_from(Cells& cells) {
-  LoggedSetup logged;
-  logged.setup_index = cells.integer();
-  logged.from_event = cells.integer();
-  logged.setup = row_from<Setup>(cells);
-  return logged;
 }
 
 TrialRow trial_from(Cells& cells) {
@@ -59,10 +53,10 @@ class LogReader::Impl {
   }
 
   /// Every row of a query, made into a value by `make`. The query's first column is the row's id.
-  template <typename Row, typename... Values>
-  std::vector<Row> rows(Row (*make)(Cells&), std::string_view table, const std::string& sql,
-                        const Values&... values) const try {
-    std::vector<Row> found;
+  template <typename Make, typename... Values>
+  auto rows(const Make& make, std::string_view table, const std::string& sql,
+            const Values&... values) const try {
+    std::vector<std::invoke_result_t<Make, Cells&>> found;
     if (!has_tables_) return found;
     SQLite::Statement query(*database_, sql);
     Binding binding(query, values...);
@@ -88,6 +82,18 @@ class LogReader::Impl {
 
   std::vector<SessionRow> sessions(const std::string& condition) const {
     return with_participant_info(rows(session_from, "session", session_sql(condition)));
+  }
+
+  /// Those of a session that fulfill a condition, as SQL over the columns of `event`.
+  std::vector<LoggedEvent> events(const SessionRow& session, std::string_view condition) const {
+    OlderSetups older(session.header);
+    std::vector<LoggedEvent> events;
+    for (const EventRow& row :
+         rows(attempt_row_from<EventRow>, "event",
+              in_session("event", "event_id", columns_of<EventRow>(), condition),
+              session.session_id))
+      events.push_back({older.told(event_of(row)), row.attempt_index});
+    return events;
   }
 
   std::vector<SessionRow> with_participant_info(std::vector<SessionRow> sessions) const {
@@ -151,25 +157,26 @@ std::optional<SessionRow> LogReader::newest_unfinished_session() const {
 }
 
 std::vector<LoggedEvent> LogReader::events(std::int64_t session_id) const {
-  std::vector<LoggedEvent> events;
-  std::optional<Setup> older;  // in force so far, where events did not tell it
-  if (const SessionRow row = session(session_id); row.header.log_version < 3)
-    older = older_setup(row.header);
-  for (const EventRow& row :
-       impl_->rows(attempt_row_from<EventRow>, "event",
-                   in_session("event", "event_id", columns_of<EventRow>()), session_id)) {
-    LoggedEvent logged{event_of(row), row.attempt_index};
-    if (const auto* told = logged.event.as<Setup>(); told && older) older = *told;
-    if (const auto* deviation = logged.event.as<Deviation>(); deviation && older)
-      if (const auto after = after_deviation(*older, deviation->text))
-        logged.event.what = *(older = after);
-    events.push_back(std::move(logged));
-  }
-  return events;
+  return impl_->events(session(session_id), "true");
 }
 
 std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
-  auto setups = impl_->rows(
+  // Their files' contents stand in the events, or in an older session's header.
+  std::deque<Setup> told;
+  const SessionRow row = session(session_id);
+  if (const auto first = OlderSetups(row.header).first()) told.push_back(*first);
+  for (const LoggedEvent& logged : impl_->events(row, "kind IN ('setup', 'deviation')"))
+    if (const auto* setup = logged.event.as<Setup>()) told.push_back(*setup);
+  const auto setup_from = [&](Cells& cells) {
+    LoggedSetup logged{cells.integer(), cells.integer(), {}};
+    if (!told.empty()) {
+      logged.setup = std::move(told.front());
+      told.pop_front();
+    }
+    visit_columns(logged.setup, FillRow(cells));
+    return logged;
+  };
+  return impl_->rows(
       setup_from, "setup",
       fmt::format(
           "SELECT setup_id, setup_index, (SELECT count(*) FROM event e WHERE e.session_id = "
@@ -177,21 +184,6 @@ std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
           "BY setup_index",
           columns_of<Setup>()),
       session_id);
-  // Their files' contents stand in the events, or in an older session's header.
-  std::size_t next = 0;
-  const auto take_contents = [&](Setup from) {
-    if (next == setups.size()) return;
-    Setup& to = setups[next++].setup;
-    std::vector<std::string> contents;
-    visit_contents(from, [&](std::string_view, std::string& text) { contents.push_back(text); });
-    auto text = contents.begin();
-    visit_contents(to, [&](std::string_view, std::string& held) { held = *text++; });
-  };
-  if (const SessionRow row = session(session_id); row.header.log_version < 3)
-    take_contents(older_setup(row.header));
-  for (const LoggedEvent& logged : events(session_id))
-    if (const auto* setup = logged.event.as<Setup>()) take_contents(*setup);
-  return setups;
 }
 
 std::vector<TrialRow> LogReader::trials(std::int64_t session_id) const {
@@ -228,6 +220,23 @@ std::vector<EstimateRow> LogReader::estimates(std::int64_t session_id) const {
       row_from<EstimateRow>, "estimate",
       fmt::format("SELECT rowid, {} FROM estimate WHERE session_id = ? ORDER BY rowid",
                   columns_of<EstimateRow>()),
+      session_id);
+}
+
+std::vector<ParticipantParameterRow> LogReader::participant_parameters(
+    std::int64_t session_id) const {
+  const auto parameter_from = [](Cells& cells) {
+    const int setup_index = cells.integer();
+    auto row = row_from<ParticipantParameterRow>(cells);
+    row.setup_index = setup_index;
+    return row;
+  };
+  return impl_->rows(
+      parameter_from, "participant_parameter",
+      fmt::format("SELECT rowid, ifnull((SELECT setup_index FROM setup s WHERE s.setup_id = "
+                  "p.setup_id AND s.session_id = p.session_id), 0), {} FROM participant_parameter "
+                  "p WHERE session_id = ? ORDER BY rowid",
+                  columns_of<ParticipantParameterRow>()),
       session_id);
 }
 

@@ -9,7 +9,6 @@
 
 #include "experiment/Event.h"
 #include "experiment/Rows.h"
-#include "record/BrokenDigest.h"
 #include "record/SessionHeader.h"
 
 namespace heft {
@@ -36,6 +35,18 @@ struct LoggedSetup {
   int setup_index = 0;  ///< from 1
   int from_event = 0;   ///< the session's event that told it, from 1; 0: an older log's header
   Setup setup;
+};
+
+/// The first row of a chain of digests whose own does not fit: it was changed, or rows directly
+/// before it were changed together with their digests, taken out, put in or swapped.
+struct BrokenDigest {
+  std::string table;  ///< session (its header), event or frame
+  std::int64_t row_id = 0;
+  int attempt_index = 0;  ///< 0: outside of attempts, or of a trial that the session does not have
+  double t_s = 0;         ///< the row's, as the file has it now; 0 for a session
+  std::string logged, recomputed;
+  std::string row;     ///< for a person: `the event "note" of attempt 2 at 12.500 s`
+  std::string damage;  ///< where the row can't be one of ours at all: why; else empty
 };
 
 /// The log as it was when it was opened; what a writer adds later is not seen. An empty file, as a
@@ -68,6 +79,7 @@ class LogReader {
   std::vector<AnswerRow> answers(std::int64_t session_id) const;
   std::vector<ReversalRow> reversals(std::int64_t session_id) const;
   std::vector<EstimateRow> estimates(std::int64_t session_id) const;
+  std::vector<ParticipantParameterRow> participant_parameters(std::int64_t session_id) const;
   /// @param attempt_index 0: the frames outside of trials
   std::vector<FrameRow> frames(std::int64_t session_id, int attempt_index) const;
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/Error.h"
 #include "base/Names.h"
@@ -57,9 +58,7 @@ Setup hashed(Setup setup) {
   return setup;
 }
 
-}  // namespace
-
-Setup older_setup(const SessionHeader& header) try {
+Setup setup_in(const SessionHeader& header) try {
   Setup setup;
   setup.simulator_edition = 1;
   setup.heft_version = header.heft_version;
@@ -73,13 +72,29 @@ Setup older_setup(const SessionHeader& header) try {
   throw Error(fmt::format("session.run_options can't be read: {}", error.what()));
 }
 
-std::optional<Setup> after_deviation(const Setup& setup, const std::string& detail) {
-  const auto json = nlohmann::json::parse(detail, nullptr, false);
+// The setup after a deviation of that kind; none for any other deviation.
+std::optional<Setup> after(const Deviation& deviation, Setup setup) {
+  const auto json = nlohmann::json::parse(deviation.text, nullptr, false);
   if (!json.is_object() || !json.contains("option") || !json.contains("to")) return std::nullopt;
   if (!json["option"].is_string() || !json["to"].is_string()) return std::nullopt;
-  Setup after = setup;
-  take(after, json["option"].get<std::string>(), json["to"]);
-  return hashed(after);
+  take(setup, json["option"].get<std::string>(), json["to"]);
+  return hashed(std::move(setup));
+}
+
+}  // namespace
+
+OlderSetups::OlderSetups(const SessionHeader& header) {
+  constexpr int first_with_setups = 3;
+  if (header.log_version < first_with_setups) first_ = now_ = setup_in(header);
+}
+
+Event OlderSetups::told(Event event) {
+  if (!now_) return event;
+  if (const auto* setup = event.as<Setup>()) now_ = *setup;
+  const auto* deviation = event.as<Deviation>();
+  if (const auto changed = deviation ? after(*deviation, *now_) : std::nullopt)
+    event.what = *(now_ = changed);
+  return event;
 }
 
 }  // namespace heft

@@ -4,18 +4,27 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
-#include "experiment/Setup.h"
+#include "experiment/Event.h"
 #include "record/SessionHeader.h"
 
 namespace heft {
 
-/// What it was started with. A simulator that was not named is the protocol's and stays empty.
-/// @throws Error when the header's options can't be read
-Setup older_setup(const SessionHeader& header);
+/// Follows one session's events, in order. A session that told its setups as events has none here.
+class OlderSetups {
+ public:
+  /// @throws Error when the header's options can't be read
+  explicit OlderSetups(const SessionHeader& header);
 
-/// The setup after a deviation of that kind; none for any other deviation.
-std::optional<Setup> after_deviation(const Setup& setup, const std::string& detail);
+  /// What it was started with, before the first event. A simulator that was not named is the
+  /// protocol's and stays empty.
+  const std::optional<Setup>& first() const { return first_; }
+
+  /// The event, or the setup that came into force with it.
+  Event told(Event event);
+
+ private:
+  std::optional<Setup> first_, now_;
+};
 
 }  // namespace heft

@@ -1,5 +1,6 @@
-// What a row's description gives as SQL: its columns' names, and how a table declares them. Private
-// to this room.
+// What the rows' descriptions give as SQL: their columns' names, how a table declares them, the
+// closed lists that columns refer to, and the queries and inserts that take all columns. Private to
+// this room.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,14 +9,51 @@
 #include <concepts>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "experiment/Event.h"
 #include "experiment/Rows.h"
-#include "record/ClosedLists.h"
+#include "record/SessionHeader.h"
 
 namespace heft {
+
+// The closed lists: each enumeration's names stand in a table, which the columns that use it refer
+// to.
+
+/// The table of an enumeration's names.
+template <typename Enum>
+inline constexpr std::string_view closed_list = "";
+template <>
+inline constexpr std::string_view closed_list<Task> = "list_task";
+template <>
+inline constexpr std::string_view closed_list<Label> = "list_label";
+template <>
+inline constexpr std::string_view closed_list<ActionKind> = "list_action";
+template <>
+inline constexpr std::string_view closed_list<TrialStatus> = "list_status";
+template <>
+inline constexpr std::string_view closed_list<Outcome> = "list_outcome";
+template <>
+inline constexpr std::string_view closed_list<EventKind> = "list_event";
+template <>
+inline constexpr std::string_view closed_list<SessionState> = "list_state";
+template <>
+inline constexpr std::string_view closed_list<Finish> = "list_finish";
+template <>
+inline constexpr std::string_view closed_list<Censored> = "list_censored";
+template <>
+inline constexpr std::string_view closed_list<Purpose> = "list_purpose";
+
+struct ClosedList {
+  std::string_view table;
+  std::span<const std::string_view> names;
+};
+
+/// All of them.
+std::span<const ClosedList> closed_lists();
 
 inline constexpr std::array pose_suffixes{"_x_m", "_y_m", "_z_m", "_qw", "_qx", "_qy", "_qz"};
 inline constexpr std::array velocity_suffixes{"_vx_m_s",   "_vy_m_s",   "_vz_m_s",
@@ -106,5 +144,28 @@ template <typename Row>
 std::string columns_of(int version = std::numeric_limits<int>::max()) {
   return fmt::format("{}", fmt::join(sql_of<Row>(version).names, ", "));
 }
+
+/// What a session's chains of digests start from. Parameter: the session's id.
+inline constexpr auto chain_start_sql =
+    "SELECT participant || '/' || protocol_sha256 || '/' || seed FROM session WHERE session_id = ?";
+
+// First column the row's id, then the attempt (0 where the row names no trial; a text, which Cells
+// refuses, where its session has no such trial), then `columns`; ordered by id. ?1 is the session.
+
+/// Rows that carry the session's id themselves. @param condition that they fulfill, as SQL
+std::string in_session(std::string_view table, std::string_view id, std::string_view columns,
+                       std::string_view condition = "true");
+
+/// The same for frames of all attempts, which are many: without a look at other sessions'.
+std::string frames_in_session(std::string_view columns);
+
+/// Rows that belong to a session through their trial.
+std::string in_trials(std::string_view table, std::string_view id, std::string_view columns);
+
+/// INSERT INTO table(columns) VALUES (?, ?, ...)
+std::string insert_sql(std::string_view table, std::string_view columns);
+
+/// insert_sql, but a row with the same key columns takes over the new values.
+std::string upsert_sql(std::string_view table, std::string_view columns, std::string_view key);
 
 }  // namespace heft

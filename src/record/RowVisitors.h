@@ -11,7 +11,7 @@ namespace heft {
 /// Which of a row's columns its digest is taken over: those that its session's version of the log
 /// knew. Version 2 put the times of a frame in only where there was one.
 struct DigestedColumns {
-  int log_version = 3;
+  int log_version = todays_log_version;
   bool has_timing = true;
 
   bool has(int since) const {

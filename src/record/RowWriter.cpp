@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "record/Digests.h"
 #include "record/EventRow.h"
-#include "record/InfoDigest.h"
 #include "record/RowSql.h"
 #include "record/RowVisitors.h"
 #include "record/Schema.h"
@@ -17,13 +17,13 @@ namespace heft {
 namespace {
 template <typename Row>
 std::string keyed_insert(std::string_view table, std::string_view keys) {
-  return schema::insert_sql(table, fmt::format("{}, {}", keys, columns_of<Row>()));
+  return insert_sql(table, fmt::format("{}, {}", keys, columns_of<Row>()));
 }
 
 // The row's digest is bound last.
 template <typename Row>
 std::string digested_insert(std::string_view table, std::string_view keys) {
-  return schema::insert_sql(table, fmt::format("{}, {}, digest", keys, columns_of<Row>()));
+  return insert_sql(table, fmt::format("{}, {}, digest", keys, columns_of<Row>()));
 }
 }  // namespace
 
@@ -35,6 +35,14 @@ SQLite::Statement& RowWriter::statement(const std::string& sql) {
   auto& prepared = statements_[sql];
   if (!prepared) prepared = std::make_unique<SQLite::Statement>(database_, sql);
   return *prepared;
+}
+
+template <typename... Keys>
+std::optional<std::int64_t> RowWriter::first_cell(const std::string& sql, const Keys&... keys) {
+  SQLite::Statement& query = statement(sql);
+  Binding binding(query, keys...);
+  if (!binding.step()) return std::nullopt;
+  return query.getColumn(0).getInt64();
 }
 
 template <typename Row, typename... Keys>
@@ -67,7 +75,7 @@ std::int64_t RowWriter::write_session(const SessionHeader& header) {
 void RowWriter::write_info(std::int64_t session_id, const std::string& key,
                            const std::string& value) {
   static const std::string sql =
-      schema::upsert_sql("participant_info", "session_id, key, value", "session_id, key");
+      upsert_sql("participant_info", "session_id, key, value", "session_id, key");
   run(statement(sql), session_id, key, value);
   write_info_digest(session_id);
 }
@@ -127,20 +135,13 @@ std::optional<std::int64_t> RowWriter::trial_id_or_none(std::int64_t session_id,
 std::optional<std::int64_t> RowWriter::setup_id(std::int64_t session_id, int setup_index) {
   static const std::string sql =
       "SELECT setup_id FROM setup WHERE session_id = ? AND setup_index = ?";
-  SQLite::Statement& query = statement(sql);
-  Binding binding(query, session_id, setup_index);
-  if (!binding.step()) return std::nullopt;
-  return query.getColumn(0).getInt64();
+  return first_cell(sql, session_id, setup_index);
 }
 
 int RowWriter::log_version(std::int64_t session_id) {
-  if (!log_version_ || log_version_->first != session_id) {
-    static const std::string sql = "SELECT log_version FROM session WHERE session_id = ?";
-    SQLite::Statement& query = statement(sql);
-    Binding binding(query, session_id);
-    binding.step();
-    log_version_ = {session_id, query.getColumn(0).getInt()};
-  }
+  static const std::string sql = "SELECT log_version FROM session WHERE session_id = ?";
+  if (!log_version_ || log_version_->first != session_id)
+    log_version_ = {session_id, static_cast<int>(first_cell(sql, session_id).value())};
   return log_version_->second;
 }
 
@@ -148,16 +149,20 @@ void RowWriter::write_event(std::int64_t session_id, const RecordedEvent& record
   const auto& [event, changes] = recorded;
   if (changes.trial) write_trial(session_id, *changes.trial);
   write_event_row(session_id, changes.attempt_index, event);
-  if (changes.setup) write_setup(session_id, *changes.setup);
+  if (changes.setup) write_setup(session_id, database_.getLastInsertRowid(), *changes.setup);
   for (const CubeRow& cube : changes.cubes) write_cube(session_id, cube);
   static const std::string answer = keyed_insert<AnswerRow>("answer", "trial_id"),
                            reversal = keyed_insert<ReversalRow>("reversal", "session_id, trial_id"),
-                           estimate = keyed_insert<EstimateRow>("estimate", "session_id");
+                           estimate = keyed_insert<EstimateRow>("estimate", "session_id"),
+                           parameter = keyed_insert<ParticipantParameterRow>(
+                               "participant_parameter", "session_id, setup_id");
   for (const AnswerRow& row : changes.answers)
     insert(answer, row, trial_id(session_id, row.attempt_index));
   for (const ReversalRow& row : changes.reversals)
     insert(reversal, row, session_id, trial_id(session_id, row.attempt_index));
   for (const EstimateRow& row : changes.estimates) insert(estimate, row, session_id);
+  for (const ParticipantParameterRow& row : changes.parameters)
+    insert(parameter, row, session_id, setup_id(session_id, row.setup_index));
   static const std::string state = "UPDATE session SET state = ? WHERE session_id = ?";
   if (changes.state) run(statement(state), *changes.state, session_id);
 }
@@ -169,31 +174,24 @@ void RowWriter::write_event_row(std::int64_t session_id, int attempt_index, cons
   digest_.integer(attempt_index);
   row.also_into(digest_);
   const EventRow columns = row_of(event);
-  visit_columns(columns, BindRow(row));
+  visit_columns(columns, BindRow(row, {log_version(session_id)}));
   chain_.event_written(row.run_with_digest());
   ++n_new_events_;
 }
 
-// The setup's event was written just now.
-void RowWriter::write_setup(std::int64_t session_id, const Setup& setup) {
-  static const std::string sql = schema::insert_sql(
-      "setup", fmt::format("session_id, from_event_id, setup_index, {}", columns_of<Setup>()));
-  static const std::string count = "SELECT count(*) FROM setup WHERE session_id = ?";
-  const std::int64_t event_id = database_.getLastInsertRowid();
-  SQLite::Statement& query = statement(count);
-  int index = 0;
-  {
-    Binding binding(query, session_id);
-    binding.step();
-    index = query.getColumn(0).getInt() + 1;
-  }
-  insert(sql, setup, session_id, event_id, index);
+std::int64_t RowWriter::write_setup(std::int64_t session_id, std::optional<std::int64_t> event_id,
+                                    const Setup& setup) {
+  static const std::string sql =
+      keyed_insert<Setup>("setup", "session_id, from_event_id, setup_index");
+  static const std::string n_before = "SELECT count(*) FROM setup WHERE session_id = ?";
+  insert(sql, setup, session_id, event_id, first_cell(n_before, session_id).value() + 1);
+  return database_.getLastInsertRowid();
 }
 
 void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {
   static const std::string sql =
-      schema::upsert_sql("trial", fmt::format("session_id, setup_id, {}", columns_of<TrialRow>()),
-                         "session_id, attempt_index");
+      upsert_sql("trial", fmt::format("session_id, setup_id, {}", columns_of<TrialRow>()),
+                 "session_id, attempt_index");
   insert(sql, trial, session_id, setup_id(session_id, trial.setup_index));
   write_masses(session_id, trial);
 }
@@ -212,8 +210,8 @@ void RowWriter::write_masses(std::int64_t session_id, const TrialRow& trial) {
 }
 
 void RowWriter::write_cube(std::int64_t session_id, const CubeRow& cube) {
-  static const std::string sql = schema::upsert_sql(
-      "cube", fmt::format("trial_id, {}", columns_of<CubeRow>()), "trial_id, slot");
+  static const std::string sql =
+      upsert_sql("cube", fmt::format("trial_id, {}", columns_of<CubeRow>()), "trial_id, slot");
   insert(sql, cube, trial_id(session_id, cube.attempt_index));
 }
 

@@ -7,9 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "record/DigestChain.h"
+#include "record/Digests.h"
 #include "record/RecordedSession.h"
-#include "record/RowDigest.h"
 
 namespace SQLite {
 class Database;
@@ -34,6 +33,12 @@ class RowWriter {
 
   /// What the participant told; told again, it takes the place of what was there.
   void write_info(std::int64_t session_id, const std::string& key, const std::string& value);
+
+  /// A setup with the number after that of the session's last one.
+  /// @param event_id that told it; none: an older log's header did
+  /// @return its id
+  std::int64_t write_setup(std::int64_t session_id, std::optional<std::int64_t> event_id,
+                           const Setup& setup);
 
   /// How many events and frames the session has now: call it before each commit, so that rows cut
   /// off at the end are missed.
@@ -63,11 +68,12 @@ class RowWriter {
   void write_event(std::int64_t session_id, const RecordedEvent& recorded);
   void write_event_row(std::int64_t session_id, int attempt_index, const Event& event);
   void write_frame(std::int64_t session_id, const FrameRow& frame);
-  void write_setup(std::int64_t session_id, const Setup& setup);
   void write_trial(std::int64_t session_id, const TrialRow& trial);
   void write_masses(std::int64_t session_id, const TrialRow& trial);
   void write_cube(std::int64_t session_id, const CubeRow& cube);
   void write_info_digest(std::int64_t session_id);
+  template <typename... Keys>
+  std::optional<std::int64_t> first_cell(const std::string& sql, const Keys&... keys);
   template <typename Row, typename... Keys>
   void insert(const std::string& sql, const Row& row, const Keys&... keys);
 

@@ -3,28 +3,16 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 
-#include "record/ClosedLists.h"
-#include "record/Tables.h"
+#include "record/RowSql.h"
 
 namespace heft::schema {
 
 namespace {
 std::int64_t number(SQLite::Database& database, const char* query) {
   return database.execAndGet(query).getInt64();
-}
-
-std::vector<std::string_view> columns_in(std::string_view list) {
-  std::vector<std::string_view> columns;
-  for (;;) {
-    const auto comma = list.find(',');
-    columns.push_back(list.substr(0, comma));
-    if (comma == std::string_view::npos) return columns;
-    list.remove_prefix(comma + 2);
-  }
 }
 
 void fill(SQLite::Database& database, const ClosedList& list) {
@@ -102,23 +90,6 @@ std::vector<std::string> foreign_objects(SQLite::Database& database) {
     if (!found.contains(name)) foreign.push_back(name + ", which is missing");
   if (foreign.empty()) foreign = changed_lists(database);
   return foreign;
-}
-
-std::string insert_sql(std::string_view table, std::string_view columns) {
-  std::string places = "?";
-  for (auto n = std::count(columns.begin(), columns.end(), ','); n > 0; --n) places += ", ?";
-  return fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns, places);
-}
-
-std::string upsert_sql(std::string_view table, std::string_view columns, std::string_view key) {
-  const auto keys = columns_in(key);
-  std::string changes;
-  for (std::string_view column : columns_in(columns))
-    // Assigning a key even its own value makes SQLite search for rows that refer to the old one.
-    if (std::find(keys.begin(), keys.end(), column) == keys.end())
-      changes += fmt::format("{}{} = excluded.{}", changes.empty() ? "" : ", ", column, column);
-  return fmt::format("{} ON CONFLICT ({}) DO UPDATE SET {}", insert_sql(table, columns), key,
-                     changes);
 }
 
 }  // namespace heft::schema

@@ -4,8 +4,9 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "experiment/Column.h"
 
 namespace SQLite {
 class Database;
@@ -17,7 +18,7 @@ namespace heft::schema {
 inline constexpr std::int64_t application_id = 0x48656674;
 
 /// The version that this program writes; the file's is its user_version.
-inline constexpr int current_version = 3;
+inline constexpr int current_version = todays_log_version;
 
 /// What a database file holds.
 enum class FileKind { empty, log, older_log, newer_log, foreign };
@@ -31,16 +32,13 @@ void create(SQLite::Database& database);
 /// entries of closed lists likewise; one line each. Empty: it is as this program made it.
 std::vector<std::string> foreign_objects(SQLite::Database& database);
 
-/// Brings a log of version 1 or 2 up to date, in one transaction of its own. What its sessions were
-/// run with, which stood in their headers, becomes rows of `setup`; their digests stay as they
-/// were.
+/// Brings an older log up to date, in one transaction of its own. What sessions of versions 1 and 2
+/// were run with, which stood in their headers, becomes rows of `setup`; digests stay as they were.
 /// @throws Error (diverged) naming what is foreign in it; SQLite::Exception
 void upgrade(SQLite::Database& database);
 
-/// INSERT INTO table(columns) VALUES (?, ?, ...)
-std::string insert_sql(std::string_view table, std::string_view columns);
-
-/// insert_sql, but a row with the same key columns takes over the new values.
-std::string upsert_sql(std::string_view table, std::string_view columns, std::string_view key);
+/// CREATE statements of all tables and indexes, from the rows' descriptions; of the views.
+std::string tables();
+extern const char* const views;
 
 }  // namespace heft::schema

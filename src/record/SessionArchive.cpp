@@ -3,10 +3,10 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
+#include "record/Failures.h"
 #include "record/LogFile.h"
 #include "record/RowWriter.h"
 #include "record/Schema.h"
-#include "record/WriteFailure.h"
 
 namespace heft {
 

@@ -9,11 +9,10 @@
 
 #include "base/Error.h"
 #include "base/Printable.h"
+#include "record/Failures.h"
 #include "record/LogFile.h"
 #include "record/RowWriter.h"
 #include "record/Schema.h"
-#include "record/SqliteError.h"
-#include "record/WriteFailure.h"
 
 namespace heft {
 

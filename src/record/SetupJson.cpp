@@ -27,6 +27,9 @@ struct Write {
   void operator()(std::string_view name, const std::optional<Value>& value) const {
     if (value) json[std::string(name)] = *value;
   }
+  void operator()(std::string_view name, const std::map<std::string, double>& values) const {
+    if (!values.empty()) json[std::string(name)] = values;
+  }
 };
 
 struct Read {
@@ -44,6 +47,10 @@ struct Read {
   void operator()(std::string_view name, std::optional<Value>& value) const {
     const auto found = json.find(std::string(name));
     if (found != json.end()) value = found->get<Value>();
+  }
+  void operator()(std::string_view name, std::map<std::string, double>& values) const {
+    const auto found = json.find(std::string(name));
+    if (found != json.end()) values = found->get<std::map<std::string, double>>();
   }
 };
 

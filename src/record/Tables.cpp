@@ -1,10 +1,8 @@
-#include "record/Tables.h"
-
 #include <fmt/format.h>
 
-#include "record/ClosedLists.h"
 #include "record/EventRow.h"
 #include "record/RowSql.h"
+#include "record/Schema.h"
 
 namespace heft::schema {
 
@@ -70,6 +68,10 @@ std::string tables() {
                                 of_session_and_trial) +
          table<EstimateRow>("estimate", of_session,
                             ",\n  PRIMARY KEY (session_id, staircase, method)") +
+         table<ParticipantParameterRow>(
+             "participant_parameter",
+             fmt::format("{},\n  setup_id INTEGER NOT NULL REFERENCES setup", of_session),
+             ",\n  PRIMARY KEY (session_id, setup_id, name)") +
          table<FrameRow>(
              "frame",
              fmt::format("frame_id INTEGER PRIMARY KEY,\n  {},\n  trial_id INTEGER", of_session),
@@ -84,17 +86,19 @@ const char* const views = R"sql(
 CREATE VIEW v_trial AS
 SELECT s.session_id, s.participant, s.protocol_name, s.purpose, u.responder, u.simulator,
   u.rate_hz, u.display_rate_hz, u.tracker, u.view, t.setup_id, t.trial_id, t.trial_number, t.attempt, t.block, t.task, t.condition, t.staircase,
-  t.reference_g, t.level_g, t.reference_g + t.level_g AS comparison_g, t.is_catch,
+  t.reference_g, t.level_g, t.reference_g + t.level_g AS comparison_g, t.is_catch, t.is_practice,
   (SELECT mass_g FROM cube c WHERE c.trial_id = t.trial_id AND c.slot = 1) AS cube1_mass_g,
   (SELECT mass_g FROM cube c WHERE c.trial_id = t.trial_id AND c.slot = 2) AS cube2_mass_g,
   (SELECT mass_g FROM cube c WHERE c.trial_id = t.trial_id AND c.slot = 3) AS cube3_mass_g,
   (SELECT mass_g FROM cube c WHERE c.trial_id = t.trial_id AND c.slot = 4) AS cube4_mass_g,
   (SELECT mass_g FROM cube c WHERE c.trial_id = t.trial_id AND c.slot = 5) AS cube5_mass_g,
   (SELECT mass_g FROM cube c WHERE c.trial_id = t.trial_id AND c.slot = 6) AS cube6_mass_g,
-  t.status, t.void_reason, t.outcome, t.chosen_slot, t.reference_slot, t.choice_correct,
+  t.status, t.void_reason, t.outcome, t.chosen_slot, t.reference_slot, t.choice_correct, t.value,
   (SELECT count(*) FROM answer a WHERE a.trial_id = t.trial_id) AS n_answers,
   (SELECT sum(n_pushes) FROM cube c WHERE c.trial_id = t.trial_id) AS n_pushes,
   (SELECT sum(contact_s) FROM cube c WHERE c.trial_id = t.trial_id) AS contact_s,
+  (SELECT max(deepest_push_m) FROM cube c WHERE c.trial_id = t.trial_id) AS deepest_push_m,
+  (SELECT max(peak_lag_m) FROM cube c WHERE c.trial_id = t.trial_id) AS peak_lag_m,
   t.started_s, t.shown_s, t.first_contact_s, t.first_choice_s, t.validated_s, t.paused_s, t.lost_s,
   t.ended_s,
   t.validated_s - t.shown_s - t.paused_s - t.lost_s AS response_time_s
@@ -107,7 +111,7 @@ SELECT s.session_id, s.participant, s.protocol_name, s.purpose,
    WHERE t.session_id = e.session_id AND t.staircase = e.staircase) AS responder, e.staircase,
   (SELECT min(t.reference_g) FROM trial t
    WHERE t.session_id = e.session_id AND t.staircase = e.staircase) AS reference_g,
-  e.method, e.jnd_g, e.low_g, e.high_g, e.n_trials, e.n_reversals, e.n_floor, e.n_ceiling, e.reason
+  e.method, e.jnd_g, e.low_g, e.high_g, e.n_trials, e.n_reversals, e.n_floor, e.n_ceiling, e.reason, e.censored
 FROM estimate e JOIN session s ON s.session_id = e.session_id;
 
 CREATE VIEW v_sorting AS
@@ -127,7 +131,8 @@ SELECT t.session_id, t.participant, t.protocol_name, t.purpose, t.responder,
    WHERE l.trial_id = t.trial_id AND l.label = 'intermediate') AS labeled_intermediate_g,
   (SELECT c.mass_g FROM final_label l JOIN cube c ON c.trial_id = l.trial_id AND c.slot = l.slot
    WHERE l.trial_id = t.trial_id AND l.label = 'heaviest') AS labeled_heaviest_g,
-  t.outcome, t.n_answers, t.n_pushes, t.contact_s, t.response_time_s
+  t.outcome, t.is_practice, t.n_answers, t.n_pushes, t.contact_s, t.deepest_push_m, t.peak_lag_m,
+  t.response_time_s
 FROM v_trial t WHERE t.task = 'sorting' AND t.status = 'completed';
 )sql";
 

@@ -1,10 +1,10 @@
-// Logs of versions 1 and 2: their tables are made anew and their rows copied over as they are, so
+// Logs of versions 1 to 3: their tables are made anew and their rows copied over as they are, so
 // that one program text serves all versions from there on.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
+#include <utility>
 
 #include "base/Error.h"
 #include "record/Binding.h"
@@ -12,22 +12,28 @@
 #include "record/OlderSetups.h"
 #include "record/RowSql.h"
 #include "record/RowVisitors.h"
+#include "record/RowWriter.h"
 #include "record/Schema.h"
-#include "record/Tables.h"
 
 namespace heft::schema {
 
 namespace {
 
-constexpr int older_version = 2;  // version 1 differs in columns that may be NULL alone
+constexpr int without_setups = 2;  // version 1 differs in columns that may be NULL alone
 
-constexpr std::array older_tables{"session", "participant_info", "trial",    "event", "cube",
+std::vector<std::string> tables_of(int version) {
+  std::vector<std::string> tables{"session", "participant_info", "trial",    "event", "cube",
                                   "answer",  "reversal",         "estimate", "frame"};
+  if (version <= without_setups) return tables;
+  tables.emplace_back("setup");
+  for (const ClosedList& list : closed_lists()) tables.emplace_back(list.table);
+  return tables;
+}
 constexpr std::array older_others{"index event_by_session", "index answer_by_trial",
                                   "index frame_by_trial",   "view v_sorting",
                                   "view v_trial",           "view v_jnd"};
 
-void refuse_foreign(SQLite::Database& database) {
+void refuse_foreign(SQLite::Database& database, const std::vector<std::string>& older_tables) {
   SQLite::Statement query(database,
                           "SELECT type, name FROM sqlite_master WHERE name NOT LIKE 'sqlite\\_%' "
                           "ESCAPE '\\'");
@@ -49,9 +55,9 @@ std::string older(std::string_view table) {
   return fmt::format("older_{}", table);
 }
 
-void set_aside(SQLite::Database& database) {
+void set_aside(SQLite::Database& database, const std::vector<std::string>& older_tables) {
   for (const std::string_view other : older_others) database.exec(fmt::format("DROP {}", other));
-  for (const char* table : older_tables)
+  for (const std::string& table : older_tables)
     database.exec(fmt::format("ALTER TABLE {} RENAME TO {}", table, older(table)));
 }
 
@@ -73,72 +79,66 @@ void copy(SQLite::Database& database, const std::string& table, std::string_view
                             table, columns, more, values, older(table)));
 }
 
-struct OlderSession {
-  std::int64_t id = 0;
-  Setup setup;
-};
-
-std::vector<OlderSession> sessions_in(SQLite::Database& database, const std::string& path) {
-  std::vector<OlderSession> sessions;
+std::vector<std::pair<std::int64_t, SessionHeader>> sessions_in(SQLite::Database& database,
+                                                                const std::string& path) {
+  std::vector<std::pair<std::int64_t, SessionHeader>> sessions;
   SQLite::Statement query(
       database, fmt::format("SELECT session_id, {} FROM session", columns_of<SessionHeader>()));
   while (query.executeStep()) {
     Cells cells(query, path, "session");
-    sessions.push_back({cells.id(), older_setup(row_from<SessionHeader>(cells))});
+    sessions.emplace_back(cells.id(), row_from<SessionHeader>(cells));
   }
   return sessions;
 }
 
-std::int64_t insert_setup(SQLite::Database& database, std::int64_t session_id, int index,
-                          std::optional<std::int64_t> event_id, const Setup& setup) {
-  SQLite::Statement insert(
-      database, insert_sql("setup", fmt::format("session_id, setup_index, from_event_id, {}",
-                                                columns_of<Setup>())));
-  Binding row(insert, session_id, index, event_id);
-  visit_columns(setup, BindRow(row));
-  row.run();
-  return database.getLastInsertRowid();
-}
-
 // A session's setups, and each trial's: that in force when it started.
-void tell_setups(SQLite::Database& database, const OlderSession& session) {
-  Setup setup = session.setup;
-  int index = 1;
-  std::int64_t setup_id = insert_setup(database, session.id, index, std::nullopt, setup);
+void tell_setups(SQLite::Database& database, std::int64_t session_id, const SessionHeader& header) {
+  RowWriter writer(database);
+  OlderSetups older(header);
+  std::int64_t setup_id = writer.write_setup(session_id, std::nullopt, older.first().value());
   SQLite::Statement point(database, "UPDATE trial SET setup_id = ? WHERE trial_id = ?");
   SQLite::Statement events(
       database,
-      "SELECT event_id, kind, detail, trial_id FROM event WHERE session_id = ? AND kind IN "
-      "('trial_started', 'deviation') ORDER BY event_id");
-  events.bind(1, session.id);
+      "SELECT event_id, CASE kind WHEN 'trial_started' THEN trial_id END, detail FROM event WHERE "
+      "session_id = ? AND kind IN ('trial_started', 'deviation') ORDER BY event_id");
+  events.bind(1, session_id);
   while (events.executeStep()) {
-    if (events.getColumn(1).getString() == "trial_started") {
-      if (!events.getColumn(3).isNull()) run(point, setup_id, events.getColumn(3).getInt64());
-    } else if (const auto after = after_deviation(setup, events.getColumn(2))) {
-      setup = *after;
-      setup_id = insert_setup(database, session.id, ++index, events.getColumn(0).getInt64(), setup);
-    }
+    if (const auto trial = events.getColumn(1); !trial.isNull())
+      run(point, setup_id, trial.getInt64());
+    const Event told = older.told({0, Deviation{events.getColumn(2)}});
+    if (const auto* setup = told.as<Setup>())
+      setup_id = writer.write_setup(session_id, events.getColumn(0).getInt64(), *setup);
   }
 }
 
-void rebuild(SQLite::Database& database, const std::string& path) {
-  refuse_foreign(database);
-  set_aside(database);
-  database.exec("PRAGMA user_version = 0");
-  create(database);
+void copy_rows_without_setups(SQLite::Database& database) {
   copy(database, "session", ", log_version, n_events, n_frames",
        fmt::format(", {}, (SELECT count(*) FROM older_event e WHERE e.session_id = o.session_id), "
                    "(SELECT count(*) FROM older_frame f WHERE f.session_id = o.session_id)",
-                   older_version));
-  copy(database, "participant_info");
-  copy(database, "trial");
-  copy(database, "event");
+                   without_setups));
   copy(database, "cube", ", n_resets",
        ", (SELECT count(*) FROM older_event e WHERE e.trial_id = o.trial_id AND e.kind = "
        "'cubes_reset' AND (e.slot IS NULL OR e.slot = o.slot))");
-  for (const char* table : {"answer", "reversal", "estimate", "frame"}) copy(database, table);
-  for (const OlderSession& session : sessions_in(database, path)) tell_setups(database, session);
-  for (const char* table : older_tables) database.exec(fmt::format("DROP TABLE {}", older(table)));
+}
+
+void rebuild(SQLite::Database& database, const std::string& path) {
+  const int version = database.execAndGet("PRAGMA user_version").getInt();
+  const std::vector<std::string> older_tables = tables_of(version);
+  refuse_foreign(database, older_tables);
+  set_aside(database, older_tables);
+  database.exec("PRAGMA user_version = 0");
+  create(database);
+  if (version <= without_setups)
+    copy_rows_without_setups(database);
+  else
+    for (const char* table : {"session", "setup", "cube"}) copy(database, table);
+  copy(database, "trial", ", is_practice", ", 0");  // there was none
+  for (const char* table : {"participant_info", "event", "answer", "reversal", "estimate", "frame"})
+    copy(database, table);
+  if (version <= without_setups)
+    for (const auto& [id, header] : sessions_in(database, path)) tell_setups(database, id, header);
+  for (const std::string& table : older_tables)
+    database.exec(fmt::format("DROP TABLE {}", older(table)));
 }
 
 }  // namespace

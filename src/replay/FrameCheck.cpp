@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/Error.h"
 #include "record/EventRow.h"
@@ -122,6 +123,24 @@ void FrameCheck::check_end(const FrameRow& last) {
                     fmt::format("some until {} s", ended_s));
 }
 
+// Where an older log does not tell how a push went, or bits need not be equal, the logged one
+// stands.
+void FrameCheck::take_over_push(Event& came_out, const Event& logged) {
+  auto* touch = std::get_if<CubeTouch>(&came_out.what);
+  const auto* told = logged.as<CubeTouch>();
+  if (!touch || !told) return;
+  const bool is_older = !told->deepest_push_m && !told->peak_lag_m;
+  const auto differs = [](const std::optional<double>& a, const std::optional<double>& b) {
+    return a.has_value() != b.has_value() || (a && std::abs(*a - *b) > pose_tolerance_m);
+  };
+  const bool is_near = !options_.equal_bits &&
+                       !differs(touch->deepest_push_m, told->deepest_push_m) &&
+                       !differs(touch->peak_lag_m, told->peak_lag_m);
+  if (!is_older && !is_near) return;
+  touch->deepest_push_m = told->deepest_push_m;
+  touch->peak_lag_m = told->peak_lag_m;
+}
+
 // An attempt that a crash or a veto cut short may lack the last events of its world.
 void FrameCheck::check_events(const std::vector<Event>& derived) {
   std::vector<AttemptEvent> logged;
@@ -134,6 +153,7 @@ void FrameCheck::check_events(const std::vector<Event>& derived) {
     // Cubes are shown when the frame is; nothing is logged before what was logged already.
     came_out.t_s =
         came_out.as<CubesShown>() ? event.t_s : std::max(came_out.t_s, logged[i].previous_s);
+    take_over_push(came_out, event);
     if (event != came_out)
       return options_.differ(event.t_s, "event", text_of(event), text_of(came_out));
   }

@@ -39,6 +39,7 @@ class FrameCheck {
             const std::string& came_out);
   bool same_pose(const FrameRow& frame, const std::string& column,
                  const std::optional<Pose>& logged, const std::optional<Pose>& came_out);
+  void take_over_push(Event& came_out, const Event& logged);
   void check_end(const FrameRow& last);
   void check_events(const std::vector<Event>& derived);
 

@@ -28,6 +28,7 @@ void put(Projection& projection, const Changes& changes, int& n_answers) {
   for (const AnswerRow& row : changes.answers) put(projection.rows, text_of(row, ++n_answers));
   for (const ReversalRow& row : changes.reversals) put(projection.rows, text_of(row));
   for (const EstimateRow& row : changes.estimates) put(projection.rows, text_of(row));
+  for (const auto& row : changes.parameters) put(projection.rows, text_of(row));
   if (changes.state) projection.state = *changes.state;
 }
 
@@ -77,6 +78,7 @@ std::map<std::string, RowText> logged_rows(const LogReader& reader, std::int64_t
   for (const AnswerRow& row : reader.answers(session_id)) put(rows, text_of(row, ++n_answers));
   for (const ReversalRow& row : reader.reversals(session_id)) put(rows, text_of(row));
   for (const EstimateRow& row : reader.estimates(session_id)) put(rows, text_of(row));
+  for (const auto& row : reader.participant_parameters(session_id)) put(rows, text_of(row));
   return rows;
 }
 

@@ -50,6 +50,12 @@ RowText text_of(const EstimateRow& row) {
                at_its_end, row);
 }
 
+RowText text_of(const ParticipantParameterRow& row) {
+  return texts("participant_parameter",
+               fmt::format("parameter {} of setup {}", row.name, row.setup_index), 0, at_its_end,
+               row);
+}
+
 RowText text_of(const Setup& setup, int number, int from_event) {
   RowText text = texts("setup", fmt::format("setup {}", number), 0, at_its_end, setup);
   add(text, "from_event", from_event);

@@ -58,6 +58,7 @@ RowText text_of(const CubeRow& row);
 RowText text_of(const AnswerRow& row, int number);
 RowText text_of(const ReversalRow& row);
 RowText text_of(const EstimateRow& row);
+RowText text_of(const ParticipantParameterRow& row);
 /// @param from_event the session's event that told it, from 1; 0: none
 RowText text_of(const Setup& setup, int number, int from_event);
 

@@ -159,6 +159,16 @@ ResponderParameters participant_parameters(const ResponderOptions& options,
   return parameters;
 }
 
+std::map<std::string, double> drawn_values(const ResponderOptions& options,
+                                           std::span<const ParameterPart> parts) {
+  std::map<std::string, double> values;
+  if (parts.empty()) return values;
+  const ResponderParameters drawn = participant_parameters(options, parts);
+  for (const ParameterRow& row : rows)
+    if (has(parts, row.part)) values.emplace(row.name, drawn.*row.member);
+  return values;
+}
+
 std::string describe_parameters(std::span<const ParameterPart> parts) {
   std::string text;
   if (has(parts, perception))

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -73,6 +74,11 @@ ResponderParameters default_parameters();
 /// @param parts whose parameters may be given
 /// @throws InvalidFile naming each unknown or impossible parameter at its place
 ResponderParameters participant_parameters(const ResponderOptions& options,
+                                           std::span<const ParameterPart> parts);
+
+/// The numbers of those parts, by name: what a participant of these options is drawn as.
+/// @throws InvalidFile as participant_parameters
+std::map<std::string, double> drawn_values(const ResponderOptions& options,
                                            std::span<const ParameterPart> parts);
 
 /// A line a parameter: name, default, unit, range, spread, reason.

@@ -75,6 +75,7 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const Setup& opti
     : clock(runs_on_wall_clock(options) ? SessionClock::wall_from(0)
                                         : SessionClock::virtual_from(0)),
       protocol_(std::move(protocol)),
+      seed_(seed),
       has_person_(has_person(options)),
       responder_(make_responder(options, seed)) {
   if (has_person_) require_general_simulator(protocol_->simulator.name);

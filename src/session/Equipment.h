@@ -18,15 +18,16 @@ class Equipment {
 
   SessionParts parts(Engine& engine, EventSink& sink);
 
-  /// The setup with what only the opened devices tell.
+  /// The setup with what only the opened devices and the responder tell.
   Setup told_by_devices(const Setup& setup) const {
-    return with_source_rate(setup, pictures_->rate_hz());
+    return with_participant(with_source_rate(setup, pictures_->rate_hz()), seed_);
   }
 
   SessionClock clock;
 
  private:
   std::shared_ptr<const Protocol> protocol_;
+  std::uint64_t seed_;
   ViewSetup setup_;
   Apparatus demonstrated_;
   bool has_person_;

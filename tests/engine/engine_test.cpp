@@ -63,6 +63,10 @@ struct Session {
     engine.apply({++t_s, CubeTouch{slot, std::nullopt}});
     return engine.apply({++t_s, CubeTouch{slot, seconds}});
   }
+  CubeRow pushes(int slot, double deepest_push_m, double peak_lag_m) {
+    engine.apply({++t_s, CubeTouch{slot}});
+    return engine.apply({++t_s, CubeTouch{slot, 1, deepest_push_m, peak_lag_m}}).cubes.at(0);
+  }
   // Everything before the first sorting trial.
   void reach_sorting() {
     does(EventKind::demonstration_shown);
@@ -329,6 +333,34 @@ TEST(Engine, counts_pushes_per_cube) {
   EXPECT_EQ(cube.n_pushes, 2);
   EXPECT_EQ(cube.contact_s, 1.25);
   EXPECT_EQ(cube.last_contact_s, began_s + 0.5);
+}
+
+TEST(Engine, keeps_the_deepest_push_and_the_largest_lag_of_each_cube) {
+  Session session;
+  session.reach_sorting();
+  session.start();
+  session.pushes(2, 0.03, 0.001);
+  session.pushes(1, 0.05, 0.04);
+  const CubeRow cube = session.pushes(2, 0.02, 0.01);
+  EXPECT_EQ(cube.deepest_push_m, 0.03);
+  EXPECT_EQ(cube.peak_lag_m, 0.01);
+  EXPECT_EQ(session.touches(2, 0.5).cubes.at(0).peak_lag_m, 0.01);  // as older logs tell a touch
+}
+
+TEST(Engine, tells_what_a_participant_was_drawn_as_once) {
+  Session session;
+  heft::Setup setup;
+  const auto told = [&] { return session.engine.apply({++session.t_s, setup}).parameters; };
+  EXPECT_TRUE(told().empty());
+  setup.participant_parameters = {{"hold_s", 0.3}, {"p", 0.5}};
+  const auto drawn = told();
+  ASSERT_EQ(drawn.size(), 2u);
+  EXPECT_EQ(drawn[0].name, "hold_s");
+  EXPECT_EQ(drawn[0].setup_index, 2);
+  setup.view = "window";
+  EXPECT_TRUE(told().empty());
+  setup.participant_parameters["p"] = 0.6;
+  EXPECT_EQ(told().size(), 2u);
 }
 
 TEST(Engine, requires_contact_with_every_cube_where_the_protocol_says_so) {

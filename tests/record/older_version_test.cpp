@@ -1,6 +1,5 @@
-// Logs of today's release before version 3 (tests/golden/logs): brought up to date when somebody
-// opens them, with the older file kept beside; their sessions keep their digests and what they were
-// run with.
+// Logs of earlier programs (tests/golden/logs): brought up to date when somebody opens them, with
+// the older file kept beside; their sessions keep their digests and what they were run with.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/file.h>
@@ -43,7 +42,7 @@ class older_version : public testing::TestWithParam<int> {
 TEST_P(older_version, is_brought_up_to_date_with_the_older_file_beside_it) {
   const int n_events = number(log_, "SELECT count(*) FROM event");
   const LogReader reader(log_);
-  EXPECT_EQ(number(log_, "PRAGMA user_version"), 3);
+  EXPECT_EQ(number(log_, "PRAGMA user_version"), 4);
   EXPECT_EQ(number(log_, "SELECT count(*) FROM event"), n_events);
   EXPECT_THAT(reader.foreign_objects(), testing::IsEmpty());
   EXPECT_EQ(number(older_file(), "PRAGMA user_version"), GetParam());
@@ -119,6 +118,48 @@ TEST_P(older_version, is_read_from_memory_while_somebody_else_holds_it) {
   EXPECT_EQ(number(log_, "PRAGMA user_version"), GetParam());
   EXPECT_FALSE(fs::exists(older_file()));
   ::close(other);
+}
+
+class version_3 : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::copy_file(fs::path(HEFT_SOURCE_DIR) / "tests/golden/logs/version_3.db", log_);
+    fs::permissions(log_, fs::perms::owner_write, fs::perm_options::add);
+  }
+
+  TemporaryFolder folder_;
+  std::string log_ = folder_.file("log.db");
+};
+
+TEST_F(version_3, is_brought_up_to_date_with_nothing_told_of_what_came_later) {
+  const LogReader reader(log_);
+  EXPECT_TRUE(fs::exists(log_ + ".v3"));
+  EXPECT_THAT(reader.foreign_objects(), testing::IsEmpty());
+  for (const std::int64_t session_id : {1, 2}) {
+    EXPECT_FALSE(reader.first_broken_digest(session_id)) << session_id;
+    EXPECT_EQ(reader.setups(session_id).size(), 1u);
+    EXPECT_TRUE(reader.participant_parameters(session_id).empty());
+    for (const TrialRow& trial : reader.trials(session_id)) {
+      EXPECT_EQ(trial.setup_index, 1);
+      EXPECT_FALSE(trial.plan.is_practice);
+    }
+    for (const CubeRow& cube : reader.cubes(session_id)) EXPECT_FALSE(cube.peak_lag_m);
+  }
+}
+
+TEST_F(version_3, goes_on_with_its_own_digests) {
+  {
+    SessionLog log = SessionLog::reopen(log_, 1);
+    log.append({9999, CubeTouch{1, 0.5, 0.02, 0.01}}, of_attempt(1), Durability::acknowledged);
+  }
+  const LogReader reader(log_);
+  EXPECT_FALSE(reader.first_broken_digest(1));
+  EXPECT_EQ(reader.events(1).back().event.as<CubeTouch>()->peak_lag_m, 0.01);
+}
+
+TEST_F(version_3, with_something_foreign_in_it_is_refused) {
+  SQLite::Database(log_, SQLite::OPEN_READWRITE).exec("CREATE TABLE loot (text TEXT)");
+  EXPECT_THROW(LogReader{log_}, Error);
 }
 
 INSTANTIATE_TEST_SUITE_P(versions, older_version, testing::Values(1, 2));

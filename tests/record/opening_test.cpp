@@ -85,7 +85,7 @@ TEST_F(opening, another_programs_database_is_refused) {
 
 TEST_F(opening, a_newer_log_is_refused) {
   write_log();
-  SQLite::Database(file_, SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 4");
+  SQLite::Database(file_, SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 5");
   EXPECT_THAT(failure_to_start(file_), AllOf(HasSubstr("newer heft"), HasSubstr("Update heft")));
   EXPECT_THAT(failure([&] { SessionLog::reopen(file_, 1); }), HasSubstr("newer heft"));
   EXPECT_THAT(failure([&] { LogReader reader(file_); }), HasSubstr("newer heft"));

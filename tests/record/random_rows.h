@@ -106,6 +106,7 @@ inline Setup any_setup() {
   setup.language = plain();
   setup.board_file = plain();
   setup.board_text = plain();
+  setup.participant_parameters["p"] = number();
   return setup;
 }
 
@@ -122,7 +123,7 @@ inline Happening any_happening() {
     case 4:
       return SessionEnded{any_of<Ending>()};
     case 5:
-      return CubeTouch{slot(), maybe(time_s)};
+      return CubeTouch{slot(), maybe(time_s), maybe(time_s), maybe(time_s)};
     case 6:
       return Consent{flag(), plain(), plain()};
     case 7:
@@ -157,6 +158,7 @@ inline TrialRow any_trial(int attempt_index) {
   plan.reference_g = maybe(mass_g);
   plan.level_g = maybe(number);
   plan.is_catch = flag();
+  plan.is_practice = flag();
   plan.n_reshuffles = count();
   plan.masses_g.resize(static_cast<std::size_t>(*rc::gen::inRange(0, 7)));
   for (double& mass : plan.masses_g) mass = mass_g();
@@ -166,6 +168,7 @@ inline TrialRow any_trial(int attempt_index) {
   row.outcome = maybe(any_of<Outcome>);
   row.chosen_slot = maybe(slot);
   row.choice_correct = maybe(flag);
+  row.value = maybe(number);
   row.started_s = time_s();
   row.shown_s = maybe(time_s);
   row.first_contact_s = maybe(time_s);
@@ -185,7 +188,9 @@ inline CubeRow any_cube(const TrialRow& trial, int slot) {
           time_s(),
           maybe(time_s),
           maybe(time_s),
-          count()};
+          count(),
+          maybe(time_s),
+          maybe(time_s)};
 }
 
 inline FrameRow any_frame(int attempt_index) {

@@ -55,6 +55,24 @@ RC_GTEST_PROP(round_trip, every_row_is_read_as_it_was_written, ()) {
   RC_ASSERT(text(reader.frames(session_id, 0)) == text(frames_outside));
 }
 
+TEST(round_trip, a_drawn_participant_is_read_with_the_setup_that_told_it) {
+  const TemporaryFolder folder;
+  SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
+  heft::Setup setup;
+  setup.participant_parameters = {{"hold_s", 0.1 + 0.2}};
+  Changes changes;
+  changes.setup = setup;
+  changes.parameters = {{1, "hold_s", 0.1 + 0.2}};
+  log.append({1, setup}, changes, Durability::acknowledged);
+  const LogReader reader(folder.file("log.db"));
+  EXPECT_EQ(reader.setups(1).at(0).setup, setup);
+  const auto parameters = reader.participant_parameters(1);
+  ASSERT_EQ(parameters.size(), 1u);
+  EXPECT_EQ(parameters[0].setup_index, 1);
+  EXPECT_EQ(parameters[0].name, "hold_s");
+  EXPECT_EQ(parameters[0].value, 0.1 + 0.2);
+}
+
 TEST(round_trip, a_changed_trial_and_its_cubes_take_the_place_of_the_old_rows) {
   const TemporaryFolder folder;
   SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));

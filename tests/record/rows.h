@@ -67,7 +67,8 @@ std::string joined(const Values&... values) {
 
 inline std::string text(const Event& e) {
   const EventRow row = row_of(e);
-  return joined(row.t_s, row.kind, row.slot, row.label, row.detail, row.value);
+  return joined(row.t_s, row.kind, row.slot, row.label, row.detail, row.value, row.deepest_push_m,
+                row.peak_lag_m);
 }
 inline std::string text(const LoggedEvent& e) {
   return joined(e.attempt_index, e.event);
@@ -75,14 +76,14 @@ inline std::string text(const LoggedEvent& e) {
 inline std::string text(const TrialRow& t) {
   const TrialPlan& p = t.plan;
   return joined(t.attempt_index, t.setup_index, p.trial_number, p.attempt, p.block, p.task,
-                p.condition, p.staircase, p.reference_g, p.level_g, p.is_catch, p.masses_g,
-                p.reference_slot, p.n_reshuffles, t.status, t.void_reason, t.outcome, t.chosen_slot,
-                t.choice_correct, t.started_s, t.shown_s, t.first_contact_s, t.first_choice_s,
-                t.validated_s, t.ended_s, t.paused_s, t.lost_s);
+                p.condition, p.staircase, p.reference_g, p.level_g, p.is_catch, p.is_practice,
+                p.masses_g, p.reference_slot, p.n_reshuffles, t.status, t.void_reason, t.outcome,
+                t.chosen_slot, t.choice_correct, t.value, t.started_s, t.shown_s, t.first_contact_s,
+                t.first_choice_s, t.validated_s, t.ended_s, t.paused_s, t.lost_s);
 }
 inline std::string text(const CubeRow& c) {
   return joined(c.attempt_index, c.slot, c.mass_g, c.n_pushes, c.contact_s, c.first_contact_s,
-                c.last_contact_s, c.n_resets);
+                c.last_contact_s, c.n_resets, c.deepest_push_m, c.peak_lag_m);
 }
 inline std::string text(const AnswerRow& a) {
   return joined(a.attempt_index, a.t_s, a.action, a.slot, a.label);

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "record/ClosedLists.h"
 #include "record/Integrity.h"
+#include "record/RowSql.h"
 #include "record/SessionLog.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
@@ -69,7 +69,7 @@ class schema_rules : public testing::Test {
 
 TEST_F(schema_rules, the_file_is_marked_as_ours) {
   EXPECT_EQ(database_->execAndGet("PRAGMA application_id").getInt(), 0x48656674);
-  EXPECT_EQ(database_->execAndGet("PRAGMA user_version").getInt(), 3);
+  EXPECT_EQ(database_->execAndGet("PRAGMA user_version").getInt(), 4);
   EXPECT_EQ(database_->execAndGet("PRAGMA journal_mode").getString(), "wal");
 }
 
@@ -83,7 +83,7 @@ TEST_F(schema_rules, every_table_is_strict) {
                 ->execAndGet("SELECT count(*) FROM pragma_table_list WHERE schema = 'main' AND "
                              "type = 'table' AND strict")
                 .getInt(),
-            10 + static_cast<int>(closed_lists().size()));
+            11 + static_cast<int>(closed_lists().size()));
   EXPECT_FALSE(accepts("UPDATE event SET t_s = 'soon'"));
   EXPECT_FALSE(accepts("UPDATE trial SET attempt = 1.5"));
   EXPECT_FALSE(accepts("UPDATE frame SET effector_x_m = 'left'"));

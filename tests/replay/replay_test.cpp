@@ -60,7 +60,7 @@ class Replay : public ::testing::Test {
            ("heft-replay-" + std::to_string(::getpid()) + ".db");
   }
   void TearDown() override {
-    for (const char* end : {"", "-wal", "-shm", "-lock"})
+    for (const char* end : {"", "-wal", "-shm", "-lock", ".v2", ".v3"})
       std::filesystem::remove(path.string() + end);
   }
 
@@ -100,6 +100,23 @@ class Replay : public ::testing::Test {
   std::filesystem::path path;
   std::vector<FrameRow> frames;
 };
+
+TEST_F(Replay, logs_of_earlier_programs_are_verified) {
+  for (const char* name : {"version_2.db", "version_3.db"}) {
+    const auto options = std::filesystem::copy_options::overwrite_existing;
+    std::filesystem::copy_file(std::filesystem::path(HEFT_SOURCE_DIR) / "tests/golden/logs" / name,
+                               path, options);
+    std::filesystem::permissions(path, std::filesystem::perms::owner_write,
+                                 std::filesystem::perm_options::add);
+    const LogReader reader(path.string());
+    for (const SessionRow& session : reader.sessions()) {
+      const Verification found = verify_session(reader, session.session_id, [](double) {});
+      EXPECT_FALSE(found.first) << name << ", session " << session.session_id << ": "
+                                << found.first->what << ", logged " << found.first->logged
+                                << ", came out " << found.first->came_out;
+    }
+  }
+}
 
 TEST_F(Replay, answers_later_than_the_next_pictures_are_replayed_exactly) {
   for (double delay_s : {0.0, 0.05, 0.07, 0.2}) {

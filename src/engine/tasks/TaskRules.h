@@ -19,6 +19,7 @@ struct TaskState {
   int n_wrong = 0;                           ///< introduction: wrong choices
   std::optional<int> chosen_slot;
   std::optional<bool> choice_correct;
+  std::optional<double> value;  ///< what was estimated or adjusted, once it was validated
 
   const std::optional<Label>& label_of(int slot) const {
     return labels[static_cast<std::size_t>(slot - 1)];
