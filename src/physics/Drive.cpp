@@ -8,6 +8,7 @@
 #include "base/Boxes.h"
 #include "base/Error.h"
 #include "base/Pose.h"
+#include "physics/techniques/DisplacedSimulator.h"
 
 namespace heft {
 
@@ -55,7 +56,10 @@ TargetSample sample_of(double t_capture_s, const std::optional<Pose>& pose) {
 
 Drive::Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz,
              const DriveInput& input)
-    : simulator_(std::move(simulator)), scene_(scene), rate_hz_(rate_hz), input_(input) {
+    : simulator_(displaced(std::move(simulator), scene)),
+      scene_(scene),
+      rate_hz_(rate_hz),
+      input_(input) {
   if (!(rate_hz > 0) || !std::isfinite(rate_hz))
     throw Error(fmt::format("the physics rate is {} Hz, expected more than 0", rate_hz));
   if (!(input.predict_s >= 0) || !std::isfinite(input.predict_s))

@@ -89,12 +89,10 @@ void read_tolerance(TableReader& reader, Tolerance& tolerance) {
   table->read("lag_g", tolerance.lag_g, above_zero);
   table->close();
 }
-}  // namespace
 
-namespace {
 // [coupling] as the paper's technique has it, with `condition` to name another; or [[technique]]s
 // and which of them it is.
-Coupling read_scene_coupling(TableReader& reader) {
+void read_scene_technique(TableReader& reader, Scene& scene) {
   Coupling defaults;
   auto table = reader.table("coupling");
   if (table) defaults = read_coupling(*table);
@@ -105,7 +103,7 @@ Coupling read_scene_coupling(TableReader& reader) {
     names.read(*table, technique);
     table->close();
   }
-  return technique_named(technique, declared, defaults).in_scene();
+  technique_named(technique, declared, defaults).apply_to(scene);
 }
 }  // namespace
 
@@ -118,7 +116,7 @@ Scene parse_scene(const std::string& text, const std::string& file) {
   reader.read("gravity_m_s2", scene.gravity_m_s2, zero_or_more);
   reader.read("contact_compliance_m_per_n", scene.contact_compliance_m_per_n, zero_or_more);
   read_effector(reader, scene.effector_size_m);
-  scene.coupling = read_scene_coupling(reader);
+  read_scene_technique(reader, scene);
   scene.clone_offset = read_clone_offset(reader);
   scene.cubes = read_cubes(reader);
   read_tolerance(reader, scene.tolerance);
