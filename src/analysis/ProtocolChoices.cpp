@@ -12,6 +12,28 @@ namespace heft {
 
 namespace {
 
+// What a declared technique does, for people.
+struct LawText {
+  std::string operator()(const Coupling& coupling) const {
+    if (!coupling.decoupled) return "coupled: the clone stays on the effector";
+    return fmt::format("spring, {:g} N/m and {:g} N m/rad, clone of {:g} g, damping ratio {:g}",
+                       coupling.stiffness_n_per_m, coupling.torsional_stiffness_nm_per_rad,
+                       1e3 * coupling.clone_mass_kg, coupling.damping_ratio);
+  }
+  std::string operator()(const Gain& gain) const { return "gain " + text(gain, ""); }
+  std::string operator()(const SpeedLimit& limit) const {
+    return "speed limit " + text(limit, " m/s");
+  }
+
+ private:
+  static std::string text(const auto& law, std::string_view unit) {
+    std::string values;
+    for (const MassCurve::Point& point : law.of_mass.points())
+      values += fmt::format("{:g}{} at {:g} g, ", point.value, unit, 1e3 * point.mass_kg);
+    return fmt::format("{}back in {:g} s", values, law.return_s);
+  }
+};
+
 // Collects the choices of one protocol; of blocks too, which may differ in theirs.
 class Collector {
  public:
@@ -26,6 +48,8 @@ class Collector {
     add("effector between pictures", input_text(protocol.simulator.input));
     add("answers need contact with every cube", protocol.require_contact ? "yes" : "no");
     add("practice and feedback", "none");
+    for (const Technique& technique : protocol.techniques)
+      add("technique " + technique.name, std::visit(LawText{}, technique.law));
     for (const Block& block : protocol.blocks) std::visit(*this, block);
   }
 

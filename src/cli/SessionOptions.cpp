@@ -103,7 +103,7 @@ std::vector<std::string> cautions(const Protocol& protocol) {
         "[physics] simulator = \"{}\" models one straight push: people's sessions refuse "
         "it, a simulated one ends where a hand does more: use \"boxes\" or \"auto\"",
         simulator));
-  if (mode != InputMode::path)
+  if (mode == InputMode::hold || mode == InputMode::extrapolate)
     found.push_back(
         fmt::format("[physics] input = \"{}\" is for see-through displays; over video, where the "
                     "clone is seen beside the filmed effector, it adds false mass: use \"path\"",

@@ -8,6 +8,7 @@
 #include "base/Boxes.h"
 #include "base/Error.h"
 #include "base/Pose.h"
+#include "physics/techniques/DisplacedSimulator.h"
 
 namespace heft {
 
@@ -20,6 +21,27 @@ const Pose out_of_the_way{{0, 0, 10}, Eigen::Quaterniond::Identity()};
 // ceil(dt * rate), but 16 where rounding makes it 16.0000001.
 double n_steps(double dt_s, double rate_hz) {
   return std::max(1.0, std::ceil(dt_s * rate_hz - 1e-6));
+}
+
+// The pose a share s of the way on the cubic that takes dt_s seconds and has these velocities at
+// its ends (Hermite's); of orientations it is that of the rotation vector from the first.
+Pose interpolate_smoothly(const Pose& from, const Velocity& at_from, const Pose& to,
+                          const Velocity& at_to, double dt_s, double s) {
+  const double leaves = s * (1 - s) * (1 - s) * dt_s, arrives = s * s * (s - 1) * dt_s;
+  const double there = s * s * (3 - 2 * s);
+  const auto own = [&](const Velocity& velocity) -> Eigen::Vector3d {
+    return from.orientation.conjugate() * velocity.angular_rad_s;
+  };
+  const Eigen::Vector3d turn_rad = rotation_vector(from.orientation.conjugate() * to.orientation);
+  return {from.position_m + there * (to.position_m - from.position_m) +
+              leaves * at_from.linear_m_s + arrives * at_to.linear_m_s,
+          from.orientation * rotation_from_vector(there * turn_rad + leaves * own(at_from) +
+                                                  arrives * own(at_to))};
+}
+
+// A tracker that knows none says zero; no hand is that still.
+bool is_measured(const Velocity& velocity) {
+  return !velocity.linear_m_s.isZero(0) || !velocity.angular_rad_s.isZero(0);
 }
 
 void check(const TargetSample& sample) {
@@ -55,7 +77,10 @@ TargetSample sample_of(double t_capture_s, const std::optional<Pose>& pose) {
 
 Drive::Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz,
              const DriveInput& input)
-    : simulator_(std::move(simulator)), scene_(scene), rate_hz_(rate_hz), input_(input) {
+    : simulator_(displaced(std::move(simulator), scene)),
+      scene_(scene),
+      rate_hz_(rate_hz),
+      input_(input) {
   if (!(rate_hz > 0) || !std::isfinite(rate_hz))
     throw Error(fmt::format("the physics rate is {} Hz, expected more than 0", rate_hz));
   if (!(input.predict_s >= 0) || !std::isfinite(input.predict_s))
@@ -76,7 +101,8 @@ const WorldState& Drive::advance(const TargetSample& measured) {
     }
     const bool continues = sample.tracked && last_.tracked && !sample.jump && dt_s <= longest_gap_s;
     if (!continues) set_solid(false);
-    run(continues ? end_of_path(sample) : last_.pose, dt_s);
+    run(continues ? end_of_path(sample) : last_.pose, dt_s,
+        continues ? sample.velocity : Velocity{});
     if (sample.tracked && !continues) simulator_->teleport_clone(sample.pose, sample.velocity);
     course_.reset();
     if (continues) course_ = mean_velocity(last_.pose, sample.pose, dt_s);
@@ -98,16 +124,22 @@ void Drive::start(const TargetSample& sample) {
 
 // Where the target gets to by the time of a sample that continues the last one.
 Pose Drive::end_of_path(const TargetSample& sample) const {
-  if (input_.mode == InputMode::path) return sample.pose;
+  if (input_.mode == InputMode::path || input_.mode == InputMode::smooth) return sample.pose;
   if (input_.mode == InputMode::hold || !course_) return last_.pose;
   TargetSample going_on = last_;
   going_on.velocity = *course_;
   return predicted(going_on, sample.t_capture_s - last_.t_capture_s);
 }
 
-void Drive::run(const Pose& target, double dt_s) {
+void Drive::run(const Pose& target, double dt_s, const Velocity& at_target) {
   const double n = n_steps(dt_s, rate_hz_);
-  for (double i = 1; i < n; ++i) simulator_->step(interpolate(last_.pose, target, i / n), dt_s / n);
+  const bool bends =
+      input_.mode == InputMode::smooth && is_measured(last_.velocity) && is_measured(at_target);
+  for (double i = 1; i < n; ++i)
+    simulator_->step(
+        bends ? interpolate_smoothly(last_.pose, last_.velocity, target, at_target, dt_s, i / n)
+              : interpolate(last_.pose, target, i / n),
+        dt_s / n);
   simulator_->step(target, dt_s / n);  // exactly there, whatever interpolation rounds to
 }
 

@@ -5,13 +5,22 @@
 
 namespace heft {
 
+void Technique::apply_to(Scene& scene) const {
+  scene.displacement.reset();
+  scene.coupling.decoupled = false;
+  if (const auto* coupling = std::get_if<Coupling>(&law)) scene.coupling = *coupling;
+  if (const auto* gain = std::get_if<Gain>(&law)) scene.displacement = *gain;
+  if (const auto* limit = std::get_if<SpeedLimit>(&law)) scene.displacement = *limit;
+}
+
 Technique technique_named(const std::string& name, const std::vector<Technique>& declared,
                           const Coupling& defaults) {
   if (const auto found = std::ranges::find(declared, name, &Technique::name);
       found != declared.end())
     return *found;
-  if (name == "C1") return {name, TechniqueKind::coupled, defaults};
-  if (name == "C2") return {name, TechniqueKind::spring, defaults};
+  Coupling coupling = defaults;
+  coupling.decoupled = name == "C2";
+  if (name == "C1" || name == "C2") return {name, coupling};
   throw std::out_of_range("no technique is named " + name);
 }
 

@@ -3,15 +3,18 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <optional>
 #include <string>
-#include <string_view>
+#include <variant>
 #include <vector>
 
-#include "base/Names.h"
 #include "base/PoseTypes.h"
+#include "physics/techniques/Gain.h"
+#include "physics/techniques/SpeedLimit.h"
 
 namespace heft {
+
+struct Scene;
 
 /// The law that ties the clone to the real effector (paper, section 3.1): F = -k d - c v, with
 /// c = damping_ratio * 2 sqrt(k m); the same per axis in rotation with kappa and the inertia.
@@ -23,25 +26,16 @@ struct Coupling {
   double damping_ratio = 1;
 };
 
-/// How the clone follows the effector: by the paper's spring, or coupled, on the effector itself.
-enum class TechniqueKind { spring, coupled };
-template <>
-struct EnumNames<TechniqueKind> {
-  static constexpr std::array<std::string_view, 2> names{"spring", "coupled"};
-};
+/// A technique that displaces the clone from the hand instead of drawing it there by a spring.
+using Displacement = std::variant<Gain, SpeedLimit>;
 
 /// A way to render mass, under the name that conditions call it by.
 struct Technique {
   std::string name;
-  TechniqueKind kind = TechniqueKind::spring;
-  Coupling coupling{};  ///< spring only
+  std::variant<Coupling, Gain, SpeedLimit> law;
 
-  /// The coupling that a scene takes.
-  Coupling in_scene() const {
-    Coupling taken = coupling;
-    taken.decoupled = kind == TechniqueKind::spring;
-    return taken;
-  }
+  /// Has the scene's clone follow the effector that way.
+  void apply_to(Scene& scene) const;
 };
 
 /// One of the declared techniques, or the paper's: C1 is coupled, C2 a spring with these defaults.
@@ -71,6 +65,8 @@ struct Scene {
   double contact_compliance_m_per_n = 0;
   Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
   Coupling coupling;
+  /// Of a coupled clone: it follows a target that is displaced from the effector.
+  std::optional<Displacement> displacement;
   /// Clone from effector at the first sample, released at rest. A coupled clone has none.
   Pose clone_offset;
   std::vector<Cube> cubes;

@@ -136,7 +136,7 @@ Scene scene_of(const Protocol& protocol, const std::string& technique,
                        ? protocol.friction * protocol.friction
                        : protocol.friction;
   scene.effector_size_m = protocol.effector_size_m;
-  scene.coupling = technique_named(technique, protocol.techniques, protocol.coupling).in_scene();
+  technique_named(technique, protocol.techniques, protocol.coupling).apply_to(scene);
   const double size_m = protocol.layout.cube_size_m;
   const auto slots_m = slot_positions(protocol.layout, static_cast<int>(masses_g.size()));
   for (std::size_t i = 0; i < masses_g.size(); ++i)

@@ -82,7 +82,7 @@ Pose read_clone_offset(TableReader& reader) {
 
 // [coupling] as the paper's technique has it, with `condition` to name another; or [[technique]]s
 // and which of them it is.
-Coupling read_scene_coupling(TableReader& reader) {
+void read_scene_technique(TableReader& reader, Scene& scene) {
   Coupling defaults;
   auto table = reader.table("coupling");
   if (table) defaults = read_coupling(*table);
@@ -93,7 +93,7 @@ Coupling read_scene_coupling(TableReader& reader) {
     names.read(*table, technique);
     table->close();
   }
-  return technique_named(technique, declared, defaults).in_scene();
+  technique_named(technique, declared, defaults).apply_to(scene);
 }
 }  // namespace
 
@@ -106,7 +106,7 @@ Scene parse_scene(const std::string& text, const std::string& file) {
   reader.read("gravity_m_s2", scene.gravity_m_s2, zero_or_more);
   reader.read("contact_compliance_m_per_n", scene.contact_compliance_m_per_n, zero_or_more);
   read_effector(reader, scene.effector_size_m);
-  scene.coupling = read_scene_coupling(reader);
+  read_scene_technique(reader, scene);
   scene.clone_offset = read_clone_offset(reader);
   scene.cubes = read_cubes(reader);
   reader.in_table("tolerance", [&](TableReader& table) {

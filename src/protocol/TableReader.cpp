@@ -221,6 +221,24 @@ void TableReader::read(std::string_view key, Eigen::Vector3d& field, const Range
   if (const auto values = numbers(key, range, 3)) field = Eigen::Vector3d(values->data());
 }
 
+void TableReader::read(std::string_view key, std::vector<Eigen::Vector2d>& pairs, const Range& of_a,
+                       const Range& of_b) {
+  const TomlEntry* entry = take(key);
+  if (!entry) return;
+  const auto* array = std::get_if<TomlArray>(&entry->node.value);
+  if (!array || array->empty()) return refuse(entry->node, key, "pairs of numbers [[a, b], ...]");
+  for (const TomlNode& node : *array) {
+    const auto* pair = std::get_if<TomlArray>(&node.value);
+    if (!pair || pair->size() != 2) {
+      refuse(node, key, "pairs of numbers [[a, b], ...]");
+      continue;
+    }
+    const auto a = number((*pair)[0], key, of_a), b = number((*pair)[1], key, of_b);
+    if (a && b) pairs.emplace_back(*a, *b);
+  }
+  if (!good({key})) pairs.clear();
+}
+
 void TableReader::read(std::string_view key, std::span<Eigen::Vector3d> points) {
   const TomlEntry* entry = take(key);
   if (!entry) return;

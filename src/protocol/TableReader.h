@@ -59,6 +59,9 @@ class TableReader {
   void read(std::string_view key, std::vector<double>& field, const Range& range = any_number);
   void read(std::string_view key, Eigen::Vector2d& field, const Range& range = any_number);
   void read(std::string_view key, Eigen::Vector3d& field, const Range& range = any_number);
+  /// Any number of pairs [a, b], but not none; none after a mistake.
+  void read(std::string_view key, std::vector<Eigen::Vector2d>& pairs, const Range& of_a,
+            const Range& of_b);
   /// As many points [x, y, z] as the field has.
   void read(std::string_view key, std::span<Eigen::Vector3d> points);
   /// One number for all three, or three numbers.

@@ -9,6 +9,13 @@
 
 namespace heft {
 
+enum class TechniqueKind { spring, coupled, gain, speed_limit };
+template <>
+struct EnumNames<TechniqueKind> {
+  static constexpr std::array<std::string_view, 4> names{"spring", "coupled", "gain",
+                                                         "speed_limit"};
+};
+
 void read_effector(TableReader& reader, Eigen::Vector3d& size_m) {
   reader.in_table("effector", [&](auto& table) { table.read("size_m", size_m, size_on_earth); });
 }
@@ -22,12 +29,56 @@ Coupling read_coupling(TableReader& table, Coupling coupling) {
 }
 
 namespace {
+constexpr Range gains{0, 10};
+constexpr Range speeds_m_s{0, 100};
+
+MassCurve read_curve(TableReader& table, std::string_view key, const Range& values) {
+  std::vector<Eigen::Vector2d> rows;
+  table.require({key});
+  table.read(key, rows, above_zero, values);
+  std::vector<MassCurve::Point> points;
+  for (const Eigen::Vector2d& row : rows) {
+    if (!points.empty() && row.x() <= 1e3 * points.back().mass_kg)
+      table.mistake(key, points.size(),
+                    fmt::format("{} goes from {:g} to {:g} g, expected ascending masses", key,
+                                1e3 * points.back().mass_kg, row.x()));
+    points.push_back({row.x() / 1e3, row.y()});
+  }
+  return points.empty() ? MassCurve() : MassCurve(points);
+}
+
+template <typename Law>
+Law read_displacement(TableReader& table, std::string_view key, const Range& values) {
+  Law law;
+  law.of_mass = read_curve(table, key, values);
+  table.read("return_s", law.return_s, above_zero);
+  return law;
+}
+
+std::variant<Coupling, Gain, SpeedLimit> read_law(TableReader& table, TechniqueKind kind,
+                                                  const Coupling& defaults) {
+  switch (kind) {
+    case TechniqueKind::gain:
+      return read_displacement<Gain>(table, "gain_of_mass", gains);
+    case TechniqueKind::speed_limit:
+      return read_displacement<SpeedLimit>(table, "limit_m_s_of_mass", speeds_m_s);
+    case TechniqueKind::spring:
+      return read_coupling(table, defaults);
+    case TechniqueKind::coupled:
+      break;
+  }
+  Coupling coupled = defaults;
+  coupled.decoupled = false;
+  return coupled;
+}
+
 Technique read_technique(TableReader& table, const Coupling& defaults) {
   Technique technique;
-  table.require({"name", "kind"});
+  table.require({"name"});
   table.read("name", technique.name);
-  table.read("kind", technique.kind);
-  if (technique.kind == TechniqueKind::spring) technique.coupling = read_coupling(table, defaults);
+  const auto kind = table.read_nearest_name("kind", EnumNames<TechniqueKind>::names);
+  if (!kind) return technique;  // what else it should say is not known
+  technique.law = read_law(table, *named<TechniqueKind>(*kind), defaults);
   table.close();
   return technique;
 }

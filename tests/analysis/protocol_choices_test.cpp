@@ -46,6 +46,18 @@ TEST(ProtocolChoices, name_constant_stimuli) {
             "constant levels -5, 12.5 g, each 9 times, in blocks");
 }
 
+TEST(ProtocolChoices, name_declared_techniques) {
+  Protocol protocol = shipped("quick.toml");
+  protocol.techniques = {{"soft", Coupling{.stiffness_n_per_m = 25}},
+                         {"ratio", Gain{MassCurve({{0.015, 0.95}, {0.8, 0.2}}), 0.1}},
+                         {"slow", SpeedLimit{MassCurve({{0.2, 0.05}})}}};
+  const auto choices = choices_in(protocol);
+  EXPECT_EQ(value_of(choices, "technique soft"),
+            "spring, 25 N/m and 150 N m/rad, clone of 10 g, damping ratio 1");
+  EXPECT_EQ(value_of(choices, "technique ratio"), "gain 0.95 at 15 g, 0.2 at 800 g, back in 0.1 s");
+  EXPECT_EQ(value_of(choices, "technique slow"), "speed limit 0.05 m/s at 200 g, back in 0.05 s");
+}
+
 TEST(ProtocolChoices, are_told_once_a_protocol_and_versions_are_told_apart) {
   const Protocol quick = shipped("quick.toml");
   Protocol changed = quick;

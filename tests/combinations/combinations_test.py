@@ -224,6 +224,16 @@ class Combinations(unittest.TestCase):
         for done in running:
             done.result()
 
+    def test_every_kind_of_technique_is_simulated_and_replayed(self):
+        db = self.new("techniques")
+        self.heft("simulate", self.folder / "all.toml", "--responder", "simulated",
+                  "--participants", "1", "--db", db, "--seed", SEED, "--frames")
+        conditions = {row[0] for row in query(db, "select distinct condition from trial")}
+        self.assertEqual(conditions, {"C1", "soft", "ratio", "slow"})
+        self.verified(db)
+        self.heft("replay", "--db", db, "--set", "technique.ratio.gain_of_mass=[[15, 0.5]]")
+        self.heft("replay", "--db", db, "--set", "technique.ratio.gain_of_mass=[[0, 1]]", expect=3)
+
     # What is replayed otherwise
 
     def replay_otherwise(self, tracker, view):

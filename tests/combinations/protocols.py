@@ -5,6 +5,14 @@ TECHNIQUE = """
 name = "soft"
 kind = "spring"
 stiffness_n_per_m = 60
+[[technique]]
+name = "ratio"
+kind = "gain"
+gain_of_mass = [[15, 0.95], [200, 0.6], [800, 0.2]]
+[[technique]]
+name = "slow"
+kind = "speed_limit"
+limit_m_s_of_mass = [[15, 0.5], [200, 0.15], [800, 0.05]]
 """
 
 PAIRS = """
@@ -22,7 +30,7 @@ FOURS = """
 kind = "sorting"
 name = "fours"
 masses_g = [15, 100, 300, 800]
-trials = { C1 = 1 }
+trials = { C1 = 1, ratio = 1 }
 max_run = 0
 orders = "random"
 """
@@ -52,7 +60,7 @@ stop_trials = 2
 discard_reversals = 1
 """
 
-CONSTANT = COMPARISON.format(name="constant", technique="C2") + """
+CONSTANT = COMPARISON.format(name="constant", technique="slow") + """
 [[block.staircase]]
 name = "100g"
 reference_g = 100
@@ -68,10 +76,10 @@ def protocol(*blocks, display_rate_hz=15, contact=True):
             f'require_contact = {str(contact).lower()}\n' + TECHNIQUE + "".join(blocks))
 
 
-# One trial, and one of everything: two sorting trials, then four comparisons.
+# One trial, and one of everything with every technique: three sorting trials, then four comparisons.
 ONE = protocol(PAIRS, contact=False)
 ALL = protocol(PAIRS, FOURS, UP_DOWN, CONSTANT, contact=False)
-N_SORTING, N_ALL = 2, 6
+N_SORTING, N_ALL = 3, 7
 
 
 def write_recording(folder, n_trials):

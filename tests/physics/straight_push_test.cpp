@@ -133,14 +133,37 @@ TEST(StraightStroke, RefusesWhatItCannotRepresentAndSaysWhy) {
     const Pose pose = push(t_s);
     return upright_pose(pose.position_m, 0.2 * t_s);
   };
+  const auto turning_in_place = [&](double t_s) {
+    return upright_pose(push(0).position_m, 0.2 * t_s);
+  };
+  const auto low = [&](double t_s) {
+    Pose pose = push(t_s);
+    pose.position_m.z() = 0.019;
+    return pose;
+  };
+  const auto from_inside = [&](double t_s) {
+    Pose pose = push(t_s);
+    pose.position_m.x() += 0.01;
+    return pose;
+  };
+  const auto from_afar = [&](double t_s) {
+    Pose pose = push(t_s);
+    pose.position_m.x() -= 0.01;
+    return pose;
+  };
   for (const char* name : {"push", "quasi_static"}) {
     using testing::HasSubstr;
+    EXPECT_THAT(refusal(name, one_cube(0.2), turning_in_place), HasSubstr("the effector turned"));
+    EXPECT_THAT(refusal(name, one_cube(0.2), low), HasSubstr("reaches into the table"));
+    EXPECT_THAT(refusal(name, Scene{}, low), HasSubstr("reaches into the table"));
+    EXPECT_THAT(refusal(name, two, from_inside), HasSubstr("the clone starts inside cube 1"));
     EXPECT_EQ(refusal(name, one_cube(0.2), push), "");
     EXPECT_THAT(refusal(name, two, push), HasSubstr("a second cube is touched"));
     EXPECT_THAT(refusal(name, stacked, push), HasSubstr("cube 1 does not stand on the table"));
     EXPECT_THAT(refusal(name, one_cube(0.2), bent), HasSubstr("off its straight line"));
     EXPECT_THAT(refusal(name, one_cube(0.2), twisted), HasSubstr("turned"));
-    EXPECT_THAT(refusal(name, turned(one_cube(0.2), 0.3), push), HasSubstr("not pushed squarely"));
+    EXPECT_THAT(refusal(name, turned(one_cube(0.2), 0.3), from_afar),
+                HasSubstr("not pushed squarely"));
     EXPECT_THAT(refusal(name, one_cube(0.2), smooth_push(0.1, 1, 0, 0.025)),
                 HasSubstr("beside its center"));
   }

@@ -100,5 +100,76 @@ TEST(Techniques, OfAScene) {
   EXPECT_TRUE(scene.coupling.decoupled);
 }
 
+constexpr auto displacing = R"(title = "Displacing"
+[[technique]]
+name = "ratio"
+kind = "gain"
+gain_of_mass = [[15, 0.95], [200, 0.6], [800, 0.2]]
+[[technique]]
+name = "slow"
+kind = "speed_limit"
+limit_m_s_of_mass = [[15, 0.5], [800, 0.02]]
+return_s = 0.2
+[[block]]
+kind = "sorting"
+name = "sorting"
+masses_g = [15, 800]
+trials = { ratio = 2, C2 = 1, slow = 3 }
+)";
+
+std::string mistakes_after(const std::string& from, const std::string& to) {
+  std::string text = displacing;
+  return mistakes_in(text.replace(text.find(from), from.size(), to));
+}
+
+TEST(Techniques, ThatDisplaceTheCloneAreTheScenes) {
+  const Protocol protocol = parse_protocol(displacing, "techniques.toml");
+  const Scene ratio = scene_of(protocol, "ratio", {15});
+  EXPECT_FALSE(ratio.coupling.decoupled);
+  ASSERT_TRUE(ratio.displacement);
+  EXPECT_DOUBLE_EQ(std::get<Gain>(*ratio.displacement).of_mass.at(0.2), 0.6);
+  EXPECT_DOUBLE_EQ(std::get<Gain>(*ratio.displacement).return_s, 0.05);
+  const Scene slow = scene_of(protocol, "slow", {15});
+  EXPECT_DOUBLE_EQ(std::get<SpeedLimit>(*slow.displacement).of_mass.at(0.8), 0.02);
+  EXPECT_DOUBLE_EQ(std::get<SpeedLimit>(*slow.displacement).return_s, 0.2);
+  EXPECT_FALSE(scene_of(protocol, "C2", {15}).displacement);
+  EXPECT_FALSE(scene_of(protocol, "C1", {15}).displacement);
+}
+
+TEST(Techniques, AreChangedBySettings) {
+  const Protocol protocol =
+      parse_protocol(displacing, "techniques.toml",
+                     {"technique.ratio.gain_of_mass=[[100, 0.5]]", "technique.slow.return_s=0.3"});
+  EXPECT_DOUBLE_EQ(std::get<Gain>(*scene_of(protocol, "ratio", {15}).displacement).of_mass.at(0.8),
+                   0.5);
+  EXPECT_DOUBLE_EQ(std::get<SpeedLimit>(*scene_of(protocol, "slow", {15}).displacement).return_s,
+                   0.3);
+}
+
+TEST(Techniques, WithAWrongTableAreRefusedAtTheirPlace) {
+  const auto expect = [](const std::string& from, const std::string& to, const std::string& what) {
+    EXPECT_THAT(mistakes_after(from, to), HasSubstr(what)) << to;
+  };
+  expect("[800, 0.2]", "[200, 0.2]", "techniques.toml:5:41: gain_of_mass goes from 200 to 200 g");
+  expect("[800, 0.2]", "[800]", "techniques.toml:5:41: gain_of_mass is an array, expected pairs");
+  expect("[800, 0.2]", "[800, -0.2]",
+         "techniques.toml:5:47: gain_of_mass is -0.2, expected a number, at least 0");
+  expect("[15, 0.95]", "[0, 0.95]", "techniques.toml:5:18: gain_of_mass is 0, expected");
+  expect("[[15, 0.95], [200, 0.6], [800, 0.2]]", "[]", "techniques.toml:5:16: gain_of_mass is");
+  expect("gain_of_mass =", "limit_m_s_of_mass =", "unknown key \"limit_m_s_of_mass\"");
+  expect("return_s = 0.2", "return_s = 0", "techniques.toml:10:12: return_s is 0");
+  expect("return_s = 0.2", "stiffness_n_per_m = 2", "unknown key \"stiffness_n_per_m\"");
+  expect("limit_m_s_of_mass = [[15, 0.5], [800, 0.02]]\n", "", "lacks \"limit_m_s_of_mass\"");
+  expect("kind = \"speed_limit\"", "kind = \"speedlimit\"", "did you mean \"speed_limit\"?");
+  expect("kind = \"speed_limit\"\n", "", "lacks \"kind\"");
+}
+
+TEST(Techniques, OfASceneMayDisplaceTheClone) {
+  const std::string table =
+      "[[technique]]\nname = \"g\"\nkind = \"gain\"\ngain_of_mass = [[15, 0.5]]\n";
+  EXPECT_TRUE(parse_scene(table, "scene.toml").displacement);
+  EXPECT_FALSE(parse_scene("[coupling]\ncondition = \"C2\"\n" + table, "scene.toml").displacement);
+}
+
 }  // namespace
 }  // namespace heft

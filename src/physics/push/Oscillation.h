@@ -8,7 +8,7 @@ namespace heft {
 class Oscillation {
  public:
   struct At {
-    double y, speed, acceleration;
+    double y = 0, speed = 0, acceleration = 0;
   };
 
   Oscillation() = default;

@@ -84,7 +84,7 @@ class PushSimulator : public DecouplingSimulator {
   // Whether the spring slows the clone more than friction alone slows a sliding cube.
   bool parts() const { return spring_n() + deceleration_ * mass_ < (1 - slipping) * slide_n(); }
   bool may_meet(double left_s) const;
-  double clone_at(double t_s) const;
+  Oscillation::At free_clone(double t_s) const;
   double cube_at(double t_s) const;
   void collide();
   void take_cube();
@@ -168,9 +168,9 @@ void PushSimulator::collide() {
   v_ = cube_v_ = common;
 }
 
-double PushSimulator::clone_at(double t_s) const {
-  if (!decoupled_) return target_ + u_ * t_s;
-  return target_ + u_ * t_s + free_.after(t_s, clone_ - target_, v_ - u_).y;
+// The clone as it moves when nothing touches it, from the target at that time.
+Oscillation::At PushSimulator::free_clone(double t_s) const {
+  return decoupled_ ? free_.after(t_s, clone_ - target_, v_ - u_) : Oscillation::At{};
 }
 
 double PushSimulator::cube_at(double t_s) const {
@@ -186,42 +186,26 @@ bool PushSimulator::may_meet(double left_s) const {
   return target_ + std::max(0.0, u_ * left_s) + offset >= stroke_.contact();
 }
 
+// Each for itself, until they meet. A cube that a coupled clone meets goes on with it.
 double PushSimulator::apart(double left_s) {
-  double t_s = left_s;
+  Fall meeting{left_s, false};
   if (has_cube() && may_meet(left_s)) {
-    const auto gap_m = [&](double at_s) { return cube_at(at_s) - clone_at(at_s); };
-    const auto [met_s, met] = first_fall(gap_m, left_s, looks(free_.omega_rad_s(), left_s));
-    t_s = met_s;
-    if (met) stroke_.move_cube_to(cube_at(t_s));
-    if (met && !decoupled_) {
-      clone_ = stroke_.contact();
-      const double cube_v = std::max(0.0, cube_v_ - deceleration_ * t_s);
-      impulse_n_s_ += cube_kg_ * std::max(0.0, u_ - cube_v);
-      cube_v_ = std::max(u_, cube_v);
-      v_ = u_;
-      target_ += u_ * t_s;
-      return t_s;
-    }
-    if (met) {
-      const auto now = free_.after(t_s, clone_ - target_, v_ - u_);
-      clone_ = stroke_.contact();
-      v_ = now.speed + u_;
-      cube_v_ = std::max(0.0, cube_v_ - deceleration_ * t_s);
-      target_ += u_ * t_s;
-      return t_s;
-    }
+    const auto gap_m = [&](double t_s) {
+      return cube_at(t_s) - (target_ + u_ * t_s + free_clone(t_s).y);
+    };
+    meeting = first_fall(gap_m, left_s, looks(free_.omega_rad_s(), left_s));
   }
-  if (stroke_.cube() && cube_v_ > 0) stroke_.move_cube_to(cube_at(t_s));
-  if (decoupled_) {
-    const auto now = free_.after(t_s, clone_ - target_, v_ - u_);
-    clone_ = target_ + u_ * t_s + now.y;
-    v_ = now.speed + u_;
-  } else {
-    clone_ = target_ + u_ * t_s;
-    v_ = u_;
-  }
-  cube_v_ = std::max(0.0, cube_v_ - deceleration_ * t_s);
+  const auto [t_s, met] = meeting;
+  const Oscillation::At now = free_clone(t_s);
+  if (met || (stroke_.cube() && cube_v_ > 0)) stroke_.move_cube_to(cube_at(t_s));
   target_ += u_ * t_s;
+  clone_ = met ? stroke_.contact() : target_ + now.y;
+  v_ = now.speed + u_;
+  cube_v_ = std::max(0.0, cube_v_ - deceleration_ * t_s);
+  if (met && !decoupled_) {
+    impulse_n_s_ += cube_kg_ * std::max(0.0, u_ - cube_v_);
+    cube_v_ = std::max(u_, cube_v_);
+  }
   return t_s;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/Boxes.h"
 #include "base/Pose.h"
 
 namespace heft {
@@ -34,8 +35,12 @@ StraightStroke::StraightStroke(const Scene& scene, const Pose& target) : scene_(
     throw OutsideModel("the clone starts turned away from the effector");
   cubes_.resize(scene.cubes.size());
   restart(target);
-  for (std::size_t i = 0; i < cubes_.size(); ++i)
+  for (std::size_t i = 0; i < cubes_.size(); ++i) {
     place_cube(i, upright_pose(scene.cubes[i].position_m, scene.cubes[i].yaw_rad));
+    const Vector3d size_m = scene.cubes[i].size_m.array() - straight_m;
+    if (boxes_overlap(heft::clone_start(scene, target), scene.effector_size_m, cubes_[i], size_m))
+      throw OutsideModel(fmt::format("the clone starts inside cube {}", i + 1));
+  }
   const Vector3d start_m = target.orientation * offset.position_m;
   if (start_m.norm() < still_m) return;
   const Vector3d tip = target.orientation * Vector3d::UnitX();
@@ -45,6 +50,9 @@ StraightStroke::StraightStroke(const Scene& scene, const Pose& target) : scene_(
 }
 
 void StraightStroke::restart(const Pose& target) {
+  const double half_m = half_width(target, scene_.effector_size_m, Vector3d::UnitZ());
+  if (target.position_m.z() - half_m < -straight_m)
+    throw OutsideModel("the clone reaches into the table");
   start_ = target;
   direction_.reset();
   cube_.reset();
@@ -157,7 +165,6 @@ void StraightStroke::check_square() const {
                     name(), 1e3 * aside_m));
   const double lowest_m =
       start_.position_m.z() - half_width(start_, scene_.effector_size_m, Vector3d::UnitZ());
-  if (lowest_m < 0) throw OutsideModel("the clone reaches into the table");
   if (scene_.friction * lowest_m > half_along(cube, size_m))
     throw OutsideModel(name() + " is pushed so high that it may tip");
 }

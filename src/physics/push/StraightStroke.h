@@ -83,12 +83,9 @@ class StraightStroke {
 
 inline double StraightStroke::follow(const Pose& target) {
   const Eigen::Vector3d moved_m = target.position_m - start_.position_m;
-  if (!direction_) {
-    if (moved_m.norm() < still_m) return 0;
-    set_direction(moved_m);
-  }
-  const double along = moved_m.dot(*direction_);
-  const double off_m2 = (moved_m - along * *direction_).squaredNorm();
+  if (!direction_ && moved_m.norm() >= still_m) set_direction(moved_m);
+  const double along = moved_m.dot(direction());
+  const double off_m2 = (moved_m - along * direction()).squaredNorm();
   const double turned = std::abs(start_.orientation.dot(target.orientation));
   if (off_m2 > straight_m * straight_m || turned < still_cosine) refuse(off_m2);
   return along;

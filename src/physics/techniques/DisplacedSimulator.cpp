@@ -1,0 +1,179 @@
+#include "physics/techniques/DisplacedSimulator.h"
+
+#include <cmath>
+
+#include "base/Boxes.h"
+#include "base/Pose.h"
+
+namespace heft {
+
+namespace {
+using Eigen::Vector3d;
+
+constexpr double touching_m = 1e-5;
+constexpr double longest_way_m = 5e-3;  // of the hand's tip between two looks
+constexpr int most_cuts = 4;            // of one such way
+constexpr int halvings = 20;            // until the time of a touch is known
+
+class DisplacedSimulator : public DecouplingSimulator {
+ public:
+  explicit DisplacedSimulator(std::unique_ptr<DecouplingSimulator> simulator)
+      : simulator_(std::move(simulator)) {}
+
+  void reset(const Scene& scene, const Pose& target) override;
+  void step(const Pose& target, double h_s) override;
+  void teleport_clone(const Pose& target, const Velocity& velocity) override;
+  void set_clone_solid(bool solid) override;
+  void place_cube(int cube, const Pose& pose) override;
+  WorldState state() const override { return simulator_->state(); }
+
+ private:
+  void forget();
+  void take_note();
+  bool meets(const Pose& effector, std::size_t cube) const;
+  bool touches(std::size_t cube, const Pose& hand, const Vector3d& displacement_m) const;
+  double touched_kg(const Pose& hand, const Vector3d& displacement_m) const;
+  Vector3d displacement_at(const Pose& hand, double h_s) const;
+  double share_until_change(const Pose& hand, double h_s) const;
+  void go(const Pose& hand, double h_s);
+  void go_on(const Pose& hand, double h_s);
+
+  std::unique_ptr<DecouplingSimulator> simulator_;
+  Scene scene_;
+  std::vector<BodyState> cubes_;
+  bool solid_ = true;
+  Pose hand_;
+  Vector3d displacement_m_ = Vector3d::Zero();
+  std::vector<bool> touched_;
+  double touched_kg_ = 0;                      // all of them together
+  Vector3d released_at_m_ = Vector3d::Zero();  // displaced by so much,
+  double since_release_s_ = 0;                 // so long ago
+};
+
+Pose moved(const Pose& hand, const Vector3d& displacement_m) {
+  return {hand.position_m + displacement_m, hand.orientation};
+}
+
+void DisplacedSimulator::reset(const Scene& scene, const Pose& target) {
+  simulator_->reset(scene, target);
+  scene_ = scene;
+  hand_ = target;
+  solid_ = true;
+  forget();
+}
+
+void DisplacedSimulator::forget() {
+  displacement_m_ = released_at_m_ = Vector3d::Zero();
+  touched_.assign(scene_.cubes.size(), false);
+  touched_kg_ = 0;
+  take_note();
+}
+
+void DisplacedSimulator::take_note() {
+  cubes_ = simulator_->state().cubes;
+  const bool held = touched_kg_ > 0;
+  touched_kg_ = touched_kg(hand_, displacement_m_);
+  for (std::size_t i = 0; i < cubes_.size(); ++i) touched_[i] = touches(i, hand_, displacement_m_);
+  if (!held || touched_kg_ > 0) return;
+  released_at_m_ = displacement_m_;
+  since_release_s_ = 0;
+}
+
+bool DisplacedSimulator::meets(const Pose& effector, std::size_t cube) const {
+  const Vector3d size_m = scene_.effector_size_m + Vector3d::Constant(2 * touching_m);
+  return boxes_overlap(effector, size_m, cubes_[cube].pose, scene_.cubes[cube].size_m);
+}
+
+bool DisplacedSimulator::touches(std::size_t cube, const Pose& hand,
+                                 const Vector3d& displacement_m) const {
+  return solid_ &&
+         (meets(moved(hand, displacement_m), cube) || (touched_[cube] && meets(hand, cube)));
+}
+
+double DisplacedSimulator::touched_kg(const Pose& hand, const Vector3d& displacement_m) const {
+  double mass_kg = 0;
+  for (std::size_t i = 0; i < cubes_.size(); ++i)
+    if (touches(i, hand, displacement_m)) mass_kg += scene_.cubes[i].mass_kg;
+  return mass_kg;
+}
+
+Vector3d DisplacedSimulator::displacement_at(const Pose& hand, double h_s) const {
+  const auto by_law = [&](const auto& law) -> Vector3d {
+    if (touched_kg_ > 0)
+      return law.after(displacement_m_, hand.position_m - hand_.position_m, touched_kg_, h_s);
+    const double t = (since_release_s_ + h_s) / law.return_s;
+    return released_at_m_ * ((1 + t) * std::exp(-t));
+  };
+  return std::visit(by_law, *scene_.displacement);
+}
+
+// The share of a step after which what is touched is not what it was.
+double DisplacedSimulator::share_until_change(const Pose& hand, double h_s) const {
+  const auto changed = [&](double share) {
+    const Pose there = interpolate(hand_, hand, share);
+    return touched_kg(there, displacement_at(there, share * h_s)) != touched_kg_;
+  };
+  if (!changed(1)) return 1;
+  double before = 0, after = 1;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (before + after) / 2;
+    (changed(middle) ? after : before) = middle;
+  }
+  return after;
+}
+
+void DisplacedSimulator::go(const Pose& hand, double h_s) {
+  displacement_m_ = displacement_at(hand, h_s);
+  since_release_s_ += h_s;
+  hand_ = hand;
+  simulator_->step(moved(hand, displacement_m_), h_s);
+  take_note();
+}
+
+void DisplacedSimulator::go_on(const Pose& hand, double h_s) {
+  double left_s = h_s;
+  for (int cut = 0; cut < most_cuts; ++cut) {
+    const double share = share_until_change(hand, left_s);
+    if (share >= 1) break;
+    go(interpolate(hand_, hand, share), share * left_s);
+    left_s -= share * left_s;
+  }
+  go(hand, left_s);
+}
+
+void DisplacedSimulator::step(const Pose& target, double h_s) {
+  const Pose from = hand_;
+  const Velocity mean = mean_velocity(from, target, 1);
+  const double way_m =
+      mean.linear_m_s.norm() + mean.angular_rad_s.norm() * scene_.effector_size_m.norm() / 2;
+  const double n = std::max(1.0, std::ceil(way_m / longest_way_m));
+  for (double i = 1; i < n; ++i) go_on(interpolate(from, target, i / n), h_s / n);
+  go_on(target, h_s / n);
+}
+
+void DisplacedSimulator::teleport_clone(const Pose& target, const Velocity& velocity) {
+  simulator_->teleport_clone(target, velocity);
+  hand_ = target;
+  forget();
+}
+
+void DisplacedSimulator::set_clone_solid(bool solid) {
+  simulator_->set_clone_solid(solid);
+  solid_ = solid;
+  take_note();
+}
+
+void DisplacedSimulator::place_cube(int cube, const Pose& pose) {
+  simulator_->place_cube(cube, pose);
+  touched_[static_cast<std::size_t>(cube)] = false;
+  take_note();
+}
+}  // namespace
+
+std::unique_ptr<DecouplingSimulator> displaced(std::unique_ptr<DecouplingSimulator> simulator,
+                                               const Scene& scene) {
+  if (!scene.displacement) return simulator;
+  return std::make_unique<DisplacedSimulator>(std::move(simulator));
+}
+
+}  // namespace heft

@@ -1,0 +1,26 @@
+// The technique `gain`, a control/display ratio. While the clone touches cubes of mass m together
+// it moves g(m) times the hand, so that its displacement d from the hand, the hand being at x, goes
+// on as
+//   d(t + h) = d(t) - (1 - g(m)) (x(t + h) - x(t)).
+// Having pushed for s meters it is (1 - g) s behind, at any speed and any friction: mass is told by
+// how much of the hand's way is shown.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "physics/techniques/MassCurve.h"
+
+namespace heft {
+
+struct Gain {
+  MassCurve of_mass;
+  double return_s = 0.05;  ///< of the way back, see DisplacedSimulator.h
+
+  /// The displacement at the end of a step in which the hand moves.
+  Eigen::Vector3d after(const Eigen::Vector3d& displacement_m, const Eigen::Vector3d& hand_moves_m,
+                        double mass_kg, double /*h_s*/) const {
+    return displacement_m - (1 - of_mass.at(mass_kg)) * hand_moves_m;
+  }
+};
+
+}  // namespace heft

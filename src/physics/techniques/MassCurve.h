@@ -1,0 +1,37 @@
+// A number that depends on a mass, as a technique's table gives it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace heft {
+
+/// Interpolated over the logarithm of mass; beyond the table's ends, theirs.
+class MassCurve {
+ public:
+  struct Point {
+    double mass_kg = 1, value = 1;
+  };
+
+  MassCurve() = default;  ///< 1 everywhere
+  /// @param points at least one, masses above zero and ascending
+  explicit MassCurve(std::vector<Point> points) : points_(std::move(points)) {}
+
+  const std::vector<Point>& points() const { return points_; }
+
+  double at(double mass_kg) const {
+    const auto above = std::ranges::upper_bound(points_, mass_kg, {}, &Point::mass_kg);
+    if (above == points_.begin()) return above->value;
+    const Point& below = *std::prev(above);
+    if (above == points_.end()) return below.value;
+    const double share =
+        std::log(mass_kg / below.mass_kg) / std::log(above->mass_kg / below.mass_kg);
+    return std::lerp(below.value, above->value, share);
+  }
+
+ private:
+  std::vector<Point> points_{{}};
+};
+
+}  // namespace heft
