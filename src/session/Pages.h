@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "protocol/Protocol.h"
-#include "session/Attendant.h"
+#include "session/SessionControl.h"
 #include "tracking/MarkerBody.h"
 
 namespace heft {
@@ -13,13 +13,9 @@ class Pages {
  public:
   /// @param texts what the person reads; null: nobody reads; who looks on sees the
   ///   demonstration and breaks, which go on by themselves
-  Pages(const Protocol& protocol, Journal& journal, Attendant& attendant, ParticipantScreen& screen,
-        const ScreenTexts* texts)
-      : protocol_(protocol),
-        journal_(journal),
-        attendant_(attendant),
-        screen_(screen),
-        texts_(texts) {}
+  Pages(const Protocol& protocol, Journal& journal, SessionControl& control,
+        ParticipantScreen& screen, const ScreenTexts* texts)
+      : protocol_(protocol), journal_(journal), control_(control), screen_(screen), texts_(texts) {}
 
   bool has_reader() const { return texts_ != nullptr; }
 
@@ -44,12 +40,12 @@ class Pages {
   using Moving = std::function<ViewPicture(double t_s)>;
 
   /// @return the touch that ended it: next, decline, or close when the session is left
-  TouchKind show(ScreenState screen, double least_s = 0, const Moving& picture_at = {});
+  TouchKind show(ScreenState screen, double least_s = 0, const Moving& frame_at = {});
   TouchKind show(Screen screen) { return show(ScreenState{.screen = screen}); }
 
   const Protocol& protocol_;
   Journal& journal_;
-  Attendant& attendant_;
+  SessionControl& control_;
   ParticipantScreen& screen_;
   const ScreenTexts* texts_;
 };

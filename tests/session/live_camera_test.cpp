@@ -25,7 +25,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Field;
 using ::testing::IsEmpty;
-using testing::MadeUpDesk;
+using testing::MadeUpConsole;
 using testing::MadeUpScreen;
 using ::testing::Not;
 using testing::patient;
@@ -101,9 +101,9 @@ struct LiveSession {
     engine.emplace(protocol, 7);
   }
 
-  RunEnd run(Desk* desk = nullptr) {
+  RunEnd run(Console* console = nullptr) {
     RunnerOptions options;
-    options.desk = desk;
+    options.console = console;
     const auto open = [&] {
       return live_camera([this] { return device.grab(); },
                          {640, 480, rate_hz, "YUYV", {"exposure 4.0 ms"}, {}});
@@ -293,22 +293,22 @@ TEST(LiveCamera, counts_a_lost_board_and_drops_from_the_end_of_a_pause_on) {
   LiveSession session(5, [&](const ViewPicture& picture, const ScreenState& screen) {
     return can_answer(screen) && !is_over ? std::vector<Touch>{} : patient(picture, screen);
   });
-  MadeUpDesk desk;
-  desk.on_show = [&](const DeskStatus& status) {
+  MadeUpConsole console;
+  console.on_show = [&](const ConsoleStatus& status) {
     const std::size_t n = testing::frames_of(session.sink).size();
     if (held_since_s == 0 && n > 2) {
       held_since_s = monotonic_s();
-      desk.commands.push_back({DeskCommandKind::pause, {}});
+      console.commands.push_back({ConsoleCommandKind::pause, {}});
       session.device.does = Does::film_no_board;
     } else if (n_frames == 0 && status.paused && monotonic_s() - held_since_s > out_of_view_s) {
       n_frames = n;
-      desk.commands.push_back({DeskCommandKind::go_on, {}});
+      console.commands.push_back({ConsoleCommandKind::go_on, {}});
     } else if (n_frames > 0 && (n > n_frames || session.events(EventKind::paused).size() > 1)) {
       session.device.does = Does::film;
       is_over = true;
     }
   };
-  EXPECT_EQ(session.run(&desk), RunEnd::finished);
+  EXPECT_EQ(session.run(&console), RunEnd::finished);
   EXPECT_THAT(reasons_of_pauses(session), ElementsAre("experimenter"));
   EXPECT_THAT(session.events(EventKind::voided), IsEmpty());
   ASSERT_GT(testing::frames_of(session.sink).size(), n_frames);
