@@ -40,7 +40,7 @@ void look_at_light(const Image& image, LookedAt& seen) {
   for (std::size_t i = 0; i < image.pixels.size(); i += step) values.push_back(image.pixels[i]);
   if (values.empty()) return;
   const auto n_white = std::ranges::count_if(values, [](std::uint8_t v) { return v >= 254; });
-  seen.white_share = static_cast<double>(n_white) / static_cast<double>(values.size());
+  seen.white_fraction = static_cast<double>(n_white) / static_cast<double>(values.size());
   std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
   seen.brightness = values[values.size() / 2];
 }

@@ -16,12 +16,12 @@ namespace heft {
 /// What was seen of one picture, and how long it took.
 struct LookedAt {
   double capture_s = 0;
-  double waited_s = -1;    ///< from the middle of its exposure until it was there; below 0: unknown
-  double brightness = 0;   ///< median gray, of 255
-  double white_share = 0;  ///< of pixels
-  TrackedPicture tracked;  ///< with its stages' times
-  double tracked_in_s = 0;  ///< all of them, and what lies between
-  double drawn_in_s = 0;    ///< cubes and clone over it
+  double waited_s = -1;   ///< from the middle of its exposure until it was there; below 0: unknown
+  double brightness = 0;  ///< median gray, of 255
+  double white_fraction = 0;  ///< of pixels
+  TrackedPicture tracked;     ///< with its stages' times
+  double tracked_in_s = 0;    ///< all of them, and what lies between
+  double drawn_in_s = 0;      ///< cubes and clone over it
 };
 
 /// The wall time within which a picture should be tracked and drawn, by its size: 8 ms at 640 x 480

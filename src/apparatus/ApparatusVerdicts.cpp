@@ -11,8 +11,8 @@ namespace heft {
 
 namespace {
 // What is good enough. The tracker sees a board or effector that is wholly in view, sharp and lit
-// in every picture; below these shares something is in the way.
-constexpr double expected_share = 0.95;
+// in every picture; below these fractions something is in the way.
+constexpr double expected_fraction = 0.95;
 constexpr double expected_two_faces = 0.5;
 constexpr double board_limit_px = 0.5;
 constexpr double jitter_limit_m = 0.0002;
@@ -36,7 +36,7 @@ double median(const Pictures& pictures, const Figure& figure) {
   return quantile_of(pictures, figure, 0.5);
 }
 
-double share_of(const Pictures& pictures, const std::function<bool(const LookedAt&)>& is) {
+double fraction_of(const Pictures& pictures, const std::function<bool(const LookedAt&)>& is) {
   return static_cast<double>(std::ranges::count_if(pictures, is)) /
          static_cast<double>(pictures.size());
 }
@@ -110,7 +110,7 @@ CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz) {
 
 CheckResult light_verdict(const Pictures& pictures) {
   const double level = median(pictures, &LookedAt::brightness);
-  const double white = median(pictures, &LookedAt::white_share);
+  const double white = median(pictures, &LookedAt::white_fraction);
   const std::string figure =
       fmt::format("median brightness {:.0f} of 255, {:.1f} % of pixels white", level, 100 * white);
   if (white > white_limit)
@@ -141,21 +141,21 @@ CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const 
 }
 
 CheckResult board_verdict(const Pictures& pictures, const MarkerBody& board) {
-  const double share = share_of(pictures, has_board);
-  if (share == 0)
+  const double fraction = fraction_of(pictures, has_board);
+  if (fraction == 0)
     return {CheckVerdict::failed, "board",
             "not seen in any picture: is it in view, and is this its file?"};
   const Pictures seen = with_board(pictures);
   const double off_px =
       median(seen, [](const LookedAt& l) { return l.tracked.board_reprojection_px; });
   const std::string figure = fmt::format(
-      "seen in {:.0f} % of pictures, {:.0f} of {} tags, reprojection error {:.2f} px", 100 * share,
-      median(seen, [](const LookedAt& l) { return l.tracked.n_board_tags; }), board.tags.size(),
-      off_px);
-  if (share < expected_share)
+      "seen in {:.0f} % of pictures, {:.0f} of {} tags, reprojection error {:.2f} px",
+      100 * fraction, median(seen, [](const LookedAt& l) { return l.tracked.n_board_tags; }),
+      board.tags.size(), off_px);
+  if (fraction < expected_fraction)
     return {CheckVerdict::failed, "board",
             fmt::format("{} (expected {:.0f} %); put it wholly in view, check light and focus",
-                        figure, 100 * expected_share)};
+                        figure, 100 * expected_fraction)};
   if (off_px > board_limit_px)
     return {CheckVerdict::warning, "board",
             fmt::format("{} (expected {:g} at most); the camera's calibration or the board's file "
@@ -183,20 +183,20 @@ CheckResult jitter_verdict(const Pictures& pictures) {
 
 // Out of view it is no failure: people put it down.
 CheckResult effector_verdict(const Pictures& pictures) {
-  const double share = share_of(pictures, has_effector);
-  if (share == 0)
+  const double fraction = fraction_of(pictures, has_effector);
+  if (fraction == 0)
     return {CheckVerdict::warning, "effector",
             "not seen: hold it in view as in a trial and look again; if it was, is this its file?"};
-  const double firm = share_of(pictures, shows_two_faces);
+  const double firm = fraction_of(pictures, shows_two_faces);
   const std::string figure = fmt::format(
-      "seen in {:.0f} % of pictures, two faces or more in {:.0f} %", 100 * share, 100 * firm);
-  if (share < expected_share)
+      "seen in {:.0f} % of pictures, two faces or more in {:.0f} %", 100 * fraction, 100 * firm);
+  if (fraction < expected_fraction)
     return {
         CheckVerdict::warning, "effector",
         fmt::format(
             "{}, expected {:.0f} % and {:.0f} %: if it was in view all the time, no finger may lie "
             "on a tag, and tags should be 25 pixels wide or more and not smeared",
-            figure, 100 * expected_share, 100 * expected_two_faces)};
+            figure, 100 * expected_fraction, 100 * expected_two_faces)};
   if (firm >= expected_two_faces) return {CheckVerdict::ok, "effector", figure};
   return {CheckVerdict::ok, "effector",
           figure +

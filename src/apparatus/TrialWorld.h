@@ -16,7 +16,7 @@
 
 namespace heft {
 
-/// What one picture shows and what happened in it.
+/// One displayed frame and what happened in it.
 struct ShownFrame {
   DisplayedFrame frame;
   std::optional<int> contact_slot;  ///< the cube pressed hardest

@@ -82,8 +82,8 @@ std::string how_frames_were_checked(const Verification& found) {
 // @return whether the log says what its events give
 bool verify(const LogReader& reader, std::int64_t session_id) {
   ProgressBar bar(fmt::format("session {}", session_id));
-  const Verification found = verify_session(reader, session_id, [&](double share) {
-    bar.update(share, fmt::format("{:.0f} %", 100 * share));
+  const Verification found = verify_session(reader, session_id, [&](double done) {
+    bar.update(done, fmt::format("{:.0f} %", 100 * done));
   });
   const std::string verified =
       found.ended ? "verified" : fmt::format("verified up to event {}, unfinished", found.n_events);
@@ -241,8 +241,8 @@ void judge(const LogReader& reader, const Options& options) {
     ProgressBar bar(fmt::format("session {}", session_id));
     const double start_s = monotonic_s();
     const LoggedSession session = load_session(reader, options.db, session_id);
-    Judgments judgments = judge_session(reader, session, options.responder, [&](double part) {
-      bar.update(part, fmt::format("{:.0f} %", 100 * part));
+    Judgments judgments = judge_session(reader, session, options.responder, [&](double done) {
+      bar.update(done, fmt::format("{:.0f} %", 100 * done));
     });
     judged.push_back({session_id, session.row.header.participant, options.responder,
                       std::move(judgments), monotonic_s() - start_s});

@@ -126,7 +126,7 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
             const GivenOptions& again, bool unblind) {
   LoggedSession session = session_to_resume(db, session_id);
   const Setup before = session.setup;
-  give_again(session, with_missing_files(session, again));
+  change_setup(session, with_missing_files(session, again));
   say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
       session.row.header.participant, session.protocol->name);
   for (const auto& [column, from, to] : changes_between(before, session.setup))

@@ -9,7 +9,7 @@
 #include "base/PlugTable.h"
 #include "cli/Installation.h"
 #include "cli/Terminal.h"
-#include "cli/TerminalDesk.h"
+#include "cli/TerminalConsole.h"
 #include "physics/DecouplingSimulator.h"
 #include "physics/Oracles.h"
 #include "physics/auto/Choice.h"
@@ -143,13 +143,13 @@ SessionResult run_session(const CommandedSession& session,
                           const std::function<SessionResult(const RunnerOptions&)>& run) {
   const StopOnSignal stop_on_signal;
   ProgressBar bar("session");
-  std::optional<TerminalDesk> desk;
+  std::optional<TerminalConsole> console;
   const double expected = expected_length(session.protocol).trials;
   RunnerOptions options;
   options.stop = &stop_on_signal.requested();
   options.tell = [](const std::string& text) { say("heft: {}\n", text); };
   if (runs_on_wall_clock(session.setup))
-    options.desk = &desk.emplace(expected, session.unblind);
+    options.console = &console.emplace(expected, session.unblind);
   else  // nothing that would unblind whoever watches: no mass, level, condition or correctness
     options.progress = [&](const Engine& engine) {
       bar.update(expected > 0 ? engine.n_completed() / expected : 0,  // a demonstration alone: 0
@@ -157,7 +157,7 @@ SessionResult run_session(const CommandedSession& session,
                              expected, engine.last_s() / 60));
     };
   const SessionResult result = run(options);
-  desk.reset();
+  console.reset();
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
   if (result.end == RunEnd::stopped)

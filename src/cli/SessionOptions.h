@@ -57,7 +57,7 @@ struct CommandedSession {
 };
 
 /// Runs `run` with Ctrl-C turned into a clean stop, and with a progress bar, or the experimenter's
-/// desk where the session keeps the time of day. Who declines to take part ends it as well.
+/// console where the session keeps the time of day. Who declines to take part ends it as well.
 /// @throws Error (interrupted) when stopped, with how to go on; Error when the session paused
 /// itself
 SessionResult run_session(const CommandedSession& session,

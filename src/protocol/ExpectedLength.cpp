@@ -29,8 +29,9 @@ double mean_trials(const ProcedureConfig& config, double largest_threshold_g) {
   constexpr int n_observers = 200;
   double total = 0;
   for (int i = 0; i < n_observers; ++i) {
-    const double share = 0.25 + 0.75 * (i + 0.5) / n_observers;
-    total += simulated_trials(config, share * largest_threshold_g, static_cast<std::uint64_t>(i));
+    const double fraction = 0.25 + 0.75 * (i + 0.5) / n_observers;
+    total +=
+        simulated_trials(config, fraction * largest_threshold_g, static_cast<std::uint64_t>(i));
   }
   return total / n_observers;
 }

@@ -19,7 +19,7 @@ constexpr double waits_for_cubes_s = 60;
 
 Answering::Answering(std::uint64_t seed, const TrialView& trial, double tap_interval_s)
     : task_(trial.task),
-      picture_s_(1 / trial.stage.display_rate_hz),
+      frame_interval_s_(1 / trial.stage.display_rate_hz),
       tap_interval_s_(tap_interval_s),
       stream_(trial_stream(seed, "taps", trial)) {}
 
@@ -83,7 +83,7 @@ std::vector<TimedAction> Answering::due(double t_s, const ScreenState& screen) {
   const double late_s = queue_.empty() ? 0 : std::max(0.0, t_s - queue_.front().t_s);
   for (TimedAction& action : queue_) action.t_s += late_s;
   std::vector<TimedAction> actions;
-  while (!queue_.empty() && queue_.front().t_s < t_s + picture_s_) {
+  while (!queue_.empty() && queue_.front().t_s < t_s + frame_interval_s_) {
     last_tap_s_ = queue_.front().t_s;
     n_choices_before_ = screen.n_choices;
     actions.push_back(std::exchange(queue_.front(), {}));

@@ -24,7 +24,7 @@ class Answering {
   /// @param first_tap_s time of its first action
   void give(const Answer& answer, double first_tap_s);
 
-  /// Actions that fall between this picture and the next. Nothing while the trial is paused; what
+  /// Actions that fall between this frame and the next. Nothing while the trial is paused; what
   /// was due then comes after.
   std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen);
 
@@ -43,7 +43,7 @@ class Answering {
   double interval_s();
 
   Task task_;
-  double picture_s_;
+  double frame_interval_s_;
   double tap_interval_s_;
   RandomStream stream_;
   bool cubes_seen_ = false;

@@ -1,5 +1,5 @@
 // From percepts to an answer: what is remembered of them, a criterion, guesses and lapses. Knows
-// neither pictures nor the screen.
+// neither frames nor the screen.
 #pragma once
 
 #include <cstdint>

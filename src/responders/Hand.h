@@ -60,7 +60,7 @@ class Hand {
   /// Sets out to push these cubes (from 0), one after the other in drawn order.
   void explore(std::span<const int> cubes);
 
-  /// Takes in a picture; plans the next movement when the last one is over.
+  /// Takes in a frame; plans the next movement when the last one is over.
   void see(const DisplayedFrame& frame);
 
   Pose at(double t_s) const { return path_.at(t_s); }

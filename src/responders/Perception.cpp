@@ -27,8 +27,8 @@ Perception::Perception(const ResponderParameters& parameters, std::uint64_t seed
       looks_mm_(trial.stage.slots_m.size()) {}
 
 void Perception::see(const DisplayedFrame& frame) {
-  const double since_last_s = last_picture_s_ ? frame.t_s - *last_picture_s_ : 0;
-  last_picture_s_ = frame.t_s;
+  const double since_last_s = last_frame_s_ ? frame.t_s - *last_frame_s_ : 0;
+  last_frame_s_ = frame.t_s;
   if (!frame.tracked || !frame.clone) return;
   const auto cube = touched_cube(*frame.clone, frame.cubes, stage_);
   if (!cube) return;

@@ -1,7 +1,7 @@
-// A simulated eye: what the displayed pictures tell of each cube's heaviness, in millimeters of the
-// cue. It gets pictures only: no mass, force, condition, and nothing of the hand's plans.
+// A simulated eye: what the displayed frames tell of each cube's heaviness, in millimeters of the
+// cue. It gets frames only: no mass, force, condition, and nothing of the hand's plans.
 //
-// Each picture in which the clone touches a cube gives a noisy reading of the cue, nothing where it
+// Each frame in which the clone touches a cube gives a noisy reading of the cue, nothing where it
 // is less than just visible. Readings are smoothed over the eye's integration time; the largest one
 // of an unbroken touch is a look, and the mean of a cube's looks is its percept. Without a drawn
 // clone there is no cue.
@@ -49,7 +49,7 @@ class Perception {
   Stage stage_;
   RandomStream stream_;
   std::optional<Touch> touch_;
-  std::optional<double> last_picture_s_;
+  std::optional<double> last_frame_s_;
   std::vector<std::vector<double>> looks_mm_;  ///< by cube
 };
 

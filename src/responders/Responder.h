@@ -54,8 +54,8 @@ class Responder {
   /// The effector at a time since the trial's start. Asked for with non-decreasing times.
   virtual HandSample hand(double t_s) = 0;
 
-  /// Takes in one displayed picture and the screen beside it, in order of time.
-  /// @return what it does after this picture and before the next, in order; times since the trial's
+  /// Takes in one displayed frame and the screen beside it, in order of time.
+  /// @return what it does after this frame and before the next, in order; times since the trial's
   ///   start, within [frame.t_s, frame.t_s + 1/display rate)
   virtual std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) = 0;
 

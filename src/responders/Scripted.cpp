@@ -10,7 +10,7 @@
 namespace heft {
 
 namespace {
-// Labels recorded just before "validate" take a picture or two to be on the screen.
+// Labels recorded just before "validate" take a frame or two to be on the screen.
 constexpr double waits_for_validate_s = 1;
 
 bool offered(Task task, ActionKind kind) {
@@ -84,7 +84,7 @@ class Scripted : public Responder {
     for (const RecordedAction& recorded : actions) to_do_.push_back(recorded.action);
     end_s_ = trajectory_->end_s();
     if (!to_do_.empty()) end_s_ = std::max(end_s_, to_do_.back().t_s);
-    picture_s_ = 1 / trial.stage.display_rate_hz;
+    frame_interval_s_ = 1 / trial.stage.display_rate_hz;
     last_pose_ = trajectory_->rows().front().pose.value_or(Pose{});
   }
 
@@ -99,7 +99,7 @@ class Scripted : public Responder {
     paused_ = screen.screen != Screen::trial;
     std::vector<TimedAction> actions;
     if (paused_) return actions;
-    while (!to_do_.empty() && to_do_.front().t_s < frame.t_s + picture_s_) {
+    while (!to_do_.empty() && to_do_.front().t_s < frame.t_s + frame_interval_s_) {
       if (to_do_.front().kind == ActionKind::validate && !screen.can_validate) break;
       actions.push_back(to_do_.front());
       actions.back().t_s = std::max(actions.back().t_s, frame.t_s);
@@ -127,7 +127,7 @@ class Scripted : public Responder {
   std::deque<TimedAction> to_do_;
   Pose last_pose_;
   double end_s_ = 0;
-  double picture_s_ = 0;
+  double frame_interval_s_ = 0;
   bool paused_ = false;
 };
 }  // namespace

@@ -11,7 +11,7 @@ namespace heft {
 namespace {
 constexpr double look_up_s = 0.004;  // a live camera is asked for its next picture this often
 constexpr double longest_wait_s = 0.02;
-constexpr double late_pictures = 2;  // a picture is late when it is shown so many pictures after it
+constexpr double late_periods = 2;  // of the display; a frame that is shown later is late
 
 // What a frame's row of the log takes over from its picture's effector sample.
 FrameRow row_of(const Picture& picture, double start_s) {
@@ -30,8 +30,8 @@ FrameRow row_of(const Picture& picture, double start_s) {
 }  // namespace
 
 AttemptRun::AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,
-                       Attendant& attendant, ParticipantScreen& screen)
-    : parts_(parts), options_(options), journal_(journal), attendant_(attendant), screen_(screen) {}
+                       SessionControl& control, ParticipantScreen& screen)
+    : parts_(parts), options_(options), journal_(journal), control_(control), screen_(screen) {}
 
 void AttemptRun::run(const TrialPlan& plan) {
   const Protocol& protocol = parts_.protocol;
@@ -87,7 +87,7 @@ bool AttemptRun::run_picture() {
 // The next picture, at its time. None: the attempt is over, or the session is to be left.
 std::optional<Picture> AttemptRun::next_picture() {
   for (;;) {
-    if (attendant_.leaving()) return std::nullopt;
+    if (control_.leaving()) return std::nullopt;
     listen();
     if (auto picture = parts_.pictures.next()) {
       if (!wait_until(start_s_ + picture->sample.t_capture_s)) return std::nullopt;
@@ -98,7 +98,7 @@ std::optional<Picture> AttemptRun::next_picture() {
       journal_.leave("there are no more pictures");
       throw Error("the pictures have ended but the session has not; everything so far is saved");
     }
-    take_touches(attendant_.wait(look_up_s));
+    take_touches(control_.wait(look_up_s));
     if (is_over()) return std::nullopt;
   }
 }
@@ -115,8 +115,8 @@ void AttemptRun::listen() {
 bool AttemptRun::wait_until(double t_s) {
   if (!parts_.clock.is_wall()) return true;
   do {
-    take_touches(attendant_.wait(std::clamp(t_s - parts_.clock.now_s(), 0.0, longest_wait_s)));
-    if (is_over() || attendant_.leaving()) return false;
+    take_touches(control_.wait(std::clamp(t_s - parts_.clock.now_s(), 0.0, longest_wait_s)));
+    if (is_over() || control_.leaving()) return false;
   } while (parts_.clock.now_s() < t_s);
   return true;
 }
@@ -125,7 +125,7 @@ bool AttemptRun::wait_until(double t_s) {
 // goes on when pictures return. @return whether the attempt goes on.
 bool AttemptRun::wait_for_camera(const Picture& picture) {
   const bool open = engine().trial_is_open();
-  attendant_.status.trouble = picture.trouble;
+  control_.status.trouble = picture.trouble;
   if (!trouble_since_s_) {
     trouble_since_s_ = journal_.now_s();
     journal_.emit_now(SessionPaused{picture.trouble});
@@ -164,7 +164,7 @@ void AttemptRun::show(const ShownFrame& shown, const Picture& picture, FrameRow&
   row.clone = shown.frame.clone;
   row.cubes = shown.frame.cubes;
   if (parts_.clock.is_wall()) row.n_dropped = picture.n_dropped;
-  count_picture(picture, row);
+  count_frame(picture, row);
   if (options_.keep_frames) journal_.add_frame(row);
 }
 
@@ -176,17 +176,17 @@ void AttemptRun::log_events(const std::vector<Event>& events) {
   }
 }
 
-void AttemptRun::count_picture(const Picture& picture, const FrameRow& row) {
-  const double late_s = late_pictures / parts_.protocol.display_rate_hz;
+void AttemptRun::count_frame(const Picture& picture, const FrameRow& row) {
+  const double late_s = late_periods / parts_.protocol.display_rate_hz;
   const int late = row.present_s - row.capture_s > late_s ? 1 : 0;
   ++n_shown_;
   n_dropped_ += picture.n_dropped;
   n_late_ += late;
-  DeskStatus& status = attendant_.status;
+  ConsoleStatus& status = control_.status;
   status.trouble.clear();
   status.n_dropped += picture.n_dropped;
   status.n_late += late;
-  double rate = status.tracking ? status.tracking->pictures_per_s : 0;
+  double rate = status.tracking ? status.tracking->frames_per_s : 0;
   if (presented_s_ && row.present_s > *presented_s_) {
     const double newest = 1 / (row.present_s - *presented_s_);
     rate = rate > 0 ? 0.9 * rate + 0.1 * newest : newest;

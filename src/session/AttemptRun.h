@@ -3,15 +3,15 @@
 #pragma once
 
 #include "apparatus/TrialWorld.h"
-#include "session/Attendant.h"
 #include "session/Runner.h"
+#include "session/SessionControl.h"
 
 namespace heft {
 
 class AttemptRun {
  public:
   AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,
-             Attendant& attendant, ParticipantScreen& screen);
+             SessionControl& control, ParticipantScreen& screen);
 
   /// Returns when the attempt is over, the session pauses itself or is to be left; an attempt that
   /// was left is void ("interrupted") once the session is.
@@ -30,7 +30,7 @@ class AttemptRun {
   bool wait_for_camera(const Picture& picture);
   void show(const ShownFrame& shown, const Picture& picture, FrameRow& row);
   void log_events(const std::vector<Event>& events);
-  void count_picture(const Picture& picture, const FrameRow& row);
+  void count_frame(const Picture& picture, const FrameRow& row);
   void report_pictures();
 
   void take_touches(const std::vector<Touch>& touches);
@@ -43,14 +43,14 @@ class AttemptRun {
   const SessionParts& parts_;
   const RunnerOptions& options_;
   Journal& journal_;
-  Attendant& attendant_;
+  SessionControl& control_;
   ParticipantScreen& screen_;
 
   double start_s_ = 0;  // session time
   std::optional<TrialWorld> world_;
   std::optional<double> trouble_since_s_;
   ViewFrame shown_;
-  std::optional<double> presented_s_;  // session time of the last picture
+  std::optional<double> presented_s_;  // session time of the last frame
   int n_continued_ = 0;                // of the journal, when pictures were last listened for
   int n_shown_ = 0, n_dropped_ = 0, n_late_ = 0;
 };

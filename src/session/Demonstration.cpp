@@ -66,11 +66,11 @@ ViewFrame Demonstration::at(double t_s) {
 }
 
 void Demonstration::advance() {
-  const double picture_s = static_cast<double>(count_++) * step_s_;
-  const HandSample hand = hand_->hand(picture_s);
+  const double frame_s = static_cast<double>(count_++) * step_s_;
+  const HandSample hand = hand_->hand(frame_s);
   const auto pose =
       hand.in_view ? std::optional(as_people_hold_it(hand.pose, effector_size_m_)) : std::nullopt;
-  last_.frame = world_.advance(sample_of(picture_s, pose)).frame;
+  last_.frame = world_.advance(sample_of(frame_s, pose)).frame;
   // It looks again and again: what it would answer is not taken.
   ScreenState screen;
   screen.screen = Screen::trial;
@@ -78,7 +78,7 @@ void Demonstration::advance() {
   hand_->see(last_.frame, screen);
 }
 
-// Only the picture that is looked at.
+// Only what is looked at.
 void Demonstration::film() {
   const DisplayedFrame& frame = last_.frame;
   const auto held = [&](double) {

@@ -20,7 +20,7 @@ class Demonstration {
   Demonstration(const Protocol& protocol, const Apparatus& apparatus, std::uint64_t seed);
   Demonstration(Protocol&&, const Apparatus&, std::uint64_t) = delete;
 
-  /// The frame at a time since its start; times increase.
+  /// What is displayed at a time since its start; times increase.
   ViewFrame at(double t_s);
 
  private:
@@ -32,7 +32,7 @@ class Demonstration {
   std::unique_ptr<Responder> hand_;
   TrialWorld world_;
   std::optional<SyntheticCamera> camera_;
-  std::uint64_t count_ = 0;  // of pictures so far
+  std::uint64_t count_ = 0;  // of frames so far
   ViewFrame last_;
 };
 

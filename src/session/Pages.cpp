@@ -52,13 +52,13 @@ TouchKind Pages::show(ScreenState screen, double least_s, const Moving& frame_at
   const SessionClock& clock = journal_.clock();
   const double since_s = clock.now_s();
   const double step_s = frame_at ? 1 / protocol_.display_rate_hz : still_page_step_s;
-  while (!attendant_.leaving()) {
+  while (!control_.leaving()) {
     const double now_s = clock.now_s(), elapsed_s = now_s - since_s;
     screen.wait_s = std::max(0.0, least_s - elapsed_s);
     if (!texts_ && screen.wait_s == 0) return TouchKind::next;  // only looked on at
     screen_.present(frame_at ? frame_at(elapsed_s) : ViewFrame{}, screen);
     const double left_s = std::max(0.0, now_s + step_s - clock.now_s());
-    for (const Touch& touch : attendant_.wait(left_s)) {
+    for (const Touch& touch : control_.wait(left_s)) {
       if (touch.kind == TouchKind::entry) journal_.add_info(touch.key, touch.value);
       if (touch.kind == TouchKind::decline) return touch.kind;
       if (touch.kind == TouchKind::next && screen.wait_s == 0) return touch.kind;

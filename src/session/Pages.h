@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "protocol/Protocol.h"
-#include "session/Attendant.h"
+#include "session/SessionControl.h"
 #include "tracking/MarkerBody.h"
 
 namespace heft {
@@ -13,13 +13,9 @@ class Pages {
  public:
   /// @param texts what the person reads; null: nobody reads; who looks on sees the
   ///   demonstration and breaks, which go on by themselves
-  Pages(const Protocol& protocol, Journal& journal, Attendant& attendant, ParticipantScreen& screen,
-        const ScreenTexts* texts)
-      : protocol_(protocol),
-        journal_(journal),
-        attendant_(attendant),
-        screen_(screen),
-        texts_(texts) {}
+  Pages(const Protocol& protocol, Journal& journal, SessionControl& control,
+        ParticipantScreen& screen, const ScreenTexts* texts)
+      : protocol_(protocol), journal_(journal), control_(control), screen_(screen), texts_(texts) {}
 
   bool has_reader() const { return texts_ != nullptr; }
 
@@ -49,7 +45,7 @@ class Pages {
 
   const Protocol& protocol_;
   Journal& journal_;
-  Attendant& attendant_;
+  SessionControl& control_;
   ParticipantScreen& screen_;
   const ScreenTexts* texts_;
 };

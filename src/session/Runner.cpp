@@ -15,8 +15,8 @@ Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
       options_(options),
       journal_(parts.engine, parts.sink, parts.clock, options.progress),
       screen_(journal_, parts.view, parts.texts),
-      attendant_(journal_, screen_, options.desk, options.stop, parts.has_screen),
-      pages_(parts.protocol, journal_, attendant_, screen_, parts.texts) {
+      control_(journal_, screen_, options.console, options.stop, parts.has_screen),
+      pages_(parts.protocol, journal_, control_, screen_, parts.texts) {
   journal_.while_locked([this](double waited_s) { return wait_for_log(waited_s); });
 }
 
@@ -33,9 +33,9 @@ RunEnd Runner::run() {
 bool Runner::wait_for_log(double waited_s) {
   const std::string why = "the log is kept locked by another program; waiting";
   const std::string told = why + " until it lets go. Nothing is lost; close that program";
-  if (waited_s == 0) options_.desk ? options_.desk->say(told) : options_.tell(told);
-  attendant_.stand_still(why);
-  if (attendant_.leaving()) return waited_s < longest_wait_leaving_s;
+  if (waited_s == 0) options_.console ? options_.console->say(told) : options_.tell(told);
+  control_.stand_still(why);
+  if (control_.leaving()) return waited_s < longest_wait_leaving_s;
   return pages_.has_reader() || waited_s < longest_wait_alone_s;
 }
 
@@ -44,10 +44,10 @@ void Runner::check_apparatus() {
   for (const CheckResult& result : parts_.pictures.check(parts_.protocol.display_rate_hz)) {
     journal_.emit_now(result);
     const bool has_failed = result.verdict == CheckVerdict::failed;
-    if (options_.desk)
-      options_.desk->say(fmt::format("{:<8} {}: {}",
-                                     has_failed ? "FAILED" : name_of(result.verdict), result.name,
-                                     result.finding));
+    if (options_.console)
+      options_.console->say(fmt::format("{:<8} {}: {}",
+                                        has_failed ? "FAILED" : name_of(result.verdict),
+                                        result.name, result.finding));
     if (has_failed) failed += (failed.empty() ? "" : ", ") + result.name;
   }
   if (!failed.empty()) ask_whether_failures_matter(failed);
@@ -55,7 +55,7 @@ void Runner::check_apparatus() {
 
 // Where nobody can be asked, what was said and logged of the failure is all.
 void Runner::ask_whether_failures_matter(const std::string& failed) {
-  const auto goes_on = attendant_.ask_to_go_on(
+  const auto goes_on = control_.ask_to_go_on(
       "go on? y goes on, n leaves; nothing has been shown to the participant yet");
   if (!goes_on) return;
   journal_.emit_now(Note{fmt::format("failed check: {}; the experimenter {}", failed,
@@ -75,10 +75,10 @@ bool Runner::begin() {
 RunEnd Runner::run_blocks() {
   for (;;) {
     const Next next = parts_.engine.next();
-    if (attendant_.leaving()) return RunEnd::stopped;
+    if (control_.leaving()) return RunEnd::stopped;
     if (next.rest) take_break(next.rest->name, next.rest->least_duration_s);
-    if (attendant_.take_rest_wish()) take_break("asked for", 0);
-    if (attendant_.leaving()) return RunEnd::stopped;
+    if (control_.take_rest_wish()) take_break("asked for", 0);
+    if (control_.leaving()) return RunEnd::stopped;
     switch (next.kind) {
       case Next::Kind::demonstration:
         show_demonstration(*next.demonstration);
@@ -99,7 +99,7 @@ RunEnd Runner::run_blocks() {
 
 RunEnd Runner::finish() {
   if (pages_.has_reader()) pages_.how_decided();
-  if (attendant_.leaving()) return RunEnd::stopped;
+  if (control_.leaving()) return RunEnd::stopped;
   journal_.emit_now(SessionEnded{});
   return RunEnd::finished;
 }
@@ -110,7 +110,7 @@ void Runner::take_break(const std::string& name, double least_s) {
     pages_.rest(least_s);
   else
     parts_.clock.advance_to(since_s + least_s);
-  if (attendant_.leaving()) return;  // who comes back takes it again
+  if (control_.leaving()) return;  // who comes back takes it again
   journal_.emit_now(BreakTaken{name, journal_.now_s() - since_s});
 }
 
@@ -119,22 +119,23 @@ void Runner::show_demonstration(const DemonstrationBlock& block) {
     pages_.demonstration(block, parts_.apparatus);
   else
     parts_.clock.advance_to(journal_.now_s() + block.duration_s);
-  if (!attendant_.leaving()) journal_.emit_now(DemonstrationShown{block.name});
+  if (!control_.leaving()) journal_.emit_now(DemonstrationShown{block.name});
 }
 
 void Runner::run_trial(const TrialPlan& plan) {
-  if (const auto survivor = parts_.engine.survivor(); survivor && survivor != told_survivor_) {
-    told_survivor_ = survivor;
+  if (const auto survivor = parts_.engine.survivor();
+      survivor && survivor != noted_last_staircase_) {
+    noted_last_staircase_ = survivor;
     journal_.emit_now(
         Note{fmt::format("staircase \"{}\" is the last one and runs alone from trial {}", *survivor,
                          plan.trial_number)});
   }
-  if (pages_.has_reader() && told_block_ != plan.block) {
+  if (pages_.has_reader() && instructed_block_ != plan.block) {
     pages_.instructions(plan.task);
-    if (attendant_.leaving()) return;
-    told_block_ = plan.block;
+    if (control_.leaving()) return;
+    instructed_block_ = plan.block;
   }
-  AttemptRun(parts_, options_, journal_, attendant_, screen_).run(plan);
+  AttemptRun(parts_, options_, journal_, control_, screen_).run(plan);
 }
 
 }  // namespace heft

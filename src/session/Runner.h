@@ -9,7 +9,7 @@
 #include "engine/Engine.h"
 #include "record/EventSink.h"
 #include "responders/Responder.h"
-#include "session/Desk.h"
+#include "session/Console.h"
 #include "session/Pages.h"
 #include "view/ArView.h"
 
@@ -35,9 +35,9 @@ struct RunnerOptions {
   std::function<void(const Engine&)> progress = [](const Engine&) {};
   /// Set from a signal handler to stop at the next picture; the session can be resumed.
   const std::atomic<bool>* stop = nullptr;
-  /// What is to be said where there is no desk.
+  /// What is to be said where there is no console.
   std::function<void(const std::string&)> tell = [](const std::string&) {};
-  Desk* desk = nullptr;  ///< the experimenter's; only on a wall clock
+  Console* console = nullptr;  ///< the experimenter's; only on a wall clock
 };
 
 enum class RunEnd {
@@ -73,9 +73,9 @@ class Runner {
   RunnerOptions options_;
   Journal journal_;
   ParticipantScreen screen_;
-  Attendant attendant_;
+  SessionControl control_;
   Pages pages_;
-  std::optional<std::string> told_survivor_, told_block_;
+  std::optional<std::string> noted_last_staircase_, instructed_block_;
 };
 
 }  // namespace heft

@@ -180,7 +180,7 @@ LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_
                   db, shell_quoted(db)));
 }
 
-void give_again(LoggedSession& session, const GivenOptions& again) {
+void change_setup(LoggedSession& session, const GivenOptions& again) {
   if (!again.settings.empty())
     throw Error(fmt::format("session {} has one protocol from its start to its end; go on without "
                             "--set",

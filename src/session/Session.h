@@ -47,7 +47,7 @@ LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_
 /// Puts them in force from here on and checks everything the session will run with.
 /// @throws Error as complete(); Error (usage) for changes to the protocol, which a session has one
 /// of
-void give_again(LoggedSession& session, const GivenOptions& again);
+void change_setup(LoggedSession& session, const GivenOptions& again);
 
 /// Goes on with an unfinished session: an attempt that was open is void ("interrupted") and runs
 /// again with the same draws. A setup that is not the last one logged is told first.

@@ -1,5 +1,5 @@
 """Whatever may meet in a session runs, goes on and replays "verified"; what may not is refused with
-a reason before anything is logged. A live camera is played in tests/apparatus and tests/session.
+a reason before anything is logged. A live camera needs a device: it is played in tests/session.
 
 Run: python3 tests/combinations/combinations_test.py path/to/heft [seed]
 """
@@ -22,7 +22,7 @@ HEFT = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else str(ROOT / "bu
 SEED = int(sys.argv.pop(1)) if len(sys.argv) > 1 else random.SystemRandom().randrange(10**9)
 sys.argv.insert(1, HEFT)  # window_test takes it, too
 
-from protocols import ALL, N_ALL, ONE, PAIRS, protocol, write_recording  # noqa: E402
+from protocols import ALL, N_ALL, ONE, PAIRS, TWO, protocol, write_recording  # noqa: E402
 from session_harness import query  # noqa: E402
 from window_test import Person, Screen  # noqa: E402
 
@@ -47,7 +47,7 @@ class Combinations(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory(prefix="heft-combinations-")
         cls.folder = Path(cls.temporary.name)
         cls.screen = Screen() if HAS_SCREEN else None
-        for name, text in (("one", ONE), ("all", ALL),
+        for name, text in (("one", ONE), ("two", TWO), ("all", ALL),
                            ("fast", protocol(PAIRS, display_rate_hz=30, contact=False))):
             (cls.folder / f"{name}.toml").write_text(text, encoding="utf-8")
         write_recording(cls.folder / "script", N_ALL)
@@ -149,21 +149,26 @@ class Combinations(unittest.TestCase):
         cases += itertools.product(["simulated", "scripted"], FILMED, ["headless", "video"])
         cases += itertools.product([name for name in RESTING if name != "coin"], FILMED,
                                    ["headless"])  # they differ from "coin" in one number
+        if self.screen:  # on a screen one of the others for each, another with another seed
+            drawn = random.Random(SEED)
+            others = ["simulated", "scripted", *(name for name in RESTING if name != "coin")]
+            cases += [(drawn.choice(others), tracker, "window") for tracker in FILMED]
         cases.sort(key=lambda case: case[2] != "window")  # the slow ones first
         self.each(self.meet, cases)
 
     # What may follow
 
-    def interrupted(self, name):
+    def interrupted(self, name, which="all"):
         """A log whose session has come to its second trial."""
         db = self.new("resumed", name)
-        self.heft("run", self.folder / "all.toml", "--participant", "1", "--responder",
+        self.heft("run", self.folder / f"{which}.toml", "--participant", "1", "--responder",
                   self.responder("scripted", "half"), "--db", db, "--seed", SEED, expect=1)
         self.verified(db, unfinished=True)
         return db
 
     def follow(self, name, responder, *options):
-        db = self.interrupted(name)
+        filmed = name in ("on frames", "on video")  # the film is of one trial
+        db = self.interrupted(name, "two" if filmed else "all")
         self.heft("resume", "--db", db, "--responder", self.responder(responder), *options)
         self.verified(db)
         setups = query(db, "select setup_id, responder, simulator from setup order by setup_id")
@@ -178,7 +183,7 @@ class Combinations(unittest.TestCase):
     def test_sessions_that_go_on_with_something_else(self):
         cases = [(name, name) for name in ["scripted", "simulated", *RESTING]]
         cases += [(f"on {tracker}", "coin", *self.options(f"on {tracker}", tracker, "headless"))
-                  for tracker in FILMED[:1]]
+                  for tracker in FILMED]
         cases += [("bullet", "simulated", "--simulator", "bullet-ea"),
                   ("auto", "simulated", "--simulator", "auto"),
                   ("film", "coin", *self.options("film-again", "hand", "video"))]

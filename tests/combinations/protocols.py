@@ -76,8 +76,10 @@ def protocol(*blocks, display_rate_hz=15, contact=True):
             f'require_contact = {str(contact).lower()}\n' + TECHNIQUE + "".join(blocks))
 
 
-# One trial, and one of everything with every technique: three sorting trials, then four comparisons.
+# One trial, two, and one of everything with every technique: three sorting trials, then four
+# comparisons.
 ONE = protocol(PAIRS, contact=False)
+TWO = protocol(PAIRS, FOURS, contact=False)
 ALL = protocol(PAIRS, FOURS, UP_DOWN, CONSTANT, contact=False)
 N_SORTING, N_ALL = 3, 7
 

@@ -1,4 +1,4 @@
-// Somebody at a made-up screen, and somebody at a made-up desk.
+// Somebody at a made-up screen, and somebody at a made-up console.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/Clock.h"
-#include "session/Desk.h"
+#include "session/Console.h"
 #include "view/ArView.h"
 
 namespace heft::testing {
@@ -66,15 +66,15 @@ inline std::vector<Touch> patient(const ViewFrame& picture, const ScreenState& s
           touch(ActionKind::label, 3, Label::heaviest)};
 }
 
-class MadeUpDesk : public Desk {
+class MadeUpConsole : public Console {
  public:
-  std::optional<DeskCommand> command() override {
+  std::optional<ConsoleCommand> command() override {
     if (commands.empty()) return std::nullopt;
-    DeskCommand next = commands.front();
+    ConsoleCommand next = commands.front();
     commands.pop_front();
     return next;
   }
-  void show(const DeskStatus& status) override {
+  void show(const ConsoleStatus& status) override {
     shown.push_back(status);
     if (on_show) on_show(status);
   }
@@ -85,11 +85,11 @@ class MadeUpDesk : public Desk {
   }
   void say(const std::string& text) override { said.push_back(text); }
 
-  std::deque<DeskCommand> commands;
-  std::vector<DeskStatus> shown;
+  std::deque<ConsoleCommand> commands;
+  std::vector<ConsoleStatus> shown;
   std::vector<std::string> said, asked;
-  std::optional<DeskCommandKind> answer;  // to whether to go on; none: nobody answers
-  std::function<void(const DeskStatus&)> on_show;
+  std::optional<ConsoleCommandKind> answer;  // to whether to go on; none: nobody answers
+  std::function<void(const ConsoleStatus&)> on_show;
 };
 
 }  // namespace heft::testing

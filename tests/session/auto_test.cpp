@@ -83,7 +83,7 @@ TEST_F(AutoSimulator, stays_as_the_log_says_when_the_session_goes_on_and_the_tab
   LoggedSession session = session_to_resume(request.db, std::nullopt);
   GivenOptions again;
   again.simulator = "auto";  // what it was started with may be said again
-  give_again(session, again);
+  change_setup(session, again);
   EXPECT_EQ(session.protocol->simulator.name, "bullet-lx");
   EXPECT_EQ(session.protocol->simulator.rate_hz, 120);
   EXPECT_EQ(session.setup, session.setups.back().setup);
@@ -98,7 +98,7 @@ TEST_F(AutoSimulator, gives_way_to_one_that_is_named_when_the_session_goes_on) {
   LoggedSession session = session_to_resume(request.db, std::nullopt);
   GivenOptions again;
   again.simulator = "bullet-ea";
-  give_again(session, again);
+  change_setup(session, again);
   EXPECT_EQ(session.setup.simulator, "bullet-ea");
   EXPECT_EQ(session.setup.simulator_why, "");
   EXPECT_EQ(session.protocol->simulator.name, "bullet-ea");

@@ -25,6 +25,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Field;
 using ::testing::IsEmpty;
+using testing::MadeUpConsole;
 using testing::MadeUpScreen;
 using ::testing::Not;
 using testing::patient;
@@ -61,7 +62,17 @@ const std::vector<Image>& without_effector() {
   return pictures;
 }
 
-enum class Does { film, film_no_effector, freeze, fail };
+const std::vector<Image>& without_board() {
+  static const auto pictures = [] {
+    std::vector<Image> blank = without_effector();
+    std::uint8_t shade = 128;  // equal ones would be a frozen camera's
+    for (Image& picture : blank) std::ranges::fill(picture.pixels, shade++);
+    return blank;
+  }();
+  return pictures;
+}
+
+enum class Does { film, film_no_effector, film_no_board, freeze, fail };
 
 class MadeUpDevice {
  public:
@@ -69,7 +80,9 @@ class MadeUpDevice {
     std::this_thread::sleep_for(std::chrono::duration<double>(1 / rate_hz));
     if (does == Does::fail) return std::nullopt;
     if (does != Does::freeze) ++number_;
-    const auto& pictures = does == Does::film_no_effector ? without_effector() : with_effector();
+    const auto& pictures = does == Does::film_no_effector ? without_effector()
+                           : does == Does::film_no_board  ? without_board()
+                                                          : with_effector();
     return GrabbedPicture{pictures[number_ % n_pictures], monotonic_s()};
   }
   std::atomic<Does> does = Does::film;
@@ -79,37 +92,43 @@ class MadeUpDevice {
 };
 
 struct LiveSession {
-  LiveSession(double void_after_s, MadeUpScreen::Person person) : screen(std::move(person)) {
-    with_effector(), without_effector();  // rendered before the clock runs
-    Protocol made = quick_protocol();
+  LiveSession(double void_after_s, MadeUpScreen::Person person, Protocol made = quick_protocol())
+      : screen(std::move(person)) {
+    with_effector(), without_board();  // rendered before the clock runs
     made.display_rate_hz = rate_hz;
     made.void_after_s = void_after_s;
     protocol = shared(std::move(made));
+    engine.emplace(protocol, 7);
   }
 
-  RunEnd run() {
-    Engine engine(protocol, 7);
+  RunEnd run(Console* console = nullptr) {
+    RunnerOptions options;
+    options.console = console;
     const auto open = [&] {
       return std::make_unique<LiveCamera>([this] { return device.grab(); },
                          CameraMode{640, 480, rate_hz, "YUYV", {"exposure 4.0 ms"}, {}});
     };
     CameraPictures pictures(open, {*protocol, *hand, apparatus(), "", clock, 0, ""});
-    const RunEnd end =
-        Runner({*protocol, engine, sink, pictures, *hand, screen, clock, true, &texts}, {}).run();
-    n_attempts = engine.n_attempts();
-    n_completed = engine.n_completed();
-    return end;
+    return Runner({*protocol, *engine, sink, pictures, *hand, screen, clock, answers_themselves,
+                   answers_themselves ? &texts : nullptr},
+                  options)
+        .run();
+  }
+  void resume() {
+    const Event resumed{log_time(clock.now_s()), SessionResumed{}};
+    sink.append(resumed, engine->apply(resumed), Durability::buffered);
   }
   std::vector<Event> events(EventKind kind) const { return testing::events_of(sink, kind); }
 
   std::shared_ptr<const Protocol> protocol;
+  std::optional<Engine> engine;
   RecordedSession sink{SessionHeader{}};
   SessionClock clock = SessionClock::wall_from(0);
   std::unique_ptr<Responder> hand = responder_named("simulated").make({});
   MadeUpDevice device;
   MadeUpScreen screen;
   ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
-  int n_attempts = 0, n_completed = 0;
+  bool answers_themselves = true;  // otherwise `hand` answers, before no screen
 };
 
 bool can_answer(const ScreenState& screen) {
@@ -185,8 +204,8 @@ void expect_void_and_again(Does what) {
   EXPECT_THAT(testing::pages_of(session->sink),
               ElementsAre("welcome", "instructions_sorting", "trial_sorting", "paused",
                           "trial_sorting", "thanks"));
-  EXPECT_EQ(session->n_completed, 2);
-  EXPECT_EQ(session->n_attempts, 3);
+  EXPECT_EQ(session->engine->n_completed(), 2);
+  EXPECT_EQ(session->engine->n_attempts(), 3);
 }
 
 TEST(LiveCamera, that_freezes_pauses_the_trial_then_voids_it_and_it_comes_again) {
@@ -203,7 +222,7 @@ TEST(LiveCamera, that_is_back_soon_voids_nothing) {
   EXPECT_THAT(session->events(EventKind::paused), SizeIs(1));
   EXPECT_THAT(session->events(EventKind::continued), SizeIs(1));
   EXPECT_THAT(session->events(EventKind::voided), IsEmpty());
-  EXPECT_EQ(session->n_attempts, 2);
+  EXPECT_EQ(session->engine->n_attempts(), 2);
 }
 
 TEST(LiveCamera, that_does_not_see_the_effector_pauses_nothing) {
@@ -216,7 +235,7 @@ TEST(LiveCamera, that_does_not_see_the_effector_pauses_nothing) {
   EXPECT_THAT(session->events(EventKind::effector_found), SizeIs(1));
   EXPECT_THAT(session->events(EventKind::paused), IsEmpty());
   EXPECT_THAT(session->events(EventKind::voided), IsEmpty());
-  EXPECT_EQ(session->n_attempts, 2);
+  EXPECT_EQ(session->engine->n_attempts(), 2);
 }
 
 // Nobody asked for pictures while pages were read, or while the session lay still until it was
@@ -226,6 +245,116 @@ TEST(LiveCamera, is_not_lost_because_nobody_asked_it) {
   session.clock.restart(1000);
   EXPECT_EQ(session.run(), RunEnd::finished);
   EXPECT_THAT(session.events(EventKind::paused), IsEmpty());
+}
+
+std::vector<std::string> reasons_of_pauses(const LiveSession& session) {
+  std::vector<std::string> reasons;
+  for (const Event& event : session.events(EventKind::paused))
+    reasons.push_back(event.as<SessionPaused>()->reason);
+  return reasons;
+}
+
+constexpr double out_of_view_s = 0.7;  // for longer the board is lost
+
+// The board was out of view while a page was read, and for a moment more.
+TEST(LiveCamera, counts_a_lost_board_from_the_trials_start_on) {
+  Protocol protocol = quick_protocol();
+  const SortingBlock one{"sorting", {15, 200, 800}, {{"C2", 1}}, 0};
+  protocol.blocks = {one, BreakBlock{"break", out_of_view_s}, one};
+  std::get<SortingBlock>(protocol.blocks[2]).name = "again";
+  LiveSession* running = nullptr;
+  std::size_t n_frames = 0;
+  LiveSession session(
+      5,
+      [&](const ViewPicture& picture, const ScreenState& screen) {
+        const std::size_t n = testing::frames_of(running->sink).size();
+        if (screen.screen == Screen::rest) {
+          running->device.does = Does::film_no_board;
+          n_frames = n;
+        } else if (n > n_frames || !running->events(EventKind::paused).empty()) {
+          running->device.does = Does::film;
+        }
+        return patient(picture, screen);
+      },
+      protocol);
+  running = &session;
+  EXPECT_EQ(session.run(), RunEnd::finished);
+  EXPECT_THAT(reasons_of_pauses(session), IsEmpty());
+  ASSERT_GT(testing::frames_of(session.sink).size(), n_frames);
+  EXPECT_EQ(testing::frames_of(session.sink)[n_frames].n_dropped, 0);
+}
+
+// The same while the experimenter held the trial; and what the camera gave meanwhile was not
+// missed.
+TEST(LiveCamera, counts_a_lost_board_and_drops_from_the_end_of_a_pause_on) {
+  double held_since_s = 0;
+  std::size_t n_frames = 0;
+  bool is_over = false;
+  LiveSession session(5, [&](const ViewPicture& picture, const ScreenState& screen) {
+    return can_answer(screen) && !is_over ? std::vector<Touch>{} : patient(picture, screen);
+  });
+  MadeUpConsole console;
+  console.on_show = [&](const ConsoleStatus& status) {
+    const std::size_t n = testing::frames_of(session.sink).size();
+    if (held_since_s == 0 && n > 2) {
+      held_since_s = monotonic_s();
+      console.commands.push_back({ConsoleCommandKind::pause, {}});
+      session.device.does = Does::film_no_board;
+    } else if (n_frames == 0 && status.paused && monotonic_s() - held_since_s > out_of_view_s) {
+      n_frames = n;
+      console.commands.push_back({ConsoleCommandKind::go_on, {}});
+    } else if (n_frames > 0 && (n > n_frames || session.events(EventKind::paused).size() > 1)) {
+      session.device.does = Does::film;
+      is_over = true;
+    }
+  };
+  EXPECT_EQ(session.run(&console), RunEnd::finished);
+  EXPECT_THAT(reasons_of_pauses(session), ElementsAre("experimenter"));
+  EXPECT_THAT(session.events(EventKind::voided), IsEmpty());
+  ASSERT_GT(testing::frames_of(session.sink).size(), n_frames);
+  EXPECT_EQ(testing::frames_of(session.sink)[n_frames].n_dropped, 0);
+}
+
+// Freezes in each attempt until it is void, three times; then somebody has looked, and it freezes
+// once more, for a moment.
+TEST(LiveCamera, that_voided_a_trial_three_times_may_hiccup_after_a_resume) {
+  LiveSession* running = nullptr;
+  bool resumed = false, hiccuped = false;
+  std::size_t n_voided = 0;
+  LiveSession session(0.3, [&](const ViewPicture& picture, const ScreenState& screen) {
+    const auto films_after = resumed ? EventKind::paused : EventKind::voided;
+    const std::size_t n = running->events(films_after).size();
+    if (n > n_voided) {
+      running->device.does = Does::film;
+      n_voided = n;
+      hiccuped = resumed;
+    }
+    if (!hiccuped && can_answer(screen)) {
+      running->device.does = Does::freeze;
+      return std::vector<Touch>{};
+    }
+    return patient(picture, screen);
+  });
+  running = &session;
+  EXPECT_EQ(session.run(), RunEnd::paused);
+  EXPECT_THAT(session.events(EventKind::voided), SizeIs(3));
+  session.device.does = Does::film;
+  session.resume();
+  resumed = true;
+  n_voided = session.events(EventKind::paused).size();
+  EXPECT_EQ(session.run(), RunEnd::finished);
+  EXPECT_TRUE(hiccuped);
+  EXPECT_EQ(session.engine->n_completed(), 2);
+}
+
+// As --tracker camera:N with a model: its mind sees the frames, its hand is not filmed.
+TEST(LiveCamera, films_while_a_model_answers) {
+  LiveSession session(5, patient);
+  session.hand = responder_named("coin").make({});
+  session.answers_themselves = false;
+  EXPECT_EQ(session.run(), RunEnd::finished);
+  EXPECT_THAT(session.events(EventKind::paused), IsEmpty());
+  EXPECT_EQ(session.engine->n_completed(), 2);
 }
 
 std::vector<std::string> names_of(const std::vector<CheckResult>& results) {

@@ -1,5 +1,5 @@
 // A person's session on a wall clock: a made-up screen is touched, an experimenter sits at a
-// made-up desk.
+// made-up console.
 #include <gmock/gmock.h>
 
 #include "experiment/ScreenTexts.h"
@@ -18,7 +18,7 @@ using testing::every_page_protocol;
 using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::MadeUpDesk;
+using testing::MadeUpConsole;
 using testing::MadeUpScreen;
 using ::testing::Not;
 using testing::pages_of;
@@ -36,9 +36,9 @@ struct Session {
   explicit Session(Protocol made, MadeUpScreen::Person person = patient)
       : protocol(shared(std::move(made))), screen(std::move(person)) {}
 
-  RunEnd run(Desk* desk = nullptr) {
+  RunEnd run(Console* console = nullptr) {
     RunnerOptions options;
-    options.desk = desk;
+    options.console = console;
     return Runner({*protocol, engine, sink, pictures, *hand, screen, clock, true, &texts}, options)
         .run();
   }
@@ -166,21 +166,21 @@ TEST(Person, every_picture_has_its_times) {
 }
 
 // Commands come when a trial's screen is up, one after the other.
-struct AtTheDesk : MadeUpDesk {
-  explicit AtTheDesk(std::deque<DeskCommand> made) : to_come(std::move(made)) {
-    on_show = [this](const DeskStatus& status) {
+struct ScriptedConsole : MadeUpConsole {
+  explicit ScriptedConsole(std::deque<ConsoleCommand> made) : to_come(std::move(made)) {
+    on_show = [this](const ConsoleStatus& status) {
       if (to_come.empty() || (status.screen->screen != Screen::trial && !status.paused)) return;
       commands.push_back(to_come.front());
       to_come.pop_front();
     };
   }
-  std::deque<DeskCommand> to_come;
+  std::deque<ConsoleCommand> to_come;
 };
 
 TEST(Experimenter, holds_the_session_and_lets_it_go_on) {
-  AtTheDesk desk({{DeskCommandKind::pause, {}}, {DeskCommandKind::go_on, {}}});
+  ScriptedConsole console({{ConsoleCommandKind::pause, {}}, {ConsoleCommandKind::go_on, {}}});
   Session session(quick_protocol());
-  EXPECT_EQ(session.run(&desk), RunEnd::finished);
+  EXPECT_EQ(session.run(&console), RunEnd::finished);
   EXPECT_EQ(session.events(EventKind::paused).at(0).as<SessionPaused>()->reason, "experimenter");
   EXPECT_EQ(session.events(EventKind::continued).size(), 1U);
   EXPECT_THAT(session.screen.screens, Contains(Field(&ScreenState::screen, Screen::paused)));
@@ -193,9 +193,9 @@ TEST(Experimenter, holds_the_session_and_lets_it_go_on) {
 // Every status is held against what stood on the screen when it was shown.
 TEST(Experimenter, sees_which_page_it_is_and_that_only_trials_are_tracked) {
   Session session(every_page_protocol());
-  MadeUpDesk desk;
+  MadeUpConsole console;
   int n_tracked = 0;
-  desk.on_show = [&](const DeskStatus& status) {
+  console.on_show = [&](const ConsoleStatus& status) {
     const Screen there = session.screen.screens.back().screen;
     ASSERT_TRUE(status.screen);
     EXPECT_EQ(name_of(status.screen->screen), name_of(there));
@@ -204,17 +204,17 @@ TEST(Experimenter, sees_which_page_it_is_and_that_only_trials_are_tracked) {
     }
     if (status.tracking && status.tracking->tracked) ++n_tracked;
   };
-  EXPECT_EQ(session.run(&desk), RunEnd::finished);
+  EXPECT_EQ(session.run(&console), RunEnd::finished);
   EXPECT_GT(n_tracked, 0);
 }
 
 TEST(Experimenter, sees_nothing_tracked_while_the_session_is_held) {
-  AtTheDesk desk({{DeskCommandKind::pause, {}}, {DeskCommandKind::go_on, {}}});
+  ScriptedConsole console({{ConsoleCommandKind::pause, {}}, {ConsoleCommandKind::go_on, {}}});
   Session session(quick_protocol());
-  session.run(&desk);
+  session.run(&console);
   const auto held = std::ranges::find_if(
-      desk.shown, [](const DeskStatus& s) { return s.screen->screen == Screen::paused; });
-  ASSERT_NE(held, desk.shown.end());
+      console.shown, [](const ConsoleStatus& s) { return s.screen->screen == Screen::paused; });
+  ASSERT_NE(held, console.shown.end());
   EXPECT_FALSE(held->tracking);
 }
 
@@ -238,7 +238,7 @@ class FailedCheck : public ::testing::Test {
   RunEnd run() {
     OutOfOrder pictures(session.pictures);
     RunnerOptions options;
-    options.desk = &desk;
+    options.console = &console;
     return Runner({*session.protocol, session.engine, session.sink, pictures, *session.hand,
                    session.screen, session.clock, true, &session.texts},
                   options)
@@ -252,23 +252,23 @@ class FailedCheck : public ::testing::Test {
   }
 
   Session session{quick_protocol()};
-  MadeUpDesk desk;
+  MadeUpConsole console;
 };
 
 TEST_F(FailedCheck, is_asked_about_and_the_session_begins_when_the_experimenter_says_so) {
-  desk.answer = DeskCommandKind::go_on;
-  desk.on_show = [&](const DeskStatus& status) {
+  console.answer = ConsoleCommandKind::go_on;
+  console.on_show = [&](const ConsoleStatus& status) {
     EXPECT_EQ(status.screen.has_value(), !session.screen.screens.empty());
   };
   EXPECT_EQ(run(), RunEnd::finished);
-  EXPECT_THAT(desk.asked, ElementsAre(HasSubstr("nothing has been shown")));
-  EXPECT_THAT(desk.said, Contains(HasSubstr("FAILED   board: not seen")));
+  EXPECT_THAT(console.asked, ElementsAre(HasSubstr("nothing has been shown")));
+  EXPECT_THAT(console.said, Contains(HasSubstr("FAILED   board: not seen")));
   EXPECT_THAT(notes(), ElementsAre("failed check: board; the experimenter goes on"));
   EXPECT_LE(session.events(EventKind::note)[0].t_s, session.events(EventKind::text_shown)[0].t_s);
 }
 
 TEST_F(FailedCheck, leaves_the_session_to_be_resumed_when_they_do_not) {
-  desk.answer = DeskCommandKind::end;
+  console.answer = ConsoleCommandKind::end;
   EXPECT_EQ(run(), RunEnd::stopped);
   EXPECT_THAT(session.screen.screens, IsEmpty());
   EXPECT_THAT(pages_of(session.sink), IsEmpty());
@@ -278,13 +278,13 @@ TEST_F(FailedCheck, leaves_the_session_to_be_resumed_when_they_do_not) {
 
 TEST_F(FailedCheck, is_said_and_logged_where_nobody_can_be_asked) {
   EXPECT_EQ(run(), RunEnd::finished);
-  EXPECT_THAT(desk.said, Contains(HasSubstr("FAILED   board: not seen")));
+  EXPECT_THAT(console.said, Contains(HasSubstr("FAILED   board: not seen")));
   EXPECT_THAT(session.events(EventKind::check), ::testing::SizeIs(2));
   EXPECT_THAT(notes(), IsEmpty());
 }
 
 TEST_F(FailedCheck, can_be_left_by_closing_the_window) {
-  class Silent : public MadeUpDesk {
+  class Silent : public MadeUpConsole {
     bool ask_to_go_on(const std::string&) override { return true; }
   } silent;
   Session other(quick_protocol(), [](const ViewFrame&, const ScreenState&) {
@@ -292,7 +292,7 @@ TEST_F(FailedCheck, can_be_left_by_closing_the_window) {
   });
   OutOfOrder pictures(other.pictures);
   RunnerOptions options;
-  options.desk = &silent;
+  options.console = &silent;
   EXPECT_EQ(Runner({*other.protocol, other.engine, other.sink, pictures, *other.hand, other.screen,
                     other.clock, true, &other.texts},
                    options)
@@ -302,9 +302,9 @@ TEST_F(FailedCheck, can_be_left_by_closing_the_window) {
 }
 
 TEST(Experimenter, vetoes_a_trial_and_it_comes_again) {
-  AtTheDesk desk({{DeskCommandKind::veto, "disturbance"}});
+  ScriptedConsole console({{ConsoleCommandKind::veto, "disturbance"}});
   Session session(quick_protocol());
-  EXPECT_EQ(session.run(&desk), RunEnd::finished);
+  EXPECT_EQ(session.run(&console), RunEnd::finished);
   ASSERT_EQ(session.events(EventKind::voided).size(), 1U);
   EXPECT_EQ(session.events(EventKind::voided)[0].as<TrialVoided>()->reason, "veto: disturbance");
   EXPECT_EQ(session.engine.n_attempts(), 3);
@@ -312,36 +312,36 @@ TEST(Experimenter, vetoes_a_trial_and_it_comes_again) {
 }
 
 TEST(Experimenter, notes_takes_a_break_and_ends) {
-  AtTheDesk desk({{DeskCommandKind::note, "door slammed"},
-                  {DeskCommandKind::rest, {}},
-                  {DeskCommandKind::end, {}}});
+  ScriptedConsole console({{ConsoleCommandKind::note, "door slammed"},
+                           {ConsoleCommandKind::rest, {}},
+                           {ConsoleCommandKind::end, {}}});
   Session session(quick_protocol());
-  EXPECT_EQ(session.run(&desk), RunEnd::stopped);
+  EXPECT_EQ(session.run(&console), RunEnd::stopped);
   EXPECT_EQ(session.events(EventKind::note).at(0).as<Note>()->text, "door slammed");
   EXPECT_EQ(session.engine.state(), SessionState::paused);
 }
 
 TEST(Experimenter, gets_the_break_that_was_asked_for) {
-  AtTheDesk desk({{DeskCommandKind::rest, {}}});
+  ScriptedConsole console({{ConsoleCommandKind::rest, {}}});
   Session session(quick_protocol());
-  EXPECT_EQ(session.run(&desk), RunEnd::finished);
+  EXPECT_EQ(session.run(&console), RunEnd::finished);
   EXPECT_EQ(session.events(EventKind::rest).at(0).as<BreakTaken>()->name, "asked for");
 }
 
 TEST(Experimenter, is_blind_until_they_unblind_themselves) {
-  AtTheDesk desk({{DeskCommandKind::unblind, {}}});
+  ScriptedConsole console({{ConsoleCommandKind::unblind, {}}});
   Session session(quick_protocol());
-  session.run(&desk);
+  session.run(&console);
   EXPECT_EQ(session.events(EventKind::unblinding).size(), 1U);
-  EXPECT_FALSE(desk.shown.front().plan);
+  EXPECT_FALSE(console.shown.front().plan);
   bool saw_plan = false;
-  for (const DeskStatus& status : desk.shown) saw_plan = saw_plan || status.plan.has_value();
+  for (const ConsoleStatus& status : console.shown) saw_plan = saw_plan || status.plan.has_value();
   EXPECT_TRUE(saw_plan);
 
-  MadeUpDesk blind;
+  MadeUpConsole blind;
   Session other(quick_protocol());
   other.run(&blind);
-  for (const DeskStatus& status : blind.shown) EXPECT_FALSE(status.plan);
+  for (const ConsoleStatus& status : blind.shown) EXPECT_FALSE(status.plan);
 }
 
 }  // namespace

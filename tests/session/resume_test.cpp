@@ -72,7 +72,7 @@ class Resumed : public ::testing::Test {
 
   SessionResult go_on_with(const GivenOptions& again, int n_trials) {
     LoggedSession session = session_to_resume(request.db, std::nullopt);
-    give_again(session, again);
+    change_setup(session, again);
     return resume_session(session, until(n_trials));
   }
 

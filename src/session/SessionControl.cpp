@@ -1,4 +1,4 @@
-#include "session/Attendant.h"
+#include "session/SessionControl.h"
 
 #include <algorithm>
 #include <chrono>
@@ -27,44 +27,44 @@ namespace {
 constexpr double holding_step_s = 0.05;
 }  // namespace
 
-std::vector<Touch> Attendant::wait(double seconds) {
+std::vector<Touch> SessionControl::wait(double seconds) {
   if (!journal_.clock().is_wall()) return {};
-  std::vector<Touch> touches = attend(seconds);
+  std::vector<Touch> touches = poll(seconds);
   while (holding_ && !leaving()) {  // what is touched meanwhile means nothing
     screen_.present({}, journal_.engine().screen());
-    attend(holding_step_s);
+    poll(holding_step_s);
   }
   return touches;
 }
 
-void Attendant::stand_still(const std::string& why) {
+void SessionControl::stand_still(const std::string& why) {
   status.trouble = why;
   if (journal_.clock().is_wall()) screen_.present({}, journal_.engine().screen());
-  attend(holding_step_s);
+  poll(holding_step_s);
   status.trouble.clear();
 }
 
-std::optional<bool> Attendant::ask_to_go_on(const std::string& question) {
-  if (!desk_ || !desk_->ask_to_go_on(question)) return std::nullopt;
+std::optional<bool> SessionControl::ask_to_go_on(const std::string& question) {
+  if (!console_ || !console_->ask_to_go_on(question)) return std::nullopt;
   asking_ = true;
-  while (asking_ && !leaving()) attend(holding_step_s);
+  while (asking_ && !leaving()) poll(holding_step_s);
   if (std::exchange(asking_, false)) return std::nullopt;
   return !leaving_;
 }
 
-std::vector<Touch> Attendant::attend(double seconds) {
+std::vector<Touch> SessionControl::poll(double seconds) {
   std::vector<Touch> touches = screen_.wait(seconds);
   if (!has_screen_) std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   if (std::ranges::any_of(touches, [](const Touch& t) { return t.kind == TouchKind::close; }))
     leaving_ = true;
   journal_.flush_now_and_then();
-  if (!desk_) return touches;
-  while (const auto command = desk_->command()) obey(*command);
+  if (!console_) return touches;
+  while (const auto command = console_->command()) obey(*command);
   show();
   return touches;
 }
 
-void Attendant::show() {
+void SessionControl::show() {
   const Engine& engine = journal_.engine();
   status.session_s = journal_.now_s();
   status.n_completed = engine.n_completed();
@@ -72,59 +72,59 @@ void Attendant::show() {
   status.screen = screen_.shown();
   if (!status.screen || status.screen->screen != Screen::trial) status.tracking.reset();
   status.plan = unblinded_ && engine.trial_is_open() ? engine.next().plan : std::nullopt;
-  desk_->show(status);
+  console_->show(status);
 }
 
-void Attendant::obey(const DeskCommand& command) {
+void SessionControl::obey(const ConsoleCommand& command) {
   switch (command.kind) {
-    case DeskCommandKind::pause:
+    case ConsoleCommandKind::pause:
       if (journal_.engine().state() == SessionState::paused)
-        return desk_->say("the session is paused already");
+        return console_->say("the session is paused already");
       if (journal_.engine().next().kind == Next::Kind::over)
-        return desk_->say("the session is over; there is nothing to pause");
+        return console_->say("the session is over; there is nothing to pause");
       journal_.emit_now(SessionPaused{"experimenter"});
       holding_ = true;
       return;
-    case DeskCommandKind::go_on:
+    case ConsoleCommandKind::go_on:
       return go_on();
-    case DeskCommandKind::veto:
+    case ConsoleCommandKind::veto:
       return veto(command.text);
-    case DeskCommandKind::note:
+    case ConsoleCommandKind::note:
       journal_.emit_now(Note{command.text});
-      return desk_->say("noted");
-    case DeskCommandKind::rest:
+      return console_->say("noted");
+    case ConsoleCommandKind::rest:
       rest_wanted_ = true;
-      return desk_->say("a break comes before the next trial");
-    case DeskCommandKind::end:
+      return console_->say("a break comes before the next trial");
+    case ConsoleCommandKind::end:
       asking_ = false;
       leaving_ = true;
       return;
-    case DeskCommandKind::unblind:
+    case ConsoleCommandKind::unblind:
       return unblind();
   }
 }
 
-void Attendant::go_on() {
+void SessionControl::go_on() {
   if (std::exchange(asking_, false)) return;
-  if (!holding_) return desk_->say("the session is not held; it goes on by itself");
+  if (!holding_) return console_->say("the session is not held; it goes on by itself");
   journal_.emit_now(SessionContinued{});
   holding_ = false;
 }
 
-void Attendant::veto(const std::string& why) {
+void SessionControl::veto(const std::string& why) {
   if (!journal_.engine().trial_is_open())
-    return desk_->say("no trial is open; an answered trial stays as it is");
+    return console_->say("no trial is open; an answered trial stays as it is");
   journal_.emit_now(TrialVoided{"veto: " + why});
-  desk_->say("the trial is void and will be presented again");
+  console_->say("the trial is void and will be presented again");
 }
 
-void Attendant::unblind() {
+void SessionControl::unblind() {
   if (unblinded_) return;
   unblinded_ = true;
   journal_.emit_now(Unblinding{"experimenter"});
 }
 
-bool Attendant::take_rest_wish() {
+bool SessionControl::take_rest_wish() {
   return std::exchange(rest_wanted_, false);
 }
 

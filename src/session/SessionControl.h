@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiment/ScreenTexts.h"
-#include "session/Desk.h"
+#include "session/Console.h"
 #include "session/Journal.h"
 #include "view/ArView.h"
 
@@ -40,22 +40,26 @@ class ParticipantScreen {
   std::string page_;  // of texts, that stands there
 };
 
-/// Attends to a session while it waits: keeps the screen alive, listens to the experimenter, holds
-/// the session while they want it held, and puts what waits in memory on disk.
-class Attendant {
+/// Runs what goes on while a session waits: keeps the screen alive, listens to the experimenter,
+/// holds the session while they want it held, and puts what waits in memory on disk.
+class SessionControl {
  public:
-  /// @param desk may be null  @param stop set from a signal handler; may be null
+  /// @param console may be null  @param stop set from a signal handler; may be null
   /// @param has_screen whether `screen` can wait; otherwise this waits by itself
-  Attendant(Journal& journal, ParticipantScreen& screen, Desk* desk, const std::atomic<bool>* stop,
-            bool has_screen)
-      : journal_(journal), screen_(screen), desk_(desk), stop_(stop), has_screen_(has_screen) {}
+  SessionControl(Journal& journal, ParticipantScreen& screen, Console* console,
+                 const std::atomic<bool>* stop, bool has_screen)
+      : journal_(journal),
+        screen_(screen),
+        console_(console),
+        stop_(stop),
+        has_screen_(has_screen) {}
 
   /// Waits up to `seconds`, or as long as the experimenter holds the session; returns early with
   /// what the participant touched. On a virtual clock it returns at once.
   std::vector<Touch> wait(double seconds);
 
-  /// Keeps the screen and the desk alive a little while, in a session that can't go on at present;
-  /// what is touched meanwhile means nothing.
+  /// Keeps the screen and the console alive a little while, in a session that can't go on at
+  /// present; what is touched meanwhile means nothing.
   void stand_still(const std::string& why);
 
   /// Asks the experimenter whether to go on, and waits for their answer; who does not want to
@@ -68,12 +72,12 @@ class Attendant {
   /// Whether the experimenter asked for a break since the last time.
   bool take_rest_wish();
 
-  /// What the experimenter is shown with the next wait(); a trial fills in how its pictures come.
-  DeskStatus status;
+  /// What the experimenter is shown with the next wait(); a trial fills in how its frames come.
+  ConsoleStatus status;
 
  private:
-  std::vector<Touch> attend(double seconds);
-  void obey(const DeskCommand& command);
+  std::vector<Touch> poll(double seconds);
+  void obey(const ConsoleCommand& command);
   void veto(const std::string& why);
   void unblind();
   void go_on();
@@ -81,7 +85,7 @@ class Attendant {
 
   Journal& journal_;
   ParticipantScreen& screen_;
-  Desk* desk_;
+  Console* console_;
   const std::atomic<bool>* stop_;
   bool has_screen_;
   bool leaving_ = false, holding_ = false, asking_ = false;

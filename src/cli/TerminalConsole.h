@@ -1,4 +1,4 @@
-// The experimenter's desk on a terminal: one line that tells how the session goes and keeps them
+// The experimenter's console on a terminal: one line that tells how the session goes and keeps them
 // blind, and single keys to act on it. Without a terminal it shows and hears nothing.
 #pragma once
 
@@ -8,20 +8,20 @@
 #include <deque>
 #include <string>
 
-#include "session/Desk.h"
+#include "session/Console.h"
 
 namespace heft::cli {
 
-class TerminalDesk final : public Desk {
+class TerminalConsole final : public Console {
  public:
   /// @param expected_trials of the session  @param unblind from the start
-  TerminalDesk(double expected_trials, bool unblind);
-  ~TerminalDesk() override;
-  TerminalDesk(const TerminalDesk&) = delete;
-  TerminalDesk& operator=(const TerminalDesk&) = delete;
+  TerminalConsole(double expected_trials, bool unblind);
+  ~TerminalConsole() override;
+  TerminalConsole(const TerminalConsole&) = delete;
+  TerminalConsole& operator=(const TerminalConsole&) = delete;
 
-  std::optional<DeskCommand> command() override;
-  void show(const DeskStatus& status) override;
+  std::optional<ConsoleCommand> command() override;
+  void show(const ConsoleStatus& status) override;
   bool ask_to_go_on(const std::string& question) override;
   void say(const std::string& text) override;
 
@@ -35,13 +35,13 @@ class TerminalDesk final : public Desk {
   void take_note_key(char key);
   void choose_veto(char key);
   void ask(Asking what) { asking_ = what; }
-  void give(DeskCommandKind kind, const std::string& text = {});
+  void give(ConsoleCommandKind kind, const std::string& text = {});
   std::string prompt() const;
 
   bool is_terminal_;
   termios before_{};
   double expected_trials_;
-  std::deque<DeskCommand> commands_;
+  std::deque<ConsoleCommand> commands_;
   Asking asking_ = Asking::nothing;
   std::string question_, note_;
   bool paused_ = false;
@@ -49,6 +49,6 @@ class TerminalDesk final : public Desk {
 };
 
 /// The status in one line; for the terminal and for tests.
-std::string status_line(const DeskStatus& status, double expected_trials);
+std::string status_line(const ConsoleStatus& status, double expected_trials);
 
 }  // namespace heft::cli

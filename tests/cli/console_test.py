@@ -1,6 +1,6 @@
 """The experimenter's terminal during a person's session: what it shows, and what its keys do.
 
-Run: python3 tests/cli/desk_test.py path/to/heft
+Run: python3 tests/cli/console_test.py path/to/heft
 """
 import os
 import pty
@@ -60,14 +60,14 @@ class Terminal:
         return False
 
 
-class AtADesk(unittest.TestCase):
+class AtAConsole(unittest.TestCase):
     """A person's session whose experimenter sits at a terminal."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
-        self.db = str(self.folder / "desk.db")
+        self.db = str(self.folder / "console.db")
 
     def start(self, *options, protocol=PROTOCOLS / "quick.toml"):
         self.screen = Screen()
@@ -94,7 +94,7 @@ class AtADesk(unittest.TestCase):
 
 
 @unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
-class Desk(AtADesk):
+class Console(AtAConsole):
     def setUp(self):
         super().setUp()
         self.start("--tracker", "hand")
@@ -184,7 +184,7 @@ duration_s = 1
 
 
 @unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
-class DemonstrationAlone(AtADesk):
+class DemonstrationAlone(AtAConsole):
     """A session without a trial."""
 
     def setUp(self):
@@ -220,7 +220,7 @@ class DemonstrationAlone(AtADesk):
 
 
 @unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
-class FailedCheck(AtADesk):
+class FailedCheck(AtAConsole):
     """A camera that films a gray wall."""
 
     def setUp(self):

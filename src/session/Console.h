@@ -1,4 +1,4 @@
-// The experimenter's place: what they see of a running session, and what they can do to it. It
+// The experimenter's console: what they see of a running session, and what they can do to it. It
 // keeps them blind: no mass, level, condition or correctness unless they unblind themselves, which
 // is logged.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace heft {
 
-enum class DeskCommandKind {
+enum class ConsoleCommandKind {
   pause,  ///< the session stands still, an open trial too
   go_on,
   veto,    ///< the open trial is void and will be presented again; text: why
@@ -21,19 +21,19 @@ enum class DeskCommandKind {
   unblind  ///< show the open trial's plan from now on
 };
 
-struct DeskCommand {
-  DeskCommandKind kind = DeskCommandKind::note;
+struct ConsoleCommand {
+  ConsoleCommandKind kind = ConsoleCommandKind::note;
   std::string text;
 };
 
-/// How the pictures of a trial come along.
+/// How the frames of a trial come along.
 struct TrackingStatus {
-  bool tracked = false;           ///< the effector, in the last picture
+  bool tracked = false;           ///< the effector, in the last frame
   std::optional<double> quality;  ///< 0...1
-  double pictures_per_s = 0;      ///< 0: not known yet
+  double frames_per_s = 0;        ///< 0: not known yet
 };
 
-struct DeskStatus {
+struct ConsoleStatus {
   double session_s = 0;
   int n_completed = 0;                ///< trials
   std::optional<ScreenState> screen;  ///< what the participant has before them; none: nothing
@@ -44,15 +44,15 @@ struct DeskStatus {
   std::optional<TrialPlan> plan;           ///< only once unblinded
 };
 
-class Desk {
+class Console {
  public:
-  virtual ~Desk() = default;
+  virtual ~Console() = default;
 
   /// What the experimenter wants, if anything. Returns at once.
-  virtual std::optional<DeskCommand> command() = 0;
+  virtual std::optional<ConsoleCommand> command() = 0;
 
   /// Called often; draw when it suits.
-  virtual void show(const DeskStatus& status) = 0;
+  virtual void show(const ConsoleStatus& status) = 0;
 
   /// Asks whether to go on; the answer comes as a command, go_on or end.
   /// @return false: nobody can be asked, and no answer will come

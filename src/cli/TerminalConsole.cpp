@@ -1,4 +1,4 @@
-#include "cli/TerminalDesk.h"
+#include "cli/TerminalConsole.h"
 
 #include <poll.h>
 #include <unistd.h>
@@ -36,11 +36,11 @@ void swallow_sequence() {
   for (auto key = next_key(); key && (*key < '@' || *key > '~');) key = next_key();
 }
 
-std::string tracking_words(const DeskStatus& status) {
+std::string tracking_words(const ConsoleStatus& status) {
   std::string words;
   const auto& tracking = status.tracking;
-  if (tracking && tracking->pictures_per_s > 0)
-    words = fmt::format("  {:.1f} pictures/s", tracking->pictures_per_s);
+  if (tracking && tracking->frames_per_s > 0)
+    words = fmt::format("  {:.1f} pictures/s", tracking->frames_per_s);
   if (!status.trouble.empty()) return words + "  " + status.trouble;
   if (!tracking) return "  nothing tracked";
   if (!tracking->quality) return words;
@@ -49,7 +49,7 @@ std::string tracking_words(const DeskStatus& status) {
 }
 }  // namespace
 
-std::string status_line(const DeskStatus& status, double expected_trials) {
+std::string status_line(const ConsoleStatus& status, double expected_trials) {
   const auto seconds = static_cast<long>(status.session_s);
   std::string line = fmt::format(
       "{}:{:02}  {} of about {:.0f} trials  {}", seconds / 60, seconds % 60, status.n_completed,
@@ -65,10 +65,10 @@ std::string status_line(const DeskStatus& status, double expected_trials) {
   return line;
 }
 
-TerminalDesk::TerminalDesk(double expected_trials, bool unblind)
+TerminalConsole::TerminalConsole(double expected_trials, bool unblind)
     : is_terminal_(isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1),
       expected_trials_(expected_trials) {
-  if (unblind) commands_.push_back({DeskCommandKind::unblind, {}});
+  if (unblind) commands_.push_back({ConsoleCommandKind::unblind, {}});
   if (!is_terminal_) return;
   tcgetattr(STDIN_FILENO, &before_);
   termios raw = before_;
@@ -76,21 +76,21 @@ TerminalDesk::TerminalDesk(double expected_trials, bool unblind)
   tcsetattr(STDIN_FILENO, TCSANOW, &raw);
 }
 
-TerminalDesk::~TerminalDesk() {
+TerminalConsole::~TerminalConsole() {
   if (!is_terminal_) return;
   tcsetattr(STDIN_FILENO, TCSANOW, &before_);
   draw("\r\033[K");
 }
 
-std::optional<DeskCommand> TerminalDesk::command() {
+std::optional<ConsoleCommand> TerminalConsole::command() {
   if (is_terminal_) take_keys();
   if (commands_.empty()) return std::nullopt;
-  DeskCommand next = std::move(commands_.front());
+  ConsoleCommand next = std::move(commands_.front());
   commands_.pop_front();
   return next;
 }
 
-void TerminalDesk::take_keys() {
+void TerminalConsole::take_keys() {
   while (const auto key = next_key()) {
     if (*key == escape && key_waits())
       swallow_sequence();  // an arrow or function key
@@ -99,20 +99,20 @@ void TerminalDesk::take_keys() {
   }
 }
 
-void TerminalDesk::take_key(char key) {
+void TerminalConsole::take_key(char key) {
   drawn_ = {};
   if (asking_ == Asking::go_on) return take_answer(key);
   if (asking_ == Asking::note) return take_note_key(key);
   if (asking_ != Asking::nothing) return take_choice(key);
   switch (key) {
     case 'p':
-      return give(paused_ ? DeskCommandKind::go_on : DeskCommandKind::pause);
+      return give(paused_ ? ConsoleCommandKind::go_on : ConsoleCommandKind::pause);
     case 'v':
       return ask(Asking::veto_reason);
     case 'n':
       return ask(Asking::note);
     case 'b':
-      return give(DeskCommandKind::rest);
+      return give(ConsoleCommandKind::rest);
     case 'e':
       return ask(Asking::end);
     case 'u':
@@ -123,28 +123,28 @@ void TerminalDesk::take_key(char key) {
 }
 
 // Yes or no; any other key is neither.
-void TerminalDesk::take_answer(char key) {
+void TerminalConsole::take_answer(char key) {
   if (key != 'y' && key != 'n') return;
   asking_ = Asking::nothing;
-  give(key == 'y' ? DeskCommandKind::go_on : DeskCommandKind::end);
+  give(key == 'y' ? ConsoleCommandKind::go_on : ConsoleCommandKind::end);
 }
 
 // A veto's reason, or yes to what can't be undone; any other key takes the question back.
-void TerminalDesk::take_choice(char key) {
+void TerminalConsole::take_choice(char key) {
   const Asking asked = std::exchange(asking_, Asking::nothing);
   if (asked == Asking::veto_reason) return choose_veto(key);
   if (key != 'y') return;
-  give(asked == Asking::end ? DeskCommandKind::end : DeskCommandKind::unblind);
+  give(asked == Asking::end ? ConsoleCommandKind::end : ConsoleCommandKind::unblind);
 }
 
-void TerminalDesk::choose_veto(char key) {
+void TerminalConsole::choose_veto(char key) {
   for (const auto& [code, reason] : veto_reasons)
-    if (code == key) give(DeskCommandKind::veto, std::string(reason));
+    if (code == key) give(ConsoleCommandKind::veto, std::string(reason));
 }
 
-void TerminalDesk::take_note_key(char key) {
+void TerminalConsole::take_note_key(char key) {
   if (key == '\n' || key == '\r' || key == escape) {
-    if (key != escape && !note_.empty()) give(DeskCommandKind::note, note_);
+    if (key != escape && !note_.empty()) give(ConsoleCommandKind::note, note_);
     note_.clear();
     asking_ = Asking::nothing;
   } else if (key == backspace) {
@@ -156,11 +156,11 @@ void TerminalDesk::take_note_key(char key) {
   }
 }
 
-void TerminalDesk::give(DeskCommandKind kind, const std::string& text) {
+void TerminalConsole::give(ConsoleCommandKind kind, const std::string& text) {
   commands_.push_back({kind, text});
 }
 
-std::string TerminalDesk::prompt() const {
+std::string TerminalConsole::prompt() const {
   switch (asking_) {
     case Asking::go_on:
       return question_;
@@ -182,7 +182,7 @@ std::string TerminalDesk::prompt() const {
                  : "p pause  v veto  n note  b break  e end  u unblind";
 }
 
-void TerminalDesk::show(const DeskStatus& status) {
+void TerminalConsole::show(const ConsoleStatus& status) {
   paused_ = status.paused;
   const auto now = std::chrono::steady_clock::now();
   if (!is_terminal_ || now - drawn_ < redraw_every) return;
@@ -191,7 +191,7 @@ void TerminalDesk::show(const DeskStatus& status) {
                    escaped_line(status_line(status, expected_trials_)), escaped_line(prompt())));
 }
 
-bool TerminalDesk::ask_to_go_on(const std::string& question) {
+bool TerminalConsole::ask_to_go_on(const std::string& question) {
   if (!is_terminal_) return false;
   tcflush(STDIN_FILENO, TCIFLUSH);  // what was typed before is no answer to this
   question_ = question;
@@ -199,7 +199,7 @@ bool TerminalDesk::ask_to_go_on(const std::string& question) {
   return true;
 }
 
-void TerminalDesk::say(const std::string& text) {
+void TerminalConsole::say(const std::string& text) {
   if (is_terminal_) draw("\r\033[K");
   cli::say("{}\n", text);
 }
