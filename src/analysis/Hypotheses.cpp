@@ -8,8 +8,6 @@
 namespace heft {
 
 namespace {
-constexpr double chance_percent = 100.0 / 6;  // one of the six orders of three cubes
-
 std::string beside(std::optional<double> published, std::string_view unit) {
   return published ? fmt::format("; published {:.1f}{}", *published, unit) : "";
 }
@@ -25,8 +23,17 @@ std::string share_figure(std::string_view what, const Share& share) {
                      beside(share.published_percent, " %"));
 }
 
-std::string chance_figure() {
-  return fmt::format("a random order is right in {:.1f} % of trials", chance_percent);
+std::string chance_figure(const ConditionSorting& sorting) {
+  const auto& by_cubes = sorting.n_trials_by_cubes;
+  if (by_cubes.empty()) return "a random order: no trials to be right in";
+  std::string figure =
+      fmt::format("a random order is right in {:.1f} % of trials", *sorting.chance_percent());
+  if (by_cubes.size() == 1) return figure;
+  std::string parts;
+  for (const auto& [n_cubes, n_trials] : by_cubes)
+    parts += fmt::format("{}{:.1f} % of {} trials with {} cubes", parts.empty() ? "" : ", ",
+                         chance_percent(n_cubes), n_trials, n_cubes);
+  return fmt::format("{}: {}", figure, parts);
 }
 
 std::string first_try_figure(const IntroductionSummary& introduction) {
@@ -99,11 +106,11 @@ std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
            "C1 does not allow to perceive a mass difference among virtual objects",
            {share_figure("C1 correct", c1.correct),
             share_figure("C1 correct, of answered trials", c1.answered_correct),
-            share_figure("C1 \"I don't know\"", c1.none), chance_figure()}},
+            share_figure("C1 \"I don't know\"", c1.none), chance_figure(c1)}},
           {"E1-H2",
            "C2 allows to recognize which objects are lighter and heavier",
            {share_figure("C2 correct", c2.correct), share_figure("C2 \"I don't know\"", c2.none),
-            chance_figure()}},
+            chance_figure(c2)}},
           {"E1-H3", "C2 is effective with no training", {first_try_figure(summary.introduction)}},
           {"E2-H1", "the JND increases with the reference mass", rising},
           {"E2-H2", "the JND is proportional to the reference mass", ratio_figures(summary)}};

@@ -57,6 +57,7 @@ ordered_json sorting_json(const ConditionSorting& sorting) {
           {"answered",
            {{"correct", share_json(sorting.answered_correct)},
             {"incorrect", share_json(sorting.answered_incorrect)}}},
+          {"chance", figure(sorting.chance_percent())},
           {"swapped", swaps_json(sorting)},
           {"n_trials", sorting.n_trials},
           {"n_participants", sorting.n_participants}};
