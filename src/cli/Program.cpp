@@ -85,6 +85,7 @@ void add_commands(Command& app) {
   add_calibrate(app);
   add_track(app);
   add_doctor(app);
+  add_export(app);
 }
 
 void become_bench(const std::vector<std::string>& words) {
