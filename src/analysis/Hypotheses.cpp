@@ -16,11 +16,11 @@ std::string within(const std::optional<Interval>& interval) {
   return interval ? fmt::format(" [{:.1f}, {:.1f}]", interval->low, interval->high) : "";
 }
 
-std::string share_figure(std::string_view what, const Share& share) {
-  if (!share.mean_percent) return fmt::format("{}: no trials", what);
-  return fmt::format("{}: {:.1f} %{}, n = {}{}", what, *share.mean_percent,
-                     within(share.interval_percent), share.n_participants,
-                     beside(share.published_percent, " %"));
+std::string proportion_figure(std::string_view what, const Proportion& proportion) {
+  if (!proportion.mean_percent) return fmt::format("{}: no trials", what);
+  return fmt::format("{}: {:.1f} %{}, n = {}{}", what, *proportion.mean_percent,
+                     within(proportion.interval_percent), proportion.n_participants,
+                     beside(proportion.published_percent, " %"));
 }
 
 std::string chance_figure(const ConditionSorting& sorting) {
@@ -104,13 +104,13 @@ std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
   rising.push_back(rising_figure(summary));
   return {{"E1-H1",
            "C1 does not allow to perceive a mass difference among virtual objects",
-           {share_figure("C1 correct", c1.correct),
-            share_figure("C1 correct, of answered trials", c1.answered_correct),
-            share_figure("C1 \"I don't know\"", c1.none), chance_figure(c1)}},
+           {proportion_figure("C1 correct", c1.correct),
+            proportion_figure("C1 correct, of answered trials", c1.answered_correct),
+            proportion_figure("C1 \"I don't know\"", c1.none), chance_figure(c1)}},
           {"E1-H2",
            "C2 allows to recognize which objects are lighter and heavier",
-           {share_figure("C2 correct", c2.correct), share_figure("C2 \"I don't know\"", c2.none),
-            chance_figure(c2)}},
+           {proportion_figure("C2 correct", c2.correct),
+            proportion_figure("C2 \"I don't know\"", c2.none), chance_figure(c2)}},
           {"E1-H3", "C2 is effective with no training", {first_try_figure(summary.introduction)}},
           {"E2-H1", "the JND increases with the reference mass", rising},
           {"E2-H2", "the JND is proportional to the reference mass", ratio_figures(summary)}};

@@ -35,9 +35,9 @@ bool has_published_masses(const Attempt& attempt) {
   return std::ranges::equal(masses, published::sorting_masses_g);
 }
 
-void put_beside(Share& share, const published::Percentage& figure) {
-  share.published_percent = figure.mean_percent;
-  share.published_sd_percent = figure.sd_percent;
+void put_beside(Proportion& proportion, const published::Percentage& figure) {
+  proportion.published_percent = figure.mean_percent;
+  proportion.published_sd_percent = figure.sd_percent;
 }
 
 void put_beside(ConditionSorting& sorting, const published::Sorting& figures) {
@@ -70,11 +70,11 @@ ConditionSorting sorting_in(const std::string& condition, std::span<const Sessio
         sorting.swaps.at(static_cast<std::size_t>(*swap)) += 1;
     }
   }
-  sorting.correct = share_of(tallied.correct);
-  sorting.incorrect = share_of(tallied.incorrect);
-  sorting.none = share_of(tallied.none);
-  sorting.answered_correct = share_of(tallied.answered_correct);
-  sorting.answered_incorrect = share_of(tallied.answered_incorrect);
+  sorting.correct = proportion_of(tallied.correct);
+  sorting.incorrect = proportion_of(tallied.incorrect);
+  sorting.none = proportion_of(tallied.none);
+  sorting.answered_correct = proportion_of(tallied.answered_correct);
+  sorting.answered_incorrect = proportion_of(tallied.answered_incorrect);
   sorting.n_trials = sorting.correct.trials.n_trials;
   sorting.n_participants = sorting.correct.n_participants;
   if (sorting.n_trials > 0 && as_published)

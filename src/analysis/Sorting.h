@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/Dataset.h"
-#include "analysis/Share.h"
+#include "analysis/Proportion.h"
 #include "experiment/Task.h"
 
 namespace heft {
@@ -38,10 +38,10 @@ struct ConditionSorting {
   std::string condition;
   int n_trials = 0;
   int n_participants = 0;
-  Share correct, incorrect, none;              ///< of all completed trials; none: "I don't know"
-  Share answered_correct, answered_incorrect;  ///< of the trials that were answered
-  std::array<int, 4> swaps{};                  ///< by Swap, of the incorrect trials
-  std::map<int, int> n_trials_by_cubes;        ///< number of cubes -> trials with so many
+  Proportion correct, incorrect, none;  ///< of all completed trials; none: "I don't know"
+  Proportion answered_correct, answered_incorrect;  ///< of the trials that were answered
+  std::array<int, 4> swaps{};                       ///< by Swap, of the incorrect trials
+  std::map<int, int> n_trials_by_cubes;             ///< number of cubes -> trials with so many
 
   /// How many of its trials a random order gets right on average; none without trials.
   std::optional<double> chance_percent() const;

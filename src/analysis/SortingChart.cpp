@@ -22,7 +22,7 @@ constexpr double bar_width = 0.62;
 struct Bar {
   double x = 0;
   std::string_view answer;
-  const Share* share = nullptr;
+  const Proportion* proportion = nullptr;
 };
 
 std::array<Bar, 3> bars_of(const ConditionSorting& sorting, double first_x) {
@@ -35,9 +35,10 @@ std::array<Bar, 3> bars_of(const ConditionSorting& sorting, double first_x) {
 std::string measured_block(std::string_view name, std::span<const Bar> bars) {
   std::string block = fmt::format("${} << END\n", name);
   for (const Bar& bar : bars)
-    if (bar.share->mean_percent)
-      block += fmt::format("{} {} {} {}\n", bar.x, *bar.share->mean_percent,
-                           bar.share->interval_percent->low, bar.share->interval_percent->high);
+    if (bar.proportion->mean_percent)
+      block += fmt::format("{} {} {} {}\n", bar.x, *bar.proportion->mean_percent,
+                           bar.proportion->interval_percent->low,
+                           bar.proportion->interval_percent->high);
   return block + "END\n";
 }
 
@@ -45,8 +46,8 @@ std::string published_block(std::span<const Bar> c1, std::span<const Bar> c2) {
   std::string block = "$published << END\n";
   for (std::span<const Bar> bars : {c1, c2})
     for (const Bar& bar : bars)
-      if (bar.share->published_percent)
-        block += fmt::format("{} {}\n", bar.x, *bar.share->published_percent);
+      if (bar.proportion->published_percent)
+        block += fmt::format("{} {}\n", bar.x, *bar.proportion->published_percent);
   return block + "END\n";
 }
 
