@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/Dataset.h"
-#include "analysis/Share.h"
+#include "analysis/Proportion.h"
 
 namespace heft {
 

@@ -8,8 +8,6 @@
 namespace heft {
 
 namespace {
-constexpr double chance_percent = 100.0 / 6;  // one of the six orders of three cubes
-
 std::string beside(std::optional<double> published, std::string_view unit) {
   return published ? fmt::format("; published {:.1f}{}", *published, unit) : "";
 }
@@ -18,15 +16,24 @@ std::string within(const std::optional<Interval>& interval) {
   return interval ? fmt::format(" [{:.1f}, {:.1f}]", interval->low, interval->high) : "";
 }
 
-std::string share_figure(std::string_view what, const Share& share) {
-  if (!share.mean_percent) return fmt::format("{}: no trials", what);
-  return fmt::format("{}: {:.1f} %{}, n = {}{}", what, *share.mean_percent,
-                     within(share.interval_percent), share.n_participants,
-                     beside(share.published_percent, " %"));
+std::string proportion_figure(std::string_view what, const Proportion& proportion) {
+  if (!proportion.mean_percent) return fmt::format("{}: no trials", what);
+  return fmt::format("{}: {:.1f} %{}, n = {}{}", what, *proportion.mean_percent,
+                     within(proportion.interval_percent), proportion.n_participants,
+                     beside(proportion.published_percent, " %"));
 }
 
-std::string chance_figure() {
-  return fmt::format("a random order is right in {:.1f} % of trials", chance_percent);
+std::string chance_figure(const ConditionSorting& sorting) {
+  const auto& by_cubes = sorting.n_trials_by_cubes;
+  if (by_cubes.empty()) return "a random order: no trials to be right in";
+  std::string figure =
+      fmt::format("a random order is right in {:.1f} % of trials", *sorting.chance_percent());
+  if (by_cubes.size() == 1) return figure;
+  std::string parts;
+  for (const auto& [n_cubes, n_trials] : by_cubes)
+    parts += fmt::format("{}{:.1f} % of {} trials with {} cubes", parts.empty() ? "" : ", ",
+                         chance_percent(n_cubes), n_trials, n_cubes);
+  return fmt::format("{}: {}", figure, parts);
 }
 
 std::string first_try_figure(const IntroductionSummary& introduction) {
@@ -97,13 +104,13 @@ std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
   rising.push_back(rising_figure(summary));
   return {{"E1-H1",
            "C1 does not allow to perceive a mass difference among virtual objects",
-           {share_figure("C1 correct", c1.correct),
-            share_figure("C1 correct, of answered trials", c1.answered_correct),
-            share_figure("C1 \"I don't know\"", c1.none), chance_figure()}},
+           {proportion_figure("C1 correct", c1.correct),
+            proportion_figure("C1 correct, of answered trials", c1.answered_correct),
+            proportion_figure("C1 \"I don't know\"", c1.none), chance_figure(c1)}},
           {"E1-H2",
            "C2 allows to recognize which objects are lighter and heavier",
-           {share_figure("C2 correct", c2.correct), share_figure("C2 \"I don't know\"", c2.none),
-            chance_figure()}},
+           {proportion_figure("C2 correct", c2.correct),
+            proportion_figure("C2 \"I don't know\"", c2.none), chance_figure(c2)}},
           {"E1-H3", "C2 is effective with no training", {first_try_figure(summary.introduction)}},
           {"E2-H1", "the JND increases with the reference mass", rising},
           {"E2-H2", "the JND is proportional to the reference mass", ratio_figures(summary)}};

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "analysis/Dataset.h"
-#include "analysis/Share.h"
+#include "analysis/Proportion.h"
 
 namespace heft {
 

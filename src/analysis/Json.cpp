@@ -20,19 +20,19 @@ ordered_json high(const std::optional<Interval>& interval) {
   return interval ? figure(interval->high) : ordered_json(nullptr);
 }
 
-ordered_json share_json(const Share& share) {
-  const bool any = share.method != IntervalMethod::none;
-  return {{"mean", figure(share.mean_percent)},
-          {"sd", figure(share.sd_percent)},
-          {"low", low(share.interval_percent)},
-          {"high", high(share.interval_percent)},
-          {"published", figure(share.published_percent)},
-          {"published_sd", figure(share.published_sd_percent)},
-          {"interval", any ? ordered_json(name_of(share.method)) : ordered_json(nullptr)},
-          {"pooled", figure(share.pooled_percent)},
-          {"n_participants", share.n_participants},
-          {"n_hits", share.trials.n_hits},
-          {"n_trials", share.trials.n_trials}};
+ordered_json proportion_json(const Proportion& proportion) {
+  const bool any = proportion.method != IntervalMethod::none;
+  return {{"mean", figure(proportion.mean_percent)},
+          {"sd", figure(proportion.sd_percent)},
+          {"low", low(proportion.interval_percent)},
+          {"high", high(proportion.interval_percent)},
+          {"published", figure(proportion.published_percent)},
+          {"published_sd", figure(proportion.published_sd_percent)},
+          {"interval", any ? ordered_json(name_of(proportion.method)) : ordered_json(nullptr)},
+          {"pooled", figure(proportion.pooled_percent)},
+          {"n_participants", proportion.n_participants},
+          {"n_hits", proportion.trials.n_hits},
+          {"n_trials", proportion.trials.n_trials}};
 }
 
 ordered_json rate_json(const Rate& rate) {
@@ -51,12 +51,13 @@ ordered_json swaps_json(const ConditionSorting& sorting) {
 }
 
 ordered_json sorting_json(const ConditionSorting& sorting) {
-  return {{"correct", share_json(sorting.correct)},
-          {"incorrect", share_json(sorting.incorrect)},
-          {"none", share_json(sorting.none)},
+  return {{"correct", proportion_json(sorting.correct)},
+          {"incorrect", proportion_json(sorting.incorrect)},
+          {"none", proportion_json(sorting.none)},
           {"answered",
-           {{"correct", share_json(sorting.answered_correct)},
-            {"incorrect", share_json(sorting.answered_incorrect)}}},
+           {{"correct", proportion_json(sorting.answered_correct)},
+            {"incorrect", proportion_json(sorting.answered_incorrect)}}},
+          {"chance", figure(sorting.chance_percent())},
           {"swapped", swaps_json(sorting)},
           {"n_trials", sorting.n_trials},
           {"n_participants", sorting.n_participants}};

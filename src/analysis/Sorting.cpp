@@ -1,6 +1,7 @@
 #include "analysis/Sorting.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "analysis/Published.h"
@@ -34,9 +35,9 @@ bool has_published_masses(const Attempt& attempt) {
   return std::ranges::equal(masses, published::sorting_masses_g);
 }
 
-void put_beside(Share& share, const published::Percentage& figure) {
-  share.published_percent = figure.mean_percent;
-  share.published_sd_percent = figure.sd_percent;
+void put_beside(Proportion& proportion, const published::Percentage& figure) {
+  proportion.published_percent = figure.mean_percent;
+  proportion.published_sd_percent = figure.sd_percent;
 }
 
 void put_beside(ConditionSorting& sorting, const published::Sorting& figures) {
@@ -60,6 +61,7 @@ ConditionSorting sorting_in(const std::string& condition, std::span<const Sessio
     for (const Attempt& attempt : data.attempts) {
       if (!counts(attempt, condition)) continue;
       count_trial(tallied, data.participant(), *attempt.trial.outcome);
+      sorting.n_trials_by_cubes[static_cast<int>(attempt.cubes.size())] += 1;
       as_published = as_published && has_published_masses(attempt);
       if (attempt.trial.outcome != Outcome::incorrect) continue;
       const std::vector<double> masses_g = attempt.masses_g();
@@ -68,11 +70,11 @@ ConditionSorting sorting_in(const std::string& condition, std::span<const Sessio
         sorting.swaps.at(static_cast<std::size_t>(*swap)) += 1;
     }
   }
-  sorting.correct = share_of(tallied.correct);
-  sorting.incorrect = share_of(tallied.incorrect);
-  sorting.none = share_of(tallied.none);
-  sorting.answered_correct = share_of(tallied.answered_correct);
-  sorting.answered_incorrect = share_of(tallied.answered_incorrect);
+  sorting.correct = proportion_of(tallied.correct);
+  sorting.incorrect = proportion_of(tallied.incorrect);
+  sorting.none = proportion_of(tallied.none);
+  sorting.answered_correct = proportion_of(tallied.answered_correct);
+  sorting.answered_incorrect = proportion_of(tallied.answered_incorrect);
   sorting.n_trials = sorting.correct.trials.n_trials;
   sorting.n_participants = sorting.correct.n_participants;
   if (sorting.n_trials > 0 && as_published)
@@ -80,6 +82,20 @@ ConditionSorting sorting_in(const std::string& condition, std::span<const Sessio
   return sorting;
 }
 }  // namespace
+
+double chance_percent(int n_cubes) {
+  return 100 / std::tgamma(n_cubes + 1.0);
+}
+
+std::optional<double> ConditionSorting::chance_percent() const {
+  double sum = 0;
+  int n = 0;
+  for (const auto& [n_cubes, n_trials_of_these] : n_trials_by_cubes) {
+    sum += n_trials_of_these * heft::chance_percent(n_cubes);
+    n += n_trials_of_these;
+  }
+  return n > 0 ? std::optional(sum / n) : std::nullopt;
+}
 
 std::vector<std::optional<Label>> final_labels(std::span<const AnswerRow> answers, int n_slots) {
   std::vector<std::optional<Label>> labels(static_cast<std::size_t>(n_slots));

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "analysis/Dataset.h"
-#include "analysis/Share.h"
+#include "analysis/Proportion.h"
 #include "experiment/Task.h"
 
 namespace heft {
@@ -22,6 +23,9 @@ struct EnumNames<Swap> {
                                                          "light_heavy", "all_three"};
 };
 
+/// One of the n! orders of n cubes is right. @return percent
+double chance_percent(int n_cubes);
+
 /// The labels that the cubes bear after a trial's answers, by slot. A used label moves.
 std::vector<std::optional<Label>> final_labels(std::span<const AnswerRow> answers, int n_slots);
 
@@ -34,9 +38,13 @@ struct ConditionSorting {
   std::string condition;
   int n_trials = 0;
   int n_participants = 0;
-  Share correct, incorrect, none;              ///< of all completed trials; none: "I don't know"
-  Share answered_correct, answered_incorrect;  ///< of the trials that were answered
-  std::array<int, 4> swaps{};                  ///< by Swap, of the incorrect trials
+  Proportion correct, incorrect, none;  ///< of all completed trials; none: "I don't know"
+  Proportion answered_correct, answered_incorrect;  ///< of the trials that were answered
+  std::array<int, 4> swaps{};                       ///< by Swap, of the incorrect trials
+  std::map<int, int> n_trials_by_cubes;             ///< number of cubes -> trials with so many
+
+  /// How many of its trials a random order gets right on average; none without trials.
+  std::optional<double> chance_percent() const;
 };
 
 /// Completed trials of both conditions. A participant's sessions count together. The paper's

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <map>
 #include <span>
+#include <utility>
 
 #include "analysis/Charts.h"
 #include "analysis/Gnuplot.h"
@@ -20,7 +22,7 @@ constexpr double bar_width = 0.62;
 struct Bar {
   double x = 0;
   std::string_view answer;
-  const Share* share = nullptr;
+  const Proportion* proportion = nullptr;
 };
 
 std::array<Bar, 3> bars_of(const ConditionSorting& sorting, double first_x) {
@@ -33,9 +35,10 @@ std::array<Bar, 3> bars_of(const ConditionSorting& sorting, double first_x) {
 std::string measured_block(std::string_view name, std::span<const Bar> bars) {
   std::string block = fmt::format("${} << END\n", name);
   for (const Bar& bar : bars)
-    if (bar.share->mean_percent)
-      block += fmt::format("{} {} {} {}\n", bar.x, *bar.share->mean_percent,
-                           bar.share->interval_percent->low, bar.share->interval_percent->high);
+    if (bar.proportion->mean_percent)
+      block += fmt::format("{} {} {} {}\n", bar.x, *bar.proportion->mean_percent,
+                           bar.proportion->interval_percent->low,
+                           bar.proportion->interval_percent->high);
   return block + "END\n";
 }
 
@@ -43,17 +46,28 @@ std::string published_block(std::span<const Bar> c1, std::span<const Bar> c2) {
   std::string block = "$published << END\n";
   for (std::span<const Bar> bars : {c1, c2})
     for (const Bar& bar : bars)
-      if (bar.share->published_percent)
-        block += fmt::format("{} {}\n", bar.x, *bar.share->published_percent);
+      if (bar.proportion->published_percent)
+        block += fmt::format("{} {}\n", bar.x, *bar.proportion->published_percent);
   return block + "END\n";
 }
 
 // A short line across the bars of correct sortings.
-std::string chance_block(const Bar& c1, const Bar& c2) {
+std::string chance_block(const ConditionSorting& c1, const ConditionSorting& c2, const Bar& c1_bar,
+                         const Bar& c2_bar) {
   std::string block = "$chance << END\n";
-  for (const Bar& bar : {c1, c2})
-    block += fmt::format("{} {}\n{} {}\n\n", bar.x - 0.55, 100.0 / 6, bar.x + 0.55, 100.0 / 6);
+  for (const auto& [sorting, bar] : {std::pair(&c1, &c1_bar), std::pair(&c2, &c2_bar)})
+    if (const auto percent = sorting->chance_percent())
+      block += fmt::format("{} {}\n{} {}\n\n", bar->x - 0.55, *percent, bar->x + 0.55, *percent);
   return block + "END\n";
+}
+
+// "correct by chance (1/6)" where all trials have as many cubes.
+std::string chance_title(const ConditionSorting& c1, const ConditionSorting& c2) {
+  std::map<int, int> all = c1.n_trials_by_cubes;
+  all.insert(c2.n_trials_by_cubes.begin(), c2.n_trials_by_cubes.end());
+  const double n_orders = 100 / chance_percent(all.begin()->first);
+  return all.size() > 1 ? "correct by chance"
+                        : fmt::format("correct by chance (1/{:.0f})", n_orders);
 }
 
 std::string answer_tics(std::span<const Bar> c1, std::span<const Bar> c2) {
@@ -92,7 +106,7 @@ Chart sorting_chart(const Summary& summary) {
   const auto c1_bars = bars_of(c1, 1), c2_bars = bars_of(c2, 4.6);
   chart.script = gnuplot_header({"sorting.svg", 860, 540, chart.title, caption_of(summary)}) +
                  measured_block("c1", c1_bars) + measured_block("c2", c2_bars) +
-                 published_block(c1_bars, c2_bars) + chance_block(c1_bars[0], c2_bars[0]) +
+                 published_block(c1_bars, c2_bars) + chance_block(c1, c2, c1_bars[0], c2_bars[0]) +
                  fmt::format(
                      "set key at screen 0.5, screen 1-40*pixel center top horizontal\n"
                      "set tmargin at screen 1-100*pixel\n"
@@ -103,10 +117,11 @@ Chart sorting_chart(const Summary& summary) {
                      "set ylabel '% of trials, mean over participants'\n"
                      "set xtics scale 0 ({})\n"
                      "plot {}{}{}$chance using 1:2 with lines dashtype 2 linewidth 1.6 linecolor "
-                     "'#222222' title 'correct by chance (1/6)'\n",
+                     "'#222222' title '{}'\n",
                      bar_width, answer_tics(c1_bars, c2_bars),
                      bars_plot("c1", c1, "coupled", condition_colors[0]),
-                     bars_plot("c2", c2, "decoupled", condition_colors[1]), published_plot(c1, c2));
+                     bars_plot("c2", c2, "decoupled", condition_colors[1]), published_plot(c1, c2),
+                     chance_title(c1, c2));
   return chart;
 }
 

@@ -4,16 +4,17 @@
 namespace heft {
 
 namespace {
-void add_share(Table& table, const ConditionSorting& sorting, std::string_view trials,
-               std::string_view answer, const Share& share) {
-  if (share.n_participants == 0) return;
-  const std::string method = share.method == IntervalMethod::exact ? "exact" : "Student t";
+void add_proportion(Table& table, const ConditionSorting& sorting, std::string_view trials,
+                    std::string_view answer, const Proportion& proportion) {
+  if (proportion.n_participants == 0) return;
+  const std::string method = proportion.method == IntervalMethod::exact ? "exact" : "Student t";
   table.rows.push_back(
       {word(sorting.condition), word(std::string(trials)), word(std::string(answer)),
-       number(share.mean_percent), number(share.sd_percent), low(share.interval_percent),
-       high(share.interval_percent), word(method), count(share.n_participants),
-       count(share.trials.n_hits), count(share.trials.n_trials), number(share.pooled_percent),
-       number(share.published_percent), number(share.published_sd_percent)});
+       number(proportion.mean_percent), number(proportion.sd_percent),
+       low(proportion.interval_percent), high(proportion.interval_percent), word(method),
+       count(proportion.n_participants), count(proportion.trials.n_hits),
+       count(proportion.trials.n_trials), number(proportion.pooled_percent),
+       number(proportion.published_percent), number(proportion.published_sd_percent)});
 }
 
 Table sorting_table(const Summary& summary) {
@@ -40,11 +41,11 @@ Table sorting_table(const Summary& summary) {
       "have the same percentage. The published 10.1 % of answered C1 trials is a ratio of "
       "means, nearest to pooled."};
   for (const ConditionSorting& sorting : summary.sorting) {
-    add_share(table, sorting, "all", "correct", sorting.correct);
-    add_share(table, sorting, "all", "incorrect", sorting.incorrect);
-    add_share(table, sorting, "all", "I don't know", sorting.none);
-    add_share(table, sorting, "answered", "correct", sorting.answered_correct);
-    add_share(table, sorting, "answered", "incorrect", sorting.answered_incorrect);
+    add_proportion(table, sorting, "all", "correct", sorting.correct);
+    add_proportion(table, sorting, "all", "incorrect", sorting.incorrect);
+    add_proportion(table, sorting, "all", "I don't know", sorting.none);
+    add_proportion(table, sorting, "answered", "correct", sorting.answered_correct);
+    add_proportion(table, sorting, "answered", "incorrect", sorting.answered_incorrect);
   }
   return table;
 }

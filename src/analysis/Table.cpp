@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/Wrapping.h"
+#include "base/Csv.h"
 
 namespace heft {
 
@@ -47,13 +48,6 @@ TextColumn text_column(const Table& table, std::size_t place) {
 std::string padded(std::string_view text, const TextColumn& column) {
   const std::string space(column.width - width_of(text), ' ');
   return column.words ? fmt::format("{}{}", text, space) : fmt::format("{}{}", space, text);
-}
-
-std::string csv_cell(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
 }
 }  // namespace
 

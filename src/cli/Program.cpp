@@ -99,6 +99,7 @@ void add_commands(Command& app) {
   add_calibrate(app);
   add_track(app);
   add_doctor(app);
+  add_export(app);
 }
 
 int run_program(const ProgramDescription& program, int argc, char** argv) {

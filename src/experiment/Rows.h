@@ -174,7 +174,12 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"n_reversals", "", "reversals among them", 1, ">= 0"}, row.n_reversals);
   visit(LogColumn{"n_floor", "", "moves that the floor cut short", 1, ">= 0"}, row.n_floor);
   visit(LogColumn{"n_ceiling", "", "moves that the ceiling cut short", 1, ">= 0"}, row.n_ceiling);
-  visit(LogColumn{"reason", "", "why the procedure ended"}, row.reason);
+  visit(
+      LogColumn{
+          "reason", "",
+          "why the procedure ended: by its reversals, or because it had all the trials that it "
+          "may have, as constant stimuli always do"},
+      row.reason);
   visit(LogColumn{"censored", "",
                   "whether a bound or the limit of trials cut it short; not told before version 3",
                   3},

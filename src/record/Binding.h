@@ -14,7 +14,6 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
-#include "base/PoseTypes.h"
 #include "record/Digests.h"
 
 namespace heft {
@@ -57,13 +56,6 @@ class Binding {
     if (digest_) digest_->real(value);
     return *this;
   }
-  Binding& exactly(const Eigen::Vector3d& value) {
-    return exactly(value.x()).exactly(value.y()).exactly(value.z());
-  }
-  Binding& exactly(const Pose& pose) {
-    const Eigen::Quaterniond& q = pose.orientation;
-    return exactly(pose.position_m).exactly(q.w()).exactly(q.x()).exactly(q.y()).exactly(q.z());
-  }
   Binding& operator<<(const std::string& value) {
     statement_.bind(++place_, value);
     if (digest_) digest_->text(value);
@@ -78,18 +70,9 @@ class Binding {
     if (value) return *this << *value;
     return null();
   }
-  Binding& operator<<(const Eigen::Vector3d& value) {
-    return *this << value.x() << value.y() << value.z();
-  }
-  Binding& operator<<(const Pose& pose) {
-    const Eigen::Quaterniond& q = pose.orientation;
-    return *this << pose.position_m << q.w() << q.x() << q.y() << q.z();
-  }
-  Binding& null(int columns = 1) {
-    for (int i = 0; i < columns; ++i) {
-      statement_.bind(++place_);
-      if (digest_) digest_->null();
-    }
+  Binding& null() {
+    statement_.bind(++place_);
+    if (digest_) digest_->null();
     return *this;
   }
 

@@ -1,6 +1,7 @@
 #include "record/RowSql.h"
 
 #include <algorithm>
+#include <array>
 
 namespace heft {
 

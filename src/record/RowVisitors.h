@@ -2,7 +2,9 @@
 // this room.
 #pragma once
 
-#include "experiment/Rows.h"
+#include <concepts>
+
+#include "experiment/EachCell.h"
 #include "record/Binding.h"
 #include "record/Cells.h"
 
@@ -20,44 +22,16 @@ struct DigestedColumns {
 };
 
 /// Writes a row's fields into a statement's places.
-class BindRow {
- public:
-  explicit BindRow(Binding& row, DigestedColumns digested = {}) : row_(row), digested_(digested) {}
-
-  template <typename Field>
-  void operator()(const LogColumn& column, const Field& field) {
-    row_.digests(digested_.has(column.since)) << field;
-  }
-  void operator()(const LogColumn& column, const NullIfEmpty<const std::string>& text) {
-    row_.digests(digested_.has(column.since));
-    if (text.value.empty())
-      row_.null();
+template <typename Row>
+void bind_row(Binding& places, const Row& row, DigestedColumns digested = {}) {
+  visit_cells(row, [&](const CellColumn& column, const auto& value) {
+    places.digests(digested.has(column.since));
+    if constexpr (std::same_as<decltype(value), const double&>)
+      column.exact ? places.exactly(value) : places << value;
     else
-      row_ << text.value;
-  }
-  void operator()(const PoseColumns&, const Exactly<const Pose>& pose) {
-    row_.digests(true).exactly(pose.value);
-  }
-  void operator()(const VelocityColumns&, const Exactly<const Velocity>& velocity) {
-    row_.digests(true).exactly(velocity.value.linear_m_s).exactly(velocity.value.angular_rad_s);
-  }
-  void operator()(const PoseColumns& columns, const std::optional<Pose>& pose) {
-    row_.digests(digested_.has(columns.since));
-    if (pose)
-      row_ << *pose;
-    else
-      row_.null(pose_columns);
-  }
-  void operator()(const PoseColumns& columns, const PoseAt<const std::vector<Pose>>& at) {
-    (*this)(columns, at.index < at.poses.size() ? std::optional(at.poses[at.index]) : std::nullopt);
-  }
-
- private:
-  static constexpr int pose_columns = 7;
-
-  Binding& row_;
-  DigestedColumns digested_;
-};
+      places << value;
+  });
+}
 
 /// Fills a row's fields from cells.
 class FillRow {

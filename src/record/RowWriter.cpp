@@ -48,7 +48,7 @@ std::optional<std::int64_t> RowWriter::first_cell(const std::string& sql, const 
 template <typename Row, typename... Keys>
 void RowWriter::insert(const std::string& sql, const Row& row, const Keys&... keys) {
   Binding places(statement(sql), keys...);
-  visit_columns(row, BindRow(places));
+  bind_row(places, row);
   places.run();
 }
 
@@ -64,7 +64,7 @@ std::int64_t RowWriter::write_session(const SessionHeader& header) {
   digest_.begin("session", "");
   Binding row(statement(sql), SessionState::running);
   row.also_into(digest_);
-  visit_columns(header, BindRow(row));
+  bind_row(row, header);
   row.run_with_digest();
   const std::int64_t session_id = database_.getLastInsertRowid();
   for (const auto& [key, value] : header.participant_info) write_info(session_id, key, value);
@@ -173,8 +173,7 @@ void RowWriter::write_event_row(std::int64_t session_id, int attempt_index, cons
   digest_.begin("event", chain_.before_event(session_id));
   digest_.integer(attempt_index);
   row.also_into(digest_);
-  const EventRow columns = row_of(event);
-  visit_columns(columns, BindRow(row, {log_version(session_id)}));
+  bind_row(row, row_of(event), {log_version(session_id)});
   chain_.event_written(row.run_with_digest());
   ++n_new_events_;
 }
@@ -226,7 +225,7 @@ void RowWriter::write_frame(std::int64_t session_id, const FrameRow& frame) {
   digest_.integer(frame.attempt_index);
   row.also_into(digest_);
   const bool has_timing = frame.detected_s || frame.simulated_s || frame.n_dropped;
-  visit_columns(frame, BindRow(row, {log_version(session_id), has_timing}));
+  bind_row(row, frame, {log_version(session_id), has_timing});
   chain_.frame_written(row.run_with_digest());
   ++n_new_frames_;
 }

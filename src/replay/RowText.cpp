@@ -1,13 +1,44 @@
 #include "replay/RowText.h"
 
+#include <fmt/format.h>
+
+#include <type_traits>
+#include <utility>
+
+#include "experiment/EachCell.h"
+
 namespace heft {
 
 namespace {
+std::string text(const std::string& value) {
+  return '"' + value + '"';
+}
+std::string text(bool value) {
+  return value ? "1" : "0";
+}
+std::string text(int value) {
+  return fmt::format("{}", value);
+}
+// Adding 0 turns -0, which the log does not keep, into 0.
+std::string text(double value) {
+  return fmt::format("{}", value + 0.0);
+}
+template <typename Enum>
+requires std::is_enum_v<Enum> std::string text(Enum value) {
+  return std::string(name_of(value));
+}
+template <typename Value>
+std::string text(const std::optional<Value>& value) {
+  return value ? text(*value) : "NULL";
+}
+
 template <typename Row>
 RowText texts(std::string table, std::string key, int attempt_index, double t_s, const Row& row) {
-  RowText text{std::move(table), std::move(key), attempt_index, t_s, {}};
-  visit_columns(row, TextColumns(text));
-  return text;
+  RowText made{std::move(table), std::move(key), attempt_index, t_s, {}};
+  visit_cells(row, [&](const CellColumn& column, const auto& value) {
+    made.columns.push_back({column.full_name(), text(value), column.since});
+  });
+  return made;
 }
 
 void add(RowText& text, std::string column, int value) {

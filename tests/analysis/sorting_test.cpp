@@ -105,6 +105,17 @@ TEST(Sorting, CountsSwapsOfIncorrectTrials) {
   EXPECT_THAT(sorting_of({&data, 1})[1].swaps, ElementsAre(1, 0, 0, 0));
 }
 
+TEST(Sorting, ChanceIsOneOfTheOrdersOfAsManyCubes) {
+  SessionData data = session(1, "a");
+  EXPECT_FALSE(sorting_of({&data, 1})[1].chance_percent());
+  add_sorting(data, "C2", Outcome::correct);
+  EXPECT_DOUBLE_EQ(*sorting_of({&data, 1})[1].chance_percent(), 100.0 / 6);
+  add_sorting(data, "C2", Outcome::correct).cubes = cubes({15, 100, 250, 800});
+  EXPECT_DOUBLE_EQ(*sorting_of({&data, 1})[1].chance_percent(), (100.0 / 6 + 100.0 / 24) / 2);
+  EXPECT_DOUBLE_EQ(chance_percent(2), 50);
+  EXPECT_DOUBLE_EQ(chance_percent(5), 100.0 / 120);
+}
+
 TEST(Sorting, PublishedFiguresNeedThePublishedMasses) {
   SessionData data = session(1, "a");
   add_sorting(data, "C1", Outcome::correct);

@@ -135,6 +135,19 @@ TEST(Summary, HypothesesCarryTheirExperiment) {
   EXPECT_THAT(names, ElementsAre("E1-H1", "E1-H2", "E1-H3", "E2-H1", "E2-H2"));
 }
 
+TEST(Hypotheses, TellChanceForAsManyCubesAsThereWere) {
+  SessionData data = session(1, "a");
+  add_sorting(data, "C2", Outcome::correct);
+  const auto told = [&] {
+    return summarize({"log.db", {data}}, "heft analyse").hypotheses[1].figures.back();
+  };
+  EXPECT_EQ(told(), "a random order is right in 16.7 % of trials");
+  add_sorting(data, "C2", Outcome::correct).cubes = cubes({15, 100, 250, 800});
+  EXPECT_EQ(told(),
+            "a random order is right in 10.4 % of trials: 16.7 % of 1 trials with 3 cubes, 4.2 % "
+            "of 1 trials with 4 cubes");
+}
+
 TEST(Summary, RisingJndsAreCountedByParticipant) {
   SessionData rising = full_session(1, "a"), falling = full_session(2, "b");
   falling.estimates[1].jnd_g = 50;

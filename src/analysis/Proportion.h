@@ -1,4 +1,4 @@
-// Percentages with their intervals: over participants (Share) or over trials (Rate).
+// Percentages with their intervals: over participants (Proportion) or over trials (Rate).
 #pragma once
 
 #include <map>
@@ -27,7 +27,7 @@ struct Tally {
 using Tallies = std::map<std::string, Tally>;
 
 /// The mean over participants of each one's percentage.
-struct Share {
+struct Proportion {
   std::optional<double> mean_percent;
   std::optional<double> sd_percent;  ///< between participants, n-1
   std::optional<Interval> interval_percent;
@@ -39,7 +39,7 @@ struct Share {
 };
 
 /// Participants without a trial don't count. The t interval is clipped to 0...100.
-Share share_of(const Tallies& tallies);
+Proportion proportion_of(const Tallies& tallies);
 
 /// A percentage of trials, all participants together, with its exact interval.
 struct Rate {
