@@ -41,7 +41,8 @@ TargetSample smoothed(PoseFilter& filter, const TrackedPicture& tracked, double 
   sample.tracked = tracked.board_from_effector.has_value();
   if (!sample.tracked || tracked.jump) filter.reset();
   if (!sample.tracked) return sample;
-  const FilteredPose filtered = filter.update(t_s, *tracked.board_from_effector, tracked.quality);
+  const FilteredPose filtered =
+      filter.update(tracked.effector_t_s, *tracked.board_from_effector, tracked.quality);
   sample.pose = filtered.pose;
   sample.velocity = filtered.velocity;
   sample.jump = tracked.jump;

@@ -35,21 +35,25 @@ in the camera's frame (x right, y down, z forward). Poses are unfiltered, and
 blank where nothing was found.
 n_tags, reprojection_px and quality are the effector's; without --effector the
 board's. reprojection_px: rms distance of tag edges from where the pose puts
-them. quality: 0 (none) to 1, how far the pose can be trusted.
+them. quality: 0 (none) to 1, how far the pose can be trusted; below 0.05 there
+is no pose. effector_t_s: when the effector's own row was read, which its pose
+is of; t_s unless the camera file has a readout_s.
 A picture that can't be read has a row in which nothing is found, and is named
 on stderr; the program then ends with exit code 1.
 )";
 
-// The last three columns are the effector's, or the board's where no effector was asked for.
+// n_tags, reprojection_px and quality are the effector's, or the board's where no effector was
+// asked for.
 std::string row(long frame, double t_s, const TrackedPicture& seen, bool with_effector) {
   const bool found =
       with_effector ? seen.board_from_effector.has_value() : seen.camera_from_board.has_value();
   const int n_tags = with_effector ? seen.n_effector_tags : seen.n_board_tags;
   const double off_px = with_effector ? seen.effector_reprojection_px : seen.board_reprojection_px;
-  return fmt::format("{},{},{:d},{:d},{},{},{},{}", frame, t_s, seen.camera_from_board.has_value(),
-                     seen.board_from_effector.has_value(),
+  return fmt::format("{},{},{:d},{:d},{},{},{},{},{}", frame, t_s,
+                     seen.camera_from_board.has_value(), seen.board_from_effector.has_value(),
                      pose_cells(seen.board_from_effector, seen.camera_from_board), n_tags,
-                     found ? fmt::format("{}", off_px) : "", found ? seen.quality : 0);
+                     found ? fmt::format("{}", off_px) : "", found ? seen.quality : 0,
+                     found && with_effector ? seen.effector_t_s : t_s);
 }
 
 // One of the pictures; where it can't be read, without an image but with why.
@@ -113,8 +117,9 @@ void run_track(const Options& options) {
   if (with_effector) apparatus.effector = load_effector(options.effector);
   if (with_effector) require_different_tags(apparatus.board, apparatus.effector);
   Tracker tracker(apparatus);
-  fmt::print("frame,t_s,board_found,effector_found,{},n_tags,reprojection_px,quality\n",
-             pose_columns);
+  fmt::print(
+      "frame,t_s,board_found,effector_found,{},n_tags,reprojection_px,quality,effector_t_s\n",
+      pose_columns);
   long frame = 0, n_damaged = 0;
   each_picture(options, [&](const TakenPicture& picture) {
     if (!picture.damage.empty()) {

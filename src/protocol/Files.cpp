@@ -23,6 +23,7 @@ namespace heft {
 
 namespace {
 constexpr Range exposures_s{0, 0.05};
+constexpr Range readouts_s{0, 0.05};
 constexpr Range blurs_px{0, 10};  // much more, and nothing is rendered in useful time
 constexpr Range gammas{1, 3};
 constexpr Range vignettings{0, 1, false, true};
@@ -119,6 +120,7 @@ SyntheticSettings parse_synthetic_camera(const std::string& text, const std::str
   SyntheticSettings settings;
   Optics& optics = settings.optics;
   reader.read("exposure_s", optics.exposure_s, exposures_s);
+  reader.read("readout_s", optics.readout_s, readouts_s);
   reader.read("blur_px", optics.blur_px, blurs_px);
   reader.read("vignetting", optics.vignetting, vignettings);
   reader.read("light", optics.exposure, lights);
@@ -131,8 +133,10 @@ SyntheticSettings parse_synthetic_camera(const std::string& text, const std::str
 }
 
 std::string described(const Optics& optics) {
-  return fmt::format("exposure {:g} ms, blur {:g} px, noise {:g} levels, {}",
-                     1e3 * optics.exposure_s, optics.blur_px, optics.noise,
+  const std::string readout =
+      optics.readout_s > 0 ? fmt::format("read-out {:g} ms, ", 1e3 * optics.readout_s) : "";
+  return fmt::format("exposure {:g} ms, {}blur {:g} px, noise {:g} levels, {}",
+                     1e3 * optics.exposure_s, readout, optics.blur_px, optics.noise,
                      optics.gamma ? fmt::format("gamma {:g}", *optics.gamma) : "sRGB");
 }
 

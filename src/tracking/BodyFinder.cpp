@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/Clock.h"
+#include "tracking/RollingShutter.h"
 
 namespace heft {
 
@@ -70,7 +71,8 @@ std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<Det
                                         TrackerTimes& times) {
   const BiasPrior bias = prior_for(settings_, prior);
   std::vector<bool> done(body_.tags.size(), false);
-  auto tags = timed(times.refine_s, [&] { return measure_detected(gray, detected, done); });
+  std::vector<TagObservation>& tags = last_tags_;
+  tags = timed(times.refine_s, [&] { return measure_detected(gray, detected, done); });
   const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
   if (!fit || !settings_.refine_edges) return fit;
   const auto more =
@@ -78,6 +80,16 @@ std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<Det
   if (more.empty()) return fit;
   tags.insert(tags.end(), more.begin(), more.end());
   return timed(times.pose_s, [&] { return solve_body(tags, fit->camera_from_body, bias); });
+}
+
+BodyFit BodyFinder::solve_moving(const BodyFit& found, const Velocity& velocity,
+                                 const BiasPrior& prior, TrackerTimes& times) const {
+  const Pose& pose = found.camera_from_body;
+  return timed(times.pose_s, [&] {
+    return solve_body(held_still(last_tags_, camera_, pose, velocity), pose,
+                      prior_for(settings_, prior))
+        .value_or(found);
+  });
 }
 
 std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& expected,

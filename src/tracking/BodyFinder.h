@@ -45,6 +45,12 @@ class BodyFinder {
   std::optional<BodyFit> find_again(const Image& gray, const Pose& expected, int least_tags,
                                     const BiasPrior& prior, TrackerTimes& times);
 
+  /// What find saw last, once more: its rows as a rolling shutter read them while the body moved.
+  /// @param found what came of it so far  @param velocity of the body's origin, in the camera's
+  /// frame
+  BodyFit solve_moving(const BodyFit& found, const Velocity& velocity, const BiasPrior& prior,
+                       TrackerTimes& times) const;
+
  private:
   std::vector<TagObservation> measure_detected(const Image& gray,
                                                const std::vector<DetectedTag>& detected,
@@ -60,7 +66,8 @@ class BodyFinder {
   TrackerSettings settings_;
   int most_edge_pixels_;
   std::vector<TagPattern> patterns_;
-  double blur_px_;  ///< of this body's edges in the last picture
+  double blur_px_;                         ///< of this body's edges in the last picture
+  std::vector<TagObservation> last_tags_;  ///< of the last find
 };
 
 }  // namespace heft

@@ -117,10 +117,13 @@ std::string matrix_text(const char* key, std::size_t rows, std::size_t columns,
                      key, rows, columns, fmt::join(values, ", "));
 }
 
-std::string locks_text(const CameraLocks& locks) {
+// What OpenCV's own files don't have.
+std::string extra_text(const Intrinsics& camera) {
+  const CameraLocks& locks = camera.calibrated_at;
   std::string text;
   if (locks.exposure_s) text += fmt::format("exposure_s: {}\n", *locks.exposure_s);
   if (locks.focus) text += fmt::format("focus: {}\n", *locks.focus);
+  if (camera.readout_s > 0) text += fmt::format("readout_s: {}\n", camera.readout_s);
   return text;
 }
 
@@ -142,6 +145,9 @@ Intrinsics parse_intrinsics(const std::string& text, const std::string& file) {
   camera.calibrated_at = {
       reader.extra("exposure_s", 1e-6, 1, "the seconds that the shutter was open, up to 1"),
       reader.extra("focus", 0, 1e6, "what the driver called the lens' place, 0 or more")};
+  camera.readout_s =
+      reader.extra("readout_s", 0, 0.2, "the seconds from the first row to the last, up to 0.2")
+          .value_or(0);
   reader.finish();
   return camera;
 }
@@ -171,7 +177,7 @@ std::string to_yaml(const Intrinsics& camera, const std::string& comment) {
          fmt::format("image_width: {}\nimage_height: {}\n", camera.width_px, camera.height_px) +
          matrix_text("camera_matrix", 3, 3, matrix) +
          matrix_text("distortion_coefficients", 1, distortion.size(), distortion) +
-         locks_text(camera.calibrated_at);
+         extra_text(camera);
 }
 
 }  // namespace heft

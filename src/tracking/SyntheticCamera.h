@@ -26,6 +26,7 @@ struct Optics {
   double exposure = 1;      ///< 1: white paper just below saturation
   double noise = 3;  ///< sd, of 255; the same in all three channels, so gray pictures have it too
   double exposure_s = 0.004;  ///< how long the shutter is open; moving things blur
+  double readout_s = 0;  ///< how much later the last row is exposed than the first; they lean, too
 };
 
 struct SyntheticSettings {
@@ -55,7 +56,8 @@ class SyntheticCamera {
   SyntheticCamera(SyntheticCamera&&) noexcept;
   SyntheticCamera& operator=(SyntheticCamera&&) noexcept;
 
-  /// The picture whose exposure has its middle at t_s. @param number of the picture: its noise
+  /// The picture whose exposure, of its first row, has its middle at t_s. @param number of the
+  /// picture: its noise
   Image picture(const EffectorPath& board_from_effector, double t_s, std::uint64_t number);
 
  private:

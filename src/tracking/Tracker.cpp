@@ -9,6 +9,7 @@
 #include "base/Error.h"
 #include "base/Pose.h"
 #include "tracking/ImageConversion.h"
+#include "tracking/RollingShutter.h"
 
 namespace heft {
 
@@ -159,14 +160,40 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
   const BiasPrior prior = bias_of_effector(seen_board);
   std::optional<Pose> expected;
   if (seen_ && t_s - seen_->t_s <= longest_gap_s)
-    expected = normalized(seen_board.camera_from_body * seen_->expected_at(t_s));
+    expected = normalized(seen_board.camera_from_body * seen_->expected_at(t_s + seen_->own_row_s));
   if (settings_.region_of_interest && expected && !board_family_tags_) {
     const Region region = region_around(camera_, effector_.body(), *expected);
     const auto fit =
         effector_.find(gray_, detect(detectors_.back(), region), expected, prior, result_.times);
-    if (fit) return fit;
+    if (fit) return unrolled(*fit, seen_board, prior, t_s);
   }
-  return effector_.find(gray_, all_effector_tags(), expected, prior, result_.times);
+  const auto fit = effector_.find(gray_, all_effector_tags(), expected, prior, result_.times);
+  if (!fit) return fit;
+  return unrolled(*fit, seen_board, prior, t_s);
+}
+
+// Rows that were read at different times, by the velocity since the last picture, carried on to
+// this one. Where there is none, the pose is a mean over the rows.
+BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior,
+                          double t_s) {
+  if (!(camera_.readout_s > 0) || !seen_) return fit;
+  constexpr int rounds = 2;
+  for (int round = 0; round < rounds; ++round) {
+    const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
+    const double dt_s = t_s + own_row_s(camera_, fit.camera_from_body) - seen_->t_s;
+    if (!(dt_s > 0) || !could_have_moved(seen_->board_from_effector, pose, dt_s)) return fit;
+    const Velocity mean = mean_velocity(seen_->board_from_effector, pose, dt_s);
+    const bool carry_on = !seen_->velocity.linear_m_s.isZero();
+    const auto now = [&](const Eigen::Vector3d& of_mean, const Eigen::Vector3d& before) {
+      const Eigen::Vector3d in_board = carry_on ? of_mean + (of_mean - before) / 2 : of_mean;
+      return Eigen::Vector3d(seen_board.camera_from_body.orientation * in_board);
+    };
+    fit = effector_.solve_moving(fit,
+                                 {now(mean.linear_m_s, seen_->velocity.linear_m_s),
+                                  now(mean.angular_rad_s, seen_->velocity.angular_rad_s)},
+                                 prior, result_.times);
+  }
+  return fit;
 }
 
 void Tracker::take_board(const std::optional<BodyFit>& fit) {
@@ -181,12 +208,15 @@ void Tracker::take_board(const std::optional<BodyFit>& fit) {
 
 void Tracker::take_effector(const BodyFit& fit, double t_s) {
   const Pose pose = normalized(result_.camera_from_board->inverse() * fit.camera_from_body);
-  const double dt_s = seen_ ? t_s - seen_->t_s : 0;
+  const double own_s = own_row_s(camera_, fit.camera_from_body);
+  result_.effector_t_s = t_s + own_s;
+  const double dt_s = seen_ ? result_.effector_t_s - seen_->t_s : 0;
   result_.jump = !seen_ || !could_have_moved(seen_->board_from_effector, pose, dt_s);
   n_unseen_ = 0;
   const bool moves_on = !result_.jump && dt_s > 0;
-  seen_ = SeenEffector{
-      t_s, pose, moves_on ? mean_velocity(seen_->board_from_effector, pose, dt_s) : Velocity{}};
+  seen_ =
+      SeenEffector{result_.effector_t_s, own_s, pose,
+                   moves_on ? mean_velocity(seen_->board_from_effector, pose, dt_s) : Velocity{}};
   result_.board_from_effector = pose;
   result_.n_effector_tags = fit.n_tags;
   result_.n_effector_faces = fit.n_faces;
@@ -203,6 +233,7 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
   gray_ = gray_of(image);
   board_family_tags_.reset();
   result_ = {};
+  result_.effector_t_s = t_s;
   auto board = find_board();
   if (board && !has_effector() && board->quality < least_pose_quality) board.reset();
   take_board(board);

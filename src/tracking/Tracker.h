@@ -18,7 +18,11 @@ inline constexpr double least_pose_quality = 0.05;
 
 struct TrackedPicture {
   std::optional<Pose> camera_from_board;
-  std::optional<Pose> board_from_effector;  ///< only with the board
+  /// Only with the board. Of a camera with a readout_s: when the effector's own row was read, so
+  /// that what is drawn at it lies over the filmed one.
+  std::optional<Pose> board_from_effector;
+  double effector_t_s =
+      0;  ///< then; the picture's time where there is no readout_s, or no effector
   int n_board_tags = 0, n_effector_tags = 0;
   int n_effector_faces = 0;  ///< on which those tags are; two make a pose firm
   /// RMS distance of the measured tag edges from where the pose puts them.
@@ -54,9 +58,10 @@ class Tracker {
  private:
   /// The effector when it was last seen.
   struct SeenEffector {
-    double t_s;
+    double t_s;        ///< effector_t_s
+    double own_row_s;  ///< by so much later than its picture's
     Pose board_from_effector;
-    Velocity velocity;
+    Velocity velocity;  ///< mean since the picture before
 
     Pose expected_at(double then_s) const;
   };
@@ -68,6 +73,7 @@ class Tracker {
   std::vector<DetectedTag> all_effector_tags();
   std::optional<BodyFit> find_board();
   std::optional<BodyFit> find_effector(const BodyFit& seen_board, double t_s);
+  BodyFit unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior, double t_s);
   void take_board(const std::optional<BodyFit>& fit);
   void take_effector(const BodyFit& fit, double t_s);
 

@@ -14,7 +14,8 @@ HEFT = "heft"
 WIDTH, HEIGHT, FOCAL = 320, 240, 400
 CELL = 10  # pixels
 COLUMNS = ("frame,t_s,board_found,effector_found,x_m,y_m,z_m,qw,qx,qy,qz,camera_x_m,camera_y_m,"
-           "camera_z_m,camera_qw,camera_qx,camera_qy,camera_qz,n_tags,reprojection_px,quality")
+           "camera_z_m,camera_qw,camera_qx,camera_qy,camera_qz,n_tags,reprojection_px,quality,"
+           "effector_t_s")
 # tag36h11, id 0: code 0xd7e00984b, white cells as dots.
 TAG_0 = ["..........",
          ".########.",

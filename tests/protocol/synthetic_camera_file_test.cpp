@@ -10,6 +10,7 @@ namespace {
 
 const std::string everything = R"(exposure_s = 0.01
 blur_px = 1.5
+readout_s = 0.02
 vignetting = 0.5
 light = 0.4
 gamma = 2.2
@@ -20,6 +21,7 @@ hand = false
 TEST(SyntheticCameraFile, SetsEveryImperfection) {
   const SyntheticSettings settings = parse_synthetic_camera(everything, "x.toml");
   EXPECT_EQ(settings.optics.exposure_s, 0.01);
+  EXPECT_EQ(settings.optics.readout_s, 0.02);
   EXPECT_EQ(settings.optics.blur_px, 1.5);
   EXPECT_EQ(settings.optics.vignetting, 0.5);
   EXPECT_EQ(settings.optics.exposure, 0.4);
@@ -44,8 +46,8 @@ TEST(SyntheticCameraFile, ShippedIsTheUsualCamera) {
     EXPECT_EQ(settings.optics.noise, usual.optics.noise);
     EXPECT_EQ(settings.hand, usual.hand);
   }
-  for (const char* key :
-       {"exposure_s", "blur_px", "vignetting", "light", "gamma", "noise_levels", "hand"})
+  for (const char* key : {"exposure_s", "readout_s", "blur_px", "vignetting", "light", "gamma",
+                          "noise_levels", "hand"})
     EXPECT_NE(shipped.find(std::string(key) + " = "), std::string::npos) << key;
 }
 
@@ -62,6 +64,7 @@ const Broken broken[] = {
     {"negative_blur", {"= 1.5", "= ^-1"}, {"blur_px is -1", "at least 0"}},
     {"black_corners", {"= 0.5", "= ^1"}, {"vignetting is 1", "below 1"}},
     {"no_light", {"= 0.4", "= ^0"}, {"light is 0", "above 0"}},
+    {"slow_rows", {"= 0.02\n", "= ^0.06\n"}, {"readout_s is 0.06", "at most 0.05"}},
     {"gamma_of_nothing", {"= 2.2", "= ^0"}, {"gamma is 0", "at least 1 and at most 3"}},
     {"noise_as_text", {"= 8", "= ^\"much\""}, {"noise_levels", "a number"}},
     {"hand_as_number", {"false", "^1"}, {"true or false"}},

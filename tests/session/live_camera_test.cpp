@@ -266,7 +266,7 @@ TEST(LiveCamera, counts_a_lost_board_from_the_trials_start_on) {
   std::size_t n_frames = 0;
   LiveSession session(
       5,
-      [&](const ViewPicture& picture, const ScreenState& screen) {
+      [&](const ViewFrame& picture, const ScreenState& screen) {
         const std::size_t n = testing::frames_of(running->sink).size();
         if (screen.screen == Screen::rest) {
           running->device.does = Does::film_no_board;
@@ -290,7 +290,7 @@ TEST(LiveCamera, counts_a_lost_board_and_drops_from_the_end_of_a_pause_on) {
   double held_since_s = 0;
   std::size_t n_frames = 0;
   bool is_over = false;
-  LiveSession session(5, [&](const ViewPicture& picture, const ScreenState& screen) {
+  LiveSession session(5, [&](const ViewFrame& picture, const ScreenState& screen) {
     return can_answer(screen) && !is_over ? std::vector<Touch>{} : patient(picture, screen);
   });
   MadeUpConsole console;
@@ -321,7 +321,7 @@ TEST(LiveCamera, that_voided_a_trial_three_times_may_hiccup_after_a_resume) {
   LiveSession* running = nullptr;
   bool resumed = false, hiccuped = false;
   std::size_t n_voided = 0;
-  LiveSession session(0.3, [&](const ViewPicture& picture, const ScreenState& screen) {
+  LiveSession session(0.3, [&](const ViewFrame& picture, const ScreenState& screen) {
     const auto films_after = resumed ? EventKind::paused : EventKind::voided;
     const std::size_t n = running->events(films_after).size();
     if (n > n_voided) {

@@ -112,15 +112,17 @@ TEST(IntrinsicsFile, OpenCvReadsWhatIsWritten) {
   EXPECT_EQ(distortion.total(), 8U);
 }
 
-// Two keys of our own, which OpenCV passes over and files from elsewhere lack.
+// Three keys of our own, which OpenCV passes over and files from elsewhere lack.
 TEST(IntrinsicsFile, KeepsWhatTheCameraWasSetTo) {
   Intrinsics camera = mild;
   camera.calibrated_at = {0.0001, 35};
+  camera.readout_s = 0.0225;
   const std::string yaml = to_yaml(camera, "");
   const Intrinsics read = parse_intrinsics(yaml, "c.yaml");
   expect_same(read, camera);
   EXPECT_EQ(read.calibrated_at.exposure_s, 0.0001);
   EXPECT_EQ(read.calibrated_at.focus, 35);
+  EXPECT_EQ(read.readout_s, 0.0225);
   cv::FileStorage file(yaml, cv::FileStorage::READ | cv::FileStorage::MEMORY);
   cv::Mat matrix;
   file["camera_matrix"] >> matrix;
@@ -129,6 +131,7 @@ TEST(IntrinsicsFile, KeepsWhatTheCameraWasSetTo) {
   const Intrinsics without = parse_intrinsics(to_yaml(mild, ""), "c.yaml");
   EXPECT_FALSE(without.calibrated_at.exposure_s);
   EXPECT_FALSE(without.calibrated_at.focus);
+  EXPECT_EQ(without.readout_s, 0);
 }
 
 TEST(IntrinsicsFile, ReadsWhatOpenCvWrites) {
@@ -180,6 +183,8 @@ TEST(IntrinsicsFile, RefusesWhatCanNotBe) {
   EXPECT_THAT(refusal(to_yaml(mild, "") + "exposure_s: 4\n"),
               HasSubstr("c.yaml:15:1: exposure_s is 4, expected the seconds"));
   EXPECT_THAT(refusal(to_yaml(mild, "") + "focus: near\n"), HasSubstr("focus is unusable"));
+  EXPECT_THAT(refusal(to_yaml(mild, "") + "readout_s: 25\n"),
+              HasSubstr("c.yaml:15:1: readout_s is 25, expected the seconds from the first row"));
 }
 
 TEST(IntrinsicsFile, NamesTheLineOfABrokenOne) {
