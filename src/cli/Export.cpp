@@ -9,8 +9,7 @@
 
 #include "base/Printable.h"
 #include "cli/Commands.h"
-#include "cli/Progress.h"
-#include "cli/Talk.h"
+#include "cli/Terminal.h"
 #include "session/Session.h"
 
 namespace heft::cli {
