@@ -9,6 +9,21 @@ install(DIRECTORY protocols DESTINATION ${CMAKE_INSTALL_DATADIR}/heft COMPONENT 
 install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT heft)
 install(TARGETS heft_bench_program COMPONENT bench)
 
+# The program writes its own manual page and completion.
+foreach(made man/heft.1 bash/heft)
+  get_filename_component(what ${made} DIRECTORY)
+  list(APPEND heft_told ${PROJECT_BINARY_DIR}/told/${made})
+  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/told/${made}
+                     COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/told/${what}
+                     COMMAND heft_program completion ${what} > ${PROJECT_BINARY_DIR}/told/${made}
+                     DEPENDS heft_program VERBATIM)
+endforeach()
+add_custom_target(heft_told ALL DEPENDS ${heft_told})
+install(FILES ${PROJECT_BINARY_DIR}/told/man/heft.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+        COMPONENT heft)
+install(FILES ${PROJECT_BINARY_DIR}/told/bash/heft
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT heft)
+
 set(heft_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/heft)
 # heft_install(component rooms...): their libraries and headers.
 function(heft_install component)

@@ -9,17 +9,11 @@
 namespace heft {
 
 namespace {
-std::vector<std::vector<double>> masses_of(const DemonstrationBlock&) {
+// Of the trials of a block, which may have none.
+template <typename SomeBlock>
+std::vector<std::vector<double>> masses_of(const SomeBlock& block) {
+  if constexpr (requires { block.masses_g; }) return {block.masses_g};
   return {};
-}
-std::vector<std::vector<double>> masses_of(const BreakBlock&) {
-  return {};
-}
-std::vector<std::vector<double>> masses_of(const IntroductionBlock& block) {
-  return {block.masses_g};
-}
-std::vector<std::vector<double>> masses_of(const SortingBlock& block) {
-  return {block.masses_g};
 }
 std::vector<std::vector<double>> masses_of(const ComparisonBlock& block) {
   std::vector<std::vector<double>> masses_g;

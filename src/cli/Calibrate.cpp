@@ -201,7 +201,10 @@ void add_source(Command& command, Options& options) {
 }
 
 void add_camera(Command& parent) {
-  Command command = parent.add_command("camera", "the camera, from views of the board");
+  Command command = parent.add_command(
+      "camera", "the camera, from views of the board",
+      {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
+       "heft calibrate camera --camera frames:views --board BOARD.toml --out camera.yaml"});
   const auto options = std::make_shared<Options>();
   add_source(command, *options);
   command.add_option("--board", &options->board, "board file").required();
@@ -215,7 +218,9 @@ void add_camera(Command& parent) {
 
 void add_effector(Command& parent) {
   Command command =
-      parent.add_command("effector", "where the effector's tags really are, from pictures");
+      parent.add_command("effector", "where the effector's tags really are, from pictures",
+                         {"heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
+                          "      --effector EFFECTOR.toml --out MEASURED.toml"});
   const auto options = std::make_shared<Options>();
   add_source(command, *options);
   command.add_option("--camera-file", &options->camera_file, "the calibrated camera").required();

@@ -1,15 +1,17 @@
 #include "cli/CommandLine.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <sstream>
 
 #include "base/Error.h"
 #include "base/Names.h"
+#include "cli/Help.h"
 
 namespace heft::cli {
 
@@ -53,17 +55,88 @@ std::string unexpected_words(const CLI::App& app, const CLI::App& command) {
                      option == words.end() ? "" : nearest_hint(*option, options));
 }
 
+// A misspelled option makes what it was meant to be look missing.
+bool has_unexpected_option(const CLI::App& app) {
+  const std::vector<std::string> words = app.remaining(true);
+  return std::ranges::any_of(words, [](const std::string& word) { return word.starts_with("--"); });
+}
+
 // A usage mistake as CLI11 found it, with where to read on.
 Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const auto given = app.get_subcommands();
   const CLI::App& command = given.empty() ? app : *given.front();
   const std::string name = app.get_name() + (given.empty() ? "" : " " + command.get_name());
   std::string what = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error))
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) ||
+      (!given.empty() && has_unexpected_option(app)))
     what = unexpected_words(app, command);
   else if (given.empty() && dynamic_cast<const CLI::RequiredError*>(&error))
     what = "a command is missing";
   return Error(fmt::format("{}; see {} --help", what, name), ExitCode::usage);
+}
+
+std::string value_of(const CLI::Option& option) {
+  if (option.get_items_expected_max() == 0 || !option.nonpositional()) return "";
+  const std::string type = option.get_type_name();
+  if (type.starts_with("INT") || type.starts_with("UINT")) return "N";
+  return type.starts_with("FLOAT") ? "NUMBER" : type;
+}
+
+OptionDescription described(const CLI::Option& option) {
+  OptionDescription told;
+  told.by_place = !option.nonpositional();
+  told.names = option.get_name(false, true);
+  told.value = value_of(option);
+  told.group = told.by_place ? "Arguments" : option.get_group();
+  told.required = option.get_required();
+  told.repeats = option.get_items_expected_max() > 1;
+  told.help = option.get_description();
+  if (told.required && !told.by_place) told.help += " (required)";
+  if (!option.get_default_str().empty())
+    told.help += fmt::format(" (default: {})", option.get_default_str());
+  return told;
+}
+
+// @param before the names that are typed before this one's, with a blank after them
+CommandDescription described(const CLI::App& app, const std::string& before) {
+  CommandDescription told{before + app.get_name(), app.get_description(), app.get_footer(), {}, {}};
+  for (const CLI::Option* option : app.get_options()) told.options.push_back(described(*option));
+  // What a command can't do without comes first, what all have last.
+  std::ranges::stable_sort(told.options, {}, [](const OptionDescription& option) {
+    return option.by_place ? 0 : option.names.starts_with("-h,") ? 2 : 1;
+  });
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    told.commands.push_back(described(*command, told.name + " "));
+  return told;
+}
+
+// Of the innermost command that was given.
+CommandDescription described_as_given(const CLI::App& app, const std::string& before = "") {
+  const auto given = app.get_subcommands();
+  if (given.empty()) return described(app, before);
+  return described_as_given(*given.front(), before + app.get_name() + " ");
+}
+
+// Of the terminal that reads it, as far as lines are good to read.
+std::size_t help_width() {
+  constexpr unsigned short narrowest = 60, usual = 80, widest = 120;
+  winsize size{};
+  const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return is_known ? std::clamp(size.ws_col, narrowest, widest) : usual;
+}
+
+void add_completion(Command& program, const CLI::App& app) {
+  Command command = program.add_command(
+      "completion", "print what completes commands and options in a shell, or the manual page",
+      {"source <(heft completion bash)", "heft completion man > heft.1"});
+  const auto what = std::make_shared<std::string>();
+  command.add_option("WHAT", what.get(), "bash, or man for the manual page")
+      .required()
+      .one_of({"bash", "man"});
+  command.does([what, &app] {
+    const CommandDescription all = described(app, "");
+    fmt::print("{}", *what == "man" ? manual_page(all) : bash_completion(all));
+  });
 }
 
 }  // namespace
@@ -89,7 +162,8 @@ Option& Option::whole_number(std::uint64_t least, std::uint64_t most) {
 }
 
 Option& Option::one_of(const std::vector<std::string>& names) {
-  option_.check(CLI::IsMember(names));
+  option_.check(CLI::IsMember(names).description(""));
+  option_.type_name(fmt::format("{}", fmt::join(names, "|")));
   return *this;
 }
 
@@ -105,15 +179,16 @@ Command Command::add_command(const std::string& name, const std::string& summary
 Option Command::add_option(const std::string& name, Destination destination,
                            const std::string& help) {
   const auto add = [&](auto* value) { return app_.add_option(name, *value, help); };
-  return Option(*std::visit(add, destination));
+  return Option(*std::visit(add, destination)->group(group_));
 }
 
 void Command::add_flag(const std::string& name, bool& flag, const std::string& help) {
-  app_.add_flag(name, flag, help);
+  app_.add_flag(name, flag, help)->group(group_);
 }
 
 void Command::add_session(std::optional<std::int64_t>& session, const std::string& without_it) {
-  add_option("--session", &session, "default: " + without_it).whole_number(1, most_sessions);
+  add_option("--session", &session, "of the log (default: " + without_it + ")")
+      .whole_number(1, most_sessions);
 }
 
 void Command::add_sessions(std::vector<std::int64_t>& sessions, const std::string& help) {
@@ -146,14 +221,16 @@ void run_command_line(const ProgramDescription& program, int argc, char** argv) 
   app.footer(program.footer);
   Command all(app);
   program.add_commands(all);
+  add_completion(all, app);
   if (argc > 1) refuse_unknown_command(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) throw usage_error(app, error);
-    std::ostringstream text;  // --help and --version
-    app.exit(error, text);
-    fmt::print("{}", text.str());
+    if (dynamic_cast<const CLI::CallForVersion*>(&error))
+      fmt::print("{} {}\n", program.name, HEFT_VERSION);
+    else
+      fmt::print("{}", help_of(described_as_given(app), help_width()));
   }
 }
 

@@ -50,6 +50,8 @@ class Command {
   /// @param name "--db", or "PROTOCOL" for what is told by its place
   Option add_option(const std::string& name, Destination destination, const std::string& help);
   void add_flag(const std::string& name, bool& flag, const std::string& help);
+  /// What is added from here on stands under this heading in --help.
+  void group(const std::string& heading) { group_ = heading; }
 
   /// --session of a log.
   void add_session(std::optional<std::int64_t>& session, const std::string& without_it);
@@ -68,6 +70,7 @@ class Command {
 
  private:
   CLI::App& app_;
+  std::string group_ = "Options";
 };
 
 /// A program's name, what it is for, and its commands.
@@ -76,7 +79,8 @@ struct ProgramDescription {
   void (*add_commands)(Command& program);
 };
 
-/// Finds the command in argv and does it. --help and --version print to stdout.
+/// Finds the command in argv and does it. --help, --version and the command `completion`, which
+/// every program has, print to stdout.
 /// @throws Error (usage) for what can't be understood, with the nearest that can; what the command
 ///   throws
 void run_command_line(const ProgramDescription& program, int argc, char** argv);

@@ -168,11 +168,12 @@ void add_run(Command& app) {
       .shows_default();
   command.add_seed(options->seed);
   add_session_options(command, options->given);
+  command.group("The protocol and the log");
   command.add_option("--simulator", &options->given.simulator, "instead of the protocol's");
   add_settings(command, options->given.settings);
   command.add_option("--language", &options->language,
-                     "of the participant's screens: en, fr, or a text FILE.toml; default: the "
-                     "protocol's");
+                     "of the participant's screens: en, fr, or a text FILE.toml (default: the "
+                     "protocol's)");
   command.add_flag("--left-handed", options->left_handed,
                    "mirror the controls (the cubes stay where they are)");
   command
@@ -206,9 +207,10 @@ void add_resume(Command& app) {
        "heft resume --db lab.db --session 3 --end"});
   command.add_option("--db", &options->db, "the log").shows_default();
   command.add_session(options->session, "the newest unfinished one");
-  add_session_options(command, options->again);
+  add_session_options(command, options->again, true);
   command.add_option("--simulator", &options->again.simulator,
                      "from here on; each trial is replayed with the one that it ran with");
+  command.group("Options");
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
   command.add_flag("--end", options->end,

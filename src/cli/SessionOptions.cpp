@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "base/Error.h"
@@ -18,34 +20,61 @@
 
 namespace heft::cli {
 
+namespace {
+struct SessionOption {
+  const char* name;
+  std::optional<std::string> GivenOptions::*given;
+  const char *help, *without_it;
+};
+
+constexpr std::array who_and_what{
+    SessionOption{"--responder", &GivenOptions::responder,
+                  "human, or a model: NAME or NAME:FILE (heft doctor lists them)", "human"},
+    SessionOption{
+        "--tracker", &GivenOptions::tracker,
+        "where effector poses come from: camera:N, video:FILE, frames:FOLDER, synthetic (a "
+        "rendered camera films a model's hand; synthetic:FILE.toml says what it gets wrong, "
+        "as protocols/apparatus/synthetic_camera.toml explains), hand (that hand as it is)",
+        "camera:0 for a person, hand for a model"},
+    SessionOption{"--view", &GivenOptions::view,
+                  "what shows the session: window, headless, video:FILE",
+                  "window for a person, headless for a model"}};
+
+constexpr std::array apparatus{
+    SessionOption{"--camera-file", &GivenOptions::camera_file,
+                  "the camera's calibration, from heft calibrate camera",
+                  "camera.yaml in this folder, for synthetic a made-up one"},
+    SessionOption{"--board", &GivenOptions::board_file, "the printed board",
+                  "protocols/apparatus/board.toml"},
+    SessionOption{"--effector", &GivenOptions::effector_file, "the effector's tags",
+                  "protocols/apparatus/effector.toml"}};
+
+void add_options(Command& command, GivenOptions& given, std::span<const SessionOption> options,
+                 bool stay) {
+  for (const SessionOption& option : options)
+    command.add_option(
+        option.name, &(given.*option.given),
+        stay ? option.help : fmt::format("{} (default: {})", option.help, option.without_it));
+}
+}  // namespace
+
 void add_apparatus_options(Command& command, GivenOptions& given) {
-  command.add_option("--camera-file", &given.camera_file,
-                     "the camera's calibration, from heft calibrate camera; default: "
-                     "camera.yaml in this folder, for synthetic a made-up one");
-  command.add_option("--board", &given.board_file,
-                     "the printed board; default: protocols/apparatus/board.toml");
-  command.add_option("--effector", &given.effector_file,
-                     "the effector's tags; default: protocols/apparatus/effector.toml");
+  command.group("Apparatus");
+  add_options(command, given, apparatus, false);
+}
+
+void add_session_options(Command& command, GivenOptions& given, bool stay) {
+  command.group(stay ? "What is another from here on (the rest stays as it was)"
+                     : "Who answers, what films, what shows");
+  add_options(command, given, who_and_what, stay);
+  if (!stay) command.group("Apparatus");
+  add_options(command, given, apparatus, stay);
 }
 
 void add_settings(Command& command, std::vector<std::string>& settings) {
   command.add_option("--set", &settings,
                      "change a key of the protocol, such as coupling.stiffness_n_per_m=100; kept "
                      "with the session");
-}
-
-void add_session_options(Command& command, GivenOptions& given) {
-  command.add_option("--responder", &given.responder,
-                     "human (default), or a model: NAME or NAME:FILE (heft doctor lists them)");
-  command.add_option("--tracker", &given.tracker,
-                     "where effector poses come from: camera:N, video:FILE, frames:FOLDER, "
-                     "synthetic (a rendered camera films a model's hand; synthetic:FILE.toml says "
-                     "what it gets wrong, as protocols/apparatus/synthetic_camera.toml explains), "
-                     "hand (that hand as it is); default: camera:0 for a person, hand for a model");
-  command.add_option("--view", &given.view,
-                     "what shows the session: window, headless, video:FILE; default: window for a "
-                     "person, headless for a model");
-  add_apparatus_options(command, given);
 }
 
 namespace {

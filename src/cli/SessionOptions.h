@@ -24,7 +24,9 @@ void add_apparatus_options(Command& command, GivenOptions& given);
 /// --set
 void add_settings(Command& command, std::vector<std::string>& settings);
 
-void add_session_options(Command& command, GivenOptions& given);
+/// --responder, --tracker, --view and those of the apparatus.
+/// @param stay what is not given stays as the session has it; otherwise --help tells the defaults
+void add_session_options(Command& command, GivenOptions& given, bool stay = false);
 
 /// A person is filmed and has a window; a model is neither unless somebody says so. Files of the
 /// apparatus that are not given are the shipped ones; a real camera's calibration never is, it

@@ -33,7 +33,9 @@ void draw(const Options& options, const char* what, LoadBody load, WriteSheet wr
 
 void add_body(Command& sheet, const char* name, const char* summary, LoadBody load,
               WriteSheet write) {
-  Command command = sheet.add_command(name, summary);
+  const std::string example =
+      fmt::format("heft sheet {0} --{0} protocols/apparatus/{0}.toml --out {0}.pdf", name);
+  Command command = sheet.add_command(name, summary, {example.c_str()});
   const auto options = std::make_shared<Options>();
   command.add_option(fmt::format("--{}", name), &options->body, fmt::format("{} file", name))
       .required();

@@ -2,11 +2,14 @@
 
 Run: python3 tests/cli/command_line_test.py PATH_TO_HEFT
 """
+import contextlib
 import json
 import os
+import pty
 import shutil
 import signal
 import subprocess
+import termios
 import time
 
 from session_harness import PROTOCOLS, ROOT, SessionTest, main, query
@@ -39,6 +42,12 @@ class Mistakes(CommandLine):
             self.assertIn(f"heft {words[0]} --help", self.says(2, *words))
         said = self.says(2, "replay", "--sesion", "3")
         self.assertIn("unexpected: --sesion 3 (did you mean --session?)", said)
+
+    def test_a_misspelled_option_is_told_before_what_it_left_out(self):
+        for wrong, meant in (("--partcipant", "--participant"), ("--participnt", "--participant")):
+            said = self.says(2, "run", QUICK, wrong, "01")
+            self.assertIn(f"unexpected: {wrong} 01 (did you mean {meant}?)", said)
+        self.assertIn("--participant is required", self.says(2, "run", QUICK))
 
     def test_numbers_are_decimal_digits(self):
         for seed in ("010", "0x10", "+1", " 1", "1 ", "-1", "1.0", "1e3", "", str(2**63), str(2**64)):
@@ -129,6 +138,59 @@ class Output(CommandLine):
             said = self.run_heft(command, "--help").stdout
             self.assertIn(f"\n  {positional} ", said)
             self.assertIn("print this help", said)
+
+    def test_help_is_wrapped_to_the_terminal_and_ends_with_examples(self):
+        for command in ("run", "resume", "simulate", "replay", "doctor"):
+            at_80 = self.run_heft(command, "--help").stdout.split("Examples:")
+            self.assertEqual(len(at_80), 2, command)
+            self.assertLessEqual(max(map(len, at_80[0].splitlines())), 80)
+            terminal, end = pty.openpty()
+            termios.tcsetwinsize(end, (24, 70))
+            program = subprocess.Popen([self.heft, command, "--help"], stdout=end)
+            os.close(end)
+            said = b""
+            with contextlib.suppress(OSError):  # the terminal has gone with its program
+                while part := os.read(terminal, 4096):
+                    said += part
+            program.wait()
+            os.close(terminal)
+            narrow = said.decode().replace("\r", "").split("Examples:")[0]
+            self.assertLessEqual(max(map(len, narrow.splitlines())), 70)
+            self.assertEqual(narrow.split(), at_80[0].split())
+
+    def test_help_tells_defaults_where_they_are(self):
+        words = {command: " ".join(self.run_heft(command, "--help").stdout.split())
+                 for command in ("run", "resume")}
+        for default in ("(default: human)", "(default: camera:0 for a person, hand for a model)",
+                        "(default: protocols/apparatus/board.toml)"):
+            self.assertIn(default, words["run"])
+            self.assertNotIn(default, words["resume"])
+        self.assertIn("the rest stays as it was", words["resume"])
+        self.assertIn("--purpose main|pilot|test", words["run"])
+        self.assertIn("(default: main)", words["run"])
+
+    def completed(self, *words):
+        script = self.run_heft("completion", "bash").stdout
+        asked = " ".join(f"'{word}'" for word in words)
+        script += (f"COMP_WORDS=({asked}) COMP_CWORD={len(words) - 1}\n_heft_completion\n"
+                   'printf "%s\\n" "${COMPREPLY[@]}"\n')
+        done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True)
+        self.assertEqual(done.stderr, "")
+        return done.stdout.split()
+
+    def test_bash_completes_commands_and_options(self):
+        self.assertEqual(self.completed("heft", "res"), ["resume"])
+        self.assertEqual(self.completed("heft", "calibrate", "c"), ["camera"])
+        self.assertEqual(self.completed("heft", "run", "--part"), ["--participant"])
+        self.assertEqual(self.completed("heft", "resume", "--db", "x.db", "--un"), ["--unblind"])
+        self.assertEqual(self.completed("heft", "calibrate", "camera", "--exp"), ["--exposure-ms"])
+        self.assertEqual(self.completed("heft", "run", "proto"), [])  # bash's own: files
+
+    def test_the_manual_page_has_every_command(self):
+        page = self.run_heft("completion", "man").stdout
+        for line in (".TH HEFT 1", ".SS heft run", ".SS heft calibrate camera"):
+            self.assertIn("\n" + line, "\n" + page)
+        self.assertIn("\\-\\-participant", page)
 
     def test_a_report_without_gnuplot_says_how_to_get_charts(self):
         db = self.folder / "s.db"

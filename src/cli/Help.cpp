@@ -1,0 +1,163 @@
+#include "cli/Help.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace heft::cli {
+
+namespace {
+constexpr std::size_t help_column = 28;
+
+// Words of a text in lines from a column on; the first goes on a line that is `used` long.
+std::string wrapped(const std::string& text, std::size_t column, std::size_t width,
+                    std::size_t used) {
+  if (text.empty()) return "\n";
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    for (std::string word; words >> word;) {
+      const bool starts = used <= column;
+      if (!starts && used + 1 + word.size() > width) result += '\n', used = 0;
+      const std::size_t gap = used <= column ? column - used : 1;
+      result += std::string(gap, ' ') + word;
+      used += gap + word.size();
+    }
+    result += '\n';
+    used = 0;
+  }
+  return result;
+}
+
+std::string left_of(const OptionDescription& option) {
+  std::string left = "  " + option.names;
+  if (!option.value.empty()) left += " " + option.value;
+  return left + (option.repeats ? " ..." : "");
+}
+
+std::string line_of(const std::string& left, const std::string& help, std::size_t width) {
+  const bool too_long = left.size() + 2 > help_column;
+  return left + (too_long ? "\n" : "") +
+         wrapped(help, help_column, width, too_long ? 0 : left.size());
+}
+
+// Each group once, in the order of its first option.
+std::vector<std::string> groups_of(const CommandDescription& command) {
+  std::vector<std::string> groups;
+  for (const OptionDescription& option : command.options)
+    if (std::ranges::find(groups, option.group) == groups.end()) groups.push_back(option.group);
+  return groups;
+}
+
+std::string usage_of(const CommandDescription& command) {
+  std::string usage = command.name + " [OPTIONS]";
+  for (const OptionDescription& option : command.options)
+    if (option.by_place) usage += " " + option.names + (option.repeats ? "..." : "");
+  return usage + (command.commands.empty() ? "" : " COMMAND");
+}
+
+std::string last_word(const std::string& name) {
+  return name.substr(name.rfind(' ') + 1);
+}
+
+// The options' long names, or the commands' names, with blanks between.
+std::string options_in_a_row(const CommandDescription& command) {
+  std::string row;
+  for (const OptionDescription& option : command.options)
+    if (!option.by_place)
+      row += (row.empty() ? "" : " ") + option.names.substr(option.names.rfind(',') + 1);
+  return row;
+}
+
+std::string commands_in_a_row(const CommandDescription& command) {
+  std::string row;
+  for (const CommandDescription& inner : command.commands)
+    row += (row.empty() ? "" : " ") + last_word(inner.name);
+  return row;
+}
+
+void add_cases(const CommandDescription& command, const std::string& path, std::string& text) {
+  text += fmt::format("    \"{}\") commands=\"{}\" options=\"{}\" ;;\n", path,
+                      commands_in_a_row(command), options_in_a_row(command));
+  for (const CommandDescription& inner : command.commands)
+    add_cases(inner, path + "/" + last_word(inner.name), text);
+}
+
+// As roff takes it: nothing at a line's start is a request, no hyphen is a dash.
+std::string roff(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if ((c == '.' || c == '\'') && (safe.empty() || safe.back() == '\n')) safe += "\\&";
+    if (c == '\\')
+      safe += "\\e";
+    else if (c == '-')
+      safe += "\\-";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+void add_section(const CommandDescription& command, std::string& page) {
+  page += fmt::format(".SS {}\n{}\n", roff(usage_of(command)), roff(command.summary));
+  for (const OptionDescription& option : command.options)
+    page += fmt::format(".TP\n.B {}\n{}\n", roff(left_of(option).substr(2)), roff(option.help));
+  if (!command.footer.empty()) page += fmt::format(".PP\n.nf\n{}\n.fi\n", roff(command.footer));
+  for (const CommandDescription& inner : command.commands) add_section(inner, page);
+}
+}  // namespace
+
+std::string help_of(const CommandDescription& command, std::size_t width) {
+  std::string text = wrapped(command.summary, 0, width, 0);
+  text += "\nUsage: " + usage_of(command) + "\n";
+  for (const std::string& group : groups_of(command)) {
+    text += fmt::format("\n{}:\n", group);
+    for (const OptionDescription& option : command.options)
+      if (option.group == group) text += line_of(left_of(option), option.help, width);
+  }
+  if (!command.commands.empty()) text += "\nCommands:\n";
+  for (const CommandDescription& inner : command.commands)
+    text += line_of("  " + last_word(inner.name), inner.summary, width);
+  return text + (command.footer.empty() ? "" : "\n" + command.footer + "\n");
+}
+
+std::string bash_completion(const CommandDescription& program) {
+  std::string cases;
+  add_cases(program, "", cases);
+  std::string function = program.name;
+  std::ranges::replace(function, '-', '_');
+  return fmt::format(R"(# Completion for bash. In ~/.bashrc: source <({0} completion bash)
+_{1}_completion() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} path= commands= options= i
+  for ((i = 0; i < COMP_CWORD; i++)); do
+    if ((i > 0)); then
+      [[ " $commands " == *" ${{COMP_WORDS[i]}} "* ]] || break
+      path+="/${{COMP_WORDS[i]}}"
+    fi
+    case "$path" in
+{2}    esac
+  done
+  if [[ $word == -* ]]; then
+    COMPREPLY=($(compgen -W "$options" -- "$word"))
+  else
+    COMPREPLY=($(compgen -W "$commands" -- "$word"))
+  fi
+}}
+complete -o default -F _{1}_completion {0}
+)",
+                     program.name, function, cases);
+}
+
+std::string manual_page(const CommandDescription& program) {
+  std::string page = fmt::format(
+      ".TH HEFT 1 \"\" \"heft {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n.SH DESCRIPTION\n{}\n"
+      ".SH COMMANDS\n",
+      HEFT_VERSION, program.name, roff(program.summary), roff(usage_of(program)),
+      roff(program.footer));
+  for (const CommandDescription& command : program.commands) add_section(command, page);
+  return page;
+}
+
+}  // namespace heft::cli
