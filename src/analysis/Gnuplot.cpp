@@ -11,7 +11,7 @@
 #include <cstring>
 #include <vector>
 
-#include "analysis/Wrapping.h"
+#include "analysis/Table.h"
 #include "base/Error.h"
 
 namespace heft {

@@ -1,9 +1,9 @@
-#include "analysis/Hypotheses.h"
-
 #include <fmt/format.h>
 
 #include <map>
 #include <string_view>
+
+#include "analysis/Notes.h"
 
 namespace heft {
 

@@ -1,4 +1,5 @@
-// What a reader must know about what was counted and what was not.
+// What a summary says in sentences: what a reader must know about what was counted and what was
+// not, and the figures that speak to the paper's hypotheses.
 #pragma once
 
 #include <string>
@@ -10,5 +11,8 @@ namespace heft {
 
 /// A sentence each; none where nothing is out of the ordinary.
 std::vector<std::string> notes_on(const Dataset& dataset, const Summary& summary);
+
+/// E1-H1...E1-H3 (sorting) and E2-H1, E2-H2 (JND), stated as in the paper.
+std::vector<Hypothesis> hypotheses_of(const Summary& summary);
 
 }  // namespace heft

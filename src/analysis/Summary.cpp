@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "analysis/Hypotheses.h"
 #include "analysis/Notes.h"
 
 namespace heft {

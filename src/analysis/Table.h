@@ -40,6 +40,10 @@ std::string as_csv(const Table& table, std::string_view data);
 
 std::string as_html(const Table& table);
 
+/// Lines of at most `width` characters, broken at spaces, or anywhere where a word is longer. None
+/// for an empty text. width > 0.
+std::vector<std::string> wrapped(std::string_view text, std::size_t width);
+
 /// Text with <, >, & and quotes as HTML has them.
 std::string html_escaped(std::string_view text);
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "analysis/Table.h"
 #include "analysis/TableParts.h"
-#include "analysis/Wrapping.h"
 
 namespace heft {
 

@@ -34,11 +34,21 @@ std::pair<std::string, std::string> info_from(Cells& cells) {
   return {std::move(key), cells.text()};
 }
 
-TrialRow trial_from(Cells& cells) {
+// A row that says what was in force: the setup's index is the first cell after the row's id.
+template <typename Row>
+Row setup_row_from(Cells& cells) {
   const int setup_index = cells.integer();
-  TrialRow row = row_from<TrialRow>(cells);
+  Row row = row_from<Row>(cells);
   row.setup_index = setup_index;
   return row;
+}
+
+template <typename Row>
+std::string with_setups(std::string_view table) {
+  return fmt::format(
+      "SELECT rowid, ifnull((SELECT setup_index FROM setup s WHERE s.setup_id = t.setup_id AND "
+      "s.session_id = t.session_id), 0), {} FROM {} t WHERE session_id = ? ORDER BY rowid",
+      columns_of<Row>(), table);
 }
 }  // namespace
 
@@ -187,13 +197,8 @@ std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
 }
 
 std::vector<TrialRow> LogReader::trials(std::int64_t session_id) const {
-  auto trials = impl_->rows(
-      trial_from, "trial",
-      fmt::format("SELECT trial_id, ifnull((SELECT setup_index FROM setup s WHERE s.setup_id = "
-                  "t.setup_id AND s.session_id = t.session_id), 0), {} FROM trial t WHERE "
-                  "session_id = ? ORDER BY trial_id",
-                  columns_of<TrialRow>()),
-      session_id);
+  auto trials =
+      impl_->rows(setup_row_from<TrialRow>, "trial", with_setups<TrialRow>("trial"), session_id);
   std::map<int, std::vector<double>> masses_g;
   for (const CubeRow& cube : cubes(session_id)) masses_g[cube.attempt_index].push_back(cube.mass_g);
   for (TrialRow& trial : trials) trial.plan.masses_g = masses_g[trial.attempt_index];
@@ -225,19 +230,8 @@ std::vector<EstimateRow> LogReader::estimates(std::int64_t session_id) const {
 
 std::vector<ParticipantParameterRow> LogReader::participant_parameters(
     std::int64_t session_id) const {
-  const auto parameter_from = [](Cells& cells) {
-    const int setup_index = cells.integer();
-    auto row = row_from<ParticipantParameterRow>(cells);
-    row.setup_index = setup_index;
-    return row;
-  };
-  return impl_->rows(
-      parameter_from, "participant_parameter",
-      fmt::format("SELECT rowid, ifnull((SELECT setup_index FROM setup s WHERE s.setup_id = "
-                  "p.setup_id AND s.session_id = p.session_id), 0), {} FROM participant_parameter "
-                  "p WHERE session_id = ? ORDER BY rowid",
-                  columns_of<ParticipantParameterRow>()),
-      session_id);
+  return impl_->rows(setup_row_from<ParticipantParameterRow>, "participant_parameter",
+                     with_setups<ParticipantParameterRow>("participant_parameter"), session_id);
 }
 
 std::vector<FrameRow> LogReader::frames(std::int64_t session_id, int attempt_index) const {

@@ -9,10 +9,26 @@
 #include <vector>
 
 #include "engine/Engine.h"
+#include "experiment/Rows.h"
 #include "record/LogReader.h"
-#include "replay/RowText.h"
 
 namespace heft {
+
+// Projected rows as named columns of text, so that logged and folded rows can be compared and a
+// difference named. Doubles are written so that equal text means equal bits.
+
+struct ColumnText {
+  std::string name, value;
+  int since = 1;  ///< the version of the log that first has it
+};
+
+struct RowText {
+  std::string table;  ///< as the log calls it
+  std::string key;    ///< which row, for people: "cube 2 of trial 7"
+  int attempt_index = 0;
+  double t_s = 0;  ///< session time that the row belongs to; negative: its attempt's end
+  std::vector<ColumnText> columns;
+};
 
 /// One event of an attempt, with how many events of the session came before it.
 struct AttemptEvent {

@@ -5,7 +5,6 @@
 
 #include <limits>
 
-#include "analysis/Wrapping.h"
 
 namespace heft {
 namespace {

@@ -222,11 +222,12 @@ class GoingOn(CommandLine):
             return 0
 
     def changes(self, db):
-        """What each setup after the first changed: name, before, after."""
+        """What each setup after the first changed: name, before, after; but for the drawn numbers."""
         setups = [json.loads(detail) for (detail,) in
                   query(db, "select detail from event where kind = 'setup' order by event_id")]
         return [(key, old.get(key, ""), new.get(key, "")) for old, new in zip(setups, setups[1:])
-                for key in sorted(old | new) if old.get(key, "") != new.get(key, "")]
+                for key in sorted((old | new).keys() - {"participant_parameters"})
+                if old.get(key, "") != new.get(key, "")]
 
     def test_a_closed_terminal_saves_everything(self):
         db = self.folder / "s.db"
@@ -241,6 +242,8 @@ class GoingOn(CommandLine):
                              "--view", "headless", "--simulator", "boxes").stderr
         self.assertIn("coin instead of simulated", said)
         self.assertEqual(self.changes(db), [("responder", "simulated", "coin")])
+        self.assertEqual(query(db, "select name, value from participant_parameter join setup using "
+                                   "(setup_id) where responder = 'coin'"), [("p", 0.5)])
         kinds = [kind for (kind,) in query(db, "select kind from event order by event_id")]
         self.assertEqual(kinds[kinds.index("resumed") + 1], "setup")
         [(touched,)] = query(db, "select max(n_pushes) from cube join trial using (trial_id) where "
