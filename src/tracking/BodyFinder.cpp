@@ -144,7 +144,7 @@ std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,
 
 MeasuredTag BodyFinder::measure(const Image& gray, std::size_t tag, const Corners& corners_px) {
   const MeasuredTag seen =
-      measure_tag(gray, camera_, patterns_[tag], corners_px, blur_px_, most_edge_pixels_);
+      measure_tag(gray, camera_, patterns_[tag], corners_px, blur_px_, most_edge_pixels_, noise_);
   // Clipped edges look more blurred than they are: learning from them, the blur would grow.
   if (seen.quality < settings_.least_quality || seen.saturated > 0) return seen;
   double sum = 0;

@@ -36,6 +36,9 @@ class BodyFinder {
 
   const MarkerBody& body() const { return body_; }
 
+  /// @param noise of the next picture, gray levels: what noise does to edges is no fault of theirs
+  void expect_noise(double noise) { noise_ = noise; }
+
   /// From detected tags. @param expected where the body may be; decides only what the picture can't
   std::optional<BodyFit> find(const Image& gray, const std::vector<DetectedTag>& detected,
                               const std::optional<Pose>& expected, const BiasPrior& prior,
@@ -66,6 +69,7 @@ class BodyFinder {
   TrackerSettings settings_;
   int most_edge_pixels_;
   std::vector<TagPattern> patterns_;
+  double noise_ = 0;
   double blur_px_;                         ///< of this body's edges in the last picture
   std::vector<TagObservation> last_tags_;  ///< of the last find
 };

@@ -23,6 +23,7 @@ constexpr double least_seen_noise = 0.7, clipped_noise_ratio = 0.4;  // gray lev
 constexpr double window_cells = 0.5, least_window_px = 1.0, most_window_px = 5;
 constexpr double corner_px = 2, most_corner_fraction = 0.2;  // left out: two edges blur there
 constexpr int least_pixels = 12;
+constexpr double within_noise_sd = 2.5;
 constexpr double least_blur_px = 0.2, most_blur_px = 3.5;
 constexpr double least_noise = 0.5;  // rounding to 8 bits alone leaves .3
 
@@ -221,7 +222,9 @@ class StepFit {
     return static_cast<double>(n) / static_cast<double>(samples_.size());
   }
 
-  double outlier_bound() const { return std::max(10.0, 0.12 * levels()); }
+  double outlier_bound() const {
+    return std::max({10.0, 0.12 * levels(), within_noise_sd * guess_.noise});
+  }
   double inside_value() const { return stored_of_light(unknowns(dark)).value; }
   double outside_value() const {
     return stored_of_light(unknowns(dark) + unknowns(contrast)).value;

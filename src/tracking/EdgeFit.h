@@ -26,6 +26,8 @@ struct EdgeGuess {
   double blur_px = 0.7;              ///< expected sd of the blur
   double blur_sd_px = 0.2;           ///< how sure that is
   bool bright_outside = true;
+  double noise =
+      0;  ///< sd of the picture's, gray levels, as far as that is known: no fault of edges
 };
 
 struct FittedEdge {

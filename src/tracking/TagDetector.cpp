@@ -48,21 +48,21 @@ int quantile_of(std::vector<int>& values, double fraction) {
   return *at;
 }
 
-// From the spread of pixels on a coarse grid, and from how neighbors differ.
-int searched_contrast(const Image& gray) {
+// Calls take(p) for pixels on a coarse grid, each with a neighbor to its right.
+template <typename Take>
+void each_on_grid(const Image& gray, const Take& take) {
   constexpr int every_px = 8;
-  constexpr double sd_per_median_difference = 1 / 0.954;  // of two normal numbers
-  std::vector<int> values, differences;
   for (int y = 0; y < gray.height; y += every_px)
-    for (int x = 0; x + 1 < gray.width; x += every_px) {
-      const std::uint8_t* p = &gray.pixels[static_cast<std::size_t>(y) * gray.row_bytes() +
-                                           static_cast<std::size_t>(x)];
-      values.push_back(p[0]);
-      differences.push_back(std::abs(p[1] - p[0]));
-    }
+    for (int x = 0; x + 1 < gray.width; x += every_px)
+      take(&gray.pixels[static_cast<std::size_t>(y) * gray.row_bytes() +
+                        static_cast<std::size_t>(x)]);
+}
+
+int searched_contrast(const Image& gray) {
+  std::vector<int> values;
+  each_on_grid(gray, [&](const std::uint8_t* p) { values.push_back(p[0]); });
   const double contrast = quantile_of(values, 0.99) - quantile_of(values, 0.01);
-  const double noise_sd = sd_per_median_difference * quantile_of(differences, 0.5);
-  const double wanted = std::max(contrast_fraction * contrast, noise_range_sd * noise_sd);
+  const double wanted = std::max(contrast_fraction * contrast, noise_range_sd * noise_of(gray));
   return std::clamp(static_cast<int>(wanted), library_contrast, usual_contrast);
 }
 
@@ -77,6 +77,13 @@ DetectedTag converted(const apriltag_detection_t& found, const Region& region) {
   return tag;
 }
 }  // namespace
+
+double noise_of(const Image& gray) {
+  constexpr double sd_per_median_difference = 1 / 0.954;  // of two normal numbers
+  std::vector<int> differences;
+  each_on_grid(gray, [&](const std::uint8_t* p) { differences.push_back(std::abs(p[1] - p[0])); });
+  return differences.empty() ? 0 : sd_per_median_difference * quantile_of(differences, 0.5);
+}
 
 Region whole(const Image& image) {
   return {0, 0, image.width, image.height};

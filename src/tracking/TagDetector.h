@@ -28,6 +28,10 @@ struct Region {
 /// The whole picture.
 Region whole(const Image& image);
 
+/// Standard deviation of a picture's noise, gray levels, from how neighbors on a coarse grid
+/// differ.
+double noise_of(const Image& gray);
+
 /// Where edges of tags are searched.
 enum class EdgeSearch {
   above_noise,  ///< where there is the contrast of a print in the picture's light: several times

@@ -100,7 +100,7 @@ std::vector<TagPattern> patterns_of(const MarkerBody& body) {
 }
 
 MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPattern& pattern,
-                        const Corners& corners_px, double blur_px, int most_pixels) {
+                        const Corners& corners_px, double blur_px, int most_pixels, double noise) {
   const Eigen::Matrix3d pixel_from_square = square_to(corners_px);
   MeasuredTag tag = unrefined_tag(corners_px);
   std::array<EdgeGuess, 4> guesses;
@@ -112,6 +112,7 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPa
     guess.cell_px = cell_px(pixel_from_square, pattern.border_cells, i);
     guess.blur_px = blur_px;
     guess.bright_outside = pattern.bright_outside;
+    guess.noise = noise;
     take_edge(tag.edges[i], fit_edge(gray, guess, most_pixels));
   }
   if (std::ranges::all_of(tag.edges, tells_blur))

@@ -26,9 +26,10 @@ struct MeasuredTag {
 
 /// Edges that are hidden or not there are left where they are expected, with a wide error.
 /// @param corners_px where they are expected, within half a cell  @param most_pixels an edge
+/// @param noise sd of the picture's, gray levels; 0: it is not known
 MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPattern& pattern,
                         const std::array<Eigen::Vector2d, 4>& corners_px, double blur_px,
-                        int most_pixels);
+                        int most_pixels, double noise = 0);
 
 /// The same from the detector's corners as they are: each edge goes from corner to corner.
 MeasuredTag unrefined_tag(const std::array<Eigen::Vector2d, 4>& corners_px);

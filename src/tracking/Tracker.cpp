@@ -26,6 +26,9 @@ constexpr int tags_that_tell_bias = 4;
 // An effector that was not found in so many pictures is out of view: from then on it is looked for
 // in one half of the picture at a time.
 constexpr int pictures_searched_whole = 3;
+// While there is no board, every so many pictures are searched for it as closely as can be, which
+// takes several times as long.
+constexpr int pictures_without_a_close_search = 4;
 
 constexpr double longest_gap_s = 0.25;  // Drive takes a longer one for a jump, too
 // What no hand with a light box in it does.
@@ -151,7 +154,8 @@ std::optional<BodyFit> Tracker::find_board() {
   }
   const auto fit = board_.find(gray_, all_board_tags(), last_board_, unknown_bias, result_.times);
   if (fit) return fit;
-  // Nothing goes on without the board, so a shadow over it is worth the time.
+  // Nothing goes on without the board, so a shadow over it is worth the time, now and then.
+  if (n_without_board_ % pictures_without_a_close_search != 0) return std::nullopt;
   board_family_tags_ = detect(detectors_.front(), whole(gray_), EdgeSearch::everywhere);
   return board_.find(gray_, *board_family_tags_, last_board_, unknown_bias, result_.times);
 }
@@ -198,6 +202,7 @@ BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrio
 
 void Tracker::take_board(const std::optional<BodyFit>& fit) {
   last_board_.reset();
+  n_without_board_ = fit ? 0 : n_without_board_ + 1;
   if (!fit) return;
   last_board_ = result_.camera_from_board = fit->camera_from_body;
   last_n_board_tags_ = result_.n_board_tags = fit->n_tags;
@@ -232,6 +237,7 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
         image.width, image.height, camera_.width_px, camera_.height_px));
   gray_ = gray_of(image);
   board_family_tags_.reset();
+  for (BodyFinder* finder : {&board_, &effector_}) finder->expect_noise(noise_of(gray_));
   result_ = {};
   result_.effector_t_s = t_s;
   auto board = find_board();
@@ -250,7 +256,7 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
 void Tracker::reset() {
   last_board_.reset();
   seen_.reset();
-  n_unseen_ = 0;
+  n_unseen_ = n_without_board_ = 0;
 }
 
 }  // namespace heft

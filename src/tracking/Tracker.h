@@ -90,6 +90,7 @@ class Tracker {
   // Of the pictures before it.
   std::optional<Pose> last_board_;
   int last_n_board_tags_ = 0;
+  int n_without_board_ = 0;  ///< pictures
   std::optional<SeenEffector> seen_;
   int n_unseen_ = 0;  ///< pictures since, or since the start
 };

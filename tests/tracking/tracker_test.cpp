@@ -300,6 +300,25 @@ TEST(TrackerApparatus, ASingleTagIsEnough) {
   }
 }
 
+// Where the board was, it is found again by its edges, in whatever light it was read at first.
+TEST(TrackerApparatus, NoiseAndDimLightTakeNoSearchAPicture) {
+  Apparatus apparatus = default_apparatus(640);
+  apparatus.effector = {};
+  for (const auto& [light, noise] : {std::pair{1.0, 20.0}, {0.1, 6.0}, {0.2, 12.0}}) {
+    SyntheticSettings scene;
+    scene.optics.exposure = light;
+    scene.optics.noise = noise;
+    SyntheticCamera camera(apparatus, scene, 1);
+    Tracker tracker(apparatus);
+    for (int i = 0; i < 5; ++i) {
+      const auto nothing = [](double) -> std::optional<Pose> { return std::nullopt; };
+      const auto seen = tracker.track(camera.picture(nothing, 0, static_cast<std::uint64_t>(i)), i);
+      ASSERT_TRUE(seen.camera_from_board) << light << ' ' << noise;
+      EXPECT_EQ(seen.times.detect_s > 0, i == 0) << light << ' ' << noise << " picture " << i;
+    }
+  }
+}
+
 TEST(TrackerApparatus, SharedTagsUnknownFamiliesAndEmptyBoardsAreRefused) {
   Apparatus shared = default_apparatus(640);
   shared.effector.tags[0].id = 7;
