@@ -39,9 +39,9 @@ Pose interpolate_smoothly(const Pose& from, const Velocity& at_from, const Pose&
                                                   arrives * own(at_to))};
 }
 
-// A tracker that knows none says zero; no hand is that still.
-bool is_measured(const Velocity& velocity) {
-  return !velocity.linear_m_s.isZero(0) || !velocity.angular_rad_s.isZero(0);
+// A made-up path says zero everywhere; no hand is that still while it moves.
+bool is_still(const Velocity& velocity) {
+  return velocity.linear_m_s.isZero(0) && velocity.angular_rad_s.isZero(0);
 }
 
 void check(const TargetSample& sample) {
@@ -134,7 +134,7 @@ Pose Drive::end_of_path(const TargetSample& sample) const {
 void Drive::run(const Pose& target, double dt_s, const Velocity& at_target) {
   const double n = n_steps(dt_s, rate_hz_);
   const bool bends =
-      input_.mode == InputMode::smooth && is_measured(last_.velocity) && is_measured(at_target);
+      input_.mode == InputMode::smooth && !(is_still(last_.velocity) && is_still(at_target));
   for (double i = 1; i < n; ++i)
     simulator_->step(
         bends ? interpolate_smoothly(last_.pose, last_.velocity, target, at_target, dt_s, i / n)
