@@ -167,7 +167,8 @@ TEST_F(Resumed, the_first_setup_is_in_the_file_as_soon_as_the_session) {
 
 TEST_F(Resumed, a_session_without_a_trial_says_what_it_is_run_with) {
   ASSERT_EQ(start_session(request, until(0)).end, RunEnd::stopped);
-  EXPECT_EQ(load_session(LogReader(request.db), request.db, 1).setup, request.setup);
+  EXPECT_EQ(load_session(LogReader(request.db), request.db, 1).setup,
+            with_participant(request.setup, request.seed));
   EXPECT_EQ(go_on_with({}, 1000).end, RunEnd::finished);
   expect_verified();
 }
