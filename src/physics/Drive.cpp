@@ -102,7 +102,7 @@ const WorldState& Drive::advance(const TargetSample& measured) {
     const bool continues = sample.tracked && last_.tracked && !sample.jump && dt_s <= longest_gap_s;
     if (!continues) set_solid(false);
     run(continues ? end_of_path(sample) : last_.pose, dt_s,
-        continues ? sample.velocity : Velocity{});
+        continues ? std::optional(sample.velocity) : std::nullopt);
     if (sample.tracked && !continues) simulator_->teleport_clone(sample.pose, sample.velocity);
     course_.reset();
     if (continues) course_ = mean_velocity(last_.pose, sample.pose, dt_s);
@@ -131,13 +131,13 @@ Pose Drive::end_of_path(const TargetSample& sample) const {
   return predicted(going_on, sample.t_capture_s - last_.t_capture_s);
 }
 
-void Drive::run(const Pose& target, double dt_s, const Velocity& at_target) {
+void Drive::run(const Pose& target, double dt_s, const std::optional<Velocity>& at_target) {
   const double n = n_steps(dt_s, rate_hz_);
-  const bool bends =
-      input_.mode == InputMode::smooth && !(is_still(last_.velocity) && is_still(at_target));
+  const bool bends = input_.mode == InputMode::smooth && at_target &&
+                     !(is_still(last_.velocity) && is_still(*at_target));
   for (double i = 1; i < n; ++i)
     simulator_->step(
-        bends ? interpolate_smoothly(last_.pose, last_.velocity, target, at_target, dt_s, i / n)
+        bends ? interpolate_smoothly(last_.pose, last_.velocity, target, *at_target, dt_s, i / n)
               : interpolate(last_.pose, target, i / n),
         dt_s / n);
   simulator_->step(target, dt_s / n);  // exactly there, whatever interpolation rounds to

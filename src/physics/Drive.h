@@ -55,7 +55,7 @@ class Drive {
  private:
   void start(const TargetSample& sample);
   Pose end_of_path(const TargetSample& sample) const;
-  void run(const Pose& target, double dt_s, const Velocity& at_target);
+  void run(const Pose& target, double dt_s, const std::optional<Velocity>& at_target);
   void read_state();
   void set_solid(bool solid);
   bool clear_of_cubes() const;

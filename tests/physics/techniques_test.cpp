@@ -93,6 +93,19 @@ TEST(Gain, ReturnsCriticallyDampedOnceTheHandHasLeftTheCube) {
           });
 }
 
+// A hand that went right through a heavy cube and turns back: the clone must not follow it through.
+TEST(Gain, DoesNotKickACubeThatTheHandHasPassed) {
+  const auto deep = [](double t_s) {
+    return Stroke{.speed_m_s = 1, .length_m = 1}.at(0.09 * (1 - std::cos(M_PI * t_s)));
+  };
+  for (double rate_hz : {15.0, 60.0, 240.0})
+    drive("boxes", scene_with(Gain{gains}, 0.8), deep, 2, rate_hz,
+          [&](double t_s, const Pose&, const WorldState& state) {
+            EXPECT_LE(state.cubes[0].pose.position_m.x(), 0.2 * 0.18) << rate_hz << ' ' << t_s;
+            EXPECT_LT(state.cubes[0].velocity.linear_m_s.norm(), 0.1) << rate_hz << ' ' << t_s;
+          });
+}
+
 TEST(SpeedLimit, HoldsTheCloneBackFromTheFirstTouchAndLetsItCatchUp) {
   const Stroke stroke{.length_m = 0.05, .height_m = 0.0205};
   const double touch_s = gap_m / stroke.speed_m_s, limit_m_s = 0.05;

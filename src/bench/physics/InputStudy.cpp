@@ -23,8 +23,9 @@ constexpr double duration_s = 4;
 // What a camera does to the hand's motion.
 enum class Fault { none, jitter, missing, noise };
 constexpr std::array<Fault, 4> all_faults{Fault::none, Fault::jitter, Fault::missing, Fault::noise};
-constexpr std::array<InputMode, 3> all_modes{InputMode::path, InputMode::hold,
-                                             InputMode::extrapolate};
+constexpr std::array all_modes{InputMode::path, InputMode::smooth, InputMode::hold,
+                               InputMode::extrapolate};
+constexpr double noise_m = 0.2e-3;
 
 const char* words_of(Fault fault) {
   switch (fault) {
@@ -40,19 +41,27 @@ const char* words_of(Fault fault) {
   return "";
 }
 
-// Forth and back by 10 cm at 0.1 m/s on average, with a sway; the tip meets a cube at the origin.
-Pose hand_at(double t_s) {
-  const double along_m = 0.05 * (1 - std::cos(M_PI * t_s));
-  const double side_m = 0.002 * std::sin(2 * M_PI * 1.3 * t_s);
-  return upright_pose({before_cube_m + along_m, side_m, hand_height_m}, 0.05 * std::sin(3 * t_s));
-}
+// What there is to be moved: each has one answer, so what differs is the input.
+struct Case {
+  const char* name;
+  bool decoupled, cube;
 
-Scene scene_of(bool decoupled) {
-  Scene scene;
-  scene.cubes = {Cube{}};
-  scene.coupling.decoupled = decoupled;
-  return scene;
-}
+  // In the air 10 cm back and forth once a second; at a cube 10 cm forth and back in 2 s.
+  Pose hand_at(double t_s) const {
+    if (!cube) return upright_pose({0.05 * std::sin(2 * M_PI * t_s), 0, 0.2}, 0);
+    const double along_m = 0.05 * (1 - std::cos(M_PI * t_s));
+    return upright_pose({before_cube_m + along_m, 0, hand_height_m}, 0);
+  }
+
+  Scene scene() const {
+    Scene scene;
+    if (cube) scene.cubes = {Cube{}};
+    scene.coupling.decoupled = decoupled;
+    return scene;
+  }
+};
+constexpr std::array<Case, 3> cases{
+    {{"free_air", true, false}, {"push", true, true}, {"push", false, true}}};
 
 // Lets another simulator work and remembers where the clone was after each step.
 class Watched : public DecouplingSimulator {
@@ -84,7 +93,8 @@ class Watched : public DecouplingSimulator {
  private:
   void see() {
     const WorldState state = simulator_->state();
-    seen_.push_back({t_s_, state.clone.pose.position_m, state.cubes[0].velocity.linear_m_s.norm()});
+    const double cube_m_s = state.cubes.empty() ? 0 : state.cubes[0].velocity.linear_m_s.norm();
+    seen_.push_back({t_s_, state.clone.pose.position_m, cube_m_s});
   }
 
   std::unique_ptr<DecouplingSimulator> simulator_;
@@ -93,14 +103,14 @@ class Watched : public DecouplingSimulator {
 };
 
 // The clone under a hand that is known at all times, at n / reference_rate_hz.
-std::vector<Eigen::Vector3d> truth_of(bool decoupled) {
+std::vector<Eigen::Vector3d> truth_of(const Case& one) {
   constexpr int finer = 8;
   const auto simulator = make_simulator(simulator_name);
-  simulator->reset(scene_of(decoupled), hand_at(0));
+  simulator->reset(one.scene(), one.hand_at(0));
   std::vector<Eigen::Vector3d> clone_m{simulator->state().clone.pose.position_m};
   const int n = static_cast<int>(duration_s * reference_rate_hz) * finer;
   for (int i = 1; i <= n; ++i) {
-    simulator->step(hand_at(i / (1.0 * finer * reference_rate_hz)),
+    simulator->step(one.hand_at(i / (1.0 * finer * reference_rate_hz)),
                     1.0 / (finer * reference_rate_hz));
     if (i % finer == 0) clone_m.push_back(simulator->state().clone.pose.position_m);
   }
@@ -115,20 +125,26 @@ Eigen::Vector3d at(const std::vector<Eigen::Vector3d>& truth_m, double t_s) {
   return (1 - s) * truth_m[i] + s * truth_m[i + 1];
 }
 
-// A sample a picture, each from the hand's true pose at its true time.
-std::vector<TargetSample> samples_of(int camera_hz, Fault fault) {
+// A sample a picture, each of the hand's true pose and velocity at its true time; noise of poses is
+// noise of the velocities that a tracker gets from them.
+std::vector<TargetSample> samples_of(const Case& one, int camera_hz, Fault fault) {
   RandomStream random(7, "bench input");
   std::vector<TargetSample> samples;
   for (int i = 0; i <= static_cast<int>(duration_s * camera_hz); ++i) {
     const double t_s = i / static_cast<double>(camera_hz);
-    const double off_s = 0.002 * random.normal(), x_m = random.normal(), y_m = random.normal();
+    const double off_s = 0.002 * random.normal(), x = random.normal(), y = random.normal();
+    const double vx = random.normal(), vy = random.normal();
     const bool lost = random.coin(0.1);
     if (fault == Fault::missing && lost && i > 0) continue;
     TargetSample sample;
     sample.t_capture_s =
         fault == Fault::jitter && i > 0 ? t_s + std::clamp(off_s, -0.006, 0.006) : t_s;
-    sample.pose = hand_at(t_s);
-    if (fault == Fault::noise) sample.pose.position_m += 0.0002 * Eigen::Vector3d(x_m, y_m, 0);
+    sample.pose = one.hand_at(t_s);
+    sample.velocity = mean_velocity(one.hand_at(t_s - 1e-5), one.hand_at(t_s + 1e-5), 2e-5);
+    if (fault == Fault::noise) {
+      sample.pose.position_m += noise_m * Eigen::Vector3d(x, y, 0);
+      sample.velocity.linear_m_s += noise_m * camera_hz / 2 * Eigen::Vector3d(vx, vy, 0);
+    }
     samples.push_back(sample);
   }
   return samples;
@@ -146,10 +162,10 @@ double rms_mm(const std::vector<double>& squares) {
   return 1e3 * std::sqrt(sum / static_cast<double>(squares.size()));
 }
 
-InputError error_of(InputMode mode, bool decoupled, const std::vector<TargetSample>& samples,
+InputError error_of(InputMode mode, const Case& one, const std::vector<TargetSample>& samples,
                     const std::vector<Eigen::Vector3d>& truth_m) {
   std::vector<Watched::Seen> seen;
-  Drive drive(std::make_unique<Watched>(make_simulator(simulator_name), seen), scene_of(decoupled),
+  Drive drive(std::make_unique<Watched>(make_simulator(simulator_name), seen), one.scene(),
               physics_rate_hz, {mode});
   std::vector<double> picture_m2, present_m2;
   std::vector<Watched::Seen> pictures;
@@ -163,8 +179,9 @@ InputError error_of(InputMode mode, bool decoupled, const std::vector<TargetSamp
   InputError error;
   for (const Watched::Seen& now : seen) {
     while (picture + 1 < pictures.size() && pictures[picture + 1].t_s <= now.t_s + 1e-9) ++picture;
-    const Eigen::Vector3d shown_m =
-        mode == InputMode::path ? pictures[picture].clone_m : now.clone_m;
+    const Eigen::Vector3d shown_m = mode == InputMode::path || mode == InputMode::smooth
+                                        ? pictures[picture].clone_m
+                                        : now.clone_m;
     present_m2.push_back((shown_m - at(truth_m, now.t_s)).squaredNorm());
     error.fastest_cube_m_s = std::max(error.fastest_cube_m_s, now.cube_speed_m_s);
   }
@@ -174,7 +191,7 @@ InputError error_of(InputMode mode, bool decoupled, const std::vector<TargetSamp
 }
 
 const char* color_of(InputMode mode) {
-  constexpr std::array<const char*, 3> colors{"#0b5fb4", "#d95f02", "#1b7f3b"};
+  constexpr std::array<const char*, 4> colors{"#0b5fb4", "#d95f02", "#1b7f3b", "#8e44ad"};
   return colors[static_cast<std::size_t>(mode)];
 }
 
@@ -199,59 +216,63 @@ std::string panel(const char* name, const char* title) {
 
 void study_input(const StudyOptions& options) {
   CsvFile csv(options, "input.csv",
-              "condition,camera_hz,fault,mode,clone_at_picture_rms_mm,clone_at_present_rms_mm,"
-              "fastest_cube_m_s");
-  Dots at_picture, at_present, kicks;
+              "scene,condition,camera_hz,fault,mode,clone_at_picture_rms_mm,"
+              "clone_at_present_rms_mm,fastest_cube_m_s");
+  Dots in_air, at_picture, at_present, kicks;
   std::string tics;
-  for (bool decoupled : {true, false}) {
-    const std::vector<Eigen::Vector3d> truth_m = truth_of(decoupled);
+  for (const Case& one : cases) {
+    const std::vector<Eigen::Vector3d> truth_m = truth_of(one);
     int place = 0;
     for (int camera_hz : {15, 30, 60}) {
       for (Fault fault : all_faults) {
-        if (decoupled)
+        if (!one.cube)
           tics +=
               fmt::format("{}'{} Hz, {}' {}", place ? ", " : "", camera_hz, words_of(fault), place);
-        const std::vector<TargetSample> samples = samples_of(camera_hz, fault);
+        const std::vector<TargetSample> samples = samples_of(one, camera_hz, fault);
         for (InputMode mode : all_modes) {
-          const InputError error = error_of(mode, decoupled, samples, truth_m);
-          csv.row(decoupled ? "C2" : "C1", camera_hz, words_of(fault), name_of(mode),
+          const InputError error = error_of(mode, one, samples, truth_m);
+          csv.row(one.name, one.decoupled ? "C2" : "C1", camera_hz, words_of(fault), name_of(mode),
                   error.at_picture_mm, error.at_present_mm, error.fastest_cube_m_s);
-          const double x = place + 0.2 * (static_cast<int>(mode) - 1);
-          if (decoupled) at_picture[mode] += fmt::format("{} {}\n", x, error.at_picture_mm);
-          if (decoupled) at_present[mode] += fmt::format("{} {}\n", x, error.at_present_mm);
-          if (!decoupled) kicks[mode] += fmt::format("{} {}\n", x, error.fastest_cube_m_s);
+          const auto dot = [&](double y) {
+            return fmt::format("{} {}\n", place + 0.2 * (static_cast<int>(mode) - 1.5), y);
+          };
+          if (!one.cube) in_air[mode] += dot(error.at_picture_mm);
+          if (one.cube && one.decoupled) at_picture[mode] += dot(error.at_picture_mm);
+          if (one.cube && one.decoupled) at_present[mode] += dot(error.at_present_mm);
+          if (!one.decoupled) kicks[mode] += dot(error.fastest_cube_m_s);
         }
         ++place;
       }
     }
   }
   const std::string caption =
-      "A hand going forth and back by 10 cm in 2 s that pushes a cube of 200 g, seen by a camera; "
-      "error of the clone against physics that knew the hand at all times (boxes, 240 steps a "
-      "second). path: between the last two poses, shown with the later picture; hold: the last "
-      "pose; extrapolate: on along the line through the last two. " +
+      "A hand seen by a camera: 10 cm back and forth in free air once a second, and forth and back "
+      "in 2 s at a cube of 200 g. Error of the clone against physics that knew the hand at all "
+      "times (boxes, 240 steps a second). path: straight between the last two poses; smooth: on "
+      "the cubic through their velocities; both shown with the later picture; hold: the last pose; "
+      "extrapolate: on along the line through the last two. " +
       provenance(options);
   draw(options, "input",
-       gnuplot_header({"input.svg", 1240, 640,
+       gnuplot_header({"input.svg", 1400, 640,
                        "From camera poses to a target: what each way of filling the gaps costs",
                        caption}) +
-           dots_of(at_picture, "picture") + dots_of(at_present, "present") +
-           dots_of(kicks, "kick") +
-           fmt::format(
-               "set logscale y\nset format y '%g'\nset xrange [-0.6:11.6]\n"
-               "set xtics rotate by 45 right font ',10' ({})\n"
-               "set arrow 1 from 3.5, graph 0 to 3.5, graph 1 nohead linecolor '#cccccc'\n"
-               "set arrow 2 from 7.5, graph 0 to 7.5, graph 1 nohead linecolor '#cccccc'\n"
-               "set key at graph 1, graph 1.06 right top horizontal font ',11' samplen 1 width -2\n"
-               "set multiplot layout 1,3 margins screen 0.06, screen 0.985, screen "
-               "caption_top + 120*pixel, screen 1-95*pixel spacing screen 0.085\n"
-               "set ylabel 'error of the clone (mm RMS)'\nset yrange [0.05:20]\n",
-               tics) +
-           panel("picture", "C2, over video: at the picture''s time") +
-           panel("present", "C2, see-through glasses: at the present") +
+           dots_of(in_air, "air") + dots_of(at_picture, "picture") +
+           dots_of(at_present, "present") + dots_of(kicks, "kick") +
+           fmt::format("set logscale y\nset format y '%g'\nset xrange [-0.6:11.6]\n"
+                       "set xtics rotate by 45 right font ',10' ({})\n"
+                       "set arrow 1 from 3.5, graph 0 to 3.5, graph 1 nohead linecolor '#cccccc'\n"
+                       "set arrow 2 from 7.5, graph 0 to 7.5, graph 1 nohead linecolor '#cccccc'\n"
+                       "set key at screen 0.985, screen 1-50*pixel right top horizontal font ',12' "
+                       "samplen 1\n"
+                       "set multiplot layout 1,4 margins screen 0.05, screen 0.985, screen "
+                       "caption_top + 120*pixel, screen 1-95*pixel spacing screen 0.06\n"
+                       "set ylabel 'error of the clone (mm RMS)'\nset yrange [0.001:20]\n",
+                       tics) +
+           panel("air", "free air, over video: at the picture''s time") +
+           "unset key\nset yrange [0.005:20]\n" + panel("picture", "a cube, over video") +
+           panel("present", "a cube, see-through: at the present") +
            "set ylabel 'fastest cube (m/s)'\nset yrange [0.1:10]\n" +
-           panel("kick", "C1: how fast a cube is kicked (the hand: 0.16 m/s)") +
-           "unset multiplot\n");
+           panel("kick", "C1: how a cube is kicked (hand: 0.16 m/s)") + "unset multiplot\n");
 }
 
 }  // namespace heft

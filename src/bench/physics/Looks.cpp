@@ -7,7 +7,7 @@ namespace heft {
 
 std::string color_of(std::string_view simulator) {
   using Look = std::pair<std::string_view, const char*>;
-  constexpr std::array<Look, 13> looks{{{"boxes", "#0b5fb4"},
+  constexpr std::array<Look, 15> looks{{{"boxes", "#0b5fb4"},
                                         {"push", "#2aa1c9"},
                                         {"quasi_static", "#7cc4dd"},
                                         {"bullet-lx", "#1b7f3b"},
@@ -19,6 +19,8 @@ std::string color_of(std::string_view simulator) {
                                         {"bullet-soft-rows", "#c2407e"},
                                         {"bullet-explicit", "#c00000"},
                                         {"bullet-explicit-held", "#7a0019"},
+                                        {"gain", "#b5651d"},
+                                        {"speed_limit", "#c2407e"},
                                         {"C1", "#555555"}}};
   for (const auto& [name, color] : looks)
     if (name == simulator) return color;

@@ -27,11 +27,13 @@ PathBuilder& PathBuilder::lost(double t_s) {
 std::vector<TrajectoryRow> StraightPath::rows() const {
   const auto at = [&](double along_m) {
     const double c = std::cos(heading_rad), s = std::sin(heading_rad);
+    if (broadside) along_m += 0.025;  // so much less reaches ahead
     return Eigen::Vector3d(along_m * c - side_m * s, along_m * s + side_m * c, hand_height_m);
   };
-  const double end_s = length_m / speed_m_s, end_rad = heading_rad + turn_rad;
+  const double end_s = length_m / speed_m_s, start_rad = heading_rad + (broadside ? M_PI / 2 : 0),
+               end_rad = start_rad + turn_rad;
   return PathBuilder()
-      .to(0, at(start_m), heading_rad)
+      .to(0, at(start_m), start_rad)
       .to(end_s, at(start_m + length_m), end_rad)
       .to(end_s + 1, at(start_m + length_m), end_rad)
       .rows();

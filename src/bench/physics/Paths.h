@@ -33,6 +33,7 @@ struct StraightPath {
   double start_m = before_cube_m;  ///< of the effector's center, along the heading
   double side_m = 0;               ///< of the path from the line through the origin
   double turn_rad = 0;             ///< of the effector, on the way
+  bool broadside = false;          ///< with the long side first
 
   std::vector<TrajectoryRow> rows() const;
 };

@@ -14,11 +14,15 @@ constexpr double travel_m = 0.1, still_s = 0.75;  // after a quarter of a second
 // Overlap by more than 0.1 mm, anywhere.
 bool penetrates(const WorldState& state, const Scene& scene) {
   const Eigen::Vector3d less_m = Eigen::Vector3d::Constant(1e-4);
-  const Cube& cube = scene.cubes[0];
-  const Pose& at = state.cubes[0].pose;
-  const double reach_m = (at.orientation.toRotationMatrix().row(2).cwiseAbs() * cube.size_m)(0) / 2;
-  return at.position_m.z() < reach_m - 1e-4 ||
-         boxes_overlap(state.clone.pose, scene.effector_size_m - less_m, at, cube.size_m - less_m);
+  for (std::size_t i = 0; i < state.cubes.size(); ++i) {
+    const Eigen::Vector3d& size_m = scene.cubes[i].size_m;
+    const Pose& at = state.cubes[i].pose;
+    const double reach_m = (at.orientation.toRotationMatrix().row(2).cwiseAbs() * size_m)(0) / 2;
+    if (at.position_m.z() < reach_m - 1e-4 ||
+        boxes_overlap(state.clone.pose, scene.effector_size_m - less_m, at, size_m - less_m))
+      return true;
+  }
+  return false;
 }
 
 // At the last step within the stroke.
@@ -45,7 +49,9 @@ Rest rest_of(const std::vector<WorldState>& states, std::size_t from) {
     length_m += (states[i].clone.pose.position_m - states[i - 1].clone.pose.position_m).norm();
   const WorldState &first = states[from], &last = states.back();
   rest.clone_back_m = length_m - (last.clone.pose.position_m - first.clone.pose.position_m).norm();
-  rest.cube_m = (last.cubes[0].pose.position_m - first.cubes[0].pose.position_m).norm();
+  for (std::size_t i = 0; i < last.cubes.size(); ++i)
+    rest.cube_m = std::max(rest.cube_m,
+                           (last.cubes[i].pose.position_m - first.cubes[i].pose.position_m).norm());
   return rest;
 }
 }  // namespace
@@ -65,10 +71,17 @@ BenchScene stability_scene(Varied varied, double value) {
   } else if (varied == Varied::torsional_stiffness) {
     coupling.torsional_stiffness_nm_per_rad = value;
     path.side_m = 0.008;
-  } else {
+  } else if (varied == Varied::cube_mass) {
     cube.mass_kg = value;
   }
   scene.scene.cubes = {cube};
+  if (varied == Varied::second_cube_mass) {
+    path.broadside = true;
+    scene.scene.cubes[0].position_m.y() = -0.021;
+    cube.position_m = {0.005, 0.021, cube.position_m.z()};
+    cube.mass_kg = value;
+    scene.scene.cubes.push_back(cube);
+  }
   scene.path = path.rows();
   return scene;
 }
@@ -107,8 +120,8 @@ std::vector<double> values_of(Varied varied, bool quick) {
 void study_stability(const StudyOptions& options) {
   CsvFile csv(options, "stability.csv", "simulator,varied,value,rate_hz,verdict");
   std::vector<StabilityCell> cells;
-  StudyProgress progress(3);
-  for (Varied varied : {Varied::stiffness, Varied::torsional_stiffness, Varied::cube_mass}) {
+  StudyProgress progress(static_cast<int>(all_varied.size()));
+  for (Varied varied : all_varied) {
     progress.next(fmt::format("stability: {}", name_of(varied)));
     for (double value : values_of(varied, options.quick)) {
       const BenchScene scene = stability_scene(varied, value);

@@ -1,5 +1,5 @@
 // A map of where methods fail: each at each rate, over decades of spring stiffness, torsional
-// stiffness and cube mass.
+// stiffness, cube mass, and the mass of a second cube that is swept along.
 #pragma once
 
 #include <array>
@@ -14,12 +14,15 @@
 namespace heft {
 
 /// What is varied; the rest stays as in the paper.
-enum class Varied { stiffness, torsional_stiffness, cube_mass };
+enum class Varied { stiffness, torsional_stiffness, cube_mass, second_cube_mass };
+
+inline constexpr std::array all_varied{Varied::stiffness, Varied::torsional_stiffness,
+                                       Varied::cube_mass, Varied::second_cube_mass};
 
 template <>
 struct EnumNames<Varied> {
-  static constexpr std::array<std::string_view, 3> names{
-      "stiffness_n_per_m", "torsional_stiffness_nm_per_rad", "cube_mass_kg"};
+  static constexpr std::array<std::string_view, 4> names{
+      "stiffness_n_per_m", "torsional_stiffness_nm_per_rad", "cube_mass_kg", "second_cube_mass_kg"};
 };
 
 /// Gravest last.
@@ -39,7 +42,8 @@ struct EnumNames<Verdict> {
       "stable", "creeps", "rings", "penetrates", "wrong_lag", "blows_up", "outside_model"};
 };
 
-/// A push of 10 cm at 0.1 m/s, then a second of rest.
+/// A push of 10 cm at 0.1 m/s, then a second of rest; of two cubes, one 5 mm behind the other, by
+/// the effector's long side.
 BenchScene stability_scene(Varied varied, double value);
 
 /// The gravest fault of a run through a stability_scene.

@@ -10,7 +10,7 @@
 namespace heft {
 
 namespace {
-constexpr int panel_height_px = 168, width_px = 1180;
+constexpr int panel_height_px = 128, width_px = 1400;
 
 struct Look {
   const char* color;
@@ -40,11 +40,13 @@ Look look_of(Verdict verdict) {
 const char* axis_of(Varied varied) {
   switch (varied) {
     case Varied::stiffness:
-      return "k (N/m)";
+      return "spring (N/m)";
     case Varied::torsional_stiffness:
-      return "\u03ba (N m/rad)";
+      return "torsional spring (N m/rad)";
     case Varied::cube_mass:
       return "cube (kg)";
+    case Varied::second_cube_mass:
+      return "second cube, beside the first (kg)";
   }
   return "";
 }
@@ -64,12 +66,13 @@ std::size_t position_of(double value, const std::vector<double>& values) {
   return static_cast<std::size_t>(std::ranges::find(values, value) - values.begin());
 }
 
-// The axis' names, every second one where they are many.
-std::string tics(const std::vector<double>& values) {
+// The axis' names, not every one where they are many.
+std::string tics(const std::vector<double>& values, bool silent) {
   std::string text;
-  const std::size_t every = values.size() > 8 ? 2 : 1;
+  const std::size_t every = values.size() > 8 ? 3 : values.size() > 5 ? 2 : 1;
   for (std::size_t i = 0; i < values.size(); i += every)
-    text += fmt::format("{}'{:g}' {}", text.empty() ? "" : ", ", values[i], i);
+    text += fmt::format("{}'{}' {}", text.empty() ? "" : ", ",
+                        silent ? "" : fmt::format("{:g}", values[i]), i);
   return text;
 }
 
@@ -80,8 +83,13 @@ std::vector<double> rates_in(const std::vector<StabilityCell>& cells) {
   return rates;
 }
 
+// Names that hold for a whole row or column stand once.
+struct Place {
+  bool top, bottom, left;
+};
+
 std::string panel(const std::vector<StabilityCell>& cells, const std::string& simulator,
-                  Varied varied, bool quick) {
+                  Varied varied, const Place& place, bool quick) {
   const std::vector<double> rates = rates_in(cells), values = values_of(varied, quick);
   std::string script = "unset object\n";
   int tag = 1;
@@ -93,13 +101,15 @@ std::string panel(const std::vector<StabilityCell>& cells, const std::string& si
         "set object {} rectangle from {},{} to {},{} fillcolor rgb '{}' fillstyle solid noborder\n",
         tag++, x - 0.47, y - 0.45, x + 0.47, y + 0.45, look_of(cell.verdict).color);
   }
-  return script +
-         fmt::format(
-             "set title {} font ',11' offset 0,-0.8\nset xlabel 'steps a second' font ',9' offset "
-             "0,0.7\nset xtics ({}) font ',9'\nset ytics ({}) font "
-             "',9'\nset ylabel {} font ',9' offset 0.5,0\nplot [-0.6:{}] [-0.6:{}] NaN notitle\n",
-             gnuplot_quoted(simulator), tics(rates), tics(values), gnuplot_quoted(axis_of(varied)),
-             static_cast<double>(rates.size()) - 0.4, static_cast<double>(values.size()) - 0.4);
+  return script + fmt::format(
+                      "set title {} font ',14'\nset xlabel '{}' font ',12'\nset xtics ({}) font "
+                      "',11'\nset ytics ({}) font ',11'\nset ylabel {} font ',14' offset -1.5,0\n"
+                      "plot [-0.6:{}] [-0.6:{}] NaN notitle\n",
+                      gnuplot_quoted(place.top ? axis_of(varied) : ""),
+                      place.bottom ? "steps a second" : "", tics(rates, !place.bottom),
+                      tics(values, false), gnuplot_quoted(place.left ? simulator : ""),
+                      static_cast<double>(rates.size()) - 0.4,
+                      static_cast<double>(values.size()) - 0.4);
 }
 
 // The legend under the title: a colored square and its word each.
@@ -109,8 +119,8 @@ std::string legend() {
   for (int i = 0; i < 7; ++i) {
     const Look look = look_of(static_cast<Verdict>(i));
     script += fmt::format(
-        "set label {0} '\u25a0' at screen {1}, screen 1-50*pixel font ',20' textcolor '{2}'\n"
-        "set label {3} {4} at screen {5}, screen 1-50*pixel font ',11'\n",
+        "set label {0} '\u25a0' at screen {1}, screen 1-50*pixel font ',24' textcolor '{2}'\n"
+        "set label {3} {4} at screen {5}, screen 1-50*pixel font ',14'\n",
         200 + i, x, look.color, 300 + i, gnuplot_quoted(look.words), x + 0.02);
     x += 0.132;
   }
@@ -123,21 +133,24 @@ void draw_stability(const StudyOptions& options, const std::vector<StabilityCell
   const int height_px = panel_height_px * static_cast<int>(names.size()) + 212;
   const std::string caption =
       "A cube of 100 g pushed by 10 cm at 0.1 m/s, then 1 s of rest, with the paper's coupling but "
-      "for what is varied (with k the cube's mass goes as its root; the torsional spring is loaded "
-      "by pushing 8 mm off center). A cell shows the gravest fault. " +
+      "for what is varied (with the spring the cube's mass goes as its root; the torsional spring "
+      "is loaded by pushing 8 mm off center; two cubes, 5 mm out of line, are swept by the long "
+      "side). A cell shows the gravest fault. " +
       provenance(options);
   std::string script =
       gnuplot_header({"stability.svg", width_px, height_px, "Where methods fail", caption}) +
       legend() +
       fmt::format(
           "unset grid\nunset key\nset tics scale 0.3\n"
-          "set multiplot layout {},3 margins screen 0.075, screen 0.985, screen caption_top + "
-          "52*pixel, screen 1-90*pixel spacing screen 0.095, screen 64*pixel\n",
+          "set multiplot layout {},4 margins screen 0.13, screen 0.985, screen caption_top + "
+          "62*pixel, screen 1-110*pixel spacing screen 0.06, screen 18*pixel\n",
           names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
-    for (Varied varied : {Varied::stiffness, Varied::torsional_stiffness, Varied::cube_mass}) {
-      script += panel(cells, names[i], varied, options.quick);
-      for (int tag = 200; i == 0 && varied == Varied::stiffness && tag < 307; ++tag)
+    for (Varied varied : all_varied) {
+      const bool left = varied == all_varied.front();
+      script +=
+          panel(cells, names[i], varied, {i == 0, i + 1 == names.size(), left}, options.quick);
+      for (int tag = 200; i == 0 && left && tag < 307; ++tag)
         if (tag < 207 || tag >= 300) script += fmt::format("unset label {}\n", tag);
     }
   }

@@ -11,9 +11,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double touching_m = 1e-5;
-constexpr double longest_way_m = 5e-3;  // of the hand's tip between two looks
-constexpr int most_cuts = 4;            // of one such way
-constexpr int halvings = 20;            // until the time of a touch is known
+constexpr double longest_way_m = 5e-3;    // of the hand's tip between two looks
+constexpr double between_looks_m = 0.01;  // on the way from hand to clone, less than a cube
+constexpr int most_cuts = 4;              // of one such way
+constexpr int halvings = 20;              // until the time of a touch is known
 
 class DisplacedSimulator : public DecouplingSimulator {
  public:
@@ -86,8 +87,13 @@ bool DisplacedSimulator::meets(const Pose& effector, std::size_t cube) const {
 
 bool DisplacedSimulator::touches(std::size_t cube, const Pose& hand,
                                  const Vector3d& displacement_m) const {
-  return solid_ &&
-         (meets(moved(hand, displacement_m), cube) || (touched_[cube] && meets(hand, cube)));
+  if (!solid_) return false;
+  if (meets(moved(hand, displacement_m), cube)) return true;
+  if (!touched_[cube]) return false;
+  const double n = std::max(1.0, std::ceil(displacement_m.norm() / between_looks_m));
+  for (double i = 0; i < n; ++i)
+    if (meets(moved(hand, i / n * displacement_m), cube)) return true;
+  return false;
 }
 
 double DisplacedSimulator::touched_kg(const Pose& hand, const Vector3d& displacement_m) const {

@@ -2,9 +2,9 @@
 // displaced from it, by a law while it touches cubes. It is then a coupled clone that follows a
 // displaced target, so any simulator can run them.
 //
-// Touched is what the clone touches, and what it touched that the hand is still in: a hand that is
-// drawn back leaves the cube before the clone goes its own way. Once nothing is touched any more
-// the displacement returns from rest, critically damped with the time constant return_s:
+// Touched is what the clone touches, and what it touched that is still between it and the hand: on
+// its own way back it pushes nothing. Once nothing is touched any more the displacement returns from
+// rest, critically damped with the time constant return_s:
 //   d(t) = d(0) (1 + t / return_s) e^(-t / return_s).
 // Steps are cut where touching begins and ends.
 #pragma once
