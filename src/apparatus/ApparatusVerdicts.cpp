@@ -131,9 +131,15 @@ CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const 
                         "length in meters as ruler_measured_m into the {0}'s file; half a percent "
                         "of scale is 2 mm of pose",
                         what)};
-  const double off = *body.measured_ruler_m / ruler_m - 1;
-  const std::string figure = fmt::format("the {}'s ruler was measured as {:.2f} mm ({:+.2f} %)",
-                                         what, 1000 * *body.measured_ruler_m, 100 * off);
+  double off = *body.measured_ruler_m / ruler_m - 1;
+  std::string figure = fmt::format("the {}'s ruler was measured as {:.2f} mm ({:+.2f} %)", what,
+                                   1000 * *body.measured_ruler_m, 100 * off);
+  if (body.measured_across_m) {
+    const double across = *body.measured_across_m / ruler_m - 1;
+    figure += fmt::format(", across it {:.2f} mm ({:+.2f} %)", 1000 * *body.measured_across_m,
+                          100 * across);
+    off = std::max(std::abs(off), std::abs(across));
+  }
   if (std::abs(off) <= plausible_scale) return {CheckVerdict::ok, name, figure};
   return {CheckVerdict::warning, name,
           fmt::format("{}, expected within {:.0f} %: was it printed at 100 %, is the length right?",

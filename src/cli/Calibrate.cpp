@@ -20,6 +20,8 @@
 namespace heft::cli {
 
 namespace {
+constexpr const char* doubtful =
+    "{} is written, but should not be trusted: see above, and calibrate once more\n";
 constexpr double patience_s = 5;  ///< with a camera that gives no picture
 
 struct Options {
@@ -158,8 +160,7 @@ void calibrate_the_camera(const Options& options) {
   write_result(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));
   print("{}", text);
   if (!doubts(result).empty())
-    say("{} is written, but should not be trusted: see above, and calibrate once more\n",
-        options.out);
+    say(doubtful, options.out);
   else
     say("{} is written. Next: heft calibrate effector --camera camera:0 --camera-file {} "
         "--effector EFFECTOR.toml --out MEASURED.toml\n",
@@ -192,7 +193,10 @@ void calibrate_the_effector(const Options& options) {
                effector_to_toml(result.effector, "Made by heft calibrate effector from " +
                                                      options.effector + ".\n" + text));
   print("{}", text);
-  say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
+  if (!doubts(result).empty())
+    say(doubtful, options.out);
+  else
+    say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
 }
 
 void add_source(Command& command, Options& options) {

@@ -42,15 +42,24 @@ void check_placed_once(TableReader& reader, const std::string& shorthand) {
 
 void read_common(TableReader& reader, MarkerBody& body) {
   if (const auto family = reader.read_name("family", tag_family_names())) body.family = *family;
-  reader.read("ruler_measured_m", body.measured_ruler_m, plausible_ruler_m);
 }
 
-// Everything that the printer printed came out larger or smaller alike.
+// One length of the ruler, or of a board's two directions each.
+void read_ruler(TableReader& reader, MarkerBody& body, bool may_be_two) {
+  if (!may_be_two || !reader.is_list("ruler_measured_m"))
+    return reader.read("ruler_measured_m", body.measured_ruler_m, plausible_ruler_m);
+  Eigen::Vector2d both_m(ruler_m, ruler_m);
+  reader.read("ruler_measured_m", both_m, plausible_ruler_m);
+  body.measured_ruler_m = both_m.x();
+  body.measured_across_m = both_m.y();
+}
+
+// Everything that the printer printed came out larger or smaller alike, at least in a direction.
 void scale(MarkerBody& body) {
-  const double factor = body.measured_ruler_m.value_or(ruler_m) / ruler_m;
-  body.size_m *= factor;
+  const Eigen::Vector3d factors = print_scale(body);
+  body.size_m = body.size_m.cwiseProduct(factors);
   for (Tag& tag : body.tags)
-    for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m *= factor;
+    for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m = corner_m.cwiseProduct(factors);
 }
 }  // namespace
 
@@ -60,8 +69,10 @@ MarkerBody parse_board(const std::string& text, const std::string& file) {
   TableReader reader(root, mistakes);
   MarkerBody board;
   read_common(reader, board);
+  read_ruler(reader, board, true);
   if (auto grid = reader.table("grid")) board.tags = read_grid(*grid, board.family);
   std::vector<PlacedTag> tags = read_tags(reader);
+  std::ranges::for_each(tags, check_upwards);
   reader.close();
   check_placed_once(reader, "grid");
   check_ids(tags, board.family);
@@ -78,6 +89,7 @@ MarkerBody parse_effector(const std::string& text, const std::string& file) {
   MarkerBody effector;
   effector.size_m.setConstant(1);  // where it is wrong, nothing else is blamed for it
   read_common(reader, effector);
+  read_ruler(reader, effector, false);
   reader.require({"size_m"});
   reader.read("size_m", effector.size_m, above_zero);
   std::vector<PlacedTag> tags = read_tags(reader);

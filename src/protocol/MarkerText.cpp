@@ -52,6 +52,13 @@ std::string extent_in_words(const MarkerBody& body) {
   return fmt::format("over {:.4g} x {:.4g} mm", mm.x(), mm.y());
 }
 
+std::string ruler_in_words(const MarkerBody& body) {
+  if (!body.measured_ruler_m) return "ruler not measured yet";
+  const std::string along = fmt::format("ruler measured: {:.6g}", *body.measured_ruler_m * 1e3);
+  if (!body.measured_across_m) return along + " mm";
+  return fmt::format("{} x {:.6g} mm", along, *body.measured_across_m * 1e3);
+}
+
 std::string as_row(const Eigen::Vector3d& v) {
   return fmt::format("[{:.9f}, {:.9f}, {:.9f}]", v.x(), v.y(), v.z());
 }
@@ -62,9 +69,7 @@ std::string described(const MarkerBody& body) {
   const char* plural = ids.size() == 1 ? "" : "s";
   return fmt::format("{} tag{} of {}, {}, id{} {}, {}, {}", ids.size(), plural, body.family,
                      sides_in_words(body), plural, ids_in_words(ids), extent_in_words(body),
-                     body.measured_ruler_m
-                         ? fmt::format("ruler measured: {:.6g} mm", *body.measured_ruler_m * 1e3)
-                         : "ruler not measured yet");
+                     ruler_in_words(body));
 }
 
 void require_different_tags(const MarkerBody& board, const MarkerBody& effector) {

@@ -258,6 +258,11 @@ void TableReader::read_size(std::string_view key, Eigen::Vector3d& field) {
   if (const auto value = number(entry->node, key, size_on_earth)) field.setConstant(*value);
 }
 
+bool TableReader::is_list(std::string_view key) const {
+  const TomlEntry* entry = find(key);
+  return entry && std::holds_alternative<TomlArray>(entry->node.value);
+}
+
 bool TableReader::has_table(std::string_view key) const {
   const TomlEntry* entry = find(key);
   return entry && std::holds_alternative<TomlTable>(entry->node.value);

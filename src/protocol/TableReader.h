@@ -100,6 +100,7 @@ class TableReader {
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
   bool has_table(std::string_view key) const;
+  bool is_list(std::string_view key) const;
   /// By name.
   std::vector<std::string> keys() const;
   /// Whether no mistake was noted at any of these keys.

@@ -129,6 +129,15 @@ void check_outwards(PlacedTag& placed) {
                              placed.tag.id));
 }
 
+void check_upwards(PlacedTag& placed) {
+  if (!placed.table.good({corners})) return;
+  if (tag_normal(placed.tag).z() <= 0)
+    placed.table.mistake(
+        corners, fmt::format("tag {} faces down; expected its corners clockwise as seen from above "
+                             "the board, from the upright tag's top left",
+                             placed.tag.id));
+}
+
 void check_ids(std::vector<PlacedTag>& tags, const std::string& family) {
   const int n_codes = n_tags_of(family);
   for (std::size_t i = 0; i < tags.size(); ++i) {

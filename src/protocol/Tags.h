@@ -26,6 +26,10 @@ void check_square(PlacedTag& placed);
 /// Notes a tag whose front looks at the body's center: its corners go round the wrong way.
 void check_outwards(PlacedTag& placed);
 
+/// Notes a board's tag whose corners go round the wrong way: it would be printed on the board's
+/// back.
+void check_upwards(PlacedTag& placed);
+
 /// Notes ids that the family does not have, and those given twice.
 void check_ids(std::vector<PlacedTag>& tags, const std::string& family);
 

@@ -175,6 +175,7 @@ class VideoFile : public Camera {
 
 VideoFile::VideoFile(const std::string& path) {
   if (!std::filesystem::exists(path)) throw Error(fmt::format("there is no video {}", path));
+  const QuietCodecs quiet;
   // The decoders that come with OpenCV; with any other backend a name with % in it means a series.
   for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG})
     if (!video_.isOpened()) video_.open(path, backend);

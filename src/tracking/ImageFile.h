@@ -1,15 +1,27 @@
 // Pictures as files: PNG, JPEG, PGM, BMP, TIFF... by the file's name.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/Image.h"
 
 namespace heft {
 
+struct PictureSize {
+  int width = 0, height = 0;
+};
+
+/// What a PNG, JPEG, BMP, PGM or PPM says of itself before it is decoded; none for others, and
+/// where it says nothing.
+std::optional<PictureSize> size_in_header(const std::string& path);
+
+/// A picture of more pixels is refused before it is decoded.
+inline constexpr double most_picture_pixels = 1e8;
+
 /// Gray pictures have 1 channel, others 3 (blue, green, red; transparency is dropped); 16-bit
 /// pictures are brought to 8 bits.
-/// @throws Error naming the file: not there, not a picture, or damaged
+/// @throws Error naming the file: not there, not a picture, damaged, or absurdly large
 Image read_image(const std::string& path);
 
 /// @throws Error naming the file and the reason: an ending that no format has, a full disk...

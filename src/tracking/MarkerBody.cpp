@@ -4,6 +4,11 @@
 
 namespace heft {
 
+Eigen::Vector3d print_scale(const MarkerBody& body) {
+  const double along_m = body.measured_ruler_m.value_or(ruler_m);
+  return Eigen::Vector3d(along_m, body.measured_across_m.value_or(along_m), along_m) / ruler_m;
+}
+
 FaceFrame face_frame(const Eigen::Vector3d& size_m, BoxFace face) {
   static const std::array<Eigen::Vector3d, 6> outwards{
       {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {-1, 0, 0}}};  // as box_faces

@@ -30,7 +30,12 @@ struct MarkerBody {
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
   /// How long the sheet's 150 mm ruler came out of the printer; corners are already scaled by it.
   std::optional<double> measured_ruler_m;
+  /// Of a board: how long it would have come out down the sheet (y), where that was measured, too.
+  std::optional<double> measured_across_m;
 };
+
+/// How much larger than it was designed a body's print came out, along each axis.
+Eigen::Vector3d print_scale(const MarkerBody& body);
 
 /// Length of the ruler line that every sheet has.
 inline constexpr double ruler_m = 0.150;

@@ -84,6 +84,22 @@ TEST(BoardFile, IsScaledByTheMeasuredRuler) {
       EXPECT_LT((scaled.tags[i].corners_m[c] - 1.02 * plain.tags[i].corners_m[c]).norm(), 1e-12);
 }
 
+// Printers stretch one direction more than the other.
+TEST(BoardFile, IsScaledInBothDirectionsByTwoLengths) {
+  const MarkerBody plain = parse_board(board_grid, "x.toml");
+  const MarkerBody scaled =
+      parse_board("ruler_measured_m = [0.153, 0.147]\n" + board_grid, "x.toml");
+  EXPECT_EQ(scaled.measured_ruler_m, 0.153);
+  EXPECT_EQ(scaled.measured_across_m, 0.147);
+  EXPECT_NE(described(scaled).find("ruler measured: 153 x 147 mm"), std::string::npos);
+  for (std::size_t i = 0; i < plain.tags.size(); ++i)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Eigen::Vector3d expected =
+          plain.tags[i].corners_m[c].cwiseProduct(Eigen::Vector3d(1.02, 0.98, 1.02));
+      EXPECT_LT((scaled.tags[i].corners_m[c] - expected).norm(), 1e-12);
+    }
+}
+
 // Tip: upright. Long faces: up is towards the tip, where the tags are.
 TEST(EffectorFile, BoxHasItsTagsAtTheTip) {
   const MarkerBody effector = parse_effector(effector_box, "x.toml");
@@ -177,6 +193,9 @@ const Broken of_grid[] = {
     {"millimeters", {"0.040", "^40"}, {"tag_m is 40", "at most 2"}},
     {"ids_run_out", {"= 7", "= ^580"}, {"580 to 603", "0 to 586"}},
     {"no_such_first_id", {"= 7", "= ^587"}, {"first_id is 587", "from 0 to 586"}},
+    {"one_of_two_rulers_in_millimeters",
+     {"[grid]", "ruler_measured_m = [0.15, ^149.3]\n[grid]"},
+     {"0.12", "0.18"}},
     {"ruler_in_millimeters", {"[grid]", "ruler_measured_m = ^149.3\n[grid]"}, {"0.12", "0.18"}},
     {"no_tags", {board_grid, "^family = \"tag16h5\"\n"}, {"[grid] or [[tag]]"}},
     {"misspelled_grid", {"[grid]", "[^gird]"}, {"\"grid\"?"}},
@@ -206,6 +225,10 @@ const Broken of_tags[] = {
      {"tag 3 has sides of"}},
     {"bent", {"[[-0.02, 0.02, 0]", "^[[-0.02, 0.02, 0.008]"}, {"out of place"}},
     {"a_point", {"[[0.03, 0.02, 0.01], [0.07", "^[[0.03, 0.02, 0.01], [0.03"}, {"tag 34"}},
+    {"mirrored",
+     {"[[-0.02, 0.02, 0], [0.02, 0.02, 0], [0.02, -0.02, 0], [-0.02, -0.02, 0]]",
+      "^[[0.02, 0.02, 0], [-0.02, 0.02, 0], [-0.02, -0.02, 0], [0.02, -0.02, 0]]"},
+     {"tag 3 faces down", "clockwise as seen from above"}},
     {"in_millimeters",
      {"[[-0.02, 0.02, 0], [0.02, 0.02, 0], [0.02, -0.02, 0], [-0.02, -0.02, 0]]",
       "^[[-20, 20, 0], [20, 20, 0], [20, -20, 0], [-20, -20, 0]]"},

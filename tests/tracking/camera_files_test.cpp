@@ -55,6 +55,48 @@ TEST(ImageFile, ReadsWhatItWrote) {
   }
 }
 
+TEST(ImageFile, TellsASizeFromTheHeader) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.png", "a.jpg", "a.bmp", "a.pgm", "a.ppm"}) {
+    write_image(folder.file(name), plain(9, std::string(name) == "a.pgm" ? 1 : 3));
+    const auto size = size_in_header(folder.file(name));
+    ASSERT_TRUE(size) << name;
+    EXPECT_EQ(size->width, 32) << name;
+    EXPECT_EQ(size->height, 24) << name;
+  }
+  write_text(folder.file("text.png"), "no picture at all, but long enough for a header");
+  EXPECT_FALSE(size_in_header(folder.file("text.png")));
+  EXPECT_FALSE(size_in_header(folder.file("none.png")));
+}
+
+TEST(ImageFile, AnAbsurdSizeIsRefusedBeforeDecoding) {
+  const TemporaryFolder folder;
+  write_image(folder.file("a.png"), plain(9));
+  std::fstream file(folder.file("a.png"), std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(16).write("\0\0\x4E\x20\0\0\x4E\x20", 8);  // 20000 x 20000
+  file.close();
+  EXPECT_THAT(message_of([&] { read_image(folder.file("a.png")); }),
+              HasSubstr("says that it has 20000 x 20000 pixels"));
+}
+
+TEST(ImageFile, CodecsDoNotTalk) {
+  const TemporaryFolder folder;
+  Image image(64, 48, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = static_cast<std::uint8_t>(i * i % 251);
+  for (const char* name : {"a.png", "a.jpg", "a.tif"}) {
+    write_image(folder.file(name), image);
+    std::filesystem::resize_file(folder.file(name),
+                                 std::filesystem::file_size(folder.file(name)) / 2);
+    testing::internal::CaptureStderr();
+    message_of([&] { read_image(folder.file(name)); });
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << name;
+  }
+  testing::internal::CaptureStderr();
+  std::fputs("heard again", stderr);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "heard again");
+}
+
 TEST(ImageFile, NamesWhatItCanNotReadOrWrite) {
   const TemporaryFolder folder;
   const auto reading = [&](const std::string& name) {

@@ -98,6 +98,18 @@ TEST_F(Sheets, AreDrawnAsDesignedAfterMeasuring) {
   expect_as_designed(tags_on(first_page(path("board.pdf")), "tag36h11"), board);
 }
 
+TEST_F(Sheets, AreDrawnAsDesignedAfterMeasuringBothDirections) {
+  const MarkerBody board = grid_board(3, 3, 0.040, 0.048);
+  MarkerBody measured = board;
+  for (Tag& tag : measured.tags)
+    for (Eigen::Vector3d& corner_m : tag.corners_m)
+      corner_m = corner_m.cwiseProduct(Eigen::Vector3d(0.98, 1.02, 1));
+  measured.measured_ruler_m = 0.147;
+  measured.measured_across_m = 0.153;
+  write_board_sheet(measured, Paper::a4, path("board.pdf"));
+  expect_as_designed(tags_on(first_page(path("board.pdf")), "tag36h11"), board);
+}
+
 // Centers of the dark marks in a row, mm.
 std::vector<double> marks_mm(const Image& page, int row) {
   std::vector<double> marks;

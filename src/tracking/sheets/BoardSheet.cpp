@@ -70,21 +70,30 @@ PointMm chosen_paper(const MarkerBody& board, Paper paper) {
       size.x(), size.y(), name_of(paper), std::floor(room.x()), std::floor(room.y())));
 }
 
-const std::array<std::string, 6> steps{
-    "Print page 1 at 100 % (\"actual size\"), not \"fit to page\", on matte white paper.\n"
-    "Gloss reflects lamps, and tags under a reflection are not seen.",
-    "Measure the ruler line at the bottom of page 1 with a good ruler or calipers,\n"
-    "between its first and its last tick, to a tenth of a millimeter. It should be 150.0 mm.",
-    "Write what you measured into the board file, in meters, for example:\n"
-    "    ruler_measured_m = 0.1496\n"
-    "Half a percent that is not written down moves the effector by about 2 mm.",
-    "Glue the sheet, without bubbles, to something flat and stiff: glass, an aluminum\n"
-    "plate, a thick board. Keep the white around the tags; do not cut into it.",
-    "Check the file, then calibrate the camera with the board in your hands:\n"
-    "    heft validate BOARD.toml\n"
-    "    heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
-    "Lay the board in front of the participant, with the edge marked so towards them, and\n"
-    "fix it: neither the board nor the camera may move during a session."};
+// @param height_mm between the outermost detected corners, down the sheet
+std::array<std::string, 6> steps_for(double height_mm) {
+  return {
+      "Print page 1 at 100 % (\"actual size\"), not \"fit to page\", on matte white paper.\n"
+      "Gloss reflects lamps, and tags under a reflection are not seen.",
+      "Measure the ruler line at the bottom of page 1 with a good ruler or calipers,\n"
+      "between its first and its last tick, to a tenth of a millimeter. It should be 150.0 mm.",
+      "Write what you measured into the board file, in meters, for example:\n"
+      "    ruler_measured_m = 0.1496\n"
+      "Half a percent that is not written down moves the effector by about 2 mm.\n" +
+          fmt::format(
+              "Printers stretch paper in one direction more: from the top of the first row's "
+              "black\n"
+              "to the bottom of the last one's it should be {:.1f} mm. If it is 0.2 % more, write\n"
+              "    ruler_measured_m = [0.1496, 0.1503]",
+              height_mm),
+      "Glue the sheet, without bubbles, to something flat and stiff: glass, an aluminum\n"
+      "plate, a thick board. Keep the white around the tags; do not cut into it.",
+      "Check the file, then calibrate the camera with the board in your hands:\n"
+      "    heft validate BOARD.toml\n"
+      "    heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
+      "Lay the board in front of the participant, with the edge marked so towards them, and\n"
+      "fix it: neither the board nor the camera may move during a session."};
+}
 }  // namespace
 
 void write_board_sheet(const MarkerBody& board, Paper paper, const std::string& path) {
@@ -107,7 +116,7 @@ void write_board_sheet(const MarkerBody& board, Paper paper, const std::string& 
   }
   draw_ruler_strip(sheet, sheet_mm, "This edge: towards the participant.");
   sheet.next_page();
-  write_steps(sheet, "The board: print, measure, glue", steps);
+  write_steps(sheet, "The board: print, measure, glue", steps_for(extent.sizes().y()));
   sheet.finish();
 }
 

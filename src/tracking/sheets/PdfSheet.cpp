@@ -179,10 +179,10 @@ void draw_tag(PdfSheet& sheet, const std::string& family, int id,
 
 MarkerBody as_designed(const MarkerBody& body) {
   MarkerBody designed = body;
-  const double factor = ruler_m / body.measured_ruler_m.value_or(ruler_m);
-  designed.size_m *= factor;
+  const Eigen::Vector3d scale = print_scale(body);
+  designed.size_m = designed.size_m.cwiseQuotient(scale);
   for (Tag& tag : designed.tags)
-    for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m *= factor;
+    for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m = corner_m.cwiseQuotient(scale);
   return designed;
 }
 
