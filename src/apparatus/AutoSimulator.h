@@ -6,9 +6,8 @@
 
 namespace heft {
 
-/// The cheapest simulator that models all a person may do and stays within the tolerance in every
-/// trial of the protocol; it depends on nothing that happens in a session. Its rate is at least the
-/// display's; the protocol's own rate is not asked.
+/// What models all a person may do, at the lowest rate that stays within the tolerance with every
+/// technique of the protocol, at least the display's; the protocol's own rate is not asked.
 SimulatorPick resolve_auto(const Protocol& protocol);
 
 }  // namespace heft

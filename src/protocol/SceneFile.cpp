@@ -87,6 +87,8 @@ void read_tolerance(TableReader& reader, Tolerance& tolerance) {
   if (!table) return;
   table->read("clone_rms_m", tolerance.clone_rms_m, above_zero);
   table->read("lag_g", tolerance.lag_g, above_zero);
+  table->read("cubes_rms_m", tolerance.cubes_rms_m, above_zero);
+  table->read("turn_rms_rad", tolerance.turn_rms_rad, above_zero);
   table->close();
 }
 
