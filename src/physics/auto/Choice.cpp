@@ -27,9 +27,8 @@ bool keeps(const Tolerance& known, const Tolerance& asked) {
          known.cubes_rms_m <= asked.cubes_rms_m && known.turn_rms_rad <= asked.turn_rms_rad;
 }
 
-std::string text_of(const Tolerance& tolerance) {
-  return fmt::format("{:.2g} mm, {:.2g} g, cubes {:.2g} mm, {:.2g} degrees",
-                     1e3 * tolerance.clone_rms_m, tolerance.lag_g, 1e3 * tolerance.cubes_rms_m,
+std::string text_of_rest(const Tolerance& tolerance) {
+  return fmt::format("cubes {:.2g} mm, turns {:.2g} degrees", 1e3 * tolerance.cubes_rms_m,
                      tolerance.turn_rms_rad * 180 / M_PI);
 }
 
@@ -38,9 +37,12 @@ SimulatorPick pick_of(const KnownError& known, const Scene& scene, double at_lea
   const bool general = simulator_named(known.simulator).for_sessions;
   return {std::string(known.simulator),
           std::max(std::ceil(known.rate_hz * times_faster(scene)), at_least_hz),
-          fmt::format("models {}, known to be within {} (asked for: {}){}",
-                      general ? "everything" : "a straight push at one cube", text_of(known.within),
-                      text_of(scene.tolerance),
+          fmt::format("models {}, known to be within {:.2g} mm RMS and {:.2g} g, {} (asked for: "
+                      "{:.2g} mm and {:.2g} g, {}){}",
+                      general ? "everything" : "a straight push at one cube",
+                      1e3 * known.within.clone_rms_m, known.within.lag_g,
+                      text_of_rest(known.within), 1e3 * scene.tolerance.clone_rms_m,
+                      scene.tolerance.lag_g, text_of_rest(scene.tolerance),
                       kept ? "" : ": the most accurate there is, and MISSES the tolerance")};
 }
 }  // namespace
