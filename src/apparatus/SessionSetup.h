@@ -54,9 +54,8 @@ void check(const Setup& options);
 /// The simulator that in_force() picks for the protocol; the log then has the name of its pick.
 inline constexpr std::string_view automatic = "auto";
 
-/// The cheapest simulator that models all a person may do and stays within the tolerance in every
-/// trial of the protocol; resolved once, before the first trial, by nothing that happens in a
-/// session. Its rate is at least the display's; the protocol's own rate is not asked.
+/// What models all a person may do, at the lowest rate that stays within the tolerance with every
+/// technique of the protocol, at least the display's; the protocol's own rate is not asked.
 SimulatorPick resolve_auto(const Protocol& protocol);
 
 /// Whether the two names in the table of simulators mean the same one.

@@ -2,6 +2,7 @@
 // Study.cpp, names them all.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,9 +10,10 @@
 namespace heft {
 
 struct StudyOptions {
-  std::string out;      ///< the folder for its files
-  std::string command;  ///< how it was called, for captions
-  bool quick = false;   ///< a small part, to see that everything works
+  std::string out;         ///< the folder for its files
+  std::string command;     ///< how it was called, for captions
+  bool quick = false;      ///< a small part, to see that everything works
+  std::uint64_t seed = 1;  ///< of what a study draws at random
 };
 
 struct StudyEntry {

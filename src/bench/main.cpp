@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <random>
 
 #include "bench/Study.h"
 #include "bench/stock/StockSimulators.h"
@@ -14,6 +16,7 @@ namespace {
 
 struct Options {
   std::string out;
+  std::optional<std::uint64_t> seed;
   bool quick = false;
 };
 
@@ -21,9 +24,11 @@ void run(const heft::StudyEntry& study, const Options& options) {
   heft::StudyOptions study_options;
   study_options.out = options.out.empty() ? fmt::format("results/{}", study.name) : options.out;
   study_options.quick = options.quick;
-  study_options.command =
-      fmt::format("heft bench {}{}{}", study.name, options.quick ? " --quick" : "",
-                  options.out.empty() ? "" : " --out " + options.out);
+  study_options.seed = options.seed.value_or(std::random_device()());
+  heft::cli::say("seed {}\n", study_options.seed);
+  study_options.command = fmt::format("heft bench {} --seed {}{}{}", study.name, study_options.seed,
+                                      options.quick ? " --quick" : "",
+                                      options.out.empty() ? "" : " --out " + options.out);
   std::filesystem::create_directories(study_options.out);
   study.run(study_options);
   heft::cli::say("written to {}/\n", study_options.out);
@@ -35,6 +40,7 @@ void add_all(heft::cli::Command& app) {
     heft::cli::Command command =
         app.add_command(std::string(study.name), std::string(study.summary));
     command.add_option("--out", &options->out, "folder for its files; default: results/NAME");
+    command.add_seed(options->seed, "a fresh one is drawn and printed");
     command.add_flag("--quick", options->quick, "a small part of it, to see that it works");
     command.does([options, &study] { run(study, *options); });
   }

@@ -54,6 +54,8 @@ struct Cube {
 struct Tolerance {
   double clone_rms_m = 0.1e-3;
   double lag_g = 0.5;  ///< how much heavier or lighter a cube may seem
+  double cubes_rms_m = 1e-3;
+  double turn_rms_rad = 0.01;  ///< of the clone
 };
 
 struct Scene {

@@ -112,6 +112,8 @@ Scene parse_scene(const std::string& text, const std::string& file) {
   reader.in_table("tolerance", [&](TableReader& table) {
     table.read("clone_rms_m", scene.tolerance.clone_rms_m, above_zero);
     table.read("lag_g", scene.tolerance.lag_g, above_zero);
+    table.read("cubes_rms_m", scene.tolerance.cubes_rms_m, above_zero);
+    table.read("turn_rms_rad", scene.tolerance.turn_rms_rad, above_zero);
   });
   reader.close();
   mistakes.throw_if_any();

@@ -9,6 +9,7 @@
 #include "base/TextFile.h"
 #include "bench/Study.h"
 #include "bench/physics/Measurements.h"
+#include "bench/physics/RandomScenes.h"
 #include "bench/physics/Stability.h"
 
 namespace heft {
@@ -47,7 +48,7 @@ class QuickStudy : public testing::Test {
 
 TEST_F(QuickStudy, MakesEveryFileAndSaysWhereItIsFrom) {
   for (const char* name :
-       {"work_precision", "errors", "references", "stability", "input", "lag_vs_mass", "c1_leak"}) {
+       {"work_precision", "references", "stability", "input", "lag_vs_mass", "hands", "growth"}) {
     const auto table = rows(std::string(name) + ".csv");
     EXPECT_FALSE(table.empty()) << name;
     for (const Row& row : table) {
@@ -62,7 +63,8 @@ TEST_F(QuickStudy, MakesEveryFileAndSaysWhereItIsFrom) {
 }
 
 TEST_F(QuickStudy, DrawsEveryChart) {
-  for (const char* name : {"work_precision", "stability", "input", "lag_vs_mass", "c1_leak"}) {
+  for (const char* name :
+       {"work_precision", "stability", "input", "lag_vs_mass", "hands", "growth"}) {
     const std::string path = folder + "/" + name + ".svg";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "gnuplot is not installed";
     EXPECT_THAT(read_text_file(path), testing::HasSubstr("heft bench physics --quick")) << name;
@@ -78,44 +80,59 @@ TEST_F(QuickStudy, HasEverySimulatorAtEveryRateInEveryScene) {
 }
 
 TEST_F(QuickStudy, KnowsThatTheExplicitForceBlowsUpAndThatBoxesDoNot) {
-  for (const Row& row : rows("errors.csv")) {
+  for (const Row& row : rows("work_precision.csv")) {
     if (row.at("scene_class") != "push") continue;
     if (row.at("simulator") == "bullet-explicit") {
-      EXPECT_EQ(row.at("n_blew_up"), row.at("n_scenes"));
-      EXPECT_EQ(row.at("worst_clone_rms_mm"), "");
+      EXPECT_EQ(row.at("fate"), "blew_up");
+      EXPECT_EQ(row.at("clone_rms_mm"), "");
     }
     if (row.at("simulator") == "boxes") {
-      EXPECT_EQ(row.at("n_blew_up"), "0");
-      EXPECT_LT(std::stod(row.at("worst_clone_rms_mm")), 0.25);
+      EXPECT_EQ(row.at("fate"), "ran");
+      EXPECT_LT(std::stod(row.at("clone_rms_mm")), 0.25);
     }
   }
 }
 
 TEST_F(QuickStudy, ShowsWhatInputHandlingCosts) {
-  std::map<std::string, double> at_picture, at_present, kick;
+  std::map<std::string, double> in_air, at_picture, at_present, kick;
   for (const Row& row : rows("input.csv")) {
     if (row.at("camera_hz") != "15" || row.at("fault") != "clean") continue;
     const std::string& mode = row.at("mode");
     if (row.at("condition") == "C1") kick[mode] = std::stod(row.at("fastest_cube_m_s"));
-    if (row.at("condition") == "C1") continue;
+    if (row.at("scene") == "free_air") in_air[mode] = std::stod(row.at("clone_at_picture_rms_mm"));
+    if (row.at("condition") == "C1" || row.at("scene") == "free_air") continue;
     at_picture[mode] = std::stod(row.at("clone_at_picture_rms_mm"));
     at_present[mode] = std::stod(row.at("clone_at_present_rms_mm"));
   }
+  EXPECT_LT(in_air["smooth"], 0.02);
+  EXPECT_GT(in_air["path"], 0.1);
   EXPECT_LT(at_picture["path"], 0.3 * at_picture["hold"]);
   EXPECT_LT(at_present["extrapolate"], 0.5 * at_present["path"]);
   EXPECT_LT(kick["path"], 0.2);  // the hand's own speed
   EXPECT_GT(kick["hold"], 1);
 }
 
-TEST_F(QuickStudy, ShowsThatC1HidesMassesUntilCubesTouchCubes) {
-  for (const Row& row : rows("c1_leak.csv")) {
-    const double apart_mm = std::stod(row.at("cubes_apart_max_mm"));
-    if (row.at("case").starts_with("one_")) {
-      EXPECT_LT(apart_mm, 1e-6) << row.at("case");
-    } else if (row.at("case") == "two_aside") {
-      EXPECT_GT(apart_mm, 1) << row.at("case");
-    }
+// At the last step within the stroke, at most 0.42 mm before its end.
+TEST_F(QuickStudy, ShowsWhatEachTechniqueMakesOfAMass) {
+  for (const Row& row : rows("lag_vs_mass.csv")) {
+    const std::string& technique = row.at("technique");
+    if (row.at("simulator") != "boxes" || technique == "C2") continue;
+    EXPECT_NEAR(std::stod(row.at("lag_at_end_mm")), std::stod(row.at("expected_mm")), 0.42)
+        << technique << ' ' << row.at("cube_mass_g");
   }
+}
+
+TEST_F(QuickStudy, DrawsRandomHandsFromItsSeed) {
+  std::map<std::string, int> n_ran;
+  for (const Row& row : rows("hands.csv")) {
+    EXPECT_EQ(row.at("seed"), "1");
+    if (row.at("simulator") == "boxes" && row.at("rate_hz") == "240")
+      n_ran[row.at("setting")] = std::stoi(row.at("n_ran"));
+  }
+  EXPECT_EQ(n_ran["promised"], 7);
+  const BenchScene one = random_scene(Setting::staggered, 7, 3);
+  EXPECT_EQ(path_csv(one), path_csv(random_scene(Setting::staggered, 7, 3)));
+  EXPECT_NE(path_csv(one), path_csv(random_scene(Setting::staggered, 7, 4)));
 }
 
 TEST(Stability, KnowsAStableMethodFromOthers) {

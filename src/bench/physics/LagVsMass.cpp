@@ -127,7 +127,7 @@ void study_lag(const StudyOptions& options) {
   const std::string caption = fmt::format(
       "Clone behind the effector at the end of a stroke of 10 cm at 0.1 m/s, {} steps a second. "
       "Broad line: min(stroke, \u00b5 M g / k), 0.157 mm a gram, until the cube does not move at "
-      "all. A gain's lag grows with the stroke, a speed limit's with its speed. {}",
+      "all. {}",
       rate_hz, provenance(options));
   draw(options, "lag_vs_mass",
        gnuplot_header({"lag_vs_mass.svg", 900, 560,

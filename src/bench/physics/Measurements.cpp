@@ -32,49 +32,6 @@ Measurement measure_one(const SimulatorEntry& simulator, const BenchScene& scene
   return one;
 }
 
-// The worst of one scene class.
-struct ClassError {
-  int n_scenes = 0, n_outside = 0, n_blown_up = 0;
-  double clone_rms_mm = 0, cubes_rms_mm = 0, turn_rms_deg = 0, lag_error_g = 0;
-
-  void add(const Measurement& one) {
-    ++n_scenes;
-    n_outside += one.fate == Fate::outside_model;
-    n_blown_up += one.fate == Fate::blew_up;
-    if (one.fate != Fate::ran) return;
-    clone_rms_mm = std::max(clone_rms_mm, one.error.clone_rms_mm);
-    cubes_rms_mm = std::max(cubes_rms_mm, one.error.cubes_rms_mm);
-    turn_rms_deg = std::max(turn_rms_deg, one.error.clone_turn_rms_deg);
-    lag_error_g = std::max(lag_error_g, std::abs(one.error.lag_error_g));
-  }
-  bool any_ran() const { return n_scenes > n_outside + n_blown_up; }
-};
-
-// A rule that picks a simulator is for scenes with about the paper's springs.
-bool has_the_papers_springs(const BenchScene& scene) {
-  const Coupling papers, &coupling = scene.scene.coupling;
-  return coupling.stiffness_n_per_m == papers.stiffness_n_per_m &&
-         (scene.kind == SceneClass::free_air ||
-          coupling.torsional_stiffness_nm_per_rad == papers.torsional_stiffness_nm_per_rad);
-}
-
-void write_errors(const StudyOptions& options, std::span<const Measurement> all) {
-  std::map<std::tuple<std::string, int, SceneClass>, ClassError> worst;
-  for (const Measurement& one : all)
-    if (has_the_papers_springs(one.scene))
-      worst[{one.simulator, one.rate_hz, one.scene.kind}].add(one);
-  CsvFile csv(options, "errors.csv",
-              "simulator,rate_hz,scene_class,n_scenes,n_outside_model,n_blew_up,"
-              "worst_clone_rms_mm,worst_cubes_rms_mm,worst_clone_turn_rms_deg,worst_lag_error_g");
-  for (const auto& [key, error] : worst) {
-    const auto& [simulator, rate_hz, kind] = key;
-    const auto known = [&](double value) { return error.any_ran() ? value : nothing; };
-    csv.row(simulator, rate_hz, name_of(kind), error.n_scenes, error.n_outside, error.n_blown_up,
-            known(error.clone_rms_mm), known(error.cubes_rms_mm), known(error.turn_rms_deg),
-            known(error.lag_error_g));
-  }
-}
-
 void write_references(const StudyOptions& options, const Measurements& measurements) {
   CsvFile csv(options, "references.csv",
               "scene,scene_class,method,clone_differs_rms_mm,cubes_differ_rms_mm,unique_if_rigid,"
@@ -122,7 +79,6 @@ void write_tables(const StudyOptions& options, const Measurements& measurements)
             known(one.error.clone_turn_rms_deg), known(one.error.cubes_rms_mm),
             known(one.error.lag_error_g), one.cpu_us_per_s);
   }
-  write_errors(options, measurements.all);
   write_references(options, measurements);
 }
 

@@ -31,8 +31,7 @@ std::vector<SimulatorEntry> measured_simulators();
 
 Measurements measure(const StudyOptions& options);
 
-/// work_precision.csv, a row a measurement; references.csv, a row a scene; errors.csv, the table
-/// that a rule can pick a simulator from: the worst of each scene class, errors alone.
+/// work_precision.csv, a row a measurement; references.csv, a row a scene.
 void write_tables(const StudyOptions& options, const Measurements& measurements);
 
 /// work_precision.svg

@@ -51,15 +51,16 @@ double mean_of(const std::vector<double>& values) {
 }  // namespace
 
 SceneRun run_scene(std::unique_ptr<DecouplingSimulator> simulator, const BenchScene& scene,
-                   int step_rate_hz, int keep_rate_hz) {
+                   int step_rate_hz, int keep_rate_hz, int poses_hz) {
+  if (poses_hz == 0) poses_hz = step_rate_hz;
   SceneRun run;
   run.track.rate_hz = keep_rate_hz;
   const Trajectory path(scene.path);
-  const int every = step_rate_hz / keep_rate_hz;
+  const int every = poses_hz / keep_rate_hz;
   try {
     Drive drive(std::move(simulator), scene.scene, step_rate_hz);
-    for (int n = 0; n <= n_steps(scene, step_rate_hz); ++n) {
-      const double t_s = time_of(path, n, step_rate_hz);
+    for (int n = 0; n <= n_steps(scene, poses_hz); ++n) {
+      const double t_s = time_of(path, n, poses_hz);
       const WorldState& state = drive.advance(sample_of(t_s, path.at(t_s)));
       if (n % every == 0) run.track.states.push_back(state);
     }

@@ -44,8 +44,9 @@ struct SceneRun {
 };
 
 /// Steps along the scene's path at step_rate_hz and keeps states at keep_rate_hz, a divisor of it.
+/// @param poses_hz at which the path is looked at, if not at every step; keep_rate_hz divides it
 SceneRun run_scene(std::unique_ptr<DecouplingSimulator> simulator, const BenchScene& scene,
-                   int step_rate_hz, int keep_rate_hz);
+                   int step_rate_hz, int keep_rate_hz, int poses_hz = 0);
 
 struct TrackError {
   double clone_rms_mm = 0, clone_max_mm = 0;  ///< of its center

@@ -2,15 +2,32 @@
 // in tests/scenes/ are written from here, so tests, `heft scene` and the study see the same ones.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/Names.h"
 #include "experiment/Trajectory.h"
 #include "physics/Scene.h"
-#include "physics/auto/ErrorTable.h"
 
 namespace heft {
+
+/// What a simulator has to be able to do for a scene.
+enum class SceneClass {
+  free_air,  ///< nothing is touched
+  push,      ///< one cube, straight, through its center
+  turn,      ///< one cube that turns
+  press,     ///< against something that does not give way
+  several,   ///< more than one cube is touched, or cubes touch cubes
+  rough      ///< fast, noisy, interrupted
+};
+
+template <>
+struct EnumNames<SceneClass> {
+  static constexpr std::array<std::string_view, 6> names{"free_air", "push",    "turn",
+                                                         "press",    "several", "rough"};
+};
 
 struct BenchScene {
   std::string name;   ///< of its file, without extension
