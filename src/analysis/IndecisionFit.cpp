@@ -59,17 +59,20 @@ double log_likelihood(const AnswersByLevel& answers, double unit, const VectorXd
   return sum;
 }
 
-std::vector<VectorXd> starts(const AnswersByLevel& answers, const ParameterBounds& lapses) {
+std::vector<std::vector<VectorXd>> starts(const AnswersByLevel& answers,
+                                          const ParameterBounds& lapses) {
   const auto n = totals(answers);
   const double undecided = std::clamp(n[none] / trials_in(answers), 0.02, 0.98);
   const double half_width = normal_quantile((1 + undecided) / 2);
-  std::vector<VectorXd> all;
+  std::vector<std::vector<VectorXd>> all;
   std::vector<double> some_lapses{lapses.low};
   if (!lapses.fixed()) some_lapses = {0.02, 0.2};
-  for (const double at_sensitivity : {-4.0, -1.0, 0.0, 1.0, 4.0, 16.0})
+  for (const double at_sensitivity : {-4.0, 0.0, 1.0, 4.0, 16.0}) {
+    all.emplace_back();
     for (const double wider : {1.0, 3.0})
       for (const double at_lapse : some_lapses)
-        all.push_back(Eigen::Vector4d(at_sensitivity, half_width * wider, 0, at_lapse));
+        all.back().push_back(Eigen::Vector4d(at_sensitivity, half_width * wider, 0, at_lapse));
+  }
   return all;
 }
 
@@ -106,7 +109,8 @@ FittedParameter threshold(const FittedParameter& s) {
 
 std::string no_threshold(const FittedParameter& s, double largest_g) {
   if (!s.value)
-    return "separation: the levels part the answers without overlap, so that any sensitivity that "
+    return "there is separation: the levels part the answers without overlap, so that any "
+           "sensitivity that "
            "is large enough fits as well; levels between are missing";
   if (!s.low || (*s.low <= 0 && !(s.high && *s.high < 0)))
     return "no sensitivity: its 95 % interval holds 0, so the answers don't surely follow the "

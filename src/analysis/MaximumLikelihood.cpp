@@ -14,6 +14,7 @@ namespace heft {
 namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Starts = std::vector<std::vector<VectorXd>>;
 
 struct Maximum {
   VectorXd at;
@@ -27,10 +28,10 @@ const Maximum& likelier(const Maximum& first, const Maximum& second) {
 class Likelihood {
  public:
   Likelihood(const LogLikelihood& function, const std::vector<ParameterBounds>& bounds,
-             std::vector<VectorXd> starts)
+             const Starts& starts)
       : function_(function),
         bounds_(bounds),
-        starts_(std::move(starts)),
+        starts_(starts),
         gradient_(static_cast<Eigen::Index>(bounds.size())) {}
 
   double value(const VectorXd& at) { return function_(at, gradient_); }
@@ -47,12 +48,13 @@ class Likelihood {
   VectorXd standard_errors(const VectorXd& at);
 
  private:
+  Maximum nothing() const { return {starts_[0][0], -std::numeric_limits<double>::infinity()}; }
   std::vector<Eigen::Index> free(Eigen::Index held) const;
   static double objective(unsigned n, const double* free_values, double* free_gradient, void* self);
 
   const LogLikelihood& function_;
   const std::vector<ParameterBounds>& bounds_;
-  std::vector<VectorXd> starts_;
+  const Starts& starts_;
   // What the search is at; NLopt's objective only sees what is free.
   VectorXd gradient_, at_;
   Maximum best_;
@@ -104,13 +106,12 @@ Maximum Likelihood::climb(VectorXd from, Eigen::Index held) {
 }
 
 Maximum Likelihood::maximum() {
-  constexpr std::size_t most_climbs = 3;
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < starts_.size(); ++i) order.push_back({-value(starts_[i]), i});
-  std::ranges::sort(order);
-  Maximum best = climb(starts_[order[0].second]);
-  for (std::size_t i = 1; i < std::min(order.size(), most_climbs); ++i)
-    best = likelier(best, climb(starts_[order[i].second]));
+  Maximum best = nothing();
+  for (const std::vector<VectorXd>& group : starts_) {
+    Maximum start = nothing();
+    for (const VectorXd& at : group) start = likelier(start, {at, value(at)});
+    best = likelier(best, climb(start.at));
+  }
   return best;
 }
 
@@ -120,11 +121,12 @@ Maximum Likelihood::profile(Eigen::Index held, double held_value, VectorXd from)
 }
 
 Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value) {
-  Maximum best{starts_[0], -std::numeric_limits<double>::infinity()};
-  for (VectorXd start : starts_) {
-    start[held] = held_value;
-    best = likelier(best, {start, value(start)});
-  }
+  Maximum best = nothing();
+  for (const std::vector<VectorXd>& group : starts_)
+    for (VectorXd start : group) {
+      start[held] = held_value;
+      best = likelier(best, {start, value(start)});
+    }
   return climb(best.at, held);
 }
 
@@ -272,8 +274,8 @@ bool fit_parameters(Likelihood& likelihood, Maximum& best,
 
 LikelihoodFit maximize_likelihood(const LogLikelihood& log_likelihood,
                                   const std::vector<ParameterBounds>& bounds,
-                                  std::vector<VectorXd> starts) {
-  Likelihood likelihood(log_likelihood, bounds, std::move(starts));
+                                  const Starts& starts) {
+  Likelihood likelihood(log_likelihood, bounds, starts);
   LikelihoodFit fit;
   Maximum best = likelihood.maximum();
   for (int i = 0; i < 10 && !fit_parameters(likelihood, best, fit.parameters); ++i)

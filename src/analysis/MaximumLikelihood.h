@@ -41,9 +41,9 @@ struct LikelihoodFit {
   double log_likelihood = 0;
 };
 
-/// @param starts within the bounds; the search goes on from the likeliest few
+/// @param starts within the bounds, in groups; the search goes on from the likeliest of each
 LikelihoodFit maximize_likelihood(const LogLikelihood& log_likelihood,
                                   const std::vector<ParameterBounds>& bounds,
-                                  std::vector<Eigen::VectorXd> starts);
+                                  const std::vector<std::vector<Eigen::VectorXd>>& starts);
 
 }  // namespace heft

@@ -111,17 +111,20 @@ std::vector<double> starting_places(const Levels& levels) {
   return places;
 }
 
-std::vector<VectorXd> starts(const Levels& levels, const std::vector<ParameterBounds>& bounds) {
+std::vector<std::vector<VectorXd>> starts(const Levels& levels,
+                                          const std::vector<ParameterBounds>& bounds) {
   const auto shares = [](const ParameterBounds& share) {
     if (share.fixed()) return std::vector<double>{share.low};
     return std::vector<double>{0.04 * share.high, 0.4 * share.high, 0.9 * share.high};
   };
-  std::vector<VectorXd> all;
-  for (const double at_place : starting_places(levels))
-    for (const double at_steepness : {1.0, 3.0, 8.0, 20.0, 60.0})
+  std::vector<std::vector<VectorXd>> all;
+  for (const double at_place : starting_places(levels)) {
+    all.emplace_back();
+    for (const double at_steepness : {1.0, 3.0, 8.0, 20.0, 60.0, 400.0})
       for (const double at_guess : shares(bounds[guess]))
         for (const double at_lapse : shares(bounds[lapse]))
-          all.push_back(Eigen::Vector4d(at_place, at_steepness, at_guess, at_lapse));
+          all.back().push_back(Eigen::Vector4d(at_place, at_steepness, at_guess, at_lapse));
+  }
   return all;
 }
 
@@ -137,19 +140,22 @@ std::string no_slope(double gained, const std::vector<ParameterBounds>& bounds) 
   const auto n_free = std::ranges::count(bounds, false, &ParameterBounds::fixed);
   const boost::math::chi_squared chance(static_cast<double>(n_free - 1));
   if (2 * gained > quantile(chance, 0.95)) return "";
-  return "no slope: positive answers don't surely become more with the level; a flat line fits "
+  return "there is no slope: positive answers don't surely become more with the level; a flat line "
+         "fits "
          "within 95 %";
 }
 
 std::string no_end(const LikelihoodFit& fit, double step) {
   const LikelihoodParameter& at = fit.parameters[place];
   if (step > fit.log_likelihood - same_log_likelihood)
-    return "separation: a step between two levels, or at one, fits as well as any slope; levels "
+    return "there is separation: a step between two levels, or at one, fits as well as any slope; "
+           "levels "
            "between them are missing";
-  if (!at.se) return "flat likelihood: many pairs of threshold and slope fit equally well";
   if (std::abs(at.value) > reach) return "the threshold would lie far outside the levels shown";
   if (!at.low || !at.high || *at.low < -reach || *at.high > reach)
     return "the threshold's 95 % interval reaches beyond the levels shown by more than their range";
+  if (!at.se || *at.se > *at.high - *at.low)  // usual is a quarter
+    return "the likelihood is flat: many pairs of threshold and slope fit equally well";
   return "";
 }
 
