@@ -64,6 +64,8 @@ std::vector<std::vector<VectorXd>> starts(const AnswersByLevel& answers,
   const auto n = totals(answers);
   const double undecided = std::clamp(n[none] / trials_in(answers), 0.02, 0.98);
   const double half_width = normal_quantile((1 + undecided) / 2);
+  if (lapses.high == 0)  // log-concave (Pratt 1981)
+    return {{Eigen::Vector4d(0, half_width, 0, 0)}};
   std::vector<std::vector<VectorXd>> all;
   std::vector<double> some_lapses{lapses.low};
   if (!lapses.fixed()) some_lapses = {0.02, 0.2};

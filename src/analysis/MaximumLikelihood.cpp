@@ -122,6 +122,7 @@ Maximum Likelihood::profile(Eigen::Index held, double held_value, VectorXd from)
 
 Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value) {
   Maximum best = nothing();
+  if (starts_.size() == 1) return best;  // one hill, and that is known
   for (const std::vector<VectorXd>& group : starts_)
     for (VectorXd start : group) {
       start[held] = held_value;

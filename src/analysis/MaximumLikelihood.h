@@ -41,7 +41,9 @@ struct LikelihoodFit {
   double log_likelihood = 0;
 };
 
-/// @param starts within the bounds, in groups; the search goes on from the likeliest of each
+/// @param starts within the bounds, in groups; the search goes on from the likeliest of each. A
+/// single
+///   group says that there is one maximum
 LikelihoodFit maximize_likelihood(const LogLikelihood& log_likelihood,
                                   const std::vector<ParameterBounds>& bounds,
                                   const std::vector<std::vector<Eigen::VectorXd>>& starts);

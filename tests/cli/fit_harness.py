@@ -66,7 +66,7 @@ def choice_differences(fit, expected):
                             least=unit if name == "sensitivity" else 0.1)]
     if not is_near(sensitivity["se"], unit, 0.02):
         wrong.append(f"SE {sensitivity['se']}, {unit}")
-    for end in ("low", "high"):  # clm's come from a spline
-        if expected[end] is not None and abs(sensitivity[end] - expected[end]) > 0.01 * unit:
+    for end in ("low", "high"):  # clm's come from a spline through a few points
+        if expected[end] is not None and abs(sensitivity[end] - expected[end]) > 0.05 * unit:
             wrong.append(f"{end} {sensitivity[end]}, {expected[end]}")
     return wrong
