@@ -43,6 +43,7 @@ LIBRARY_ROOMS = {
     r"SDL|imgui": {"view"},
     r"SQLiteCpp|sqlite3": {"record"},
     r"toml": {"protocol"},
+    r"nlopt": {"analysis"},
     r"CLI/": {"cli"},
 }
 

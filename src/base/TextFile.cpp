@@ -105,9 +105,14 @@ std::string replace_text_file(const std::string& path, const std::string& text) 
   return kept;
 }
 
-std::vector<std::string_view> lines_of(std::string_view text) {
+std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as spreadsheets put it in front
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  return text;
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  text = without_byte_order_mark(text);
   std::vector<std::string_view> lines;
   while (!text.empty()) {
     const auto end = text.find('\n');

@@ -28,6 +28,9 @@ void require_writable(const std::string& path);
 /// @throws Error when it can't be made
 bool create_file(const std::string& path, unsigned mode);
 
+/// A text without the UTF-8 byte-order mark that some programs begin it with.
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// Lines without their line ends (LF or CRLF) and without a UTF-8 byte-order mark; no empty last
 /// line.
 std::vector<std::string_view> lines_of(std::string_view text);

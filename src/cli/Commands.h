@@ -12,6 +12,7 @@ void add_calibrate(Command& app);
 void add_demo(Command& app);
 void add_doctor(Command& app);
 void add_export(Command& app);
+void add_fit(Command& app);
 void add_procedure(Command& app);
 void add_replay(Command& app);
 void add_resume(Command& app);

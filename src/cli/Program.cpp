@@ -92,6 +92,7 @@ void add_commands(Command& app) {
   add_simulate(app);
   add_replay(app);
   add_analyse(app);
+  add_fit(app);
   add_validate(app);
   add_procedure(app);
   add_scene(app);

@@ -1,0 +1,85 @@
+#include "analysis/Fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace heft {
+
+const FittedParameter& Fit::parameter(std::string_view name) const {
+  return *std::ranges::find(parameters, name, &FittedParameter::name);
+}
+
+std::array<double, 3> totals(const AnswersByLevel& answers) {
+  std::array<double, 3> sum{};
+  for (const auto& [level, n] : answers)
+    for (std::size_t k = 0; k < n.size(); ++k) sum[k] += n[k];
+  return sum;
+}
+
+double trials_in(const AnswersByLevel& answers) {
+  const auto [first, second, third] = totals(answers);
+  return first + second + third;
+}
+
+std::string too_little(const AnswersByLevel& answers) {
+  const double n = trials_in(answers);
+  if (n == 0) return "there are no trials";
+  if (std::ranges::count(totals(answers), 0.0) == 2)
+    return "all answers are the same: they don't say where others begin";
+  if (answers.size() == 1)
+    return fmt::format("there is one level, {:g}: how answers change with the level can't be told",
+                       answers.begin()->first);
+  if (n < least_trials_to_fit)
+    return fmt::format("{:g} trials are too few, expected {:g} at least", n, least_trials_to_fit);
+  return "";
+}
+
+namespace {
+// Of one level where only the answers first...last are given, beyond the least of each.
+double log_likelihood_of(const std::array<double, 3>& n, std::span<const double> least,
+                         std::size_t first, std::size_t last) {
+  std::array<double, 3> share{};
+  std::array<bool, 3> at_least{};
+  for (std::size_t k = 0; k < least.size(); ++k) at_least[k] = k < first || k > last;
+  for (bool changed = true; changed;) {  // what would get less than its least gets that
+    double mass = 1, n_left = 0;
+    for (std::size_t k = 0; k < least.size(); ++k) at_least[k] ? mass -= least[k] : n_left += n[k];
+    changed = false;
+    for (std::size_t k = 0; k < least.size(); ++k) {
+      share[k] = at_least[k] ? least[k] : n_left > 0 ? mass * n[k] / n_left : mass;
+      if (share[k] < least[k]) changed = at_least[k] = true;
+    }
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < least.size(); ++k) sum += log_share(n[k], share[k]).value;
+  return sum;
+}
+}  // namespace
+
+// From level to level: the best so far where the last answer given is the k-th.
+double log_likelihood_of_steps(const AnswersByLevel& answers, std::span<const double> least) {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::array<double, 3> best{0, none, none};
+  for (const auto& [level, n] : answers) {
+    std::array<double, 3> next{none, none, none};
+    double before = none;
+    for (std::size_t first = 0; first < least.size(); ++first) {
+      before = std::max(before, best[first]);
+      for (std::size_t last = first; last < least.size(); ++last)
+        next[last] = std::max(next[last], before + log_likelihood_of(n, least, first, last));
+    }
+    best = next;
+  }
+  return *std::ranges::max_element(best);
+}
+
+LogShare log_share(double n, double p) {
+  if (n == 0) return {0, 0};
+  const double share = std::max(p, 1e-300);
+  return {n * std::log(share), n / share};
+}
+
+}  // namespace heft

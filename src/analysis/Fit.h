@@ -1,0 +1,79 @@
+// What answers at several levels say of the person who gave them: a psychometric function, or the
+// three-way choice with indecision, by maximum likelihood. A figure that the answers can't bear is
+// not given, and `why` says what is missing.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "psychophysics/PsychometricFunction.h"
+
+namespace heft {
+
+/// How often each answer was given, by level. Psychometric: negative, positive. Indecision:
+/// reference, none, comparison.
+using AnswersByLevel = std::map<double, std::array<double, 3>>;
+
+struct FitOptions {
+  PsychometricFunction function{};  ///< not for indecision
+  /// None: free, between 0 and 1/2 (less where a fixed guess leaves less). guess: not for
+  /// indecision
+  std::optional<double> guess = 0, lapse = 0;
+};
+
+struct FittedParameter {
+  std::string name;
+  /// None: the answers can't tell. An interval's end is none where it lies at infinity.
+  std::optional<double> value{};
+  std::optional<double> se{};  ///< also none where the value is fixed or at a bound
+  std::optional<double> low{}, high{};
+  bool fixed = false;
+};
+
+struct Fit {
+  std::vector<FittedParameter> parameters;
+  std::optional<double> log_likelihood;  ///< without binomial coefficients
+  double n_trials = 0;
+  std::size_t n_levels = 0;
+  std::string why;  ///< there is no threshold; empty: there is
+
+  bool identifiable() const { return why.empty(); }
+  const FittedParameter& parameter(std::string_view name) const;
+};
+
+/// threshold, slope, guess, lapse. Without a threshold none of those that are free.
+/// Identifiable: no flat line is within reach (likelihood ratio at 95 %, a degree of freedom for
+/// each parameter beyond it), no step fits as well, and the threshold's interval lies within the
+/// levels or at most their range beyond them.
+Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options);
+
+/// sensitivity, indecision, bias, lapse, and threshold_75_g: the level that makes 75 % correct in a
+/// forced choice without bias.
+/// Identifiable: sensitivity's interval holds no 0, and the threshold's ends at most at twice the
+/// largest level. Otherwise there is no threshold; the others stay where they exist.
+Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options);
+
+/// Fewer trials than this bear nothing: chi-square intervals don't hold for so few.
+inline constexpr double least_trials_to_fit = 10;
+
+// What the two have in common.
+/// How often each answer was given, at any level.
+std::array<double, 3> totals(const AnswersByLevel& answers);
+double trials_in(const AnswersByLevel& answers);
+/// What no model could do with: "there are no trials", "there is one level"... Empty: nothing.
+std::string too_little(const AnswersByLevel& answers);
+/// What the likelihood comes to where the curves are ever steeper: a cut between two neighboring
+/// answers is a step between two levels, or at one, and there any share is within reach.
+/// @param least of each answer at any level, by guesses and lapses; as many as there are answers
+double log_likelihood_of_steps(const AnswersByLevel& answers, std::span<const double> least);
+/// n log p, and its derivative by p; where p is 0 by the digits, almost.
+struct LogShare {
+  double value, slope;
+};
+LogShare log_share(double n, double p);
+
+}  // namespace heft

@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/Fit.h"
+#include "analysis/MaximumLikelihood.h"
+#include "psychophysics/Detection.h"
+
+namespace heft {
+
+namespace {
+using Eigen::VectorXd;
+
+enum Answer : std::size_t { reference, none, comparison };
+enum Unknown : Eigen::Index { sensitivity, indecision, bias, lapse };
+constexpr std::array<const char*, 4> names{"sensitivity", "indecision", "bias", "lapse"};
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double z_75 = 0.6745;  // the normal quantile, with the digits that the field prints
+constexpr double most_free_lapse = 0.5;
+
+double largest_level(const AnswersByLevel& answers) {
+  const double largest =
+      std::max(std::abs(answers.begin()->first), std::abs(answers.rbegin()->first));
+  return largest > 0 ? largest : 1;
+}
+
+// Sensitivity is per largest level here.
+double log_likelihood(const AnswersByLevel& answers, double unit, const VectorXd& at,
+                      VectorXd& gradient) {
+  const IndecisionParameters parameters{at[sensitivity], at[indecision], at[bias], at[lapse]};
+  double sum = 0;
+  gradient.setZero();
+  for (const auto& [level_g, n] : answers) {
+    const double level = level_g / unit;
+    const IndecisionShares p = indecision_shares(parameters, level);
+    const std::array<LogShare, 3> shares{log_share(n[reference], p.reference),
+                                         log_share(n[none], p.none),
+                                         log_share(n[comparison], p.comparison)};
+    for (const LogShare& share : shares) sum += share.value;
+    const double felt = at[sensitivity] * level + at[bias];
+    const double up = (1 - at[lapse]) * normal_density(felt - at[indecision]);
+    const double down = (1 - at[lapse]) * normal_density(felt + at[indecision]);
+    const double at_up = shares[comparison].slope - shares[none].slope;
+    const double at_down = shares[reference].slope - shares[none].slope;
+    const double by_felt = at_up * up - at_down * down;
+    gradient[sensitivity] += by_felt * level;
+    gradient[bias] += by_felt;
+    gradient[indecision] -= at_up * up + at_down * down;
+    // p = lapse/3 + (1 - lapse) q
+    const double third = 1.0 / 3;
+    gradient[lapse] +=
+        (shares[reference].slope * (third - p.reference) + shares[none].slope * (third - p.none) +
+         shares[comparison].slope * (third - p.comparison)) /
+        (1 - at[lapse]);
+  }
+  return sum;
+}
+
+std::vector<std::vector<VectorXd>> starts(const AnswersByLevel& answers,
+                                          const ParameterBounds& lapses) {
+  const auto n = totals(answers);
+  const double undecided = std::clamp(n[none] / trials_in(answers), 0.02, 0.98);
+  const double half_width = normal_quantile((1 + undecided) / 2);
+  if (lapses.high == 0)  // log-concave (Pratt 1981)
+    return {{Eigen::Vector4d(0, half_width, 0, 0)}};
+  std::vector<std::vector<VectorXd>> all;
+  std::vector<double> some_lapses{lapses.low};
+  if (!lapses.fixed()) some_lapses = {0.02, 0.2};
+  for (const double at_sensitivity : {-4.0, 0.0, 1.0, 4.0, 16.0}) {
+    all.emplace_back();
+    for (const double wider : {1.0, 3.0})
+      for (const double at_lapse : some_lapses)
+        all.back().push_back(Eigen::Vector4d(at_sensitivity, half_width * wider, 0, at_lapse));
+  }
+  return all;
+}
+
+// Upwards or downwards.
+double log_likelihood_of_steps(const AnswersByLevel& answers, const LikelihoodFit& fit) {
+  const double astray = fit.parameters[lapse].value / 3;
+  const std::array least{astray, astray, astray};
+  AnswersByLevel mirrored;
+  for (const auto& [level, n] : answers) mirrored[-level] = n;
+  return std::max(heft::log_likelihood_of_steps(answers, least),
+                  heft::log_likelihood_of_steps(mirrored, least));
+}
+
+FittedParameter parameter(const char* name, const LikelihoodParameter& fitted, double unit,
+                          bool fixed) {
+  const auto scaled = [unit](const std::optional<double>& value) {
+    return value ? std::optional(*value / unit) : std::nullopt;
+  };
+  if (fixed) return {name, fitted.value, {}, {}, {}, true};
+  FittedParameter result{name, std::nullopt, std::nullopt, scaled(fitted.low), scaled(fitted.high)};
+  if (!fitted.exists) return result;
+  result.value = fitted.value / unit;
+  result.se = scaled(fitted.se);
+  return result;
+}
+
+FittedParameter threshold(const FittedParameter& s) {
+  FittedParameter result{"threshold_75_g", z_75 / *s.value};
+  if (s.se) result.se = *result.value * *s.se / *s.value;
+  result.low = s.high ? z_75 / *s.high : 0;
+  result.high = z_75 / *s.low;
+  return result;
+}
+
+std::string no_threshold(const FittedParameter& s, double largest_g) {
+  if (!s.value)
+    return "there is separation: the levels part the answers without overlap, so that any "
+           "sensitivity that "
+           "is large enough fits as well; levels between are missing";
+  if (!s.low || (*s.low <= 0 && !(s.high && *s.high < 0)))
+    return "no sensitivity: its 95 % interval holds 0, so the answers don't surely follow the "
+           "level";
+  if (*s.low <= 0) return "the answers go against the level: sensitivity is negative";
+  if (z_75 / *s.low > 2 * largest_g)
+    return fmt::format(
+        "the threshold's 95 % interval reaches to {:.4g} g, beyond twice the largest level shown",
+        z_75 / *s.low);
+  return "";
+}
+}  // namespace
+
+Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
+  Fit fit{{}, std::nullopt, trials_in(answers), answers.size(), too_little(answers)};
+  const ParameterBounds lapses{options.lapse.value_or(0), options.lapse.value_or(most_free_lapse)};
+  const std::vector<ParameterBounds> bounds{
+      {-infinity, infinity}, {0, infinity}, {-infinity, infinity}, lapses};
+  LikelihoodFit found{std::vector<LikelihoodParameter>(names.size()), 0};
+  for (auto& unknown : found.parameters) unknown.exists = false;
+  found.parameters[lapse].value = lapses.low;
+  const double unit = fit.n_trials > 0 ? largest_level(answers) : 1;
+  if (fit.n_trials > 0) {
+    found = maximize_likelihood(
+        [&](const VectorXd& at, VectorXd& gradient) {
+          return log_likelihood(answers, unit, at, gradient);
+        },
+        bounds, starts(answers, lapses));
+    const double steps = log_likelihood_of_steps(answers, found);
+    if (steps > found.log_likelihood - interval_drop)
+      (found.parameters[sensitivity].value > 0 ? found.parameters[sensitivity].high
+                                               : found.parameters[sensitivity].low) = std::nullopt;
+    if (steps > found.log_likelihood - same_log_likelihood)
+      for (const Unknown unknown : {sensitivity, indecision, bias})
+        found.parameters[static_cast<std::size_t>(unknown)].exists = false;
+    fit.log_likelihood = std::max(found.log_likelihood, steps);
+  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+    fit.parameters.push_back(
+        parameter(names[i], found.parameters[i], i == sensitivity ? unit : 1, bounds[i].fixed()));
+  if (fit.why.empty()) fit.why = no_threshold(fit.parameters[sensitivity], unit);
+  fit.parameters.push_back(fit.identifiable() ? threshold(fit.parameters[sensitivity])
+                                              : FittedParameter{"threshold_75_g"});
+  return fit;
+}
+
+}  // namespace heft

@@ -1,0 +1,51 @@
+// Parameters at which data are most likely, with standard errors and profile intervals, for any
+// model of a few parameters that knows its log likelihood and gradient.
+//
+// Standard errors are from the observed information, over the parameters that lie at no bound. A
+// profile interval holds the values v with 2 (max log L - max log L given v) <= the 95 % quantile
+// of chi-square with 1 degree of freedom (Venzon & Moolgavkar 1988), as far as it is connected to
+// the estimate.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace heft {
+
+/// Half of that quantile: how far the log likelihood falls on the way to an interval's end.
+inline constexpr double interval_drop = 3.841458820694124 / 2;
+
+/// What falls less than this is as likely: finer than any figure is read.
+inline constexpr double same_log_likelihood = 1e-6;
+
+/// @param gradient to be filled, of the same size
+using LogLikelihood = std::function<double(const Eigen::VectorXd& at, Eigen::VectorXd& gradient)>;
+
+struct ParameterBounds {
+  double low = 0, high = 0;  ///< equal: the parameter is fixed; may be infinite
+  bool fixed() const { return low == high; }
+};
+
+struct LikelihoodParameter {
+  double value = 0;
+  std::optional<double> se;         ///< none: fixed, at a bound, or no information
+  std::optional<double> low, high;  ///< none: the interval has no end on that side
+  /// False where the likelihood grows for ever on the way to infinity: no value is the estimate.
+  bool exists = true;
+};
+
+struct LikelihoodFit {
+  std::vector<LikelihoodParameter> parameters;
+  double log_likelihood = 0;
+};
+
+/// @param starts within the bounds, in groups; the search goes on from the likeliest of each. A
+/// single
+///   group says that there is one maximum
+LikelihoodFit maximize_likelihood(const LogLikelihood& log_likelihood,
+                                  const std::vector<ParameterBounds>& bounds,
+                                  const std::vector<std::vector<Eigen::VectorXd>>& starts);
+
+}  // namespace heft

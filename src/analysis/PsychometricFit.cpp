@@ -1,0 +1,236 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+
+#include "analysis/Fit.h"
+#include "analysis/MaximumLikelihood.h"
+
+namespace heft {
+
+namespace {
+using Eigen::VectorXd;
+
+enum Answer : std::size_t { negative, positive };
+enum Unknown : Eigen::Index { place, steepness, guess, lapse };
+constexpr std::array<const char*, 4> names{"threshold", "slope", "guess", "lapse"};
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double most_free = 0.5;      // of guess and lapse
+constexpr double furthest_place = 25;  // ranges of the levels
+constexpr double reach = 1.5;          // a threshold's interval: from the middle, in ranges
+
+ParameterBounds share_bounds(const std::optional<double>& share, double other) {
+  if (share) return {*share, *share};
+  return {0, std::min(most_free, 1 - other)};
+}
+
+/// The answers on an axis where the levels reach from -1/2 to 1/2.
+class Levels {
+ public:
+  Levels(const AnswersByLevel& answers, const PsychometricFunction& function) {
+    double low = infinity, high = -infinity;
+    for (const auto& [level, n] : answers) {
+      places_.push_back(function.place(level));
+      n_.push_back({n[negative], n[positive]});
+      if (!std::isfinite(places_.back())) continue;  // Weibull's x = 0
+      low = std::min(low, places_.back());
+      high = std::max(high, places_.back());
+    }
+    if (low > high) low = high = 0;
+    middle_ = low / 2 + high / 2;
+    if (high > low) range_ = high - low;
+    for (double& place : places_) place = to_axis(place);
+  }
+
+  std::size_t size() const { return n_.size(); }
+  double place(std::size_t i) const { return places_[i]; }
+  const std::array<double, 2>& n(std::size_t i) const { return n_[i]; }
+  double range() const { return range_; }
+  double to_axis(double place) const { return (place - middle_) / range_; }
+  double from_axis(double place) const { return middle_ + range_ * place; }
+
+ private:
+  std::vector<double> places_;
+  std::vector<std::array<double, 2>> n_;
+  double middle_ = 0, range_ = 1;
+};
+
+double log_likelihood(const Levels& levels, PsychometricShape shape, const VectorXd& at,
+                      VectorXd& gradient) {
+  const double between = 1 - at[guess] - at[lapse];
+  double sum = 0;
+  gradient.setZero();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double distance = levels.place(i) - at[place];
+    const StandardCurve curve = standard_curve(shape, at[steepness] * distance);
+    const LogShare yes = log_share(levels.n(i)[positive], at[guess] + between * curve.below);
+    const LogShare no = log_share(levels.n(i)[negative], at[lapse] + between * curve.above);
+    sum += yes.value + no.value;
+    gradient[guess] += (yes.slope - no.slope) * curve.above;
+    gradient[lapse] += (no.slope - yes.slope) * curve.below;
+    if (curve.density == 0) continue;  // far away, or at no finite place
+    const double by_u = (yes.slope - no.slope) * between * curve.density;
+    gradient[steepness] += by_u * distance;
+    gradient[place] -= by_u * at[steepness];
+  }
+  return sum;
+}
+
+// All levels with the same share of positive answers.
+double log_likelihood_of_flat(const AnswersByLevel& answers,
+                              const std::vector<ParameterBounds>& bounds) {
+  const auto n = totals(answers);
+  const double share = std::clamp(n[positive] / (n[negative] + n[positive]), bounds[guess].low,
+                                  1 - bounds[lapse].low);
+  return log_share(n[positive], share).value + log_share(n[negative], 1 - share).value;
+}
+
+double log_likelihood_of_step(AnswersByLevel answers, const PsychometricFunction& function,
+                              const LikelihoodFit& fit) {
+  const double guesses = fit.parameters[guess].value, lapses = fit.parameters[lapse].value;
+  double sum = 0;
+  if (const auto zero = answers.find(0); function.takes_logarithm() && zero != answers.end()) {
+    sum = log_share(zero->second[positive], guesses).value +
+          log_share(zero->second[negative], 1 - guesses).value;
+    answers.erase(zero);  // below any step
+  }
+  return sum + log_likelihood_of_steps(answers, std::array{lapses, guesses});
+}
+
+std::vector<double> starting_places(const Levels& levels) {
+  std::vector<double> finite;
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    if (std::isfinite(levels.place(i))) finite.push_back(levels.place(i));
+  std::vector<double> places{-1, -0.5, 0, 0.5, 1};
+  const std::size_t step = 1 + finite.size() / 16;
+  for (std::size_t i = step; i < finite.size(); i += step)
+    places.push_back((finite[i - 1] + finite[i]) / 2);
+  return places;
+}
+
+std::vector<std::vector<VectorXd>> starts(const Levels& levels,
+                                          const std::vector<ParameterBounds>& bounds) {
+  const auto shares = [](const ParameterBounds& share) {
+    if (share.fixed()) return std::vector<double>{share.low};
+    return std::vector<double>{0.04 * share.high, 0.4 * share.high, 0.9 * share.high};
+  };
+  std::vector<std::vector<VectorXd>> all;
+  for (const double at_place : starting_places(levels)) {
+    all.emplace_back();
+    for (const double at_steepness : {1.0, 3.0, 8.0, 20.0, 60.0, 400.0})
+      for (const double at_guess : shares(bounds[guess]))
+        for (const double at_lapse : shares(bounds[lapse]))
+          all.back().push_back(Eigen::Vector4d(at_place, at_steepness, at_guess, at_lapse));
+  }
+  return all;
+}
+
+// Whether answers that can't be were given: at 0, which nobody sees.
+bool impossible(const AnswersByLevel& answers, const FitOptions& options) {
+  const auto zero = answers.find(0);
+  return options.function.takes_logarithm() && options.guess == 0.0 && zero != answers.end() &&
+         zero->second[positive] > 0;
+}
+
+// A flat line has one parameter; whether what the others gain is more than chance would give them.
+std::string no_slope(double gained, const std::vector<ParameterBounds>& bounds) {
+  const auto n_free = std::ranges::count(bounds, false, &ParameterBounds::fixed);
+  const boost::math::chi_squared chance(static_cast<double>(n_free - 1));
+  if (2 * gained > quantile(chance, 0.95)) return "";
+  return "there is no slope: positive answers don't surely become more with the level; a flat line "
+         "fits "
+         "within 95 %";
+}
+
+std::string no_end(const LikelihoodFit& fit, double step) {
+  const LikelihoodParameter& at = fit.parameters[place];
+  if (step > fit.log_likelihood - same_log_likelihood)
+    return "there is separation: a step between two levels, or at one, fits as well as any slope; "
+           "levels "
+           "between them are missing";
+  if (std::abs(at.value) > reach) return "the threshold would lie far outside the levels shown";
+  if (!at.low || !at.high || *at.low < -reach || *at.high > reach)
+    return "the threshold's 95 % interval reaches beyond the levels shown by more than their range";
+  if (!at.se || *at.se > *at.high - *at.low)  // usual is a quarter
+    return "the likelihood is flat: many pairs of threshold and slope fit equally well";
+  return "";
+}
+
+FittedParameter threshold(const LikelihoodParameter& fitted, const Levels& levels,
+                          const PsychometricFunction& function) {
+  const auto level = [&](double at) { return function.level(levels.from_axis(at)); };
+  FittedParameter parameter{names[place], level(fitted.value)};
+  const double stretch = function.takes_logarithm() ? *parameter.value : 1;
+  if (fitted.se) parameter.se = *fitted.se * levels.range() * stretch;
+  parameter.low = level(*fitted.low);
+  parameter.high = level(*fitted.high);
+  return parameter;
+}
+
+FittedParameter slope(const LikelihoodParameter& fitted, const Levels& levels,
+                      const PsychometricFunction& function) {
+  const auto slope_at = [&](double at) { return function.slope(at / levels.range()); };
+  FittedParameter parameter{names[steepness], slope_at(fitted.value)};
+  if (fitted.se) parameter.se = *fitted.se / fitted.value * *parameter.value;
+  parameter.low = fitted.low ? std::optional(slope_at(*fitted.low)) : std::nullopt;
+  parameter.high = fitted.high ? std::optional(slope_at(*fitted.high)) : std::nullopt;
+  if (function.shape == PsychometricShape::weibull) return parameter;
+  std::swap(parameter.low, parameter.high);  // a spread is the inverse of steepness
+  if (!parameter.low) parameter.low = 0;
+  return parameter;
+}
+
+FittedParameter share(Unknown unknown, const LikelihoodFit& fit) {
+  const LikelihoodParameter& fitted = fit.parameters[static_cast<std::size_t>(unknown)];
+  return {names[static_cast<std::size_t>(unknown)], fitted.value, fitted.se, fitted.low,
+          fitted.high};
+}
+
+std::vector<FittedParameter> unknown_parameters(const std::vector<ParameterBounds>& bounds) {
+  std::vector<FittedParameter> parameters;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    parameters.push_back({names[i]});
+    parameters.back().fixed = bounds[i].fixed();
+    if (bounds[i].fixed()) parameters.back().value = bounds[i].low;
+  }
+  return parameters;
+}
+}  // namespace
+
+Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options) {
+  const std::vector<ParameterBounds> bounds{{-furthest_place, furthest_place},
+                                            {0, infinity},
+                                            share_bounds(options.guess, options.lapse.value_or(0)),
+                                            share_bounds(options.lapse, options.guess.value_or(0))};
+  Fit fit{unknown_parameters(bounds), std::nullopt, trials_in(answers), answers.size(),
+          too_little(answers)};
+  if (fit.n_trials == 0) return fit;
+  if (impossible(answers, options)) {
+    fit.why = "there are positive answers at 0, which the function can't give without guesses";
+    return fit;
+  }
+  const Levels levels(answers, options.function);
+  LikelihoodFit found = maximize_likelihood(
+      [&](const VectorXd& at, VectorXd& gradient) {
+        return log_likelihood(levels, options.function.shape, at, gradient);
+      },
+      bounds, starts(levels, bounds));
+  const double flat = log_likelihood_of_flat(answers, bounds);
+  const double step = log_likelihood_of_step(answers, options.function, found);
+  if (step > found.log_likelihood - interval_drop) found.parameters[steepness].high = std::nullopt;
+  fit.log_likelihood = std::max({found.log_likelihood, flat, step});
+  if (fit.why.empty()) fit.why = no_slope(*fit.log_likelihood - flat, bounds);
+  if (fit.why.empty()) fit.why = no_end(found, step);
+  if (!fit.identifiable()) return fit;
+  fit.parameters[place] = threshold(found.parameters[place], levels, options.function);
+  fit.parameters[steepness] = slope(found.parameters[steepness], levels, options.function);
+  for (const Unknown unknown : {guess, lapse})
+    if (!bounds[static_cast<std::size_t>(unknown)].fixed())
+      fit.parameters[static_cast<std::size_t>(unknown)] = share(unknown, found);
+  return fit;
+}
+
+}  // namespace heft

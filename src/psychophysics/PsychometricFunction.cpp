@@ -1,0 +1,90 @@
+#include "psychophysics/PsychometricFunction.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace heft {
+
+namespace {
+// Of Weibull's exponent: u on the natural axis of the scale.
+double exponent_factor(LevelScale scale) {
+  if (scale == LevelScale::linear) return 1;
+  return scale == LevelScale::log10 ? std::numbers::ln10 : std::numbers::ln10 / 20;
+}
+
+StandardCurve logistic_curve(double u) {
+  const double below = 1 / (1 + std::exp(-u)), above = 1 / (1 + std::exp(u));
+  return {below, above, below * above};
+}
+
+StandardCurve gumbel_curve(double u) {
+  const double hazard = std::exp(u), above = std::exp(-hazard);
+  return {-std::expm1(-hazard), above, above > 0 ? hazard * above : 0};
+}
+
+// Phi(to) - Phi(from), from <= to, on the side where neither is near 1.
+double normal_between(double from, double to) {
+  return from > 0 ? normal_cdf(-from) - normal_cdf(-to) : normal_cdf(to) - normal_cdf(from);
+}
+}  // namespace
+
+double normal_cdf(double z) {
+  return std::erfc(-z / std::numbers::sqrt2) / 2;
+}
+
+double normal_density(double z) {
+  return std::exp(-z * z / 2) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
+}
+
+StandardCurve standard_curve(PsychometricShape shape, double u) {
+  switch (shape) {
+    case PsychometricShape::cumulative_normal:
+      return {normal_cdf(u), normal_cdf(-u), normal_density(u)};
+    case PsychometricShape::logistic:
+      return logistic_curve(u);
+    case PsychometricShape::weibull:
+    case PsychometricShape::gumbel:
+      break;
+  }
+  return gumbel_curve(u);
+}
+
+bool PsychometricFunction::takes_logarithm() const {
+  return shape == PsychometricShape::weibull && scale == LevelScale::linear;
+}
+
+double PsychometricFunction::place(double level) const {
+  return takes_logarithm() ? std::log(level) : level;
+}
+
+double PsychometricFunction::level(double place) const {
+  return takes_logarithm() ? std::exp(place) : place;
+}
+
+double PsychometricFunction::steepness(double slope) const {
+  return shape == PsychometricShape::weibull ? slope * exponent_factor(scale) : 1 / slope;
+}
+
+double PsychometricFunction::slope(double steepness) const {
+  return shape == PsychometricShape::weibull ? steepness / exponent_factor(scale) : 1 / steepness;
+}
+
+double probability(const PsychometricFunction& function, const PsychometricParameters& parameters,
+                   double level) {
+  const auto& [threshold, slope, guess, lapse] = parameters;
+  const double u = function.steepness(slope) * (function.place(level) - function.place(threshold));
+  return guess + (1 - guess - lapse) * standard_curve(function.shape, u).below;
+}
+
+IndecisionShares indecision_shares(const IndecisionParameters& parameters, double level) {
+  const double felt = parameters.sensitivity * level + parameters.bias;
+  const double up = felt - parameters.indecision, down = -felt - parameters.indecision;
+  const double attentive = 1 - parameters.lapse, astray = parameters.lapse / 3;
+  const double reference = normal_cdf(down), comparison = normal_cdf(up);
+  double none = 1 - reference - comparison;
+  if (none < 1e-4) none = normal_between(down, -up);  // the rest has too few digits
+  return {astray + attentive * reference, astray + attentive * none,
+          astray + attentive * comparison};
+}
+
+}  // namespace heft

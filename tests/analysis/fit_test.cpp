@@ -1,0 +1,247 @@
+// Fits on made-up people: what is found is what was put in, intervals hold it as often as they say,
+// and where nothing can be said nothing is. Against other programs: tests/golden/fit.
+#include "analysis/Fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "base/Random.h"
+
+namespace heft {
+namespace {
+
+using testing::HasSubstr;
+
+struct Person {
+  PsychometricFunction function{};
+  PsychometricParameters parameters{};
+};
+
+AnswersByLevel answers_of(const Person& person, const std::vector<double>& levels, int n_per_level,
+                          RandomStream& random) {
+  AnswersByLevel answers;
+  for (const double level : levels)
+    for (int i = 0; i < n_per_level; ++i)
+      ++answers[level][random.coin(probability(person.function, person.parameters, level))];
+  return answers;
+}
+
+AnswersByLevel choices_of(const IndecisionParameters& person, const std::vector<double>& levels,
+                          int n_per_level, RandomStream& random) {
+  AnswersByLevel answers;
+  for (const double level : levels) {
+    const IndecisionShares p = indecision_shares(person, level);
+    for (int i = 0; i < n_per_level; ++i) {
+      const double u = random.uniform();
+      ++answers[level][u < p.reference ? 0 : u < p.reference + p.none ? 1 : 2];
+    }
+  }
+  return answers;
+}
+
+const std::vector<double> seven{1, 2, 3, 4, 5, 6, 7};
+const std::vector<double> masses_g{0, 50, 100, 150, 200, 300};
+
+// How often in 100 the 95 % interval of a parameter holds what was put in.
+class Coverage {
+ public:
+  void add(const FittedParameter& fitted, double truth) {
+    ++n_;
+    n_held_ += (!fitted.low || *fitted.low <= truth) && (!fitted.high || truth <= *fitted.high);
+  }
+  double percent() const { return 100.0 * n_held_ / n_; }
+
+ private:
+  int n_ = 0, n_held_ = 0;
+};
+
+void expect_to_hold(const Person& person, const FitOptions& options) {
+  Coverage threshold, slope;
+  RandomStream random(7, "coverage");
+  int n_identifiable = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Fit fit = fit_psychometric(answers_of(person, seven, 40, random), options);
+    if (!fit.identifiable()) continue;
+    ++n_identifiable;
+    threshold.add(fit.parameter("threshold"), person.parameters.threshold);
+    slope.add(fit.parameter("slope"), person.parameters.slope);
+  }
+  EXPECT_GT(n_identifiable, 850);
+  for (const Coverage& coverage : {threshold, slope}) {
+    EXPECT_GE(coverage.percent(), 93);
+    EXPECT_LE(coverage.percent(), 98);
+  }
+}
+
+TEST(PsychometricFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  expect_to_hold({{PsychometricShape::cumulative_normal, {}}, {4, 1.5, 0, 0}}, {});
+  FitOptions forced_choice{{PsychometricShape::weibull, {}}, 0.5, 0.02};
+  expect_to_hold({forced_choice.function, {3.5, 3, 0.5, 0.02}}, forced_choice);
+  FitOptions free{{PsychometricShape::logistic, {}}, 0, std::nullopt};
+  expect_to_hold({free.function, {3.5, 0.8, 0, 0.05}}, free);
+}
+
+TEST(IndecisionFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  const IndecisionParameters person{0.012, 0.8, 0.1, 0.02};
+  const FitOptions options{{}, 0, 0.02};
+  Coverage sensitivity, indecision, bias, threshold;
+  RandomStream random(8, "coverage");
+  for (int i = 0; i < 1000; ++i) {
+    const Fit fit = fit_indecision(choices_of(person, masses_g, 20, random), options);
+    if (!fit.identifiable()) continue;
+    sensitivity.add(fit.parameter("sensitivity"), person.sensitivity);
+    indecision.add(fit.parameter("indecision"), person.indecision);
+    bias.add(fit.parameter("bias"), person.bias);
+    threshold.add(fit.parameter("threshold_75_g"), 0.6745 / person.sensitivity);
+  }
+  for (const Coverage& coverage : {sensitivity, indecision, bias, threshold}) {
+    EXPECT_GE(coverage.percent(), 93);
+    EXPECT_LE(coverage.percent(), 98);
+  }
+}
+
+// In 100, with few and many trials.
+double coins_with_a_threshold(double share, const FitOptions& options) {
+  constexpr int n_coins = 300;
+  constexpr std::array n_per_level{3, 10, 40};
+  RandomStream random(9, "coin");
+  int n = 0;
+  for (std::size_t i = 0; i < n_coins; ++i) {
+    AnswersByLevel answers;
+    for (const double level : seven)
+      for (int k = 0; k < n_per_level[i % 3]; ++k) ++answers[level][random.coin(share)];
+    const Fit fit = fit_psychometric(answers, options);
+    EXPECT_EQ(fit.identifiable(), fit.parameter("threshold").value.has_value());
+    n += fit.identifiable();
+  }
+  return 100.0 * n / n_coins;
+}
+
+TEST(PsychometricFit, ACoinHasNoThreshold) {
+  EXPECT_LE(coins_with_a_threshold(0.5, {}), 5);
+  EXPECT_LE(coins_with_a_threshold(0.2, {}), 5);
+  EXPECT_LE(coins_with_a_threshold(0.5, {{}, 0.5, 0.02}), 5);
+  EXPECT_LE(coins_with_a_threshold(0.5, {{}, 0.5, std::nullopt}), 5);
+  EXPECT_LE(coins_with_a_threshold(0.4, {{}, std::nullopt, std::nullopt}), 5);
+}
+
+TEST(IndecisionFit, ACoinHasNoThreshold) {
+  RandomStream random(10, "coin");
+  int n = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double indecision = i % 3 * 0.5;
+    const FitOptions options{{}, 0, i % 2 == 0 ? std::optional(0.02) : std::nullopt};
+    n += fit_indecision(choices_of({0, indecision, 0.2, 0}, masses_g, 10, random), options)
+             .identifiable();
+  }
+  EXPECT_LE(n, 15);
+}
+
+std::string why_not(const AnswersByLevel& answers, const FitOptions& options = {}) {
+  const Fit fit = fit_psychometric(answers, options);
+  EXPECT_EQ(fit.parameter("threshold").value, std::nullopt);
+  EXPECT_EQ(fit.parameter("slope").low, std::nullopt);
+  return fit.why;
+}
+
+TEST(PsychometricFit, SaysWhyThereIsNoThreshold) {
+  EXPECT_THAT(why_not({}), HasSubstr("no trials"));
+  EXPECT_THAT(why_not({{1, {0, 20, 0}}, {2, {0, 20, 0}}}), HasSubstr("all answers are the same"));
+  EXPECT_THAT(why_not({{1, {20, 0, 0}}, {2, {20, 0, 0}}}), HasSubstr("all answers are the same"));
+  EXPECT_THAT(why_not({{3, {10, 10, 0}}}), HasSubstr("one level, 3"));
+  EXPECT_THAT(why_not({{1, {2, 1, 0}}, {2, {1, 2, 0}}}), HasSubstr("too few"));
+  EXPECT_THAT(why_not({{1, {10, 10, 0}}, {2, {11, 9, 0}}, {3, {9, 11, 0}}}), HasSubstr("no slope"));
+  EXPECT_THAT(why_not({{1, {2, 18, 0}}, {2, {10, 10, 0}}, {3, {18, 2, 0}}}), HasSubstr("no slope"));
+  EXPECT_THAT(why_not({{1, {20, 0, 0}}, {2, {20, 0, 0}}, {3, {0, 20, 0}}}),
+              HasSubstr("separation"));
+  EXPECT_THAT(why_not({{1, {20, 0, 0}}, {2, {8, 12, 0}}, {3, {0, 20, 0}}}),
+              HasSubstr("separation"));
+  EXPECT_THAT(why_not({{1, {98, 2, 0}}, {2, {90, 10, 0}}, {3, {80, 20, 0}}}),
+              HasSubstr("beyond the levels"));
+  const PsychometricFunction weibull{PsychometricShape::weibull, LevelScale::linear};
+  EXPECT_THAT(why_not({{0, {19, 1, 0}}, {1, {8, 12, 0}}, {2, {1, 19, 0}}}, {weibull, 0, 0}),
+              HasSubstr("positive answers at 0"));
+}
+
+TEST(PsychometricFit, ALogLikelihoodThatExistsIsGivenEvenWithoutAThreshold) {
+  const Fit separated = fit_psychometric({{1, {20, 0, 0}}, {2, {8, 12, 0}}, {3, {0, 20, 0}}}, {});
+  EXPECT_NEAR(*separated.log_likelihood, 8 * std::log(0.4) + 12 * std::log(0.6), 1e-9);
+  const Fit coin = fit_psychometric({{1, {9, 11, 0}}, {2, {11, 9, 0}}}, {});
+  EXPECT_NEAR(*coin.log_likelihood, 40 * std::log(0.5), 1e-9);
+}
+
+std::string why_no_choice(const AnswersByLevel& answers) {
+  const Fit fit = fit_indecision(answers, {});
+  EXPECT_EQ(fit.parameter("threshold_75_g").value, std::nullopt);
+  return fit.why;
+}
+
+TEST(IndecisionFit, SaysWhyThereIsNoThreshold) {
+  EXPECT_THAT(why_no_choice({}), HasSubstr("no trials"));
+  EXPECT_THAT(why_no_choice({{0, {0, 9, 0}}, {90, {0, 9, 0}}}), HasSubstr("all answers"));
+  EXPECT_THAT(why_no_choice({{50, {5, 5, 5}}}), HasSubstr("one level"));
+  EXPECT_THAT(why_no_choice({{-50, {10, 0, 0}}, {0, {0, 9, 0}}, {50, {0, 0, 10}}}),
+              HasSubstr("separation"));
+  EXPECT_THAT(why_no_choice({{50, {8, 5, 8}}, {100, {8, 5, 7}}}), HasSubstr("holds 0"));
+  EXPECT_THAT(why_no_choice({{50, {5, 9, 5}}, {500, {25, 5, 1}}}), HasSubstr("negative"));
+  EXPECT_THAT(why_no_choice({{0, {40, 40, 40}}, {100, {25, 40, 55}}}), HasSubstr("beyond twice"));
+}
+
+TEST(IndecisionFit, WhatDoesNotExistIsNotGivenWhileSensitivityIs) {
+  // Nobody ever chose the reference: where its criterion lies can't be told.
+  const Fit fit = fit_indecision({{50, {0, 30, 10}}, {100, {0, 20, 20}}, {200, {0, 5, 35}}}, {});
+  EXPECT_TRUE(fit.identifiable()) << fit.why;
+  EXPECT_EQ(fit.parameter("indecision").value, std::nullopt);
+  EXPECT_EQ(fit.parameter("bias").value, std::nullopt);
+  EXPECT_GT(fit.parameter("sensitivity").value, 0.005);
+}
+
+// With units of another size, or levels from another origin, the same is found.
+RC_GTEST_PROP(PsychometricFit, UnitsAndOriginDoNotMatter, ()) {
+  RandomStream random(*rc::gen::arbitrary<std::uint32_t>(), "units");
+  const Person person{{PsychometricShape::logistic, {}}, {4, 0.7, 0, 0}};
+  const AnswersByLevel answers = answers_of(person, seven, 15, random);
+  AnswersByLevel moved;
+  for (const auto& [level, n] : answers) moved[1000 * level - 300] = n;
+  const Fit here = fit_psychometric(answers, {person.function, 0, 0});
+  const Fit there = fit_psychometric(moved, {person.function, 0, 0});
+  RC_ASSERT(here.identifiable() == there.identifiable());
+  RC_ASSERT(std::abs(*here.log_likelihood - *there.log_likelihood) < 1e-9);
+  if (!here.identifiable()) return;
+  const double threshold = 1000 * *here.parameter("threshold").value - 300;
+  RC_ASSERT(std::abs(threshold - *there.parameter("threshold").value) < 0.1);
+}
+
+// Whatever the answers are: the figures are finite, in order, and there or not as `why` says.
+RC_GTEST_PROP(Fit, OfAnyAnswersIsConsistent, ()) {
+  AnswersByLevel answers;
+  const int n_levels = *rc::gen::inRange(1, 7);
+  for (int i = 0; i < n_levels; ++i)
+    for (double& n : answers[*rc::gen::inRange(-5, 20)]) n = *rc::gen::inRange(0, 12);
+  const bool indecision = *rc::gen::arbitrary<bool>();
+  FitOptions options{{*rc::gen::element(PsychometricShape::cumulative_normal,
+                                        PsychometricShape::gumbel, PsychometricShape::logistic),
+                      LevelScale::linear},
+                     *rc::gen::element<std::optional<double>>(0, 0.5, std::nullopt),
+                     *rc::gen::element<std::optional<double>>(0, 0.02, std::nullopt)};
+  if (!indecision)
+    for (auto& [level, n] : answers) n[2] = 0;
+  const Fit fit =
+      indecision ? fit_indecision(answers, options) : fit_psychometric(answers, options);
+  const FittedParameter& threshold = fit.parameter(indecision ? "threshold_75_g" : "threshold");
+  RC_ASSERT(fit.identifiable() == threshold.value.has_value());
+  RC_ASSERT(fit.log_likelihood.value_or(0) <= 0);
+  for (const FittedParameter& parameter : fit.parameters) {
+    if (!parameter.value) continue;
+    RC_ASSERT(std::isfinite(*parameter.value));
+    RC_ASSERT(!parameter.se || (std::isfinite(*parameter.se) && *parameter.se > 0));
+    if (parameter.low) RC_ASSERT(*parameter.low <= *parameter.value + 1e-9);
+    if (parameter.high) RC_ASSERT(*parameter.high >= *parameter.value - 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace heft
