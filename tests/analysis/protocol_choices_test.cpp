@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "analysis/ProtocolChoices.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 namespace {
