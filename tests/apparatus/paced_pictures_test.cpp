@@ -138,12 +138,13 @@ TEST(PacedPictures, OfALiveCameraComeAtTheDisplaysRateAndNoneIsDropped) {
   const SessionClock clock = SessionClock::wall_from(0);
   const auto hand = responder_named("simulated").make({});
   Protocol protocol;
-  PacedPictures paced(std::make_unique<CameraPictures>(
-                          [&] {
-                            return std::make_unique<LiveCamera>(grab, CameraMode{640, 480, 60, "YUYV", {}, {}});
-                          },
-                          PictureParts{protocol, *hand, apparatus, "", clock, 0, ""}),
-                      15);
+  PacedPictures paced(
+      std::make_unique<CameraPictures>(
+          [&] {
+            return std::make_unique<LiveCamera>(grab, CameraMode{640, 480, 60, "YUYV", {}, {}});
+          },
+          PictureParts{protocol, *hand, apparatus, "", clock, 0, ""}),
+      15);
   EXPECT_EQ(paced.rate_hz(), 60);
   paced.begin_attempt({});
   std::vector<Picture> shown;

@@ -98,7 +98,7 @@ const Broken settings[] = {
     {"contact_as_text", {"= false", "= ^\"no\""}, {"require_contact", "true or false"}},
     {"unknown_simulator", {"\"bullet\"", "^\"bulet\""}, {"did you mean \"bullet\""}},
     {"physics_rate", {"240", "^0.5"}, {"rate_hz is 0.5", "at least 1"}},
-    {"input", {"rate_hz = 240", "input = ^\"hod\""}, {"\"path\", \"hold\" or", "mean \"hold\""}},
+    {"input", {"rate_hz = 240", "input = ^\"hod\""}, {"\"path\", \"hold\"", "mean \"hold\""}},
     {"predicted_too_far",
      {"rate_hz = 240", "predict_s = ^0.21"},
      {"predict_s is 0.21", "at least 0 and at most 0.2"}},

@@ -32,6 +32,10 @@ inline rc::Gen<double> any_number() {
 inline double number() {
   return *any_number() + 0.0;
 }
+/// What a setup may hold: it is told as JSON, which has no infinity.
+inline double finite_number() {
+  return *rc::gen::suchThat(any_number(), [](double value) { return std::isfinite(value); }) + 0.0;
+}
 inline double time_s() {
   return std::abs(number());
 }
@@ -101,12 +105,12 @@ inline Setup any_setup() {
   Setup setup;
   setup.responder = "model:" + plain();
   setup.simulator = plain();
-  setup.rate_hz = maybe(number);
+  setup.rate_hz = maybe(finite_number);
   setup.display_w_px = maybe(count);
   setup.language = plain();
   setup.board_file = plain();
   setup.board_text = plain();
-  setup.participant_parameters["p"] = number();
+  setup.participant_parameters["p"] = finite_number();
   return setup;
 }
 

@@ -105,8 +105,9 @@ struct LiveSession {
     RunnerOptions options;
     options.console = console;
     const auto open = [&] {
-      return std::make_unique<LiveCamera>([this] { return device.grab(); },
-                         CameraMode{640, 480, rate_hz, "YUYV", {"exposure 4.0 ms"}, {}});
+      return std::make_unique<LiveCamera>(
+          [this] { return device.grab(); },
+          CameraMode{640, 480, rate_hz, "YUYV", {"exposure 4.0 ms"}, {}});
     };
     CameraPictures pictures(open, {*protocol, *hand, apparatus(), "", clock, 0, ""});
     return Runner({*protocol, *engine, sink, pictures, *hand, screen, clock, answers_themselves,

@@ -8,8 +8,8 @@
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "record/temporary_folder.h"
-#include "view/Scenes.h"
 #include "view/ArView.h"
+#include "view/Scenes.h"
 
 namespace heft {
 namespace {

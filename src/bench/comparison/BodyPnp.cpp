@@ -5,8 +5,8 @@
 #include <opencv2/calib3d.hpp>
 
 #include "base/Pose.h"
-#include "tracking/MarkerBody.h"
 #include "tracking/ImageConversion.h"
+#include "tracking/MarkerBody.h"
 
 namespace heft {
 

@@ -250,7 +250,7 @@ void study_input(const StudyOptions& options) {
       "in 2 s at a cube of 200 g. Error of the clone against physics that knew the hand at all "
       "times (boxes, 240 steps a second). path: straight between the last two poses; smooth: on "
       "the cubic through their velocities; both shown with the later picture; hold: the last pose; "
-      "extrapolate: on along the line through the last two. " +
+      "extrapolate: on along the last two. " +
       provenance(options);
   draw(options, "input",
        gnuplot_header({"input.svg", 1400, 640,

@@ -3,8 +3,8 @@
 // displaced target, so any simulator can run them.
 //
 // Touched is what the clone touches, and what it touched that is still between it and the hand: on
-// its own way back it pushes nothing. Once nothing is touched any more the displacement returns from
-// rest, critically damped with the time constant return_s:
+// its own way back it pushes nothing. Once nothing is touched any more the displacement returns
+// from rest, critically damped with the time constant return_s:
 //   d(t) = d(0) (1 + t / return_s) e^(-t / return_s).
 // Steps are cut where touching begins and ends.
 #pragma once
