@@ -31,8 +31,8 @@ void export_logs(const Options& options) {
     files = export_csv(logs, options.out, [&](double fraction) { bar.update(fraction, ""); });
   }
   for (const ExportedFile& file : files) say("{:>10} rows  {}\n", file.n_rows, file.name);
-  say("\ndictionary.csv explains every column. In R: trials <- read.csv({})\n",
-      shell_quoted(options.out + "/trials.csv"));
+  say("\ndictionary.csv explains every column. In R: trials <- read.csv(\"{}/trials.csv\")\n",
+      options.out);
 }
 }  // namespace
 

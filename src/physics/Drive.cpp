@@ -104,8 +104,8 @@ const WorldState& Drive::advance(const TargetSample& measured) {
     run(continues ? end_of_path(sample) : last_.pose, dt_s,
         continues ? std::optional(sample.velocity) : std::nullopt);
     if (sample.tracked && !continues) simulator_->teleport_clone(sample.pose, sample.velocity);
-    course_.reset();
-    if (continues) course_ = mean_velocity(last_.pose, sample.pose, dt_s);
+    mean_velocity_.reset();
+    if (continues) mean_velocity_ = mean_velocity(last_.pose, sample.pose, dt_s);
   }
   const Pose target = sample.tracked ? sample.pose : last_.pose;
   last_ = sample;
@@ -125,9 +125,9 @@ void Drive::start(const TargetSample& sample) {
 // Where the target gets to by the time of a sample that continues the last one.
 Pose Drive::end_of_path(const TargetSample& sample) const {
   if (input_.mode == InputMode::path || input_.mode == InputMode::smooth) return sample.pose;
-  if (input_.mode == InputMode::hold || !course_) return last_.pose;
+  if (input_.mode == InputMode::hold || !mean_velocity_) return last_.pose;
   TargetSample going_on = last_;
-  going_on.velocity = *course_;
+  going_on.velocity = *mean_velocity_;
   return predicted(going_on, sample.t_capture_s - last_.t_capture_s);
 }
 

@@ -66,8 +66,9 @@ class Drive {
   DriveInput input_;
   bool started_ = false;
   bool solid_ = true;
-  TargetSample last_;               ///< as predicted
-  std::optional<Velocity> course_;  ///< mean, between the last two samples; none after a jump
+  TargetSample last_;  ///< as predicted
+  std::optional<Velocity>
+      mean_velocity_;  ///< mean, between the last two samples; none after a jump
   WorldState state_;
 };
 

@@ -1,7 +1,7 @@
 // What a step costs with more and more cubes: asleep, standing apart while one is pushed, in a row.
 #include "analysis/Gnuplot.h"
+#include "bench/physics/ChartColors.h"
 #include "bench/physics/HandsStudy.h"
-#include "bench/physics/Looks.h"
 #include "bench/physics/Paths.h"
 #include "bench/physics/SceneRun.h"
 

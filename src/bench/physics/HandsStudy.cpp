@@ -6,7 +6,7 @@
 
 #include "analysis/Gnuplot.h"
 #include "base/Quantile.h"
-#include "bench/physics/Looks.h"
+#include "bench/physics/ChartColors.h"
 #include "bench/physics/RandomScenes.h"
 #include "bench/physics/SceneRun.h"
 

@@ -7,7 +7,7 @@
 
 #include "analysis/Gnuplot.h"
 #include "base/Error.h"
-#include "bench/physics/Looks.h"
+#include "bench/physics/ChartColors.h"
 #include "bench/physics/Paths.h"
 #include "bench/physics/SceneRun.h"
 #include "physics/Oracles.h"

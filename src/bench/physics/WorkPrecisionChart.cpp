@@ -5,7 +5,7 @@
 
 #include "analysis/Gnuplot.h"
 #include "base/Quantile.h"
-#include "bench/physics/Looks.h"
+#include "bench/physics/ChartColors.h"
 #include "bench/physics/Measurements.h"
 
 namespace heft {

@@ -178,19 +178,19 @@ FilmPlan plan_for(int width_px, Motion motion, bool quick) {
 }
 }  // namespace
 
-Headline film_headline(int width_px, bool quick, StudyProgress& progress) {
-  Headline headline;
-  headline.width_px = width_px;
+GoalFilms film_for_goals(int width_px, bool quick, StudyProgress& progress) {
+  GoalFilms goal_films;
+  goal_films.width_px = width_px;
   const std::vector methods{our_method(width_px), plain_method(width_px)};
   const auto filmed = [&](Motion motion, const std::string& name) {
     progress.next(name + " at " + size_name(width_px));
     auto films = film(plan_for(width_px, motion, quick), methods);
-    return Headline::Pair{std::move(films[0]), std::move(films[1])};
+    return GoalFilms::Pair{std::move(films[0]), std::move(films[1])};
   };
-  headline.strokes = filmed(Motion::stroke, "strokes");
-  headline.swipes = filmed(Motion::swipe, "swipes");
-  headline.holds = filmed(Motion::hold, "holds");
-  return headline;
+  goal_films.strokes = filmed(Motion::stroke, "strokes");
+  goal_films.swipes = filmed(Motion::swipe, "swipes");
+  goal_films.holds = filmed(Motion::hold, "holds");
+  return goal_films;
 }
 
 }  // namespace heft

@@ -113,7 +113,9 @@ Eigen::Vector3d tip_of(const MarkerBody& effector);
 /// Of median and p95: not a number where there is none.
 double or_nan(const std::optional<double>& value);
 
-struct Headline {
+/// What the goals are measured on, at one picture size: the same takes by our tracker and by plain
+/// AprilTag and PnP.
+struct GoalFilms {
   int width_px = 0;
   struct Pair {
     MethodFilm ours, plain;
@@ -121,8 +123,8 @@ struct Headline {
   Pair strokes, swipes, holds;
 };
 
-inline constexpr int headline_parts = 3;  ///< of progress, a picture size
-Headline film_headline(int width_px, bool quick, StudyProgress& progress);
+inline constexpr int goal_film_parts = 3;  ///< of progress, a picture size
+GoalFilms film_for_goals(int width_px, bool quick, StudyProgress& progress);
 
 /// Swipes count while they are this fast.
 inline constexpr double swiping_m_s = 0.45;

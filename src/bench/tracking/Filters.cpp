@@ -123,16 +123,16 @@ std::optional<double> jitter_mm(const std::vector<FilteredTake>& holds,
   return 1e3 * std::sqrt(sum / n);
 }
 
-std::vector<FilterResult> study_filters(const Headline& headline, const StudyOptions& options) {
-  const Eigen::Vector3d tip_m = tip_of(bench_apparatus(headline.width_px).effector);
+std::vector<FilterResult> study_filters(const GoalFilms& goal_films, const StudyOptions& options) {
+  const Eigen::Vector3d tip_m = tip_of(bench_apparatus(goal_films.width_px).effector);
   std::vector<FilterResult> results;
   CsvFile csv(options, "filters.csv", "filter,setting,jitter_mm,lag_ms,stroke_p95_mm,swipe_p95_mm");
   for (const SmootherEntry& filter : smoothers()) {
-    const auto strokes = filtered(headline.strokes.ours, filter);
+    const auto strokes = filtered(goal_films.strokes.ours, filter);
     const FilterResult result{filter,
-                              or_nan(jitter_mm(filtered(headline.holds.ours, filter), tip_m)),
+                              or_nan(jitter_mm(filtered(goal_films.holds.ours, filter), tip_m)),
                               lag_ms(strokes, tip_m), p95_mm(strokes, tip_m, 0),
-                              p95_mm(filtered(headline.swipes.ours, filter), tip_m, swiping_m_s)};
+                              p95_mm(filtered(goal_films.swipes.ours, filter), tip_m, swiping_m_s)};
     csv.row(filter.family, filter.setting, result.jitter_mm, result.lag_ms, result.stroke_p95_mm,
             result.swipe_p95_mm);
     results.push_back(result);

@@ -32,7 +32,7 @@ std::vector<TrackedError> while_swiping(const MethodFilm& film) {
 struct Both {
   std::vector<TrackedError> ours, plain;
 };
-Both found_by_both(const Headline::Pair& pair) {
+Both found_by_both(const GoalFilms::Pair& pair) {
   const auto ours = pair.ours.errors(), plain = pair.plain.errors();
   Both both;
   for (std::size_t i = 0; i < ours.size(); ++i)
@@ -79,11 +79,11 @@ double prediction_rms_mm(const MethodFilm& strokes, const Eigen::Vector3d& tip_m
   return n > 0 ? 1e3 * std::sqrt(sum / n) : std::numeric_limits<double>::quiet_NaN();
 }
 
-void add_size(std::vector<Goal>& goals, const Headline& headline) {
-  const bool small = headline.width_px == 640;
-  const std::string at = " at " + size_name(headline.width_px);
-  const Eigen::Vector3d tip_m = tip_of(bench_apparatus(headline.width_px).effector);
-  const ErrorSummary ours = summary_of(headline.strokes.ours.errors());
+void add_size(std::vector<Goal>& goals, const GoalFilms& goal_films) {
+  const bool small = goal_films.width_px == 640;
+  const std::string at = " at " + size_name(goal_films.width_px);
+  const Eigen::Vector3d tip_m = tip_of(bench_apparatus(goal_films.width_px).effector);
+  const ErrorSummary ours = summary_of(goal_films.strokes.ours.errors());
   const auto add = [&](const std::string& what, double goal, const std::string& unit,
                        double reached, bool at_least = false) {
     goals.push_back({what + at, goal, unit, at_least, reached});
@@ -92,16 +92,16 @@ void add_size(std::vector<Goal>& goals, const Headline& headline) {
   add("board in camera, p95", 0.03, "deg", or_nan(ours.board_deg.p95));
   add("effector's tip in board, p95", small ? 0.6 : 0.45, "mm", or_nan(ours.tip_mm.p95));
   add("effector in board, p95", small ? 0.5 : 0.3, "deg", or_nan(ours.effector_deg.p95));
-  const auto swiping = while_swiping(headline.swipes.ours);
+  const auto swiping = while_swiping(goal_films.swipes.ours);
   if (!swiping.empty())
     add("tip at 0.5 m/s, 4 ms exposure, p95", 1.2, "mm", or_nan(summary_of(swiping).tip_mm.p95));
   add("tip's jitter when held still, filtered, RMS", 0.12, "mm",
-      or_nan(jitter_mm(filtered(headline.holds.ours, our_filter()), tip_m)));
+      or_nan(jitter_mm(filtered(goal_films.holds.ours, our_filter()), tip_m)));
   add("C1's clone over the filmed effector at 0.5 m/s, p95", 1, "mm",
-      clone_p95_mm(headline.swipes.ours, tip_m));
+      clone_p95_mm(goal_films.swipes.ours, tip_m));
   add("prediction to the present, 50 ms, strokes of 0.4 m/s, RMS", 3, "mm",
-      prediction_rms_mm(headline.strokes.ours, tip_m));
-  const Both both = found_by_both(headline.strokes);
+      prediction_rms_mm(goal_films.strokes.ours, tip_m));
+  const Both both = found_by_both(goal_films.strokes);
   if (both.ours.empty()) return;
   const ErrorSummary our = summary_of(both.ours), plain = summary_of(both.plain);
   add("tip p95 of apriltag + solvePnP over ours", 8, "times",
@@ -146,10 +146,10 @@ std::string figure_text(double value, const std::string& unit) {
   return std::isnan(value) ? "-" : fmt::format("{:.3g} {}", value, unit);
 }
 
-std::vector<Goal> study_goals(const std::vector<Headline>& headlines, const StudyOptions& options,
-                              StudyProgress& progress) {
+std::vector<Goal> study_goals(const std::vector<GoalFilms>& films_by_size,
+                              const StudyOptions& options, StudyProgress& progress) {
   std::vector<Goal> goals;
-  for (const Headline& headline : headlines) add_size(goals, headline);
+  for (const GoalFilms& goal_films : films_by_size) add_size(goals, goal_films);
   progress.next("looking for flips");
   goals.push_back(count_flips(options.quick));
   progress.next("calibrating cameras");

@@ -156,14 +156,14 @@ void run_tracking_study(const StudyOptions& options) {
   const int n_sizes = static_cast<int>(picture_widths_px.size());
   std::vector<Goal> goals;
   {
-    StudyProgress progress(n_sizes * (1 + headline_parts) + limit_parts + goal_parts);
+    StudyProgress progress(n_sizes * (1 + goal_film_parts) + limit_parts + goal_parts);
     const auto accuracy = study_accuracy(options, progress);
-    std::vector<Headline> headlines;
+    std::vector<GoalFilms> films_by_size;
     for (const int width_px : picture_widths_px)
-      headlines.push_back(film_headline(width_px, options.quick, progress));
-    const auto filters = study_filters(headlines.front(), options);
+      films_by_size.push_back(film_for_goals(width_px, options.quick, progress));
+    const auto filters = study_filters(films_by_size.front(), options);
     const auto limits = study_limits(options, progress);
-    goals = study_goals(headlines, options, progress);
+    goals = study_goals(films_by_size, options, progress);
     std::ofstream(options.out + "/README.md")
         << tracking_readme(accuracy, limits, filters, goals, options);
   }

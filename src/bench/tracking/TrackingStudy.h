@@ -116,7 +116,7 @@ std::vector<FilteredTake> filtered(const MethodFilm& film, const SmootherEntry& 
 std::optional<double> jitter_mm(const std::vector<FilteredTake>& holds,
                                 const Eigen::Vector3d& tip_m);
 
-std::vector<FilterResult> study_filters(const Headline& headline, const StudyOptions& options);
+std::vector<FilterResult> study_filters(const GoalFilms& goal_films, const StudyOptions& options);
 
 // The project's goals for tracking and what the study reached: Goals.cpp.
 
@@ -131,9 +131,9 @@ struct Goal {
 };
 
 /// Films for flips and calibrates cameras, too. Writes goals.csv.
-/// @param headlines of 640x480 and 1280x720
-std::vector<Goal> study_goals(const std::vector<Headline>& headlines, const StudyOptions& options,
-                              StudyProgress& progress);
+/// @param films_by_size of 640x480 and 1280x720
+std::vector<Goal> study_goals(const std::vector<GoalFilms>& films_by_size,
+                              const StudyOptions& options, StudyProgress& progress);
 
 inline constexpr int goal_parts = 2;  ///< of progress
 

@@ -1,4 +1,4 @@
-#include "bench/physics/Looks.h"
+#include "bench/physics/ChartColors.h"
 
 #include <array>
 #include <utility>

@@ -1,4 +1,4 @@
-// How a simulator looks in every chart of the physics study.
+// The color of a simulator in every chart of the physics study.
 #pragma once
 
 #include <string>
