@@ -6,7 +6,7 @@
 
 #include "analysis/Fit.h"
 #include "analysis/MaximumLikelihood.h"
-#include "psychophysics/Detection.h"
+#include "psychophysics/Normal.h"
 
 namespace heft {
 

@@ -22,8 +22,4 @@ struct Detection {
 /// @return none where there is no trial of either kind
 std::optional<Detection> detection(const DetectionCounts& counts);
 
-/// The standard normal distribution's quantile.
-/// @param p in (0, 1)
-double normal_quantile(double p);
-
 }  // namespace heft

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "psychophysics/Normal.h"
+
 namespace heft {
 
 namespace {
@@ -27,14 +29,6 @@ double normal_between(double from, double to) {
   return from > 0 ? normal_cdf(-from) - normal_cdf(-to) : normal_cdf(to) - normal_cdf(from);
 }
 }  // namespace
-
-double normal_cdf(double z) {
-  return std::erfc(-z / std::numbers::sqrt2) / 2;
-}
-
-double normal_density(double z) {
-  return std::exp(-z * z / 2) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
-}
 
 StandardCurve standard_curve(PsychometricShape shape, double u) {
   switch (shape) {

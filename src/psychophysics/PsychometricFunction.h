@@ -56,9 +56,6 @@ struct PsychometricParameters {
 double probability(const PsychometricFunction& function, const PsychometricParameters& parameters,
                    double level);
 
-double normal_cdf(double z);
-double normal_density(double z);
-
 /// The 2-AC model (Christensen, Lee & Brockhoff 2011; Garcia-Perez & Alcala-Quintana 2017): what is
 /// felt is D = sensitivity * level + bias + N(0, 1); the answer is "comparison" where D >
 /// indecision, "reference" where D < -indecision, otherwise "none". A lapse is any of them.

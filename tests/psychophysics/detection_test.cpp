@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/Random.h"
+#include "psychophysics/Normal.h"
 
 namespace heft {
 namespace {

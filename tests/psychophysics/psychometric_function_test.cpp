@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "psychophysics/Normal.h"
 #include "psychophysics/PsychometricFunction.h"
 
 namespace heft {
