@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "analysis/Gnuplot.h"
+#include "base/Csv.h"
 #include "base/Error.h"
 
 namespace heft {
@@ -43,10 +44,7 @@ CsvFile::CsvFile(const StudyOptions& options, const std::string& name, std::stri
 }
 
 std::string CsvFile::cell(std::string_view text) {
-  if (text.find_first_of(",\"\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
+  return csv_cell(text);
 }
 
 std::string CsvFile::cell(double value) {
