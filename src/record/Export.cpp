@@ -89,7 +89,11 @@ class Exporter {
     ParticipantColumns participants;
     for (const OpenLog& log : logs_) participants.add(*log.database);
     tables_ = export_tables(participants);
-    for (const ExportTable& table : tables_) n_all_ += count(table);
+    std::erase_if(tables_, [this](const ExportTable& table) {
+      const std::int64_t n = count(table);
+      n_all_ += n;
+      return n == 0 && table.file == "frames.csv";
+    });
   }
 
   std::vector<ExportedFile> run() {
@@ -97,7 +101,6 @@ class Exporter {
     dictionary.line({"file", "column", "unit", "meaning", "levels"});
     std::int64_t n_explained = 0;
     for (const ExportTable& table : tables_) {
-      if (table.file == "frames.csv" && count(table) == 0) continue;
       write(table);
       for (const ExportColumn& column : all_columns(table)) {
         dictionary.line({table.file, text_cell(column.name), csv_cell(column.unit),
@@ -167,7 +170,6 @@ class Exporter {
   std::vector<ExportedFile> files_;
   std::int64_t n_all_ = 0, n_done_ = 0;
 };
-}  // namespace
 
 void refuse_filled_folder(const std::string& folder) {
   std::error_code unknown;  // what can't be looked at is explained when it is written to
@@ -180,6 +182,7 @@ void refuse_filled_folder(const std::string& folder) {
                             folder),
                 ExitCode::usage);
 }
+}  // namespace
 
 std::vector<ExportedFile> export_csv(const std::vector<std::string>& logs,
                                      const std::string& folder,

@@ -37,8 +37,4 @@ std::vector<ExportedFile> export_csv(const std::vector<std::string>& logs,
                                      const std::string& folder,
                                      const std::function<void(double)>& progress);
 
-/// A folder that export_csv would refuse; for asking before.
-/// @throws Error as export_csv
-void refuse_filled_folder(const std::string& folder);
-
 }  // namespace heft
