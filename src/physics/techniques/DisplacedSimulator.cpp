@@ -35,7 +35,7 @@ class DisplacedSimulator : public DecouplingSimulator {
   bool touches(std::size_t cube, const Pose& hand, const Vector3d& displacement_m) const;
   double touched_kg(const Pose& hand, const Vector3d& displacement_m) const;
   Vector3d displacement_at(const Pose& hand, double h_s) const;
-  double share_until_change(const Pose& hand, double h_s) const;
+  double fraction_until_change(const Pose& hand, double h_s) const;
   void go(const Pose& hand, double h_s);
   void go_on(const Pose& hand, double h_s);
 
@@ -113,11 +113,11 @@ Vector3d DisplacedSimulator::displacement_at(const Pose& hand, double h_s) const
   return std::visit(by_law, *scene_.displacement);
 }
 
-// The share of a step after which what is touched is not what it was.
-double DisplacedSimulator::share_until_change(const Pose& hand, double h_s) const {
-  const auto changed = [&](double share) {
-    const Pose there = interpolate(hand_, hand, share);
-    return touched_kg(there, displacement_at(there, share * h_s)) != touched_kg_;
+// The fraction of a step after which what is touched is not what it was.
+double DisplacedSimulator::fraction_until_change(const Pose& hand, double h_s) const {
+  const auto changed = [&](double fraction) {
+    const Pose there = interpolate(hand_, hand, fraction);
+    return touched_kg(there, displacement_at(there, fraction * h_s)) != touched_kg_;
   };
   if (!changed(1)) return 1;
   double before = 0, after = 1;
@@ -139,10 +139,10 @@ void DisplacedSimulator::go(const Pose& hand, double h_s) {
 void DisplacedSimulator::go_on(const Pose& hand, double h_s) {
   double left_s = h_s;
   for (int cut = 0; cut < most_cuts; ++cut) {
-    const double share = share_until_change(hand, left_s);
-    if (share >= 1) break;
-    go(interpolate(hand_, hand, share), share * left_s);
-    left_s -= share * left_s;
+    const double fraction = fraction_until_change(hand, left_s);
+    if (fraction >= 1) break;
+    go(interpolate(hand_, hand, fraction), fraction * left_s);
+    left_s -= fraction * left_s;
   }
   go(hand, left_s);
 }
