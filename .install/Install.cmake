@@ -1,10 +1,10 @@
 # What `cmake --install` and `cpack` put where. Components: heft with its data, bench, and the
 # libraries psychophysics, engine and physics, of which each can be had without those that it does
 # not use.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS heft_program COMPONENT heft)
+install(TARGETS heft_codecs LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/heft COMPONENT heft)
 install(DIRECTORY protocols DESTINATION ${CMAKE_INSTALL_DATADIR}/heft COMPONENT heft)
 install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT heft)
 install(TARGETS heft_bench_program COMPONENT bench)

@@ -11,6 +11,7 @@
 #include "tracking/ImageConversion.h"
 #include "tracking/LiveCamera.h"
 #include "tracking/VideoDevices.h"
+#include "tracking/codecs/Codecs.h"
 
 namespace heft {
 
@@ -32,8 +33,7 @@ std::string letters_of(double code) {
 // Uncompressed where USB 2 has room for it: JPEG's blocks disturb edges.
 double wanted_format(const CameraRequest& request) {
   const bool fits = request.width_px * request.height_px * request.rate_hz <= 640 * 480 * 30;
-  return fits ? cv::VideoWriter::fourcc('Y', 'U', 'Y', 'V')
-              : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+  return four_cc(fits ? std::array{'Y', 'U', 'Y', 'V'} : std::array{'M', 'J', 'P', 'G'});
 }
 
 bool takes(const CameraControls& controls, int property, double value) {
@@ -107,19 +107,19 @@ class Device {
  public:
   Device(int number, const CameraRequest& request) : number_(number), request_(request) { open(); }
 
-  bool is_open() const { return capture_.isOpened(); }
+  bool is_open() const { return capture_->isOpened(); }
   CameraMode mode();
 
   // A device that was unplugged is opened again when it is back.
   std::optional<GrabbedPicture> grab() {
     cv::Mat picture;
-    if (!is_open() || !capture_.read(picture) || picture.empty()) {
-      capture_.release();
+    if (!is_open() || !capture_->read(picture) || picture.empty()) {
+      capture_->release();
       open();
       return std::nullopt;
     }
     const double arrival_s = monotonic_s();
-    const double driver_s = capture_.get(cv::CAP_PROP_POS_MSEC) / 1e3;
+    const double driver_s = capture_->get(cv::CAP_PROP_POS_MSEC) / 1e3;
     return GrabbedPicture{image_from(picture), capture_time_s(driver_s, arrival_s, exposure_s_)};
   }
 
@@ -128,7 +128,7 @@ class Device {
 
   int number_;
   CameraRequest request_;
-  cv::VideoCapture capture_;
+  std::unique_ptr<cv::VideoCapture> capture_ = codecs().capture();
   CameraMode locks_;
   double exposure_s_ = 0;
 };
@@ -139,25 +139,25 @@ void Device::open() {
   } catch (const Error&) {
     return;  // not there at present
   }
-  if (!capture_.open(number_, cv::CAP_V4L2)) return;
-  capture_.set(cv::CAP_PROP_FOURCC, wanted_format(request_));
-  capture_.set(cv::CAP_PROP_FRAME_WIDTH, request_.width_px);
-  capture_.set(cv::CAP_PROP_FRAME_HEIGHT, request_.height_px);
-  capture_.set(cv::CAP_PROP_FPS, request_.rate_hz);
+  if (!capture_->open(number_, cv::CAP_V4L2)) return;
+  capture_->set(cv::CAP_PROP_FOURCC, wanted_format(request_));
+  capture_->set(cv::CAP_PROP_FRAME_WIDTH, request_.width_px);
+  capture_->set(cv::CAP_PROP_FRAME_HEIGHT, request_.height_px);
+  capture_->set(cv::CAP_PROP_FPS, request_.rate_hz);
   locks_ = {};
-  lock_controls({[this](int property, double value) { return capture_.set(property, value); },
-                 [this](int property) { return capture_.get(property); }},
+  lock_controls({[this](int property, double value) { return capture_->set(property, value); },
+                 [this](int property) { return capture_->get(property); }},
                 request_, locks_);
-  const double said_s = capture_.get(cv::CAP_PROP_EXPOSURE) * driver_exposure_s;
+  const double said_s = capture_->get(cv::CAP_PROP_EXPOSURE) * driver_exposure_s;
   exposure_s_ = said_s > 0 && said_s < 0.1 ? said_s : request_.exposure_s;
 }
 
 CameraMode Device::mode() {
   CameraMode mode = locks_;
-  mode.width_px = static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_WIDTH));
-  mode.height_px = static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_HEIGHT));
-  mode.rate_hz = capture_.get(cv::CAP_PROP_FPS);
-  mode.pixel_format = letters_of(capture_.get(cv::CAP_PROP_FOURCC));
+  mode.width_px = static_cast<int>(capture_->get(cv::CAP_PROP_FRAME_WIDTH));
+  mode.height_px = static_cast<int>(capture_->get(cv::CAP_PROP_FRAME_HEIGHT));
+  mode.rate_hz = capture_->get(cv::CAP_PROP_FPS);
+  mode.pixel_format = letters_of(capture_->get(cv::CAP_PROP_FOURCC));
   return mode;
 }
 

@@ -13,6 +13,7 @@
 #include "tracking/Camera.h"
 #include "tracking/ImageConversion.h"
 #include "tracking/ImageFile.h"
+#include "tracking/codecs/Codecs.h"
 
 namespace heft {
 
@@ -166,7 +167,7 @@ class VideoFile : public Camera {
   std::optional<CameraPicture> read();
   double time_of(std::int64_t number);
 
-  cv::VideoCapture video_;
+  std::unique_ptr<cv::VideoCapture> video_ = codecs().capture();
   CameraMode mode_;
   std::int64_t n_read_ = 0;
   double first_s_ = 0, last_s_ = 0;
@@ -178,9 +179,9 @@ VideoFile::VideoFile(const std::string& path) {
   const QuietCodecs quiet;
   // The decoders that come with OpenCV; with any other backend a name with % in it means a series.
   for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG})
-    if (!video_.isOpened()) video_.open(path, backend);
-  if (video_.isOpened()) {
-    mode_.rate_hz = video_.get(cv::CAP_PROP_FPS);
+    if (!video_->isOpened()) video_->open(path, backend);
+  if (video_->isOpened()) {
+    mode_.rate_hz = video_->get(cv::CAP_PROP_FPS);
     ahead_ = read();
   }
   if (!ahead_)
@@ -196,7 +197,7 @@ VideoFile::VideoFile(const std::string& path) {
 // The file's own times where they go on; a picture at least, by the rate, where they don't.
 double VideoFile::time_of(std::int64_t number) {
   const double rate_hz = mode_.rate_hz > 0 && std::isfinite(mode_.rate_hz) ? mode_.rate_hz : 30;
-  const double own_s = video_.get(cv::CAP_PROP_POS_MSEC) / 1e3;
+  const double own_s = video_->get(cv::CAP_PROP_POS_MSEC) / 1e3;
   if (number == 0) {
     first_s_ = std::isfinite(own_s) ? own_s : 0;
     return 0;
@@ -207,7 +208,7 @@ double VideoFile::time_of(std::int64_t number) {
 
 std::optional<CameraPicture> VideoFile::read() {
   cv::Mat picture;
-  if (!video_.read(picture) || picture.empty()) return std::nullopt;
+  if (!video_->read(picture) || picture.empty()) return std::nullopt;
   const std::int64_t number = n_read_++;
   last_s_ = time_of(number);
   return CameraPicture{image_from(picture), last_s_, number, ""};

@@ -11,12 +11,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "base/Error.h"
 #include "tracking/ImageConversion.h"
+#include "tracking/codecs/Codecs.h"
 
 namespace heft {
 
@@ -163,7 +163,7 @@ Image read_image(const std::string& path) {
   cv::Mat picture;
   try {
     const QuietCodecs quiet;
-    picture = cv::imread(path, cv::IMREAD_ANYCOLOR);
+    codecs().read(path, picture);
   } catch (const cv::Exception&) {  // what the codec says is about its own code, not the file
   }
   if (picture.empty())
@@ -179,7 +179,7 @@ void write_image(const std::string& path, const Image& image) {
     throw Error(fmt::format("{}: a picture's name must end in one of {}", path, known_endings()));
   bool written = false;
   try {
-    written = cv::imwrite(path, mat_of(image));
+    written = codecs().write(path, mat_of(image));
   } catch (const cv::Exception&) {
   }
   if (!written)

@@ -10,6 +10,7 @@
 #include "base/Error.h"
 #include "base/PlugTable.h"
 #include "base/TextFile.h"
+#include "tracking/codecs/Codecs.h"
 #include "view/SceneDrawing.h"
 #include "view/window/WindowView.h"
 
@@ -24,10 +25,6 @@ struct Format {
 
 constexpr std::array formats{Format{".mp4", {'m', 'p', '4', 'v'}, cv::CAP_FFMPEG},
                              Format{".avi", {'M', 'J', 'P', 'G'}, cv::CAP_OPENCV_MJPEG}};
-
-int four_cc(const std::array<char, 4>& codec) {
-  return cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]);
-}
 
 const Format& format_of(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
@@ -50,8 +47,9 @@ class VideoView final : public ArView {
                       setup.file));
     create_file(setup.file, 0600);  // people's hands may be in it
     const Image& first = drawing_.draw({});
-    if (!writer_.open(setup.file, writer, four_cc(codec), setup.rate_hz,
-                      {first.width, first.height}))
+    writer_ = codecs().writer(setup.file, writer, four_cc(codec), setup.rate_hz, first.width,
+                              first.height);
+    if (!writer_->isOpened())
       throw Error(
           fmt::format("can't write the video {} ({} x {}, {:g} frames a second); check "
                       "that its folder exists and may be written to",
@@ -61,8 +59,8 @@ class VideoView final : public ArView {
   std::optional<double> present(const ViewFrame& shown, const ScreenState&) override {
     const Image& drawn = drawing_.draw(shown);
     // OpenCV has no read-only images; the writer changes nothing.
-    writer_.write(cv::Mat(drawn.height, drawn.width, CV_8UC3,
-                          const_cast<std::uint8_t*>(drawn.pixels.data())));
+    writer_->write(cv::Mat(drawn.height, drawn.width, CV_8UC3,
+                           const_cast<std::uint8_t*>(drawn.pixels.data())));
     return {};
   }
 
@@ -70,7 +68,7 @@ class VideoView final : public ArView {
 
  private:
   SceneDrawing drawing_;
-  cv::VideoWriter writer_;  // finishes the file when it goes
+  std::unique_ptr<cv::VideoWriter> writer_;  // finishes the file when it goes
 };
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include "record/temporary_folder.h"
 #include "tracking/Camera.h"
 #include "tracking/ImageFile.h"
+#include "tracking/codecs/Codecs.h"
 
 namespace heft {
 namespace {
@@ -180,9 +181,9 @@ TEST(VideoFile, GivesEveryPictureAtItsTime) {
   const TemporaryFolder folder;
   const std::string path = folder.file("film.avi");
   {
-    cv::VideoWriter writer(path, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
-                           20, {64, 48});
-    for (int i = 0; i < 6; ++i) writer.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(40 * i)));
+    const auto writer =
+        codecs().writer(path, cv::CAP_OPENCV_MJPEG, four_cc({'M', 'J', 'P', 'G'}), 20, 64, 48);
+    for (int i = 0; i < 6; ++i) writer->write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(40 * i)));
   }
   const auto camera = open_camera("video:" + path);
   EXPECT_EQ(camera->mode().width_px, 64);

@@ -8,6 +8,7 @@
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "record/temporary_folder.h"
+#include "tracking/codecs/Codecs.h"
 #include "view/ArView.h"
 #include "view/Scenes.h"
 
@@ -45,17 +46,18 @@ TEST(VideoView, HoldsEveryFrameAsItIsDrawn) {
     ViewSetup setup = setup_with(Intrinsics{});
     setup.file = folder.file(name);
     write_video(setup);
-    cv::VideoCapture video(setup.file);
-    EXPECT_DOUBLE_EQ(video.get(cv::CAP_PROP_FPS), setup.rate_hz) << name;
+    const auto video = codecs().capture();
+    ASSERT_TRUE(video->open(setup.file)) << name;
+    EXPECT_DOUBLE_EQ(video->get(cv::CAP_PROP_FPS), setup.rate_hz) << name;
     SceneDrawing drawing(setup);
     cv::Mat read;
     for (int i = 0; i < n_frames; ++i) {
-      ASSERT_TRUE(video.read(read)) << name << " " << i;
+      ASSERT_TRUE(video->read(read)) << name << " " << i;
       const Image& drawn = drawing.draw(shown_as_number(setup, i));
       ASSERT_EQ(read.size(), cv::Size(drawn.width, drawn.height));
       EXPECT_LT(mean_difference(read, drawn), 3) << name << " " << i;
     }
-    EXPECT_FALSE(video.read(read)) << name;
+    EXPECT_FALSE(video->read(read)) << name;
   }
 }
 
