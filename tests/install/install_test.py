@@ -57,6 +57,20 @@ class Programs(Installed):
         self.must(heft, "run", protocols / "quick.toml", "--participant", "1", "--db", db,
                   "--responder", "simulated", "--language", "own", env=BARE)
 
+    def test_pictures_are_written_by_a_module_that_is_named_where_it_is_missing(self):
+        prefix = self.install("--component", "heft")
+        filming = [prefix / "bin/heft", "run", prefix / "share/heft/protocols/quick.toml",
+                   "--participant", "1", "--responder", "simulated"]
+        film, module = self.folder / "film.avi", next(prefix.rglob("heft-codecs.so"))
+        self.must(*filming, "--db", self.folder / "lab.db", "--view", f"video:{film}", env=BARE)
+        self.assertGreater(film.stat().st_size, 10_000)
+        self.assertNotIn("imgcodecs", run("ldd", prefix / "bin/heft").stdout)
+        module.unlink()
+        without = run(*filming, "--db", self.folder / "no.db", "--view",
+                      f"video:{self.folder / 'none.avi'}", env=BARE)
+        self.assertEqual(without.returncode, 1, without.stderr)
+        self.assertIn("heft-codecs.so", without.stderr)
+
     def test_bench_is_found_beside_in_libexec_or_on_the_path(self):
         prefix = self.install()
         heft, bench = prefix / "bin/heft", prefix / "bin/heft-bench"
