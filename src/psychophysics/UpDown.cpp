@@ -96,7 +96,7 @@ std::optional<UpDown::Move> UpDown::due_move(bool positive) {
   const bool new_step = turned && config_.change_step == ChangeStep::before_move;
   last_due_ = direction;
   const double size = step(*direction, reversals_.size() + (new_step ? 1 : 0));
-  Move move{*direction, moved(planned_, *direction, size), turned};
+  Move move{*direction, landed(moved(planned_, *direction, size)), turned};
   if (config_.bound_is_reversal && passes_bound(move)) move.is_reversal = true;
   return move;
 }
@@ -122,6 +122,15 @@ double UpDown::moved(double level, Direction direction, double step) const {
   if (config_.step_scale == StepScale::linear) return held_finite(up ? level + step : level - step);
   const double factor = std::pow(10.0, config_.step_scale == StepScale::db ? step / 20.0 : step);
   return held_finite(up ? level * factor : level / factor);
+}
+
+// A step that ends a billionth of itself beside a bound was to end on it: .3 - .1 - .1 - .1 is not
+// 0, and what rounding leaves over is no level that anybody planned.
+double UpDown::landed(double target) const {
+  const double ghost = 1e-9 * std::abs(target - planned_);
+  for (const std::optional<double>& bound : {config_.floor, config_.ceiling})
+    if (bound && std::abs(target - *bound) <= ghost) return *bound;
+  return target;
 }
 
 double UpDown::presented(double level) const {

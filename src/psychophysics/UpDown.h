@@ -126,6 +126,7 @@ class UpDown {
   void make(const Move& move);
   double step(Direction direction, std::size_t n_reversals) const;
   double moved(double level, Direction direction, double step) const;
+  double landed(double target) const;
   double presented(double level) const;
   bool passes_bound(const Move& move) const;
   Censored censored() const;
