@@ -126,15 +126,27 @@ std::vector<Event> TrialWorld::end_contacts(double t_s) {
 
 void TrialWorld::return_cubes(double t_s, ShownFrame& shown) {
   const WorldState& world = drive_->state();
-  const bool reset = reset_requested_ && (!world.clone_present || clear_of_all(world.clone.pose));
+  const bool clear = !world.clone_present || clear_of_all(world.clone.pose);
+  const bool reset = reset_requested_ && clear;
   if (reset) reset_requested_ = false;
+  const bool all_back = clear && go_back_together();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const bool back = protocol_.layout.out_of_area == OutOfArea::give_back && is_out(i) &&
                       !contacts_[i].since_s && place_is_free(i);
-    if (!reset && !back) continue;
+    if (!reset && !back && !all_back) continue;
     drive_->return_cube(static_cast<int>(i));
     if (!reset) shown.events.push_back({log_time(t_s), CubesReset{slot_of(i)}});
   }
+}
+
+bool TrialWorld::go_back_together() const {
+  if (protocol_.layout.out_of_area != OutOfArea::together) return false;
+  bool any_out = false, any_touched = false;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    any_out = any_out || is_out(i);
+    any_touched = any_touched || contacts_[i].since_s;
+  }
+  return any_out && !any_touched;
 }
 
 bool TrialWorld::is_out(std::size_t cube) const {

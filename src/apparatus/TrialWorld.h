@@ -55,6 +55,7 @@ class TrialWorld {
   void note_view(const TargetSample& sample, ShownFrame& shown);
   void note_contacts(const TargetSample& sample, ShownFrame& shown);
   void return_cubes(double t_s, ShownFrame& shown);
+  bool go_back_together() const;
   bool is_out(std::size_t cube) const;
   bool place_is_free(std::size_t cube) const;
   void end_contact(std::size_t cube, double end_s, double now_s, std::vector<Event>& events);

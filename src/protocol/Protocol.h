@@ -12,11 +12,13 @@
 
 namespace heft {
 
-/// How a cube behaves that leaves the area or falls: back to its start once untouched, or not.
-enum class OutOfArea { give_back, stay };
+/// What becomes of a cube that leaves the area or falls: it goes back to its start once untouched,
+/// all cubes go back at once when the hand is clear of them (so that no jump tells which is the
+/// light one), or it stays.
+enum class OutOfArea { give_back, together, stay };
 template <>
 struct EnumNames<OutOfArea> {
-  static constexpr std::array<std::string_view, 2> names{"return", "stay"};
+  static constexpr std::array<std::string_view, 3> names{"return", "together", "stay"};
 };
 
 /// Whether `friction` is the coefficient between two surfaces, or each body's own as engines that
@@ -47,7 +49,7 @@ struct Layout {
   double row_y_m = 0;                  ///< of the cubes' centers
   double start_distance_m = 0.06;      ///< from the cubes' near faces to the resting effector's tip
   Eigen::Vector2d area_m{0.40, 0.30};  ///< width and depth, centered on the origin
-  OutOfArea out_of_area = OutOfArea::give_back;
+  OutOfArea out_of_area = OutOfArea::together;
   double clear_m = 0.02;  ///< cubes appear when the effector is this far from every slot
 };
 
