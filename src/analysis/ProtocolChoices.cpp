@@ -77,7 +77,8 @@ class Collector {
                     interleaving.max_lag > 0
                         ? fmt::format(", at most {} trials ahead", interleaving.max_lag)
                         : ""));
-    add("catch trials", fmt::format("{:g} %", 100 * block.catch_fraction));
+    add("catch trials", catch_text(block));
+    add("sides of the reference", std::string(name_of(block.sides)));
     add("moves a staircase down", std::string(name_of(block.positive_answer)));
     for (const ReferenceStaircase& entry : block.staircases)
       add(fmt::format("staircase {}", entry.staircase.name), described(entry.staircase));
@@ -86,6 +87,13 @@ class Collector {
   std::vector<ProtocolChoice> choices;
 
  private:
+  static std::string catch_text(const ComparisonBlock& block) {
+    if (block.catch_trials.empty()) return fmt::format("{:g} %", 100 * block.catch_fraction);
+    std::string text;
+    for (const auto& [reference_g, trials] : block.catch_trials)
+      text += fmt::format("{}{} at {:g} g", text.empty() ? "" : ", ", trials, reference_g);
+    return text + fmt::format(", one in every {} trials", block.catch_every);
+  }
   static std::string input_text(const DriveInput& input) {
     return fmt::format("{}, {}", name_of(input.mode),
                        input.predict_s > 0 ? fmt::format("predicted {:g} s ahead", input.predict_s)

@@ -31,6 +31,14 @@ struct EnumNames<PositiveAnswer> {
   static constexpr std::array<std::string_view, 2> names{"any_choice", "correct_choice"};
 };
 
+/// Where the reference of a comparison stands: a coin a trial, or as often left as right in every
+/// four trials of a staircase (and of the catch trials), in random order.
+enum class Sides { random, balanced };
+template <>
+struct EnumNames<Sides> {
+  static constexpr std::array<std::string_view, 2> names{"random", "balanced"};
+};
+
 struct DemonstrationBlock {
   std::string name;
   double duration_s = 20;
@@ -70,10 +78,22 @@ struct ReferenceStaircase {
   std::string condition{};    ///< its own technique; empty: the block's
 };
 
+/// So many trials of a comparison block compare a reference with its equal.
+struct ReferenceCatchTrials {
+  double reference_g = 0;
+  int trials = 0;
+};
+
 struct ComparisonBlock {
   std::string name;
   std::string condition = "C2";  ///< name of the technique
-  double catch_fraction = 0;     ///< of trials with difference 0; they drive no staircase
+  // Catch trials, of difference 0, drive no staircase: either each trial is one by a coin, or there
+  // are so many, one somewhere in every `catch_every` trials and none among the first three; those
+  // left over come after the last staircase.
+  double catch_fraction = 0;
+  std::vector<ReferenceCatchTrials> catch_trials;
+  int catch_every = 7;
+  Sides sides = Sides::random;
   PositiveAnswer positive_answer = PositiveAnswer::any_choice;
   InterleaveConfig interleaving;
   std::vector<ReferenceStaircase> staircases;

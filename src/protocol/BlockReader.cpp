@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <variant>
 
 #include "experiment/Rows.h"
 #include "protocol/ProcedureReader.h"
 #include "protocol/ProtocolTables.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 
@@ -114,18 +116,93 @@ Block read_sorting(TableReader& table, NamesInUse& names) {
   return block;
 }
 
-std::optional<ReferenceStaircase> read_reference_staircase(TableReader& table, NamesInUse& names) {
-  ReferenceStaircase reference;
+// paired = true: one staircase from `start`, one from `start_below`, otherwise alike.
+std::vector<ProcedureConfig> pair_of(TableReader& table, const ProcedureConfig& read,
+                                     std::optional<double> start_below) {
+  const auto* above = std::get_if<UpDownConfig>(&*read.kind);
+  if (!above) {
+    table.mistake("paired", "paired is for up_down staircases, which have a start to pair");
+    return {};
+  }
+  UpDownConfig below = *above;
+  if (start_below)
+    below.start = *start_below;
+  else if (above->floor)
+    below.start = *above->floor;
+  if (table.good({"start", "start_below", "floor"}) &&
+      (below.start >= above->start || (above->floor && below.start < *above->floor)))
+    table.mistake(start_below ? "start_below" : "paired",
+                  fmt::format("the staircase from below starts at {}, expected below the start {} "
+                              "and not below the floor: say start_below",
+                              below.start, above->start));
+  return {{read.name + " from above", *above}, {read.name + " from below", below}};
+}
+
+std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, NamesInUse& names) {
+  double reference_g = 0;
+  std::string condition;
+  bool paired = false;
+  std::optional<double> start_below;
   table.require({"reference_g"});
-  table.read("reference_g", reference.reference_g, above_zero);
-  names.techniques.read(table, reference.condition);
-  auto procedure = read_procedure(table);
-  if (!procedure) return std::nullopt;
+  table.read("reference_g", reference_g, above_zero);
+  names.techniques.read(table, condition);
+  table.read("paired", paired);
+  table.read("start_below", start_below, zero_or_more);
+  if (start_below && !paired)
+    table.mistake("start_below",
+                  "start_below without paired = true, which makes a second "
+                  "staircase that starts there");
+  const auto procedure = read_procedure(table);
+  if (!procedure) return {};
   if (table.has("reference_g") && table.good({"reference_g"}))
-    check_lightest(table, *procedure, reference.reference_g);
-  names.staircases.check(table, procedure->name);
-  reference.staircase = std::move(*procedure);
-  return reference;
+    check_lightest(table, *procedure, reference_g);
+  std::vector<ReferenceStaircase> staircases;
+  for (ProcedureConfig& one :
+       paired ? pair_of(table, *procedure, start_below) : std::vector{*procedure}) {
+    names.staircases.check(table, one.name);
+    staircases.push_back({reference_g, std::move(one), condition});
+  }
+  return staircases;
+}
+
+// catch_trials = { 15g = 10, 200g = 10 } by reference, or a number for all of them together.
+void read_catch_trials(TableReader& table, ComparisonBlock& block) {
+  std::vector<double> references_g;
+  for (const ReferenceStaircase& entry : block.staircases)
+    if (std::ranges::count(references_g, entry.reference_g) == 0)
+      references_g.push_back(entry.reference_g);
+  if (auto counts = table.has_table("catch_trials") ? table.table("catch_trials") : std::nullopt) {
+    for (const double reference_g : references_g) {
+      int n = 0;
+      counts->read(fmt::format("{:g}g", reference_g), n, {0, most_trials});
+      if (n > 0) block.catch_trials.push_back({reference_g, n});
+    }
+    return counts->close();
+  }
+  int n = 0;
+  table.read("catch_trials", n, {0, most_trials});
+  const int n_references = std::max(1, static_cast<int>(references_g.size()));
+  if (n % n_references != 0)
+    table.mistake("catch_trials",
+                  fmt::format("catch_trials is {} for {} references, expected a "
+                              "multiple of {}, or a number for each: {{ \"{:g}g\" "
+                              "= {} }}",
+                              n, n_references, n_references, references_g[0], n / n_references));
+  for (const double reference_g : references_g)
+    if (n >= n_references) block.catch_trials.push_back({reference_g, n / n_references});
+}
+
+void read_catches(TableReader& table, ComparisonBlock& block) {
+  table.read("catch_fraction", block.catch_fraction, catch_fractions);
+  const bool has_number = table.has("catch_trials");
+  if (has_number && block.catch_fraction > 0)
+    table.mistake("catch_fraction",
+                  "catch_fraction together with catch_trials, expected one of "
+                  "them: a coin each trial, or a fixed number");
+  if (table.has("catch_every") && !has_number)
+    table.mistake("catch_every", "catch_every without catch_trials, which it spreads");
+  table.read("catch_every", block.catch_every, {4, most_trials});
+  read_catch_trials(table, block);
 }
 
 Block read_comparison(TableReader& table, NamesInUse& names) {
@@ -133,12 +210,13 @@ Block read_comparison(TableReader& table, NamesInUse& names) {
   table.require({"staircase"});
   table.read("name", block.name);
   names.techniques.read(table, block.condition);
-  table.read("catch_fraction", block.catch_fraction, catch_fractions);
   table.read("positive_answer", block.positive_answer);
+  table.read("sides", block.sides);
   block.interleaving = read_interleaving(table);
   for (TableReader& staircase : table.tables("staircase"))
-    if (auto reference = read_reference_staircase(staircase, names))
-      block.staircases.push_back(std::move(*reference));
+    std::ranges::move(read_reference_staircases(staircase, names),
+                      std::back_inserter(block.staircases));
+  read_catches(table, block);
   table.close();
   return block;
 }

@@ -60,7 +60,9 @@ class Forecast {
       trials += mean_trials(reference.staircase, largest_start_g(block, reference.reference_g));
     length_.staircase_trials += trials;
     length_.staircases += static_cast<int>(block.staircases.size());
-    add_trials(trials / (1 - block.catch_fraction), durations_.comparison_s);
+    trials /= 1 - block.catch_fraction;
+    for (const ReferenceCatchTrials& some : block.catch_trials) trials += some.trials;
+    add_trials(trials, durations_.comparison_s);
   }
 
   ExpectedLength length() const {

@@ -111,14 +111,18 @@ void check_keys(TableReader& table, const UpDownConfig& config) {
 
 void check_lightest(TableReader& table, const UpDownConfig& config, double reference_g) {
   if (!table.good({"floor", "step_scale"})) return;
+  // "Heavier" or "no difference" says of a lighter comparison the opposite of what it says of a
+  // heavier one, so a staircase that got below 0 would run away.
   if (config.step_scale == StepScale::linear && !config.floor)
     table.mistake("floor", fmt::format("{} lacks \"floor\": its linear steps could make the "
-                                       "comparison weigh 0 g or less, expected a floor above {}",
-                                       table.title(), -reference_g));
-  if (config.floor && *config.floor <= -reference_g)
+                                       "comparison lighter than the reference, expected a floor of "
+                                       "0 or more",
+                                       table.title()));
+  if (config.floor && *config.floor < 0)
     table.mistake("floor", fmt::format("floor is {}: beside a reference of {} g the comparison "
-                                       "could weigh 0 g or less, expected above {}",
-                                       *config.floor, reference_g, -reference_g));
+                                       "could get the lighter one, for which this staircase's "
+                                       "answers mean the opposite, expected 0 or more",
+                                       *config.floor, reference_g));
 }
 
 std::string described(const UpDownConfig& config) {

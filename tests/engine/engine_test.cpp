@@ -397,6 +397,59 @@ TEST(Engine, catch_trials_show_equal_masses_and_drive_no_staircase) {
   EXPECT_GT(n_catch, n / 4);
 }
 
+// The trials of one comparison block, answered by coins; some attempts are void.
+std::vector<TrialPlan> plans_of(const Protocol& protocol, std::uint64_t seed) {
+  Session session(protocol, seed);
+  session.reach_comparison();
+  RandomStream answers(seed, "answers");
+  std::vector<TrialPlan> plans;
+  while (session.engine.next().kind == Next::Kind::trial) {
+    plans.push_back(session.start());
+    session.acts(ActionKind::select, answers.coin(0.5) ? 1 : 2);
+  }
+  return plans;
+}
+
+TEST(Engine, catch_trials_in_a_fixed_number_come_as_planned_whatever_is_answered) {
+  Protocol protocol = small_protocol();
+  auto& block = std::get<ComparisonBlock>(protocol.blocks[4]);
+  block.catch_every = 5;
+  block.sides = Sides::balanced;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    block.catch_trials = {{15, 4}, {200, static_cast<int>(seed) % 7}};
+    const std::vector<TrialPlan> plans = plans_of(protocol, seed);
+    std::map<double, int> caught;
+    int n_caught = 0;
+    std::map<std::string, std::vector<int>> slots;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      const TrialPlan& plan = plans[i];
+      slots[plan.staircase].push_back(*plan.reference_slot);
+      if (!plan.is_catch) continue;
+      EXPECT_GE(i, 3U) << seed;
+      EXPECT_EQ(plan.masses_g[0], plan.masses_g[1]);
+      ++caught[*plan.reference_g];
+      ++n_caught;
+    }
+    EXPECT_EQ(caught[15], 4) << seed;
+    EXPECT_EQ(caught[200], static_cast<int>(seed) % 7) << seed;
+    // One in each five trials, until the last staircase ends.
+    std::size_t n = plans.size();
+    while (plans[n - 1].is_catch) --n;
+    for (std::size_t from = 0; from + 5 <= n && static_cast<int>(from) / 5 < n_caught; from += 5)
+      EXPECT_EQ(std::count_if(plans.begin() + static_cast<std::ptrdiff_t>(from),
+                              plans.begin() + static_cast<std::ptrdiff_t>(from) + 5,
+                              [](const auto& p) { return p.is_catch; }),
+                1)
+          << seed << " " << from;
+    for (const auto& [staircase, of_it] : slots)
+      for (std::size_t from = 0; from + 4 <= of_it.size(); from += 4)
+        EXPECT_EQ(std::count(of_it.begin() + static_cast<std::ptrdiff_t>(from),
+                             of_it.begin() + static_cast<std::ptrdiff_t>(from) + 4, 1),
+                  2)
+            << seed << " " << staircase;
+  }
+}
+
 ProcedureConfig constant(const std::string& name) {
   return {name, ConstantConfig{.levels = {-10, 0, 20, 80}, .n_per_level = 3}};
 }

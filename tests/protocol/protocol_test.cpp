@@ -120,6 +120,7 @@ TEST(PaperProtocol, SpellsOutTheDefaultsOfBlocks) {
   const auto& comparison = std::get<ComparisonBlock>(paper.blocks[4]);
   EXPECT_EQ(comparison.condition, ComparisonBlock{}.condition);
   EXPECT_EQ(comparison.catch_fraction, ComparisonBlock{}.catch_fraction);
+  EXPECT_EQ(comparison.sides, ComparisonBlock{}.sides);
   EXPECT_EQ(comparison.positive_answer, ComparisonBlock{}.positive_answer);
   EXPECT_EQ(comparison.interleaving.interleave, InterleaveConfig{}.interleave);
   EXPECT_EQ(comparison.interleaving.max_lag, InterleaveConfig{}.max_lag);
@@ -138,10 +139,34 @@ TEST(PaperProtocol, SpellsOutTheDefaultsOfBlocks) {
   EXPECT_EQ(defaults.stop_trials, 200);
 }
 
+TEST(Protocol, APairIsOneStaircaseFromAboveAndOneFromBelowOtherwiseAlike) {
+  const Protocol protocol = parse_protocol(
+      "title = \"t\"\n[[block]]\nkind = \"comparison\"\nname = \"c\"\ncatch_trials = 4\n"
+      "[[block.staircase]]\nname = \"s\"\npaired = true\nreference_g = 200\nstart = 90\n"
+      "step = 5\nfloor = 3\n",
+      "pair.toml");
+  const auto& block = std::get<ComparisonBlock>(protocol.blocks[0]);
+  ASSERT_EQ(block.staircases.size(), 2U);
+  const auto of = [&](std::size_t i) {
+    return std::get<UpDownConfig>(*block.staircases[i].staircase.kind);
+  };
+  EXPECT_EQ(block.staircases[0].staircase.name, "s from above");
+  EXPECT_EQ(block.staircases[1].staircase.name, "s from below");
+  EXPECT_EQ(of(0).start, 90);
+  EXPECT_EQ(of(1).start, 3);  // the floor, where nothing else is said
+  EXPECT_EQ(of(0).step, of(1).step);
+  EXPECT_EQ(block.staircases[1].reference_g, 200);
+  EXPECT_EQ(block.catch_trials[0].trials, 4);
+}
+
 TEST(RecommendedProtocol, StartsEachReferenceFromAboveAndFromNearZero) {
   const Protocol protocol = shipped("recommended");
   const auto& comparison = std::get<ComparisonBlock>(protocol.blocks.back());
-  EXPECT_EQ(comparison.catch_fraction, 0.15);
+  EXPECT_EQ(comparison.catch_fraction, 0);
+  std::map<double, int> catches;
+  for (const auto& [reference_g, trials] : comparison.catch_trials) catches[reference_g] = trials;
+  EXPECT_EQ(catches, (std::map<double, int>{{15, 10}, {200, 10}, {800, 10}}));
+  EXPECT_EQ(comparison.sides, Sides::balanced);
   std::map<double, std::pair<int, int>> starts;  // above, near zero
   for (const auto& [reference_g, procedure, technique] : comparison.staircases) {
     const auto& staircase = std::get<UpDownConfig>(*procedure.kind);
