@@ -137,6 +137,11 @@ std::vector<std::string> cautions(const Protocol& protocol) {
         fmt::format("[physics] input = \"{}\" is for see-through displays; over video, where the "
                     "clone is seen beside the filmed effector, it adds false mass: use \"path\"",
                     name_of(mode)));
+  if (protocol.layout.out_of_area == OutOfArea::give_back)
+    found.push_back(
+        "[layout] out_of_area = \"return\", also where nothing is said, tells the mass: light "
+        "cubes "
+        "jump home in most trials, heavy ones hardly ever: use \"together\"");
   if (predict_s > 0) {
     const Scene scene = scene_of(protocol, "C1", {});
     const double ahead_m = stroke_m_s * predict_s;

@@ -49,7 +49,8 @@ struct Layout {
   double row_y_m = 0;                  ///< of the cubes' centers
   double start_distance_m = 0.06;      ///< from the cubes' near faces to the resting effector's tip
   Eigen::Vector2d area_m{0.40, 0.30};  ///< width and depth, centered on the origin
-  OutOfArea out_of_area = OutOfArea::together;
+  /// Where nothing is said, what was done before there was a choice: older logs replay by it.
+  OutOfArea out_of_area = OutOfArea::give_back;
   double clear_m = 0.02;  ///< cubes appear when the effector is this far from every slot
 };
 

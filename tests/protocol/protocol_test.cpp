@@ -102,7 +102,8 @@ TEST(PaperProtocol, SpellsOutTheDefaults) {
   EXPECT_EQ(paper.layout.row_y_m, defaults.layout.row_y_m);
   EXPECT_EQ(paper.layout.start_distance_m, defaults.layout.start_distance_m);
   EXPECT_EQ(paper.layout.area_m, defaults.layout.area_m);
-  EXPECT_EQ(paper.layout.out_of_area, defaults.layout.out_of_area);
+  EXPECT_EQ(paper.layout.out_of_area, OutOfArea::together) << "better than what older logs had";
+  EXPECT_EQ(defaults.layout.out_of_area, OutOfArea::give_back);
   EXPECT_EQ(paper.layout.clear_m, defaults.layout.clear_m);
   EXPECT_EQ(std::get<DemonstrationBlock>(paper.blocks[0]).duration_s,
             std::get<DemonstrationBlock>(defaults.blocks[0]).duration_s);

@@ -233,6 +233,25 @@ TEST(Runner, a_pushed_cube_that_leaves_its_area_comes_back_once_untouched) {
     EXPECT_THAT(frame.contact_slot, AnyOf(std::nullopt, 2));
 }
 
+TEST(Runner, all_cubes_go_back_at_once_where_the_protocol_says_so) {
+  const auto push = [](int, double t_s, Picture& picture) {
+    const double y_m = t_s < 0.2 ? -0.15 : t_s < 0.6 ? -0.15 + 0.7 * (t_s - 0.2) : 0.13;
+    picture.sample.pose = hand_at(0, t_s < 1.2 ? y_m : -0.15);
+  };
+  Protocol protocol = two_trials();
+  protocol.layout.area_m = {0.4, 0.16};
+  protocol.layout.out_of_area = OutOfArea::together;
+  Bench bench(protocol, push);
+  bench.run();
+  const auto back = bench.events(EventKind::cubes_reset);
+  ASSERT_GE(back.size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(back[static_cast<std::size_t>(i)].as<CubesReset>()->slot, i + 1);
+    EXPECT_EQ(back[static_cast<std::size_t>(i)].t_s, back[0].t_s) << "in one frame";
+  }
+  for (const Pose& cube : bench.view.frames.back().cubes) EXPECT_NEAR(cube.position_m.y(), 0, 1e-6);
+}
+
 TEST(Runner, cubes_stay_where_the_protocol_says_so) {
   Protocol protocol = two_trials();
   protocol.layout.area_m = {0.4, 0.16};
