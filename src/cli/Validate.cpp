@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <future>
+#include <limits>
 #include <memory>
 
 #include "apparatus/SessionSetup.h"
@@ -17,22 +20,70 @@
 #include "protocol/ExpectedLength.h"
 #include "protocol/Files.h"
 #include "psychophysics/Interleaving.h"
+#include "session/Session.h"
 #include "tracking/MarkerBody.h"
 #include "tracking/SyntheticCamera.h"
 
 namespace heft::cli {
 
 namespace {
+// Trials that a simulated participant takes; none where there is no end to them.
+std::optional<int> simulated_trials(const Protocol& protocol, std::uint64_t seed) {
+  constexpr int enough_trials = 2000;
+  Setup setup;
+  setup.responder = "simulated";
+  complete(setup);
+  std::atomic<bool> stop = false;
+  int n_trials = 0;
+  RunnerOptions options;
+  options.keep_frames = false;
+  options.stop = &stop;
+  options.progress = [&](const Engine& engine) {
+    n_trials = engine.n_completed();
+    if (n_trials >= enough_trials) stop = true;
+  };
+  compute_session({protocol, in_force(std::move(setup), protocol), "validate", "", seed}, options);
+  return stop ? std::nullopt : std::optional(n_trials);
+}
+
+struct TrialsOfSome {
+  double mean = 0;
+  int least = 0, most = 0;
+};
+
+// The same few participants each time, so that a protocol always gets the same numbers.
+std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int participants) {
+  std::vector<std::future<std::optional<int>>> running;
+  for (int i = 1; i <= participants; ++i)
+    running.push_back(
+        std::async(std::launch::async, simulated_trials, protocol, static_cast<std::uint64_t>(i)));
+  TrialsOfSome of_all{0, std::numeric_limits<int>::max(), 0};
+  for (auto& one : running) {
+    const std::optional<int> trials = one.get();
+    if (!trials) return std::nullopt;
+    of_all.mean += 1.0 * *trials / participants;
+    of_all.least = std::min(of_all.least, *trials);
+    of_all.most = std::max(of_all.most, *trials);
+  }
+  return of_all;
+}
+
 std::string described(const Protocol& protocol) {
+  constexpr int participants = 6;
   const TrialDurations durations;
-  const ExpectedLength length = expected_length(protocol, durations);
-  std::string assumed = fmt::format("{:.0f} s a sorting trial, {:.0f} s a comparison",
-                                    durations.sorting_s, durations.comparison_s);
+  ExpectedLength length = expected_length(protocol, durations);
+  std::string simulated;
   if (length.staircases > 0)
-    assumed += fmt::format(", {:.1f} trials a staircase as simulated observers take",
-                           length.staircase_trials / length.staircases);
-  std::string text = fmt::format("about {:.0f} trials and {:.0f} minutes (assuming {})",
-                                 length.trials, length.minutes, assumed);
+    if (const auto taken = trials_of_simulated(protocol, participants)) {
+      length.minutes += (taken->mean - length.trials) * durations.comparison_s / 60;
+      length.trials = taken->mean;
+      simulated = fmt::format(" ({} to {} in {} simulated participants)", taken->least, taken->most,
+                              participants);
+    }
+  std::string text = fmt::format(
+      "about {:.0f} trials{} and {:.0f} minutes (assuming {:.0f} s a sorting trial, "
+      "{:.0f} s a comparison)",
+      length.trials, simulated, length.minutes, durations.sorting_s, durations.comparison_s);
   if (protocol.simulator.name == "auto") text += "; " + described(resolve_auto(protocol));
   return text;
 }
