@@ -233,7 +233,7 @@ class FailedCheck(AtAConsole):
                    str(PROTOCOLS / "apparatus" / "synthetic_camera.yaml"))
         self.shows("FAILED   board")
         self.shows("nothing shown yet")
-        self.shows("go on? y goes on, n leaves; nothing has been shown to the participant yet")
+        self.shows("go on? y goes on, n leaves, r checks again; nothing was shown to anybody yet")
         self.assertEqual(self.n("text_shown"), 0)
 
     def test_nobody_is_shown_anything_when_the_experimenter_leaves(self):
