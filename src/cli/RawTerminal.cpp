@@ -18,8 +18,10 @@ std::atomic<bool> is_raw{false};
 struct sigaction stopping_before {
 }, continuing_before{};
 
+// On a terminal that is not the one that controls the program there is no background.
 bool is_in_foreground() {
-  return tcgetpgrp(STDIN_FILENO) == getpgrp();
+  const pid_t group = tcgetpgrp(STDIN_FILENO);
+  return group < 0 || group == getpgrp();
 }
 
 void set(const termios& settings) {
