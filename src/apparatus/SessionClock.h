@@ -12,11 +12,14 @@ namespace heft {
 class SessionClock {
  public:
   static SessionClock virtual_from(double start_s) { return {false, start_s}; }
-  static SessionClock wall_from(double start_s) { return {true, start_s}; }
+  /// @param monotonic made up in tests
+  static SessionClock wall_from(double start_s, double (*monotonic)() = monotonic_s) {
+    return {true, start_s, monotonic};
+  }
 
   bool is_wall() const { return is_wall_; }
 
-  double now_s() const { return is_wall_ ? session_s(monotonic_s()) : now_s_; }
+  double now_s() const { return is_wall_ ? session_s(monotonic_()) : now_s_; }
 
   /// Session time of a time on the machine's monotonic clock; wall clock only.
   double session_s(double at_monotonic_s) const {
@@ -24,19 +27,23 @@ class SessionClock {
   }
 
   /// Goes on from this session time, now.
-  void restart(double start_s) { *this = is_wall_ ? wall_from(start_s) : virtual_from(start_s); }
+  void restart(double start_s) {
+    *this = is_wall_ ? wall_from(start_s, monotonic_) : virtual_from(start_s);
+  }
 
   /// Puts a virtual clock forward; a wall clock goes by itself.
   void advance_to(double t_s) { now_s_ = std::max(now_s_, t_s); }
 
  private:
-  SessionClock(bool is_wall, double start_s)
+  SessionClock(bool is_wall, double start_s, double (*monotonic)() = monotonic_s)
       : is_wall_(is_wall),
+        monotonic_(monotonic),
         start_s_(start_s),
-        started_monotonic_s_(is_wall ? monotonic_s() : 0),
+        started_monotonic_s_(is_wall ? monotonic() : 0),
         now_s_(start_s) {}
 
   bool is_wall_;
+  double (*monotonic_)();
   double start_s_, started_monotonic_s_, now_s_;
 };
 

@@ -266,6 +266,8 @@ Setup in_force(Setup setup, const Protocol& protocol) {
   setup.display_rate_hz = protocol.display_rate_hz;
   setup.input = name_of(protocol.simulator.input.mode);
   setup.predict_s = protocol.simulator.input.predict_s;
+  setup.gap_s = protocol.onset.gap_s;
+  setup.min_answer_s = protocol.onset.min_answer_s;
   setup.language =
       setup.texts_text.empty() ? "" : parse_texts(setup.texts_text, setup.texts_file).language;
   setup.camera_sha256 = hash_of(setup.camera_text);

@@ -20,7 +20,7 @@ struct Options {
   GivenOptions given;
   std::optional<std::string> language;
   std::string purpose = "main", record_camera;
-  bool left_handed = false, unblind = false, again = false;
+  bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
 };
 
 [[noreturn]] void refuse_id(const std::string& why) {
@@ -76,6 +76,7 @@ SessionRequest request_of(const Options& options) {
   setup.texts_file = texts_file(options.language.value_or(request.protocol.screens.language));
   setup.handed = options.left_handed ? "left" : "right";
   setup.record_camera = options.record_camera;
+  if (has_person(setup)) setup.keys = options.keys || options.purpose == "test" ? "yes" : "no";
   complete_and_tell(setup);
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant;
@@ -93,8 +94,10 @@ void run(const Options& options) {
       request.protocol.name, request.setup.responder, request.seed);
   tell_simulator(request.protocol, request.setup);
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
-  say_finished(run_session({request.protocol, request.setup, request.db, options.unblind}, start),
-               request.db);
+  say_finished(
+      run_session({request.protocol, request.setup, request.db, options.unblind, options.go_on},
+                  start),
+      request.db);
 }
 
 void say_next_parts(const Setup& before) {
@@ -123,7 +126,7 @@ GivenOptions with_missing_files(const LoggedSession& session, GivenOptions again
 }
 
 void resume(const std::string& db, std::optional<std::int64_t> session_id,
-            const GivenOptions& again, bool unblind) {
+            const GivenOptions& again, bool unblind, bool go_on) {
   LoggedSession session = session_to_resume(db, session_id);
   const Setup before = session.setup;
   change_setup(session, with_missing_files(session, again));
@@ -133,7 +136,7 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
     if (!from.empty()) say("from here on with {} {} instead of {}\n", column, to, from);
   say_next_parts(session.setup);
   say_finished(
-      run_session({*session.protocol, session.setup, db, unblind},
+      run_session({*session.protocol, session.setup, db, unblind, go_on},
                   [&](const RunnerOptions& runner) { return resume_session(session, runner); }),
       db);
 }
@@ -176,6 +179,9 @@ void add_run(Command& app) {
                      "protocol's)");
   command.add_flag("--left-handed", options->left_handed,
                    "mirror the controls (the cubes stay where they are)");
+  command.add_flag("--keys", options->keys,
+                   "let the participant's window take keys as answers (default: only with "
+                   "--purpose test); without it what somebody types there does nothing");
   command
       .add_option("--purpose", &options->purpose, "of a person's session; analyse keeps them apart")
       .one_of({"main", "pilot", "test"})
@@ -186,6 +192,7 @@ void add_run(Command& app) {
                      "poses: frame (from 0), t_s, and x_m...camera_qz as in heft track");
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
+  add_go_on(command, options->go_on);
   command.add_flag("--again", options->again,
                    "run once more a protocol that the participant has finished");
   command.does([options] { run(*options); });
@@ -196,7 +203,7 @@ void add_resume(Command& app) {
     std::string db = "heft.db";
     std::optional<std::int64_t> session;
     GivenOptions again;
-    bool end = false, unblind = false;
+    bool end = false, unblind = false, go_on = false;
   };
   const auto options = std::make_shared<ResumeOptions>();
   Command command = app.add_command(
@@ -213,11 +220,12 @@ void add_resume(Command& app) {
   command.group("Options");
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
+  add_go_on(command, options->go_on);
   command.add_flag("--end", options->end,
                    "don't go on: end the session as it is, for somebody who will not come back");
   command.does([options] {
     if (options->end) return end(options->db, options->session);
-    resume(options->db, options->session, options->again, options->unblind);
+    resume(options->db, options->session, options->again, options->unblind, options->go_on);
   });
 }
 

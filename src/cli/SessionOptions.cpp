@@ -77,6 +77,12 @@ void add_settings(Command& command, std::vector<std::string>& settings) {
                      "with the session");
 }
 
+void add_go_on(Command& command, bool& go_on) {
+  command.add_flag("--go-on", go_on,
+                   "go on although the check of the apparatus FAILED, where there is no terminal "
+                   "to ask at; it is logged");
+}
+
 namespace {
 // What was given, or the file that comes with the program; looked for only where it is needed.
 std::string or_shipped(const std::optional<std::string>& given, const char* shipped) {
@@ -181,6 +187,7 @@ SessionResult run_session(const CommandedSession& session,
   const double expected = expected_length(session.protocol).trials;
   RunnerOptions options;
   options.stop = &stop_on_signal.requested();
+  options.go_on_unchecked = session.go_on_unchecked;
   options.tell = [](const std::string& text) { say("heft: {}\n", text); };
   if (runs_on_wall_clock(session.setup))
     options.console = &console.emplace(expected, session.unblind);
@@ -197,11 +204,13 @@ SessionResult run_session(const CommandedSession& session,
   if (result.end == RunEnd::stopped)
     throw Error("stopped; everything up to the last answer is saved. Go on with: " + resume,
                 ExitCode::interrupted);
-  if (result.end == RunEnd::paused)
+  if (result.end == RunEnd::paused) {
+    ring();
     throw Error(
         fmt::format("the session paused itself: one trial was void {} times. Look at the "
                     "camera and the board, then go on with: {}",
                     max_voids, resume));
+  }
   return result;
 }
 

@@ -56,7 +56,11 @@ struct CommandedSession {
   const Setup& setup;
   std::string db;
   bool unblind = false;
+  bool go_on_unchecked = false;
 };
+
+/// --go-on
+void add_go_on(Command& command, bool& go_on);
 
 /// Runs `run` with Ctrl-C turned into a clean stop, and with a progress bar, or the experimenter's
 /// console where the session keeps the time of day. Who declines to take part ends it as well.

@@ -34,6 +34,10 @@ Error output_error(const std::string& reason) {
                            reason));
 }
 
+void ring() {
+  if (isatty(STDERR_FILENO) == 1) draw("\a");
+}
+
 ProgressBar::ProgressBar(std::string label)
     : label_(std::move(label)), shown_(isatty(STDERR_FILENO) == 1) {}
 

@@ -27,6 +27,9 @@ inline void draw(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+/// The terminal's bell, where stderr is one: somebody has to look.
+void ring();
+
 /// On stderr; whatever names, notes and cells are in it, a terminal only shows them.
 template <typename... Args>
 void say(fmt::format_string<Args...> format, Args&&... args) {

@@ -1,11 +1,15 @@
 #include "cli/TerminalConsole.h"
 
 #include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
+#include "base/Printable.h"
 #include "cli/Terminal.h"
 
 namespace heft::cli {
@@ -36,27 +40,50 @@ void swallow_sequence() {
   for (auto key = next_key(); key && (*key < '@' || *key > '~');) key = next_key();
 }
 
-std::string tracking_words(const ConsoleStatus& status) {
+// In columns of the terminal: most of what lies beyond the alphabets takes two.
+int columns_of(char32_t letter) {
+  constexpr char32_t first_wide = 0x1100;
+  return letter >= first_wide ? 2 : 1;
+}
+
+std::vector<std::string_view> letters_of(std::string_view text) {
+  std::vector<std::string_view> letters;
+  while (!text.empty()) {
+    const std::size_t n = std::max<std::size_t>(1, first_letter(text).n_bytes);
+    letters.push_back(text.substr(0, n));
+    text.remove_prefix(n);
+  }
+  return letters;
+}
+
+int width_of(std::string_view text) {
+  int width = 0;
+  for (const std::string_view letter : letters_of(text))
+    width += columns_of(first_letter(letter).code);
+  return width;
+}
+
+std::string tracking_words(const ConsoleStatus& status, bool brief) {
   std::string words;
   const auto& tracking = status.tracking;
   if (tracking && tracking->frames_per_s > 0)
-    words = fmt::format("  {:.1f} pictures/s", tracking->frames_per_s);
+    words = fmt::format("  {:.1f}{}", tracking->frames_per_s, brief ? "/s" : " pictures/s");
   if (!status.trouble.empty()) return words + "  " + status.trouble;
-  if (!tracking) return "  nothing tracked";
+  if (!tracking) return brief ? "" : "  nothing tracked";
   if (!tracking->quality) return words;
   return words + fmt::format("  {} {:.2f}", tracking->tracked ? "tracked" : "not tracked",
                              *tracking->quality);
 }
-}  // namespace
 
-std::string status_line(const ConsoleStatus& status, double expected_trials) {
+std::string status_words(const ConsoleStatus& status, double expected_trials, bool brief) {
   const auto seconds = static_cast<long>(status.session_s);
-  std::string line = fmt::format(
-      "{}:{:02}  {} of about {:.0f} trials  {}", seconds / 60, seconds % 60, status.n_completed,
-      expected_trials, status.screen ? name_of(status.screen->screen) : "nothing shown yet");
-  line += tracking_words(status);
+  std::string line = fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+  if (status.paused) line += status.paused_itself ? "  PAUSED ITSELF" : "  PAUSED";
+  line += fmt::format("  {}{}{:.0f} trials  {}", status.n_completed, brief ? "/" : " of about ",
+                      expected_trials,
+                      status.screen ? name_of(status.screen->screen) : "nothing shown yet");
+  line += tracking_words(status, brief);
   line += fmt::format("  {} dropped, {} late", status.n_dropped, status.n_late);
-  if (status.paused) line += "  PAUSED";
   if (status.plan) {
     line += fmt::format("  [{}", status.plan->condition);
     for (const double mass_g : status.plan->masses_g) line += fmt::format(" {:g} g", mass_g);
@@ -64,26 +91,41 @@ std::string status_line(const ConsoleStatus& status, double expected_trials) {
   }
   return line;
 }
+}  // namespace
+
+std::string cut_to(const std::string& text, int width, bool keep_end) {
+  if (width_of(text) <= width) return text;
+  std::vector<std::string_view> letters = letters_of(text);
+  if (keep_end) std::ranges::reverse(letters);
+  std::vector<std::string_view> kept;
+  int used = 1;  // for the mark
+  for (const std::string_view letter : letters) {
+    used += columns_of(first_letter(letter).code);
+    if (used > width) break;
+    kept.push_back(letter);
+  }
+  if (keep_end) std::ranges::reverse(kept);
+  const std::string words = fmt::format("{}", fmt::join(kept, ""));
+  return keep_end ? "<" + words : words + ">";
+}
+
+std::string status_line(const ConsoleStatus& status, double expected_trials, int width) {
+  const std::string line = escaped_line(status_words(status, expected_trials, false));
+  if (width_of(line) <= width) return line;
+  return cut_to(escaped_line(status_words(status, expected_trials, true)), width);
+}
 
 TerminalConsole::TerminalConsole(double expected_trials, bool unblind)
-    : is_terminal_(isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1),
-      expected_trials_(expected_trials) {
+    : expected_trials_(expected_trials) {
   if (unblind) commands_.push_back({ConsoleCommandKind::unblind, {}});
-  if (!is_terminal_) return;
-  tcgetattr(STDIN_FILENO, &before_);
-  termios raw = before_;
-  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // single keys; Ctrl-C stays a signal
-  tcsetattr(STDIN_FILENO, TCSANOW, &raw);
 }
 
 TerminalConsole::~TerminalConsole() {
-  if (!is_terminal_) return;
-  tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-  draw("\r\033[K");
+  if (terminal_.is_there()) draw("\r\033[J");
 }
 
 std::optional<ConsoleCommand> TerminalConsole::command() {
-  if (is_terminal_) take_keys();
+  if (terminal_.listens()) take_keys();
   if (commands_.empty()) return std::nullopt;
   ConsoleCommand next = std::move(commands_.front());
   commands_.pop_front();
@@ -102,15 +144,19 @@ void TerminalConsole::take_keys() {
 void TerminalConsole::take_key(char key) {
   drawn_ = {};
   if (asking_ == Asking::go_on) return take_answer(key);
-  if (asking_ == Asking::note) return take_note_key(key);
+  if (asks_for_text()) return take_text_key(key);
   if (asking_ != Asking::nothing) return take_choice(key);
   switch (key) {
     case 'p':
       return give(paused_ ? ConsoleCommandKind::go_on : ConsoleCommandKind::pause);
     case 'v':
       return ask(Asking::veto_reason);
+    case 'x':
+      return ask(Asking::answer_reason);
     case 'n':
       return ask(Asking::note);
+    case 'r':
+      return give(ConsoleCommandKind::check);
     case 'b':
       return give(ConsoleCommandKind::rest);
     case 'e':
@@ -122,55 +168,90 @@ void TerminalConsole::take_key(char key) {
   }
 }
 
-// Yes or no; any other key is neither.
+// Yes, no or once more; any other key is none of them.
 void TerminalConsole::take_answer(char key) {
-  if (key != 'y' && key != 'n') return;
+  if (key != 'y' && key != 'n' && key != 'r') return;
   asking_ = Asking::nothing;
-  give(key == 'y' ? ConsoleCommandKind::go_on : ConsoleCommandKind::end);
+  give(key == 'y'   ? ConsoleCommandKind::go_on
+       : key == 'n' ? ConsoleCommandKind::end
+                    : ConsoleCommandKind::check);
 }
 
-// A veto's reason, or yes to what can't be undone; any other key takes the question back.
+// Yes to what can't be undone; any other key takes the question back.
 void TerminalConsole::take_choice(char key) {
   const Asking asked = std::exchange(asking_, Asking::nothing);
-  if (asked == Asking::veto_reason) return choose_veto(key);
   if (key != 'y') return;
   give(asked == Asking::end ? ConsoleCommandKind::end : ConsoleCommandKind::unblind);
 }
 
-void TerminalConsole::choose_veto(char key) {
-  for (const auto& [code, reason] : veto_reasons)
-    if (code == key) give(ConsoleCommandKind::veto, std::string(reason));
+bool TerminalConsole::asks_for_text() const {
+  return asking_ == Asking::note || asking_ == Asking::veto_reason ||
+         asking_ == Asking::answer_reason;
 }
 
-void TerminalConsole::take_note_key(char key) {
-  if (key == '\n' || key == '\r' || key == escape) {
-    if (key != escape && !note_.empty()) give(ConsoleCommandKind::note, note_);
-    note_.clear();
+// A reason's number alone is the reason, at once.
+void TerminalConsole::take_text_key(char key) {
+  if (asking_ != Asking::note && text_.empty())
+    for (const auto& [code, reason] : veto_reasons)
+      if (code == key) {
+        text_ = reason;
+        return take_text();
+      }
+  if (key == '\n' || key == '\r') return take_text();
+  if (key == escape) {
+    text_.clear();
     asking_ = Asking::nothing;
   } else if (key == backspace) {
     // A letter of several bytes goes as a whole.
-    while (!note_.empty() && (note_.back() & 0xC0) == 0x80) note_.pop_back();
-    if (!note_.empty()) note_.pop_back();
+    while (!text_.empty() && (text_.back() & 0xC0) == 0x80) text_.pop_back();
+    if (!text_.empty()) text_.pop_back();
   } else if (static_cast<unsigned char>(key) >= ' ') {
-    note_ += key;
+    text_ += key;
   }
+}
+
+// An empty text is none.
+void TerminalConsole::take_text() {
+  const Asking asked = std::exchange(asking_, Asking::nothing);
+  const std::string text = std::exchange(text_, {});
+  if (text.find_first_not_of(' ') == std::string::npos) return;
+  give(asked == Asking::note          ? ConsoleCommandKind::note
+       : asked == Asking::veto_reason ? ConsoleCommandKind::veto
+                                      : ConsoleCommandKind::veto_answer,
+       text);
 }
 
 void TerminalConsole::give(ConsoleCommandKind kind, const std::string& text) {
   commands_.push_back({kind, text});
 }
 
-std::string TerminalConsole::prompt() const {
+namespace {
+// What is asked, what is typed, and how it ends, with the end of what is typed in sight.
+std::string text_prompt(const std::string& what, const std::string& typed, const std::string& keys,
+                        int width) {
+  const std::string before = what + ": ", after = "_  (" + keys + ")";
+  const int room = std::max(8, width - width_of(before) - width_of(after));
+  return before + cut_to(escaped_line(typed), room, true) + after;
+}
+
+std::string reason_prompt(const std::string& what, const std::string& typed, int width) {
+  if (!typed.empty()) return text_prompt(what, typed, "Enter, or Esc", width);
+  std::string text = what + ":";
+  for (const auto& [code, reason] : veto_reasons) text += fmt::format(" {} {}", code, reason);
+  return text + ", or type why";
+}
+}  // namespace
+
+std::string TerminalConsole::prompt(int width) const {
   switch (asking_) {
     case Asking::go_on:
       return question_;
-    case Asking::veto_reason: {
-      std::string text = "void this trial because of:";
-      for (const auto& [code, reason] : veto_reasons) text += fmt::format(" {} {}", code, reason);
-      return text;
-    }
+    case Asking::veto_reason:
+      return reason_prompt("void", text_, width);
+    case Asking::answer_reason:
+      return reason_prompt("undo", text_, width);
     case Asking::note:
-      return "note: " + note_ + "_  (Enter keeps it, Esc drops it)";
+      return text_prompt("note", text_, "Enter keeps it, Esc drops it", width);
     case Asking::end:
       return "leave the session? everything is saved; heft resume goes on. y/n";
     case Asking::unblind:
@@ -178,29 +259,41 @@ std::string TerminalConsole::prompt() const {
     case Asking::nothing:
       break;
   }
-  return paused_ ? "p go on  v veto  n note  e end"
-                 : "p pause  v veto  n note  b break  e end  u unblind";
+  return paused_ ? "p go on  v void  x undo answer  n note  r check  e end"
+                 : "p pause  v void  x undo answer  n note  b break  r check  e end  u unblind";
+}
+
+// A session that stands still by itself is heard every few seconds.
+void TerminalConsole::sound(const ConsoleStatus& status) {
+  constexpr auto every = std::chrono::seconds(5);
+  const auto now = std::chrono::steady_clock::now();
+  if (!status.paused_itself || now - sounded_ < every) return;
+  sounded_ = now;
+  ring();
 }
 
 void TerminalConsole::show(const ConsoleStatus& status) {
   paused_ = status.paused;
   const auto now = std::chrono::steady_clock::now();
-  if (!is_terminal_ || now - drawn_ < redraw_every) return;
+  if (!terminal_.is_there() || !terminal_.listens() || now - drawn_ < redraw_every) return;
   drawn_ = now;
-  draw(fmt::format("\r\033[K{}\n\r\033[K{}\033[A\r",
-                   escaped_line(status_line(status, expected_trials_)), escaped_line(prompt())));
+  sound(status);
+  const int width = RawTerminal::width() - 1;  // the cursor stays on the line
+  draw(fmt::format("\r\033[J{}\n{}\033[A\r", status_line(status, expected_trials_, width),
+                   cut_to(prompt(width), width)));
 }
 
 bool TerminalConsole::ask_to_go_on(const std::string& question) {
-  if (!is_terminal_) return false;
+  if (!terminal_.is_there()) return false;
   tcflush(STDIN_FILENO, TCIFLUSH);  // what was typed before is no answer to this
+  ring();
   question_ = question;
   ask(Asking::go_on);
   return true;
 }
 
 void TerminalConsole::say(const std::string& text) {
-  if (is_terminal_) draw("\r\033[K");
+  if (terminal_.is_there()) draw("\r\033[J");
   cli::say("{}\n", text);
 }
 

@@ -2,12 +2,11 @@
 // blind, and single keys to act on it. Without a terminal it shows and hears nothing.
 #pragma once
 
-#include <termios.h>
-
 #include <chrono>
 #include <deque>
 #include <string>
 
+#include "cli/RawTerminal.h"
 #include "session/Console.h"
 
 namespace heft::cli {
@@ -26,29 +25,34 @@ class TerminalConsole final : public Console {
   void say(const std::string& text) override;
 
  private:
-  enum class Asking { nothing, go_on, veto_reason, note, end, unblind };
+  enum class Asking { nothing, go_on, veto_reason, answer_reason, note, end, unblind };
 
   void take_keys();
   void take_key(char key);
   void take_answer(char key);
   void take_choice(char key);
-  void take_note_key(char key);
-  void choose_veto(char key);
+  void take_text_key(char key);
+  void take_text();
+  void sound(const ConsoleStatus& status);
   void ask(Asking what) { asking_ = what; }
   void give(ConsoleCommandKind kind, const std::string& text = {});
-  std::string prompt() const;
+  bool asks_for_text() const;
+  std::string prompt(int width) const;
 
-  bool is_terminal_;
-  termios before_{};
+  RawTerminal terminal_;
   double expected_trials_;
   std::deque<ConsoleCommand> commands_;
   Asking asking_ = Asking::nothing;
-  std::string question_, note_;
+  std::string question_, text_;
   bool paused_ = false;
-  std::chrono::steady_clock::time_point drawn_{};
+  std::chrono::steady_clock::time_point drawn_{}, sounded_{};
 };
 
-/// The status in one line; for the terminal and for tests.
-std::string status_line(const ConsoleStatus& status, double expected_trials);
+/// The status in one line of a terminal: in fewer words where they don't fit, cut where these
+/// don't.
+std::string status_line(const ConsoleStatus& status, double expected_trials, int width);
+
+/// At most so many columns of a text of one line: its end where `keep_end`, else its beginning.
+std::string cut_to(const std::string& text, int width, bool keep_end = false);
 
 }  // namespace heft::cli

@@ -20,7 +20,7 @@ bool belongs_to_attempt(const Happening& what) {
 
 bool decides_course(const Happening& what) {
   return is_any_of<TrialStarted, TrialVoided, SessionPaused, SessionContinued, DemonstrationShown,
-                   SessionResumed, SessionEnded>(what);
+                   SessionResumed, SessionEnded, AnswerVetoed>(what);
 }
 }  // namespace
 
@@ -49,12 +49,20 @@ std::optional<std::string> Engine::refusal(const Event& event) const {
 }
 
 std::optional<std::string> Engine::course_refusal(const Event& event) const {
-  if (event.as<TrialStarted>() && next_.kind != Next::Kind::trial) return "no trial is due";
+  if (event.as<TrialStarted>()) {
+    if (next_.kind != Next::Kind::trial) return "no trial is due";
+    if (event.t_s < trial_due_s_) return "the gap after the last trial is not over";
+  }
   if (event.as<DemonstrationShown>() && next_.kind != Next::Kind::demonstration)
     return "no demonstration is due";
   if (const auto* voided = event.as<TrialVoided>()) {
     if (!open_) return "no trial is running";
     if (voided->reason.empty()) return "it gives no reason";
+  }
+  if (const auto* vetoed = event.as<AnswerVetoed>()) {
+    if (open_) return "the trial that is running must be voided first";
+    if (!vetoable()) return "no comparison was answered that could be taken back";
+    if (vetoed->reason.empty()) return "it gives no reason";
   }
   if (event.as<SessionPaused>() && paused_) return "the session is paused already";
   if (event.as<SessionContinued>() && !paused_) return "the session is not paused";
@@ -94,6 +102,8 @@ void Engine::fold(const Event& event, Changes& changes) {
   if (const auto* action = event.as<Action>()) return act(*action, event.t_s, changes);
   if (const auto* voided = event.as<TrialVoided>())
     return void_trial(voided->reason, event.t_s, changes);
+  if (const auto* vetoed = event.as<AnswerVetoed>())
+    return veto_answer(vetoed->reason, event.t_s, changes);
   if (const auto* setup = event.as<Setup>()) {
     set_up(*setup, changes);
   } else if (event.as<SessionPaused>()) {
@@ -105,11 +115,14 @@ void Engine::fold(const Event& event, Changes& changes) {
     set_state(SessionState::running, changes);
   } else if (event.as<DemonstrationShown>()) {
     rest_.reset();
+    answered_.reset();
     enter_block(block_ + 1);
   } else if (const auto* ended = event.as<SessionEnded>()) {
     over_ = true;
     set_state(ended->how == Ending::finished ? SessionState::finished : SessionState::aborted,
               changes);
+  } else if (const auto* taken = event.as<BreakTaken>()) {
+    if (rest_ && rest_->name == taken->name) rest_.reset();
   } else if (event.as<CubesShown>()) {
     open_->show(event.t_s);
     changes.trial = open_->row();
@@ -130,6 +143,7 @@ void Engine::fold(const Event& event, Changes& changes) {
 void Engine::set_up(const Setup& setup, Changes& changes) {
   ++n_setups_;
   changes.setup = setup;
+  onset_ = {setup.gap_s.value_or(0), setup.min_answer_s.value_or(0)};
   if (setup.participant_parameters == parameters_) return;
   parameters_ = setup.participant_parameters;
   for (const auto& [name, value] : parameters_)
@@ -141,7 +155,7 @@ void Engine::start_trial(double t_s, Changes& changes) {
   row.attempt_index = ++n_attempts_;
   row.setup_index = n_setups_;
   row.started_s = t_s;
-  open_.emplace(row, *next_.plan, plan_->require_contact);
+  open_.emplace(row, *next_.plan, plan_->require_contact, onset_.min_answer_s);
   rest_.reset();
   changes.attempt_index = n_attempts_;
   changes.trial = open_->row();
@@ -170,6 +184,7 @@ void Engine::complete(Outcome outcome, double t_s, Changes& changes) {
   open_->complete(outcome, t_s);
   changes.trial = open_->row();
   open_.reset();
+  begin_gap(t_s);
   ++n_completed_;
   attempt_ = 1;
   n_voids_ = 0;
@@ -182,7 +197,42 @@ void Engine::complete(Outcome outcome, double t_s, Changes& changes) {
         return true;
       },
       run_);
+  keep_answer(*changes.trial, changes);
   if (done) enter_block(block_ + 1);
+}
+
+void Engine::keep_answer(const TrialRow& row, const Changes& changes) {
+  if (!std::holds_alternative<ComparisonRun>(run_)) return answered_.reset();
+  if (!answered_ || answered_->block != block_) answered_ = Answered{block_, {}, {}, false};
+  answered_->vetoed = false;
+  answered_->trials.push_back(row);
+  answered_->last.reversals = changes.reversals;
+  answered_->last.estimates = changes.estimates;
+}
+
+// The block's procedures are told every answer but the last once more, from the start: nothing of
+// it can be left over.
+void Engine::veto_answer(const std::string& reason, double t_s, Changes& changes) {
+  TrialRow row = answered_->trials.back();
+  answered_->trials.pop_back();
+  answered_->vetoed = true;
+  row.status = TrialStatus::voided;
+  row.void_reason = std::string(answer_vetoed) + reason;
+  changes.attempt_index = row.attempt_index;
+  changes.trial = row;
+  changes.withdrawn_reversals = answered_->last.reversals;
+  changes.withdrawn_estimates = answered_->last.estimates;
+  enter_block(answered_->block);
+  rest_.reset();
+  for (const TrialRow& trial : answered_->trials) {
+    Changes again;
+    again.trial = trial;
+    std::get<ComparisonRun>(run_).complete(again);
+  }
+  --n_completed_;
+  attempt_ = row.plan.attempt + 1;
+  n_voids_ = 0;
+  begin_gap(t_s);
 }
 
 void Engine::void_trial(const std::string& reason, double t_s, Changes& changes) {
@@ -190,11 +240,16 @@ void Engine::void_trial(const std::string& reason, double t_s, Changes& changes)
   changes.trial = open_->row();
   open_.reset();
   if (reason == void_interrupted) return;  // a crash is nobody's doing: the same draws again
+  begin_gap(t_s);
   ++attempt_;
   if (++n_voids_ % max_voids == 0) {
     paused_ = true;
     set_state(SessionState::paused, changes);
   }
+}
+
+void Engine::begin_gap(double t_s) {
+  if (onset_.gap_s > 0) trial_due_s_ = log_time(t_s + onset_.gap_s);
 }
 
 void Engine::set_state(SessionState state, Changes& changes) {
@@ -250,12 +305,19 @@ Next Engine::what_next() const {
 
 ScreenState Engine::screen() const {
   ScreenState screen;
-  if (open_) screen = open_->screen();
+  if (open_)
+    screen = open_->screen();
+  else if (next_.kind == Next::Kind::trial)
+    screen = screen_of(*next_.plan);
   if (next_.kind == Next::Kind::demonstration) screen.screen = Screen::demonstration;
   if (next_.rest) screen.screen = Screen::rest;
   if (paused_) screen.screen = Screen::paused;
   if (over_ || next_.kind == Next::Kind::finish) screen.screen = Screen::thanks;
   return screen;
+}
+
+ScreenState Engine::screen_with_cubes() const {
+  return open_ && !paused_ ? open_->screen(true) : screen();
 }
 
 std::optional<std::string> Engine::survivor() const {

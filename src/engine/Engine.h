@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "engine/RunningAttempt.h"
 #include "engine/tasks/Comparison.h"
@@ -75,6 +76,17 @@ class Engine {
   bool ends_trial(const Action& action) const { return open_ && open_->ends_trial(action); }
 
   ScreenState screen() const;
+  /// The screen of the open trial as it is once its cubes are shown: what is displayed with their
+  /// first frame, before anybody can be told that they were.
+  ScreenState screen_with_cubes() const;
+
+  /// When the next trial may start, in session time: once the gap after the last one is over.
+  double trial_due_s() const { return trial_due_s_; }
+
+  /// The comparison whose answer can be vetoed; none: there is none, or what came after stands.
+  const TrialRow* vetoable() const {
+    return answered_ && !answered_->vetoed ? &answered_->trials.back() : nullptr;
+  }
 
   bool trial_is_open() const { return open_.has_value(); }
   /// Paused because one trial was voided max_voids times in a row: somebody has to look.
@@ -100,6 +112,9 @@ class Engine {
   void complete(Outcome outcome, double t_s, Changes& changes);
   void void_trial(const std::string& reason, double t_s, Changes& changes);
   void set_up(const Setup& setup, Changes& changes);
+  void begin_gap(double t_s);
+  void keep_answer(const TrialRow& row, const Changes& changes);
+  void veto_answer(const std::string& reason, double t_s, Changes& changes);
   void set_state(SessionState state, Changes& changes);
 
   void enter_block(std::size_t index);
@@ -109,14 +124,25 @@ class Engine {
   std::uint64_t seed_;
   SessionState state_ = SessionState::running;
   int n_setups_;
+  Onset onset_{0, 0};                         // in force; before anything is told there is none
   std::map<std::string, double> parameters_;  // of the participant, as told last
   int n_events_ = 0, n_attempts_ = 0, n_completed_ = 0;
-  double last_s_ = 0;
+  double last_s_ = 0, trial_due_s_ = 0;
   bool paused_ = false, over_ = false;
 
   std::size_t block_ = 0;  // of the next or open trial
   BlockRun run_;           // of that block
   std::optional<BreakBlock> rest_;
+
+  /// Of the comparison block that was answered last, what is needed to take its last answer back.
+  struct Answered {
+    std::size_t block = 0;
+    std::vector<TrialRow> trials;  // those that count
+    Changes last;                  // reversals and estimates alone
+    bool vetoed = false;           // one is enough: the last but one stands
+  };
+  std::optional<Answered> answered_;
+
   int attempt_ = 1;  // of the next or open trial
   int n_voids_ = 0;  // of that trial, in a row without a resume
 

@@ -32,11 +32,25 @@ std::vector<CubeRow> fresh_cubes(int attempt_index, const TrialPlan& plan) {
 
 }  // namespace
 
-RunningAttempt::RunningAttempt(const TrialRow& row, const TrialPlan& plan, bool require_contact)
+ScreenState screen_of(const TrialPlan& plan) {
+  ScreenState screen;
+  screen.screen = Screen::trial;
+  screen.task = plan.task;
+  screen.n_slots = plan.n_slots();
+  screen.trial_number = plan.trial_number;
+  screen.attempt = plan.attempt;
+  screen.n_reshuffles = plan.n_reshuffles;
+  screen.can_answer = false;
+  return screen;
+}
+
+RunningAttempt::RunningAttempt(const TrialRow& row, const TrialPlan& plan, bool require_contact,
+                               double min_answer_s)
     : rules_(&rules_of(plan.task)),
       state_{plan, std::vector<std::optional<Label>>(plan.masses_g.size()), 0, {}, {}, {}},
       row_(row),
       require_contact_(require_contact),
+      min_answer_s_(min_answer_s),
       accounted_s_(row.started_s),
       cubes_(fresh_cubes(row.attempt_index, plan)),
       contact_since_s_(plan.masses_g.size()) {}
@@ -50,19 +64,18 @@ TrialRow RunningAttempt::row() const {
   return row;
 }
 
-ScreenState RunningAttempt::screen() const {
-  ScreenState screen;
-  screen.screen = Screen::trial;
-  screen.task = plan().task;
-  screen.n_slots = plan().n_slots();
-  screen.can_answer = cubes_shown_ && (!require_contact_ || all_touched());
+ScreenState RunningAttempt::screen(bool cubes_shown) const {
+  ScreenState screen = screen_of(plan());
+  screen.touch_first = require_contact_ && !all_touched();
+  screen.can_answer = cubes_shown && !screen.touch_first;
+  if (cubes_shown_ && min_answer_s_ > 0) screen.answers_from_s = answers_from_s_ - row_.started_s;
   screen.n_choices = n_choices_;
   rules_->show(state_, screen);
   return screen;
 }
 
 Refusal RunningAttempt::refusal(const Event& event) const {
-  if (const auto* action = event.as<Action>()) return action_refusal(*action);
+  if (const auto* action = event.as<Action>()) return action_refusal(*action, event.t_s);
   if (const auto* contact = event.as<CubeTouch>()) return contact_refusal(*contact);
   if (const auto* reset = event.as<CubesReset>()) return reset_refusal(*reset);
   if (event.as<CubesShown>() && cubes_shown_) return "the cubes are shown already";
@@ -71,10 +84,12 @@ Refusal RunningAttempt::refusal(const Event& event) const {
   return std::nullopt;
 }
 
-Refusal RunningAttempt::action_refusal(const Action& action) const {
+Refusal RunningAttempt::action_refusal(const Action& action, double t_s) const {
   if (std::ranges::find(rules_->offered, action.kind) == rules_->offered.end())
     return fmt::format("a {} trial has no \"{}\"", name_of(plan().task), name_of(action.kind));
   if (!cubes_shown_) return "the cubes have not appeared yet";
+  if (t_s < answers_from_s_)
+    return fmt::format("it comes within {:g} s of the cubes", min_answer_s_);
   if (names_cube(action.kind) != action.slot.has_value())
     return action.slot ? "it takes no cube" : "it names no cube";
   if (action.slot && !has_cube(*action.slot))
@@ -117,6 +132,7 @@ void RunningAttempt::account(double t_s, bool paused) {
 
 void RunningAttempt::show(double t_s) {
   cubes_shown_ = true;
+  if (min_answer_s_ > 0) answers_from_s_ = log_time(t_s + min_answer_s_);
   if (!row_.shown_s) row_.shown_s = t_s;  // newly shuffled cubes appear a second time
 }
 

@@ -13,16 +13,23 @@
 
 namespace heft {
 
+/// The screen of a trial whose cubes are not there yet.
+ScreenState screen_of(const TrialPlan& plan);
+
 class RunningAttempt {
  public:
   /// @param row attempt and setup index and the start's time are taken from it
   /// @param require_contact refuse final answers until every cube was touched
-  RunningAttempt(const TrialRow& row, const TrialPlan& plan, bool require_contact);
+  /// @param min_answer_s refuse all answers until the cubes were there for so long
+  RunningAttempt(const TrialRow& row, const TrialPlan& plan, bool require_contact,
+                 double min_answer_s = 0);
 
   const TrialPlan& plan() const { return state_.plan; }
   TrialRow row() const;
   const std::vector<CubeRow>& cubes() const { return cubes_; }
-  ScreenState screen() const;
+  ScreenState screen() const { return screen(cubes_shown_); }
+  /// The same, with its cubes there or not.
+  ScreenState screen(bool cubes_shown) const;
 
   /// Why an event of this attempt can't come now; events of other kinds always can.
   std::optional<std::string> refusal(const Event& event) const;
@@ -52,7 +59,7 @@ class RunningAttempt {
   int n_wrong() const { return state_.n_wrong; }
 
  private:
-  std::optional<std::string> action_refusal(const Action& action) const;
+  std::optional<std::string> action_refusal(const Action& action, double t_s) const;
   std::optional<std::string> contact_refusal(const CubeTouch& contact) const;
   std::optional<std::string> reset_refusal(const CubesReset& reset) const;
   bool has_cube(int slot) const { return slot >= 1 && slot <= plan().n_slots(); }
@@ -62,8 +69,10 @@ class RunningAttempt {
   TaskState state_;
   TrialRow row_;  // but for what the state holds
   bool require_contact_;
+  double min_answer_s_;
   double accounted_s_;
   bool cubes_shown_ = false;
+  double answers_from_s_ = 0;  // session time, once the cubes are shown
   bool effector_lost_ = false;
   std::vector<CubeRow> cubes_;
   std::vector<std::optional<double>> contact_since_s_;  // by slot

@@ -107,6 +107,13 @@ struct BreakBlock {
 using Block =
     std::variant<DemonstrationBlock, IntroductionBlock, SortingBlock, ComparisonBlock, BreakBlock>;
 
+/// When a trial may begin and be answered: the second tap of two must meet nothing that it could
+/// answer. What is in force is told in the session's setup.
+struct Onset {
+  double gap_s = 0.6;         ///< from a trial's end to the next one's start
+  double min_answer_s = 0.5;  ///< from a trial's cubes to the first answer that is taken
+};
+
 /// All that decides which trial comes next and which answers are taken.
 struct SessionPlan {
   std::vector<Block> blocks;

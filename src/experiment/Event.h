@@ -77,6 +77,13 @@ struct CubeTouch {
   bool operator==(const CubeTouch&) const = default;
 };
 
+/// The answer to the comparison that was answered last does not count: it is presented again, and
+/// its procedure is as if it had not been asked.
+struct AnswerVetoed {
+  std::string reason;  ///< not empty
+  bool operator==(const AnswerVetoed&) const = default;
+};
+
 struct EffectorLost {
   bool operator==(const EffectorLost&) const = default;
 };
@@ -125,11 +132,18 @@ struct CameraReport {
   bool operator==(const CameraReport&) const = default;
 };
 
+/// What a participant did that could not be taken: too early, or not offered. It changed nothing.
+struct ActionRefused {
+  Action action;
+  std::string reason;
+  bool operator==(const ActionRefused&) const = default;
+};
+
 using Happening =
     std::variant<TrialStarted, Action, TrialVoided, SessionPaused, SessionContinued, CubesReset,
                  DemonstrationShown, SessionResumed, SessionEnded, Setup, CubesShown, CubeTouch,
                  EffectorLost, EffectorFound, Consent, TextShown, BreakTaken, Note, Deviation,
-                 Unblinding, CameraReport, CheckResult>;
+                 Unblinding, CameraReport, CheckResult, ActionRefused, AnswerVetoed>;
 
 /// The names that the kinds have in the log, in the order of Happening.
 enum class EventKind {
@@ -154,7 +168,9 @@ enum class EventKind {
   deviation,
   unblinding,
   camera,
-  check
+  check,
+  refused,
+  answer_vetoed
 };
 template <>
 struct EnumNames<EventKind> {
@@ -180,11 +196,16 @@ struct EnumNames<EventKind> {
       "deviation",
       "unblinding",
       "camera",
-      "check"};
+      "check",
+      "refused",
+      "answer_vetoed"};
 };
 
 /// Why an attempt that a crash cut short is void; it is run again with the same draws.
 inline constexpr std::string_view void_interrupted = "interrupted";
+
+/// How the reason of a trial begins whose answer was vetoed.
+inline constexpr std::string_view answer_vetoed = "answer vetoed: ";
 
 /// A time as the log keeps it: to 2^-20 s, about a microsecond. Sums and differences of such times
 /// are exact, so durations come out the same bit for bit wherever in a session they lie.

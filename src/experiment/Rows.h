@@ -218,6 +218,9 @@ struct Changes {
   std::vector<AnswerRow> answers;
   std::vector<ReversalRow> reversals;
   std::vector<EstimateRow> estimates;
+  /// Rows that go again, with the answer that gave them.
+  std::vector<ReversalRow> withdrawn_reversals;
+  std::vector<EstimateRow> withdrawn_estimates;
   std::vector<ParticipantParameterRow> parameters;
   std::optional<SessionState> state;
 };

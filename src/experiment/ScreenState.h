@@ -3,7 +3,9 @@
 // right.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "experiment/Task.h"
@@ -20,25 +22,49 @@ enum class Screen {
   rest,
   paused,
   how_decided,
-  thanks
+  thanks,
+  declined  ///< who does not agree to take part can take that back
 };
 template <>
 struct EnumNames<Screen> {
-  static constexpr std::array<std::string_view, 10> names{
-      "consent", "welcome", "about_you", "demonstration", "instructions",
-      "trial",   "rest",    "paused",    "how_decided",   "thanks"};
+  static constexpr std::array<std::string_view, 11> names{
+      "consent", "welcome", "about_you",   "demonstration", "instructions", "trial",
+      "rest",    "paused",  "how_decided", "thanks",        "declined"};
+};
+
+/// Which page it is: what is touched on one means nothing on another.
+struct PageId {
+  Screen screen = Screen::welcome;
+  Task task = Task::sorting;
+  int trial_number = 0, attempt = 0, n_reshuffles = 0;
+
+  bool operator==(const PageId&) const = default;
 };
 
 struct ScreenState {
   Screen screen = Screen::welcome;
-  Task task = Task::sorting;                      ///< trial and instructions
-  int n_slots = 0;                                ///< trial only
+  Task task = Task::sorting;  ///< trial and instructions
+  int n_slots = 0;            ///< trial only
+  /// Trial: which one, so that the page of one is not taken for another's.
+  int trial_number = 0, attempt = 0, n_reshuffles = 0;
+  /// Trial: between two trials, how far what was there has faded, 0...1; the trial is the next one.
+  std::optional<double> faded = {};
   std::vector<std::optional<Label>> labels = {};  ///< sorting: given so far, by slot
-  bool can_answer = true;  ///< false until all that must be done first is done (touch every cube)
+  bool can_answer = true;  ///< false until the cubes are there, and touched where that is asked for
+  bool touch_first = false;  ///< trial: every cube is to be touched first, and not all of them were
+  /// Trial: earlier answers, in seconds since its start, are refused; none: it takes any.
+  std::optional<double> answers_from_s = {};
   bool can_validate = false;  ///< sorting: every cube has a label
   bool try_again = false;     ///< introduction: the cube chosen last was not the heaviest
   int n_choices = 0;          ///< select, label and unlabel actions so far in this trial
   double wait_s = 0;          ///< pages: the button to go on appears in so many seconds
+  std::map<std::string, std::string> entries = {};  ///< forms: what was answered before
+
+  PageId page() const {
+    const bool of_trial = screen == Screen::trial;
+    return {screen, task, of_trial ? trial_number : 0, of_trial ? attempt : 0,
+            of_trial ? n_reshuffles : 0};
+  }
 };
 
 }  // namespace heft

@@ -35,6 +35,8 @@ struct Setup {
   std::string effector_file, effector_sha256;
   std::string texts_file, texts_sha256;
   std::string record_camera;
+  std::optional<double> gap_s, min_answer_s;
+  std::string keys;
   std::string heft_version, build;
   /// What a simulated participant was drawn as, by name; in a table of its own.
   std::map<std::string, double> participant_parameters;
@@ -94,6 +96,19 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"texts_sha256", "", "hash of their contents", 3}, row.texts_sha256);
   visit(LogColumn{"record_camera", "", "folder that the camera's pictures are kept in", 3},
         row.record_camera);
+  visit(
+      LogColumn{"gap_s", "s", "least time from a trial's end to the next one's start; empty: 0", 4},
+      row.gap_s);
+  visit(LogColumn{"min_answer_s", "s",
+                  "least time from a trial's cubes to its first answer, earlier ones are refused; "
+                  "empty: 0",
+                  4},
+        row.min_answer_s);
+  visit(LogColumn{"keys", "",
+                  "whether the participant's window took keys: yes, no; empty: not told, or no "
+                  "window",
+                  4},
+        row.keys);
 }
 
 /// What only the event keeps: the contents of its files, and the drawn participant.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "experiment/Action.h"
+#include "experiment/ScreenState.h"
 
 namespace heft {
 
@@ -22,6 +23,7 @@ struct Touch {
   TouchKind kind = TouchKind::action;
   Action action;
   std::string key, value;  ///< entry only
+  PageId page = {};        ///< that it was on
 };
 
 }  // namespace heft

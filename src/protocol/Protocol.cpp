@@ -18,6 +18,7 @@ namespace {
 constexpr Range display_rates_hz{1, 1000};
 constexpr Range physics_rates_hz{1, 100000};
 constexpr Range predictions_s{0, 0.2};  // beyond it no hand goes on as it did
+constexpr Range onsets_s{0, 60};
 
 void read_physics(TableReader& reader, Protocol& protocol) {
   reader.in_table("physics", [&](TableReader& table) {
@@ -29,6 +30,13 @@ void read_physics(TableReader& reader, Protocol& protocol) {
     table.read("rate_hz", simulator.rate_hz, physics_rates_hz);
     table.read("input", simulator.input.mode);
     table.read("predict_s", simulator.input.predict_s, predictions_s);
+  });
+}
+
+void read_onset(TableReader& reader, Onset& onset) {
+  reader.in_table("onset", [&](TableReader& table) {
+    table.read("gap_s", onset.gap_s, onsets_s);
+    table.read("min_answer_s", onset.min_answer_s, onsets_s);
   });
 }
 
@@ -106,6 +114,7 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
   reader.in_table("coupling", [&](auto& table) { protocol.coupling = read_coupling(table); });
   protocol.techniques = read_techniques(reader, protocol.coupling);
   read_physics(reader, protocol);
+  read_onset(reader, protocol.onset);
   read_screens(reader, protocol.screens);
   protocol.blocks = read_blocks(reader, TechniqueNames(protocol.techniques));
   read_layout(reader, protocol.layout, most_cubes(protocol.blocks));

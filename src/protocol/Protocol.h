@@ -61,6 +61,7 @@ struct Protocol : SessionPlan {
   std::string title;
   double display_rate_hz = 15;
   double void_after_s = 5;  ///< a camera or board lost for longer voids the trial
+  Onset onset;
   Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
   Coupling coupling;                  ///< of C2, and of techniques where they say nothing else
   std::vector<Technique> techniques;  ///< declared; C1 and C2 are there without

@@ -12,7 +12,8 @@ namespace heft {
 
 namespace {
 struct PageKeys {
-  std::string_view page, keys;  ///< keys: parted by spaces
+  std::string_view page, keys;       ///< keys: parted by spaces
+  std::string_view later_keys = {};  ///< may be missing: there are texts from before them
 };
 
 constexpr std::array required_pages{
@@ -30,7 +31,7 @@ constexpr std::array required_pages{
     PageKeys{"instructions_introduction", "title text"},
     PageKeys{"instructions_sorting", "title text"},
     PageKeys{"instructions_comparison", "title text"},
-    PageKeys{"trial", "wait_for_cubes touch_every_cube"},
+    PageKeys{"trial", "wait_for_cubes touch_every_cube", "next_cubes"},
     PageKeys{"trial_introduction", "question try_again"},
     PageKeys{"trial_sorting",
              "question tap_a_cube lightest intermediate heaviest validate dont_know"},
@@ -42,6 +43,8 @@ constexpr std::array required_pages{
              "certainty_fairly certainty_little certainty_none movement movement_slow "
              "movement_fast movement_varied movement_unaware"},
     PageKeys{"thanks", "title text"}};
+/// May be missing, too.
+constexpr std::array later_pages{PageKeys{"declined", "title text take_back leave"}};
 
 std::string trimmed(const std::string& text) {
   std::string kept;
@@ -62,10 +65,12 @@ std::string read_text(TableReader& table, std::string_view key) {
   return text;
 }
 
-std::map<std::string, std::string> read_page(TableReader& table, std::string_view keys) {
+std::map<std::string, std::string> read_page(TableReader& table, const PageKeys& keys) {
   std::map<std::string, std::string> texts;
-  std::istringstream words{std::string(keys)};
+  std::istringstream words{std::string(keys.keys)}, later{std::string(keys.later_keys)};
   for (std::string key; words >> key;) texts.emplace(key, read_text(table, key));
+  for (std::string key; later >> key;)
+    if (table.has(key)) texts.emplace(key, read_text(table, key));
   table.close();
   return texts;
 }
@@ -77,10 +82,14 @@ ScreenTexts parse_texts(const std::string& text, const std::string& file) {
   TableReader reader(root, mistakes);
   ScreenTexts texts;
   texts.language = read_text(reader, "language");
-  for (const auto& [page, keys] : required_pages) {
-    reader.require({page});
-    if (auto table = reader.table(page)) texts.pages.emplace(page, read_page(*table, keys));
+  for (const PageKeys& keys : required_pages) {
+    reader.require({keys.page});
+    if (auto table = reader.table(keys.page))
+      texts.pages.emplace(keys.page, read_page(*table, keys));
   }
+  for (const PageKeys& keys : later_pages)
+    if (auto table = reader.table(keys.page))
+      texts.pages.emplace(keys.page, read_page(*table, keys));
   reader.close();
   mistakes.throw_if_any();
   return texts;

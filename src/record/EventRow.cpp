@@ -184,6 +184,11 @@ struct Tell {
   void operator()(RowOf<CheckResult> auto& check) const {
     row.json("name", check.name).json("verdict", check.verdict).json("finding", check.finding);
   }
+  void operator()(RowOf<AnswerVetoed> auto& vetoed) const { row.detail(vetoed.reason); }
+  void operator()(RowOf<ActionRefused> auto& refused) const {
+    row.json("action", refused.action.kind).json("reason", refused.reason);
+    row.slot(refused.action.slot).label(refused.action.label);
+  }
 };
 
 template <std::size_t... Kinds>

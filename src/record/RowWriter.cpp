@@ -158,6 +158,7 @@ void RowWriter::write_event(std::int64_t session_id, const RecordedEvent& record
                                "participant_parameter", "session_id, setup_id");
   for (const AnswerRow& row : changes.answers)
     insert(answer, row, trial_id(session_id, row.attempt_index));
+  withdraw(session_id, changes);
   for (const ReversalRow& row : changes.reversals)
     insert(reversal, row, session_id, trial_id(session_id, row.attempt_index));
   for (const EstimateRow& row : changes.estimates) insert(estimate, row, session_id);
@@ -165,6 +166,16 @@ void RowWriter::write_event(std::int64_t session_id, const RecordedEvent& record
     insert(parameter, row, session_id, setup_id(session_id, row.setup_index));
   static const std::string state = "UPDATE session SET state = ? WHERE session_id = ?";
   if (changes.state) run(statement(state), *changes.state, session_id);
+}
+
+void RowWriter::withdraw(std::int64_t session_id, const Changes& changes) {
+  static const std::string
+      reversal = "DELETE FROM reversal WHERE session_id = ? AND staircase = ? AND number = ?",
+      estimate = "DELETE FROM estimate WHERE session_id = ? AND staircase = ? AND method = ?";
+  for (const ReversalRow& row : changes.withdrawn_reversals)
+    run(statement(reversal), session_id, row.staircase, row.number);
+  for (const EstimateRow& row : changes.withdrawn_estimates)
+    run(statement(estimate), session_id, row.staircase, row.method);
 }
 
 void RowWriter::write_event_row(std::int64_t session_id, int attempt_index, const Event& event) {

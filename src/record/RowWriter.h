@@ -70,6 +70,7 @@ class RowWriter {
   void write_frame(std::int64_t session_id, const FrameRow& frame);
   void write_trial(std::int64_t session_id, const TrialRow& trial);
   void write_masses(std::int64_t session_id, const TrialRow& trial);
+  void withdraw(std::int64_t session_id, const Changes& changes);
   void write_cube(std::int64_t session_id, const CubeRow& cube);
   void write_info_digest(std::int64_t session_id);
   template <typename... Keys>

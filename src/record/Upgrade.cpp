@@ -128,10 +128,12 @@ void rebuild(SQLite::Database& database, const std::string& path) {
   set_aside(database, older_tables);
   database.exec("PRAGMA user_version = 0");
   create(database);
-  if (version <= without_setups)
+  if (version <= without_setups) {
     copy_rows_without_setups(database);
-  else
-    for (const char* table : {"session", "setup", "cube"}) copy(database, table);
+  } else {
+    for (const char* table : {"session", "cube"}) copy(database, table);
+    copy(database, "setup", ", keys", ", ''");  // not told
+  }
   copy(database, "trial", ", is_practice", ", 0");  // there was none
   for (const char* table : {"participant_info", "event", "answer", "reversal", "estimate", "frame"})
     copy(database, table);

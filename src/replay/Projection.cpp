@@ -105,6 +105,10 @@ void put(Projection& projection, const Setup& setup, int from_event) {
   put(projection.rows, text_of(setup, static_cast<int>(projection.setups.size()), from_event));
 }
 
+void take(std::map<std::string, RowText>& rows, const RowText& row) {
+  rows.erase(row.table + ": " + row.key);
+}
+
 void put(Projection& projection, const Changes& changes, int& n_answers) {
   if (changes.setup) put(projection, *changes.setup, projection.n_events + 1);
   if (changes.trial) {
@@ -113,6 +117,8 @@ void put(Projection& projection, const Changes& changes, int& n_answers) {
   }
   for (const CubeRow& row : changes.cubes) put(projection.rows, text_of(row));
   for (const AnswerRow& row : changes.answers) put(projection.rows, text_of(row, ++n_answers));
+  for (const ReversalRow& row : changes.withdrawn_reversals) take(projection.rows, text_of(row));
+  for (const EstimateRow& row : changes.withdrawn_estimates) take(projection.rows, text_of(row));
   for (const ReversalRow& row : changes.reversals) put(projection.rows, text_of(row));
   for (const EstimateRow& row : changes.estimates) put(projection.rows, text_of(row));
   for (const auto& row : changes.parameters) put(projection.rows, text_of(row));

@@ -80,7 +80,8 @@ void Answering::look_for_outcome(double t_s, const ScreenState& screen) {
 
 std::vector<TimedAction> Answering::due(double t_s, const ScreenState& screen) {
   // What could not be done in its time moves on as a whole, so that taps keep their distance.
-  const double late_s = queue_.empty() ? 0 : std::max(0.0, t_s - queue_.front().t_s);
+  const double earliest_s = std::max(t_s, screen.answers_from_s.value_or(t_s));
+  const double late_s = queue_.empty() ? 0 : std::max(0.0, earliest_s - queue_.front().t_s);
   for (TimedAction& action : queue_) action.t_s += late_s;
   std::vector<TimedAction> actions;
   while (!queue_.empty() && queue_.front().t_s < t_s + frame_interval_s_) {

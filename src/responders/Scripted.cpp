@@ -99,10 +99,12 @@ class Scripted : public Responder {
     paused_ = screen.screen != Screen::trial;
     std::vector<TimedAction> actions;
     if (paused_) return actions;
+    const double earliest_s = std::max(frame.t_s, screen.answers_from_s.value_or(frame.t_s));
+    if (earliest_s >= frame.t_s + frame_interval_s_) return actions;
     while (!to_do_.empty() && to_do_.front().t_s < frame.t_s + frame_interval_s_) {
       if (to_do_.front().kind == ActionKind::validate && !screen.can_validate) break;
       actions.push_back(to_do_.front());
-      actions.back().t_s = std::max(actions.back().t_s, frame.t_s);
+      actions.back().t_s = std::max(actions.back().t_s, earliest_s);
       to_do_.pop_front();
     }
     if (!actions.empty()) end_s_ = std::max(end_s_, actions.back().t_s);

@@ -150,14 +150,11 @@ void AttemptRun::show(const ShownFrame& shown, const Picture& picture, FrameRow&
   const bool cubes_appear = std::erase_if(events, is_cubes_shown) > 0;
   log_events(events);
   shown_ = {shown.frame, picture.camera, picture.camera_from_board};
-  const auto presented = screen_.present(shown_, engine().screen());
+  const auto presented =
+      screen_.present(shown_, cubes_appear ? engine().screen_with_cubes() : engine().screen());
   row.present_s = presented && parts_.clock.is_wall() ? log_time(parts_.clock.session_s(*presented))
                                                       : journal_.now_s();
-  if (cubes_appear) {
-    journal_.emit({row.present_s, CubesShown{}}, Durability::acknowledged);
-    if (parts_.has_screen)
-      screen_.present(shown_, engine().screen());  // answers can be given from here on
-  }
+  if (cubes_appear) journal_.emit({row.present_s, CubesShown{}}, Durability::acknowledged);
   row.attempt_index = engine().n_attempts();
   row.contact_slot = shown.contact_slot;
   row.state_hash = shown.state_hash;
@@ -214,6 +211,7 @@ void AttemptRun::take_touches(const std::vector<Touch>& touches) {
 
 // @return whether the screen may look different now
 bool AttemptRun::take_touch(const Touch& touch) {
+  if (touch.page != engine().screen().page()) return false;  // meant for the page before
   if (touch.kind == TouchKind::put_cubes_back) {
     put_cubes_back();
     return false;
@@ -223,8 +221,7 @@ bool AttemptRun::take_touch(const Touch& touch) {
       std::max(log_time(parts_.clock.session_s(touch.monotonic_s)), engine().last_s());
   const Admission admission = engine().admit({t_s, touch.action});
   if (!admission.admitted) {
-    journal_.emit_now(Note{fmt::format("a touch was not taken: {}: {}", name_of(touch.action.kind),
-                                       admission.refusal)});
+    journal_.emit({t_s, ActionRefused{touch.action, admission.refusal}}, Durability::acknowledged);
     return false;
   }
   answer(*admission.admitted, touch.action);

@@ -18,6 +18,9 @@ class AttemptRun {
   /// @throws Error as Runner::run
   void run(const TrialPlan& plan);
 
+  /// What was displayed last.
+  const ViewFrame& shown() const { return shown_; }
+
  private:
   const Engine& engine() const { return parts_.engine; }
   bool trial_goes_on() const;

@@ -14,11 +14,13 @@ namespace heft {
 enum class ConsoleCommandKind {
   pause,  ///< the session stands still, an open trial too
   go_on,
-  veto,    ///< the open trial is void and will be presented again; text: why
-  note,    ///< text
-  rest,    ///< a break before the next trial
-  end,     ///< leave the session so that it can be resumed
-  unblind  ///< show the open trial's plan from now on
+  veto,         ///< the open trial is void and will be presented again; text: why
+  veto_answer,  ///< the same of the comparison that was answered last; text: why
+  check,        ///< look at the apparatus once more
+  note,         ///< text
+  rest,         ///< a break before the next trial
+  end,          ///< leave the session so that it can be resumed
+  unblind       ///< show the open trial's plan from now on
 };
 
 struct ConsoleCommand {
@@ -38,6 +40,7 @@ struct ConsoleStatus {
   int n_completed = 0;                ///< trials
   std::optional<ScreenState> screen;  ///< what the participant has before them; none: nothing
   bool paused = false;
+  bool paused_itself = false;              ///< somebody has to look
   std::string trouble;                     ///< with the camera or the board
   std::optional<TrackingStatus> tracking;  ///< none: no trial is on the screen
   int n_dropped = 0, n_late = 0;           ///< pictures, in this session

@@ -64,6 +64,7 @@ ViewSetup view_setup(const Protocol& protocol, const Setup& options, const Appar
   if (!options.texts_text.empty())
     setup.texts = parse_texts(options.texts_text, options.texts_file);
   setup.left_handed = options.handed == "left";
+  setup.takes_keys = options.keys == "yes";
   setup.file = split_name(options.view).file;
   setup.rate_hz = protocol.display_rate_hz;
   return setup;

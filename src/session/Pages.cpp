@@ -14,16 +14,32 @@ constexpr double still_page_step_s = 0.1;
 
 bool Pages::welcome() {
   const ScreensChosen& chosen = protocol_.screens;
-  if (chosen.consent) {
+  if (chosen.consent && !gone_.consented && !agrees()) return false;
+  show_once(Screen::welcome);
+  if (chosen.about_you) show_once(Screen::about_you);
+  return true;
+}
+
+// Who does not agree is asked once more, and can leave it at that. @return false: they do
+bool Pages::agrees() {
+  for (;;) {
     const TouchKind answer = show(Screen::consent);
     if (answer == TouchKind::close) return true;
     const bool agreed = answer == TouchKind::next;
     journal_.emit_now(Consent{agreed, texts_->language, sha256(page_text(*texts_, "consent"))});
-    if (!agreed) return false;
+    if (agreed) return true;
+    if (!texts_->pages.contains("declined")) return false;  // texts from before that page
+    const TouchKind sure = show(Screen::declined);
+    if (sure != TouchKind::next) return sure == TouchKind::close;
   }
-  show(Screen::welcome);
-  if (chosen.about_you) show(Screen::about_you);
-  return true;
+}
+
+void Pages::show_once(Screen screen) {
+  if (!gone_.pages.contains(std::string(name_of(screen)))) show_form(screen);
+}
+
+void Pages::show_form(Screen screen) {
+  show(ScreenState{.screen = screen, .entries = gone_.entries});
 }
 
 void Pages::instructions(Task task) {
@@ -41,7 +57,7 @@ void Pages::rest(double least_s) {
 }
 
 void Pages::how_decided() {
-  if (protocol_.screens.how_decided) show(Screen::how_decided);
+  if (protocol_.screens.how_decided) show_form(Screen::how_decided);
 }
 
 void Pages::thanks() {
@@ -59,6 +75,7 @@ TouchKind Pages::show(ScreenState screen, double least_s, const Moving& frame_at
     screen_.present(frame_at ? frame_at(elapsed_s) : ViewFrame{}, screen);
     const double left_s = std::max(0.0, now_s + step_s - clock.now_s());
     for (const Touch& touch : control_.wait(left_s)) {
+      if (touch.page != screen.page()) continue;  // meant for the page before
       if (touch.kind == TouchKind::entry) journal_.add_info(touch.key, touch.value);
       if (touch.kind == TouchKind::decline) return touch.kind;
       if (touch.kind == TouchKind::next && screen.wait_s == 0) return touch.kind;

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "protocol/Protocol.h"
+#include "session/GoneThrough.h"
 #include "session/SessionControl.h"
 #include "tracking/MarkerBody.h"
 
@@ -13,13 +14,19 @@ class Pages {
  public:
   /// @param texts what the person reads; null: nobody reads; who looks on sees the
   ///   demonstration and breaks, which go on by themselves
+  /// @param before the session went on
   Pages(const Protocol& protocol, Journal& journal, SessionControl& control,
-        ParticipantScreen& screen, const ScreenTexts* texts)
-      : protocol_(protocol), journal_(journal), control_(control), screen_(screen), texts_(texts) {}
+        ParticipantScreen& screen, const ScreenTexts* texts, GoneThrough before)
+      : protocol_(protocol),
+        journal_(journal),
+        control_(control),
+        screen_(screen),
+        texts_(texts),
+        gone_(std::move(before)) {}
 
   bool has_reader() const { return texts_ != nullptr; }
 
-  /// The pages before a session's first trial.
+  /// The pages before a session's first trial, but for those that were turned before.
   /// @return false when the person does not agree to take part
   bool welcome();
 
@@ -42,12 +49,16 @@ class Pages {
   /// @return the touch that ended it: next, decline, or close when the session is left
   TouchKind show(ScreenState screen, double least_s = 0, const Moving& frame_at = {});
   TouchKind show(Screen screen) { return show(ScreenState{.screen = screen}); }
+  void show_once(Screen screen);
+  void show_form(Screen screen);
+  bool agrees();
 
   const Protocol& protocol_;
   Journal& journal_;
   SessionControl& control_;
   ParticipantScreen& screen_;
   const ScreenTexts* texts_;
+  GoneThrough gone_;
 };
 
 }  // namespace heft

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "base/Error.h"
 #include "session/AttemptRun.h"
 
 namespace heft {
@@ -16,7 +19,8 @@ Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
       journal_(parts.engine, parts.sink, parts.clock, options.progress),
       screen_(journal_, parts.view, parts.texts),
       control_(journal_, screen_, options.console, options.stop, parts.has_screen),
-      pages_(parts.protocol, journal_, control_, screen_, parts.texts) {
+      pages_(parts.protocol, journal_, control_, screen_, parts.texts, parts.before) {
+  control_.on_check([this] { check_apparatus(); });
   journal_.while_locked([this](double waited_s) { return wait_for_log(waited_s); });
 }
 
@@ -39,7 +43,24 @@ bool Runner::wait_for_log(double waited_s) {
   return pages_.has_reader() || waited_s < longest_wait_alone_s;
 }
 
+// Looked at until nothing fails any more, or the experimenter decides.
 void Runner::check_apparatus() {
+  for (;;) {
+    const std::string failed = failed_checks();
+    if (failed.empty()) return;
+    const SessionControl::Answer answer = ask_whether_failures_matter();
+    if (answer == SessionControl::Answer::check) continue;
+    const bool asked = answer != SessionControl::Answer::nobody_there;
+    if (!asked && !options_.go_on_unchecked) refuse_unchecked(failed);
+    const std::string who = asked ? "the experimenter" : "nobody could be asked; the session";
+    const bool goes_on = answer != SessionControl::Answer::leave;
+    return journal_.emit_now(
+        Note{fmt::format("failed check: {}; {} {}", failed, who, goes_on ? "goes on" : "leaves")});
+  }
+}
+
+// @return the names of what failed, as said and logged
+std::string Runner::failed_checks() {
   std::string failed;
   for (const CheckResult& result : parts_.pictures.check(parts_.protocol.display_rate_hz)) {
     journal_.emit_now(result);
@@ -50,16 +71,24 @@ void Runner::check_apparatus() {
                                         result.name, result.finding));
     if (has_failed) failed += (failed.empty() ? "" : ", ") + result.name;
   }
-  if (!failed.empty()) ask_whether_failures_matter(failed);
+  return failed;
 }
 
-// Where nobody can be asked, what was said and logged of the failure is all.
-void Runner::ask_whether_failures_matter(const std::string& failed) {
-  const auto goes_on = control_.ask_to_go_on(
-      "go on? y goes on, n leaves; nothing has been shown to the participant yet");
-  if (!goes_on) return;
-  journal_.emit_now(Note{fmt::format("failed check: {}; the experimenter {}", failed,
-                                     *goes_on ? "goes on" : "leaves")});
+SessionControl::Answer Runner::ask_whether_failures_matter() {
+  const std::string shown =
+      screen_.shown() ? "" : "; nothing was shown to anybody yet";
+  return control_.ask_to_go_on("go on? y goes on, n leaves, r checks again" + shown);
+}
+
+void Runner::refuse_unchecked(const std::string& failed) {
+  journal_.emit_now(Note{fmt::format("failed check: {}; nobody could be asked", failed)});
+  journal_.leave("failed check: " + failed);
+  journal_.flush();
+  throw Error(
+      fmt::format("the check of the apparatus failed ({}), and without a terminal nobody can be "
+                  "asked. Nothing was shown to the participant. See to it and go on with heft "
+                  "resume, or add --go-on to go on all the same",
+                  failed));
 }
 
 // Who comes back after a crash has read the first pages already.
@@ -74,11 +103,12 @@ bool Runner::begin() {
 
 RunEnd Runner::run_blocks() {
   for (;;) {
-    const Next next = parts_.engine.next();
     if (control_.leaving()) return RunEnd::stopped;
-    if (next.rest) take_break(next.rest->name, next.rest->least_duration_s);
+    if (const auto rest = parts_.engine.next().rest) take_break(rest->name, rest->least_duration_s);
     if (control_.take_rest_wish()) take_break("asked for", 0);
+    control_.check_if_wanted();
     if (control_.leaving()) return RunEnd::stopped;
+    const Next next = parts_.engine.next();
     switch (next.kind) {
       case Next::Kind::demonstration:
         show_demonstration(*next.demonstration);
@@ -87,7 +117,8 @@ RunEnd Runner::run_blocks() {
         run_trial(*next.plan);
         break;
       case Next::Kind::finish:
-        return finish();
+        if (const auto end = finish()) return *end;
+        break;
       case Next::Kind::act:  // unreachable: an attempt leaves no trial open
       case Next::Kind::paused:
         return RunEnd::paused;
@@ -97,9 +128,11 @@ RunEnd Runner::run_blocks() {
   }
 }
 
-RunEnd Runner::finish() {
+// None: the last answer was vetoed meanwhile, and there is more to do.
+std::optional<RunEnd> Runner::finish() {
   if (pages_.has_reader()) pages_.how_decided();
   if (control_.leaving()) return RunEnd::stopped;
+  if (parts_.engine.next().kind != Next::Kind::finish) return std::nullopt;
   journal_.emit_now(SessionEnded{});
   return RunEnd::finished;
 }
@@ -119,7 +152,8 @@ void Runner::show_demonstration(const DemonstrationBlock& block) {
     pages_.demonstration(block, parts_.apparatus);
   else
     parts_.clock.advance_to(journal_.now_s() + block.duration_s);
-  if (!control_.leaving()) journal_.emit_now(DemonstrationShown{block.name});
+  const bool due = parts_.engine.next().kind == Next::Kind::demonstration;
+  if (!control_.leaving() && due) journal_.emit_now(DemonstrationShown{block.name});
 }
 
 void Runner::run_trial(const TrialPlan& plan) {
@@ -135,7 +169,28 @@ void Runner::run_trial(const TrialPlan& plan) {
     if (control_.leaving()) return;
     instructed_block_ = plan.block;
   }
-  AttemptRun(parts_, options_, journal_, control_, screen_).run(plan);
+  fade_out();
+  const Next& next = parts_.engine.next();
+  const bool still_due = next.kind == Next::Kind::trial &&
+                         next.plan->trial_number == plan.trial_number &&
+                         next.plan->attempt == plan.attempt;
+  if (control_.leaving() || !still_due) return;
+  AttemptRun attempt(parts_, options_, journal_, control_, screen_);
+  attempt.run(plan);
+  last_shown_ = attempt.shown();
+}
+
+// The gap between two trials, visible where there is a screen; what is touched in it means nothing.
+void Runner::fade_out() {
+  const double due_s = parts_.engine.trial_due_s(), since_s = parts_.clock.now_s();
+  if (!parts_.clock.is_wall()) return parts_.clock.advance_to(due_s);
+  const double step_s = 1 / parts_.protocol.display_rate_hz;
+  for (double now_s = since_s; now_s < due_s && !control_.leaving(); now_s = parts_.clock.now_s()) {
+    ScreenState screen = parts_.engine.screen();
+    screen.faded = (now_s - since_s) / (due_s - since_s);
+    screen_.present(last_shown_, screen);
+    control_.wait(std::min(step_s, due_s - now_s));
+  }
 }
 
 }  // namespace heft

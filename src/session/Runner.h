@@ -27,6 +27,7 @@ struct SessionParts {
   bool has_screen = false;             ///< the view can be looked at and touched
   const ScreenTexts* texts = nullptr;  ///< of the person who answers; null: the responder answers
   Apparatus apparatus = {};  ///< what the demonstration shows; without a board a plain table
+  GoneThrough before = {};   ///< of a session that goes on
 };
 
 struct RunnerOptions {
@@ -38,6 +39,8 @@ struct RunnerOptions {
   /// What is to be said where there is no console.
   std::function<void(const std::string&)> tell = [](const std::string&) {};
   Console* console = nullptr;  ///< the experimenter's; only on a wall clock
+  /// Go on although the check failed, where nobody can be asked.
+  bool go_on_unchecked = false;
 };
 
 enum class RunEnd {
@@ -62,11 +65,14 @@ class Runner {
   bool wait_for_log(double waited_s);
   bool begin();
   void check_apparatus();
-  void ask_whether_failures_matter(const std::string& failed);
-  RunEnd finish();
+  std::string failed_checks();
+  SessionControl::Answer ask_whether_failures_matter();
+  [[noreturn]] void refuse_unchecked(const std::string& failed);
+  std::optional<RunEnd> finish();
   void take_break(const std::string& name, double least_s);
   void show_demonstration(const DemonstrationBlock& block);
   void run_trial(const TrialPlan& plan);
+  void fade_out();
   bool is_looked_at() const { return parts_.has_screen || pages_.has_reader(); }
 
   SessionParts parts_;
@@ -75,6 +81,7 @@ class Runner {
   ParticipantScreen screen_;
   SessionControl control_;
   Pages pages_;
+  ViewFrame last_shown_;  // of a trial
   std::optional<std::string> noted_last_staircase_, instructed_block_;
 };
 

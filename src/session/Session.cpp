@@ -79,9 +79,11 @@ SessionHeader header_of(const SessionRequest& request, const Setup& setup) {
 }
 
 RunEnd run_with(Equipment& equipment, Engine& engine, EventSink& sink, const RunnerOptions& runner,
-                double start_s) {
+                double start_s, GoneThrough before = {}) {
   equipment.clock.restart(start_s);
-  return Runner(equipment.parts(engine, sink), runner).run();
+  SessionParts parts = equipment.parts(engine, sink);
+  parts.before = std::move(before);
+  return Runner(parts, runner).run();
 }
 
 SessionResult result_of(const Engine& engine, RunEnd end, std::int64_t session_id) {
@@ -111,8 +113,10 @@ struct Reopened {
         engine(session.protocol, session.row.header.seed, session.before() ? 1 : 0) {
     const LogReader reader(session.db);
     refuse_changed_log(reader, session);
-    for (const LoggedEvent& logged : reader.events(session.row.session_id))
+    for (const LoggedEvent& logged : reader.events(session.row.session_id)) {
       engine.apply(logged.event);
+      events.push_back(logged.event);
+    }
   }
   void append(const Event& event) { log.append(event, engine.apply(event), Durability::buffered); }
   void close_attempt(std::string_view why) {
@@ -121,6 +125,7 @@ struct Reopened {
 
   SessionLog log;
   Engine engine;
+  std::vector<Event> events;
 };
 
 // From here on this is in force.
@@ -222,7 +227,8 @@ SessionResult resume_session(const LoggedSession& session, const RunnerOptions& 
       setup != session.setups.back().setup)
     tell_setup(reopened.engine, reopened.log, setup);
   reopened.log.flush();  // all of the return or nothing of it
-  const RunEnd end = run_with(equipment, reopened.engine, reopened.log, runner, now_s);
+  const RunEnd end = run_with(equipment, reopened.engine, reopened.log, runner, now_s,
+                              gone_through(reopened.events, session.row.header.participant_info));
   reopened.log.flush();
   return result_of(reopened.engine, end, session.row.session_id);
 }

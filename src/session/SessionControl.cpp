@@ -44,12 +44,13 @@ void SessionControl::stand_still(const std::string& why) {
   status.trouble.clear();
 }
 
-std::optional<bool> SessionControl::ask_to_go_on(const std::string& question) {
-  if (!console_ || !console_->ask_to_go_on(question)) return std::nullopt;
+SessionControl::Answer SessionControl::ask_to_go_on(const std::string& question) {
+  if (!console_ || !console_->ask_to_go_on(question)) return Answer::nobody_there;
+  answer_.reset();
   asking_ = true;
-  while (asking_ && !leaving()) poll(holding_step_s);
-  if (std::exchange(asking_, false)) return std::nullopt;
-  return !leaving_;
+  while (!answer_ && !leaving()) poll(holding_step_s);
+  asking_ = false;
+  return answer_.value_or(Answer::leave);
 }
 
 std::vector<Touch> SessionControl::poll(double seconds) {
@@ -69,6 +70,7 @@ void SessionControl::show() {
   status.session_s = journal_.now_s();
   status.n_completed = engine.n_completed();
   status.paused = engine.state() == SessionState::paused;
+  status.paused_itself = status.paused && !holding_;
   status.screen = screen_.shown();
   if (!status.screen || status.screen->screen != Screen::trial) status.tracking.reset();
   status.plan = unblinded_ && engine.trial_is_open() ? engine.next().plan : std::nullopt;
@@ -89,6 +91,10 @@ void SessionControl::obey(const ConsoleCommand& command) {
       return go_on();
     case ConsoleCommandKind::veto:
       return veto(command.text);
+    case ConsoleCommandKind::veto_answer:
+      return veto_answer(command.text);
+    case ConsoleCommandKind::check:
+      return check();
     case ConsoleCommandKind::note:
       journal_.emit_now(Note{command.text});
       return console_->say("noted");
@@ -96,7 +102,7 @@ void SessionControl::obey(const ConsoleCommand& command) {
       rest_wanted_ = true;
       return console_->say("a break comes before the next trial");
     case ConsoleCommandKind::end:
-      asking_ = false;
+      if (asking_) answer_ = Answer::leave;
       leaving_ = true;
       return;
     case ConsoleCommandKind::unblind:
@@ -105,7 +111,10 @@ void SessionControl::obey(const ConsoleCommand& command) {
 }
 
 void SessionControl::go_on() {
-  if (std::exchange(asking_, false)) return;
+  if (asking_) {
+    answer_ = Answer::go_on;
+    return;
+  }
   if (!holding_) return console_->say("the session is not held; it goes on by itself");
   journal_.emit_now(SessionContinued{});
   holding_ = false;
@@ -116,6 +125,35 @@ void SessionControl::veto(const std::string& why) {
     return console_->say("no trial is open; an answered trial stays as it is");
   journal_.emit_now(TrialVoided{"veto: " + why});
   console_->say("the trial is void and will be presented again");
+}
+
+// A trial that has begun since then is run again after it, with the same draws.
+void SessionControl::veto_answer(const std::string& why) {
+  const Engine& engine = journal_.engine();
+  if (engine.next().kind == Next::Kind::over)
+    return console_->say("the session is over; its answers stay as they are");
+  if (!engine.vetoable())
+    return console_->say("no comparison was answered whose answer could be taken back");
+  if (engine.trial_is_open()) journal_.emit_now(TrialVoided{std::string(void_interrupted)});
+  journal_.emit_now(AnswerVetoed{why});
+  console_->say("the last answer is void; its cubes will be presented again");
+}
+
+// Not in the middle of a trial, whose pictures it would take away.
+void SessionControl::check() {
+  if (asking_) {
+    answer_ = Answer::check;
+    return;
+  }
+  if (journal_.engine().trial_is_open()) {
+    check_wanted_ = true;
+    return console_->say("the apparatus is checked before the next trial");
+  }
+  if (check_) check_();
+}
+
+void SessionControl::check_if_wanted() {
+  if (std::exchange(check_wanted_, false) && check_) check_();
 }
 
 void SessionControl::unblind() {

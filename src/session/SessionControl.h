@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,9 +63,20 @@ class SessionControl {
   /// present; what is touched meanwhile means nothing.
   void stand_still(const std::string& why);
 
-  /// Asks the experimenter whether to go on, and waits for their answer; who does not want to
-  /// leaves the session. None: nobody can be asked, or the session is left by other means.
-  std::optional<bool> ask_to_go_on(const std::string& question);
+  /// What the experimenter says to that question.
+  enum class Answer {
+    go_on,
+    leave,  ///< the session, or it is left by other means
+    check,  ///< look once more, and ask again
+    nobody_there
+  };
+  /// Asks the experimenter whether to go on, and waits for their answer.
+  Answer ask_to_go_on(const std::string& question);
+
+  /// How the apparatus is looked at when the experimenter wants it to be.
+  void on_check(std::function<void()> check) { check_ = std::move(check); }
+  /// Does that where it was wanted while a trial was open.
+  void check_if_wanted();
 
   /// Whether the session is to be left: a signal, the experimenter, a closed window.
   bool leaving() const { return leaving_ || (stop_ && stop_->load()); }
@@ -79,6 +91,8 @@ class SessionControl {
   std::vector<Touch> poll(double seconds);
   void obey(const ConsoleCommand& command);
   void veto(const std::string& why);
+  void veto_answer(const std::string& why);
+  void check();
   void unblind();
   void go_on();
   void show();
@@ -88,8 +102,10 @@ class SessionControl {
   Console* console_;
   const std::atomic<bool>* stop_;
   bool has_screen_;
+  std::function<void()> check_;
+  std::optional<Answer> answer_;  // to what is being asked
   bool leaving_ = false, holding_ = false, asking_ = false;
-  bool rest_wanted_ = false, unblinded_ = false;
+  bool rest_wanted_ = false, check_wanted_ = false, unblinded_ = false;
 };
 
 }  // namespace heft

@@ -2,14 +2,18 @@
 
 Run: python3 tests/cli/console_test.py path/to/heft
 """
+import fcntl
 import os
 import pty
 import re
 import select
 import shutil
+import signal
 import sqlite3
+import struct
 import subprocess
 import tempfile
+import termios
 import threading
 import time
 import unittest
@@ -165,6 +169,19 @@ class Console(AtAConsole):
         self.assertTrue(self.terminal.wait_for(lambda: self.terminal.program.poll() is not None))
         self.assertEqual(self.terminal.program.returncode, 130)
 
+    def test_a_reason_can_be_typed_and_an_answer_taken_back_only_where_there_is_one(self):
+        self.until_a_sorting_trial_is_open()
+        self.terminal.press("vthe cat is on the table\n")
+        self.assertTrue(self.terminal.wait_for(
+            lambda: self.n("void", "and detail = 'veto: the cat is on the table'") == 1 or
+            "no trial is open" in self.terminal.shown))
+        self.terminal.press("x4")
+        self.shows("no comparison was answered")
+        self.terminal.press("r")
+        self.terminal.press("ey")
+        self.assertTrue(self.terminal.wait_for(lambda: self.terminal.program.poll() is not None))
+        self.assertEqual(self.n("answer_vetoed"), 0)
+
     def test_it_shows_which_page_the_participant_reads(self):
         self.shows("  welcome  nothing tracked  ")
         self.until_a_sorting_trial_is_open()
@@ -233,7 +250,7 @@ class FailedCheck(AtAConsole):
                    str(PROTOCOLS / "apparatus" / "synthetic_camera.yaml"))
         self.shows("FAILED   board")
         self.shows("nothing shown yet")
-        self.shows("go on? y goes on, n leaves; nothing has been shown to the participant yet")
+        self.shows("go on? y goes on, n leaves, r checks again; nothing was shown to anybody yet")
         self.assertEqual(self.n("text_shown"), 0)
 
     def test_nobody_is_shown_anything_when_the_experimenter_leaves(self):
@@ -251,6 +268,99 @@ class FailedCheck(AtAConsole):
         self.shows("  welcome  nothing tracked  ")
         self.assertEqual(self.n("note", "and detail like 'failed check: %board%; the experimenter "
                                         "goes on'"), 1)
+
+
+class Shell(Terminal):
+    """A shell with job control at a terminal of so many columns, in which a program runs."""
+
+    def __init__(self, environment, columns=80, rows=24):
+        self.shown = ""
+        child, self.keyboard = pty.fork()
+        if child == 0:
+            os.execvpe("bash", ["bash", "--norc", "--noprofile", "-i"],
+                       dict(environment, NO_COLOR="1", PS1="$ ", TERM="xterm"))
+        self.child = child
+        self.resize(columns, rows)
+        self.program = self
+        self.reader = threading.Thread(target=self.read, daemon=True)
+        self.reader.start()
+
+    def resize(self, columns, rows=24):
+        fcntl.ioctl(self.keyboard, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
+
+    def poll(self):
+        return None
+
+    def line_editing(self):
+        """Whether the terminal edits lines and echoes, as a shell leaves it to programs."""
+        flags = termios.tcgetattr(self.keyboard)[3]
+        return bool(flags & termios.ICANON and flags & termios.ECHO)
+
+    def close(self):
+        os.kill(self.child, signal.SIGKILL)
+        os.close(self.keyboard)
+        os.waitpid(self.child, 0)
+
+
+@unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool") and shutil.which("bash"),
+                     "needs Xvfb, xdotool and bash")
+class SmallTerminal(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.db = str(Path(folder.name) / "small.db")
+        self.screen = Screen()
+        self.addCleanup(self.screen.close)
+        self.shell = Shell(self.screen.environment())
+        self.addCleanup(self.shell.close)
+        heft = os.path.abspath(HEFT)
+        self.shell.press(f"'{heft}' run {PROTOCOLS / 'quick.toml'} --participant 07 --db {self.db} "
+                         "--tracker hand --purpose test --seed 5\n")
+        self.shows("u unblind")
+
+    def shows(self, words, since=0):
+        self.assertTrue(self.shell.wait_for(lambda: words in self.shell.shown[since:]),
+                        self.shell.shown)
+
+    def widest_drawn(self, since):
+        """Of the lines that were drawn over and over."""
+        drawn = re.findall(r"\r\x1b\[J([^\r\n]*)\r?\n([^\r\n]*?)\x1b\[A", self.shell.shown[since:])
+        self.assertTrue(drawn, self.shell.shown[since:])
+        return max(len(line) for lines in drawn for line in lines)
+
+    def test_no_line_is_wider_than_the_terminal_whatever_is_typed(self):
+        since = len(self.shell.shown)
+        for keys in ("n" + "a long note " * 20, "\x1b", "v", "the door slammed and " * 8, "\x1b", "x",
+                     "\x1b", "e", "n", "u", "n"):
+            self.shell.press(keys)
+            time.sleep(0.5)
+        self.assertLess(self.widest_drawn(since), 80)
+        self.shell.resize(50)
+        time.sleep(1)
+        since = len(self.shell.shown)
+        time.sleep(1)
+        self.assertLess(self.widest_drawn(since), 50)
+
+    def test_a_stopped_program_gives_the_terminal_back_and_takes_it_again(self):
+        self.assertFalse(self.shell.line_editing())
+        self.shell.press("\x1a")  # Ctrl-Z
+        self.shows("Stopped")
+        since = len(self.shell.shown)
+        self.shell.press("stty -a; echo here\n")
+        self.shows("here", since)
+        self.shell.wait_for(lambda: " icanon" in self.shell.shown[since:], 5)
+        self.assertIn(" icanon", self.shell.shown[since:])
+        since = len(self.shell.shown)
+        self.shell.press("fg\n")
+        self.shows("u unblind", since)
+        self.assertTrue(self.shell.wait_for(lambda: not self.shell.line_editing(), 10))
+        self.shell.press("nback again\n")
+        self.assertTrue(self.shell.wait_for(
+            lambda: query(self.db, "select detail from event where kind = 'note'") ==
+            [("back again",)], 20), self.shell.shown[since:])
+        self.shell.press("ey")
+        self.shows("heft resume", since)
+        self.assertTrue(self.shell.wait_for(lambda: "$ " in self.shell.shown[-200:], 10))
 
 
 if __name__ == "__main__":

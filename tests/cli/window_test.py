@@ -151,7 +151,7 @@ class Window(unittest.TestCase):
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
 
     def test_a_filmed_hand_is_tracked_under_the_participants_answers(self):
-        person = self.start("--tracker", "synthetic", "--language", "fr")
+        person = self.start("--tracker", "synthetic", "--language", "fr", "--go-on")
         deadline = time.time() + 120
         while person.program.poll() is None and time.time() < deadline:
             person.take_part(2)
@@ -187,7 +187,7 @@ class Window(unittest.TestCase):
         deadline = time.time() + 60
         while person.program.poll() is None and time.time() < deadline:
             if person.page():
-                self.screen.key("n")
+                self.screen.key("n")  # and once more on the page that asks whether they are sure
             time.sleep(0.5)
         _, talk = person.program.communicate(timeout=60)
         self.assertEqual(person.program.returncode, 0, talk)

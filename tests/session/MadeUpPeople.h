@@ -28,7 +28,10 @@ class MadeUpScreen final : public ArView {
   std::vector<Touch> wait(double seconds) override {
     std::this_thread::sleep_for(std::chrono::duration<double>(std::min(seconds, 0.002)));
     std::vector<Touch> touches = person_(picture_, screen_);
-    for (Touch& touch : touches) touch.monotonic_s = monotonic_s();
+    for (Touch& touch : touches) {
+      touch.monotonic_s = monotonic_s();
+      touch.page = screen_.page();
+    }
     return touches;
   }
 

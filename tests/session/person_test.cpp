@@ -2,6 +2,7 @@
 // made-up console.
 #include <gmock/gmock.h>
 
+#include "base/Error.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/Files.h"
 #include "session/MadeUpPeople.h"
@@ -94,7 +95,7 @@ TEST(Person, answers_are_logged_at_the_time_of_the_touch_and_shown_at_once) {
   for (std::size_t i = 1; i < actions.size(); ++i) EXPECT_GE(actions[i].t_s, actions[i - 1].t_s);
 }
 
-TEST(Person, a_touch_that_can_not_be_taken_is_noted_and_ends_nothing) {
+TEST(Person, a_touch_that_can_not_be_taken_is_kept_as_refused_and_ends_nothing) {
   bool tried = false;
   Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
     if (screen.screen == Screen::trial && screen.can_answer && !tried) {
@@ -104,8 +105,10 @@ TEST(Person, a_touch_that_can_not_be_taken_is_noted_and_ends_nothing) {
     return patient(picture, screen);
   });
   EXPECT_EQ(session.run(), RunEnd::finished);
-  ASSERT_EQ(session.events(EventKind::note).size(), 1U);
-  EXPECT_THAT(session.events(EventKind::note)[0].as<Note>()->text, HasSubstr("validate"));
+  ASSERT_EQ(session.events(EventKind::refused).size(), 1U);
+  const Event refused = session.events(EventKind::refused)[0];
+  EXPECT_EQ(refused.as<ActionRefused>()->action, Action{ActionKind::validate});
+  EXPECT_THAT(refused.as<ActionRefused>()->reason, HasSubstr("label"));
 }
 
 TEST(Person, what_they_tell_about_themselves_is_kept) {
@@ -223,22 +226,26 @@ class FailedCheck : public ::testing::Test {
   // Nobody's hand, before a camera that is out of order.
   class OutOfOrder final : public PictureSource {
    public:
-    explicit OutOfOrder(PictureSource& pictures) : pictures_(pictures) {}
+    explicit OutOfOrder(PictureSource& pictures, int n_failures = 1000)
+        : pictures_(pictures), n_failures_(n_failures) {}
     void begin_attempt(const AttemptStart& attempt) override { pictures_.begin_attempt(attempt); }
     std::optional<Picture> next() override { return pictures_.next(); }
     void skip_to(double t_s) override { pictures_.skip_to(t_s); }
     std::vector<CheckResult> check(double) override {
-      return {{CheckVerdict::failed, "board", "not seen"}, {CheckVerdict::warning, "light", "dim"}};
+      const auto board = n_failures_-- > 0 ? CheckVerdict::failed : CheckVerdict::ok;
+      return {{board, "board", "not seen"}, {CheckVerdict::warning, "light", "dim"}};
     }
 
    private:
     PictureSource& pictures_;
+    int n_failures_;
   };
 
   RunEnd run() {
-    OutOfOrder pictures(session.pictures);
+    OutOfOrder pictures(session.pictures, n_failures);
     RunnerOptions options;
     options.console = &console;
+    options.go_on_unchecked = go_on_unchecked;
     return Runner({*session.protocol, session.engine, session.sink, pictures, *session.hand,
                    session.screen, session.clock, true, &session.texts},
                   options)
@@ -253,6 +260,8 @@ class FailedCheck : public ::testing::Test {
 
   Session session{quick_protocol()};
   MadeUpConsole console;
+  int n_failures = 1000;
+  bool go_on_unchecked = false;
 };
 
 TEST_F(FailedCheck, is_asked_about_and_the_session_begins_when_the_experimenter_says_so) {
@@ -261,7 +270,7 @@ TEST_F(FailedCheck, is_asked_about_and_the_session_begins_when_the_experimenter_
     EXPECT_EQ(status.screen.has_value(), !session.screen.screens.empty());
   };
   EXPECT_EQ(run(), RunEnd::finished);
-  EXPECT_THAT(console.asked, ElementsAre(HasSubstr("nothing has been shown")));
+  EXPECT_THAT(console.asked, ElementsAre(HasSubstr("nothing was shown")));
   EXPECT_THAT(console.said, Contains(HasSubstr("FAILED   board: not seen")));
   EXPECT_THAT(notes(), ElementsAre("failed check: board; the experimenter goes on"));
   EXPECT_LE(session.events(EventKind::note)[0].t_s, session.events(EventKind::text_shown)[0].t_s);
@@ -276,10 +285,33 @@ TEST_F(FailedCheck, leaves_the_session_to_be_resumed_when_they_do_not) {
   EXPECT_EQ(session.engine.state(), SessionState::paused);
 }
 
-TEST_F(FailedCheck, is_said_and_logged_where_nobody_can_be_asked) {
-  EXPECT_EQ(run(), RunEnd::finished);
+TEST_F(FailedCheck, ends_the_session_to_be_resumed_where_nobody_can_be_asked) {
+  try {
+    run();
+    ADD_FAILURE() << "it went on";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("board"));
+    EXPECT_THAT(error.what(), HasSubstr("--go-on"));
+  }
   EXPECT_THAT(console.said, Contains(HasSubstr("FAILED   board: not seen")));
   EXPECT_THAT(session.events(EventKind::check), ::testing::SizeIs(2));
+  EXPECT_THAT(session.screen.screens, IsEmpty());
+  EXPECT_EQ(session.engine.state(), SessionState::paused);
+}
+
+TEST_F(FailedCheck, is_gone_over_where_nobody_can_be_asked_and_that_was_asked_for) {
+  go_on_unchecked = true;
+  EXPECT_EQ(run(), RunEnd::finished);
+  EXPECT_THAT(notes(),
+              ElementsAre("failed check: board; nobody could be asked; the session goes on"));
+}
+
+TEST_F(FailedCheck, is_made_again_until_it_succeeds) {
+  console.answer = ConsoleCommandKind::check;
+  n_failures = 3;
+  EXPECT_EQ(run(), RunEnd::finished);
+  EXPECT_THAT(console.asked, ::testing::SizeIs(3));
+  EXPECT_THAT(session.events(EventKind::check), ::testing::SizeIs(8)) << "each is logged";
   EXPECT_THAT(notes(), IsEmpty());
 }
 
@@ -309,6 +341,86 @@ TEST(Experimenter, vetoes_a_trial_and_it_comes_again) {
   EXPECT_EQ(session.events(EventKind::voided)[0].as<TrialVoided>()->reason, "veto: disturbance");
   EXPECT_EQ(session.engine.n_attempts(), 3);
   EXPECT_EQ(session.engine.n_completed(), 2);
+}
+
+// Comparisons alone, short ones.
+Protocol comparing_protocol() {
+  Protocol protocol = quick_protocol();
+  ComparisonBlock comparison;
+  comparison.name = "comparison";
+  comparison.staircases = {{15, testing::staircase("15g", 175, 50, 3)}};
+  protocol.blocks = {comparison};
+  return protocol;
+}
+
+TEST(Experimenter, takes_the_last_answer_back_and_its_trial_comes_again) {
+  Session session(comparing_protocol());
+  MadeUpConsole console;
+  bool vetoed = false;
+  console.on_show = [&](const ConsoleStatus& status) {
+    if (vetoed || status.n_completed != 2 || !session.engine.trial_is_open()) return;
+    vetoed = true;
+    console.commands.push_back({ConsoleCommandKind::veto_answer, "tapped by mistake"});
+    console.commands.push_back({ConsoleCommandKind::veto_answer, "once more"});
+  };
+  EXPECT_EQ(session.run(&console), RunEnd::finished);
+  const auto events = session.events(EventKind::answer_vetoed);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].as<AnswerVetoed>()->reason, "tapped by mistake");
+  EXPECT_THAT(console.said, Contains(HasSubstr("presented again")));
+  EXPECT_THAT(console.said, Contains(HasSubstr("no comparison")));
+  EXPECT_EQ(session.engine.n_completed(), 3);
+  EXPECT_EQ(session.engine.n_attempts(), 5) << "with the one that had begun, and the one again";
+}
+
+TEST(Person, who_declines_by_mistake_can_take_it_back) {
+  Protocol protocol = quick_protocol();
+  protocol.screens.consent = true;
+  bool declined = false;
+  Session session(protocol, [&](const ViewFrame& picture, const ScreenState& screen) {
+    if (screen.screen == Screen::consent && !std::exchange(declined, true))
+      return std::vector{touch(TouchKind::decline)};
+    return patient(picture, screen);
+  });
+  EXPECT_EQ(session.run(), RunEnd::finished);
+  EXPECT_THAT(pages_of(session.sink),
+              ElementsAre("consent", "declined", "consent", "welcome", "instructions_sorting",
+                          "trial_sorting", "thanks"));
+  const auto consents = session.events(EventKind::consent);
+  ASSERT_EQ(consents.size(), 2U);
+  EXPECT_FALSE(consents[0].as<Consent>()->agreed);
+  EXPECT_TRUE(consents[1].as<Consent>()->agreed);
+}
+
+TEST(Person, who_comes_back_meets_no_page_again_that_they_were_through_with) {
+  Protocol protocol = every_page_protocol();
+  bool closes = true;
+  const auto person = [&](const ViewFrame& picture, const ScreenState& screen) {
+    if (screen.screen != Screen::about_you || !closes) return patient(picture, screen);
+    closes = false;
+    Touch age = touch(TouchKind::entry);
+    age.key = "age";
+    age.value = "25_34";
+    return std::vector{age, touch(TouchKind::close)};
+  };
+  Session session(protocol, person);
+  EXPECT_EQ(session.run(), RunEnd::stopped);
+  EXPECT_THAT(pages_of(session.sink), ElementsAre("consent", "welcome", "about_you"));
+
+  std::vector<Event> events;
+  for (const RecordedEntry& entry : session.sink.entries())
+    if (const auto* recorded = std::get_if<RecordedEvent>(&entry))
+      events.push_back(recorded->event);
+  session.engine.apply({session.engine.last_s(), SessionResumed{}});
+  RecordedSession sink{SessionHeader{}};
+  SessionParts parts{protocol,       session.engine, sink, session.pictures, *session.hand,
+                     session.screen, session.clock,  true, &session.texts};
+  parts.before = gone_through(events, session.sink.header().participant_info);
+  session.screen.screens.clear();
+  EXPECT_EQ(Runner(parts, {}).run(), RunEnd::finished);
+  EXPECT_EQ(pages_of(sink).at(0), "about_you");
+  EXPECT_EQ(pages_of(sink).at(1), "demonstration");
+  EXPECT_THAT(session.screen.screens.at(0).entries, ElementsAre(std::pair("age", "25_34")));
 }
 
 TEST(Experimenter, notes_takes_a_break_and_ends) {

@@ -61,12 +61,17 @@ inline std::vector<NamedScreen> page_screens() {
           {"rest", page_state(Screen::rest)},
           {"paused", page_state(Screen::paused)},
           {"how_decided", page_state(Screen::how_decided)},
-          {"thanks", page_state(Screen::thanks)}};
+          {"thanks", page_state(Screen::thanks)},
+          {"declined", page_state(Screen::declined)}};
 }
 
 inline std::vector<NamedScreen> trial_screens() {
   ScreenState untouched = trial_state(Task::sorting);
   untouched.can_answer = false;
+  untouched.touch_first = true;
+  ScreenState fading = trial_state(Task::comparison);
+  fading.can_answer = false;
+  fading.faded = 0.5;
   ScreenState again = trial_state(Task::introduction);
   again.try_again = true;
   again.n_choices = 1;
@@ -87,7 +92,8 @@ inline std::vector<NamedScreen> trial_screens() {
           {"sorting_labeled", labeled},
           {"introduction", trial_state(Task::introduction)},
           {"introduction_again", again},
-          {"comparison", trial_state(Task::comparison)}};
+          {"comparison", trial_state(Task::comparison)},
+          {"comparison_fading", fading}};
 }
 
 inline std::vector<NamedScreen> every_screen() {

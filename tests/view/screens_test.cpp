@@ -292,22 +292,95 @@ TEST(Screens, LabelsAreShownOverTheirCubes) {
                                  std::tuple(3, "Lightest", false)));
 }
 
-TEST(Screens, ANewTrialBeginsWithNoCubeSelected) {
-  const auto chosen_after = [](const ScreenState& next, bool cubes) {
+TEST(Screens, ANewTrialBeginsWithNoCubeSelectedThoughItsCubesAreThereAtOnce) {
+  const auto chosen_after = [](const ScreenState& next) {
     Fixture fixture;
-    ScreenState state = trial_state(Task::sorting);
-    state.n_choices = 2;
-    fixture.screens.show(state, true);
+    fixture.screens.show(trial_state(Task::sorting), true);
     fixture.tap("cube_1");
-    fixture.screens.show(next, cubes);
-    return fixture.control("cube_1").chosen;
+    const Turn turn = fixture.screens.show(next, true);
+    const bool chosen = fixture.control("cube_1").chosen;
+    EXPECT_EQ(turn, chosen ? Turn::none : Turn::page);
+    return chosen;
   };
-  ScreenState same = trial_state(Task::sorting);
-  same.n_choices = 3;
-  EXPECT_TRUE(chosen_after(same, true));
-  EXPECT_FALSE(chosen_after(same, false)) << "the cubes vanished";
-  EXPECT_FALSE(chosen_after(trial_state(Task::sorting), true)) << "no choices made yet";
-  EXPECT_FALSE(chosen_after(trial_state(Task::comparison), true));
+  const ScreenState same = trial_state(Task::sorting);
+  EXPECT_TRUE(chosen_after(same));
+  for (int ScreenState::*number :
+       {&ScreenState::trial_number, &ScreenState::attempt, &ScreenState::n_reshuffles}) {
+    ScreenState other = same;
+    ++(other.*number);
+    EXPECT_FALSE(chosen_after(other));
+  }
+  EXPECT_FALSE(chosen_after(trial_state(Task::comparison)));
+}
+
+TEST(Screens, CubesThatAppearAreToldFromAPageThatTurns) {
+  Fixture fixture;
+  ScreenState state = trial_state(Task::comparison);
+  EXPECT_EQ(fixture.screens.show(state, false), Turn::page);
+  EXPECT_EQ(fixture.screens.show(state, true), Turn::cubes);
+  EXPECT_EQ(fixture.screens.show(state, true), Turn::none);
+  state.trial_number = 2;
+  state.faded = 0.2;
+  EXPECT_EQ(fixture.screens.show(state, true), Turn::page);
+  EXPECT_THAT(names(fixture.page(), true), ElementsAre()) << "those cubes were the last trial's";
+  EXPECT_EQ(fixture.page().notice, "Next cubes");
+  EXPECT_FLOAT_EQ(fixture.page().scene_opacity, 0.8f);
+  state.faded.reset();
+  EXPECT_EQ(fixture.screens.show(state, true), Turn::cubes);
+  EXPECT_FALSE(names(fixture.page(), true).empty());
+}
+
+TEST(Screens, HintsComeOnlyWhereTheProtocolAsksForWhatTheySay) {
+  Fixture fixture;
+  ScreenState state = trial_state(Task::comparison);
+  state.can_answer = false;
+  fixture.screens.show(state, true);
+  EXPECT_EQ(fixture.page().notice, "");
+  state.touch_first = true;
+  fixture.screens.show(state, true);
+  EXPECT_THAT(fixture.page().notice, testing::HasSubstr("Push every cube"));
+}
+
+TEST(Screens, APauseReturnsToTheVeryQuestion) {
+  Fixture fixture;
+  fixture.screens.show(page_state(Screen::about_you), false);
+  fixture.tap("age_25_34");
+  fixture.tap("next");
+  fixture.tap("next");
+  ASSERT_TRUE(fixture.control("handedness_left").enabled);
+  fixture.screens.show(page_state(Screen::paused), false);
+  fixture.screens.show(page_state(Screen::about_you), false);
+  EXPECT_TRUE(fixture.control("handedness_left").enabled);
+  fixture.tap("back");
+  fixture.tap("back");
+  EXPECT_TRUE(fixture.control("age_25_34").chosen);
+}
+
+TEST(Screens, AFormGoesOnWithTheFirstQuestionThatHasNoAnswer) {
+  Fixture fixture;
+  ScreenState state = page_state(Screen::about_you);
+  state.entries = {{"age", "25_34"}, {"gender", "man"}};
+  fixture.screens.show(state, false);
+  EXPECT_TRUE(fixture.control("handedness_left").enabled);
+}
+
+TEST(Screens, NobodyAgreesWhereTheyReadOnOrBeforeTheyCanHaveRead) {
+  for (const Measures& window : windows) {
+    ScreenTexts texts = shipped_texts("en");
+    for (int i = 0; i < 400; ++i) texts.pages["consent"]["text"] += " and so on";
+    Fixture fixture("en", window);
+    fixture.screens = Screens(texts, false);
+    fixture.screens.show(page_state(Screen::consent), false);
+    const Rect more = fixture.control("more").area;
+    while (testing::Value(names(fixture.page()), testing::Contains("more"))) fixture.tap("more");
+    for (const char* name : {"next", "decline"})
+      EXPECT_FALSE(overlap(fixture.control(name).area, more)) << name;
+    for (const double up_s : {0.0, 1.9})
+      EXPECT_THAT(names(fixture.screens.page(fixture.typeface, fixture.measures, up_s), true),
+                  ElementsAre("back"));
+    EXPECT_THAT(names(fixture.screens.page(fixture.typeface, fixture.measures, 60), true),
+                testing::Contains("next"));
+  }
 }
 
 TEST(Screens, ValidationNeedsTheSessionsLeave) {

@@ -22,6 +22,8 @@ std::vector<std::string> names_of(const std::vector<Control>& controls) {
   return names;
 }
 
+constexpr double settled_s = settle_s + 0.05;
+
 class Window : public testing::Test {
  protected:
   Window() {
@@ -38,7 +40,7 @@ class Window : public testing::Test {
   /// Shows a screen, until a tap on it counts.
   void show(const ScreenState& state, bool cubes = true) {
     view->present(picture_of(setup, cubes), state);
-    EXPECT_THAT(view->wait(0.25), IsEmpty());
+    EXPECT_THAT(view->wait(settled_s), IsEmpty());
   }
 
   std::vector<Touch> touches() { return view->wait(0); }
@@ -82,14 +84,18 @@ TEST_F(Window, FrenchAndTheMouseWorkAlike) {
   EXPECT_EQ(touched[0].action.slot, 2);
 }
 
-TEST_F(Window, ADoubleTapCountsTwice) {
+TEST_F(Window, ADoubleTapCountsOnce) {
   show(trial_state(Task::comparison));
   tap(*view, "no_difference");
   tap(*view, "no_difference");
   const Rect area = control_named(*view, "no_difference").area;
   push_mouse(SDL_MOUSEBUTTONDOWN, center_x(area), center_y(area), SDL_TOUCH_MOUSEID);
   push_mouse(SDL_MOUSEBUTTONUP, center_x(area), center_y(area), SDL_TOUCH_MOUSEID);
-  EXPECT_THAT(touches(), SizeIs(2)) << "the mouse that imitates a finger does not count";
+  EXPECT_THAT(touches(), SizeIs(1));
+  view->wait(settled_s);
+  push_mouse(SDL_MOUSEBUTTONDOWN, center_x(area), center_y(area), SDL_TOUCH_MOUSEID);
+  push_mouse(SDL_MOUSEBUTTONUP, center_x(area), center_y(area), SDL_TOUCH_MOUSEID);
+  EXPECT_THAT(touches(), IsEmpty()) << "the mouse that imitates a finger does not count";
 }
 
 TEST_F(Window, ATapIsDownAndUpOnTheSameControl) {
@@ -134,7 +140,7 @@ TEST_F(Window, TheSecondHalfOfADoubleTapSkipsNoPage) {
   ASSERT_THAT(after_tap("next"), SizeIs(1));
   view->present(picture_of(setup), page_state(Screen::instructions));
   EXPECT_THAT(after_tap("next"), IsEmpty());
-  view->wait(0.25);
+  view->wait(settled_s);
   EXPECT_THAT(after_tap("next"), SizeIs(1));
 }
 
@@ -173,7 +179,19 @@ TEST_F(Window, CubesInThePictureWaitForLeaveToo) {
   EXPECT_THAT(touches(), IsEmpty());
 }
 
+TEST_F(Window, TakesNoKeysUnlessItIsAskedTo) {
+  show(trial_state(Task::comparison));
+  for (const auto key : {SDL_SCANCODE_1, SDL_SCANCODE_N, SDL_SCANCODE_RETURN}) push_key(key);
+  EXPECT_THAT(touches(), IsEmpty());
+  show(page_state(Screen::consent));
+  for (const auto key : {SDL_SCANCODE_N, SDL_SCANCODE_RETURN}) push_key(key);
+  EXPECT_THAT(touches(), IsEmpty());
+}
+
 TEST_F(Window, KeysDoWhatButtonsDo) {
+  ViewSetup with_keys = setup_for("en");
+  with_keys.takes_keys = true;
+  open(with_keys);
   ScreenState state = trial_state(Task::sorting);
   show(state);
   push_key(SDL_SCANCODE_3);

@@ -73,6 +73,7 @@ struct Page {
   std::vector<TextLine> lines;
   std::vector<Control> controls;
   std::optional<Rect> scene;  ///< where the scene goes, as large as fits; none: no scene
+  float scene_opacity = 1;    ///< less while it fades
   std::string notice;         ///< one sentence over the scene's lower edge
   std::vector<CubeMark> marks;
 };

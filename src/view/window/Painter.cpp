@@ -83,7 +83,9 @@ void paint_control(ImDrawList& list, const Control& control, const Paint& paint)
 
 void paint_scene(ImDrawList& list, const PaintedScene& scene) {
   const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture));
-  list.AddImage(id, corner(scene.area), opposite_corner(scene.area));
+  const auto alpha = static_cast<int>(std::lround(255 * std::clamp(scene.opacity, 0.f, 1.f)));
+  list.AddImage(id, corner(scene.area), opposite_corner(scene.area), {0, 0}, {1, 1},
+                IM_COL32(255, 255, 255, alpha));
 }
 
 bool overlap(const Rect& a, const Rect& b) {

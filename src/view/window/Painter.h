@@ -20,6 +20,7 @@ namespace heft {
 struct PaintedScene {
   unsigned texture = 0;
   Rect area;
+  float opacity = 1;
 };
 
 /// A mark at its place on the screen: the tip of a small flag above a cube.

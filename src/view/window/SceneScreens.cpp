@@ -25,6 +25,7 @@ void add_scene(PageBuilder& builder, const std::string& above) {
   const float bottom = builder.add_lines(words.lines, x, m.margin, words.size_px);
   const float y = bottom + m.gap;
   builder.page.scene = Rect{x, y, width, m.height - m.margin - y};
+  builder.page.scene_opacity = static_cast<float>(1 - builder.state.faded.value_or(0));
 }
 
 // A row of the column divided into equal cells.
@@ -110,9 +111,11 @@ void add_put_back(PageBuilder& builder, const Rect& area) {
 
 // What must be done before an answer is possible.
 void add_hint(PageBuilder& builder) {
-  if (!builder.memory.cubes_shown)
+  if (builder.state.faded)
+    builder.page.notice = builder.text_or_none("trial", "next_cubes");
+  else if (!builder.memory.cubes_shown)
     builder.page.notice = builder.text("trial", "wait_for_cubes");
-  else if (!builder.state.can_answer)
+  else if (builder.state.touch_first)
     builder.page.notice = builder.text("trial", "touch_every_cube");
 }
 

@@ -15,12 +15,14 @@
 
 namespace heft {
 
-/// What a screen remembers by itself between two touches; forgotten when the page turns.
+/// What a screen remembers by itself between two touches; forgotten when the page turns, but for a
+/// pause.
 struct ScreenMemory {
   std::optional<int> selected;                 ///< sorting: the cube that the next label is for
   int part = 0;                                ///< of a long text, or question of a form; from 0
   std::map<std::string, std::string> entries;  ///< of a form, as chosen so far
   bool cubes_shown = false;                    ///< in the scene
+  double up_s = 0;                             ///< how long the part or question has been there
 };
 
 class PageBuilder {
@@ -37,6 +39,8 @@ class PageBuilder {
   const std::string& text(const std::string& of_page, const std::string& key) const {
     return texts_.at(of_page, key);
   }
+  /// Empty where the texts, which are older than this page or key, lack it.
+  std::string text_or_none(const std::string& of_page, const std::string& key) const;
 
   /// Lines below each other; an empty one is half as high.
   /// @return the bottom of the last
@@ -50,10 +54,12 @@ class PageBuilder {
   /// The one that leads on; the key is Enter.
   Control& add_primary(std::string name, const Rect& area, std::string words, Effect effect);
 
+  /// The i-th of two wide buttons side by side above the lower edge's, from the side of the hand.
+  Rect choice_button(int i) const;
   /// The i-th button of the row along the lower edge, counted from the side of the hand.
   Rect bottom_button(int i) const;
-  /// Where text pages write: centered, of a width that reads well, above the row of buttons.
-  Rect text_area() const;
+  /// Where text pages write: centered, of a width that reads well, above the rows of buttons.
+  Rect text_area(int n_rows = 1) const;
 
   Page page;
   const ScreenState& state;
@@ -75,9 +81,11 @@ using FillPage = void(PageBuilder& builder);
 
 // Text: TextScreens.cpp. A text too long for the screen comes in parts.
 FillPage consent_screen, welcome_screen, instructions_screen, rest_screen, paused_screen,
-    thanks_screen;
+    thanks_screen, declined_screen;
 // Forms of one question at a time, each to be skipped at will: there, too.
 FillPage about_you_screen, how_decided_screen;
+/// Of a form, the first question without an answer, or its last; elsewhere 0.
+int first_open_question(const ScreenState& state);
 // Beside the scene: SceneScreens.cpp.
 FillPage demonstration_screen, introduction_screen, sorting_screen, comparison_screen;
 

@@ -15,8 +15,9 @@ float advance_px(const std::string& line, float size_px) {
 
 // In the order of Screen and of Task.
 constexpr std::array<FillPage*, EnumNames<Screen>::names.size()> pages{
-    consent_screen, welcome_screen, about_you_screen, demonstration_screen, instructions_screen,
-    nullptr,        rest_screen,    paused_screen,    how_decided_screen,   thanks_screen};
+    consent_screen,      welcome_screen, about_you_screen, demonstration_screen,
+    instructions_screen, nullptr,        rest_screen,      paused_screen,
+    how_decided_screen,  thanks_screen,  declined_screen};
 constexpr std::array<FillPage*, EnumNames<Task>::names.size()> trial_pages{
     introduction_screen, sorting_screen, comparison_screen};
 }  // namespace
@@ -55,9 +56,24 @@ Rect PageBuilder::bottom_button(int i) const {
           measures.height - 2 * measures.margin - measures.target, width, measures.target};
 }
 
-Rect PageBuilder::text_area() const {
+Rect PageBuilder::choice_button(int i) const {
+  const Rect below = bottom_button(0), area = text_area();
+  const float width = (area.width - measures.gap) / 2;
+  const float x = (i == 0) == left_handed ? area.x : area.right() - width;
+  return {x, below.y - measures.gap - measures.target, width, measures.target};
+}
+
+std::string PageBuilder::text_or_none(const std::string& of_page, const std::string& key) const {
+  const auto found = texts_.pages.find(of_page);
+  if (found == texts_.pages.end()) return {};
+  const auto words = found->second.find(key);
+  return words == found->second.end() ? std::string() : words->second;
+}
+
+Rect PageBuilder::text_area(int n_rows) const {
   const float width = std::min(measures.width - 4 * measures.margin, 10.5f * measures.target);
-  const float bottom = measures.height - 2 * measures.margin - measures.target - 2 * measures.gap;
+  const float rows_px = static_cast<float>(n_rows) * (measures.target + measures.gap);
+  const float bottom = measures.height - 2 * measures.margin - rows_px - measures.gap;
   const float top = 2 * measures.margin;
   return {(measures.width - width) / 2, top, width, bottom - top};
 }
@@ -76,28 +92,45 @@ Touch touch_of(TouchKind kind) {
   return touch;
 }
 
-// A trial after a trial has the same page; it is told by its cubes that are not there yet, or by
-// its count of choices that begins anew.
-bool Screens::is_new_page(const ScreenState& state, bool cubes_shown) const {
-  if (!shown_ || text_page(state.screen, state.task) != text_page(state_.screen, state_.task))
-    return true;
-  if (state.screen != Screen::trial) return false;
-  return (memory_.cubes_shown && !cubes_shown) || state.n_choices < state_.n_choices ||
-         state.n_slots != state_.n_slots;
+// Whoever is told to try again reads that first, as if it were a page of its own.
+Turn Screens::turn_to(const ScreenState& state, bool cubes_shown) const {
+  const bool again = state.try_again && state.n_choices != state_.n_choices;
+  if (!shown_ || again || state.page() != state_.page()) return Turn::page;
+  return cubes_shown && !memory_.cubes_shown ? Turn::cubes : Turn::none;
 }
 
-bool Screens::show(const ScreenState& state, bool cubes_shown) {
-  const bool turned = is_new_page(state, cubes_shown);
-  if (turned) memory_ = {};
-  memory_.cubes_shown = cubes_shown;
+// A page that was paused comes back as it was left.
+void Screens::remember(const ScreenState& state) {
+  if (state.page() == state_.page()) return;
+  if (state.screen == Screen::paused && shown_) {
+    paused_ = {state_.page(), std::exchange(memory_, {})};
+    return;
+  }
+  if (paused_ && paused_->page == state.page()) {
+    memory_ = std::move(paused_->memory);
+  } else {
+    memory_ = {};
+    memory_.entries = state.entries;
+    memory_.part = first_open_question(state);
+  }
+  paused_.reset();
+}
+
+Turn Screens::show(const ScreenState& state, bool cubes_shown) {
+  const bool cubes = cubes_shown && !state.faded;  // those that fade are the last trial's
+  const Turn turn = turn_to(state, cubes);
+  if (turn == Turn::page) remember(state);
+  memory_.cubes_shown = cubes;
   state_ = state;
   shown_ = true;
-  return turned;
+  return turn;
 }
 
-Page Screens::page(const Typeface& typeface, const Measures& measures) const {
+Page Screens::page(const Typeface& typeface, const Measures& measures, double up_s) const {
   if (!shown_) return {};
-  PageBuilder builder(state_, memory_, texts_, typeface, measures, left_handed_);
+  ScreenMemory memory = memory_;
+  memory.up_s = up_s;
+  PageBuilder builder(state_, memory, texts_, typeface, measures, left_handed_);
   if (state_.screen == Screen::trial)
     trial_pages[static_cast<std::size_t>(state_.task)](builder);
   else

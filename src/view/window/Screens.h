@@ -2,6 +2,7 @@
 // Knows nothing of windows and events; WindowView shows its pages.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "experiment/ScreenState.h"
@@ -13,6 +14,13 @@
 
 namespace heft {
 
+/// What became another with what the session offers.
+enum class Turn {
+  none,
+  cubes,  ///< they appeared, and with them what can be answered
+  page    ///< what a person was about to tap is gone
+};
+
 class Screens {
  public:
   Screens(ScreenTexts texts, bool left_handed)
@@ -20,11 +28,13 @@ class Screens {
 
   /// Takes what the session offers now.
   /// @param cubes_shown whether the scene has cubes; without, nothing can be answered
-  /// @return whether the page turned: then what a person was about to tap is gone
-  bool show(const ScreenState& state, bool cubes_shown);
+  Turn show(const ScreenState& state, bool cubes_shown);
 
   /// Empty until something is shown.
-  Page page(const Typeface& typeface, const Measures& measures) const;
+  /// @param up_s how long it has been on the display, as it is
+  Page page(const Typeface& typeface, const Measures& measures,
+            double up_s = std::numeric_limits<double>::infinity()) const;
+  PageId page_id() const { return state_.page(); }
 
   /// What the session must know of a tap on a control of the page; none: it changed this page only.
   std::optional<Touch> tapped(const Control& control);
@@ -32,13 +42,21 @@ class Screens {
   const ScreenTexts& texts() const { return texts_; }
 
  private:
-  bool is_new_page(const ScreenState& state, bool cubes_shown) const;
+  Turn turn_to(const ScreenState& state, bool cubes_shown) const;
+  void remember(const ScreenState& state);
+
+  /// What a page that was paused remembers.
+  struct Paused {
+    PageId page;
+    ScreenMemory memory;
+  };
 
   ScreenTexts texts_;
   bool left_handed_;
   bool shown_ = false;
   ScreenState state_;
   ScreenMemory memory_;
+  std::optional<Paused> paused_;
 };
 
 }  // namespace heft

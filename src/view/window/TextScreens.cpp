@@ -34,9 +34,10 @@ void add_back(PageBuilder& builder) {
 
 // Writes the title and the text's part in the middle of the space above the buttons.
 // @return whether it was the last part
-bool add_text(PageBuilder& builder, const std::string& page, int wished_part) {
+// @param n_rows of buttons below it
+bool add_text(PageBuilder& builder, const std::string& page, int wished_part, int n_rows = 1) {
   const Measures& m = builder.measures;
-  const Rect area = builder.text_area();
+  const Rect area = builder.text_area(n_rows);
   const Lines title = builder.typeface.wrapped(builder.text(page, "title"), m.title, area.width);
   const float title_px = builder.height_px(title, m.title) + m.margin;
   const auto parts =
@@ -130,6 +131,14 @@ void add_turning(PageBuilder& builder, int i, int n, bool answered) {
   if (i > 0) add_back(builder);
 }
 
+int first_open(std::span<const Question> questions,
+               const std::map<std::string, std::string>& entries) {
+  const auto open = std::ranges::find_if(
+      questions, [&](const Question& q) { return !entries.contains(std::string(q.key)); });
+  return std::min(static_cast<int>(open - questions.begin()),
+                  static_cast<int>(questions.size()) - 1);
+}
+
 void form_screen(PageBuilder& builder, const std::string& page,
                  std::span<const Question> questions) {
   const int n = static_cast<int>(questions.size());
@@ -142,14 +151,43 @@ void form_screen(PageBuilder& builder, const std::string& page,
               bottom + builder.measures.gap);
   add_turning(builder, i, n, answered);
 }
+
+// Of the last part of what somebody agrees to, as long as anybody needs to look it over: a letter
+// in 20 ms is 10 words a second, and a glance takes 2 s.
+double reading_time_s(const PageBuilder& builder) {
+  constexpr double glance_s = 2, letter_s = 0.02;
+  std::size_t n = 0;
+  for (const TextLine& line : builder.page.lines) n += line.text.size();
+  return std::max(glance_s, letter_s * static_cast<double>(n));
+}
 }  // namespace
 
+// Who reads on does not tap where others agree.
 void consent_screen(PageBuilder& builder) {
-  if (!add_text(builder, "consent", builder.memory.part)) return;
-  builder.add_primary("next", builder.bottom_button(0), builder.text("consent", "agree"),
-                      touch_of(TouchKind::next));
-  builder.add_button("decline", builder.bottom_button(1), builder.text("consent", "decline"),
+  if (!add_text(builder, "consent", builder.memory.part, 2)) return;
+  const bool has_read = builder.memory.up_s >= reading_time_s(builder);
+  builder
+      .add_primary("next", builder.choice_button(0), builder.text("consent", "agree"),
+                   touch_of(TouchKind::next))
+      .enabled = has_read;
+  builder
+      .add_button("decline", builder.choice_button(1), builder.text("consent", "decline"),
+                  touch_of(TouchKind::decline), 'n')
+      .enabled = has_read;
+}
+
+void declined_screen(PageBuilder& builder) {
+  add_text(builder, "declined", 0, 2);
+  builder.add_button("next", builder.bottom_button(0), builder.text("declined", "take_back"),
+                     touch_of(TouchKind::next));
+  builder.add_button("decline", builder.bottom_button(2), builder.text("declined", "leave"),
                      touch_of(TouchKind::decline), 'n');
+}
+
+int first_open_question(const ScreenState& state) {
+  if (state.screen == Screen::about_you) return first_open(about_you, state.entries);
+  if (state.screen == Screen::how_decided) return first_open(how_decided, state.entries);
+  return 0;
 }
 
 void welcome_screen(PageBuilder& builder) {

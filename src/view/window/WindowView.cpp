@@ -11,10 +11,6 @@
 namespace heft {
 
 namespace {
-// A page that just appeared was not what a finger already on its way meant: the second half of a
-// double tap must not skip instructions. Shorter than people take to react to anything.
-constexpr double settle_s = 0.2;
-
 // Fingers are broader than a cube's edge: this far from a cube, in targets, still means it.
 constexpr float around = 0.35f;
 
@@ -33,20 +29,19 @@ std::optional<char> key_of(const SDL_Keysym& key) {
 WindowView::WindowView(const ViewSetup& setup)
     : window_("Heft"),
       scene_(setup),
-      screens_(setup.texts, setup.left_handed),
+      touched_(
+          setup.texts, setup.left_handed, setup.takes_keys,
+          [this](float x, float y) { return scene_.slot_near(x, y, around * measures_.target); }),
       measures_(window_.measures()),
       typeface_(std::make_unique<Typeface>(setup.texts, measures_)),
       sdl_start_s_(monotonic_s() - static_cast<double>(SDL_GetTicks64()) * 1e-3) {}
 
 void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
-  if (screens_.show(screen, !shown.frame.cubes.empty())) {
-    taps_.forget();
-    page_since_s_ = monotonic_s();
-  }
+  touched_.show(screen, !shown.frame.cubes.empty());
   lay_out();
-  if (!page_.scene) return;
+  if (!touched_.page().scene) return;
   window_.upload(scene_.draw(shown));
-  scene_.place(page_.scene);
+  scene_.place(touched_.page().scene);
 }
 
 // The page for the window's size and the screens' memory as they are now.
@@ -54,102 +49,64 @@ void WindowView::lay_out() {
   const Measures now = window_.measures();
   if (now.width != measures_.width || now.height != measures_.height) {
     measures_ = now;
-    typeface_ = std::make_unique<Typeface>(screens_.texts(), measures_);
+    typeface_ = std::make_unique<Typeface>(touched_.texts(), measures_);
   }
-  page_ = screens_.page(*typeface_, measures_);
-  scene_.place(page_.scene);
+  touched_.lay_out(*typeface_, measures_, monotonic_s());
+  scene_.place(touched_.page().scene);
   stale_ = true;
 }
 
 void WindowView::draw() {
+  const Page& page = touched_.page();
   std::optional<PaintedScene> painted;
-  if (scene_.area()) painted = PaintedScene{window_.texture(), *scene_.area()};
+  if (scene_.area()) painted = PaintedScene{window_.texture(), *scene_.area(), page.scene_opacity};
   ImDrawList& list = window_.begin_frame(typeface_->atlas());
-  paint_page(list, page_,
-             {*typeface_, measures_, painted, scene_.placed(page_.marks),
-              [&](const std::string& name) { return taps_.holds(name); }});
+  paint_page(list, page,
+             {*typeface_, measures_, painted, scene_.placed(page.marks),
+              [&](const std::string& name) { return touched_.holds(name); }});
   window_.end_frame();
+  touched_.presented(monotonic_s());
   stale_ = false;
-}
-
-const Control* WindowView::enabled_control(const std::string& name) const {
-  const auto found = std::ranges::find(page_.controls, name, &Control::name);
-  return found != page_.controls.end() && found->enabled ? &*found : nullptr;
-}
-
-std::optional<std::string> WindowView::target_at(float x, float y) const {
-  for (const Control& control : page_.controls)
-    if (control.area.contains(x, y))
-      return control.enabled ? std::optional(control.name) : std::nullopt;
-  const auto slot = scene_.slot_near(x, y, around * measures_.target);
-  if (!slot) return std::nullopt;
-  const std::string name = fmt::format("cube_{}", *slot);
-  return enabled_control(name) ? std::optional(name) : std::nullopt;
-}
-
-void WindowView::down(Taps::Pointer pointer, float x, float y, double t_s) {
-  if (t_s < page_since_s_ + settle_s) return;
-  if (const auto target = target_at(x, y)) {
-    taps_.down(pointer, *target);
-    stale_ = true;
-  }
-}
-
-void WindowView::up(Taps::Pointer pointer, float x, float y, double t_s) {
-  const auto target = target_at(x, y);
-  stale_ = true;
-  if (taps_.up(pointer, target)) apply(*enabled_control(*target), t_s);
-}
-
-void WindowView::key(char key, double t_s) {
-  if (t_s < page_since_s_ + settle_s) return;
-  const auto found = std::ranges::find_if(page_.controls, [&](const Control& control) {
-    return control.key == key && control.enabled;
-  });
-  if (found != page_.controls.end()) apply(*found, t_s);
-}
-
-void WindowView::apply(const Control& control, double t_s) {
-  if (auto touch = screens_.tapped(control)) report(std::move(*touch), t_s);
-  lay_out();
-}
-
-void WindowView::report(Touch touch, double t_s) {
-  touch.monotonic_s = t_s;
-  touches_.push_back(std::move(touch));
 }
 
 void WindowView::handle(const SDL_Event& event) {
   const double t_s = sdl_start_s_ + event.common.timestamp * 1e-3;
+  const auto down = [&](Taps::Pointer pointer, float x, float y) {
+    if (touched_.down(pointer, x, y, t_s)) stale_ = true;
+  };
+  const auto up = [&](Taps::Pointer pointer, float x, float y) {
+    if (touched_.up(pointer, x, y, t_s)) lay_out();
+  };
   const auto mouse_at = [&](Sint32 place) { return static_cast<float>(place) * window_.scale(); };
   switch (event.type) {
     case SDL_FINGERDOWN:
       SDL_ShowCursor(SDL_DISABLE);
       return down(event.tfinger.fingerId, event.tfinger.x * measures_.width,
-                  event.tfinger.y * measures_.height, t_s);
+                  event.tfinger.y * measures_.height);
     case SDL_FINGERUP:
       return up(event.tfinger.fingerId, event.tfinger.x * measures_.width,
-                event.tfinger.y * measures_.height, t_s);
+                event.tfinger.y * measures_.height);
     case SDL_MOUSEMOTION:
       SDL_ShowCursor(SDL_ENABLE);
       return;
     case SDL_MOUSEBUTTONDOWN:
       if (event.button.button == SDL_BUTTON_LEFT && event.button.which != SDL_TOUCH_MOUSEID)
-        down(Taps::mouse, mouse_at(event.button.x), mouse_at(event.button.y), t_s);
+        down(Taps::mouse, mouse_at(event.button.x), mouse_at(event.button.y));
       return;
     case SDL_MOUSEBUTTONUP:
       if (event.button.button == SDL_BUTTON_LEFT && event.button.which != SDL_TOUCH_MOUSEID)
-        up(Taps::mouse, mouse_at(event.button.x), mouse_at(event.button.y), t_s);
+        up(Taps::mouse, mouse_at(event.button.x), mouse_at(event.button.y));
       return;
     case SDL_KEYDOWN:
       if (event.key.repeat != 0) return;
       if (event.key.keysym.sym == SDLK_F11) return window_.toggle_full_screen();
-      if (const auto pressed = key_of(event.key.keysym)) key(*pressed, t_s);
+      if (const auto pressed = key_of(event.key.keysym); pressed && touched_.key(*pressed, t_s))
+        lay_out();
       return;
     case SDL_WINDOWEVENT:
       return lay_out();  // perhaps resized, perhaps uncovered
     case SDL_QUIT:
-      return report(touch_of(TouchKind::close), t_s);
+      return touched_.report(touch_of(TouchKind::close), t_s);
   }
 }
 
@@ -172,10 +129,10 @@ std::vector<Touch> WindowView::wait(double seconds) {
     handle_pending();
     if (stale_) draw();
     const double left_s = end_s - monotonic_s();
-    if (!touches_.empty() || left_s <= 0) break;
+    if (touched_.has_touches() || left_s <= 0) break;
     SDL_WaitEventTimeout(nullptr, static_cast<int>(std::ceil(left_s * 1e3)));
   }
-  return std::exchange(touches_, {});
+  return touched_.take();
 }
 
 }  // namespace heft

@@ -1,11 +1,12 @@
 // The participant's window: SDL2 and OpenGL, full screen, for touch at arm's length. Fingers and
 // mouse are equal: a tap is going down and up on the same control, or on the same cube in the
-// scene, which is as good as its button. Targets' sizes: Measures.h. F11 changes between full
-// screen and a window.
+// scene, which is as good as its button; when it counts: TouchScreen.h. Targets' sizes: Measures.h.
+// F11 changes between full screen and a window.
 //
-// Keyboard: 1...9 a cube or a form's choice; L, I, H lightest, intermediate, heaviest (whatever the
-// language); Enter goes on, agrees, validates; D "I don't know"; N "No difference", "I do not
-// agree"; Backspace puts the cubes back, or goes back in a form or a text.
+// Keyboard, where it is asked for (whoever types elsewhere must not answer): 1...9 a cube or a
+// form's choice; L, I, H lightest, intermediate, heaviest (whatever the language); Enter goes on,
+// agrees, validates; D "I don't know"; N "No difference", "I do not agree"; Backspace puts the
+// cubes back, or goes back in a form or a text.
 #pragma once
 
 #include <memory>
@@ -16,7 +17,7 @@
 #include "view/ArView.h"
 #include "view/window/GlWindow.h"
 #include "view/window/Painter.h"
-#include "view/window/Screens.h"
+#include "view/window/TouchScreen.h"
 
 namespace heft {
 
@@ -30,34 +31,23 @@ class WindowView final : public ArView {
   std::vector<Touch> wait(double seconds) override;
 
   /// The controls as last shown, in pixels of the window: for tests, and for scripts that tap.
-  const std::vector<Control>& controls() const { return page_.controls; }
-  /// The name of the enabled control that a tap at this pixel is for; a cube in the scene goes by
-  /// its button's name.
-  std::optional<std::string> target_at(float x, float y) const;
+  const std::vector<Control>& controls() const { return touched_.page().controls; }
+  /// As TouchScreen::target_at.
+  std::optional<std::string> target_at(float x, float y) const { return touched_.target_at(x, y); }
 
  private:
   void show(const ViewFrame& shown, const ScreenState& screen);
   void draw();
   void handle_pending();
   void handle(const SDL_Event& event);
-  void down(Taps::Pointer pointer, float x, float y, double t_s);
-  void up(Taps::Pointer pointer, float x, float y, double t_s);
-  void key(char key, double t_s);
-  void apply(const Control& control, double t_s);
-  void report(Touch touch, double t_s);
   void lay_out();
-  const Control* enabled_control(const std::string& name) const;
 
   GlWindow window_;
   SceneOnScreen scene_;
-  Screens screens_;
+  TouchScreen touched_;
   Measures measures_;
   std::unique_ptr<Typeface> typeface_;
-  Page page_;
-  Taps taps_;
-  std::vector<Touch> touches_;
   double sdl_start_s_;  ///< SDL counts events' times from there, in milliseconds of the same clock
-  double page_since_s_ = 0;
   bool stale_ = false;  ///< what is on the display is not the page as it is now
 };
 

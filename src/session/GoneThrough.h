@@ -1,0 +1,35 @@
+// What a person went through before their session went on: it does not come again.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "experiment/Event.h"
+#include "experiment/ScreenState.h"
+
+namespace heft {
+
+struct GoneThrough {
+  bool consented = false;
+  std::set<std::string> pages = {};                 ///< that were turned
+  std::map<std::string, std::string> entries = {};  ///< of forms, answered so far
+};
+
+/// @param entries what the log keeps of the participant
+inline GoneThrough gone_through(const std::vector<Event>& events,
+                                std::map<std::string, std::string> entries) {
+  GoneThrough gone{false, {}, std::move(entries)};
+  std::string page;
+  for (const Event& event : events) {
+    if (const auto* consent = event.as<Consent>()) gone.consented = consent->agreed;
+    const auto* shown = event.as<TextShown>();
+    if (!shown || shown->page == name_of(Screen::paused)) continue;
+    if (!page.empty() && shown->page != page) gone.pages.insert(page);
+    page = shown->page;
+  }
+  return gone;
+}
+
+}  // namespace heft

@@ -1,0 +1,129 @@
+// An answer that the experimenter takes back: kept, presented again, and for the procedure as if it
+// had not been asked.
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include "engine/Engine.h"
+#include "session/Protocols.h"
+
+namespace heft {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::shared;
+using ::testing::SizeIs;
+
+Protocol two_staircases() {
+  Protocol protocol = testing::small_protocol();
+  protocol.blocks = {protocol.blocks.back(), BreakBlock{"break", 1}, protocol.blocks[2]};
+  return protocol;
+}
+
+struct Session {
+  Changes apply(Happening what) { return engine.apply({++t_s, std::move(what)}); }
+  std::string refusal(Happening what) { return engine.admit({t_s, std::move(what)}).refusal; }
+  TrialPlan start() {
+    apply(TrialStarted{});
+    apply(CubesShown{});
+    return *engine.next().plan;
+  }
+  Changes answer(bool yes) {
+    start();
+    return apply(yes ? Action{ActionKind::select, 1} : Action{ActionKind::no_difference});
+  }
+  bool compares() const {
+    return engine.next().plan && engine.next().plan->task == Task::comparison;
+  }
+
+  Engine engine{shared(two_staircases()), 7};
+  double t_s = 0;
+};
+
+const AnswerVetoed by_mistake{"tapped by mistake"};
+
+TEST(VetoedAnswer, is_kept_as_void_and_its_trial_is_presented_again) {
+  Session session;
+  session.answer(true);
+  const TrialRow answered = *session.answer(true).trial;
+  const Changes changes = session.apply(by_mistake);
+  EXPECT_EQ(changes.attempt_index, answered.attempt_index);
+  EXPECT_EQ(changes.trial->status, TrialStatus::voided);
+  EXPECT_EQ(changes.trial->void_reason, "answer vetoed: tapped by mistake");
+  EXPECT_EQ(changes.trial->outcome, answered.outcome) << "what was answered stays";
+  EXPECT_EQ(session.engine.n_completed(), 1);
+  const TrialPlan again = session.start();
+  EXPECT_EQ(again.trial_number, answered.plan.trial_number);
+  EXPECT_EQ(again.attempt, 2);
+  EXPECT_EQ(again.staircase, answered.plan.staircase);
+  EXPECT_EQ(again.level_g, answered.plan.level_g);
+}
+
+TEST(VetoedAnswer, can_be_taken_back_once_and_only_while_no_trial_runs) {
+  Session session;
+  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no comparison"));
+  session.answer(true);
+  session.answer(false);
+  session.start();
+  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("voided first"));
+  session.apply(TrialVoided{std::string(void_interrupted)});
+  EXPECT_THAT(session.refusal(AnswerVetoed{}), HasSubstr("reason"));
+  session.apply(by_mistake);
+  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no comparison"));
+}
+
+TEST(VetoedAnswer, of_sorting_there_is_none) {
+  Session session;
+  while (session.compares()) session.answer(true);
+  session.start();
+  session.apply(Action{ActionKind::dont_know});
+  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no comparison"));
+}
+
+TEST(VetoedAnswer, takes_its_reversal_and_its_estimates_back) {
+  Session session;
+  Changes last;
+  bool yes = true;
+  while (session.compares()) last = session.answer(yes = !yes);
+  ASSERT_THAT(last.estimates, ::testing::Not(IsEmpty())) << "it ended the last staircase";
+  ASSERT_TRUE(session.engine.next().rest);
+  const Changes changes = session.apply(by_mistake);
+  EXPECT_THAT(changes.withdrawn_estimates, SizeIs(last.estimates.size()));
+  EXPECT_THAT(changes.withdrawn_reversals, SizeIs(last.reversals.size()));
+  EXPECT_TRUE(session.compares());
+  EXPECT_FALSE(session.engine.next().rest) << "the break comes when the block is done";
+}
+
+// With vetoes anywhere, what counts is what a session without them has: levels, reversals,
+// estimates.
+RC_GTEST_PROP(VetoedAnswer, leaves_the_procedures_as_if_it_had_not_been, ()) {
+  Session straight, corrected;
+  std::map<std::string, std::vector<double>> levels, reversals, expected_levels, expected_reversals;
+  int n_estimates = 0, n_expected = 0;
+  while (straight.compares()) {
+    const bool yes = *rc::gen::arbitrary<bool>(), slip = *rc::gen::arbitrary<bool>();
+    if (slip) {
+      corrected.answer(!yes);
+      if (*rc::gen::arbitrary<bool>() && corrected.compares()) {  // the next one has begun
+        corrected.start();
+        corrected.apply(TrialVoided{std::string(void_interrupted)});
+      }
+      corrected.apply(by_mistake);
+    }
+    const auto keep = [](const Changes& changes, auto& of_levels, auto& of_reversals, int& n) {
+      of_levels[changes.trial->plan.staircase].push_back(*changes.trial->plan.level_g);
+      for (const ReversalRow& row : changes.reversals)
+        of_reversals[row.staircase].push_back(row.level_g + 1e4 * row.number);
+      n += static_cast<int>(changes.estimates.size());
+    };
+    keep(straight.answer(yes), expected_levels, expected_reversals, n_expected);
+    keep(corrected.answer(yes), levels, reversals, n_estimates);
+  }
+  RC_ASSERT(levels == expected_levels);
+  RC_ASSERT(reversals == expected_reversals);
+  RC_ASSERT(n_estimates == n_expected);
+  RC_ASSERT(!corrected.compares());
+}
+
+}  // namespace
+}  // namespace heft
