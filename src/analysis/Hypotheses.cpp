@@ -53,7 +53,7 @@ std::vector<std::string> jnd_figures(const Summary& summary) {
   for (const ReferenceJnd& jnd : summary.jnd)
     if (counts(jnd))
       figures.push_back(fmt::format("JND at {:g} g: {:.1f} g{}, n = {}{}", jnd.compared.reference_g,
-                                    *jnd.mean_g, within(jnd.interval_g), jnd.participants.size(),
+                                    *jnd.mean_g, within(jnd.interval_g), jnd.n(),
                                     beside(jnd.published_g, " g")));
   if (figures.empty()) figures.push_back("no finished staircase in C2");
   return figures;
@@ -66,7 +66,8 @@ std::string rising_figure(const Summary& summary) {
   for (const ReferenceJnd& jnd : summary.jnd) {
     if (!counts(jnd)) continue;
     ++n_references;
-    for (const ParticipantJnd& one : jnd.participants) jnds[one.participant].push_back(one.jnd_g);
+    for (const ParticipantJnd& one : jnd.participants)
+      if (one.censored == Censored::none) jnds[one.participant].push_back(one.jnd_g);
   }
   int n_complete = 0, n_rising = 0;
   for (const auto& [participant, values] : jnds) {

@@ -78,8 +78,15 @@ ordered_json introduction_json(const IntroductionSummary& introduction) {
 
 ordered_json participants_json(const ReferenceJnd& jnd) {
   ordered_json participants = ordered_json::array();
-  for (const ParticipantJnd& one : jnd.participants)
-    participants.push_back({{"participant", one.participant}, {"jnd_g", figure(one.jnd_g)}});
+  for (const ParticipantJnd& one : jnd.participants) {
+    const bool exact = one.censored == Censored::none;
+    participants.push_back(
+        {{"participant", one.participant},
+         {"jnd_g", figure(one.jnd_g)},
+         {"censored", exact ? ordered_json(nullptr) : ordered_json(name_of(one.censored))}});
+  }
+  for (const std::string& one : jnd.missing)
+    participants.push_back({{"participant", one}, {"jnd_g", nullptr}, {"censored", "missing"}});
   return participants;
 }
 
@@ -96,6 +103,12 @@ ordered_json jnd_json(const ReferenceJnd& jnd) {
           {"high_g", high(jnd.interval_g)},
           {"published_g", figure(jnd.published_g)},
           {"published_sd_g", figure(jnd.published_sd_g)},
+          {"summary", jnd.summary == JndSummary::none ? ordered_json(nullptr)
+                                                      : ordered_json(name_of(jnd.summary))},
+          {"n", jnd.n()},
+          {"n_censored_above", jnd.n_censored(Censored::above)},
+          {"n_censored_below", jnd.n_censored(Censored::below)},
+          {"n_missing", jnd.missing.size()},
           {"n_participants", jnd.participants.size()},
           {"participants", participants_json(jnd)},
           {"trials",
