@@ -1,7 +1,6 @@
 #include "analysis/CensoredMean.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -96,8 +95,7 @@ std::vector<double> exact_values(std::span<const CensoredValue> values) {
 }
 
 double allowed_drop(double n_exact) {
-  const boost::math::students_t student(n_exact - 1);
-  const double t = quantile(complement(student, (1 - confidence_level) / 2));
+  const double t = student_t_quantile(n_exact - 1);
   return n_exact / 2 * std::log1p(t * t / (n_exact - 1));
 }
 }  // namespace
@@ -120,6 +118,41 @@ std::optional<CensoredMean> censored_mean(std::span<const CensoredValue> values,
       center + sd * best,
       sd * std::exp(tobit.best_log_sigma(best)) * std::sqrt(n / (n - 1)),
       {center + sd * tobit.end(best, drop, -1), center + sd * tobit.end(best, drop, +1)}};
+}
+
+FigureSummary summarize_figures(std::span<const CensoredValue> values, int n_missing) {
+  if (mostly_censored(values, n_missing)) return {};
+  const std::vector<double> exact = exact_values(values);
+  const MeanKind kind = exact.size() == values.size() ? MeanKind::mean : MeanKind::tobit_mean;
+  if (const auto found = censored_mean(values, n_missing))
+    return {kind, found->mean, found->sd, found->interval};
+  if (kind == MeanKind::mean) return {kind, mean(exact), sample_sd(exact), std::nullopt};
+  return {};  // the exact ones are all the same
+}
+
+std::optional<CensoredValue> mean_figure(std::span<const std::optional<CensoredValue>> figures) {
+  if (figures.empty()) return std::nullopt;
+  CensoredValue sum;
+  for (const auto& figure : figures) {
+    if (!figure) return std::nullopt;
+    sum.value += figure->value / static_cast<double>(figures.size());
+    if (figure->censored == Censored::none) continue;
+    if (sum.censored != Censored::none && sum.censored != figure->censored) return std::nullopt;
+    sum.censored = figure->censored;
+  }
+  return sum;
+}
+
+std::optional<CensoredValue> difference(const std::optional<CensoredValue>& first,
+                                        const std::optional<CensoredValue>& second) {
+  if (!first || !second) return std::nullopt;
+  CensoredValue negative{-second->value, second->censored};
+  if (second->censored == Censored::above) negative.censored = Censored::below;
+  if (second->censored == Censored::below) negative.censored = Censored::above;
+  const std::array<std::optional<CensoredValue>, 2> both{*first, negative};
+  auto half = mean_figure(both);
+  if (half) half->value *= 2;
+  return half;
 }
 
 }  // namespace heft

@@ -10,10 +10,13 @@
 // mean.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "analysis/Statistics.h"
+#include "base/Names.h"
 #include "psychophysics/ProcedureTypes.h"
 
 namespace heft {
@@ -33,6 +36,29 @@ struct CensoredMean {
 /// values or more censored. One value, or an SD of 0, has no interval.
 /// @param n_missing further ones of which nothing is known; they count as not exact
 std::optional<CensoredMean> censored_mean(std::span<const CensoredValue> values, int n_missing = 0);
+
+/// What the mean of several figures is.
+enum class MeanKind { none, mean, tobit_mean };
+template <>
+struct EnumNames<MeanKind> {
+  static constexpr std::array<std::string_view, 3> names{"none", "mean", "tobit_mean"};
+};
+
+/// The figures of several people, of whom some are censored and some unknown.
+struct FigureSummary {
+  MeanKind kind = MeanKind::none;
+  std::optional<double> mean, sd;    ///< none where half or fewer are exact; sd over n-1
+  std::optional<Interval> interval;  ///< also none for one person or an SD of 0
+};
+FigureSummary summarize_figures(std::span<const CensoredValue> values, int n_missing);
+
+/// The mean of one person's figures. None where any of them is unknown, or one is known to lie
+/// above and one below what it gives.
+std::optional<CensoredValue> mean_figure(std::span<const std::optional<CensoredValue>> figures);
+
+/// None as for the mean.
+std::optional<CensoredValue> difference(const std::optional<CensoredValue>& first,
+                                        const std::optional<CensoredValue>& second);
 
 /// Whether so few of them are exact that no mean may be given: half or fewer.
 bool mostly_censored(std::span<const CensoredValue> values, int n_missing);

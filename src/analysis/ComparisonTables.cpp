@@ -4,11 +4,6 @@
 namespace heft {
 
 namespace {
-Cell summary_word(JndSummary summary) {
-  if (summary == JndSummary::none) return {};
-  return word(summary == JndSummary::mean ? "mean" : "Tobit mean");
-}
-
 // "> 1136.2" for what is known to lie above; the CSV has the number and the kind apart.
 Cell shown_jnd(const StaircaseResult& result) {
   Cell cell = number(result.shown_g);
@@ -42,7 +37,7 @@ Table jnd_table(const Summary& summary) {
   for (const ReferenceJnd& jnd : summary.jnd)
     table.rows.push_back(
         {mass(jnd.compared.reference_g), word(jnd.compared.condition), number(jnd.mean_g),
-         number(jnd.sd_g), low(jnd.interval_g), high(jnd.interval_g), summary_word(jnd.summary),
+         number(jnd.sd_g), low(jnd.interval_g), high(jnd.interval_g), kind_word(jnd.summary),
          count(jnd.n()), count(jnd.n_censored(Censored::above)),
          count(jnd.n_censored(Censored::below)), count(static_cast<int>(jnd.missing.size())),
          number(jnd.published_g), number(jnd.published_sd_g)});
@@ -112,8 +107,8 @@ Table choices_table(const Summary& summary) {
        {"n_chosen_level_zero", "chosen"}},
       {},
       "choices between cubes that differ, and wrong ones; catch trials and false alarms; at 0 g: "
-      "staircase trials whose difference reached 0. Exact 95 % intervals over all "
-      "participants' trials together. The paper gives no such figures."};
+      "staircase trials whose difference reached 0. 95 % intervals over participants, "
+      "of whom one with more trials counts more. The paper gives no such figures."};
   const ComparisonSummary& comparison = summary.comparison;
   int n_trials = 0;
   for (const ComparisonChoices& choices : comparison.by_reference) {

@@ -121,20 +121,6 @@ std::vector<StaircaseResult> results_of(const SessionData& data) {
   return results;
 }
 
-// What one session, or one participant, says of a JND: the mean of several figures. None where any
-// of them is unknown, or one lies above and one below.
-std::optional<CensoredValue> mean_of(std::span<const std::optional<CensoredValue>> values) {
-  CensoredValue sum;
-  for (const auto& value : values) {
-    if (!value) return std::nullopt;
-    sum.value += value->value / static_cast<double>(values.size());
-    if (value->censored == Censored::none) continue;
-    if (sum.censored != Censored::none && sum.censored != value->censored) return std::nullopt;
-    sum.censored = value->censored;
-  }
-  return sum;
-}
-
 std::optional<CensoredValue> value_of(const StaircaseResult& result) {
   if (!result.shown_g) return std::nullopt;
   return CensoredValue{*result.shown_g, result.censored};
@@ -156,9 +142,9 @@ void put_participants(ReferenceJnd& jnd, std::span<const StaircaseResult> result
         if (result.participant == participant && result.session_id == session_id)
           values.push_back(value_of(result));
       values.resize(std::max(values.size(), static_cast<std::size_t>(n_began)));
-      if (auto value = mean_of(values)) told.push_back(value);
+      if (auto value = mean_figure(values)) told.push_back(value);
     }
-    const auto value = told.empty() ? std::nullopt : mean_of(told);
+    const auto value = told.empty() ? std::nullopt : mean_figure(told);
     if (value)
       jnd.participants.push_back({participant, value->value, value->censored});
     else
@@ -168,24 +154,53 @@ void put_participants(ReferenceJnd& jnd, std::span<const StaircaseResult> result
 
 void put_mean(ReferenceJnd& jnd) {
   std::vector<CensoredValue> values;
-  std::vector<double> exact;
-  for (const ParticipantJnd& one : jnd.participants) {
-    values.push_back({one.jnd_g, one.censored});
-    if (one.censored == Censored::none) exact.push_back(one.jnd_g);
+  for (const ParticipantJnd& one : jnd.participants) values.push_back({one.jnd_g, one.censored});
+  const FigureSummary found = summarize_figures(values, static_cast<int>(jnd.missing.size()));
+  jnd.summary = found.kind;
+  jnd.mean_g = found.mean;
+  jnd.sd_g = found.sd;
+  jnd.interval_g = found.interval;
+}
+
+// One participant's figures at one reference, by where the staircases of a session began.
+struct AboveAndBelow {
+  std::vector<std::optional<CensoredValue>> above, below;
+};
+
+void put_session(AboveAndBelow& figures, std::span<const StaircaseResult* const> results) {
+  const auto [low, high] = std::ranges::minmax(results, {}, &StaircaseResult::start_g);
+  const double middle_g = (low->start_g + high->start_g) / 2;
+  if (low->start_g == high->start_g) return;
+  for (const StaircaseResult* result : results)
+    (result->start_g > middle_g ? figures.above : figures.below).push_back(value_of(*result));
+}
+
+FigureSummary summarize(std::span<const std::optional<CensoredValue>> figures, int& n_censored,
+                        int& n_missing) {
+  std::vector<CensoredValue> known;
+  for (const auto& figure : figures)
+    if (figure) known.push_back(*figure);
+  n_missing = static_cast<int>(figures.size() - known.size());
+  n_censored = static_cast<int>(std::ranges::count_if(
+      known, [](const CensoredValue& value) { return value.censored != Censored::none; }));
+  return summarize_figures(known, n_missing);
+}
+
+StartEffect start_effect(const Compared& compared,
+                         const std::map<std::string, AboveAndBelow>& participants) {
+  std::vector<std::optional<CensoredValue>> above, below, differences;
+  for (const auto& [participant, figures] : participants) {
+    above.push_back(mean_figure(figures.above));
+    below.push_back(mean_figure(figures.below));
+    differences.push_back(difference(above.back(), below.back()));
   }
-  const int n_missing = static_cast<int>(jnd.missing.size());
-  if (mostly_censored(values, n_missing)) return;
-  jnd.summary = exact.size() == values.size() ? JndSummary::mean : JndSummary::tobit_mean;
-  if (const auto found = censored_mean(values, n_missing)) {
-    jnd.mean_g = found->mean;
-    jnd.sd_g = found->sd;
-    jnd.interval_g = found->interval;
-  } else if (jnd.summary == JndSummary::mean) {
-    jnd.mean_g = mean(exact);
-    jnd.sd_g = sample_sd(exact);
-  } else {
-    jnd.summary = JndSummary::none;  // the exact ones are all the same
-  }
+  StartEffect effect;
+  effect.compared = compared;
+  effect.n = static_cast<int>(participants.size());
+  effect.from_above_g = summarize(above, effect.n_censored, effect.n_missing);
+  effect.from_below_g = summarize(below, effect.n_censored, effect.n_missing);
+  effect.difference_g = summarize(differences, effect.n_censored, effect.n_missing);
+  return effect;
 }
 
 void add_staircase(ReferenceJnd& jnd, const StaircaseResult& result) {
@@ -241,6 +256,24 @@ std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sess
   for (const SessionData& data : sessions)
     for (StaircaseResult& result : results_of(data)) results.push_back(std::move(result));
   return results;
+}
+
+std::vector<StartEffect> start_effects(std::span<const SessionData> sessions) {
+  std::map<Compared, std::map<std::string, AboveAndBelow>> figures;
+  for (const SessionData& data : sessions) {
+    const std::vector<StaircaseResult> results = results_of(data);
+    std::map<Compared, std::vector<const StaircaseResult*>> by_compared;
+    for (const StaircaseResult& result : results) by_compared[result.compared].push_back(&result);
+    for (const auto& [compared, same] : by_compared) {
+      AboveAndBelow& of_person = figures[compared][data.participant()];
+      put_session(of_person, same);
+      if (of_person.above.empty()) figures[compared].erase(data.participant());
+    }
+  }
+  std::vector<StartEffect> effects;
+  for (const auto& [compared, participants] : figures)
+    if (!participants.empty()) effects.push_back(start_effect(compared, participants));
+  return effects;
 }
 
 std::string_view beyond_sign(Censored censored) {

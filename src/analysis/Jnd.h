@@ -54,13 +54,6 @@ struct ParticipantJnd {
   Censored censored = Censored::none;
 };
 
-/// What mean_g of a ReferenceJnd is.
-enum class JndSummary { none, mean, tobit_mean };
-template <>
-struct EnumNames<JndSummary> {
-  static constexpr std::array<std::string_view, 3> names{"none", "mean", "tobit_mean"};
-};
-
 /// "> " where the value lies above what is given, "< " below, otherwise nothing.
 std::string_view beyond_sign(Censored censored);
 
@@ -69,7 +62,7 @@ struct ReferenceJnd {
   /// Over participants; sd_g over n-1. None where half of them or more are censored or missing.
   std::optional<double> mean_g, sd_g;
   std::optional<Interval> interval_g;  ///< none for one participant or SD 0
-  JndSummary summary = JndSummary::none;
+  MeanKind summary = MeanKind::none;
   std::vector<ParticipantJnd> participants;  ///< with a figure, exact or censored
   /// Of whom a session told nothing, or nothing that a mean could hold: a staircase unfinished,
   /// without a JND and a direction, or one above and one below.
@@ -95,6 +88,19 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 /// Finished staircases in the order of sessions and estimates, each with the reference of its
 /// trials.
 std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sessions);
+
+/// What staircases that began high and low say of one reference. Their difference is how far a JND
+/// follows from where its staircase began.
+struct StartEffect {
+  Compared compared;
+  int n = 0;                          ///< participants with staircases of both kinds
+  int n_censored = 0, n_missing = 0;  ///< of the differences
+  FigureSummary from_above_g, from_below_g, difference_g;
+};
+
+/// Of references whose staircases in one session differ in their start: those that begin above the
+/// middle between the highest and the lowest start, and those below.
+std::vector<StartEffect> start_effects(std::span<const SessionData> sessions);
 
 /// By reference, lightest first, and condition. The paper's figures are beside its references in
 /// C2.

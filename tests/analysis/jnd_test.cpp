@@ -90,7 +90,7 @@ TEST(Jnd, WhatLeansOnABoundIsCensoredAndCounted) {
   EXPECT_EQ(jnd.n(), 5);
   EXPECT_EQ(jnd.n_censored(Censored::above), 1);
   EXPECT_EQ(jnd.n_censored(Censored::below), 1);
-  EXPECT_EQ(jnd.summary, JndSummary::tobit_mean);
+  EXPECT_EQ(jnd.summary, MeanKind::tobit_mean);
   EXPECT_GT(*jnd.mean_g, 70);  // not 70, as if they were not there, nor as if 300 were exact
   EXPECT_LT(jnd.interval_g->low, *jnd.mean_g);
 }
@@ -102,7 +102,7 @@ TEST(Jnd, WhereHalfAreCensoredOrMissingThereIsNoMean) {
   sessions[3].estimates.clear();  // unfinished
   const ReferenceJnd jnd = jnd_of(sessions).at(0);
   EXPECT_FALSE(jnd.mean_g || jnd.sd_g || jnd.interval_g);
-  EXPECT_EQ(jnd.summary, JndSummary::none);
+  EXPECT_EQ(jnd.summary, MeanKind::none);
   EXPECT_EQ(jnd.missing, std::vector<std::string>{"4"});
   EXPECT_EQ(jnd.n(), 4);
 }
