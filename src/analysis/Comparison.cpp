@@ -8,22 +8,24 @@ namespace heft {
 namespace {
 struct Counts {
   int n_trials = 0;
-  Tally difference, wrong_cube, false_alarm, at_zero;
+  Tallies difference, wrong_cube, false_alarm, at_zero;
 };
 
-void count(Tally& tally, bool hit) {
+void count(Tallies& tallies, const std::string& participant, bool hit) {
+  Tally& tally = tallies[participant];
   tally.n_trials += 1;
   tally.n_hits += hit ? 1 : 0;
 }
 
-void count_trial(Counts& counts, const TrialRow& trial) {
+void count_trial(Counts& counts, const std::string& participant, const TrialRow& trial) {
   const bool chosen = trial.outcome == Outcome::difference;
   const bool equal = trial.plan.level_g.value_or(0) == 0;
   counts.n_trials += 1;
-  if (trial.plan.is_catch) count(counts.false_alarm, chosen);
-  if (!trial.plan.is_catch) count(counts.difference, chosen);
-  if (!trial.plan.is_catch && equal) count(counts.at_zero, chosen);
-  if (chosen && !equal && trial.choice_correct) count(counts.wrong_cube, !*trial.choice_correct);
+  if (trial.plan.is_catch) count(counts.false_alarm, participant, chosen);
+  if (!trial.plan.is_catch) count(counts.difference, participant, chosen);
+  if (!trial.plan.is_catch && equal) count(counts.at_zero, participant, chosen);
+  if (chosen && !equal && trial.choice_correct)
+    count(counts.wrong_cube, participant, !*trial.choice_correct);
 }
 
 ComparisonChoices choices(double reference_g, std::optional<double> level_g, const Counts& counts) {
@@ -42,15 +44,16 @@ ComparisonSummary comparisons_of(std::span<const SessionData> sessions) {
   std::map<double, Counts> by_reference;
   std::map<std::pair<double, double>, Counts> by_level;
   for (const SessionData& data : sessions) {
+    const std::string participant = data.participant();
     for (const Attempt& attempt : data.attempts) {
       const TrialRow& trial = attempt.trial;
       if (!attempt.completed() || trial.plan.task != Task::comparison) continue;
       if (!trial.outcome || !trial.plan.reference_g) continue;
       const double reference_g = *trial.plan.reference_g;
-      count_trial(all, trial);
-      count_trial(by_reference[reference_g], trial);
+      count_trial(all, participant, trial);
+      count_trial(by_reference[reference_g], participant, trial);
       if (!trial.plan.is_catch)
-        count_trial(by_level[{reference_g, trial.plan.level_g.value_or(0)}], trial);
+        count_trial(by_level[{reference_g, trial.plan.level_g.value_or(0)}], participant, trial);
     }
   }
   ComparisonSummary summary;

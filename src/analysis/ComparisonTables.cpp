@@ -4,6 +4,13 @@
 namespace heft {
 
 namespace {
+// "> 1136.2" for what is known to lie above; the CSV has the number and the kind apart.
+Cell shown_jnd(const StaircaseResult& result) {
+  Cell cell = number(result.shown_g);
+  cell.text = std::string(beyond_sign(result.censored)) + cell.text;
+  return cell;
+}
+
 Table jnd_table(const Summary& summary) {
   Table table{"jnd",
               titled("JND by reference mass, mean over participants", summary),
@@ -13,16 +20,27 @@ Table jnd_table(const Summary& summary) {
                {"sd_g", "SD"},
                {"low_g", "95 % low"},
                {"high_g", "high"},
-               {"n_participants", "n"},
+               {"summary", "is the"},
+               {"n", "n"},
+               {"n_censored_above", "above"},
+               {"n_censored_below", "below"},
+               {"n_missing", "missing"},
                {"published_g", "published g"},
                {"published_sd_g", "published SD"}},
               {},
-              "n participants; SD between them (n-1); Student t interval"};
+              "n participants; SD between them (n-1). The paper's JND: it moves with the criterion "
+              "as much as with what is perceived. Above, below: participants of whom it is only "
+              "known to lie there, as a staircase ended at a bound, at its trial limit or with "
+              "fewer than 4 reversals; missing: not even that. Where all are exact, the mean with "
+              "Student's t interval; otherwise the Tobit mean (normal model of exact and censored "
+              "ones together) with its profile interval; none where half or more are not exact."};
   for (const ReferenceJnd& jnd : summary.jnd)
-    table.rows.push_back({mass(jnd.compared.reference_g), word(jnd.compared.condition),
-                          number(jnd.mean_g), number(jnd.sd_g), low(jnd.interval_g),
-                          high(jnd.interval_g), count(static_cast<int>(jnd.participants.size())),
-                          number(jnd.published_g), number(jnd.published_sd_g)});
+    table.rows.push_back(
+        {mass(jnd.compared.reference_g), word(jnd.compared.condition), number(jnd.mean_g),
+         number(jnd.sd_g), low(jnd.interval_g), high(jnd.interval_g), kind_word(jnd.summary),
+         count(jnd.n()), count(jnd.n_censored(Censored::above)),
+         count(jnd.n_censored(Censored::below)), count(static_cast<int>(jnd.missing.size())),
+         number(jnd.published_g), number(jnd.published_sd_g)});
   return table;
 }
 
@@ -89,8 +107,8 @@ Table choices_table(const Summary& summary) {
        {"n_chosen_level_zero", "chosen"}},
       {},
       "choices between cubes that differ, and wrong ones; catch trials and false alarms; at 0 g: "
-      "staircase trials whose difference reached 0. Exact 95 % intervals over all "
-      "participants' trials together. The paper gives no such figures."};
+      "staircase trials whose difference reached 0. 95 % intervals over participants, "
+      "of whom one with more trials counts more. The paper gives no such figures."};
   const ComparisonSummary& comparison = summary.comparison;
   int n_trials = 0;
   for (const ComparisonChoices& choices : comparison.by_reference) {
@@ -118,6 +136,9 @@ Table staircase_list(const Summary& summary) {
                {"reference_g", "reference g"},
                {"condition", "condition"},
                {"jnd_g", "JND g"},
+               {"censored", "censored"},
+               {"why_censored", "because"},
+               {"start_g", "start g"},
                {"n_trials", "trials"},
                {"n_reversals", "reversals"},
                {"n_floor", "floor hits"},
@@ -128,7 +149,8 @@ Table staircase_list(const Summary& summary) {
   for (const StaircaseResult& result : summary.staircases)
     table.rows.push_back(
         {word(std::to_string(result.session_id)), word(result.participant), word(result.staircase),
-         mass(result.compared.reference_g), word(result.compared.condition), number(result.jnd_g),
+         mass(result.compared.reference_g), word(result.compared.condition), shown_jnd(result),
+         named_cell(result.censored), word(result.why), number(result.start_g),
          count(result.n_trials), count(result.n_reversals), count(result.n_floor),
          count(result.n_ceiling), word(result.at_trial_limit ? "trials" : "reversals")});
   return table;

@@ -35,7 +35,7 @@ std::string SessionData::participant() const {
 }
 
 SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
-  SessionData data{session, {}, rows.estimates, {}, {}, {}};
+  SessionData data{session, {}, rows.estimates, {}, {}, {}, {}};
   std::map<int, std::size_t> place;  // attempt index -> its place in data.attempts
   for (const TrialRow& trial : rows.trials) {
     place[trial.attempt_index] = data.attempts.size();
@@ -66,6 +66,20 @@ PictureCounts count_pictures(const std::vector<LoggedEvent>& events) {
   return counts;
 }
 
+EventCounts count_events(const std::vector<LoggedEvent>& events) {
+  EventCounts counts;
+  for (const LoggedEvent& logged : events) {
+    counts.notes += logged.event.kind() == EventKind::note ? 1 : 0;
+    counts.deviations += logged.event.kind() == EventKind::deviation ? 1 : 0;
+    counts.unblindings += logged.event.kind() == EventKind::unblinding ? 1 : 0;
+    if (const auto* check = logged.event.as<CheckResult>()) {
+      counts.checks_failed += check->verdict == CheckVerdict::failed ? 1 : 0;
+      counts.checks_warned += check->verdict == CheckVerdict::warning ? 1 : 0;
+    }
+  }
+  return counts;
+}
+
 Dataset read_dataset(const std::string& database, const std::vector<std::int64_t>& session_ids) {
   const LogReader log(database);
   std::vector<SessionRow> sessions;
@@ -83,7 +97,9 @@ Dataset read_dataset(const std::string& database, const std::vector<std::int64_t
     const auto [found, is_new] = without_jnd.try_emplace(session.header.protocol_text);
     if (is_new) found->second = staircases_without_jnd(session.header.protocol_text);
     data.without_jnd = found->second;
-    if (!data.simulated()) data.pictures = count_pictures(log.events(id));
+    const std::vector<LoggedEvent> events = log.events(id);
+    data.events = count_events(events);
+    if (!data.simulated()) data.pictures = count_pictures(events);
   }
   return dataset;
 }

@@ -29,11 +29,17 @@ struct PictureCounts {
   int shown = 0, dropped = 0, late = 0;
 };
 
+/// What was noted of a session beside its trials.
+struct EventCounts {
+  int notes = 0, deviations = 0, checks_failed = 0, checks_warned = 0, unblindings = 0;
+};
+
 struct SessionData {
   SessionRow session;
   std::vector<Attempt> attempts;
   std::vector<EstimateRow> estimates;
   PictureCounts pictures;
+  EventCounts events;
   std::vector<LoggedSetup> setups;  ///< what was in force, in order
   /// Staircases of the protocol that estimate no JND, such as constant stimuli.
   std::set<std::string> without_jnd;
@@ -49,6 +55,8 @@ struct SessionData {
 
 /// The sum of a session's `camera` events.
 PictureCounts count_pictures(const std::vector<LoggedEvent>& events);
+
+EventCounts count_events(const std::vector<LoggedEvent>& events);
 
 /// The rows of one session as the log holds them.
 struct SessionRows {

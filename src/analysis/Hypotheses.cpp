@@ -53,7 +53,7 @@ std::vector<std::string> jnd_figures(const Summary& summary) {
   for (const ReferenceJnd& jnd : summary.jnd)
     if (counts(jnd))
       figures.push_back(fmt::format("JND at {:g} g: {:.1f} g{}, n = {}{}", jnd.compared.reference_g,
-                                    *jnd.mean_g, within(jnd.interval_g), jnd.participants.size(),
+                                    *jnd.mean_g, within(jnd.interval_g), jnd.n(),
                                     beside(jnd.published_g, " g")));
   if (figures.empty()) figures.push_back("no finished staircase in C2");
   return figures;
@@ -66,7 +66,8 @@ std::string rising_figure(const Summary& summary) {
   for (const ReferenceJnd& jnd : summary.jnd) {
     if (!counts(jnd)) continue;
     ++n_references;
-    for (const ParticipantJnd& one : jnd.participants) jnds[one.participant].push_back(one.jnd_g);
+    for (const ParticipantJnd& one : jnd.participants)
+      if (one.censored == Censored::none) jnds[one.participant].push_back(one.jnd_g);
   }
   int n_complete = 0, n_rising = 0;
   for (const auto& [participant, values] : jnds) {
@@ -96,24 +97,157 @@ std::vector<std::string> ratio_figures(const Summary& summary) {
   if (figures.empty()) figures.push_back("no finished staircase in C2");
   return figures;
 }
+
+struct Judgment {
+  Verdict verdict = Verdict::not_judged;
+  std::string why;
+};
+
+constexpr double margin_percent = 10;  // beside chance: what counts as no better
+
+// "Blind" by two one-sided tests (Schuirmann 1987): the 90 % interval within chance +- 10 points.
+Judgment judge_blind(const ConditionSorting& c1) {
+  const Proportion& correct = c1.answered_correct;
+  if (c1.n_trials == 0) return {Verdict::not_judged, "no C1 trial was completed"};
+  if (correct.n_participants < 2 || !c1.answered_correct_90_percent)
+    return {Verdict::not_judged, "fewer than two participants answered a C1 trial"};
+  const double chance = *c1.chance_percent();
+  const Interval& interval = *c1.answered_correct_90_percent;
+  const Interval blind{chance - margin_percent, chance + margin_percent};
+  const std::string figures = fmt::format(
+      "of the answered trials {:.1f} % were right, 90 % interval [{:.1f}, {:.1f}]; chance is "
+      "{:.1f} %, and [{:.1f}, {:.1f}] counts as chance",
+      *correct.mean_percent, interval.low, interval.high, chance, blind.low, blind.high);
+  if (interval.low >= blind.low && interval.high <= blind.high)
+    return {Verdict::supported, figures + ": equivalent to chance"};
+  if (interval.high < blind.low || interval.low > blind.high)
+    return {Verdict::not_supported, figures + ": not chance"};
+  return {Verdict::not_judged, figures + ": too wide to say that it is chance, or that it is not"};
+}
+
+Judgment judge_above_chance(const ConditionSorting& c2) {
+  const Proportion& correct = c2.correct;
+  if (correct.n_participants < 2)
+    return {Verdict::not_judged, "fewer than two participants completed a C2 trial"};
+  const double chance = *c2.chance_percent();
+  const Interval& interval = *correct.interval_percent;
+  const std::string figures = fmt::format(
+      "{:.1f} % of the trials were right, 95 % interval [{:.1f}, {:.1f}]; chance is "
+      "{:.1f} %",
+      *correct.mean_percent, interval.low, interval.high, chance);
+  if (interval.low > chance) return {Verdict::supported, figures};
+  if (interval.high <= chance + margin_percent) return {Verdict::not_supported, figures};
+  return {Verdict::not_judged, figures + ": the interval holds chance and much more"};
+}
+
+Judgment judge_first_try(const Rate& rate) {
+  if (rate.trials.n_trials < 2)
+    return {Verdict::not_judged, "fewer than two participants completed the introduction"};
+  const Interval& interval = *rate.interval_percent;
+  const std::string figures = fmt::format(
+      "{} of {} participants were right on the first try, 95 % interval [{:.1f}, {:.1f}] %; "
+      "guessing between two cubes makes 50 %",
+      rate.trials.n_hits, rate.trials.n_trials, interval.low, interval.high);
+  if (interval.low > 50) return {Verdict::supported, figures};
+  if (interval.high < 50) return {Verdict::not_supported, figures};
+  return {Verdict::not_judged, figures};
+}
+
+std::vector<const ReferenceSensitivity*> c2_sensitivities(const Summary& summary) {
+  std::vector<const ReferenceSensitivity*> rows;
+  for (const ReferenceSensitivity& row : summary.sensitivity)
+    if (row.compared.condition == "C2") rows.push_back(&row);
+  return rows;
+}
+
+// Why sensitivities can't be compared; empty: they can. The JND itself is no ground: it follows the
+// criterion and the start of its staircase, and coin flips make it grow with the reference too.
+std::string why_not_comparable(const std::vector<const ReferenceSensitivity*>& rows) {
+  if (rows.size() < 2) return "it takes comparisons at two references or more in C2";
+  std::string why;
+  for (const ReferenceSensitivity* row : rows)
+    if (!row->pooled.identifiable())
+      why += fmt::format("{}at {:g} g there is no threshold, because {}", why.empty() ? "" : "; ",
+                         row->compared.reference_g, row->pooled.why);
+  if (why.empty() && rows.front()->pooled.n < least_people)
+    why = "there are too few participants to tell how people differ";
+  return why;
+}
+
+std::string threshold_figures(const std::vector<const ReferenceSensitivity*>& rows) {
+  std::string text = "75 % thresholds";
+  for (const ReferenceSensitivity* row : rows)
+    text += fmt::format("{} {:.1f} g{} at {:g} g", row == rows.front() ? "" : ",",
+                        *row->pooled.threshold_75_g, within(row->pooled.threshold_interval_g),
+                        row->compared.reference_g);
+  return text;
+}
+
+Judgment judge_rising(const Summary& summary) {
+  const auto rows = c2_sensitivities(summary);
+  if (const std::string why = why_not_comparable(rows); !why.empty())
+    return {Verdict::not_judged, why};
+  const std::string figures = threshold_figures(rows);
+  bool rises = true, falls = false;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const Interval ratio = threshold_ratio_interval(rows[i - 1]->pooled, rows[i]->pooled);
+    rises = rises && ratio.low > 1;
+    falls = falls || ratio.high < 1;
+  }
+  if (rises) return {Verdict::supported, figures + ": each larger than the one before"};
+  if (falls) return {Verdict::not_supported, figures + ": one is smaller than the one before"};
+  return {Verdict::not_judged, figures + ": their intervals don't tell which is larger"};
+}
+
+// Proportional: from each reference to the next the threshold grows as the reference does, within
+// a factor of 1.5.
+Judgment judge_proportional(const Summary& summary) {
+  const auto rows = c2_sensitivities(summary);
+  if (const std::string why = why_not_comparable(rows); !why.empty())
+    return {Verdict::not_judged, why};
+  constexpr double near = 1.5;
+  const std::string figures = threshold_figures(rows);
+  bool all_near = true, any_off = false;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const Interval ratio = threshold_ratio_interval(rows[i - 1]->pooled, rows[i]->pooled);
+    const double expected = rows[i]->compared.reference_g / rows[i - 1]->compared.reference_g;
+    all_near = all_near && ratio.low >= expected / near && ratio.high <= expected * near;
+    any_off = any_off || ratio.low > expected || ratio.high < expected;
+  }
+  if (all_near) return {Verdict::supported, figures + ": in proportion within a factor of 1.5"};
+  if (any_off) return {Verdict::not_supported, figures + ": not in proportion to the reference"};
+  return {Verdict::not_judged, figures + ": too uncertain to say"};
+}
+
+Hypothesis judged(std::string name, std::string statement, Judgment judgment,
+                  std::vector<std::string> figures) {
+  return {std::move(name), std::move(statement), judgment.verdict, std::move(judgment.why),
+          std::move(figures)};
+}
 }  // namespace
 
 std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
   const ConditionSorting &c1 = summary.sorting.at(0), &c2 = summary.sorting.at(1);
   std::vector<std::string> rising = jnd_figures(summary);
   rising.push_back(rising_figure(summary));
-  return {{"E1-H1",
-           "C1 does not allow to perceive a mass difference among virtual objects",
-           {proportion_figure("C1 correct", c1.correct),
-            proportion_figure("C1 correct, of answered trials", c1.answered_correct),
-            proportion_figure("C1 \"I don't know\"", c1.none), chance_figure(c1)}},
-          {"E1-H2",
-           "C2 allows to recognize which objects are lighter and heavier",
-           {proportion_figure("C2 correct", c2.correct),
-            proportion_figure("C2 \"I don't know\"", c2.none), chance_figure(c2)}},
-          {"E1-H3", "C2 is effective with no training", {first_try_figure(summary.introduction)}},
-          {"E2-H1", "the JND increases with the reference mass", rising},
-          {"E2-H2", "the JND is proportional to the reference mass", ratio_figures(summary)}};
+  return {
+      judged("E1-H1", "C1 does not allow to perceive a mass difference among virtual objects",
+             judge_blind(c1),
+             {proportion_figure("C1 correct", c1.correct),
+              proportion_figure("C1 correct, of answered trials", c1.answered_correct),
+              proportion_figure("C1 \"I don't know\", an outcome of its own", c1.none),
+              chance_figure(c1)}),
+      judged("E1-H2", "C2 allows to recognize which objects are lighter and heavier",
+             judge_above_chance(c2),
+             {proportion_figure("C2 correct", c2.correct),
+              proportion_figure("C2 \"I don't know\", an outcome of its own", c2.none),
+              chance_figure(c2)}),
+      judged("E1-H3", "C2 is effective with no training",
+             judge_first_try(summary.introduction.first_try),
+             {first_try_figure(summary.introduction)}),
+      judged("E2-H1", "the JND increases with the reference mass", judge_rising(summary), rising),
+      judged("E2-H2", "the JND is proportional to the reference mass", judge_proportional(summary),
+             ratio_figures(summary))};
 }
 
 }  // namespace heft

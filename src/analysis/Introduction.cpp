@@ -31,7 +31,7 @@ IntroductionSummary introduction_of(std::span<const SessionData> sessions) {
       as_published = as_published && has_published_masses(attempt);
     }
   }
-  IntroductionSummary summary{rate_of(tally), {}, {}};
+  IntroductionSummary summary{rate_of_people(tally), {}, {}};
   if (tally.n_trials == 0 || !as_published) return summary;
   summary.published_n = published::n_participants;
   summary.published_percent = 100.0 * published::introduction_first_try / published::n_participants;

@@ -1,5 +1,7 @@
 #include "analysis/Jnd.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,31 +32,175 @@ std::optional<double> finite(std::optional<double> value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+// The levels of a staircase's completed trials, and of its reversals, in order.
+struct Course {
+  std::vector<double> levels_g, reversals_g;
+
+  // Logs before version 3 do not tell: a bound was hit, and a reversal that counts lies on the
+  // outermost level.
+  bool leans_on(double outermost_g) const {
+    constexpr std::size_t n_discarded = 2;
+    return std::find(reversals_g.begin() +
+                         static_cast<std::ptrdiff_t>(std::min(n_discarded, reversals_g.size())),
+                     reversals_g.end(), outermost_g) != reversals_g.end();
+  }
+  double lowest() const { return levels_g.empty() ? 0 : *std::ranges::min_element(levels_g); }
+  double highest() const { return levels_g.empty() ? 0 : *std::ranges::max_element(levels_g); }
+};
+
+std::map<std::string, Course> courses_of(const SessionData& data) {
+  std::map<std::string, Course> courses;
+  for (const Attempt& attempt : data.attempts) {
+    const TrialPlan& plan = attempt.trial.plan;
+    if (!attempt.completed() || plan.staircase.empty() || !plan.level_g) continue;
+    Course& course = courses[plan.staircase];
+    course.levels_g.push_back(*plan.level_g);
+    if (attempt.is_reversal) course.reversals_g.push_back(*plan.level_g);
+  }
+  return courses;
+}
+
+Censored logged_or_seen(const EstimateRow& row, const Course& course) {
+  if (row.censored) return *row.censored;
+  const bool above = row.n_ceiling > 0 && course.leans_on(course.highest());
+  const bool below = row.n_floor > 0 && course.leans_on(course.lowest());
+  if (above != below) return above ? Censored::above : Censored::below;
+  return above ? Censored::unsettled : Censored::none;
+}
+
+// Which way a staircase was going that did not settle: by the bound that it hit, or from where it
+// began to where it got.
+Censored direction_of(const EstimateRow& row, const Course& course) {
+  if ((row.n_ceiling > 0) != (row.n_floor > 0))
+    return row.n_ceiling > 0 ? Censored::above : Censored::below;
+  if (row.n_ceiling > 0 || course.levels_g.empty()) return Censored::unsettled;
+  const double first_g = course.levels_g.front(), last_g = course.levels_g.back();
+  if (first_g == last_g) return Censored::unsettled;
+  return last_g > first_g ? Censored::above : Censored::below;
+}
+
+std::string why_censored(const EstimateRow& row, Censored told) {
+  if (told == Censored::above) return "at the ceiling";
+  if (told == Censored::below) return "at the floor";
+  if (row.n_reversals < least_reversals) return fmt::format("{} reversals", row.n_reversals);
+  if (row.reason == Finish::trials) return "trial limit";
+  return told == Censored::unsettled ? "at both bounds" : "";
+}
+
+void judge(StaircaseResult& result, const EstimateRow& row, const Course& course) {
+  result.start_g = course.levels_g.empty() ? 0 : course.levels_g.front();
+  result.censored = logged_or_seen(row, course);
+  result.why = why_censored(row, result.censored);
+  if (result.why.empty()) {
+    result.shown_g = result.jnd_g;
+    return;
+  }
+  if (result.censored == Censored::none || result.censored == Censored::unsettled)
+    result.censored = direction_of(row, course);
+  if (result.censored == Censored::unsettled) return;
+  const bool above = result.censored == Censored::above;
+  if (result.jnd_g || !course.levels_g.empty())
+    result.shown_g = result.jnd_g.value_or(above ? course.highest() : course.lowest());
+}
+
 std::vector<StaircaseResult> results_of(const SessionData& data) {
   const auto staircases = compared_by(data);
+  auto courses = courses_of(data);
   std::vector<StaircaseResult> results;
   for (const EstimateRow& row : data.estimates) {
     const auto compared = staircases.find(row.staircase);
     if (row.method != jnd_method || compared == staircases.end()) continue;
-    results.push_back({data.session.session_id, data.participant(), row.staircase, compared->second,
-                       finite(row.jnd_g), row.n_trials, row.n_reversals, row.n_floor, row.n_ceiling,
-                       row.reason == Finish::trials});
+    StaircaseResult result{data.session.session_id, data.participant(),
+                           row.staircase,           compared->second,
+                           finite(row.jnd_g),       row.n_trials,
+                           row.n_reversals,         row.n_floor,
+                           row.n_ceiling,           row.reason == Finish::trials};
+    judge(result, row, courses[row.staircase]);
+    results.push_back(std::move(result));
   }
   return results;
 }
 
-// Staircases of one session first, then sessions: a participant counts once.
-std::vector<ParticipantJnd> participants_of(std::span<const StaircaseResult> results) {
-  std::map<std::string, std::map<std::int64_t, std::vector<double>>> jnds;
-  for (const StaircaseResult& result : results)
-    if (result.jnd_g) jnds[result.participant][result.session_id].push_back(*result.jnd_g);
-  std::vector<ParticipantJnd> participants;
-  for (const auto& [participant, sessions] : jnds) {
-    std::vector<double> session_means;
-    for (const auto& [id, values] : sessions) session_means.push_back(*mean(values));
-    participants.push_back({participant, *mean(session_means)});
+std::optional<CensoredValue> value_of(const StaircaseResult& result) {
+  if (!result.shown_g) return std::nullopt;
+  return CensoredValue{*result.shown_g, result.censored};
+}
+
+/// What the sessions of each participant hold of one comparison; staircases that began and have no
+/// result are unknown.
+using Began = std::map<std::string, std::map<std::int64_t, int>>;  // participant, session: how many
+
+// Staircases of one session first, then sessions: a participant counts once. Sessions that tell
+// nothing don't count where another one does.
+void put_participants(ReferenceJnd& jnd, std::span<const StaircaseResult> results,
+                      const Began& began) {
+  for (const auto& [participant, sessions] : began) {
+    std::vector<std::optional<CensoredValue>> told;
+    for (const auto& [session_id, n_began] : sessions) {
+      std::vector<std::optional<CensoredValue>> values;
+      for (const StaircaseResult& result : results)
+        if (result.participant == participant && result.session_id == session_id)
+          values.push_back(value_of(result));
+      values.resize(std::max(values.size(), static_cast<std::size_t>(n_began)));
+      if (auto value = mean_figure(values)) told.push_back(value);
+    }
+    const auto value = told.empty() ? std::nullopt : mean_figure(told);
+    if (value)
+      jnd.participants.push_back({participant, value->value, value->censored});
+    else
+      jnd.missing.push_back(participant);
   }
-  return participants;
+}
+
+void put_mean(ReferenceJnd& jnd) {
+  std::vector<CensoredValue> values;
+  for (const ParticipantJnd& one : jnd.participants) values.push_back({one.jnd_g, one.censored});
+  const FigureSummary found = summarize_figures(values, static_cast<int>(jnd.missing.size()));
+  jnd.summary = found.kind;
+  jnd.mean_g = found.mean;
+  jnd.sd_g = found.sd;
+  jnd.interval_g = found.interval;
+}
+
+// One participant's figures at one reference, by where the staircases of a session began.
+struct AboveAndBelow {
+  std::vector<std::optional<CensoredValue>> above, below;
+};
+
+void put_session(AboveAndBelow& figures, std::span<const StaircaseResult* const> results) {
+  const auto [low, high] = std::ranges::minmax(results, {}, &StaircaseResult::start_g);
+  const double middle_g = (low->start_g + high->start_g) / 2;
+  if (low->start_g == high->start_g) return;
+  for (const StaircaseResult* result : results)
+    (result->start_g > middle_g ? figures.above : figures.below).push_back(value_of(*result));
+}
+
+FigureSummary summarize(std::span<const std::optional<CensoredValue>> figures, int& n_censored,
+                        int& n_missing) {
+  std::vector<CensoredValue> known;
+  for (const auto& figure : figures)
+    if (figure) known.push_back(*figure);
+  n_missing = static_cast<int>(figures.size() - known.size());
+  n_censored = static_cast<int>(std::ranges::count_if(
+      known, [](const CensoredValue& value) { return value.censored != Censored::none; }));
+  return summarize_figures(known, n_missing);
+}
+
+StartEffect start_effect(const Compared& compared,
+                         const std::map<std::string, AboveAndBelow>& participants) {
+  std::vector<std::optional<CensoredValue>> above, below, differences;
+  for (const auto& [participant, figures] : participants) {
+    above.push_back(mean_figure(figures.above));
+    below.push_back(mean_figure(figures.below));
+    differences.push_back(difference(above.back(), below.back()));
+  }
+  StartEffect effect;
+  effect.compared = compared;
+  effect.n = static_cast<int>(participants.size());
+  effect.from_above_g = summarize(above, effect.n_censored, effect.n_missing);
+  effect.from_below_g = summarize(below, effect.n_censored, effect.n_missing);
+  effect.difference_g = summarize(differences, effect.n_censored, effect.n_missing);
+  return effect;
 }
 
 void add_staircase(ReferenceJnd& jnd, const StaircaseResult& result) {
@@ -71,18 +217,17 @@ void add_staircase(ReferenceJnd& jnd, const StaircaseResult& result) {
 }
 
 ReferenceJnd jnd_at(const Compared& compared, std::span<const StaircaseResult> results,
-                    int n_started) {
+                    const Began& began) {
   ReferenceJnd jnd;
   jnd.compared = compared;
   jnd.least_trials = results.empty() ? 0 : std::numeric_limits<int>::max();
   for (const StaircaseResult& result : results) add_staircase(jnd, result);
-  jnd.n_unfinished = n_started - jnd.n_staircases;
-  jnd.participants = participants_of(results);
-  std::vector<double> values;
-  for (const ParticipantJnd& participant : jnd.participants) values.push_back(participant.jnd_g);
-  jnd.mean_g = mean(values);
-  jnd.sd_g = sample_sd(values);
-  if (jnd.sd_g.value_or(0) > 0) jnd.interval_g = student_t_interval(values);
+  int n_began = 0;
+  for (const auto& [participant, sessions] : began)
+    for (const auto& [session_id, n] : sessions) n_began += n;
+  jnd.n_unfinished = n_began - jnd.n_staircases;
+  put_participants(jnd, results, began);
+  put_mean(jnd);
   const auto figure = published::jnd_at(compared.reference_g);
   if (figure && compared.condition == "C2") {
     jnd.published_g = figure->mean_g;
@@ -113,16 +258,44 @@ std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sess
   return results;
 }
 
+std::vector<StartEffect> start_effects(std::span<const SessionData> sessions) {
+  std::map<Compared, std::map<std::string, AboveAndBelow>> figures;
+  for (const SessionData& data : sessions) {
+    const std::vector<StaircaseResult> results = results_of(data);
+    std::map<Compared, std::vector<const StaircaseResult*>> by_compared;
+    for (const StaircaseResult& result : results) by_compared[result.compared].push_back(&result);
+    for (const auto& [compared, same] : by_compared) {
+      AboveAndBelow& of_person = figures[compared][data.participant()];
+      put_session(of_person, same);
+      if (of_person.above.empty()) figures[compared].erase(data.participant());
+    }
+  }
+  std::vector<StartEffect> effects;
+  for (const auto& [compared, participants] : figures)
+    if (!participants.empty()) effects.push_back(start_effect(compared, participants));
+  return effects;
+}
+
+std::string_view beyond_sign(Censored censored) {
+  if (censored == Censored::none || censored == Censored::unsettled) return "";
+  return censored == Censored::above ? "> " : "< ";
+}
+
+int ReferenceJnd::n_censored(Censored direction) const {
+  return static_cast<int>(std::ranges::count(participants, direction, &ParticipantJnd::censored));
+}
+
 std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions) {
   std::map<Compared, std::vector<StaircaseResult>> finished;
-  std::map<Compared, int> n_started;
+  std::map<Compared, Began> began;
   for (const SessionData& data : sessions)
-    for (const auto& [staircase, compared] : compared_by(data)) n_started[compared] += 1;
+    for (const auto& [staircase, compared] : compared_by(data))
+      began[compared][data.participant()][data.session.session_id] += 1;
   for (const StaircaseResult& result : staircase_results(sessions))
     finished[result.compared].push_back(result);
   std::vector<ReferenceJnd> jnds;
-  for (const auto& [compared, n] : n_started)
-    jnds.push_back(jnd_at(compared, finished[compared], n));
+  for (const auto& [compared, participants] : began)
+    jnds.push_back(jnd_at(compared, finished[compared], participants));
   return jnds;
 }
 

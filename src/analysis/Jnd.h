@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/CensoredMean.h"
 #include "analysis/Dataset.h"
 #include "analysis/Statistics.h"
 
@@ -30,23 +31,42 @@ struct StaircaseResult {
   std::int64_t session_id = 0;
   std::string participant, staircase;
   Compared compared;
-  std::optional<double> jnd_g;  ///< none: it ended with too few reversals
+  std::optional<double> jnd_g;  ///< as logged; none: it ended with too few reversals
   int n_trials = 0, n_reversals = 0;
   int n_floor = 0, n_ceiling = 0;  ///< moves that a bound cut short
   bool at_trial_limit = false;     ///< ended by it, not by reversals
+  /// above, below: the JND is known to lie beyond `shown_g` only. unsettled: not even that.
+  Censored censored = Censored::none;
+  std::string why{};  ///< "at the ceiling", "trial limit", "3 reversals"...; empty: it settled
+  /// The JND; where that is censored, what it lies beyond; none where nothing is known.
+  std::optional<double> shown_g{};
+  double start_g = 0;  ///< the first level presented
 };
 
+/// A staircase that ended with fewer is censored.
+inline constexpr int least_reversals = 4;
+
 /// One participant's JND at a reference: the mean over sessions of each session's mean staircase.
+/// Of staircases that are censored the mean is censored too, in their direction.
 struct ParticipantJnd {
   std::string participant;
-  double jnd_g = 0;
+  double jnd_g = 0;  ///< censored: what it lies beyond
+  Censored censored = Censored::none;
 };
+
+/// "> " where the value lies above what is given, "< " below, otherwise nothing.
+std::string_view beyond_sign(Censored censored);
 
 struct ReferenceJnd {
   Compared compared;
-  std::optional<double> mean_g, sd_g;  ///< over participants, n-1
-  std::optional<Interval> interval_g;  ///< Student t; none for one participant or SD 0
-  std::vector<ParticipantJnd> participants;
+  /// Over participants; sd_g over n-1. None where half of them or more are censored or missing.
+  std::optional<double> mean_g, sd_g;
+  std::optional<Interval> interval_g;  ///< none for one participant or SD 0
+  MeanKind summary = MeanKind::none;
+  std::vector<ParticipantJnd> participants;  ///< with a figure, exact or censored
+  /// Of whom a session told nothing, or nothing that a mean could hold: a staircase unfinished,
+  /// without a JND and a direction, or one above and one below.
+  std::vector<std::string> missing;
   int n_staircases = 0;  ///< finished
   int n_unfinished = 0;  ///< started in a session that did not finish them
   int n_without_estimate = 0;
@@ -56,6 +76,9 @@ struct ReferenceJnd {
   int n_floor = 0, n_ceiling = 0;  ///< hits, all staircases
   int n_floor_staircases = 0, n_ceiling_staircases = 0;
   std::optional<double> published_g, published_sd_g;
+
+  int n() const { return static_cast<int>(participants.size() + missing.size()); }
+  int n_censored(Censored direction) const;  ///< participants
 };
 
 /// Names of a protocol's staircases whose kind has no jnd_method; none where the text is no
@@ -65,6 +88,19 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 /// Finished staircases in the order of sessions and estimates, each with the reference of its
 /// trials.
 std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sessions);
+
+/// What staircases that began high and low say of one reference. Their difference is how far a JND
+/// follows from where its staircase began.
+struct StartEffect {
+  Compared compared;
+  int n = 0;                          ///< participants with staircases of both kinds
+  int n_censored = 0, n_missing = 0;  ///< of the differences
+  FigureSummary from_above_g, from_below_g, difference_g;
+};
+
+/// Of references whose staircases in one session differ in their start: those that begin above the
+/// middle between the highest and the lowest start, and those below.
+std::vector<StartEffect> start_effects(std::span<const SessionData> sessions);
 
 /// By reference, lightest first, and condition. The paper's figures are beside its references in
 /// C2.

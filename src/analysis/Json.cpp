@@ -78,8 +78,15 @@ ordered_json introduction_json(const IntroductionSummary& introduction) {
 
 ordered_json participants_json(const ReferenceJnd& jnd) {
   ordered_json participants = ordered_json::array();
-  for (const ParticipantJnd& one : jnd.participants)
-    participants.push_back({{"participant", one.participant}, {"jnd_g", figure(one.jnd_g)}});
+  for (const ParticipantJnd& one : jnd.participants) {
+    const bool exact = one.censored == Censored::none;
+    participants.push_back(
+        {{"participant", one.participant},
+         {"jnd_g", figure(one.jnd_g)},
+         {"censored", exact ? ordered_json(nullptr) : ordered_json(name_of(one.censored))}});
+  }
+  for (const std::string& one : jnd.missing)
+    participants.push_back({{"participant", one}, {"jnd_g", nullptr}, {"censored", "missing"}});
   return participants;
 }
 
@@ -96,6 +103,12 @@ ordered_json jnd_json(const ReferenceJnd& jnd) {
           {"high_g", high(jnd.interval_g)},
           {"published_g", figure(jnd.published_g)},
           {"published_sd_g", figure(jnd.published_sd_g)},
+          {"summary", jnd.summary == MeanKind::none ? ordered_json(nullptr)
+                                                    : ordered_json(name_of(jnd.summary))},
+          {"n", jnd.n()},
+          {"n_censored_above", jnd.n_censored(Censored::above)},
+          {"n_censored_below", jnd.n_censored(Censored::below)},
+          {"n_missing", jnd.missing.size()},
           {"n_participants", jnd.participants.size()},
           {"participants", participants_json(jnd)},
           {"trials",
@@ -110,6 +123,77 @@ ordered_json jnd_json(const ReferenceJnd& jnd) {
           {"n_floor_staircases", jnd.n_floor_staircases},
           {"n_ceiling", jnd.n_ceiling},
           {"n_ceiling_staircases", jnd.n_ceiling_staircases}};
+}
+
+ordered_json figures_json(const FigureSummary& figures) {
+  return {{"mean_g", figure(figures.mean)},
+          {"low_g", low(figures.interval)},
+          {"high_g", high(figures.interval)},
+          {"summary", figures.kind == MeanKind::none ? ordered_json(nullptr)
+                                                     : ordered_json(name_of(figures.kind))}};
+}
+
+ordered_json start_effect_json(const std::optional<StartEffect>& effect) {
+  if (!effect) return nullptr;
+  ordered_json json = figures_json(effect->difference_g);
+  json["n"] = effect->n;
+  json["n_censored"] = effect->n_censored;
+  json["n_missing"] = effect->n_missing;
+  return json;
+}
+
+ordered_json sensitivity_json(const ReferenceSensitivity& row) {
+  const PooledSensitivity& pooled = row.pooled;
+  const auto& effect = row.start_effect;
+  return {{"reference_g", figure(row.compared.reference_g)},
+          {"condition", row.compared.condition},
+          {"n", pooled.n},
+          {"n_trials", static_cast<int>(pooled.n_trials)},
+          {"identifiable", pooled.identifiable()},
+          {"why", pooled.identifiable() ? ordered_json(nullptr) : ordered_json(pooled.why)},
+          {"threshold_75_g", figure(pooled.threshold_75_g)},
+          {"low_g", low(pooled.threshold_interval_g)},
+          {"high_g", high(pooled.threshold_interval_g)},
+          {"sensitivity_per_g", figure(pooled.sensitivity)},
+          {"sensitivity_low_per_g", low(pooled.sensitivity_interval)},
+          {"sensitivity_high_per_g", high(pooled.sensitivity_interval)},
+          {"indecision", figure(pooled.indecision)},
+          {"indecision_low", low(pooled.indecision_interval)},
+          {"indecision_high", high(pooled.indecision_interval)},
+          {"from_above_g", effect ? figure(effect->from_above_g.mean) : ordered_json(nullptr)},
+          {"from_below_g", effect ? figure(effect->from_below_g.mean) : ordered_json(nullptr)},
+          {"above_minus_below", start_effect_json(effect)}};
+}
+
+ordered_json quality_json(const Quality& quality) {
+  ordered_json counted = ordered_json::array(), losses = ordered_json::array(),
+               resets = ordered_json::array();
+  for (const CountedRow& row : quality.counted)
+    counted.push_back({{"what", row.what},
+                       {"n", row.n},
+                       {"of", row.of ? ordered_json(*row.of) : ordered_json(nullptr)}});
+  for (const LossRow& row : quality.losses)
+    losses.push_back({{"task", name_of(row.task)},
+                      {"condition", row.condition},
+                      {"difference", row.difference},
+                      {"n_attempts", row.n_attempts},
+                      {"n_void", row.n_void},
+                      {"n_lost", row.n_lost},
+                      {"lost_s", figure(row.lost_s)},
+                      {"n_impossible", row.n_impossible}});
+  for (const ResetRow& row : quality.resets)
+    resets.push_back({{"mass", row.mass}, {"n_cubes", row.n_cubes}, {"n_reset", row.n_reset}});
+  return {{"counted_first", counted}, {"losses", losses}, {"resets", resets}};
+}
+
+ordered_json hypotheses_json(const Summary& summary) {
+  ordered_json json = ordered_json::object();
+  for (const Hypothesis& hypothesis : summary.hypotheses)
+    json[hypothesis.name] = {{"verdict", name_of(hypothesis.verdict)},
+                             {"why", hypothesis.why},
+                             {"statement", hypothesis.statement},
+                             {"figures", hypothesis.figures}};
+  return json;
 }
 
 ordered_json choices_json(const ComparisonChoices& choices) {
@@ -167,11 +251,6 @@ std::string as_json(const Summary& summary) {
   const auto void_json = [](const VoidCount& count) -> ordered_json {
     return {{"reason", count.reason}, {"n", count.n}};
   };
-  const auto hypothesis_json = [](const Hypothesis& hypothesis) -> ordered_json {
-    return {{"name", hypothesis.name},
-            {"statement", hypothesis.statement},
-            {"figures", hypothesis.figures}};
-  };
   const ordered_json json{
       {"made_by", "heft analyse"},
       {"heft_version", HEFT_VERSION},
@@ -185,10 +264,12 @@ std::string as_json(const Summary& summary) {
       {"introduction", introduction_json(summary.introduction)},
       {"sorting", {{"C1", sorting_json(c1)}, {"C2", sorting_json(c2)}}},
       {"jnd", array_of(summary.jnd, jnd_json)},
+      {"sensitivity", array_of(summary.sensitivity, sensitivity_json)},
       {"comparison", comparison_json(summary.comparison)},
       {"response_times", array_of(summary.times, times_json)},
       {"voids", array_of(summary.voids, void_json)},
-      {"hypotheses", array_of(summary.hypotheses, hypothesis_json)},
+      {"hypotheses", hypotheses_json(summary)},
+      {"quality", quality_json(summary.quality)},
       {"notes", summary.notes},
       {"sessions", array_of(summary.sessions, session_json)}};
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';

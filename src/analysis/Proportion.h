@@ -10,12 +10,15 @@
 
 namespace heft {
 
-/// Where an interval comes from: Student's t over the participants' percentages; Clopper-Pearson
-/// over all trials together, where participants don't differ or there is only one.
-enum class IntervalMethod { none, student_t, exact };
+/// Where an interval comes from. The unit is the participant: a score interval (Wilson 1927) with
+/// the effective number of trials that the differences between participants leave (Korn & Graubard
+/// 1998), and Student's t with a degree of freedom less than there are participants instead of the
+/// normal quantile. Where all participants are the same, Clopper-Pearson over people; of one alone,
+/// over that one's trials, and then it says nothing of others.
+enum class IntervalMethod { none, participants, exact };
 template <>
 struct EnumNames<IntervalMethod> {
-  static constexpr std::array<std::string_view, 3> names{"none", "student_t", "exact"};
+  static constexpr std::array<std::string_view, 3> names{"none", "participants", "exact"};
 };
 
 /// How many of one participant's trials had the property that is counted.
@@ -38,16 +41,24 @@ struct Proportion {
   std::optional<double> published_percent, published_sd_percent;
 };
 
-/// Participants without a trial don't count. The t interval is clipped to 0...100.
+/// Participants without a trial don't count.
 Proportion proportion_of(const Tallies& tallies);
 
-/// A percentage of trials, all participants together, with its exact interval.
+/// The same figure's interval at another confidence; none without trials.
+std::optional<Interval> interval_percent_of(const Tallies& tallies, double confidence);
+
+/// A percentage of trials, all participants together: who has more trials counts more.
 struct Rate {
   Tally trials;
+  int n_participants = 0;  ///< with a trial
   std::optional<double> percent;
   std::optional<Interval> interval_percent;
 };
 
-Rate rate_of(const Tally& tally);
+/// Clusters are the participants.
+Rate rate_of(const Tallies& tallies);
+
+/// Of people, each of whom counts once: Clopper-Pearson.
+Rate rate_of_people(const Tally& people);
 
 }  // namespace heft

@@ -101,8 +101,9 @@ std::string_view svg_element(std::string_view svg) {
 std::string hypotheses_html(const Summary& summary) {
   std::string html = "<h2>Hypotheses and the figures that speak to them</h2>\n<dl>\n";
   for (const Hypothesis& hypothesis : summary.hypotheses) {
-    html += fmt::format("<dt><b>{}</b>: {}</dt>\n", hypothesis.name,
-                        html_escaped(hypothesis.statement));
+    html += fmt::format("<dt><b>{}</b>: {}</dt>\n<dd><b>{}</b>: {}</dd>\n", hypothesis.name,
+                        html_escaped(hypothesis.statement),
+                        html_escaped(name_of(hypothesis.verdict)), html_escaped(hypothesis.why));
     for (const std::string& figure : hypothesis.figures)
       html += fmt::format("<dd>{}</dd>\n", html_escaped(figure));
   }

@@ -75,6 +75,7 @@ ConditionSorting sorting_in(const std::string& condition, std::span<const Sessio
   sorting.none = proportion_of(tallied.none);
   sorting.answered_correct = proportion_of(tallied.answered_correct);
   sorting.answered_incorrect = proportion_of(tallied.answered_incorrect);
+  sorting.answered_correct_90_percent = interval_percent_of(tallied.answered_correct, 0.9);
   sorting.n_trials = sorting.correct.trials.n_trials;
   sorting.n_participants = sorting.correct.n_participants;
   if (sorting.n_trials > 0 && as_published)

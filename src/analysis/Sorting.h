@@ -40,8 +40,10 @@ struct ConditionSorting {
   int n_participants = 0;
   Proportion correct, incorrect, none;  ///< of all completed trials; none: "I don't know"
   Proportion answered_correct, answered_incorrect;  ///< of the trials that were answered
-  std::array<int, 4> swaps{};                       ///< by Swap, of the incorrect trials
-  std::map<int, int> n_trials_by_cubes;             ///< number of cubes -> trials with so many
+  /// As answered_correct's, at 90 %: for the test of equivalence.
+  std::optional<Interval> answered_correct_90_percent;
+  std::array<int, 4> swaps{};            ///< by Swap, of the incorrect trials
+  std::map<int, int> n_trials_by_cubes;  ///< number of cubes -> trials with so many
 
   /// How many of its trials a random order gets right on average; none without trials.
   std::optional<double> chance_percent() const;

@@ -7,7 +7,7 @@ namespace {
 void add_proportion(Table& table, const ConditionSorting& sorting, std::string_view trials,
                     std::string_view answer, const Proportion& proportion) {
   if (proportion.n_participants == 0) return;
-  const std::string method = proportion.method == IntervalMethod::exact ? "exact" : "Student t";
+  const std::string method = proportion.method == IntervalMethod::exact ? "exact" : "participants";
   table.rows.push_back(
       {word(sorting.condition), word(std::string(trials)), word(std::string(answer)),
        number(proportion.mean_percent), number(proportion.sd_percent),
@@ -36,9 +36,10 @@ Table sorting_table(const Summary& summary) {
        {"published_percent", "published %"},
        {"published_sd_percent", "published SD"}},
       {},
-      "n participants; SD between them (n-1). Interval: Student t over participants, within 0-100; "
-      "exact (Clopper-Pearson over the pooled trials) for one participant or where all "
-      "have the same percentage. The published 10.1 % of answered C1 trials is a ratio of "
+      "n participants; SD between them (n-1). Interval over participants: a score interval with "
+      "the trials that their differences leave effective, and Student's t; exact (Clopper-Pearson) "
+      "over people where all have the same percentage, over the trials of one alone. The published "
+      "10.1 % of answered C1 trials is a ratio of "
       "means, nearest to pooled."};
   for (const ConditionSorting& sorting : summary.sorting) {
     add_proportion(table, sorting, "all", "correct", sorting.correct);

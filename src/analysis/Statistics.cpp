@@ -8,10 +8,6 @@
 
 namespace heft {
 
-namespace {
-constexpr double tail = (1 - confidence_level) / 2;
-}
-
 std::optional<double> mean(std::span<const double> values) {
   if (values.empty()) return std::nullopt;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -33,17 +29,22 @@ std::optional<Interval> student_t_interval(std::span<const double> values) {
 }
 
 Interval student_t_interval(double mean, double sd, int n) {
-  const boost::math::students_t t(n - 1);
-  const double half = quantile(complement(t, tail)) * sd / std::sqrt(n);
+  const double half = student_t_quantile(n - 1) * sd / std::sqrt(n);
   return {mean - half, mean + half};
 }
 
-Interval exact_interval(int n_hits, int n_trials) {
+double student_t_quantile(double degrees_of_freedom, double confidence) {
+  const boost::math::students_t t(degrees_of_freedom);
+  return quantile(complement(t, (1 - confidence) / 2));
+}
+
+Interval exact_interval(double n_hits, double n_trials, double confidence) {
   using boost::math::beta_distribution;
-  const double hits = n_hits, misses = n_trials - n_hits;
+  const double misses = n_trials - n_hits, tail = (1 - confidence) / 2;
   Interval interval{0, 1};
-  if (n_hits > 0) interval.low = quantile(beta_distribution<>(hits, misses + 1), tail);
-  if (misses > 0) interval.high = quantile(complement(beta_distribution<>(hits + 1, misses), tail));
+  if (n_hits > 0) interval.low = quantile(beta_distribution<>(n_hits, misses + 1), tail);
+  if (misses > 0)
+    interval.high = quantile(complement(beta_distribution<>(n_hits + 1, misses), tail));
   return interval;
 }
 

@@ -27,7 +27,11 @@ std::optional<Interval> student_t_interval(std::span<const double> values);
 /// The same from figures that were published instead of values. n >= 2.
 Interval student_t_interval(double mean, double sd, int n);
 
-/// Clopper and Pearson (1934): the exact interval of a proportion, as fractions. n_trials > 0.
-Interval exact_interval(int n_hits, int n_trials);
+/// How many standard errors an interval reaches to each side. df > 0.
+double student_t_quantile(double degrees_of_freedom, double confidence = confidence_level);
+
+/// Clopper and Pearson (1934): the exact interval of a proportion, as fractions. n_trials > 0; the
+/// hits need not be whole.
+Interval exact_interval(double n_hits, double n_trials, double confidence = confidence_level);
 
 }  // namespace heft

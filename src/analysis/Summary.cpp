@@ -46,10 +46,12 @@ Summary summarize(const Dataset& dataset, const std::string& command) {
   summary.sorting = sorting_of(dataset.sessions);
   summary.introduction = introduction_of(dataset.sessions);
   summary.jnd = jnd_of(dataset.sessions);
+  summary.sensitivity = sensitivities_of(dataset.sessions);
   summary.staircases = staircase_results(dataset.sessions);
   summary.comparison = comparisons_of(dataset.sessions);
   summary.times = response_times(dataset.sessions);
   summary.voids = voids_of(dataset.sessions);
+  summary.quality = quality_of(dataset.sessions);
   summary.tracks = example_tracks(dataset.sessions);
   summary.hypotheses = hypotheses_of(summary);
   summary.choices = protocol_choices(dataset.sessions);

@@ -13,6 +13,8 @@
 #include "analysis/Introduction.h"
 #include "analysis/Jnd.h"
 #include "analysis/ProtocolChoices.h"
+#include "analysis/Quality.h"
+#include "analysis/Sensitivity.h"
 #include "analysis/Sorting.h"
 #include "analysis/Timing.h"
 #include "analysis/Tracks.h"
@@ -34,11 +36,20 @@ struct SessionSummary {
   int n_completed = 0, n_void = 0, n_open = 0;  ///< attempts
 };
 
-/// One of the paper's hypotheses and the figures that speak to it, without a verdict. The paper's
-/// two sets share the names H1...H3, so each carries its experiment.
+enum class Verdict { supported, not_supported, not_judged };
+template <>
+struct EnumNames<Verdict> {
+  static constexpr std::array<std::string_view, 3> names{"supported", "not supported",
+                                                         "can't be judged"};
+};
+
+/// One of the paper's hypotheses, what these data say of it, and the figures. The paper's two sets
+/// share the names H1...H3, so each carries its experiment.
 struct Hypothesis {
   std::string name;  ///< "E1-H1"
   std::string statement;
+  Verdict verdict = Verdict::not_judged;
+  std::string why;
   std::vector<std::string> figures;  ///< a sentence each
 };
 
@@ -50,10 +61,12 @@ struct Summary {
   std::vector<ConditionSorting> sorting;
   IntroductionSummary introduction;
   std::vector<ReferenceJnd> jnd;
+  std::vector<ReferenceSensitivity> sensitivity;
   std::vector<StaircaseResult> staircases;
   ComparisonSummary comparison;
   std::vector<ResponseTimes> times;
   std::vector<VoidCount> voids;
+  Quality quality;
   std::optional<SessionTracks> tracks;
   std::vector<Hypothesis> hypotheses;
   std::vector<ProtocolChoice> choices;

@@ -11,9 +11,11 @@
 
 namespace heft {
 
-std::vector<Table> sorting_tables(const Summary& summary);     ///< with the introduction
-std::vector<Table> comparison_tables(const Summary& summary);  ///< JNDs and choices
-std::vector<Table> session_tables(const Summary& summary);     ///< response times and voids
+std::vector<Table> sorting_tables(const Summary& summary);      ///< with the introduction
+std::vector<Table> comparison_tables(const Summary& summary);   ///< JNDs and choices
+std::vector<Table> quality_tables(const Summary& summary);      ///< what is counted first
+std::vector<Table> sensitivity_tables(const Summary& summary);  ///< thresholds, start effect
+std::vector<Table> session_tables(const Summary& summary);      ///< response times and voids
 
 // Row for row, for CSV files only.
 Table staircase_list(const Summary& summary);
@@ -23,6 +25,7 @@ Table session_list(const Summary& summary);
 // Cells that several tables have.
 Cell low(const std::optional<Interval>& interval);
 Cell high(const std::optional<Interval>& interval);
+Cell kind_word(MeanKind kind);
 Cell mass(double mass_g);  ///< as many decimals as it has
 template <typename Enum>
 Cell named_cell(Enum value) {

@@ -28,9 +28,10 @@ std::string absences(const Summary& summary) {
 }
 
 std::string hypotheses_text(const Summary& summary) {
-  std::string text = titled("The paper's hypotheses and the figures that speak to them", summary);
+  std::string text = titled("The paper's hypotheses, and what these data say of them", summary);
   for (const Hypothesis& hypothesis : summary.hypotheses) {
-    text += fmt::format("\n  {}: {}", hypothesis.name, hypothesis.statement);
+    text += fmt::format("\n  {}: {}\n    {}: {}", hypothesis.name, hypothesis.statement,
+                        name_of(hypothesis.verdict), hypothesis.why);
     for (const std::string& figure : hypothesis.figures) text += fmt::format("\n    {}", figure);
   }
   return text + '\n';
@@ -59,7 +60,9 @@ std::string titled(std::string_view title, const Summary& summary) {
 
 std::vector<Table> tables_of(const Summary& summary) {
   std::vector<Table> tables;
+  add_filled(tables, quality_tables(summary));
   add_filled(tables, sorting_tables(summary));
+  add_filled(tables, sensitivity_tables(summary));
   add_filled(tables, comparison_tables(summary));
   add_filled(tables, session_tables(summary));
   return tables;

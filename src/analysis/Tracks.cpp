@@ -27,7 +27,10 @@ std::vector<Track> tracks_of(const SessionData& data) {
   }
   for (const StaircaseResult& result : staircase_results({&data, 1}))
     for (Track& track : tracks)
-      if (track.staircase == result.staircase) track.jnd_g = result.jnd_g;
+      if (track.staircase == result.staircase) {
+        track.jnd_g = result.shown_g;
+        track.censored = result.censored;
+      }
   std::ranges::sort(
       tracks, {}, [](const Track& track) { return std::tie(track.reference_g, track.staircase); });
   return tracks;

@@ -21,7 +21,8 @@ struct Track {
   std::string staircase;
   double reference_g = 0;
   std::vector<TrackPoint> points;  ///< the staircase's completed trials in order
-  std::optional<double> jnd_g;
+  std::optional<double> jnd_g;     ///< where `censored`, what it lies beyond
+  Censored censored = Censored::none;
 };
 
 struct SessionTracks {

@@ -8,6 +8,7 @@
 
 #include "analysis/Charts.h"
 #include "analysis/Gnuplot.h"
+#include "analysis/Jnd.h"
 
 namespace heft {
 
@@ -69,8 +70,8 @@ std::string track_plot(std::string_view name, const Track& track, std::string_vi
       "'#ffffff' notitle",
       name, color, gnuplot_quoted(track.staircase));
   if (track.jnd_g)
-    plot += fmt::format(", {} with lines dashtype 2 linecolor '{}' title 'JND {:.1f} g'",
-                        *track.jnd_g, color, *track.jnd_g);
+    plot += fmt::format(", {} with lines dashtype 2 linecolor '{}' title 'JND {}{:.1f} g'",
+                        *track.jnd_g, color, beyond_sign(track.censored), *track.jnd_g);
   return plot;
 }
 

@@ -70,7 +70,83 @@ TEST(Jnd, CountsTrialsLimitsAndBounds) {
   EXPECT_EQ(jnd.n_floor_staircases, 1);
   EXPECT_EQ(jnd.n_ceiling, 2);
   EXPECT_EQ(jnd.n_ceiling_staircases, 1);
-  EXPECT_EQ(jnd.mean_g, 100);
+}
+
+SessionData with_jnds(std::int64_t id, std::vector<std::pair<double, Censored>> jnds) {
+  SessionData data = session(id, std::to_string(id));
+  for (const auto& [jnd_g, censored] : jnds) {
+    add_staircase(data, "s" + std::to_string(data.estimates.size()), 15, jnd_g);
+    data.estimates.back().censored = censored;
+  }
+  return data;
+}
+
+TEST(Jnd, WhatLeansOnABoundIsCensoredAndCounted) {
+  const std::vector sessions{
+      with_jnds(1, {{60, Censored::none}}), with_jnds(2, {{80, Censored::none}}),
+      with_jnds(3, {{70, Censored::none}}), with_jnds(4, {{300, Censored::above}}),
+      with_jnds(5, {{5, Censored::below}})};
+  const ReferenceJnd jnd = jnd_of(sessions).at(0);
+  EXPECT_EQ(jnd.n(), 5);
+  EXPECT_EQ(jnd.n_censored(Censored::above), 1);
+  EXPECT_EQ(jnd.n_censored(Censored::below), 1);
+  EXPECT_EQ(jnd.summary, MeanKind::tobit_mean);
+  EXPECT_GT(*jnd.mean_g, 70);  // not 70, as if they were not there, nor as if 300 were exact
+  EXPECT_LT(jnd.interval_g->low, *jnd.mean_g);
+}
+
+TEST(Jnd, WhereHalfAreCensoredOrMissingThereIsNoMean) {
+  std::vector sessions{with_jnds(1, {{60, Censored::none}}), with_jnds(2, {{80, Censored::none}}),
+                       with_jnds(3, {{300, Censored::above}}), with_jnds(4, {{1, Censored::none}})};
+  EXPECT_TRUE(jnd_of(sessions).at(0).mean_g.has_value());
+  sessions[3].estimates.clear();  // unfinished
+  const ReferenceJnd jnd = jnd_of(sessions).at(0);
+  EXPECT_FALSE(jnd.mean_g || jnd.sd_g || jnd.interval_g);
+  EXPECT_EQ(jnd.summary, MeanKind::none);
+  EXPECT_EQ(jnd.missing, std::vector<std::string>{"4"});
+  EXPECT_EQ(jnd.n(), 4);
+}
+
+TEST(Jnd, AParticipantIsAsCensoredAsTheStaircases) {
+  const ReferenceJnd one_above =
+      jnd_of(std::vector{with_jnds(1, {{100, Censored::none}, {300, Censored::above}})}).at(0);
+  EXPECT_EQ(one_above.participants.at(0).censored, Censored::above);
+  EXPECT_EQ(one_above.participants.at(0).jnd_g, 200);
+  const ReferenceJnd both =
+      jnd_of(std::vector{with_jnds(1, {{1, Censored::below}, {300, Censored::above}})}).at(0);
+  EXPECT_EQ(both.missing.size(), 1);
+}
+
+TEST(Jnd, FewReversalsOrTheTrialLimitCensorTheWayTheStaircaseWent) {
+  SessionData data = session(1, "a");
+  add_comparison(data, "up", 15, 50);
+  add_staircase(data, "up", 15, 400, 60);
+  data.estimates[0].reason = Finish::trials;
+  add_comparison(data, "down", 15, 500);
+  add_staircase(data, "down", 15, 20);
+  data.estimates[1].n_reversals = 3;
+  add_comparison(data, "few", 15, 20);
+  add_staircase(data, "few", 15, 20);
+  data.estimates[2].n_reversals = 3;
+  const auto results = staircase_results({&data, 1});
+  EXPECT_EQ(results[0].censored, Censored::above);
+  EXPECT_EQ(results[0].why, "trial limit");
+  EXPECT_EQ(results[0].shown_g, 400);
+  EXPECT_EQ(results[1].censored, Censored::below);
+  EXPECT_EQ(results[1].why, "3 reversals");
+  EXPECT_EQ(results[2].censored, Censored::unsettled);  // it ended where it began
+  EXPECT_FALSE(results[2].shown_g.has_value());
+}
+
+TEST(Jnd, LogsThatDoNotTellAreJudgedByTheirReversals) {
+  SessionData data = session(1, "a");
+  for (double level_g : {900.0, 1200.0, 1500.0, 1200.0, 1500.0})
+    add_comparison(data, "15g", 15, level_g).is_reversal = true;
+  add_staircase(data, "15g", 15, 1350);
+  data.estimates[0].n_ceiling = 2;
+  EXPECT_EQ(staircase_results({&data, 1})[0].censored, Censored::above);
+  data.estimates[0].n_ceiling = 0;  // 1500 g was the highest level, and no bound
+  EXPECT_EQ(staircase_results({&data, 1})[0].censored, Censored::none);
 }
 
 TEST(Jnd, AStaircaseWithoutEstimateIsUnfinished) {

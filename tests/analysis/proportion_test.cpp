@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/math/distributions/beta.hpp>
 #include <cmath>
+#include <iostream>
+
+#include "Coverage.h"
+#include "base/Random.h"
 
 namespace heft {
 namespace {
@@ -16,27 +21,26 @@ TEST(Proportion, ParticipantsCountAlikeWhateverTheirTrials) {
   EXPECT_EQ(proportion.n_participants, 2);
 }
 
-TEST(Proportion, DifferingParticipantsGetAStudentInterval) {
-  const Proportion proportion =
-      proportion_of({{"a", {3, 5}}, {"b", {4, 5}}, {"c", {5, 5}}, {"d", {4, 5}}});
-  EXPECT_EQ(proportion.method, IntervalMethod::student_t);
-  EXPECT_NEAR(proportion.interval_percent->low, 54.0154347274978, 1e-9);
-  EXPECT_EQ(proportion.interval_percent->high, 100);  // 105.98 is no percentage
+// Intervals by tests/golden/analysis/shares.R.
+TEST(Proportion, DifferingParticipantsAreTheUnitOfTheInterval) {
+  const Proportion high =
+      proportion_of({{"a", {6, 10}}, {"b", {8, 10}}, {"c", {10, 10}}, {"d", {8, 10}}});
+  EXPECT_EQ(high.method, IntervalMethod::participants);
+  EXPECT_NEAR(high.interval_percent->low, 47.5580536882, 1e-8);
+  EXPECT_NEAR(high.interval_percent->high, 94.6360830465, 1e-8);
+  const Tallies few{{"a", {0, 5}}, {"b", {1, 5}}, {"c", {0, 5}}, {"d", {3, 5}}};
+  EXPECT_NEAR(proportion_of(few).interval_percent->low, 2.48495580975, 1e-8);
+  EXPECT_NEAR(proportion_of(few).interval_percent->high, 71.03661632427, 1e-8);
+  EXPECT_NEAR(interval_percent_of(few, 0.9)->high, 60.64772052934, 1e-8);
 }
 
-TEST(Proportion, StudentIntervalIsClippedBelow) {
-  const Proportion proportion = proportion_of({{"a", {1, 10}}, {"b", {2, 10}}, {"c", {3, 10}}});
-  EXPECT_EQ(proportion.interval_percent->low, 0);  // -4.84
-  EXPECT_NEAR(proportion.interval_percent->high, 44.8413771175033, 1e-9);
-}
-
-TEST(Proportion, AllAtZeroOrHundredGetAnExactIntervalOverPooledTrials) {
+TEST(Proportion, WhereAllAreTheSameTheIntervalIsExactOverPeople) {
   Tallies nobody, everybody;
   for (char name = 'a'; name < 'a' + 13; ++name) {
     nobody[{name}] = {0, 5};
     everybody[{name}] = {5, 5};
   }
-  const double bound = 100 * (1 - std::pow(0.025, 1.0 / 65));
+  const double bound = 100 * (1 - std::pow(0.025, 1.0 / 13));  // not 65 trials
   EXPECT_EQ(proportion_of(nobody).method, IntervalMethod::exact);
   EXPECT_NEAR(proportion_of(nobody).interval_percent->high, bound, 1e-9);
   EXPECT_NEAR(proportion_of(everybody).interval_percent->low, 100 - bound, 1e-9);
@@ -56,11 +60,70 @@ TEST(Proportion, ParticipantsWithoutTrialsDoNotCount) {
   EXPECT_FALSE(proportion_of({{"b", {0, 0}}}).mean_percent.has_value());
 }
 
-TEST(Rate, IsPooledWithAnExactInterval) {
-  const Rate rate = rate_of({5, 13});
-  EXPECT_NEAR(*rate.percent, 500.0 / 13, 1e-12);
-  EXPECT_NEAR(rate.interval_percent->high, 68.4222397085937, 1e-9);
-  EXPECT_FALSE(rate_of({0, 0}).percent.has_value());
+TEST(Rate, IsOfAllTrialsWithParticipantsAsClusters) {
+  const Rate rate = rate_of({{"a", {5, 13}}, {"b", {0, 4}}, {"c", {3, 6}}, {"d", {0, 0}}});
+  EXPECT_NEAR(*rate.percent, 800.0 / 23, 1e-12);
+  EXPECT_EQ(rate.n_participants, 3);
+  EXPECT_NEAR(rate.interval_percent->low, 9.90272773858, 1e-8);
+  EXPECT_NEAR(rate.interval_percent->high, 72.12885649535, 1e-8);
+  const Rate none = rate_of({{"a", {0, 13}}, {"b", {0, 4}}, {"c", {0, 6}}});
+  EXPECT_NEAR(none.interval_percent->high, 70.7598226179, 1e-8);  // three people, not 23 trials
+  EXPECT_FALSE(rate_of({}).percent.has_value());
+}
+
+TEST(Rate, OfPeopleIsExact) {
+  EXPECT_NEAR(rate_of_people({5, 13}).interval_percent->high, 68.4222397085937, 1e-9);
+  EXPECT_FALSE(rate_of_people({0, 0}).percent.has_value());
+}
+
+// People whose own shares are beta distributed around one, with that correlation between the trials
+// of a person.
+double own_share(double share, double correlation, RandomStream& stream) {
+  if (correlation == 0) return share;
+  const double size = (1 - correlation) / correlation;
+  const boost::math::beta_distribution<> people(share * size, (1 - share) * size);
+  return quantile(people, std::clamp(stream.uniform(), 1e-12, 1 - 1e-12));
+}
+
+struct Shares {
+  Coverage mean, ratio;
+};
+
+Shares coverage(int n_people, double share, double correlation) {
+  RandomStream stream(3, "shares", static_cast<std::uint64_t>(n_people));
+  Shares found;
+  for (int study = 0; study < n_studies(300); ++study) {
+    Tallies equal, unequal;
+    for (int i = 0; i < n_people; ++i) {
+      const double own = own_share(share, correlation, stream);
+      const std::string name = std::to_string(i);
+      for (int trial = 0; trial < 12; ++trial) {
+        const bool hit = stream.coin(own);
+        if (trial < 5) equal[name].n_trials += 1, equal[name].n_hits += hit ? 1 : 0;
+        if (trial < 4 + i % 9) unequal[name].n_trials += 1, unequal[name].n_hits += hit ? 1 : 0;
+      }
+    }
+    found.mean.add(proportion_of(equal).interval_percent, 100 * share);
+    found.ratio.add(rate_of(unequal).interval_percent, 100 * share);
+  }
+  return found;
+}
+
+TEST(CoverageOf, Shares) {
+  const double chance = by_chance_percent(n_studies(300));
+  for (int n_people : {13, 40})
+    for (double correlation : {0.0, 0.1, 0.2})
+      for (double share : {0.03, 0.1, 0.2, 0.5, 0.8, 0.9}) {
+        const Shares found = coverage(n_people, share, correlation);
+        std::cout << n_people << " people, correlation " << correlation << ", share " << share
+                  << ": " << found.mean.percent() << " % (mean), " << found.ratio.percent()
+                  << " % (ratio)\n";
+        const bool inside = share >= 0.1 && share <= 0.9;
+        for (const Coverage& one : {found.mean, found.ratio}) {
+          EXPECT_GE(one.percent(), (inside ? 93.5 : 93) - chance) << n_people << " " << share;
+          EXPECT_LE(one.percent(), (inside ? 97.8 : 99.9) + chance) << n_people << " " << share;
+        }
+      }
 }
 
 }  // namespace

@@ -131,6 +131,7 @@ TEST(Summary, HypothesesCarryTheirExperiment) {
   for (const Hypothesis& hypothesis : summarize({"x.db", {full_session(1, "a")}}, "").hypotheses) {
     names.push_back(hypothesis.name);
     EXPECT_FALSE(hypothesis.figures.empty());
+    EXPECT_FALSE(hypothesis.why.empty());
   }
   EXPECT_THAT(names, ElementsAre("E1-H1", "E1-H2", "E1-H3", "E2-H1", "E2-H2"));
 }

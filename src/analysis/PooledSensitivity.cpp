@@ -1,0 +1,421 @@
+#include "analysis/PooledSensitivity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/Quantile.h"
+#include "base/Random.h"
+#include "psychophysics/Normal.h"
+
+namespace heft {
+
+namespace {
+constexpr double z_75 = 0.6745;  // the normal quantile, with the digits that the field prints
+
+// Sensitivities per largest level: dense around 0, and up to thresholds of a four-hundredth of it.
+constexpr std::size_t n_grid = 56;
+constexpr double first_place = -4, place_step = 0.2;
+constexpr std::size_t no_sensitivity = 20;
+double sensitivity_at(double place) {
+  return 0.5 * std::sinh(first_place + place_step * place);
+}
+
+struct Answers {
+  double level = 0, left = 0, none = 0, right = 0;
+};
+
+struct Criteria {
+  double log_indecision = 0, bias = 0;
+};
+
+/// How criteria are spread between people who have a sensitivity in common: the logarithm of the
+/// indecision is normal, the side bias too, around 0.
+struct Spread {
+  double mean_log_indecision = 0, sd_log_indecision = 0.6, sd_bias = 0.5;
+};
+
+// The log likelihood of one person's answers, and its derivatives by the criteria.
+struct Likelihood {
+  double value = 0;
+  double by_log_indecision = 0, by_bias = 0;
+  std::array<double, 3> information{};  // Fisher's: of log indecision, of bias, of both
+};
+
+Likelihood likelihood(std::span<const Answers> answers, double sensitivity, const Criteria& at) {
+  constexpr double third = fixed_lapse / 3, seen = 1 - fixed_lapse;
+  const double indecision = std::exp(at.log_indecision);
+  Likelihood sum;
+  for (const Answers& n : answers) {
+    const double felt = sensitivity * n.level + at.bias;
+    const double up = felt - indecision, down = felt + indecision;
+    const double right = third + seen * normal_cdf(up), left = third + seen * normal_cdf(-down);
+    const double none = std::max(1 - right - left, third);
+    const double right_slope = seen * normal_density(up), left_slope = seen * normal_density(down);
+    sum.value += n.right * std::log(right) + n.left * std::log(left) + n.none * std::log(none);
+    const double a = n.right / right - n.none / none, b = n.left / left - n.none / none;
+    sum.by_bias += a * right_slope - b * left_slope;
+    sum.by_log_indecision -= a * right_slope + b * left_slope;
+    const double n_all = n.right + n.left + n.none;
+    const double apart = left_slope + right_slope, aside = left_slope - right_slope;
+    const double rr = right_slope * right_slope / right, ll = left_slope * left_slope / left;
+    sum.information[0] += n_all * (rr + ll + apart * apart / none);
+    sum.information[1] += n_all * (rr + ll + aside * aside / none);
+    sum.information[2] += n_all * (ll - rr + apart * aside / none);
+  }
+  sum.by_log_indecision *= indecision;
+  sum.information[0] *= indecision * indecision;
+  sum.information[2] *= indecision;
+  return sum;
+}
+
+// The same times the density that the spread gives to the criteria.
+Likelihood posterior(std::span<const Answers> answers, double sensitivity, const Criteria& at,
+                     const Spread& spread) {
+  Likelihood sum = likelihood(answers, sensitivity, at);
+  const double precision = 1 / (spread.sd_log_indecision * spread.sd_log_indecision);
+  const double bias_precision = 1 / (spread.sd_bias * spread.sd_bias);
+  const double off = at.log_indecision - spread.mean_log_indecision;
+  sum.value -= (precision * off * off + bias_precision * at.bias * at.bias) / 2;
+  sum.by_log_indecision -= precision * off;
+  sum.by_bias -= bias_precision * at.bias;
+  sum.information[0] += precision;
+  sum.information[1] += bias_precision;
+  return sum;
+}
+
+double determinant(const Likelihood& at) {
+  return at.information[0] * at.information[1] - at.information[2] * at.information[2];
+}
+
+// Fisher scoring with steps that shorten until they help. @param at where to begin, then the best
+Likelihood maximize(std::span<const Answers> answers, double sensitivity, const Spread& spread,
+                    Criteria& at) {
+  constexpr double good_enough = 1e-5;
+  Likelihood here = posterior(answers, sensitivity, at, spread);
+  for (int i = 0; i < 30; ++i) {
+    const auto [a, d, both] = here.information;
+    const double det = determinant(here);
+    const double to_indecision = (d * here.by_log_indecision - both * here.by_bias) / det;
+    const double to_bias = (a * here.by_bias - both * here.by_log_indecision) / det;
+    if (to_indecision * here.by_log_indecision + to_bias * here.by_bias < good_enough) break;
+    double length = std::min(1.0, 1.5 / (std::abs(to_indecision) + 1e-9));
+    bool better = false;
+    for (int halvings = 0; halvings < 12 && !better; ++halvings, length /= 2) {
+      const Criteria there{at.log_indecision + length * to_indecision, at.bias + length * to_bias};
+      const Likelihood next = posterior(answers, sensitivity, there, spread);
+      better = next.value > here.value;
+      if (!better) continue;
+      at = there;
+      here = next;
+    }
+    if (!better) break;
+  }
+  return here;
+}
+
+/// One person's answers, and the criteria that go with the sensitivity looked at.
+struct Person {
+  std::vector<Answers> answers;
+  Criteria criteria;
+};
+
+// People's criteria and their spread for a sensitivity, by the EM algorithm. @return each one's log
+// likelihood with the criteria integrated out (Laplace's method)
+std::vector<double> fit_criteria(std::vector<Person>& people, double sensitivity, Spread& spread) {
+  constexpr int n_steps = 4;
+  std::vector<double> values(people.size());
+  for (int step = 0; step < n_steps; ++step) {
+    double sum = 0, square = 0, bias_square = 0;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+      const Likelihood best = maximize(people[i].answers, sensitivity, spread, people[i].criteria);
+      const double det = determinant(best);
+      values[i] =
+          best.value - std::log(det) / 2 - std::log(spread.sd_log_indecision * spread.sd_bias);
+      const Criteria& at = people[i].criteria;
+      sum += at.log_indecision;
+      square += at.log_indecision * at.log_indecision + best.information[1] / det;
+      bias_square += at.bias * at.bias + best.information[0] / det;
+    }
+    if (step + 1 == n_steps) break;
+    const double n = static_cast<double>(people.size());
+    spread.mean_log_indecision = std::clamp(sum / n, -3.0, 6.0);
+    const double variance = square / n - sum / n * sum / n;
+    spread.sd_log_indecision = std::clamp(std::sqrt(std::max(variance, 0.0)), 0.1, 1.5);
+    spread.sd_bias = std::clamp(std::sqrt(bias_square / n), 0.05, 2.0);
+  }
+  return values;
+}
+
+void move_criteria(std::vector<Person>& people, Spread& spread, double growth) {
+  if (growth <= 1 || !std::isfinite(growth)) return;
+  const double more = std::log(growth);
+  for (Person& person : people) person.criteria.log_indecision += more;
+  spread.mean_log_indecision += more;
+}
+
+using OnGrid = std::array<double, n_grid>;
+
+// By person: log likelihoods of the sensitivities on the grid.
+std::vector<OnGrid> likelihoods(std::vector<Person>& people) {
+  std::vector<OnGrid> all(people.size());
+  Spread spread;
+  const auto put = [&](std::size_t place) {
+    const double sensitivity = sensitivity_at(static_cast<double>(place));
+    const std::vector<double> values = fit_criteria(people, sensitivity, spread);
+    for (std::size_t i = 0; i < people.size(); ++i) all[i][place] = values[i];
+  };
+  // From no sensitivity outwards, each place from where its neighbor found the criteria: where all
+  // choices pass for lapses is another hill, far from the right one.
+  for (int i = 0; i < 3; ++i) put(no_sensitivity);
+  const std::vector<Person> people_there = people;
+  const Spread spread_there = spread;
+  for (std::size_t place = no_sensitivity; place-- > 0;) put(place);
+  people = people_there;
+  spread = spread_there;
+  for (std::size_t place = no_sensitivity + 1; place < n_grid; ++place) {
+    const double place_before = static_cast<double>(place - 1);
+    move_criteria(people, spread, sensitivity_at(place_before + 1) / sensitivity_at(place_before));
+    put(place);
+  }
+  return all;
+}
+
+/// The place on the grid where a sum is highest, by the parabola through the three highest.
+double top_of(const OnGrid& sum) {
+  const auto best = static_cast<std::size_t>(std::ranges::max_element(sum) - sum.begin());
+  if (best == 0 || best + 1 == n_grid) return static_cast<double>(best);
+  const double before = sum[best - 1], here = sum[best], after = sum[best + 1];
+  const double bend = before - 2 * here + after;
+  return static_cast<double>(best) + (bend < 0 ? (before - after) / (2 * bend) : 0);
+}
+
+void add(OnGrid& sum, const OnGrid& more, double times) {
+  for (std::size_t i = 0; i < n_grid; ++i) sum[i] += times * more[i];
+}
+
+/// How sensitivities are spread between people: their logarithm is normal.
+struct Spectrum {
+  double mean_log = 0, sd_log = 0.3;
+};
+
+// The likelihood of each person's sensitivities above none, as a density over their logarithm.
+class PositiveSensitivities {
+ public:
+  explicit PositiveSensitivities(std::span<const OnGrid> people) {
+    for (std::size_t i = 0; i < n_places; ++i) logs_[i] = std::log(sensitivity_at(place(i)));
+    for (const OnGrid& person : people) {
+      const double best = *std::ranges::max_element(person);
+      OnPlaces density{};
+      for (std::size_t i = 0; i < n_places; ++i)
+        density[i] = std::exp(person[no_sensitivity + 1 + i] - best) * width(i);
+      densities_.push_back(density);
+    }
+  }
+
+  /// By person: log likelihoods of medians on the grid, where people are spread so much. What is
+  /// not above none can't be.
+  std::vector<OnGrid> of_medians(double sd_log) const {
+    constexpr double impossible = -1e6;
+    std::vector<OnGrid> all(densities_.size());
+    for (OnGrid& one : all) one.fill(impossible);
+    for (std::size_t i = 0; i < n_places; ++i) {
+      const OnPlaces prior = density_of({logs_[i], sd_log});
+      for (std::size_t person = 0; person < all.size(); ++person) {
+        double weight = 0;
+        for (std::size_t k = 0; k < n_places; ++k) weight += densities_[person][k] * prior[k];
+        all[person][no_sensitivity + 1 + i] = std::log(std::max(weight, 1e-300));
+      }
+    }
+    return all;
+  }
+
+  /// By the EM algorithm.
+  Spectrum fit(Spectrum from, int n_steps) const {
+    constexpr double least_sd = 0.1, most_sd = 1.5;  // finer than the grid tells nothing
+    for (int step = 0; step < n_steps; ++step) {
+      const OnPlaces prior = density_of(from);
+      double n = 0, sum = 0, square = 0;
+      for (const OnPlaces& density : densities_) {
+        double weight = 0, first = 0, second = 0;
+        for (std::size_t i = 0; i < n_places; ++i) {
+          const double w = density[i] * prior[i];
+          weight += w;
+          first += w * logs_[i];
+          second += w * logs_[i] * logs_[i];
+        }
+        if (!(weight > 0)) continue;
+        n += 1;
+        sum += first / weight;
+        square += second / weight;
+      }
+      if (n == 0) break;
+      from.mean_log = sum / n;
+      const double variance = std::max(square / n - from.mean_log * from.mean_log, 0.0);
+      from.sd_log = std::clamp(std::sqrt(variance), least_sd, most_sd);
+    }
+    return from;
+  }
+
+ private:
+  static constexpr std::size_t n_places = n_grid - no_sensitivity - 1;
+  using OnPlaces = std::array<double, n_places>;
+
+  static double place(std::size_t i) { return static_cast<double>(no_sensitivity + 1 + i); }
+  double width(std::size_t i) const {
+    const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, n_places - 1);
+    return (logs_[after] - logs_[before]) / static_cast<double>(after - before);
+  }
+  OnPlaces density_of(const Spectrum& spectrum) const {
+    OnPlaces density{};
+    for (std::size_t i = 0; i < n_places; ++i) {
+      const double z = (logs_[i] - spectrum.mean_log) / spectrum.sd_log;
+      density[i] = std::exp(-z * z / 2);
+    }
+    return density;
+  }
+
+  OnPlaces logs_{};
+  std::vector<OnPlaces> densities_;
+};
+
+constexpr int n_samples = 2000;
+
+// Sensitivities of samples of people.
+std::vector<double> bootstrap(std::span<const OnGrid> people) {
+  RandomStream stream(1, "sample of people");
+  std::vector<double> tops, times(people.size());
+  for (int sample = 0; sample < n_samples; ++sample) {
+    std::ranges::fill(times, 0.0);
+    for (std::size_t i = 0; i < people.size(); ++i) times[stream.below(people.size())] += 1;
+    OnGrid sum{};
+    for (std::size_t i = 0; i < people.size(); ++i)
+      if (times[i] > 0) add(sum, people[i], times[i]);
+    tops.push_back(sensitivity_at(top_of(sum)));
+  }
+  return tops;
+}
+
+double largest_level(std::span<const AnswersByLevel> people) {
+  double largest_g = 0;
+  for (const AnswersByLevel& answers : people)
+    for (const auto& [level_g, n] : answers) largest_g = std::max(largest_g, std::abs(level_g));
+  return largest_g;
+}
+
+std::string why_not(const PooledSensitivity& found, double largest_g) {
+  const double s = *found.sensitivity;
+  const Interval& interval = *found.sensitivity_interval;
+  if (interval.low <= 0 && interval.high >= 0)
+    return "no sensitivity: its 95 % interval holds 0, so the choices don't surely follow the mass";
+  if (s < 0) return "the choices go against the mass: sensitivity is negative";
+  if (s * largest_g >= 0.5 * sensitivity_at(n_grid - 1))
+    return "there is separation: the levels part the answers without overlap; levels between are "
+           "missing";
+  if (z_75 / interval.low > 2 * largest_g)
+    return fmt::format(
+        "the threshold's 95 % interval reaches to {:.0f} g, beyond twice the largest level shown",
+        z_75 / interval.low);
+  return "";
+}
+
+std::vector<Answers> answers_on_scale(const AnswersByLevel& by_level, double largest_g) {
+  std::vector<Answers> answers;
+  for (const auto& [level_g, n] : by_level)
+    answers.push_back({level_g / largest_g, n[0], n[1], n[2]});
+  return answers;
+}
+
+// Of one person alone: where the likelihood itself says.
+void put_own_interval(PooledSensitivity& found, const AnswersByLevel& answers) {
+  const Fit fit = fit_indecision(answers, {.lapse = fixed_lapse});
+  const FittedParameter& s = fit.parameter("sensitivity");
+  found.why = fit.why;
+  found.sensitivity = s.value;
+  if (s.low && s.high) found.sensitivity_interval = Interval{*s.low, *s.high};
+  if (!found.identifiable()) return;
+  const FittedParameter& threshold = fit.parameter("threshold_75_g");
+  found.threshold_75_g = threshold.value;
+  found.threshold_interval_g = Interval{threshold.low.value_or(0), *threshold.high};
+}
+
+// First what all have in common, which says whether there is any. Then the median of people who
+// differ.
+void put_pooled(PooledSensitivity& found, std::span<const OnGrid> people, double largest_g) {
+  std::vector<double> samples = bootstrap(people);
+  Interval interval = expanded_percentiles(samples, people.size());
+  if (interval.low > 0) {
+    const PositiveSensitivities positive(people);
+    const Spectrum all = positive.fit({std::log(*found.sensitivity * largest_g), 0.3}, 60);
+    found.sd_log_sensitivity = all.sd_log;
+    const std::vector<OnGrid> of_medians = positive.of_medians(all.sd_log);
+    OnGrid sum{};
+    for (const OnGrid& one : of_medians) add(sum, one, 1);
+    found.sensitivity = sensitivity_at(top_of(sum)) / largest_g;
+    samples = bootstrap(of_medians);
+    interval = expanded_percentiles(samples, people.size());
+  }
+  for (double& sample : samples) sample /= largest_g;
+  found.sensitivity_samples = std::move(samples);
+  found.sensitivity_interval = Interval{interval.low / largest_g, interval.high / largest_g};
+  found.why = why_not(found, largest_g);
+  if (!found.identifiable()) return;
+  found.threshold_75_g = z_75 / *found.sensitivity;
+  found.threshold_interval_g =
+      Interval{z_75 / found.sensitivity_interval->high, z_75 / found.sensitivity_interval->low};
+}
+
+// Half the widths between people's criteria, for the sensitivity that they have in common.
+void put_indecision(PooledSensitivity& found, std::vector<Person>& people, double sensitivity) {
+  Spread spread;
+  for (int i = 0; i < 5; ++i) fit_criteria(people, sensitivity, spread);
+  std::vector<double> indecisions;
+  for (const Person& person : people)
+    indecisions.push_back(std::exp(person.criteria.log_indecision));
+  found.indecision = mean(indecisions);
+  if (found.n > 1) found.indecision_interval = student_t_interval(indecisions);
+}
+}  // namespace
+
+Interval expanded_percentiles(const std::vector<double>& samples, std::size_t n_people) {
+  const double n = static_cast<double>(n_people);
+  const double t = student_t_quantile(n - 1);
+  const double tail = normal_cdf(-t * std::sqrt(n / (n - 1)));
+  return {*heft::quantile(samples, tail), *heft::quantile(samples, 1 - tail)};
+}
+
+PooledSensitivity pooled_sensitivity(std::span<const AnswersByLevel> all) {
+  PooledSensitivity found;
+  std::vector<AnswersByLevel> with_trials;
+  for (const AnswersByLevel& answers : all)
+    if (trials_in(answers) > 0) with_trials.push_back(answers);
+  for (const AnswersByLevel& answers : with_trials) found.n_trials += trials_in(answers);
+  found.n = static_cast<int>(with_trials.size());
+  const double largest_g = largest_level(with_trials);
+  if (largest_g == 0) {
+    found.why = found.n == 0 ? "there are no trials" : "no trial had a difference";
+    return found;
+  }
+  std::vector<Person> people;
+  for (const AnswersByLevel& answers : with_trials)
+    people.push_back({answers_on_scale(answers, largest_g), {}});
+  const std::vector<OnGrid> by_person = likelihoods(people);
+  OnGrid sum{};
+  for (const OnGrid& one : by_person) add(sum, one, 1);
+  const double top = sensitivity_at(top_of(sum));
+  found.sensitivity = top / largest_g;
+  put_indecision(found, people, top);
+  if (found.n == 1)
+    put_own_interval(found, with_trials[0]);
+  else if (found.n >= least_people)
+    put_pooled(found, by_person, largest_g);
+  else
+    found.why =
+        fmt::format("{} participants are too few to tell how people differ, expected {} or more",
+                    found.n, least_people);
+  return found;
+}
+
+}  // namespace heft

@@ -1,0 +1,62 @@
+// What the three-way choices of several people say of how well they tell two masses apart, whatever
+// their criteria.
+//
+// Each person follows the indecision model (psychophysics/PsychometricFunction.h) with a lapse rate
+// of .02 and an indecision and a side bias of their own, which are random effects: log indecision
+// and bias are normal over people, with spreads that the answers tell (EM), and integrated out
+// (Laplace). To maximize them out instead makes the sensitivity of 20 to 50 trials a person 8 to 50
+// % too large. What remains is each person's likelihood of a sensitivity, on a grid.
+//
+// The sensitivity that all have in common says whether there is any: its interval holds 0 or not.
+// Where there is, the estimate is the median of sensitivities that are log-normal over people.
+// Intervals come from a bootstrap over people: as many are drawn with replacement, and the
+// percentiles are taken farther out, as Student's t and n/(n-1) ask for where people are few
+// (Hesterberg 2015, "expanded percentile interval").
+//
+// Levels are signed by side: mass on the right minus mass on the left, and the answers are left,
+// none, right. A person can prefer a side but not the reference, which nothing marks; and as sides
+// are drawn anew, what earlier answers did to a staircase's level can't pass for sensitivity.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/Fit.h"
+#include "analysis/Statistics.h"
+
+namespace heft {
+
+inline constexpr double fixed_lapse = 0.02;
+
+/// With fewer people (but one alone, of whom the interval is their own) there is no interval.
+inline constexpr int least_people = 5;
+
+struct PooledSensitivity {
+  int n = 0;  ///< people with a trial
+  double n_trials = 0;
+  std::string why;                    ///< there is no threshold; empty: there is
+  std::optional<double> sensitivity;  ///< per gram; of the median person
+  std::optional<Interval> sensitivity_interval;
+  std::optional<double> sd_log_sensitivity;  ///< between people
+  std::optional<double> threshold_75_g;      ///< 75 % correct in a forced choice without bias
+  std::optional<Interval> threshold_interval_g;
+  /// Mean over people of half the width between the criteria, in SDs of what is felt.
+  std::optional<double> indecision;
+  std::optional<Interval> indecision_interval;
+  /// By bootstrap sample; shared by all references of one study, so that these can be compared.
+  std::vector<double> sensitivity_samples;
+
+  bool identifiable() const { return why.empty(); }
+};
+
+/// Percentiles of bootstrap samples, farther out where people are few. n_people > 1.
+Interval expanded_percentiles(const std::vector<double>& samples, std::size_t n_people);
+
+/// @param people  answers (left, none, right) by signed level in g. Identifiable: the interval of
+///   the sensitivity lies above 0 and that of the threshold ends at most at twice the largest
+///   level.
+PooledSensitivity pooled_sensitivity(std::span<const AnswersByLevel> people);
+
+}  // namespace heft

@@ -1,0 +1,151 @@
+#include "analysis/Quality.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <tuple>
+
+#include "analysis/Timing.h"
+
+namespace heft {
+
+namespace {
+struct Impossible {
+  bool early = false, fast = false, untouched = false;
+  bool any() const { return early || fast || untouched; }
+};
+
+bool was_touched(const Attempt& attempt) {
+  if (attempt.trial.first_contact_s) return true;
+  for (const CubeRow& cube : attempt.cubes)
+    if (cube.n_pushes > 0) return true;
+  return false;
+}
+
+Impossible impossible_in(const Attempt& attempt, double min_answer_s) {
+  Impossible found;
+  if (const auto time = response_time_s(attempt.trial)) {
+    found.early = *time < min_answer_s;
+    found.fast = *time < fastest_answer_s;
+  }
+  found.untouched = !was_touched(attempt);
+  return found;
+}
+
+// Bands rather than levels: staircases show a level of their own in almost every trial.
+template <std::size_t n>
+std::size_t band_of(double value_g, const std::array<double, n>& tops_g) {
+  std::size_t band = 0;
+  while (band < n && value_g > tops_g[band]) ++band;
+  return band;
+}
+
+template <std::size_t n>
+std::string band_name(std::size_t band, const std::array<double, n>& tops_g) {
+  if (band == 0) return tops_g[0] == 0 ? "0 g" : fmt::format("to {:g} g", tops_g[0]);
+  if (band == n) return fmt::format("over {:g} g", tops_g[n - 1]);
+  return fmt::format("over {:g} to {:g} g", tops_g[band - 1], tops_g[band]);
+}
+
+constexpr std::array differences_g{0.0, 100.0, 300.0, 700.0};
+constexpr std::array masses_g{20.0, 100.0, 300.0, 700.0, 1000.0};
+
+using LossKey = std::tuple<Task, std::string, std::size_t>;
+
+LossKey key_of(const TrialPlan& plan) {
+  const bool compared = plan.task == Task::comparison && plan.level_g;
+  return {plan.task, plan.condition, compared ? band_of(*plan.level_g, differences_g) + 1 : 0};
+}
+
+void count_loss(LossRow& row, const Attempt& attempt, double min_answer_s) {
+  row.n_attempts += 1;
+  row.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
+  row.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
+  row.lost_s += attempt.trial.lost_s;
+  if (attempt.completed()) row.n_impossible += impossible_in(attempt, min_answer_s).any() ? 1 : 0;
+}
+
+void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attempt) {
+  for (const CubeRow& cube : attempt.cubes) {
+    const std::size_t band = band_of(cube.mass_g, masses_g);
+    ResetRow& row = resets[band];
+    row.mass = band_name(band, masses_g);
+    row.n_cubes += 1;
+    row.n_reset += cube.n_resets > 0 ? 1 : 0;
+  }
+}
+
+struct Sums {
+  int n_completed = 0, n_early = 0, n_fast = 0, n_untouched = 0, n_attempts = 0, n_void = 0,
+      n_lost = 0;
+  EventCounts events;
+  int n_unfinished = 0;
+};
+
+void count_attempt(Sums& sums, const Attempt& attempt) {
+  sums.n_attempts += 1;
+  sums.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
+  sums.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
+  if (!attempt.completed()) return;
+  const Impossible found = impossible_in(attempt, default_min_answer_s);
+  sums.n_completed += 1;
+  sums.n_early += found.early ? 1 : 0;
+  sums.n_fast += found.fast ? 1 : 0;
+  sums.n_untouched += found.untouched ? 1 : 0;
+}
+
+void count_session(Sums& sums, const SessionData& data) {
+  sums.events.notes += data.events.notes;
+  sums.events.deviations += data.events.deviations;
+  sums.events.checks_failed += data.events.checks_failed;
+  sums.events.checks_warned += data.events.checks_warned;
+  sums.events.unblindings += data.events.unblindings;
+  sums.n_unfinished += data.finished() ? 0 : 1;
+}
+
+std::vector<CountedRow> rows_of(const Sums& sums, int n_sessions) {
+  return {
+      {"answers earlier than 0.5 s", sums.n_early, sums.n_completed, "after all cubes were shown"},
+      {"answers faster than 0.3 s", sums.n_fast, sums.n_completed,
+       "faster than anybody sees and presses; among those above"},
+      {"answers without contact", sums.n_untouched, sums.n_completed, "no cube was touched before"},
+      {"void attempts", sums.n_void, sums.n_attempts, "each was presented again"},
+      {"attempts with the effector out of view", sums.n_lost, sums.n_attempts,
+       "they count; the time is taken off the response time"},
+      {"notes", sums.events.notes, std::nullopt, "of the experimenter, in the log"},
+      {"deviations from the protocol", sums.events.deviations, std::nullopt, "in the log"},
+      {"checks that failed", sums.events.checks_failed, std::nullopt,
+       "of the apparatus, before a session"},
+      {"checks that warned", sums.events.checks_warned, std::nullopt, "as above"},
+      {"unblindings", sums.events.unblindings, std::nullopt, "somebody was shown what is hidden"},
+      {"unfinished sessions", sums.n_unfinished, n_sessions,
+       "their completed trials and finished staircases count"}};
+}
+}  // namespace
+
+Quality quality_of(std::span<const SessionData> sessions) {
+  Sums sums;
+  std::map<LossKey, LossRow> losses;
+  std::map<std::size_t, ResetRow> resets;
+  for (const SessionData& data : sessions) {
+    count_session(sums, data);
+    for (const Attempt& attempt : data.attempts) {
+      const TrialPlan& plan = attempt.trial.plan;
+      const LossKey key = key_of(plan);
+      LossRow& row = losses[key];
+      row.task = plan.task;
+      row.condition = plan.condition;
+      if (std::get<2>(key) > 0) row.difference = band_name(std::get<2>(key) - 1, differences_g);
+      count_attempt(sums, attempt);
+      count_loss(row, attempt, default_min_answer_s);
+      if (attempt.completed()) count_resets(resets, attempt);
+    }
+  }
+  Quality quality{rows_of(sums, static_cast<int>(sessions.size())), {}, {}};
+  for (const auto& [key, row] : losses) quality.losses.push_back(row);
+  for (const auto& [band, row] : resets) quality.resets.push_back(row);
+  return quality;
+}
+
+}  // namespace heft

@@ -1,0 +1,50 @@
+// What must be seen before any figure: answers that can't be answers, what went wrong and was
+// noted, and whether what was lost goes with what was shown.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/Dataset.h"
+
+namespace heft {
+
+/// Nobody sees, judges and presses in less.
+inline constexpr double fastest_answer_s = 0.3;
+/// Where the protocol says nothing else ([onset] min_answer_s).
+inline constexpr double default_min_answer_s = 0.5;
+
+struct CountedRow {
+  std::string what;
+  int n = 0;
+  std::optional<int> of;  ///< how many could have been
+  std::string meaning;
+};
+
+/// What can go with level and condition, and must not.
+struct LossRow {
+  Task task = Task::sorting;
+  std::string condition;
+  std::string difference;  ///< comparisons: "0 g", "1-100 g"...; otherwise empty
+  int n_attempts = 0, n_void = 0, n_lost = 0;  ///< n_lost: the effector was out of view
+  double lost_s = 0;                           ///< in all
+  int n_impossible = 0;                        ///< answers too early, too fast or without contact
+};
+
+struct ResetRow {
+  std::string mass;  ///< "15 g", "16-50 g"...
+  int n_cubes = 0;   ///< shown in a completed trial
+  int n_reset = 0;   ///< that were put back to their start at least once
+};
+
+struct Quality {
+  std::vector<CountedRow> counted;
+  std::vector<LossRow> losses;
+  std::vector<ResetRow> resets;
+};
+
+Quality quality_of(std::span<const SessionData> sessions);
+
+}  // namespace heft

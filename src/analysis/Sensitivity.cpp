@@ -1,0 +1,71 @@
+#include "analysis/Sensitivity.h"
+
+#include <algorithm>
+#include <map>
+
+namespace heft {
+
+namespace {
+enum Side : std::size_t { left, none, right };
+
+bool is_usable(const Attempt& attempt) {
+  const TrialRow& trial = attempt.trial;
+  return attempt.completed() && trial.plan.task == Task::comparison && trial.outcome &&
+         trial.plan.reference_g && trial.plan.level_g && !trial.plan.is_practice;
+}
+
+// Without a logged place the reference counts as on the left.
+int reference_slot(const TrialRow& trial) {
+  return trial.plan.reference_slot.value_or(1);
+}
+
+Side side_chosen(const TrialRow& trial) {
+  if (trial.outcome != Outcome::difference || !trial.chosen_slot) return none;
+  return *trial.chosen_slot == 1 ? left : right;
+}
+}  // namespace
+
+AnswersByLevel answers_by_side(std::span<const Attempt* const> attempts) {
+  AnswersByLevel answers;
+  for (const Attempt* attempt : attempts) {
+    const TrialRow& trial = attempt->trial;
+    const double level_g = *trial.plan.level_g;
+    const double signed_g = level_g == 0 ? 0 : reference_slot(trial) == 1 ? level_g : -level_g;
+    answers[signed_g][side_chosen(trial)] += 1;
+  }
+  return answers;
+}
+
+std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions) {
+  std::map<Compared, std::map<std::string, std::vector<const Attempt*>>> attempts;
+  for (const SessionData& data : sessions) {
+    const std::string participant = data.participant();
+    for (const Attempt& attempt : data.attempts)
+      if (is_usable(attempt))
+        attempts[{*attempt.trial.plan.reference_g, attempt.trial.plan.condition}][participant]
+            .push_back(&attempt);
+  }
+  const std::vector<StartEffect> effects = start_effects(sessions);
+  std::vector<ReferenceSensitivity> all;
+  for (const auto& [compared, participants] : attempts) {
+    std::vector<AnswersByLevel> people;
+    for (const auto& [participant, theirs] : participants)
+      people.push_back(answers_by_side(theirs));
+    ReferenceSensitivity one{compared, pooled_sensitivity(people), std::nullopt};
+    const auto effect = std::ranges::find(effects, compared, &StartEffect::compared);
+    if (effect != effects.end()) one.start_effect = *effect;
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+Interval threshold_ratio_interval(const PooledSensitivity& first, const PooledSensitivity& second) {
+  std::vector<double> ratios;
+  const std::size_t n =
+      std::min(first.sensitivity_samples.size(), second.sensitivity_samples.size());
+  for (std::size_t i = 0; i < n; ++i)
+    ratios.push_back(first.sensitivity_samples[i] / second.sensitivity_samples[i]);
+  return expanded_percentiles(ratios, static_cast<std::size_t>(std::min(first.n, second.n)));
+}
+
+}  // namespace heft
