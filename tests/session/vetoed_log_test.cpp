@@ -106,7 +106,8 @@ TEST_F(VetoedLog, is_verified_and_holds_no_row_of_what_was_taken_back) {
     if (trial.status != TrialStatus::voided) continue;
     ++n_void;
     EXPECT_EQ(trial.void_reason, "answer vetoed: by mistake");
-    EXPECT_TRUE(trial.outcome) << "what was answered is kept";
+    EXPECT_FALSE(trial.outcome) << "whoever counts outcomes does not count it";
+    EXPECT_TRUE(trial.validated_s) << "what was answered is kept";
   }
   EXPECT_EQ(n_void, n_vetoed);
 }
