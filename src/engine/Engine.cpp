@@ -210,14 +210,17 @@ void Engine::keep_answer(const TrialRow& row, const Changes& changes) {
   answered_->last.estimates = changes.estimates;
 }
 
-// The block's procedures are told every answer but the last once more, from the start: nothing of
-// it can be left over.
+// What was answered stays in `answer`; the trial has no outcome, so that nobody counts it. The
+// block's procedures are told every answer but this one once more, from the start: nothing of it can
+// be left over.
 void Engine::veto_answer(const std::string& reason, double t_s, Changes& changes) {
   TrialRow row = answered_->trials.back();
   answered_->trials.pop_back();
   answered_->vetoed = true;
   row.status = TrialStatus::voided;
   row.void_reason = std::string(answer_vetoed) + reason;
+  row.outcome.reset();
+  row.choice_correct.reset();
   changes.attempt_index = row.attempt_index;
   changes.trial = row;
   changes.withdrawn_reversals = answered_->last.reversals;

@@ -155,7 +155,8 @@ class Console(AtAConsole):
         other.execute("begin immediate")
         self.terminal.press("nwritten while it was locked\n")
         self.shows("the log is kept locked by another program; waiting")
-        self.shows("  paused  ")
+        self.shows("PAUSED ITSELF")
+        self.shows("\a")  # and it is heard
         time.sleep(7)  # longer than any timeout of a single write
         self.assertIsNone(self.terminal.program.poll(), self.terminal.shown)
         self.assertEqual(self.n("note"), 0)

@@ -50,7 +50,9 @@ TEST(VetoedAnswer, is_kept_as_void_and_its_trial_is_presented_again) {
   EXPECT_EQ(changes.attempt_index, answered.attempt_index);
   EXPECT_EQ(changes.trial->status, TrialStatus::voided);
   EXPECT_EQ(changes.trial->void_reason, "answer vetoed: tapped by mistake");
-  EXPECT_EQ(changes.trial->outcome, answered.outcome) << "what was answered stays";
+  EXPECT_FALSE(changes.trial->outcome) << "whoever counts outcomes does not count it";
+  EXPECT_EQ(changes.trial->chosen_slot, answered.chosen_slot) << "what was answered stays";
+  EXPECT_EQ(changes.trial->validated_s, answered.validated_s);
   EXPECT_EQ(session.engine.n_completed(), 1);
   const TrialPlan again = session.start();
   EXPECT_EQ(again.trial_number, answered.plan.trial_number);

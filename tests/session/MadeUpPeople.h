@@ -30,7 +30,7 @@ class MadeUpScreen final : public ArView {
     std::vector<Touch> touches = person_(picture_, screen_);
     for (Touch& touch : touches) {
       touch.monotonic_s = monotonic_s();
-      touch.page = screen_.page();
+      if (touch.page == PageId{}) touch.page = screen_.page();
     }
     return touches;
   }

@@ -111,6 +111,28 @@ TEST(Person, a_touch_that_can_not_be_taken_is_kept_as_refused_and_ends_nothing) 
   EXPECT_THAT(refused.as<ActionRefused>()->reason, HasSubstr("label"));
 }
 
+// As the second tap of two would be that comes through while the page turns.
+TEST(Person, a_touch_on_the_page_before_means_nothing_on_this_one) {
+  PageId before;
+  int n_late = 0;
+  Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
+    std::vector<Touch> touches = patient(picture, screen);
+    if (before == PageId{}) before = screen.page();
+    if (screen.page() != before && !touches.empty()) {
+      Touch late =
+          screen.screen == Screen::trial ? touch(ActionKind::dont_know) : touch(TouchKind::next);
+      late.page = std::exchange(before, screen.page());
+      ++n_late;
+      return std::vector{late};
+    }
+    return touches;
+  });
+  EXPECT_EQ(session.run(), RunEnd::finished);
+  EXPECT_GE(n_late, 3);
+  EXPECT_EQ(session.events(EventKind::action).size(), 8U) << "those that were meant, and no other";
+  EXPECT_THAT(session.events(EventKind::refused), IsEmpty());
+}
+
 TEST(Person, what_they_tell_about_themselves_is_kept) {
   Protocol protocol = quick_protocol();
   protocol.screens.about_you = true;
