@@ -107,6 +107,8 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
   protocol.techniques = read_techniques(reader, protocol.coupling);
   read_physics(reader, protocol);
   read_screens(reader, protocol.screens);
+  read_analysis(reader, protocol.analysis);
+  read_exclusion(reader, protocol.exclusion);
   protocol.blocks = read_blocks(reader, TechniqueNames(protocol.techniques));
   read_layout(reader, protocol.layout, most_cubes(protocol.blocks));
   reader.close();

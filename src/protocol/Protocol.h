@@ -9,6 +9,7 @@
 #include "experiment/Stage.h"
 #include "physics/DriveInput.h"
 #include "physics/Scene.h"
+#include "protocol/AnalysisPlan.h"
 
 namespace heft {
 
@@ -67,6 +68,8 @@ struct Protocol : SessionPlan {
   SimulatorChoice simulator;
   Layout layout;
   ScreensChosen screens;
+  AnalysisPlan analysis;
+  ExclusionRules exclusion;
 };
 
 /// Centers of n cubes in a row along x, leftmost first.
