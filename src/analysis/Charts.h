@@ -10,13 +10,15 @@
 namespace heft {
 
 struct Chart {
-  std::string name;    ///< of its files, without extension: NAME.gp draws NAME.svg
-  std::string title;   ///< what it shows; stands in the report, too
-  std::string script;  ///< gnuplot
+  std::string name;       ///< of its files, without extension: NAME.gp draws NAME.svg
+  std::string title;      ///< what it shows; stands in the report, too
+  std::string script;     ///< gnuplot; empty: there is nothing to draw
+  std::string caption{};  ///< how to read it
+  int n = 0;              ///< participants, or what the caption says is counted
+  std::string csv{};      ///< the report's file with its figures
 };
 
-/// Sorting percentages, JND against reference, and one session's staircases; those there is
-/// something to draw for.
+/// In the order of the report; those there is something to draw for.
 std::vector<Chart> charts_of(const Summary& summary);
 
 /// The color that the paper's figures have in every chart.
@@ -26,6 +28,9 @@ inline constexpr std::string_view published_color = "#c0561f";
 Chart sorting_chart(const Summary& summary);
 Chart jnd_chart(const Summary& summary);
 Chart tracks_chart(const Summary& summary);
+Chart choice_chart(const Summary& summary);
+std::vector<Chart> multiples_charts(const Summary& summary);
+std::vector<Chart> people_charts(const Summary& summary);
 
 /// "Made by: heft analyse --db heft.db --out report (heft 0.1.0)"
 std::string caption_of(const Summary& summary);

@@ -8,6 +8,7 @@
 
 #include "analysis/Jnd.h"
 #include "base/Error.h"
+#include "protocol/Protocol.h"
 
 namespace heft {
 
@@ -35,7 +36,9 @@ std::string SessionData::participant() const {
 }
 
 SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
-  SessionData data{session, {}, rows.estimates, {}, {}, {}, {}};
+  SessionData data;
+  data.session = session;
+  data.estimates = rows.estimates;
   std::map<int, std::size_t> place;  // attempt index -> its place in data.attempts
   for (const TrialRow& trial : rows.trials) {
     place[trial.attempt_index] = data.attempts.size();
@@ -80,6 +83,25 @@ EventCounts count_events(const std::vector<LoggedEvent>& events) {
   return counts;
 }
 
+namespace {
+struct Declared {
+  std::set<std::string> without_jnd;
+  std::optional<AnalysisPlan> plan;
+  ExclusionRules exclusion;
+};
+
+Declared declared_in(const std::string& protocol_text) {
+  Declared declared{staircases_without_jnd(protocol_text), {}, {}};
+  try {
+    const Protocol protocol = parse_protocol(protocol_text, "protocol");
+    if (protocol.analysis.declares_any()) declared.plan = protocol.analysis;
+    declared.exclusion = protocol.exclusion;
+  } catch (const InvalidFile&) {
+  }
+  return declared;
+}
+}  // namespace
+
 Dataset read_dataset(const std::string& database, const std::vector<std::int64_t>& session_ids) {
   const LogReader log(database);
   std::vector<SessionRow> sessions;
@@ -87,16 +109,18 @@ Dataset read_dataset(const std::string& database, const std::vector<std::int64_t
   for (std::int64_t id : std::set(session_ids.begin(), session_ids.end()))
     sessions.push_back(log.session(id));
   Dataset dataset{database, {}};
-  std::map<std::string, std::set<std::string>> without_jnd;  // by the protocol's text
+  std::map<std::string, Declared> declared;  // by the protocol's text
   for (const SessionRow& session : sessions) {
     const std::int64_t id = session.session_id;
     dataset.sessions.push_back(join_rows(session, {log.trials(id), log.cubes(id), log.answers(id),
                                                    log.reversals(id), log.estimates(id)}));
     SessionData& data = dataset.sessions.back();
     data.setups = log.setups(id);
-    const auto [found, is_new] = without_jnd.try_emplace(session.header.protocol_text);
-    if (is_new) found->second = staircases_without_jnd(session.header.protocol_text);
-    data.without_jnd = found->second;
+    const auto [found, is_new] = declared.try_emplace(session.header.protocol_text);
+    if (is_new) found->second = declared_in(session.header.protocol_text);
+    data.without_jnd = found->second.without_jnd;
+    data.plan = found->second.plan;
+    data.exclusion = found->second.exclusion;
     const std::vector<LoggedEvent> events = log.events(id);
     data.events = count_events(events);
     if (!data.simulated()) data.pictures = count_pictures(events);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiment/Rows.h"
+#include "protocol/AnalysisPlan.h"
 #include "record/LogReader.h"
 
 namespace heft {
@@ -42,7 +43,9 @@ struct SessionData {
   EventCounts events;
   std::vector<LoggedSetup> setups;  ///< what was in force, in order
   /// Staircases of the protocol that estimate no JND, such as constant stimuli.
-  std::set<std::string> without_jnd;
+  std::set<std::string> without_jnd{};
+  std::optional<AnalysisPlan> plan{};  ///< what its protocol declares to test; none: nothing
+  ExclusionRules exclusion{};
 
   /// A model answered at least one of its trials; where there is none, was to answer.
   bool simulated() const { return model().has_value(); }

@@ -99,18 +99,18 @@ std::vector<std::string> ratio_figures(const Summary& summary) {
 }
 
 struct Judgment {
-  Verdict verdict = Verdict::not_judged;
+  HypothesisVerdict verdict = HypothesisVerdict::not_judged;
   std::string why;
 };
 
-constexpr double margin_percent = 10;  // beside chance: what counts as no better
+constexpr double usual_margin_percent = 10;  // beside chance: what counts as no better
 
 // "Blind" by two one-sided tests (Schuirmann 1987): the 90 % interval within chance +- 10 points.
-Judgment judge_blind(const ConditionSorting& c1) {
+Judgment judge_blind(const ConditionSorting& c1, double margin_percent) {
   const Proportion& correct = c1.answered_correct;
-  if (c1.n_trials == 0) return {Verdict::not_judged, "no C1 trial was completed"};
+  if (c1.n_trials == 0) return {HypothesisVerdict::not_judged, "no C1 trial was completed"};
   if (correct.n_participants < 2 || !c1.answered_correct_90_percent)
-    return {Verdict::not_judged, "fewer than two participants answered a C1 trial"};
+    return {HypothesisVerdict::not_judged, "fewer than two participants answered a C1 trial"};
   const double chance = *c1.chance_percent();
   const Interval& interval = *c1.answered_correct_90_percent;
   const Interval blind{chance - margin_percent, chance + margin_percent};
@@ -119,38 +119,41 @@ Judgment judge_blind(const ConditionSorting& c1) {
       "{:.1f} %, and [{:.1f}, {:.1f}] counts as chance",
       *correct.mean_percent, interval.low, interval.high, chance, blind.low, blind.high);
   if (interval.low >= blind.low && interval.high <= blind.high)
-    return {Verdict::supported, figures + ": equivalent to chance"};
+    return {HypothesisVerdict::supported, figures + ": equivalent to chance"};
   if (interval.high < blind.low || interval.low > blind.high)
-    return {Verdict::not_supported, figures + ": not chance"};
-  return {Verdict::not_judged, figures + ": too wide to say that it is chance, or that it is not"};
+    return {HypothesisVerdict::not_supported, figures + ": not chance"};
+  return {HypothesisVerdict::not_judged,
+          figures + ": too wide to say that it is chance, or that it is not"};
 }
 
 Judgment judge_above_chance(const ConditionSorting& c2) {
   const Proportion& correct = c2.correct;
   if (correct.n_participants < 2)
-    return {Verdict::not_judged, "fewer than two participants completed a C2 trial"};
+    return {HypothesisVerdict::not_judged, "fewer than two participants completed a C2 trial"};
   const double chance = *c2.chance_percent();
   const Interval& interval = *correct.interval_percent;
   const std::string figures = fmt::format(
       "{:.1f} % of the trials were right, 95 % interval [{:.1f}, {:.1f}]; chance is "
       "{:.1f} %",
       *correct.mean_percent, interval.low, interval.high, chance);
-  if (interval.low > chance) return {Verdict::supported, figures};
-  if (interval.high <= chance + margin_percent) return {Verdict::not_supported, figures};
-  return {Verdict::not_judged, figures + ": the interval holds chance and much more"};
+  if (interval.low > chance) return {HypothesisVerdict::supported, figures};
+  if (interval.high <= chance + usual_margin_percent)
+    return {HypothesisVerdict::not_supported, figures};
+  return {HypothesisVerdict::not_judged, figures + ": the interval holds chance and much more"};
 }
 
 Judgment judge_first_try(const Rate& rate) {
   if (rate.trials.n_trials < 2)
-    return {Verdict::not_judged, "fewer than two participants completed the introduction"};
+    return {HypothesisVerdict::not_judged,
+            "fewer than two participants completed the introduction"};
   const Interval& interval = *rate.interval_percent;
   const std::string figures = fmt::format(
       "{} of {} participants were right on the first try, 95 % interval [{:.1f}, {:.1f}] %; "
       "guessing between two cubes makes 50 %",
       rate.trials.n_hits, rate.trials.n_trials, interval.low, interval.high);
-  if (interval.low > 50) return {Verdict::supported, figures};
-  if (interval.high < 50) return {Verdict::not_supported, figures};
-  return {Verdict::not_judged, figures};
+  if (interval.low > 50) return {HypothesisVerdict::supported, figures};
+  if (interval.high < 50) return {HypothesisVerdict::not_supported, figures};
+  return {HypothesisVerdict::not_judged, figures};
 }
 
 std::vector<const ReferenceSensitivity*> c2_sensitivities(const Summary& summary) {
@@ -186,7 +189,7 @@ std::string threshold_figures(const std::vector<const ReferenceSensitivity*>& ro
 Judgment judge_rising(const Summary& summary) {
   const auto rows = c2_sensitivities(summary);
   if (const std::string why = why_not_comparable(rows); !why.empty())
-    return {Verdict::not_judged, why};
+    return {HypothesisVerdict::not_judged, why};
   const std::string figures = threshold_figures(rows);
   bool rises = true, falls = false;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -194,9 +197,10 @@ Judgment judge_rising(const Summary& summary) {
     rises = rises && ratio.low > 1;
     falls = falls || ratio.high < 1;
   }
-  if (rises) return {Verdict::supported, figures + ": each larger than the one before"};
-  if (falls) return {Verdict::not_supported, figures + ": one is smaller than the one before"};
-  return {Verdict::not_judged, figures + ": their intervals don't tell which is larger"};
+  if (rises) return {HypothesisVerdict::supported, figures + ": each larger than the one before"};
+  if (falls)
+    return {HypothesisVerdict::not_supported, figures + ": one is smaller than the one before"};
+  return {HypothesisVerdict::not_judged, figures + ": their intervals don't tell which is larger"};
 }
 
 // Proportional: from each reference to the next the threshold grows as the reference does, within
@@ -204,7 +208,7 @@ Judgment judge_rising(const Summary& summary) {
 Judgment judge_proportional(const Summary& summary) {
   const auto rows = c2_sensitivities(summary);
   if (const std::string why = why_not_comparable(rows); !why.empty())
-    return {Verdict::not_judged, why};
+    return {HypothesisVerdict::not_judged, why};
   constexpr double near = 1.5;
   const std::string figures = threshold_figures(rows);
   bool all_near = true, any_off = false;
@@ -214,15 +218,17 @@ Judgment judge_proportional(const Summary& summary) {
     all_near = all_near && ratio.low >= expected / near && ratio.high <= expected * near;
     any_off = any_off || ratio.low > expected || ratio.high < expected;
   }
-  if (all_near) return {Verdict::supported, figures + ": in proportion within a factor of 1.5"};
-  if (any_off) return {Verdict::not_supported, figures + ": not in proportion to the reference"};
-  return {Verdict::not_judged, figures + ": too uncertain to say"};
+  if (all_near)
+    return {HypothesisVerdict::supported, figures + ": in proportion within a factor of 1.5"};
+  if (any_off)
+    return {HypothesisVerdict::not_supported, figures + ": not in proportion to the reference"};
+  return {HypothesisVerdict::not_judged, figures + ": too uncertain to say"};
 }
 
 Hypothesis judged(std::string name, std::string statement, Judgment judgment,
                   std::vector<std::string> figures) {
-  return {std::move(name), std::move(statement), judgment.verdict, std::move(judgment.why),
-          std::move(figures)};
+  return {std::move(name),  std::move(statement),    false,
+          judgment.verdict, std::move(judgment.why), std::move(figures)};
 }
 }  // namespace
 
@@ -230,13 +236,14 @@ std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
   const ConditionSorting &c1 = summary.sorting.at(0), &c2 = summary.sorting.at(1);
   std::vector<std::string> rising = jnd_figures(summary);
   rising.push_back(rising_figure(summary));
-  return {
-      judged("E1-H1", "C1 does not allow to perceive a mass difference among virtual objects",
-             judge_blind(c1),
-             {proportion_figure("C1 correct", c1.correct),
-              proportion_figure("C1 correct, of answered trials", c1.answered_correct),
-              proportion_figure("C1 \"I don't know\", an outcome of its own", c1.none),
-              chance_figure(c1)}),
+  std::vector<Hypothesis> all{
+      judged(
+          "E1-H1", "C1 does not allow to perceive a mass difference among virtual objects",
+          judge_blind(c1, summary.plan ? summary.plan->equivalence_margin : usual_margin_percent),
+          {proportion_figure("C1 correct", c1.correct),
+           proportion_figure("C1 correct, of answered trials", c1.answered_correct),
+           proportion_figure("C1 \"I don't know\", an outcome of its own", c1.none),
+           chance_figure(c1)}),
       judged("E1-H2", "C2 allows to recognize which objects are lighter and heavier",
              judge_above_chance(c2),
              {proportion_figure("C2 correct", c2.correct),
@@ -248,6 +255,9 @@ std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
       judged("E2-H1", "the JND increases with the reference mass", judge_rising(summary), rising),
       judged("E2-H2", "the JND is proportional to the reference mass", judge_proportional(summary),
              ratio_figures(summary))};
+  for (Hypothesis& hypothesis : all)
+    hypothesis.declared = summary.plan && summary.plan->declares(hypothesis.name);
+  return all;
 }
 
 }  // namespace heft

@@ -107,6 +107,12 @@ Chart jnd_chart(const Summary& summary) {
   Chart chart{"jnd", titled("JND against reference mass, 95 % intervals", summary), ""};
   const std::vector<ReferenceJnd> jnds = drawn(summary);
   if (jnds.empty()) return chart;
+  chart.caption =
+      "The paper's JND, which moves with the criterion and the start as much as with what is "
+      "perceived. Large points: mean over participants where more than half have an exact JND; "
+      "arrows: participants of whom it is known only to lie above or below; diamonds: published.";
+  chart.n = most_participants(jnds);
+  chart.csv = "jnd.csv";
   const double span_g = 1.1 * jnds.back().compared.reference_g + 10;
   chart.script =
       gnuplot_header({"jnd.svg", 860, 540, chart.title, caption_of(summary)}) +

@@ -1,5 +1,6 @@
 #include "analysis/Json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -190,6 +191,7 @@ ordered_json hypotheses_json(const Summary& summary) {
   ordered_json json = ordered_json::object();
   for (const Hypothesis& hypothesis : summary.hypotheses)
     json[hypothesis.name] = {{"verdict", name_of(hypothesis.verdict)},
+                             {"declared", hypothesis.declared},
                              {"why", hypothesis.why},
                              {"statement", hypothesis.statement},
                              {"figures", hypothesis.figures}};
@@ -237,6 +239,15 @@ ordered_json array_of(const Rows& rows, Convert convert) {
   return array;
 }
 
+ordered_json participant_json(const ParticipantRow& row) {
+  return {{"participant", row.participant},
+          {"n_sessions", row.n_sessions},
+          {"n_finished", row.n_finished},
+          {"n_completed", row.n_completed},
+          {"n_impossible", row.n_impossible},
+          {"excluded_because", row.excluded() ? ordered_json(row.excluded_because) : nullptr}};
+}
+
 ordered_json comparison_json(const ComparisonSummary& comparison) {
   return {{"wrong_cube", rate_json(comparison.wrong_cube)},
           {"false_alarm", rate_json(comparison.false_alarm)},
@@ -261,6 +272,9 @@ std::string as_json(const Summary& summary) {
       {"confidence", confidence_level},
       {"n_sessions", summary.sessions.size()},
       {"n_participants", summary.n_participants},
+      {"analysis", summary.plan ? "declared" : "exploratory"},
+      {"n_excluded", std::ranges::count_if(summary.participants, &ParticipantRow::excluded)},
+      {"participants", array_of(summary.participants, participant_json)},
       {"introduction", introduction_json(summary.introduction)},
       {"sorting", {{"C1", sorting_json(c1)}, {"C2", sorting_json(c2)}}},
       {"jnd", array_of(summary.jnd, jnd_json)},

@@ -70,6 +70,15 @@ std::string other_methods_note(const Dataset& dataset) {
                      jnd_method, fmt::join(methods, ", "));
 }
 
+std::string excluded_note(const Summary& summary) {
+  std::vector<std::string> excluded;
+  for (const ParticipantRow& row : summary.participants)
+    if (row.excluded())
+      excluded.push_back(fmt::format("{} ({})", row.participant, row.excluded_because));
+  if (excluded.empty()) return "";
+  return fmt::format("Left out of every figure, as the protocol declares: {}.", some_of(excluded));
+}
+
 std::string simulated_note(const Summary& summary) {
   if (summary.data == "simulated") return "Every figure here is of simulated responders.";
   if (!summary.simulated()) return "";
@@ -99,10 +108,10 @@ std::string missing_note(const Summary& summary) {
 }  // namespace
 
 std::vector<std::string> notes_on(const Dataset& dataset, const Summary& summary) {
-  std::vector<std::string> notes{simulated_note(summary),  missing_note(summary),
-                                 unfinished_note(summary), repeated_note(dataset),
-                                 protocols_note(dataset),  other_methods_note(dataset),
-                                 pictures_note(dataset)};
+  std::vector<std::string> notes{simulated_note(summary),     missing_note(summary),
+                                 unfinished_note(summary),    excluded_note(summary),
+                                 repeated_note(dataset),      protocols_note(dataset),
+                                 other_methods_note(dataset), pictures_note(dataset)};
   std::erase(notes, "");
   return notes;
 }

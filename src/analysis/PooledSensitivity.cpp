@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/CriteriaFit.h"
 #include "base/Quantile.h"
 #include "base/Random.h"
 #include "psychophysics/Normal.h"
@@ -23,143 +24,10 @@ double sensitivity_at(double place) {
   return 0.5 * std::sinh(first_place + place_step * place);
 }
 
-struct Answers {
-  double level = 0, left = 0, none = 0, right = 0;
-};
-
-struct Criteria {
-  double log_indecision = 0, bias = 0;
-};
-
-/// How criteria are spread between people who have a sensitivity in common: the logarithm of the
-/// indecision is normal, the side bias too, around 0.
-struct Spread {
-  double mean_log_indecision = 0, sd_log_indecision = 0.6, sd_bias = 0.5;
-};
-
-// The log likelihood of one person's answers, and its derivatives by the criteria.
-struct Likelihood {
-  double value = 0;
-  double by_log_indecision = 0, by_bias = 0;
-  std::array<double, 3> information{};  // Fisher's: of log indecision, of bias, of both
-};
-
-Likelihood likelihood(std::span<const Answers> answers, double sensitivity, const Criteria& at) {
-  constexpr double third = fixed_lapse / 3, seen = 1 - fixed_lapse;
-  const double indecision = std::exp(at.log_indecision);
-  Likelihood sum;
-  for (const Answers& n : answers) {
-    const double felt = sensitivity * n.level + at.bias;
-    const double up = felt - indecision, down = felt + indecision;
-    const double right = third + seen * normal_cdf(up), left = third + seen * normal_cdf(-down);
-    const double none = std::max(1 - right - left, third);
-    const double right_slope = seen * normal_density(up), left_slope = seen * normal_density(down);
-    sum.value += n.right * std::log(right) + n.left * std::log(left) + n.none * std::log(none);
-    const double a = n.right / right - n.none / none, b = n.left / left - n.none / none;
-    sum.by_bias += a * right_slope - b * left_slope;
-    sum.by_log_indecision -= a * right_slope + b * left_slope;
-    const double n_all = n.right + n.left + n.none;
-    const double apart = left_slope + right_slope, aside = left_slope - right_slope;
-    const double rr = right_slope * right_slope / right, ll = left_slope * left_slope / left;
-    sum.information[0] += n_all * (rr + ll + apart * apart / none);
-    sum.information[1] += n_all * (rr + ll + aside * aside / none);
-    sum.information[2] += n_all * (ll - rr + apart * aside / none);
-  }
-  sum.by_log_indecision *= indecision;
-  sum.information[0] *= indecision * indecision;
-  sum.information[2] *= indecision;
-  return sum;
-}
-
-// The same times the density that the spread gives to the criteria.
-Likelihood posterior(std::span<const Answers> answers, double sensitivity, const Criteria& at,
-                     const Spread& spread) {
-  Likelihood sum = likelihood(answers, sensitivity, at);
-  const double precision = 1 / (spread.sd_log_indecision * spread.sd_log_indecision);
-  const double bias_precision = 1 / (spread.sd_bias * spread.sd_bias);
-  const double off = at.log_indecision - spread.mean_log_indecision;
-  sum.value -= (precision * off * off + bias_precision * at.bias * at.bias) / 2;
-  sum.by_log_indecision -= precision * off;
-  sum.by_bias -= bias_precision * at.bias;
-  sum.information[0] += precision;
-  sum.information[1] += bias_precision;
-  return sum;
-}
-
-double determinant(const Likelihood& at) {
-  return at.information[0] * at.information[1] - at.information[2] * at.information[2];
-}
-
-// Fisher scoring with steps that shorten until they help. @param at where to begin, then the best
-Likelihood maximize(std::span<const Answers> answers, double sensitivity, const Spread& spread,
-                    Criteria& at) {
-  constexpr double good_enough = 1e-5;
-  Likelihood here = posterior(answers, sensitivity, at, spread);
-  for (int i = 0; i < 30; ++i) {
-    const auto [a, d, both] = here.information;
-    const double det = determinant(here);
-    const double to_indecision = (d * here.by_log_indecision - both * here.by_bias) / det;
-    const double to_bias = (a * here.by_bias - both * here.by_log_indecision) / det;
-    if (to_indecision * here.by_log_indecision + to_bias * here.by_bias < good_enough) break;
-    double length = std::min(1.0, 1.5 / (std::abs(to_indecision) + 1e-9));
-    bool better = false;
-    for (int halvings = 0; halvings < 12 && !better; ++halvings, length /= 2) {
-      const Criteria there{at.log_indecision + length * to_indecision, at.bias + length * to_bias};
-      const Likelihood next = posterior(answers, sensitivity, there, spread);
-      better = next.value > here.value;
-      if (!better) continue;
-      at = there;
-      here = next;
-    }
-    if (!better) break;
-  }
-  return here;
-}
-
-/// One person's answers, and the criteria that go with the sensitivity looked at.
-struct Person {
-  std::vector<Answers> answers;
-  Criteria criteria;
-};
-
-// People's criteria and their spread for a sensitivity, by the EM algorithm. @return each one's log
-// likelihood with the criteria integrated out (Laplace's method)
-std::vector<double> fit_criteria(std::vector<Person>& people, double sensitivity, Spread& spread) {
-  constexpr int n_steps = 4;
-  std::vector<double> values(people.size());
-  for (int step = 0; step < n_steps; ++step) {
-    double sum = 0, square = 0, bias_square = 0;
-    for (std::size_t i = 0; i < people.size(); ++i) {
-      const Likelihood best = maximize(people[i].answers, sensitivity, spread, people[i].criteria);
-      const double det = determinant(best);
-      values[i] =
-          best.value - std::log(det) / 2 - std::log(spread.sd_log_indecision * spread.sd_bias);
-      const Criteria& at = people[i].criteria;
-      sum += at.log_indecision;
-      square += at.log_indecision * at.log_indecision + best.information[1] / det;
-      bias_square += at.bias * at.bias + best.information[0] / det;
-    }
-    if (step + 1 == n_steps) break;
-    const double n = static_cast<double>(people.size());
-    spread.mean_log_indecision = std::clamp(sum / n, -3.0, 6.0);
-    const double variance = square / n - sum / n * sum / n;
-    spread.sd_log_indecision = std::clamp(std::sqrt(std::max(variance, 0.0)), 0.1, 1.5);
-    spread.sd_bias = std::clamp(std::sqrt(bias_square / n), 0.05, 2.0);
-  }
-  return values;
-}
-
-void move_criteria(std::vector<Person>& people, Spread& spread, double growth) {
-  if (growth <= 1 || !std::isfinite(growth)) return;
-  const double more = std::log(growth);
-  for (Person& person : people) person.criteria.log_indecision += more;
-  spread.mean_log_indecision += more;
-}
-
 using OnGrid = std::array<double, n_grid>;
 
 // By person: log likelihoods of the sensitivities on the grid.
-std::vector<OnGrid> likelihoods(std::vector<Person>& people) {
+std::vector<OnGrid> likelihoods(std::vector<PersonAnswers>& people) {
   std::vector<OnGrid> all(people.size());
   Spread spread;
   const auto put = [&](std::size_t place) {
@@ -170,7 +38,7 @@ std::vector<OnGrid> likelihoods(std::vector<Person>& people) {
   // From no sensitivity outwards, each place from where its neighbor found the criteria: where all
   // choices pass for lapses is another hill, far from the right one.
   for (int i = 0; i < 3; ++i) put(no_sensitivity);
-  const std::vector<Person> people_there = people;
+  const std::vector<PersonAnswers> people_there = people;
   const Spread spread_there = spread;
   for (std::size_t place = no_sensitivity; place-- > 0;) put(place);
   people = people_there;
@@ -321,8 +189,8 @@ std::string why_not(const PooledSensitivity& found, double largest_g) {
   return "";
 }
 
-std::vector<Answers> answers_on_scale(const AnswersByLevel& by_level, double largest_g) {
-  std::vector<Answers> answers;
+std::vector<SidedAnswers> answers_on_scale(const AnswersByLevel& by_level, double largest_g) {
+  std::vector<SidedAnswers> answers;
   for (const auto& [level_g, n] : by_level)
     answers.push_back({level_g / largest_g, n[0], n[1], n[2]});
   return answers;
@@ -368,11 +236,12 @@ void put_pooled(PooledSensitivity& found, std::span<const OnGrid> people, double
 }
 
 // Half the widths between people's criteria, for the sensitivity that they have in common.
-void put_indecision(PooledSensitivity& found, std::vector<Person>& people, double sensitivity) {
+void put_indecision(PooledSensitivity& found, std::vector<PersonAnswers>& people,
+                    double sensitivity) {
   Spread spread;
   for (int i = 0; i < 5; ++i) fit_criteria(people, sensitivity, spread);
   std::vector<double> indecisions;
-  for (const Person& person : people)
+  for (const PersonAnswers& person : people)
     indecisions.push_back(std::exp(person.criteria.log_indecision));
   found.indecision = mean(indecisions);
   if (found.n > 1) found.indecision_interval = student_t_interval(indecisions);
@@ -398,7 +267,7 @@ PooledSensitivity pooled_sensitivity(std::span<const AnswersByLevel> all) {
     found.why = found.n == 0 ? "there are no trials" : "no trial had a difference";
     return found;
   }
-  std::vector<Person> people;
+  std::vector<PersonAnswers> people;
   for (const AnswersByLevel& answers : with_trials)
     people.push_back({answers_on_scale(answers, largest_g), {}});
   const std::vector<OnGrid> by_person = likelihoods(people);

@@ -113,7 +113,7 @@ std::vector<CountedRow> rows_of(const Sums& sums, int n_sessions) {
       {"void attempts", sums.n_void, sums.n_attempts, "each was presented again"},
       {"attempts with the effector out of view", sums.n_lost, sums.n_attempts,
        "they count; the time is taken off the response time"},
-      {"notes", sums.events.notes, std::nullopt, "of the experimenter, in the log"},
+      {"notes", sums.events.notes, std::nullopt, "of the experimenter or the program, in the log"},
       {"deviations from the protocol", sums.events.deviations, std::nullopt, "in the log"},
       {"checks that failed", sums.events.checks_failed, std::nullopt,
        "of the apparatus, before a session"},
@@ -123,6 +123,10 @@ std::vector<CountedRow> rows_of(const Sums& sums, int n_sessions) {
        "their completed trials and finished staircases count"}};
 }
 }  // namespace
+
+bool is_impossible(const Attempt& attempt) {
+  return impossible_in(attempt, default_min_answer_s).any();
+}
 
 Quality quality_of(std::span<const SessionData> sessions) {
   Sums sums;

@@ -45,6 +45,9 @@ struct Quality {
   std::vector<ResetRow> resets;
 };
 
+/// Whether a completed trial's answer can't be one.
+bool is_impossible(const Attempt& attempt);
+
 Quality quality_of(std::span<const SessionData> sessions);
 
 }  // namespace heft

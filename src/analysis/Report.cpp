@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -11,6 +12,8 @@
 #include "analysis/Charts.h"
 #include "analysis/Gnuplot.h"
 #include "analysis/Json.h"
+#include "analysis/Notes.h"
+#include "analysis/TableParts.h"
 #include "analysis/Tables.h"
 #include "base/Error.h"
 #include "base/TextFile.h"
@@ -77,7 +80,7 @@ void write_tables(Folder& folder, const Summary& summary) {
 }
 
 struct DrawnChart {
-  std::string title;
+  Chart chart;
   std::string svg;  ///< the whole file
 };
 
@@ -90,6 +93,14 @@ td.n { text-align: right; font-variant-numeric: tabular-nums; }
 .note, .made { color: #666; font-size: 0.85rem; }
 .simulated { background: #fff3d6; border-left: 4px solid #d79b00; padding: 0.4rem 0.8rem; }
 svg { max-width: 100%; height: auto; }
+.first { border: 1px solid #bbb; padding: 0.2rem 1.2rem; font-size: 1.1rem; }
+figure { margin: 1.5rem 0; break-inside: avoid; }
+figcaption { font-size: 0.9rem; max-width: 60rem; }
+nav ul { columns: 2; font-size: 0.9rem; }
+h2, h3 { break-after: avoid; }
+@media print { body { max-width: none; margin: 0; font-size: 11px; } nav { display: none; }
+  table { display: table; } a { color: inherit; text-decoration: none; } }
+@page { size: A4; margin: 15mm; }
 )";
 
 // An SVG without what stands before its element: inside HTML that is not allowed.
@@ -99,36 +110,82 @@ std::string_view svg_element(std::string_view svg) {
 }
 
 std::string hypotheses_html(const Summary& summary) {
-  std::string html = "<h2>Hypotheses and the figures that speak to them</h2>\n<dl>\n";
+  std::string html = "<h2 id=\"hypotheses\">The paper's hypotheses</h2>\n<dl>\n";
   for (const Hypothesis& hypothesis : summary.hypotheses) {
-    html += fmt::format("<dt><b>{}</b>: {}</dt>\n<dd><b>{}</b>: {}</dd>\n", hypothesis.name,
-                        html_escaped(hypothesis.statement),
-                        html_escaped(name_of(hypothesis.verdict)), html_escaped(hypothesis.why));
+    html += fmt::format(
+        "<dt><b>{}</b>: {}</dt>\n<dd><b>{}</b> ({}): {}</dd>\n", hypothesis.name,
+        html_escaped(hypothesis.statement), html_escaped(name_of(hypothesis.verdict)),
+        hypothesis.declared ? "declared beforehand" : "exploratory", html_escaped(hypothesis.why));
     for (const std::string& figure : hypothesis.figures)
       html += fmt::format("<dd>{}</dd>\n", html_escaped(figure));
   }
   return html + "</dl>\n";
 }
 
-// The report as one HTML page.
-std::string report_page(const Summary& summary, const std::vector<DrawnChart>& charts) {
+std::string figure_html(const DrawnChart& drawn, int number) {
+  const Chart& chart = drawn.chart;
+  std::string html =
+      fmt::format("<figure id=\"{}\">\n{}\n<figcaption><b>Figure {}.</b> {}", chart.name,
+                  svg_element(drawn.svg), number, html_escaped(chart.caption));
+  if (chart.n > 0) html += fmt::format(" n = {}.", chart.n);
+  if (!chart.csv.empty())
+    html += fmt::format(" Figures: <a href=\"{0}\">{0}</a>.", html_escaped(chart.csv));
+  return html + "</figcaption>\n</figure>\n";
+}
+
+std::string table_html(const Table& table) {
+  return fmt::format(
+      "<section id=\"table_{0}\">\n{1}<p class=\"note\"><a href=\"{0}.csv\">{0}.csv"
+      "</a></p>\n</section>\n",
+      table.name, as_html(table));
+}
+
+std::string contents_html(const std::vector<DrawnChart>& charts, const std::vector<Table>& tables) {
+  std::string html =
+      "<nav>\n<h2>Contents</h2>\n<ul>\n<li><a href=\"#hypotheses\">The paper's hypotheses</a></li>"
+      "\n";
+  for (std::size_t i = 0; i < charts.size(); ++i)
+    html += fmt::format("<li><a href=\"#{}\">Figure {}: {}</a></li>\n", charts[i].chart.name, i + 1,
+                        html_escaped(charts[i].chart.title));
+  for (const Table& table : tables)
+    html += fmt::format("<li><a href=\"#table_{}\">{}</a></li>\n", table.name,
+                        html_escaped(table.title));
+  return html + "</ul>\n</nav>\n";
+}
+
+std::string head_html(const Summary& summary) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n"
       "<title>Heft report</title>\n<style>{}</style>\n</head>\n<body>\n"
       "<h1>Heft report</h1>\n<p>{}</p>\n",
       style, html_escaped(headline(summary)));
+  html += "<div class=\"first\">\n";
+  for (const std::string& sentence : three_sentences(summary))
+    html += fmt::format("<p>{}</p>\n", html_escaped(sentence));
+  html += "</div>\n";
   for (const std::string& note : summary.notes)
     html += fmt::format("<p class=\"{}\">{}</p>\n", summary.simulated() ? "simulated" : "note",
                         html_escaped(note));
-  for (const DrawnChart& chart : charts) html += fmt::format("<p>{}</p>\n", svg_element(chart.svg));
+  return html;
+}
+
+// The report as one HTML page: what it comes to, what was counted first, figures, tables.
+std::string report_page(const Summary& summary, const std::vector<DrawnChart>& charts) {
+  std::vector<Table> tables{participant_list(summary)};
+  for (Table& table : tables_of(summary)) tables.push_back(std::move(table));
+  std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
+  std::string html = head_html(summary) + contents_html(charts, tables);
+  constexpr std::size_t n_first = 4;  // participants and what is counted first
+  for (std::size_t i = 0; i < std::min(n_first, tables.size()); ++i) html += table_html(tables[i]);
+  html += hypotheses_html(summary) + "<h2>Figures</h2>\n";
+  for (std::size_t i = 0; i < charts.size(); ++i)
+    html += figure_html(charts[i], static_cast<int>(i) + 1);
   if (charts.empty()) html += "<p class=\"note\">No charts were drawn.</p>\n";
   html += "<h2>Tables</h2>\n";
-  for (const Table& table : tables_of(summary)) html += as_html(table);
-  html += hypotheses_html(summary);
-  html += fmt::format("<p class=\"made\">{}</p>\n</body>\n</html>\n",
-                      html_escaped(caption_of(summary)));
-  return html;
+  for (std::size_t i = n_first; i < tables.size(); ++i) html += table_html(tables[i]);
+  return html + fmt::format("<p class=\"made\">{}</p>\n</body>\n</html>\n",
+                            html_escaped(caption_of(summary)));
 }
 }  // namespace
 
@@ -157,7 +214,7 @@ ReportResult write_report(const Summary& summary, const std::string& folder) {
   for (const Chart& chart : charts_of(summary)) {
     const auto svg = out.draw(chart);
     result.charts_drawn = result.charts_drawn && svg.has_value();
-    if (svg) drawn.push_back({chart.title, *svg});
+    if (svg) drawn.push_back({chart, *svg});
   }
   out.write("report.html", report_page(summary, drawn));
   auto json = nlohmann::ordered_json::parse(as_json(summary));

@@ -103,6 +103,11 @@ Chart sorting_chart(const Summary& summary) {
   Chart chart{"sorting", titled("Sorting: answers per condition, 95 % intervals", summary), ""};
   const ConditionSorting &c1 = summary.sorting.at(0), &c2 = summary.sorting.at(1);
   if (c1.n_trials + c2.n_trials == 0) return chart;
+  chart.caption =
+      "Percentage of completed trials, mean over participants with 95 % intervals over "
+      "participants; diamonds: the paper's means. \"I don't know\" is an outcome of its own.";
+  chart.n = summary.n_participants;
+  chart.csv = "sorting.csv";
   const auto c1_bars = bars_of(c1, 1), c2_bars = bars_of(c2, 4.6);
   chart.script = gnuplot_header({"sorting.svg", 860, 540, chart.title, caption_of(summary)}) +
                  measured_block("c1", c1_bars) + measured_block("c2", c2_bars) +

@@ -95,7 +95,8 @@ Table introduction_table(const Summary& summary) {
 }  // namespace
 
 std::vector<Table> sorting_tables(const Summary& summary) {
-  return {introduction_table(summary), sorting_table(summary), swaps_table(summary)};
+  return {introduction_table(summary), sorting_table(summary), label_table(summary),
+          swaps_table(summary)};
 }
 
 }  // namespace heft

@@ -10,8 +10,10 @@
 
 #include "analysis/Comparison.h"
 #include "analysis/Dataset.h"
+#include "analysis/Exclusion.h"
 #include "analysis/Introduction.h"
 #include "analysis/Jnd.h"
+#include "analysis/Points.h"
 #include "analysis/ProtocolChoices.h"
 #include "analysis/Quality.h"
 #include "analysis/Sensitivity.h"
@@ -36,9 +38,9 @@ struct SessionSummary {
   int n_completed = 0, n_void = 0, n_open = 0;  ///< attempts
 };
 
-enum class Verdict { supported, not_supported, not_judged };
+enum class HypothesisVerdict { supported, not_supported, not_judged };
 template <>
-struct EnumNames<Verdict> {
+struct EnumNames<HypothesisVerdict> {
   static constexpr std::array<std::string_view, 3> names{"supported", "not supported",
                                                          "can't be judged"};
 };
@@ -48,7 +50,8 @@ struct EnumNames<Verdict> {
 struct Hypothesis {
   std::string name;  ///< "E1-H1"
   std::string statement;
-  Verdict verdict = Verdict::not_judged;
+  bool declared = false;  ///< by the protocols of all sessions; otherwise it is exploratory
+  HypothesisVerdict verdict = HypothesisVerdict::not_judged;
   std::string why;
   std::vector<std::string> figures;  ///< a sentence each
 };
@@ -57,7 +60,9 @@ struct Summary {
   std::string database, command;
   std::string data;  ///< "human", "simulated" or "human and simulated"; empty: no sessions
   std::vector<SessionSummary> sessions;
-  int n_participants = 0;
+  int n_participants = 0;                    ///< that count
+  std::vector<ParticipantRow> participants;  ///< all, those left out too
+  std::optional<AnalysisPlan> plan;
   std::vector<ConditionSorting> sorting;
   IntroductionSummary introduction;
   std::vector<ReferenceJnd> jnd;
@@ -68,6 +73,8 @@ struct Summary {
   std::vector<VoidCount> voids;
   Quality quality;
   std::optional<SessionTracks> tracks;
+  std::vector<SessionTracks> all_tracks;
+  Points points;
   std::vector<Hypothesis> hypotheses;
   std::vector<ProtocolChoice> choices;
   std::vector<std::string> notes;  ///< what a reader must know about what was counted

@@ -21,6 +21,9 @@ std::vector<Table> session_tables(const Summary& summary);      ///< response ti
 Table staircase_list(const Summary& summary);
 Table level_list(const Summary& summary);
 Table session_list(const Summary& summary);
+Table label_table(const Summary& summary);
+Table participant_list(const Summary& summary);
+std::vector<Table> point_lists(const Summary& summary);  ///< what the figures show point by point
 
 // Cells that several tables have.
 Cell low(const std::optional<Interval>& interval);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "analysis/Notes.h"
 #include "analysis/Table.h"
 #include "analysis/TableParts.h"
 
@@ -30,8 +31,10 @@ std::string absences(const Summary& summary) {
 std::string hypotheses_text(const Summary& summary) {
   std::string text = titled("The paper's hypotheses, and what these data say of them", summary);
   for (const Hypothesis& hypothesis : summary.hypotheses) {
-    text += fmt::format("\n  {}: {}\n    {}: {}", hypothesis.name, hypothesis.statement,
-                        name_of(hypothesis.verdict), hypothesis.why);
+    text +=
+        fmt::format("\n  {}: {}\n    {} ({}): {}", hypothesis.name, hypothesis.statement,
+                    name_of(hypothesis.verdict),
+                    hypothesis.declared ? "declared beforehand" : "exploratory", hypothesis.why);
     for (const std::string& figure : hypothesis.figures) text += fmt::format("\n    {}", figure);
   }
   return text + '\n';
@@ -70,7 +73,9 @@ std::vector<Table> tables_of(const Summary& summary) {
 
 std::vector<Table> lists_of(const Summary& summary) {
   std::vector<Table> lists;
-  add_filled(lists, {session_list(summary), staircase_list(summary), level_list(summary)});
+  add_filled(lists, {participant_list(summary), session_list(summary), staircase_list(summary),
+                     level_list(summary)});
+  add_filled(lists, point_lists(summary));
   return lists;
 }
 
@@ -83,6 +88,9 @@ std::string headline(const Summary& summary) {
 
 std::string readable(const Summary& summary) {
   std::string text = headline(summary) + '\n';
+  if (!summary.sessions.empty())
+    for (const std::string& sentence : three_sentences(summary))
+      for (const std::string& line : wrapped(sentence, note_width)) text += line + '\n';
   for (const std::string& note : summary.notes)
     for (const std::string& line : wrapped(note, note_width)) text += line + '\n';
   text += absences(summary);

@@ -22,8 +22,10 @@ std::vector<Track> tracks_of(const SessionData& data) {
         data.without_jnd.contains(plan.staircase))
       continue;
     track_of(tracks, plan)
-        .points.push_back(
-            {*plan.level_g, attempt.trial.outcome == Outcome::difference, attempt.is_reversal});
+        .points.push_back({*plan.level_g,
+                           attempt.trial.outcome == Outcome::difference && *plan.level_g != 0 &&
+                               !attempt.trial.choice_correct.value_or(true),
+                           attempt.trial.outcome == Outcome::difference, attempt.is_reversal});
   }
   for (const StaircaseResult& result : staircase_results({&data, 1}))
     for (Track& track : tracks)
@@ -36,6 +38,15 @@ std::vector<Track> tracks_of(const SessionData& data) {
   return tracks;
 }
 }  // namespace
+
+std::vector<SessionTracks> all_tracks(std::span<const SessionData> sessions) {
+  std::vector<SessionTracks> all;
+  for (const SessionData& data : sessions)
+    if (std::vector<Track> tracks = tracks_of(data); !tracks.empty())
+      all.push_back({data.session.session_id, data.session.header.participant, data.simulated(),
+                     std::move(tracks)});
+  return all;
+}
 
 std::optional<SessionTracks> example_tracks(std::span<const SessionData> sessions) {
   std::optional<SessionTracks> unfinished;

@@ -13,6 +13,7 @@ namespace heft {
 
 struct TrackPoint {
   double level_g = 0;   ///< as presented
+  bool wrong = false;   ///< the lighter cube was chosen
   bool chosen = false;  ///< a cube was; otherwise "no difference"
   bool is_reversal = false;
 };
@@ -31,6 +32,9 @@ struct SessionTracks {
   bool simulated = false;
   std::vector<Track> tracks;  ///< by reference, then name
 };
+
+/// Every session that has staircases that estimate a JND.
+std::vector<SessionTracks> all_tracks(std::span<const SessionData> sessions);
 
 /// The first finished session that has staircases that estimate a JND, or else the first that has
 /// any.

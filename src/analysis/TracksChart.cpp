@@ -97,6 +97,11 @@ Chart tracks_chart(const Summary& summary) {
   const SessionTracks& session = *summary.tracks;
   chart.title = fmt::format("Staircases of session {}, {}{}", session.session_id,
                             session.participant, session.simulated ? " (simulated)" : "");
+  chart.caption =
+      "One session's staircases in full; everybody's follow. Dashed: the paper's JND, \"> \" or "
+      "\"< \" where it is censored.";
+  chart.n = 1;
+  chart.csv = "staircase_trials.csv";
   const Panels panels = panels_of(session);
   const int width_px = std::max(560, 105 + panel_px * static_cast<int>(panels.size()));
   chart.script =

@@ -116,6 +116,8 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
   read_physics(reader, protocol);
   read_onset(reader, protocol.onset);
   read_screens(reader, protocol.screens);
+  read_analysis(reader, protocol.analysis);
+  read_exclusion(reader, protocol.exclusion);
   protocol.blocks = read_blocks(reader, TechniqueNames(protocol.techniques));
   read_layout(reader, protocol.layout, most_cubes(protocol.blocks));
   reader.close();

@@ -9,6 +9,7 @@
 #include "experiment/Stage.h"
 #include "physics/DriveInput.h"
 #include "physics/Scene.h"
+#include "protocol/AnalysisPlan.h"
 
 namespace heft {
 
@@ -71,6 +72,8 @@ struct Protocol : SessionPlan {
   SimulatorChoice simulator;
   Layout layout;
   ScreensChosen screens;
+  AnalysisPlan analysis;
+  ExclusionRules exclusion;
 };
 
 /// Centers of n cubes in a row along x, leftmost first.

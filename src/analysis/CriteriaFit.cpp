@@ -1,0 +1,129 @@
+#include "analysis/CriteriaFit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "analysis/PooledSensitivity.h"
+#include "psychophysics/Normal.h"
+
+namespace heft {
+
+namespace {
+// The log likelihood of one person's answers, and its derivatives by the criteria.
+struct Likelihood {
+  double value = 0;
+  double by_log_indecision = 0, by_bias = 0;
+  std::array<double, 3> information{};  // Fisher's: of log indecision, of bias, of both
+};
+
+Likelihood likelihood(std::span<const SidedAnswers> answers, double sensitivity,
+                      const Criteria& at) {
+  constexpr double third = fixed_lapse / 3, seen = 1 - fixed_lapse;
+  const double indecision = std::exp(at.log_indecision);
+  Likelihood sum;
+  for (const SidedAnswers& n : answers) {
+    const double felt = sensitivity * n.level + at.bias;
+    const double up = felt - indecision, down = felt + indecision;
+    const double right = third + seen * normal_cdf(up), left = third + seen * normal_cdf(-down);
+    const double none = std::max(1 - right - left, third);
+    const double right_slope = seen * normal_density(up), left_slope = seen * normal_density(down);
+    sum.value += n.right * std::log(right) + n.left * std::log(left) + n.none * std::log(none);
+    const double a = n.right / right - n.none / none, b = n.left / left - n.none / none;
+    sum.by_bias += a * right_slope - b * left_slope;
+    sum.by_log_indecision -= a * right_slope + b * left_slope;
+    const double n_all = n.right + n.left + n.none;
+    const double apart = left_slope + right_slope, aside = left_slope - right_slope;
+    const double rr = right_slope * right_slope / right, ll = left_slope * left_slope / left;
+    sum.information[0] += n_all * (rr + ll + apart * apart / none);
+    sum.information[1] += n_all * (rr + ll + aside * aside / none);
+    sum.information[2] += n_all * (ll - rr + apart * aside / none);
+  }
+  sum.by_log_indecision *= indecision;
+  sum.information[0] *= indecision * indecision;
+  sum.information[2] *= indecision;
+  return sum;
+}
+
+// The same times the density that the spread gives to the criteria.
+Likelihood posterior(std::span<const SidedAnswers> answers, double sensitivity, const Criteria& at,
+                     const Spread& spread) {
+  Likelihood sum = likelihood(answers, sensitivity, at);
+  const double precision = 1 / (spread.sd_log_indecision * spread.sd_log_indecision);
+  const double bias_precision = 1 / (spread.sd_bias * spread.sd_bias);
+  const double off = at.log_indecision - spread.mean_log_indecision;
+  sum.value -= (precision * off * off + bias_precision * at.bias * at.bias) / 2;
+  sum.by_log_indecision -= precision * off;
+  sum.by_bias -= bias_precision * at.bias;
+  sum.information[0] += precision;
+  sum.information[1] += bias_precision;
+  return sum;
+}
+
+double determinant(const Likelihood& at) {
+  return at.information[0] * at.information[1] - at.information[2] * at.information[2];
+}
+
+// Fisher scoring with steps that shorten until they help. @param at where to begin, then the best
+Likelihood maximize(std::span<const SidedAnswers> answers, double sensitivity, const Spread& spread,
+                    Criteria& at) {
+  constexpr double good_enough = 1e-5;
+  Likelihood here = posterior(answers, sensitivity, at, spread);
+  for (int i = 0; i < 30; ++i) {
+    const auto [a, d, both] = here.information;
+    const double det = determinant(here);
+    const double to_indecision = (d * here.by_log_indecision - both * here.by_bias) / det;
+    const double to_bias = (a * here.by_bias - both * here.by_log_indecision) / det;
+    if (to_indecision * here.by_log_indecision + to_bias * here.by_bias < good_enough) break;
+    double length = std::min(1.0, 1.5 / (std::abs(to_indecision) + 1e-9));
+    bool better = false;
+    for (int halvings = 0; halvings < 12 && !better; ++halvings, length /= 2) {
+      const Criteria there{at.log_indecision + length * to_indecision, at.bias + length * to_bias};
+      const Likelihood next = posterior(answers, sensitivity, there, spread);
+      better = next.value > here.value;
+      if (!better) continue;
+      at = there;
+      here = next;
+    }
+    if (!better) break;
+  }
+  return here;
+}
+
+}  // namespace
+
+std::vector<double> fit_criteria(std::vector<PersonAnswers>& people, double sensitivity,
+                                 Spread& spread) {
+  constexpr int n_steps = 4;
+  std::vector<double> values(people.size());
+  for (int step = 0; step < n_steps; ++step) {
+    double sum = 0, square = 0, bias_square = 0;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+      const Likelihood best = maximize(people[i].answers, sensitivity, spread, people[i].criteria);
+      const double det = determinant(best);
+      values[i] =
+          best.value - std::log(det) / 2 - std::log(spread.sd_log_indecision * spread.sd_bias);
+      const Criteria& at = people[i].criteria;
+      sum += at.log_indecision;
+      square += at.log_indecision * at.log_indecision + best.information[1] / det;
+      bias_square += at.bias * at.bias + best.information[0] / det;
+    }
+    if (step + 1 == n_steps) break;
+    const double n = static_cast<double>(people.size());
+    spread.mean_log_indecision = std::clamp(sum / n, -3.0, 6.0);
+    const double variance = square / n - sum / n * sum / n;
+    spread.sd_log_indecision = std::clamp(std::sqrt(std::max(variance, 0.0)), 0.1, 1.5);
+    spread.sd_bias = std::clamp(std::sqrt(bias_square / n), 0.05, 2.0);
+  }
+  return values;
+}
+
+void move_criteria(std::vector<PersonAnswers>& people, Spread& spread, double growth) {
+  if (growth <= 1 || !std::isfinite(growth)) return;
+  const double more = std::log(growth);
+  for (PersonAnswers& person : people) person.criteria.log_indecision += more;
+  spread.mean_log_indecision += more;
+}
+
+}  // namespace heft

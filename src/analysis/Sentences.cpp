@@ -1,0 +1,94 @@
+// The three sentences on top of a report.
+#include <fmt/format.h>
+
+#include "analysis/Notes.h"
+
+namespace heft {
+
+namespace {
+const Hypothesis& named(const Summary& summary, std::string_view name) {
+  for (const Hypothesis& hypothesis : summary.hypotheses)
+    if (hypothesis.name == name) return hypothesis;
+  return summary.hypotheses.front();
+}
+
+std::string percent(const Proportion& proportion) {
+  if (!proportion.mean_percent) return "-";
+  std::string text = fmt::format("{:.0f} %", *proportion.mean_percent);
+  if (proportion.interval_percent)
+    text += fmt::format(" [{:.0f}, {:.0f}]", proportion.interval_percent->low,
+                        proportion.interval_percent->high);
+  return text;
+}
+
+std::string who(const Summary& summary) {
+  const std::string people = fmt::format("{} {}participant{}", summary.n_participants,
+                                         summary.data == "simulated" ? "simulated " : "",
+                                         summary.n_participants == 1 ? "" : "s");
+  return summary.data == "human and simulated" ? people + " (persons and models mixed)" : people;
+}
+
+std::string sorting_sentence(const Summary& summary) {
+  const ConditionSorting &c1 = summary.sorting.at(0), &c2 = summary.sorting.at(1);
+  if (c1.n_trials + c2.n_trials == 0)
+    return fmt::format("Sorting: of {} nobody completed a trial, so nothing is said of it.",
+                       who(summary));
+  std::string blind = ", and whether C1 tells masses apart can't be judged";
+  const HypothesisVerdict verdict = named(summary, "E1-H1").verdict;
+  if (verdict == HypothesisVerdict::supported)
+    blind = ", and answers in C1 are equivalent to chance";
+  if (verdict == HypothesisVerdict::not_supported) blind = ", and answers in C1 are not chance";
+  std::string worked = "whether C2 tells masses apart can't be judged";
+  if (named(summary, "E1-H2").verdict == HypothesisVerdict::supported)
+    worked = "C2 tells masses apart";
+  if (named(summary, "E1-H2").verdict == HypothesisVerdict::not_supported)
+    worked = "C2 does not tell masses apart";
+  return fmt::format(
+      "Sorting: {}; of {}, {} of trials were right in C2 and {} in C1, where chance is {:.0f} %{}.",
+      worked, who(summary), percent(c2.correct), percent(c1.correct),
+      c2.chance_percent().value_or(c1.chance_percent().value_or(0)), blind);
+}
+
+std::string comparison_sentence(const Summary& summary) {
+  if (summary.sensitivity.empty()) return "Comparisons: none were completed.";
+  std::string known, unknown;
+  for (const ReferenceSensitivity& row : summary.sensitivity) {
+    const PooledSensitivity& pooled = row.pooled;
+    if (pooled.identifiable())
+      known += fmt::format("{}{:.0f} g [{:.0f}, {:.0f}] at {:g} g", known.empty() ? "" : ", ",
+                           *pooled.threshold_75_g, pooled.threshold_interval_g->low,
+                           pooled.threshold_interval_g->high, row.compared.reference_g);
+    else
+      unknown += fmt::format("{}{:g} g", unknown.empty() ? "" : ", ", row.compared.reference_g);
+  }
+  std::string text = "Comparisons: ";
+  if (!known.empty())
+    text += fmt::format("a difference that three of four people would name rightly is {}", known);
+  if (!unknown.empty())
+    text += fmt::format("{}the data bear no threshold at {}", known.empty() ? "" : "; ", unknown);
+  return text + ".";
+}
+
+std::string limits_sentence(const Summary& summary) {
+  std::string open;
+  for (const Hypothesis& hypothesis : summary.hypotheses)
+    if (hypothesis.verdict == HypothesisVerdict::not_judged)
+      open += (open.empty() ? "" : ", ") + hypothesis.name;
+  std::string text =
+      summary.plan ? "What they can't say: what the protocol did not declare is exploratory"
+                   : "What they can't say: no analysis was declared beforehand, so all of it is "
+                     "exploratory";
+  if (!summary.jnd.empty())
+    text +=
+        "; the paper's JND follows the criterion and the start, so it is no measure of what "
+        "people perceive";
+  if (!open.empty()) text += fmt::format("; {} can't be judged", open);
+  return text + ".";
+}
+}  // namespace
+
+std::vector<std::string> three_sentences(const Summary& summary) {
+  return {sorting_sentence(summary), comparison_sentence(summary), limits_sentence(summary)};
+}
+
+}  // namespace heft

@@ -1,0 +1,122 @@
+// People of whom everything is known, in comparisons as the protocols run them.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "MadeUpSessions.h"
+#include "base/Random.h"
+#include "psychophysics/UpDown.h"
+
+namespace heft::made_up {
+
+/// One person: see PooledSensitivity.h for the model.
+struct Chooser {
+  double sensitivity_per_g = 0;  ///< 0: sees nothing
+  double indecision = 1, side_bias = 0;
+  bool is_coin = false;  ///< always says that there is a difference
+
+  /// 0: left, 1: none, 2: right
+  int answer(double right_minus_left_g, RandomStream& stream) const {
+    if (is_coin) return stream.coin(0.5) ? 0 : 2;
+    if (stream.coin(0.02)) return static_cast<int>(stream.below(3));
+    const double felt = sensitivity_per_g * right_minus_left_g + side_bias + stream.normal();
+    return felt > indecision ? 2 : felt < -indecision ? 0 : 1;
+  }
+};
+
+/// People around a 75 % threshold; none (0): they see nothing.
+struct Population {
+  double threshold_75_g = 0, spread = 0.3, indecision = 1;
+  bool is_coin = false;
+
+  Chooser draw(RandomStream& stream) const {
+    const double median = threshold_75_g > 0 ? 0.6744897501960817 / threshold_75_g : 0;
+    return {median * std::exp(spread * stream.normal()),
+            indecision * std::exp(0.4 * stream.normal()), 0.2 * stream.normal(), is_coin};
+  }
+};
+
+struct ComparisonDesign {
+  double reference_g = 200;
+  std::vector<double> starts_g{600, 20};  ///< of a staircase each
+  double step_g = 150;
+  int stop_reversals = 8;
+  double catch_fraction = 0.15;
+  bool only_right_choices = true;  ///< move a staircase down
+};
+
+inline ComparisonDesign recommended_at(double reference_g) {
+  if (reference_g < 100) return {reference_g, {175, 10}, 50};
+  if (reference_g < 500) return {reference_g, {600, 20}, 150};
+  return {reference_g, {700, 20}, 200};
+}
+
+inline ComparisonDesign papers_at(double reference_g) {
+  ComparisonDesign design = recommended_at(reference_g);
+  design.starts_g.pop_back();
+  design.stop_reversals = 10;
+  design.catch_fraction = 0;
+  design.only_right_choices = false;
+  return design;
+}
+
+/// Adds the trials and estimates of one person's comparisons at one reference.
+inline void compare(SessionData& data, const Chooser& chooser, const ComparisonDesign& design,
+                    RandomStream& stream) {
+  std::vector<UpDown> staircases;
+  for (double start_g : design.starts_g) {
+    UpDownConfig config;
+    config.start = start_g;
+    config.step = design.step_g;
+    config.halve_every = 2;
+    config.floor = 0;
+    config.ceiling = 1500;
+    config.stop_reversals = design.stop_reversals;
+    config.stop_trials = 60;
+    staircases.emplace_back(config);
+  }
+  for (;;) {
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < staircases.size(); ++i)
+      if (!staircases[i].finished()) open.push_back(i);
+    if (open.empty()) break;
+    const bool is_catch = stream.coin(design.catch_fraction);
+    const std::size_t index = open[stream.below(open.size())];
+    const double level_g = is_catch ? 0 : staircases[index].level();
+    const int reference_slot = stream.coin(0.5) ? 1 : 2;
+    const int answer = chooser.answer(reference_slot == 1 ? level_g : -level_g, stream);
+    const std::string name =
+        std::to_string(static_cast<int>(design.reference_g)) + "g " + std::to_string(index);
+    Attempt& attempt = add_comparison(data, is_catch ? "" : name, design.reference_g, level_g);
+    attempt.trial.plan.is_catch = is_catch;
+    attempt.trial.plan.reference_slot = reference_slot;
+    const bool chosen = answer != 1;
+    const int slot = answer == 0 ? 1 : 2;
+    if (chosen) {
+      attempt.trial.outcome = Outcome::difference;
+      attempt.trial.chosen_slot = slot;
+      attempt.trial.choice_correct = level_g > 0 && slot != reference_slot;
+    }
+    if (is_catch) continue;
+    const bool right = attempt.trial.choice_correct.value_or(false);
+    const Update update = staircases[index].respond(design.only_right_choices ? right : chosen);
+    attempt.is_reversal = update.reversal.has_value();
+    if (!update.finish) continue;
+    const Estimate estimate = staircases[index].estimates().at(0);
+    EstimateRow row;
+    row.staircase = name;
+    row.method = estimate.method;
+    row.jnd_g = estimate.value;
+    row.n_trials = estimate.n_trials;
+    row.n_reversals = estimate.n_reversals;
+    row.n_floor = estimate.n_floor;
+    row.n_ceiling = estimate.n_ceiling;
+    row.reason = *update.finish;
+    row.censored = estimate.censored;
+    data.estimates.push_back(row);
+  }
+}
+
+}  // namespace heft::made_up

@@ -1,0 +1,75 @@
+// Verdicts on the paper's hypotheses: what is said, and when it is left open.
+#include <gmock/gmock.h>
+
+#include "MadeUpSessions.h"
+#include "analysis/Json.h"
+#include "analysis/Summary.h"
+#include "nlohmann/json.hpp"
+
+namespace heft {
+namespace {
+
+using namespace made_up;
+using testing::HasSubstr;
+
+// People with so many right of `n_answered` C1 trials each, the rest of `n_trials` "I don't know".
+std::vector<SessionData> c1_study(const std::vector<int>& n_right, int n_answered, int n_trials) {
+  std::vector<SessionData> sessions;
+  for (int right : n_right) {
+    const auto id = static_cast<std::int64_t>(sessions.size()) + 1;
+    sessions.push_back(session(id, std::to_string(id)));
+    add_sortings(sessions.back(), "C1", Outcome::correct, right);
+    add_sortings(sessions.back(), "C1", Outcome::incorrect, n_answered - right);
+    add_sortings(sessions.back(), "C1", Outcome::dont_know, n_trials - n_answered);
+  }
+  return sessions;
+}
+
+Hypothesis e1_h1(const std::vector<SessionData>& sessions) {
+  return summarize({"x.db", sessions}, "").hypotheses.at(0);
+}
+
+TEST(HypothesisOfC1, IsSupportedByEquivalenceToChance) {
+  std::vector<int> n_right;
+  for (int i = 0; i < 40; ++i) n_right.push_back(i % 3);  // 16.7 % of 6
+  EXPECT_EQ(e1_h1(c1_study(n_right, 6, 8)).verdict, HypothesisVerdict::supported);
+}
+
+TEST(HypothesisOfC1, IsLeftOpenByFewData) {
+  const Hypothesis few = e1_h1(c1_study({0, 1, 2, 1}, 5, 10));
+  EXPECT_EQ(few.verdict, HypothesisVerdict::not_judged);  // p > .05 is no equivalence
+  EXPECT_THAT(few.why, HasSubstr("too wide"));
+}
+
+TEST(HypothesisOfC1, IsNotSupportedWhereMostAreRight) {
+  EXPECT_EQ(e1_h1(c1_study({4, 5, 4, 3, 5, 4, 4, 5, 3, 4}, 5, 5)).verdict,
+            HypothesisVerdict::not_supported);
+}
+
+TEST(HypothesisOfC1, CountsDontKnowApart) {
+  const Hypothesis nobody_answered = e1_h1(c1_study({0, 0, 0}, 0, 5));
+  EXPECT_EQ(nobody_answered.verdict, HypothesisVerdict::not_judged);
+  EXPECT_THAT(nobody_answered.why, HasSubstr("answered a C1 trial"));
+}
+
+TEST(HypothesesOfE2, AreNotJudgedByTheJnd) {
+  std::vector<SessionData> sessions;
+  for (int i = 1; i <= 13; ++i) {
+    sessions.push_back(session(i, std::to_string(i)));
+    for (double reference_g : {15.0, 200.0, 800.0})
+      add_staircase(sessions.back(), std::to_string(reference_g), reference_g, reference_g + i);
+  }
+  const Summary summary = summarize({"x.db", sessions}, "");
+  EXPECT_EQ(summary.hypotheses[3].verdict, HypothesisVerdict::not_judged);
+  EXPECT_THAT(summary.hypotheses[3].why, HasSubstr("at 15 g there is no threshold, because"));
+  EXPECT_EQ(summary.hypotheses[4].verdict, HypothesisVerdict::not_judged);
+}
+
+TEST(HypothesesJson, IsByName) {
+  const auto json = nlohmann::json::parse(as_json(summarize({"x.db", {}}, "")));
+  for (const char* name : {"E1-H1", "E1-H2", "E1-H3", "E2-H1", "E2-H2"})
+    EXPECT_EQ(json["hypotheses"][name]["verdict"], "can't be judged") << name;
+}
+
+}  // namespace
+}  // namespace heft

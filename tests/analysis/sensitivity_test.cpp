@@ -1,0 +1,175 @@
+// Sensitivity, free of the criterion: what was put in is found, its interval holds it as often as
+// it says, and people who see nothing get no threshold.
+#include "analysis/Sensitivity.h"
+
+#include <gmock/gmock.h>
+
+#include <iostream>
+
+#include "Coverage.h"
+#include "MadeUpChoosers.h"
+#include "analysis/Summary.h"
+
+namespace heft {
+namespace {
+
+using namespace made_up;
+using testing::HasSubstr;
+
+std::vector<SessionData> study(int n_people, const Population& population,
+                               const std::vector<ComparisonDesign>& designs, RandomStream& stream) {
+  std::vector<SessionData> sessions;
+  for (int i = 0; i < n_people; ++i) {
+    sessions.push_back(session(i + 1, std::to_string(100 + i)));
+    const Chooser chooser = population.draw(stream);
+    for (const ComparisonDesign& design : designs)
+      compare(sessions.back(), chooser, design, stream);
+  }
+  return sessions;
+}
+
+Coverage threshold_coverage(int n_people, const Population& population,
+                            const ComparisonDesign& design, int studies) {
+  RandomStream stream(17, "thresholds", static_cast<std::uint64_t>(n_people));
+  Coverage found;
+  for (int i = 0; i < studies; ++i) {
+    const auto rows = sensitivities_of(study(n_people, population, {design}, stream));
+    found.add(rows.at(0).pooled.threshold_interval_g, population.threshold_75_g);
+  }
+  return found;
+}
+
+TEST(AnswersBySide, SignTheLevelByWhereTheHeavierStood) {
+  SessionData data = session(1, "a");
+  Attempt& on_left = add_comparison(data, "s", 200, 50);  // reference left: comparison right
+  choose(on_left, true);
+  Attempt& on_right = add_comparison(data, "s", 200, 50);
+  on_right.trial.plan.reference_slot = 2;
+  on_right.trial.outcome = Outcome::difference;
+  on_right.trial.chosen_slot = 1;
+  add_comparison(data, "", 200, 0).trial.plan.is_catch = true;
+  std::vector<const Attempt*> attempts;
+  for (const Attempt& attempt : data.attempts) attempts.push_back(&attempt);
+  const AnswersByLevel answers = answers_by_side(attempts);
+  EXPECT_EQ(answers.at(50), (std::array<double, 3>{0, 0, 1}));
+  EXPECT_EQ(answers.at(-50), (std::array<double, 3>{1, 0, 0}));
+  EXPECT_EQ(answers.at(0), (std::array<double, 3>{0, 1, 0}));
+}
+
+TEST(Sensitivity, IsFoundWhateverTheCriterion) {
+  RandomStream stream(5, "criteria");
+  for (const double indecision : {0.3, 1.0, 2.5}) {
+    const auto rows =
+        sensitivities_of(study(200, {150, 0.3, indecision}, {recommended_at(200)}, stream));
+    ASSERT_TRUE(rows.at(0).pooled.identifiable()) << rows.at(0).pooled.why;
+    // 4 SE, and 5 % of bias where the criterion is far out
+    EXPECT_NEAR(*rows[0].pooled.threshold_75_g, 150, indecision > 2 ? 20 : 12);
+    EXPECT_NEAR(*rows[0].pooled.indecision, indecision * std::exp(0.08), 0.2 * indecision);
+  }
+}
+
+TEST(Sensitivity, OfFewPeopleIsNotPrinted) {
+  RandomStream stream(6, "few");
+  const auto rows = sensitivities_of(study(3, {150}, {recommended_at(200)}, stream));
+  EXPECT_FALSE(rows.at(0).pooled.identifiable());
+  EXPECT_FALSE(rows[0].pooled.threshold_75_g.has_value());
+  EXPECT_THAT(rows[0].pooled.why, HasSubstr("3 participants are too few"));
+}
+
+TEST(Sensitivity, OfOnePersonIsThatPersonsOwn) {
+  RandomStream stream(7, "one");
+  SessionData data = session(1, "a");
+  for (int i = 0; i < 6; ++i) compare(data, {0.6745 / 100}, recommended_at(200), stream);
+  const auto rows = sensitivities_of({&data, 1});
+  ASSERT_TRUE(rows.at(0).pooled.identifiable()) << rows[0].pooled.why;
+  EXPECT_LT(rows[0].pooled.threshold_interval_g->low, 100);
+  EXPECT_GT(rows[0].pooled.threshold_interval_g->high, 100);
+}
+
+TEST(Sensitivity, HasAboveAndBelowApart) {
+  SessionData one = session(1, "a"), two = session(2, "b");
+  for (SessionData* data : {&one, &two}) {
+    const double more_g = data == &one ? 0 : 20;
+    add_comparison(*data, "down", 200, 600);
+    add_staircase(*data, "down", 200, 300 + more_g);
+    add_comparison(*data, "up", 200, 20);
+    add_staircase(*data, "up", 200, 100);
+  }
+  const auto rows = sensitivities_of(std::vector{one, two});
+  ASSERT_TRUE(rows.at(0).start_effect.has_value());
+  const StartEffect& effect = *rows[0].start_effect;
+  EXPECT_EQ(effect.n, 2);
+  EXPECT_EQ(effect.from_above_g.mean, 310);
+  EXPECT_EQ(effect.from_below_g.mean, 100);
+  EXPECT_EQ(effect.difference_g.mean, 210);
+  EXPECT_NEAR(effect.difference_g.interval->high, 210 + 12.7062047362 * 10, 1e-6);  // t, 1 df
+}
+
+TEST(CoverageOf, Thresholds) {
+  const int studies = n_studies(40);
+  const double chance = by_chance_percent(studies);
+  for (const auto& [n_people, population, reference_g] :
+       {std::tuple{13, Population{150, 0}, 200.0}, std::tuple{13, Population{150}, 200.0},
+        std::tuple{13, Population{50}, 15.0}, std::tuple{13, Population{600}, 800.0},
+        std::tuple{40, Population{150}, 200.0}}) {
+    const Coverage found =
+        threshold_coverage(n_people, population, recommended_at(reference_g), studies);
+    std::cout << n_people << " people, threshold " << population.threshold_75_g << " g, spread "
+              << population.spread << ": " << found.percent() << " % of " << found.given_percent()
+              << " % given\n";
+    EXPECT_GE(found.percent(), 93 - chance);
+    EXPECT_LE(found.percent(), 98 + chance);
+    EXPECT_GE(found.given_percent(), 95);
+  }
+}
+
+// People who see nothing: how many studies print a threshold or take E2-H1 for supported.
+struct Misled {
+  double thresholds_percent = 0, supported_percent = 0;
+};
+
+Misled misled_by(const Population& population, bool papers, int n_people, int studies) {
+  RandomStream stream(23, "nothing seen", static_cast<std::uint64_t>(n_people));
+  int n_thresholds = 0, n_supported = 0;
+  for (int i = 0; i < studies; ++i) {
+    std::vector<ComparisonDesign> designs;
+    for (double reference_g : {15.0, 200.0, 800.0})
+      designs.push_back(papers ? papers_at(reference_g) : recommended_at(reference_g));
+    const Summary summary = summarize({"x.db", study(n_people, population, designs, stream)}, "");
+    for (const ReferenceSensitivity& row : summary.sensitivity)
+      n_thresholds += row.pooled.identifiable() ? 1 : 0;
+    n_supported += summary.hypotheses.at(3).verdict == HypothesisVerdict::supported ? 1 : 0;
+  }
+  return {100.0 * n_thresholds / (3 * studies), 100.0 * n_supported / studies};
+}
+
+TEST(CoverageOf, NothingSeenGivesNoThreshold) {
+  for (int n_people : {13, 40})
+    for (bool papers : {false, true})
+      for (bool is_coin : {false, true}) {
+        const Misled found = misled_by({.is_coin = is_coin}, papers, n_people, n_studies(8));
+        std::cout << n_people << (is_coin ? " coins" : " people with only a criterion")
+                  << (papers ? ", paper.toml: " : ", recommended.toml: ")
+                  << found.thresholds_percent << " % thresholds, " << found.supported_percent
+                  << " % of studies with E2-H1 supported\n";
+        EXPECT_LE(found.thresholds_percent, 5);
+        EXPECT_EQ(found.supported_percent, 0);
+      }
+}
+
+TEST(Hypotheses, AGoodObserverWhoseThresholdRisesIsToldSo) {
+  RandomStream stream(9, "rising");
+  std::vector<SessionData> sessions;
+  for (int i = 0; i < 20; ++i) {
+    sessions.push_back(session(i + 1, std::to_string(100 + i)));
+    for (double reference_g : {15.0, 200.0, 800.0})
+      compare(sessions.back(), Population{0.5 * reference_g + 20}.draw(stream),
+              recommended_at(reference_g), stream);
+  }
+  const Summary summary = summarize({"x.db", sessions}, "");
+  EXPECT_EQ(summary.hypotheses[3].verdict, HypothesisVerdict::supported)
+      << summary.hypotheses[3].why;
+}
+
+}  // namespace
+}  // namespace heft
