@@ -11,39 +11,44 @@ using Eigen::Vector3d;
 
 namespace {
 constexpr double flat_m = 1e-6;  // gaps and overlaps below this are none
-// A contact is looked for anew when masses changed by more, as with another step's length.
-constexpr double mass_share_is_new = 1e-9;
-constexpr double never_m_s = 1e100;      // at which no two bodies meet
-constexpr double recovery = 0.5;         // share of an overlap that one step takes away
-constexpr double recovery_m = 1e-3;      // and at most this much
-constexpr double least_spread_m = 1e-6;  // of points that are worth calling a patch
+constexpr double overlap_m = 20e-6;
+// Points nearer than this touch; if they pressed a step ago, nearer than that.
+constexpr double touching_m = 2e-6, still_touching_m = 0.1e-3;
+constexpr double same_mass = 1e-9;   // a share
+constexpr double never_m_s = 1e100;  // at which no two bodies meet
+constexpr double recovery = 0.5;     // share of an overlap that one step takes away
+constexpr double recovery_m = 1e-3;  // and at most this much
+
+bool has(unsigned set, int i) {
+  return (set >> i & 1) != 0;
+}
 
 Matrix3d columns(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   Matrix3d m;
   m << a, b, c;
   return m;
 }
+
+bool as_heavy(double now_per_kg, double then_per_kg) {
+  return std::abs(now_per_kg - then_per_kg) <= same_mass * then_per_kg;
+}
+
+double turned_rad_2(const Pose& now, const Pose& then) {  // half the angle is the difference
+  return 4 * (now.orientation.coeffs() - then.orientation.coeffs()).squaredNorm();
+}
 }  // namespace
 
 void Manifold::prepare(const Contact& contact, Body& first, Body& second,
-                       const ContactSurface& surface, double h_s, double margin_m) {
-  foresee(h_s_ > 0 ? h_s / h_s_ : 1);
+                       const ContactSurface& surface, double margin_m) {
   first_ = &first;
   second_ = &second;
-  alone_ = second.inverse_mass_per_kg == 0 && !second.solid;
-  friction_ = surface.friction;
-  h_s_ = h_s;
-  rigid_ = surface.compliance_m_per_n == 0;
-  same_place_ = surface.same_place;
-  foresees_ = surface.foresees;
-  seen_ = {first.pose, second.pose, first.inverse_mass_per_kg, second.inverse_mass_per_kg,
-           margin_m};
+  on_table_ = !second.solid;
+  surface_ = surface;
+  margin_m_ = margin_m;
+  first_seen_ = first.pose;
+  second_seen_ = second.pose;
   take_points(contact);
-  if (n_ == 0) return;
-  couple_bodies();
-  prepare_points(surface);
-  balance_.setZero();
-  if (n_ == 4 && rigid_) find_balance();
+  for (Rows& rows : rows_) rows.first_per_kg = -1;  // new
 }
 
 // Points that were there in the last step keep their impulses, turned into the frame of now.
@@ -54,9 +59,9 @@ void Manifold::take_points(const Contact& contact) {
   if (n_ == 0) return;
   const Vector3d u = u_, v = v_;
   take_frame(contact);
-  const std::array<Impulses, 4> old{impulses_, before_, line_, curve_};
   for (Points* zeroed : {&at_u_m_, &at_v_m_, &prepared_gaps_m_}) zeroed->setZero();
-  for (Impulses* zeroed : {&impulses_, &before_, &line_, &curve_}) zeroed->setZero();
+  const std::array<Impulses, 2> before{rows_[mean].impulses, rows_[end].impulses};
+  for (Rows& rows : rows_) rows.impulses.setZero();
   for (int i = 0; i < n_; ++i) {
     const ContactPoint& at = contact.points[static_cast<std::size_t>(i)];
     const Vector3d from_middle_m = at.on_first_m - first_->pose.position_m - arm_first_m_;
@@ -66,20 +71,20 @@ void Manifold::take_points(const Contact& contact) {
     prepared_gaps_m_[i] = at.distance_m;
     const auto known = std::find(features.begin(), features.begin() + n_before, at.feature);
     if (known == features.begin() + n_before) continue;
-    const auto j = known - features.begin();
-    impulses_.row(i) = old[0].row(j);
-    before_.row(i) = old[1].row(j);
-    line_.row(i) = old[2].row(j);
-    curve_.row(i) = old[3].row(j);
+    for (const Level level : both_levels)
+      rows_[level].impulses.row(i) = before[level].row(known - features.begin());
   }
   squares_m2_ = at_u_m_.cwiseAbs2() + at_v_m_.cwiseAbs2();
+  spread_m_ = std::sqrt(squares_m2_.sum() / n_);
   levers_ << Points::Zero(), at_v_m_, -at_u_m_;
   levers_.col(0).head(n_).setOnes();
+  balance_.setZero();
+  if (n_ == 4 && surface_.compliance_m_per_n == 0) find_balance();
   if (u == u_) return;
-  for (Impulses* turned : {&impulses_, &before_, &line_, &curve_}) {
-    const Points along_u = turned->col(1), along_v = turned->col(2);
-    turned->col(1) = along_u * u.dot(u_) + along_v * v.dot(u_);
-    turned->col(2) = along_u * u.dot(v_) + along_v * v.dot(v_);
+  for (Rows& rows : rows_) {
+    const Points along_u = rows.impulses.col(1), along_v = rows.impulses.col(2);
+    rows.impulses.col(1) = along_u * u.dot(u_) + along_v * v.dot(u_);
+    rows.impulses.col(2) = along_u * u.dot(v_) + along_v * v.dot(v_);
   }
 }
 
@@ -104,104 +109,144 @@ void Manifold::take_frame(const Contact& contact) {
   arm_second_m_ = middle_second_m - second_->pose.position_m;
 }
 
-void Manifold::couple_bodies() {
-  press_by_press_.setZero();
-  drag_by_press_.setZero();
-  drag_by_drag_.setZero();
-  press_by_press_(0, 0) = drag_by_drag_(0, 0) = drag_by_drag_(1, 1) =
-      first_->inverse_mass_per_kg + second_->inverse_mass_per_kg;
-  const auto couple = [this](const Body& body, const Vector3d& arm_m) {
-    // As moments about the body's center.
-    const Matrix3d press = columns(arm_m.cross(normal_), u_, v_);
-    const Matrix3d drag = columns(arm_m.cross(u_), arm_m.cross(v_), normal_);
-    const Matrix3d turned_by_press = body.inverse_inertia * press;
-    press_by_press_ += press.transpose() * turned_by_press;
-    drag_by_press_ += drag.transpose() * turned_by_press;
-    drag_by_drag_ += drag.transpose() * (body.inverse_inertia * drag);
-  };
-  couple(*first_, arm_first_m_);
-  if (second_->inertia_kg_m2.x() > 0) couple(*second_, arm_second_m_);
-  spread_m_ = std::sqrt(squares_m2_.sum() / n_);
-  can_stick_ = drag_by_drag_(2, 2) > 0 && spread_m_ > least_spread_m;
-  if (can_stick_) drag_mass_ = drag_by_drag_.inverse();
-}
-
-void Manifold::prepare_points(const ContactSurface& surface) {
-  response_.noalias() = levers_ * press_by_press_ * levers_.transpose();
-  known_ = 0;
-  drag_per_kg_.setZero();
-  softness_.setZero();
-  gaps_m_ = prepared_gaps_m_;
-  set_speeds();
-  // A compliant point: gap at the end of the step = -compliance (force) - (damping time) (speed),
-  // with the damping time that is critical for the mass behind the point.
-  const double c = surface.compliance_m_per_n;
-  for (int i = 0; i < n_ && c > 0; ++i) {
-    const double damping_s = gaps_m_[i] < 0 ? 2 * std::sqrt(c / response_(i, i)) : 0;
-    softness_[i] = c / (h_s_ * (h_s_ + damping_s));
-    speeds_m_s_[i] = gaps_m_[i] / (h_s_ + damping_s);
+void Manifold::start() {
+  gaps_m_ = prepared_gaps_m_.array() + normal_.dot(moved_m());
+  at_start_ = moving(first_->velocity, second_->velocity);
+  touching_ = 0;
+  for (int i = 0; i < n_; ++i) {
+    const bool pressed = rows_[end].impulses(i, 0) > 0;
+    if (gaps_m_[i] <= (pressed ? still_touching_m : touching_m)) touching_ |= 1u << i;
   }
 }
 
-// Between rigid boxes an overlap is for push_apart, and a gap that is not worth closing is none.
-void Manifold::set_speeds() {
-  speeds_m_s_ = (gaps_m_.array() > flat_m).select(gaps_m_ / h_s_, 0.0);
-  for (int i = n_; i < 4; ++i) speeds_m_s_[i] = never_m_s;
+void Manifold::take_step(double h_s, double parting_m_s) {
+  const double scale = h_s > 0 && h_s_ > 0 ? h_s / h_s_ : 1;
+  if (h_s > 0) h_s_ = h_s;
+  for (const Level level : both_levels) {
+    Rows& rows = rows_[level];
+    rows.impulses *= scale;
+    const Motion &first = first_->step[level], &second = second_->step[level];
+    if (!as_heavy(first.per_kg, rows.first_per_kg) || !as_heavy(second.per_kg, rows.second_per_kg))
+      couple(rows, first, second);
+  }
+  set_closing(parting_m_s);
+}
+
+void Manifold::couple(Rows& rows, const Motion& first, const Motion& second) const {
+  rows.first_per_kg = first.per_kg;
+  rows.second_per_kg = second.per_kg;
+  rows.normal_by_normal.setZero();
+  rows.tangential_by_normal.setZero();
+  rows.tangential_by_tangential.setZero();
+  rows.normal_by_normal(0, 0) = rows.tangential_by_tangential(0, 0) =
+      rows.tangential_by_tangential(1, 1) = first.per_kg + second.per_kg;
+  const auto add = [&](const Motion& motion, const Vector3d& arm_m) {
+    // As moments about the body's center.
+    const Matrix3d normal = columns(arm_m.cross(normal_), u_, v_);
+    const Matrix3d tangential = columns(arm_m.cross(u_), arm_m.cross(v_), normal_);
+    const Matrix3d turned_by_normal = motion.per_kg_m2 * normal;
+    rows.normal_by_normal += normal.transpose() * turned_by_normal;
+    rows.tangential_by_normal += tangential.transpose() * turned_by_normal;
+    rows.tangential_by_tangential += tangential.transpose() * (motion.per_kg_m2 * tangential);
+  };
+  if (first.turns) add(first, arm_first_m_);
+  if (second.turns) add(second, arm_second_m_);
+  if (rows.tangential_by_tangential(2, 2) > 0)
+    rows.tangential_mass = rows.tangential_by_tangential.inverse();
+  rows.response.noalias() = levers_ * rows.normal_by_normal * levers_.transpose();
+  rows.stopping_set = 0;
+  rows.slip_per_kg.setZero();
+}
+
+// At which points may close in: at the end of the step those that touch no more; in the mean over
+// it those that are a little apart until they meet, and those that overlap part.
+void Manifold::set_closing(double parting_m_s) {
+  const double c = surface_.compliance_m_per_n;
+  for (const Level level : both_levels) {
+    Rows& rows = rows_[level];
+    rows.softness.setZero();
+    rows.closing_m_s.setConstant(never_m_s);
+    for (int i = 0; i < n_; ++i) {
+      const double gap_m = gaps_m_[i];
+      if (c > 0) {
+        // gap at the end of the step = -compliance (force) - (damping time) (speed), with the
+        // damping time that is critical for the mass behind the point
+        const double damping_s = gap_m < 0 ? 2 * std::sqrt(c / rows_[end].response(i, i)) : 0;
+        rows.softness[i] = c / (h_s_ * (h_s_ + damping_s));
+        rows.closing_m_s[i] = gap_m / (h_s_ + damping_s);
+      } else if (has(touching_, i)) {
+        rows.closing_m_s[i] = 0;
+        if (level == mean && gap_m > flat_m) rows.closing_m_s[i] = gap_m / h_s_;
+        if (level == mean && gap_m < -flat_m)
+          rows.closing_m_s[i] =
+              -std::min(parting_m_s, std::min(recovery * -(gap_m + flat_m), recovery_m) / h_s_);
+      }
+    }
+  }
+}
+
+void Manifold::stop_at_gaps() {
+  if (surface_.compliance_m_per_n > 0) return;
+  for (int i = 0; i < n_; ++i)
+    if (!has(touching_, i)) rows_[mean].closing_m_s[i] = gaps_m_[i] / h_s_;
+}
+
+bool Manifold::parts_driven() const {
+  return (first_->driven || second_->driven) && gaps_m_.head(n_).minCoeff() < -overlap_m;
+}
+
+double Manifold::closing_m_s() const {
+  const Points speeds = levers_ * at_start_.normal;
+  double fastest_m_s = 0;
+  for (int i = 0; i < n_; ++i)
+    if (has(touching_, i)) fastest_m_s = std::max(fastest_m_s, -speeds[i]);
+  return surface_.compliance_m_per_n > 0 ? 0 : fastest_m_s;
+}
+
+// Bodies speed up steadily, from how they move at the start to the mean that was found.
+std::optional<double> Manifold::share_before_hit() const {
+  if (surface_.compliance_m_per_n > 0) return std::nullopt;
+  const Points at_start = levers_ * at_start_.normal, mean_m_s = levers_ * moving(mean).normal;
+  std::optional<double> soonest;
+  for (int i = 0; i < n_; ++i) {
+    const double gap_m = gaps_m_[i], start_m = h_s_ * at_start[i], mean_m = h_s_ * mean_m_s[i];
+    if (has(touching_, i) || gap_m + mean_m > -flat_m) continue;
+    // gap + start s + (mean - start) s^2 = 0
+    const double bend_m = mean_m - start_m;
+    const double root_m = std::sqrt(std::max(0.0, start_m * start_m - 4 * bend_m * gap_m));
+    const double share = 2 * gap_m / (root_m - start_m);
+    if (share > 0) soonest = std::min(soonest.value_or(1), share);
+  }
+  return soonest;
+}
+
+Vector3d Manifold::end_hit() {
+  const Vector3d hit_n_s = in_world(rows_[end].impulses);
+  rows_[end].impulses = rows_[mean].impulses;
+  return hit_n_s;
+}
+
+void Manifold::forget_impulses() {
+  for (Rows& rows : rows_) rows.impulses.setZero();
 }
 
 // The first against the second since prepare(). Along the table there is nothing new.
 Vector3d Manifold::moved_m() const {
-  const Vector3d moved_m = first_->pose.position_m - seen_.first.position_m;
-  if (alone_) return {0, 0, moved_m.z()};
-  return moved_m - (second_->pose.position_m - seen_.second.position_m);
+  const Vector3d moved_m = first_->pose.position_m - first_seen_.position_m;
+  if (on_table_) return {0, 0, moved_m.z()};
+  return moved_m - (second_->pose.position_m - second_seen_.position_m);
 }
 
 bool Manifold::still_fits(double margin_m) const {
-  if (n_ == 0 || !rigid_ || (n_ < 4 && margin_m > seen_.margin_m)) return false;
-  if (!alone_ && !touches()) return false;  // it may be the contact of another way
-  const auto as_heavy = [](const Body& body, double per_kg) {
-    return std::abs(body.inverse_mass_per_kg - per_kg) <= mass_share_is_new * per_kg;
-  };
-  const double same = same_place_;
-  const auto turned = [same](const Pose& now,
-                             const Pose& before) {  // half the angle is the difference
-    const double half_rad_2 =
-        (now.orientation.coeffs() - before.orientation.coeffs()).squaredNorm();
-    return 4 * half_rad_2 > same * same;
-  };
-  return moved_m().squaredNorm() < same * same && as_heavy(*first_, seen_.first_per_kg) &&
-         as_heavy(*second_, seen_.second_per_kg) && !turned(first_->pose, seen_.first) &&
-         !turned(second_->pose, seen_.second);
+  if (n_ == 0 || (n_ < 4 && margin_m > margin_m_)) return false;
+  if (!on_table_ && !touches()) return false;  // it may be the contact of another way
+  const double same_2 = surface_.same_place * surface_.same_place;
+  return moved_m().squaredNorm() < same_2 && turned_rad_2(first_->pose, first_seen_) < same_2 &&
+         turned_rad_2(second_->pose, second_seen_) < same_2;
 }
 
-void Manifold::prepare_again(double h_s) {
-  const double closer_m = normal_.dot(moved_m()), scale = h_s / h_s_;
-  h_s_ = h_s;
-  foresee(scale);
-  gaps_m_ = prepared_gaps_m_.array() + closer_m;
-  set_speeds();
-}
-
-bool Manifold::push_apart() {
-  bool pushed = false;
-  for (int i = 0; i < n_; ++i) {
-    if (softness_[i] > 0 || gaps_m_[i] >= -flat_m || response_(i, i) == 0) continue;
-    pushed = true;
-    const double by_m = std::min(recovery_m, recovery * -(gaps_m_[i] + flat_m)) / n_;
-    const Vector3d impulse = by_m / response_(i, i) * normal_;
-    const Vector3d from_middle_m = at_u_m_[i] * u_ + at_v_m_[i] * v_;
-    const auto push = [&](Body& body, const Vector3d& arm_m, double sign) {
-      body.shift(sign * body.inverse_mass_per_kg * impulse,
-                 sign * body.response((arm_m + from_middle_m).cross(impulse)));
-    };
-    push(*first_, arm_first_m_, 1);
-    if (!alone_) push(*second_, arm_second_m_, -1);
-  }
-  return pushed;
-}
-
-Vector3d Manifold::impulse_n_s() const {
-  const Vector3d sum = impulses_.colwise().sum();
+Vector3d Manifold::in_world(const Impulses& impulses) const {
+  const Vector3d sum = impulses.colwise().sum();
   return n_ == 0 ? Vector3d::Zero() : Vector3d(sum[0] * normal_ + sum[1] * u_ + sum[2] * v_);
 }
 

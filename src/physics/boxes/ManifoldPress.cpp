@@ -1,5 +1,6 @@
 // The normal impulses of a Manifold: all points at once.
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "physics/boxes/Manifold.h"
@@ -10,9 +11,10 @@ using Eigen::Matrix4d;
 using Eigen::Vector3d;
 
 namespace {
+// Of a point without a load: whether it is one of those that share must not hang on rounding.
+constexpr double rounding_m_s = 1e-12;
 constexpr double firmness = 1e-5;       // of a block's diagonal, so that it can be solved
 constexpr double least_area_m2 = 1e-8;  // of points that are not on a line
-constexpr double unmoved_m_s = 1e-10;   // a nanometer in ten seconds
 
 bool has(unsigned set, int i) {
   return (set >> i & 1) != 0;
@@ -20,54 +22,53 @@ bool has(unsigned set, int i) {
 }  // namespace
 
 // The normal impulses at the points of a set that change their velocities as wanted, per velocity;
-// zero for the other points. Kept: few of the sixteen sets are ever asked for.
-const Matrix4d& Manifold::stopping(unsigned set) {
-  Matrix4d& inverse = stopping_[set];
-  if (known_ >> set & 1) return inverse;
-  known_ |= 1u << set;
+// zero for the other points. Kept: most sweeps ask for the same set.
+const Matrix4d& Manifold::stopping(Rows& rows, unsigned set) {
+  if (rows.stopping_set == set) return rows.stopping;
+  rows.stopping_set = set;
   Matrix4d block = Matrix4d::Identity();
   Points in_set;
   for (int i = 0; i < 4; ++i) {
     in_set[i] = has(set, i);
     for (int j = 0; j < 4; ++j)
-      if (has(set, i) && has(set, j)) block(i, j) = response_(i, j);
-    if (has(set, i)) block(i, i) = (1 + firmness) * (response_(i, i) + softness_[i]);
+      if (has(set, i) && has(set, j)) block(i, j) = rows.response(i, j);
+    if (has(set, i)) block(i, i) = (1 + firmness) * (rows.response(i, i) + rows.softness[i]);
   }
-  inverse = block.llt().solve(Matrix4d(in_set.asDiagonal()));
-  return inverse;
+  rows.stopping = block.llt().solve(Matrix4d(in_set.asDiagonal()));
+  return rows.stopping;
 }
 
 // All points at once: a light clone before a heavy cube feels the sum of its points' impulses, the
 // cube how they are spread, and one point after the other would find the spread only slowly.
-// @param moving its drag follows
+// @param moving its tangential part follows
 // @return the largest change of a velocity at a point, m/s
-double Manifold::press(Patch& moving, Patch& change) {
-  const Points now = impulses_.col(0);
-  const Points missing = -(levers_ * moving.press) - speeds_m_s_ - softness_.cwiseProduct(now);
+double Manifold::press(Rows& rows, Six& moving, Six& change) {
+  const Points now = rows.impulses.col(0);
+  const Points missing =
+      -(levers_ * moving.normal) - rows.closing_m_s - rows.softness.cwiseProduct(now);
   unsigned active = 0;
   double largest = 0;
-  for (int i = 0; i < 4; ++i) {
-    if (now[i] == 0 && !(missing[i] > 0)) continue;
+  for (int i = 0; i < n_; ++i) {
+    if (now[i] == 0 && !(missing[i] > rounding_m_s)) continue;
     active |= 1u << i;
     largest = std::max(largest, std::abs(missing[i]));
   }
   if (active == 0) return 0;
-  if (foresees_ && largest <= unmoved_m_s && now.minCoeff() >= 0) return 0;
-  Points more = stopping(active) * missing;
-  if ((now + more).minCoeff() < 0) more = release(active, missing);
-  impulses_.col(0) = (now + more).cwiseMax(0);
-  change.press = levers_.transpose() * more;
-  moving.drag += drag_by_press_ * change.press;
+  Points more = stopping(rows, active) * missing;
+  if ((now + more).minCoeff() < 0) more = release(rows, active, missing);
+  rows.impulses.col(0) = (now + more).cwiseMax(0);
+  change.normal = levers_.transpose() * more;
+  moving.tangential += rows.tangential_by_normal * change.normal;
   return largest;
 }
 
 // Lets go of one point after the other that would have to pull.
 // @return changes of the normal impulses
-Manifold::Points Manifold::release(unsigned active, const Points& missing) {
-  const Points now = impulses_.col(0);
+Manifold::Points Manifold::release(Rows& rows, unsigned active, const Points& missing) {
+  const Points now = rows.impulses.col(0);
   Points more, given = Points::Zero();
   for (;;) {
-    more = stopping(active) * (missing - response_ * given) + given;
+    more = stopping(rows, active) * (missing - rows.response * given) + given;
     int worst = 0;
     if ((now + more).minCoeff(&worst) >= 0 || !has(active, worst)) return more;
     active &= ~(1u << worst);
@@ -90,13 +91,13 @@ void Manifold::find_balance() {
 
 // Of all normal impulses that do the same, those with the smallest sum of squares: the limit of
 // equally stiff points as they become rigid.
-void Manifold::balance() {
-  const Points now = impulses_.col(0);
+void Manifold::balance(Rows& rows) const {
+  const Points now = rows.impulses.col(0);
   if (!(now.minCoeff() > 0)) return;
   double uneven = balance_.dot(now);
   for (int i = 0; i < 4; ++i)  // no further than to zero
     if (uneven * balance_[i] > now[i]) uneven = now[i] / balance_[i];
-  impulses_.col(0) = (now - uneven * balance_).cwiseMax(0);
+  rows.impulses.col(0) = (now - uneven * balance_).cwiseMax(0);
 }
 
 }  // namespace heft::boxes
