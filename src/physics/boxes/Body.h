@@ -19,7 +19,20 @@ struct Motion {
   double per_kg = 0;  ///< 0: nothing pushes it
   Eigen::Matrix3d per_kg_m2 = Eigen::Matrix3d::Zero();
   bool turns = false;  ///< false: nothing turns it
+  // Of the last sweep: what it started from, changed by, and ended with.
+  Velocity start{}, change{}, swept{};
 
+  void begin_sweeps() {
+    start = swept = velocity;
+    change = {};
+  }
+  /// Beyond the last sweep's end, by a share of its distance from the end of the one before.
+  void go_on(double share) {
+    start = {velocity.linear_m_s + share * (velocity.linear_m_s - swept.linear_m_s),
+             velocity.angular_rad_s + share * (velocity.angular_rad_s - swept.angular_rad_s)};
+    swept = velocity;
+    velocity = start;
+  }
   void push(const Eigen::Vector3d& impulse_n_s, const Eigen::Vector3d& moment_n_m_s) {
     velocity.linear_m_s += per_kg * impulse_n_s;
     if (turns) velocity.angular_rad_s += per_kg_m2 * moment_n_m_s;

@@ -22,6 +22,7 @@ constexpr double hit_m_s = 0.01;
 constexpr double least_step_s = 1e-6;  // up to an event
 constexpr double least_cut_s = 5e-6;   // of a step that is worth cutting off
 constexpr double slowly_m_s = 0.05, any_speed_m_s = 1e100;
+constexpr double farthest = 100;  // that sweeps are extrapolated, in sweeps
 constexpr int most_sweeps = 100;
 constexpr double settled_m_s = 2e-6;   // sweeps end when no velocity changes by more
 constexpr double squeezed_m_s = 0.01;  // what never ends has no answer
@@ -184,6 +185,7 @@ void BoxWorld::find_contacts(double h_s) {
       pair.manifold.prepare(contact(pair, h_s, margin_m), first, second, surface_, margin_m);
     if (pair.manifold.empty()) continue;
     pair.manifold.start();
+    pair.manifold.extrapolate();
     touching_.push_back(&pair.manifold);
   }
 }
@@ -228,8 +230,12 @@ void BoxWorld::solve(double h_s, const SteppedBy& how) {
 // start for the next step.
 void BoxWorld::relax(Level level) {
   for (Manifold* manifold : touching_) manifold->warm_start(level);
+  for (Manifold* manifold : touching_) manifold->begin_sweeps(level);
+  for (Body& body : bodies_) body.step[level].begin_sweeps();
+  last_energy_j_ = 0;
   double change_m_s = 0;
   for (int i = 0; i < most_sweeps; ++i) {
+    if (i > 0 && surface_.shortcuts) go_on(level);
     change_m_s = 0;
     for (Manifold* manifold : touching_) change_m_s = std::max(change_m_s, manifold->relax(level));
     if (change_m_s <= settled_m_s) return;
@@ -237,6 +243,33 @@ void BoxWorld::relax(Level level) {
   ++n_unsettled_;
   if (change_m_s > squeezed_m_s)
     for (Manifold* manifold : touching_) manifold->forget_impulses();
+}
+
+// Anderson's (1965) mixing with one step of memory. Sweeps that settle slowly do so in one
+// direction, each change a fixed share of the last one: velocities and impulses go on to where the
+// changes would have the least energy. Velocities depend linearly on impulses, so that both go on
+// by the same share and still belong together. What the last sweep leaves is the result.
+void BoxWorld::go_on(Level level) {
+  double energy_j = 0, common_j = 0;
+  for (Body& body : bodies_) {
+    Motion& motion = body.step[level];
+    if (body.asleep || !(motion.per_kg > 0)) continue;
+    const Velocity last = motion.change;
+    motion.change = {motion.velocity.linear_m_s - motion.start.linear_m_s,
+                     motion.velocity.angular_rad_s - motion.start.angular_rad_s};
+    const double mass_kg = 1 / motion.per_kg;
+    const double inertia = motion.turns ? 1 / motion.per_kg_m2.diagonal().maxCoeff() : 0;
+    const auto& [along, about] = motion.change;
+    energy_j += mass_kg * along.squaredNorm() + inertia * about.squaredNorm();
+    common_j += mass_kg * along.dot(last.linear_m_s) + inertia * about.dot(last.angular_rad_s);
+  }
+  const double between_j = energy_j + last_energy_j_ - 2 * common_j;
+  const bool known = last_energy_j_ > 0 && between_j > 0;
+  const double share = known ? std::clamp((common_j - energy_j) / between_j, 0.0, farthest) : 0;
+  last_energy_j_ = energy_j;
+  for (Body& body : bodies_)
+    if (!body.asleep) body.step[level].go_on(share);
+  for (Manifold* manifold : touching_) manifold->go_on(level, share);
 }
 
 std::optional<double> BoxWorld::share_before_event(double h_s) const {

@@ -96,6 +96,7 @@ class BoxWorld {
   void set_motions(double h_s, const SteppedBy& how);
   void solve(double h_s, const SteppedBy& how);
   void relax(Level level);
+  void go_on(Level level);
   std::optional<double> share_before_event(double h_s) const;
   std::optional<double> share_before_sliding_off(const Pair& pair, double h_s) const;
   void move(double h_s, bool momentary);
@@ -111,6 +112,7 @@ class BoxWorld {
   bool hit_ = false;                       ///< the last step was one
   std::vector<Manifold*> touching_;        ///< of this step; the table's last
   long n_unsettled_ = 0;
+  double last_energy_j_ = 0;  ///< of the last sweep's changes
 };
 
 }  // namespace heft::boxes

@@ -184,9 +184,8 @@ void BoxesSimulator::reset(const Scene& scene, const Pose& target) {
   last_h_s_ = 0;
   impulse_n_s_.assign(n_cubes_, Vector3d::Zero());
   coupled_ = Coupled(scene);
-  boxes::ContactSurface surface{scene.friction, scene.contact_compliance_m_per_n};
-  // A coupled clone shows no mass: nothing may hang on how masses round.
-  if (!scene.coupling.decoupled) surface.same_place = 1e-10;
+  const boxes::ContactSurface surface{scene.friction, scene.contact_compliance_m_per_n,
+                                      scene.coupling.decoupled};
   world_.emplace(surface, scene.gravity_m_s2, n_cubes_ + 1);
   Body clone;
   clone.driven = true;

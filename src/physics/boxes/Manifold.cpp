@@ -60,8 +60,9 @@ void Manifold::take_points(const Contact& contact) {
   const Vector3d u = u_, v = v_;
   take_frame(contact);
   for (Points* zeroed : {&at_u_m_, &at_v_m_, &prepared_gaps_m_}) zeroed->setZero();
-  const std::array<Impulses, 2> before{rows_[mean].impulses, rows_[end].impulses};
-  for (Rows& rows : rows_) rows.impulses.setZero();
+  const std::array<Rows, 2> old = rows_;
+  for (Rows& rows : rows_)
+    for (Impulses* zeroed : {&rows.impulses, &rows.before, &rows.foreseen}) zeroed->setZero();
   for (int i = 0; i < n_; ++i) {
     const ContactPoint& at = contact.points[static_cast<std::size_t>(i)];
     const Vector3d from_middle_m = at.on_first_m - first_->pose.position_m - arm_first_m_;
@@ -71,8 +72,12 @@ void Manifold::take_points(const Contact& contact) {
     prepared_gaps_m_[i] = at.distance_m;
     const auto known = std::find(features.begin(), features.begin() + n_before, at.feature);
     if (known == features.begin() + n_before) continue;
-    for (const Level level : both_levels)
-      rows_[level].impulses.row(i) = before[level].row(known - features.begin());
+    const auto j = known - features.begin();
+    for (const Level level : both_levels) {
+      rows_[level].impulses.row(i) = old[level].impulses.row(j);
+      rows_[level].before.row(i) = old[level].before.row(j);
+      rows_[level].foreseen.row(i) = old[level].foreseen.row(j);
+    }
   }
   squares_m2_ = at_u_m_.cwiseAbs2() + at_v_m_.cwiseAbs2();
   spread_m_ = std::sqrt(squares_m2_.sum() / n_);
@@ -81,11 +86,12 @@ void Manifold::take_points(const Contact& contact) {
   balance_.setZero();
   if (n_ == 4 && surface_.compliance_m_per_n == 0) find_balance();
   if (u == u_) return;
-  for (Rows& rows : rows_) {
-    const Points along_u = rows.impulses.col(1), along_v = rows.impulses.col(2);
-    rows.impulses.col(1) = along_u * u.dot(u_) + along_v * v.dot(u_);
-    rows.impulses.col(2) = along_u * u.dot(v_) + along_v * v.dot(v_);
-  }
+  for (Rows& rows : rows_)
+    for (Impulses* turned : {&rows.impulses, &rows.before, &rows.foreseen}) {
+      const Points along_u = turned->col(1), along_v = turned->col(2);
+      turned->col(1) = along_u * u.dot(u_) + along_v * v.dot(u_);
+      turned->col(2) = along_u * u.dot(v_) + along_v * v.dot(v_);
+    }
 }
 
 // The plane of the patch goes through its nearest point: the others bear nothing unless they are as
@@ -124,7 +130,7 @@ void Manifold::take_step(double h_s, double parting_m_s) {
   if (h_s > 0) h_s_ = h_s;
   for (const Level level : both_levels) {
     Rows& rows = rows_[level];
-    rows.impulses *= scale;
+    for (Impulses* scaled : {&rows.impulses, &rows.before, &rows.foreseen}) *scaled *= scale;
     const Motion &first = first_->step[level], &second = second_->step[level];
     if (!as_heavy(first.per_kg, rows.first_per_kg) || !as_heavy(second.per_kg, rows.second_per_kg))
       couple(rows, first, second);
@@ -227,7 +233,8 @@ Vector3d Manifold::end_hit() {
 }
 
 void Manifold::forget_impulses() {
-  for (Rows& rows : rows_) rows.impulses.setZero();
+  for (Rows& rows : rows_)
+    for (Impulses* zeroed : {&rows.impulses, &rows.before, &rows.foreseen}) zeroed->setZero();
 }
 
 // The first against the second since prepare(). Along the table there is nothing new.
@@ -240,7 +247,7 @@ Vector3d Manifold::moved_m() const {
 bool Manifold::still_fits(double margin_m) const {
   if (n_ == 0 || (n_ < 4 && margin_m > margin_m_)) return false;
   if (!on_table_ && !touches()) return false;  // it may be the contact of another way
-  const double same_2 = surface_.same_place * surface_.same_place;
+  const double same_2 = surface_.same_place() * surface_.same_place();
   return moved_m().squaredNorm() < same_2 && turned_rad_2(first_->pose, first_seen_) < same_2 &&
          turned_rad_2(second_->pose, second_seen_) < same_2;
 }

@@ -19,9 +19,12 @@ namespace heft::boxes {
 struct ContactSurface {
   double friction = 0.8;
   double compliance_m_per_n = 0;  ///< of each point; 0: rigid
+  /// Whether to save sweeps by ways that rounding may decide: not for a coupled clone, which shows
+  /// no mass.
+  bool shortcuts = true;
   /// Bodies that moved or turned against each other by less, m or rad, keep their contact: no lever
   /// changes noticeably.
-  double same_place = 1e-6;
+  double same_place() const { return shortcuts ? 1e-6 : 1e-10; }
 };
 
 class Manifold {
@@ -50,6 +53,13 @@ class Manifold {
 
   /// Applies the impulses known so far.
   void warm_start(Level level);
+  /// Extrapolates the impulses of the last two steps, where that was right for the last one.
+  void extrapolate();
+  /// Goes on by a share of how far the last sweep's end is from the one before; the bodies'
+  /// velocities have to follow.
+  void begin_sweeps(Level level) { rows_[level].swept = rows_[level].impulses; }
+  void go_on(Level level, double share);
+
   /// One sweep of projected Gauss-Seidel.
   /// @return the largest change of a velocity at a point, m/s
   double relax(Level level);
@@ -99,6 +109,9 @@ class Manifold {
     Points closing_m_s = Points::Zero();
     Points softness = Points::Zero();  // m/s per N s
     Impulses impulses = Impulses::Zero();
+    Impulses before = Impulses::Zero();    // at the start of the last solve's step before
+    Impulses foreseen = Impulses::Zero();  // by a line through the last two
+    Impulses swept = Impulses::Zero();     // the end of the last sweep
   };
 
   void take_points(const Contact& contact);

@@ -7,10 +7,34 @@ namespace heft::boxes {
 
 using Eigen::Vector3d;
 
+namespace {
+constexpr double right_share = 0.1;  // of a change, squared, that was foreseen wrongly
+}
+
 void Manifold::warm_start(Level level) {
   const Impulses& known = rows_[level].impulses;
   if (n_ > 0 && known.col(0).maxCoeff() > 0)
     apply(level, {levers_.transpose() * known.col(0), tangential_sum(known)});
+}
+
+void Manifold::extrapolate() {
+  if (!surface_.shortcuts) return;
+  for (Rows& rows : rows_) {
+    const Impulses last = rows.impulses, line = 2 * last - rows.before;
+    const double off_before = (last - rows.before).squaredNorm();
+    const bool grows = (last - rows.foreseen).squaredNorm() < right_share * off_before;
+    rows.before = last;
+    rows.foreseen = line;
+    for (int i = 0; grows && i < n_; ++i)
+      if (line(i, 0) > 0 && last(i, 0) > 0) rows.impulses.row(i) = line.row(i);
+  }
+}
+
+void Manifold::go_on(Level level, double share) {
+  Rows& rows = rows_[level];
+  const Impulses swept = rows.impulses;
+  rows.impulses += share * (swept - rows.swept);
+  rows.swept = swept;
 }
 
 double Manifold::relax(Level level) {
