@@ -8,14 +8,16 @@
 //    reach up) are tested for contact as far ahead as the bodies get; what sleeps and is reached
 //    wakes.
 // 3. Points that touch and close in have hit: impulses without duration, and without weight, make
-//    them move together. What was held before is held through the hit.
-// 4. Contacts are solved twice, by projected Gauss-Seidel from the last step's impulses: for the
-//    velocities at the end (what touches does not close in; friction holds, or is against the mean
-//    slip), then for the mean velocities (what touches stays in touch, overlaps part; where
-//    friction stopped a slip, the way until then is gone). Two conditions and two forces: a push
-//    that grows over the step is right to second order in both, and nothing rings.
+//    them move together. What was held before is held through the hit. It is a step of its own that
+//    takes no time.
+// 4. Contacts are solved twice, by projected Gauss-Seidel with an extrapolated warm start and
+//    Anderson mixing: for the mean velocities (what touches stays in touch, overlaps part; where
+//    friction stops a slip, the way until then is gone), then for the velocities at the end (what
+//    touches does not close in; friction holds, or is against the mean slip). Two conditions and
+//    two impulses, which differ by how the push grows over the step: the clone's end feels that
+//    too, see Body::mean_to_end. So a push is right beyond second order, and nothing rings.
 // 5. Points that are apart and would meet within the step, and the clone sliding off a face, are
-//    events: the step is cut there, see Cut, and solved anew with every contact in it.
+//    events: the step ends there, and is solved anew for that length with every contact in it.
 // 6. Bodies move; boxes that stay at rest for a while fall asleep.
 //
 // Nothing is allocated after the last add().
