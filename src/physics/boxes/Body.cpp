@@ -28,6 +28,24 @@ bool alike(const Vector3d& inertia_kg_m2) {
 }
 }  // namespace
 
+void Motion::begin(double mean_weight) {
+  free = ahead = {end.linear_m_s + mean_weight * (mean.linear_m_s - end.linear_m_s),
+                  end.angular_rad_s + mean_weight * (mean.angular_rad_s - end.angular_rad_s)};
+}
+
+void Motion::finish(double mean_weight, bool driven) {
+  const double by_end = 1 / (1 - mean_weight);
+  mean.linear_m_s += mean_by_ahead * (ahead.linear_m_s - free.linear_m_s);
+  end.linear_m_s = by_end * (ahead.linear_m_s - mean_weight * mean.linear_m_s);
+  if (!turns) return;
+  const Vector3d turned_rad_s = ahead.angular_rad_s - free.angular_rad_s;
+  if (driven)
+    mean.angular_rad_s += mean_turn_by_ahead * turned_rad_s;
+  else
+    mean.angular_rad_s += mean_by_ahead * turned_rad_s;
+  end.angular_rad_s = by_end * (ahead.angular_rad_s - mean_weight * mean.angular_rad_s);
+}
+
 void Body::set_size(const Vector3d& size_m) {
   shape.half_m = size_m / 2;
   radius_m = shape.half_m.norm();
@@ -35,6 +53,7 @@ void Body::set_size(const Vector3d& size_m) {
 
 void Body::put(const Pose& to, const Velocity& at) {
   velocity = at;
+  pushed_s = 0;
   wake();
   place(to);
 }
@@ -55,22 +74,20 @@ void Body::move(const Velocity& at, double h_s) {
 }
 
 // A steady push changes the mean velocity by half of what it changes the velocity at the end by.
-void Body::fall(double gravity_m_s2, double h_s, bool momentary) {
-  const double per_kg = 1 / mass_kg;
-  const Vector3d per_kg_m2 = inertia_kg_m2.cwiseInverse();
-  const Matrix3d turning =
-      alike(inertia_kg_m2) ? Matrix3d(per_kg_m2.asDiagonal())
-                           : Matrix3d(shape.axes * per_kg_m2.asDiagonal() * shape.axes.transpose());
-  const Vector3d faster_m_s(0, 0, -h_s * gravity_m_s2);
-  const Vector3d turns_faster_rad_s = tumbled(h_s);
-  for (const Level level : both_levels) {
-    const double share = level == mean && momentary ? 0.5 : 1;
-    step[level] = {{velocity.linear_m_s + share * faster_m_s,
-                    velocity.angular_rad_s + share * turns_faster_rad_s},
-                   share * per_kg,
-                   share * turning,
-                   true};
-  }
+void Body::fall(double gravity_m_s2, const StepTime& time) {
+  const Vector3d faster_m_s(0, 0, -time.h_s * gravity_m_s2);
+  const Vector3d turns_faster_rad_s = tumbled(time.h_s);
+  const auto& [along, about] = velocity;
+  step.mean = {along + faster_m_s / 2, about + turns_faster_rad_s / 2};
+  step.end = {along + faster_m_s, about + turns_faster_rad_s};
+  const double ahead_by_end = 1 - time.mean_weight() / 2;
+  step.mean_by_ahead = 0.5 / ahead_by_end;
+  step.per_kg = ahead_by_end / mass_kg;
+  step.turns = true;
+  const Vector3d per_kg_m2 = ahead_by_end * inertia_kg_m2.cwiseInverse();
+  step.per_kg_m2 = per_kg_m2.asDiagonal();
+  if (!alike(inertia_kg_m2))
+    step.per_kg_m2 = shape.axes * per_kg_m2.asDiagonal() * shape.axes.transpose();
 }
 
 // The change of angular velocity over h_s seconds in which nothing turns it: one Newton step of

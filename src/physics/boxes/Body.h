@@ -1,41 +1,49 @@
-// One box of a BoxWorld: where it is, how fast at this moment, and what a push does to it in a
-// step.
+// One box of a BoxWorld: where it is, how fast at this moment, and what pushes do to it in a step.
 #pragma once
-
-#include <array>
 
 #include "physics/BoxContacts.h"
 
 namespace heft::boxes {
 
-/// The two ends of a step that contacts are solved for: the mean velocity over it, which says where
-/// bodies get to, and the velocity at its end.
-enum Level { mean = 0, end = 1 };
-inline constexpr std::array<Level, 2> both_levels{mean, end};
+/// How long a step is and how far contacts look beyond its end: they are solved for velocities that
+/// are by this weight the mean over the step and else those at its end, as if nothing pushed from
+/// there on. See BoxWorld.h.
+struct StepTime {
+  double h_s = 0, beyond_s = 0;
+  double mean_weight() const { return h_s > 0 ? h_s / (h_s + beyond_s) : 0; }
+};
 
-/// A body's velocity at one level, and how contacts' impulses over the step change it.
+/// A body's motion over a step in which pushes are steady.
 struct Motion {
-  Velocity velocity;
+  Velocity mean, end;    ///< without contacts; after finish() with them
+  Velocity ahead, free;  ///< what contacts are solved for, with and without them
+  // What an impulse changes `ahead` by, and that the mean.
   double per_kg = 0;  ///< 0: nothing pushes it
   Eigen::Matrix3d per_kg_m2 = Eigen::Matrix3d::Zero();
   bool turns = false;  ///< false: nothing turns it
+  double mean_by_ahead = 0;
+  Eigen::Matrix3d mean_turn_by_ahead = Eigen::Matrix3d::Zero();  ///< of a driven body that turns
   // Of the last sweep: what it started from, changed by, and ended with.
   Velocity start{}, change{}, swept{};
 
+  /// Before contacts, from `mean` and `end`.
+  void begin(double mean_weight);
+  void push(const Eigen::Vector3d& impulse_n_s, const Eigen::Vector3d& moment_n_m_s) {
+    ahead.linear_m_s += per_kg * impulse_n_s;
+    if (turns) ahead.angular_rad_s += per_kg_m2 * moment_n_m_s;
+  }
+  void finish(double mean_weight, bool driven);
+
   void begin_sweeps() {
-    start = swept = velocity;
+    start = swept = ahead;
     change = {};
   }
-  /// Beyond the last sweep's end, by a share of its distance from the end of the one before.
-  void go_on(double share) {
-    start = {velocity.linear_m_s + share * (velocity.linear_m_s - swept.linear_m_s),
-             velocity.angular_rad_s + share * (velocity.angular_rad_s - swept.angular_rad_s)};
-    swept = velocity;
-    velocity = start;
-  }
-  void push(const Eigen::Vector3d& impulse_n_s, const Eigen::Vector3d& moment_n_m_s) {
-    velocity.linear_m_s += per_kg * impulse_n_s;
-    if (turns) velocity.angular_rad_s += per_kg_m2 * moment_n_m_s;
+  /// Beyond the last sweep's end, by a fraction of its distance from the end of the one before.
+  void go_on(double fraction) {
+    start = {ahead.linear_m_s + fraction * (ahead.linear_m_s - swept.linear_m_s),
+             ahead.angular_rad_s + fraction * (ahead.angular_rad_s - swept.angular_rad_s)};
+    swept = ahead;
+    ahead = start;
   }
 };
 
@@ -50,12 +58,12 @@ struct Body {
   bool solid = true;    ///< false: touches nothing
   bool driven = false;  ///< by the coupling: has no weight, never sleeps
   bool asleep = false;
-  double at_rest_s = 0;        ///< for how long it has not moved noticeably
-  std::array<Motion, 2> step;  ///< by Level, of the step under way
-  /// What pushes change the mean velocity by changes that at the end by this share, beside what the
-  /// end's own do: pushes grow or fade over a step, and a coupled body feels early ones less.
-  double mean_to_end = 0;
-  Velocity free_mean;  ///< before contacts
+  double reach_m = 0;    ///< how far it may get in the step under way
+  double at_rest_s = 0;  ///< for how long it has not moved noticeably
+  Motion step;           ///< under way
+  // Of a driven body, the mean force on it over the last step, and how long that was; 0: unknown.
+  Eigen::Vector3d pushed_n = Eigen::Vector3d::Zero();
+  double pushed_s = 0;
 
   bool moves() const { return solid && !asleep; }
   void set_size(const Eigen::Vector3d& size_m);
@@ -65,18 +73,8 @@ struct Body {
   void place(const Pose& at);
   /// Goes on at a mean velocity for h_s seconds.
   void move(const Velocity& at, double h_s);
-  /// What it does in h_s seconds under its weight if nothing touches it; 0: pushes act at once.
-  /// @param momentary false: as if all that changes its velocity came at the start
-  void fall(double gravity_m_s2, double h_s, bool momentary);
-  /// From the mean velocity that contacts made to the one at the end.
-  void carry_over() {
-    step[end].velocity.linear_m_s +=
-        mean_to_end * (step[mean].velocity.linear_m_s - free_mean.linear_m_s);
-  }
-  void carry_nothing() {
-    step[end].per_kg += mean_to_end * step[mean].per_kg;
-    mean_to_end = 0;
-  }
+  /// What it does under its weight if nothing touches it.
+  void fall(double gravity_m_s2, const StepTime& time);
   void wake() {
     asleep = false;
     at_rest_s = 0;

@@ -21,10 +21,9 @@ constexpr double exactly_m = 1e-9;
 constexpr double hit_m_s = 0.01;
 constexpr double least_step_s = 1e-6;  // up to an event
 constexpr double least_cut_s = 5e-6;   // of a step that is worth cutting off
-constexpr double slowly_m_s = 0.05, any_speed_m_s = 1e100;
-constexpr double farthest = 100;  // that sweeps are extrapolated, in sweeps
+constexpr double farthest = 100;       // that sweeps are extrapolated, in sweeps
 constexpr int most_sweeps = 100;
-constexpr double settled_m_s = 2e-6;   // sweeps end when no velocity changes by more
+constexpr double settled_m_s = 1e-5;   // sweeps end when no velocity changes by more
 constexpr double squeezed_m_s = 0.01;  // what never ends has no answer
 }  // namespace
 
@@ -63,7 +62,7 @@ void BoxWorld::settle_at_start() {
 // How far a body may get in a step.
 double BoxWorld::reach_m(const Body& body, double h_s) const {
   if (!body.moves()) return 0;
-  const double free_m_s = body.driven ? body.tip_speed_m_s(body.step[mean].velocity) : 0;
+  const double free_m_s = body.driven ? body.tip_speed_m_s(body.step.mean) : 0;
   return near_m + h_s * (faster_m_s + std::max(free_m_s, body.tip_speed_m_s(body.velocity)));
 }
 
@@ -78,7 +77,7 @@ Contact BoxWorld::contact(const Pair& pair, double h_s, double margin_m) const {
   if (pair.with_table()) return contact_with_table(first.shape, margin_m);
   if (!near(first, second, margin_m)) return {};
   const auto velocity = [](const Body& body) {
-    return body.driven ? body.step[mean].velocity.linear_m_s : body.velocity.linear_m_s;
+    return body.driven ? body.step.mean.linear_m_s : body.velocity.linear_m_s;
   };
   const Vector3d travel_m = h_s * (velocity(first) - velocity(second));
   if (pair.manifold.touches() || travel_m.squaredNorm() < far_m * far_m)
@@ -90,9 +89,10 @@ Contact BoxWorld::contact(const Pair& pair, double h_s, double margin_m) const {
 void BoxWorld::find_neighbours(double h_s) {
   double farthest_m = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    bodies_[i].reach_m = reach_m(bodies_[i], h_s);
     if (bodies_[i].asleep) continue;
     const double gone_m = (bodies_[i].pose.position_m - listed_m_[i]).norm();
-    farthest_m = std::max(farthest_m, gone_m + reach_m(bodies_[i], h_s));
+    farthest_m = std::max(farthest_m, gone_m + bodies_[i].reach_m);
   }
   if (2 * farthest_m <= listed_reach_m_) return;
   listed_reach_m_ = 2 * farthest_m + listed_beyond_m;
@@ -130,10 +130,12 @@ bool BoxWorld::wake_reached(double h_s) {
       Body& first = bodies_[pair.first];
       Body& second = bodies_[pair.second];
       if (first.asleep == second.asleep || !first.solid || !second.solid) continue;
-      const double margin_m = reach_m(first, h_s) + reach_m(second, h_s);
+      const double margin_m = first.reach_m + second.reach_m;
       if (!near(first, second, margin_m) || contact(pair, h_s, margin_m).n_points == 0) continue;
-      first.wake();
-      second.wake();
+      for (Body* woken : {&first, &second}) {
+        woken->wake();
+        woken->reach_m = reach_m(*woken, h_s);
+      }
       more = true;
     }
     if (more) list_neighbours();
@@ -153,21 +155,22 @@ double BoxWorld::advance(double h_s, const SteppedBy& how) {
   }
   hit_ = false;
   solve(h_s, how);
-  if (const auto share = share_before_event(h_s)) {
-    if (how.cuts) h_s = std::min(h_s, std::max(*share * h_s, least_step_s));
+  const Event event = how.cuts ? next_event(h_s) : Event{};
+  if (event.fraction < 1) {
+    h_s = std::min(h_s, std::max(event.fraction * h_s, least_step_s));
     set_motions(h_s, how);
     solve(h_s, how);
   }
-  move(h_s, how.momentary);
+  move(h_s, event.ends_pushes);
   return h_s;
 }
 
 void BoxWorld::set_motions(double h_s, const SteppedBy& how) {
   for (Body& body : bodies_) {
     if (body.driven)
-      how.driver.set_motion(body, h_s);
+      how.driver.set_motion(body, {h_s, how.beyond_s});
     else if (!body.asleep)
-      body.fall(h_s > 0 ? gravity_m_s2_ : 0, h_s, how.momentary);
+      body.fall(gravity_m_s2_, {h_s, how.beyond_s});
   }
 }
 
@@ -177,8 +180,8 @@ void BoxWorld::find_contacts(double h_s) {
     Body& first = bodies_[pair.first];
     Body& second = pair.with_table() ? table_ : bodies_[pair.second];
     if (first.asleep && (pair.with_table() || second.asleep)) continue;
-    const bool gives = first.step[mean].per_kg > 0 || second.step[mean].per_kg > 0;
-    const double margin_m = reach_m(first, h_s) + reach_m(second, h_s);
+    const bool gives = first.step.per_kg > 0 || second.step.per_kg > 0;
+    const double margin_m = first.reach_m + second.reach_m;
     if (!gives || !first.solid || (!second.solid && !pair.with_table()))
       pair.manifold.clear();
     else if (!pair.manifold.still_fits(margin_m))
@@ -188,6 +191,9 @@ void BoxWorld::find_contacts(double h_s) {
     pair.manifold.extrapolate();
     touching_.push_back(&pair.manifold);
   }
+  // Sweeps settle sooner from the table up. But where a coupled clone squeezes a cube against it
+  // there is no answer, and the cube should stay above the table.
+  if (surface_.shortcuts) std::ranges::reverse(touching_);
 }
 
 bool BoxWorld::hits() const {
@@ -197,47 +203,45 @@ bool BoxWorld::hits() const {
 
 void BoxWorld::hit(const Driver& driver) {
   set_motions(0, {driver});
+  for (Body& body : bodies_) body.step.begin(0);
   for (Manifold* manifold : touching_) {
-    manifold->take_step(0, 0);
     manifold->begin_hit();
   }
-  relax(end);
+  relax();
   for (Pair& pair : pairs_)
     pair.hit_n_s = pair.manifold.empty() ? Vector3d::Zero() : pair.manifold.end_hit();
   for (Body& body : bodies_)
-    if (body.moves()) body.velocity = body.step[end].velocity;
+    if (body.moves()) {
+      body.velocity = body.step.ahead;
+      body.pushed_s = 0;
+    }
 }
 
 void BoxWorld::solve(double h_s, const SteppedBy& how) {
-  if (std::ranges::any_of(touching_, &Manifold::parts_driven))
-    for (Body& body : bodies_) body.carry_nothing();
-  // Where there is but one level bodies keep the speed at which they part.
-  const double parting_m_s = how.momentary ? any_speed_m_s : slowly_m_s;
-  for (Manifold* manifold : touching_) {
-    manifold->take_step(h_s, parting_m_s);
-    if (!how.cuts) manifold->stop_at_gaps();
-  }
-  for (Body& body : bodies_) body.free_mean = body.step[mean].velocity;
-  relax(mean);
-  if (!how.momentary) return;
+  const StepTime time{h_s, how.beyond_s};
   for (Body& body : bodies_)
-    if (body.driven) body.carry_over();
-  relax(end);
+    if (!body.asleep) body.step.begin(time.mean_weight());
+  for (Manifold* manifold : touching_) {
+    manifold->take_step(time);
+    if (!how.cuts) manifold->stop_at_gaps();
+    manifold->warm_start();
+  }
+  relax();
+  for (Body& body : bodies_)
+    if (!body.asleep) body.step.finish(time.mean_weight(), body.driven);
 }
 
-// The table comes last in a sweep: where a coupled clone squeezes a cube against it there is no
-// answer, and the cube should stay above the table. The impulses grow without end then and are no
-// start for the next step.
-void BoxWorld::relax(Level level) {
-  for (Manifold* manifold : touching_) manifold->warm_start(level);
-  for (Manifold* manifold : touching_) manifold->begin_sweeps(level);
-  for (Body& body : bodies_) body.step[level].begin_sweeps();
+// Where a clone squeezes a cube there may be no answer. The impulses grow without end then and are
+// no start for the next step.
+void BoxWorld::relax() {
+  for (Manifold* manifold : touching_) manifold->begin_sweeps();
+  for (Body& body : bodies_) body.step.begin_sweeps();
   last_energy_j_ = 0;
   double change_m_s = 0;
   for (int i = 0; i < most_sweeps; ++i) {
-    if (i > 0 && surface_.shortcuts) go_on(level);
+    if (i > 0 && surface_.shortcuts) mix();
     change_m_s = 0;
-    for (Manifold* manifold : touching_) change_m_s = std::max(change_m_s, manifold->relax(level));
+    for (Manifold* manifold : touching_) change_m_s = std::max(change_m_s, manifold->relax());
     if (change_m_s <= settled_m_s) return;
   }
   ++n_unsettled_;
@@ -246,17 +250,17 @@ void BoxWorld::relax(Level level) {
 }
 
 // Anderson's (1965) mixing with one step of memory. Sweeps that settle slowly do so in one
-// direction, each change a fixed share of the last one: velocities and impulses go on to where the
+// direction, each change a fixed part of the last one: velocities and impulses go on to where the
 // changes would have the least energy. Velocities depend linearly on impulses, so that both go on
-// by the same share and still belong together. What the last sweep leaves is the result.
-void BoxWorld::go_on(Level level) {
+// by the same fraction and still belong together. What the last sweep leaves is the result.
+void BoxWorld::mix() {
   double energy_j = 0, common_j = 0;
   for (Body& body : bodies_) {
-    Motion& motion = body.step[level];
+    Motion& motion = body.step;
     if (body.asleep || !(motion.per_kg > 0)) continue;
     const Velocity last = motion.change;
-    motion.change = {motion.velocity.linear_m_s - motion.start.linear_m_s,
-                     motion.velocity.angular_rad_s - motion.start.angular_rad_s};
+    motion.change = {motion.ahead.linear_m_s - motion.start.linear_m_s,
+                     motion.ahead.angular_rad_s - motion.start.angular_rad_s};
     const double mass_kg = 1 / motion.per_kg;
     const double inertia = motion.turns ? 1 / motion.per_kg_m2.diagonal().maxCoeff() : 0;
     const auto& [along, about] = motion.change;
@@ -265,48 +269,54 @@ void BoxWorld::go_on(Level level) {
   }
   const double between_j = energy_j + last_energy_j_ - 2 * common_j;
   const bool known = last_energy_j_ > 0 && between_j > 0;
-  const double share = known ? std::clamp((common_j - energy_j) / between_j, 0.0, farthest) : 0;
+  const double fraction = known ? std::clamp((common_j - energy_j) / between_j, 0.0, farthest) : 0;
   last_energy_j_ = energy_j;
   for (Body& body : bodies_)
-    if (!body.asleep) body.step[level].go_on(share);
-  for (Manifold* manifold : touching_) manifold->go_on(level, share);
+    if (!body.asleep) body.step.go_on(fraction);
+  for (Manifold* manifold : touching_) manifold->go_on(fraction);
 }
 
-std::optional<double> BoxWorld::share_before_event(double h_s) const {
-  std::optional<double> soonest;
-  const auto note = [&](std::optional<double> share) {
-    if (share && (1 - *share) * h_s > least_cut_s) soonest = std::min(soonest.value_or(1), *share);
+BoxWorld::Event BoxWorld::next_event(double h_s) const {
+  Event soonest;
+  const auto note = [&](std::optional<double> fraction, bool ends_pushes) {
+    if (fraction && (1 - *fraction) * h_s > least_cut_s && *fraction < soonest.fraction)
+      soonest = {*fraction, ends_pushes};
   };
   for (const Pair& pair : pairs_) {
     if (pair.manifold.empty() || bodies_[pair.first].asleep) continue;
-    note(pair.manifold.share_before_hit());
+    note(pair.manifold.fraction_before_hit(), false);
+    note(pair.manifold.fraction_before_stop(), false);
     const bool slides = bodies_[pair.first].driven || bodies_[pair.second].driven;
-    if (slides && !pair.with_table()) note(share_before_sliding_off(pair, h_s));
+    if (slides && !pair.with_table()) note(fraction_before_sliding_off(pair, h_s), true);
   }
   return soonest;
 }
 
 // A drawn clone that slides off a cube snaps back; a step later it would be millimeters elsewhere.
-std::optional<double> BoxWorld::share_before_sliding_off(const Pair& pair, double h_s) const {
+std::optional<double> BoxWorld::fraction_before_sliding_off(const Pair& pair, double h_s) const {
   const Body &first = bodies_[pair.first], &second = bodies_[pair.second];
   const Vector3d& normal = pair.manifold.normal();
   if (!pair.manifold.touches()) return std::nullopt;
-  Vector3d travel_m =
-      h_s * (first.step[mean].velocity.linear_m_s - second.step[mean].velocity.linear_m_s);
+  Vector3d travel_m = h_s * (first.step.mean.linear_m_s - second.step.mean.linear_m_s);
   travel_m -= travel_m.dot(normal) * normal;
   if (travel_m.squaredNorm() < clear_m * clear_m) return std::nullopt;
   Box sunk = first.shape;
   sunk.center_m -= near_m * normal;  // so that they overlap
-  const auto share = parting(sunk, second.shape, travel_m);
-  if (!share) return std::nullopt;
-  return *share + clear_m / travel_m.norm();
+  const auto fraction = parting(sunk, second.shape, travel_m);
+  if (!fraction) return std::nullopt;
+  return *fraction + clear_m / travel_m.norm();
 }
 
-void BoxWorld::move(double h_s, bool momentary) {
+void BoxWorld::move(double h_s, bool ends_pushes) {
   for (Body& body : bodies_) {
     if (body.asleep) continue;
-    body.move(body.step[mean].velocity, h_s);
-    body.velocity = body.step[momentary ? end : mean].velocity;
+    if (body.driven && body.step.per_kg > 0) {
+      body.pushed_n =
+          (body.step.ahead.linear_m_s - body.step.free.linear_m_s) / (body.step.per_kg * h_s);
+      body.pushed_s = ends_pushes ? 0 : h_s;
+    }
+    body.move(body.step.mean, h_s);
+    body.velocity = body.step.end;
   }
   settle(h_s);
 }

@@ -1,23 +1,23 @@
 // Boxes on a table. One step, in order:
 //
 // 1. Each body's free motion: two velocities, the mean over the step, which says where it gets to,
-//    and the one at its end, which is what the next step starts from. A steady push changes a
-//    box's mean velocity by half of what it changes the end's by; the clone's two follow from its
-//    oscillator and are set by whoever drives it. State holds nothing but momentary velocities.
+//    and the one at its end, which is what the next step starts from. Pushes are steady over a
+//    step; a steady push changes a box's mean velocity by half of what it changes the end's by, and
+//    the clone's two follow from its oscillator and are set by whoever drives it.
 // 2. Neighbours (a Verlet list: pairs within some reach, looked for anew when a body has used the
 //    reach up) are tested for contact as far ahead as the bodies get; what sleeps and is reached
 //    wakes.
 // 3. Points that touch and close in have hit: impulses without duration, and without weight, make
 //    them move together. What was held before is held through the hit. It is a step of its own that
 //    takes no time.
-// 4. Contacts are solved twice, by projected Gauss-Seidel with an extrapolated warm start and
-//    Anderson mixing: for the mean velocities (what touches stays in touch, overlaps part; where
-//    friction stops a slip, the way until then is gone), then for the velocities at the end (what
-//    touches does not close in; friction holds, or is against the mean slip). Two conditions and
-//    two impulses, which differ by how the push grows over the step: the clone's end feels that
-//    too, see Body::mean_to_end. So a push is right beyond second order, and nothing rings.
-// 5. Points that are apart and would meet within the step, and the clone sliding off a face, are
-//    events: the step ends there, and is solved anew for that length with every contact in it.
+// 4. Contacts are solved by projected Gauss-Seidel with an extrapolated warm start and Anderson
+//    mixing: with steady pushes, points that touch shall touch one step beyond the end, if nothing
+//    pushes any more from the end on. With the end in place of that, velocities would ring from
+//    step to step; with velocities alone, bodies would drift apart. Looking ahead takes two thirds
+//    of a gap away in a step, so that both die out.
+// 5. Points that are apart and would meet within the step, a patch whose slip friction stops, and
+//    the clone sliding off a face, are events: the step ends there, and is solved anew for that
+//    length with every contact in it.
 // 6. Bodies move; boxes that stay at rest for a while fall asleep.
 //
 // Nothing is allocated after the last add().
@@ -30,19 +30,18 @@
 
 namespace heft::boxes {
 
-/// Says how driven bodies move by themselves: sets both of their motions for a step of h_s seconds;
-/// for 0 s, what pushes do to them within an instant.
+/// Says how driven bodies move by themselves: sets their motion for a step; for one of 0 s, what
+/// pushes do to them within an instant.
 class Driver {
  public:
   virtual ~Driver() = default;
-  virtual void set_motion(Body& driven, double h_s) const = 0;
+  virtual void set_motion(Body& driven, const StepTime& time) const = 0;
 };
 
 struct SteppedBy {
   const Driver& driver;
-  bool cuts = true;       ///< false: what meets within the step stops there
-  bool momentary = true;  ///< false: the mean velocities are also those at the end, for what is
-                          ///< too stiff to have others
+  double beyond_s = 0;  ///< how far contacts look beyond the step's end
+  bool cuts = true;     ///< false: what meets within the step stops there
 };
 
 class BoxWorld {
@@ -86,6 +85,12 @@ class BoxWorld {
     bool has(std::size_t i) const { return first == i || second == i; }
   };
 
+  // Something within a step that the step cannot contain.
+  struct Event {
+    double fraction = 1;       // of the step, before it
+    bool ends_pushes = false;  // of the clone: they say nothing of those that follow
+  };
+
   double reach_m(const Body& body, double h_s) const;
   bool near(const Body& first, const Body& second, double margin_m) const;
   Contact contact(const Pair& pair, double h_s, double margin_m) const;
@@ -97,11 +102,11 @@ class BoxWorld {
   void hit(const Driver& driver);
   void set_motions(double h_s, const SteppedBy& how);
   void solve(double h_s, const SteppedBy& how);
-  void relax(Level level);
-  void go_on(Level level);
-  std::optional<double> share_before_event(double h_s) const;
-  std::optional<double> share_before_sliding_off(const Pair& pair, double h_s) const;
-  void move(double h_s, bool momentary);
+  void relax();
+  void mix();
+  Event next_event(double h_s) const;
+  std::optional<double> fraction_before_sliding_off(const Pair& pair, double h_s) const;
+  void move(double h_s, bool ends_pushes);
   void settle(double h_s);
 
   ContactSurface surface_;
@@ -112,7 +117,7 @@ class BoxWorld {
   std::vector<Eigen::Vector3d> listed_m_;  ///< where bodies were when neighbours were listed
   double listed_reach_m_ = 0;              ///< 0: to be listed anew
   bool hit_ = false;                       ///< the last step was one
-  std::vector<Manifold*> touching_;        ///< of this step; the table's last
+  std::vector<Manifold*> touching_;        ///< of this step, in a sweep's order
   long n_unsettled_ = 0;
   double last_energy_j_ = 0;  ///< of the last sweep's changes
 };

@@ -19,9 +19,10 @@ using Eigen::Vector3d;
 
 // Near boxes a step is cut into pieces in which the clone's oscillator turns no farther than this,
 // and no box either: a push is taken as steady over a piece, a lever as the same.
-constexpr double oscillation_rad = 0.75, turn_rad = 0.05;
+constexpr double oscillation_rad = 0.4, turn_rad = 0.05;
 constexpr double near_m = 5e-3;
-constexpr int most_pieces = 16;
+constexpr double most_pieces = 16;
+constexpr double rounding = 1e-9;
 constexpr int most_cuts = 24;  // pieces of a step that may end at an event
 
 // How many times more a push at the tip moves the clone than it turns the tip aside, at least.
@@ -66,70 +67,84 @@ class Coupled : public boxes::Driver {
     velocity_ = velocity;
   }
 
-  void set_motion(Body& clone, double h_s) const override {
-    Motion &mean = clone.step[boxes::mean], &end = clone.step[boxes::end];
-    mean = end = {velocity_};
-    clone.mean_to_end = 0;
-    if (!decoupled_) clone.velocity = velocity_;
-    if (!decoupled_) return;
-    if (h_s > 0)
-      set_translation(clone, h_s, mean, end);
+  void set_motion(Body& clone, const boxes::StepTime& time) const override {
+    Motion& step = clone.step;
+    step.mean = step.end = velocity_;
+    step.per_kg = 0;
+    step.turns = false;
+    if (!decoupled_) {
+      clone.velocity = velocity_;
+      return;
+    }
+    if (time.h_s > 0)
+      set_translation(clone, time, step);
     else
-      end = {clone.velocity, 1 / mass_kg_};
-    if (!locked_) set_rotation(clone, h_s, mean, end);
+      step.per_kg = 1 / mass_kg_;
+    if (!locked_) set_rotation(clone, time, step);
+    if (!(time.h_s > 0)) step.mean = step.end = clone.velocity;
   }
 
  private:
-  void set_translation(Body& clone, double h_s, Motion& mean, Motion& end) const {
-    const OscillatorStep& step =
+  void set_translation(const Body& clone, const boxes::StepTime& time, Motion& step) const {
+    const double h_s = time.h_s, mean_weight = time.mean_weight();
+    const OscillatorStep& axis =
         steps_[3].of({mass_kg_, coupling_.stiffness_n_per_m, coupling_.damping_ratio}, h_s);
     const Vector3d offset_m = clone.pose.position_m - from_.position_m;
     const Vector3d relative_m_s = clone.velocity.linear_m_s - velocity_.linear_m_s;
-    const double loss = coupling_.stiffness_n_per_m * step.offset_by_force;
-    mean.velocity.linear_m_s += (step.offset_by_velocity * relative_m_s - loss * offset_m) / h_s;
-    end.velocity.linear_m_s +=
-        step.velocity_by_offset * offset_m + step.velocity_by_velocity * relative_m_s;
-    mean.per_kg = step.offset_by_force / (h_s * h_s);
-    // A push that grows by so much more makes the same difference to where the clone gets to.
-    const double growth = step.offset_by_force / (step.offset_by_growth * h_s);
-    const double by_mean = step.velocity_by_growth * growth;
-    end.per_kg = step.velocity_by_force / h_s - by_mean;
-    clone.mean_to_end = by_mean / mean.per_kg;
-    if (!locked_) clone.carry_nothing();
+    const double loss = coupling_.stiffness_n_per_m * axis.offset_by_force;
+    step.mean.linear_m_s += (axis.offset_by_velocity * relative_m_s - loss * offset_m) / h_s;
+    step.end.linear_m_s +=
+        axis.velocity_by_offset * offset_m + axis.velocity_by_velocity * relative_m_s;
+    double mean_per_kg = axis.offset_by_force / (h_s * h_s);
+    double end_per_kg = axis.velocity_by_force / h_s;
+    if (clone.pushed_s > h_s / 2 && h_s * fastest_per_s() < 1) {
+      // From the middle of the last step on the push grows by so much per newton of difference.
+      const double growth_per_s = 2 / (h_s + clone.pushed_s);
+      const double mean_by_growth = growth_per_s * axis.offset_by_growth / h_s;
+      const double end_by_growth = growth_per_s * axis.velocity_by_growth;
+      mean_per_kg += mean_by_growth / h_s;
+      end_per_kg += end_by_growth / h_s;
+      step.mean.linear_m_s -= mean_by_growth * clone.pushed_n;
+      step.end.linear_m_s -= end_by_growth * clone.pushed_n;
+    }
+    end_per_kg = std::max(0.0, end_per_kg);  // a stiff spring may have swung back
+    step.per_kg = end_per_kg + mean_weight * (mean_per_kg - end_per_kg);
+    step.mean_by_ahead = mean_per_kg / step.per_kg;
   }
 
   // The same about each of the clone's own axes.
-  void set_rotation(const Body& clone, double h_s, Motion& mean, Motion& end) const {
+  void set_rotation(const Body& clone, const boxes::StepTime& time, Motion& step) const {
+    const double h_s = time.h_s, mean_weight = time.mean_weight();
     const auto& own = clone.pose.orientation;
     const Vector3d offset_rad = rotation_vector(from_.orientation.conjugate() * own);
     const Vector3d relative_rad_s =
         own.conjugate() * (clone.velocity.angular_rad_s - velocity_.angular_rad_s);
-    Vector3d mean_rad_s, end_rad_s, mean_per_kg_m2, end_per_kg_m2;
+    Vector3d mean_rad_s = Vector3d::Zero(), end_rad_s = mean_rad_s, per_kg_m2, mean_by_ahead;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto e = static_cast<Eigen::Index>(i);
       const double kappa = coupling_.torsional_stiffness_nm_per_rad;
       const CouplingAxis axis{inertia_kg_m2_[e], kappa, coupling_.damping_ratio};
       if (!(h_s > 0)) {
-        end_rad_s[e] = relative_rad_s[e];
-        end_per_kg_m2[e] = 1 / axis.mass;
-        mean_rad_s[e] = mean_per_kg_m2[e] = 0;
+        per_kg_m2[e] = mean_by_ahead[e] = 1 / axis.mass;
         continue;
       }
-      const OscillatorStep& step = steps_[i].of(axis, h_s);
-      mean_rad_s[e] = (step.offset_by_velocity * relative_rad_s[e] -
-                       kappa * step.offset_by_force * offset_rad[e]) /
-                      h_s;
+      const OscillatorStep& by = steps_[i].of(axis, h_s);
+      mean_rad_s[e] =
+          (by.offset_by_velocity * relative_rad_s[e] - kappa * by.offset_by_force * offset_rad[e]) /
+          h_s;
       end_rad_s[e] =
-          step.velocity_by_offset * offset_rad[e] + step.velocity_by_velocity * relative_rad_s[e];
-      mean_per_kg_m2[e] = step.offset_by_force / (h_s * h_s);
-      end_per_kg_m2[e] = step.velocity_by_force / h_s;
+          by.velocity_by_offset * offset_rad[e] + by.velocity_by_velocity * relative_rad_s[e];
+      const double mean_per_kg_m2 = by.offset_by_force / (h_s * h_s);
+      const double end_per_kg_m2 = std::max(0.0, by.velocity_by_force / h_s);
+      per_kg_m2[e] = end_per_kg_m2 + mean_weight * (mean_per_kg_m2 - end_per_kg_m2);
+      mean_by_ahead[e] = mean_per_kg_m2 / per_kg_m2[e];
     }
     const Eigen::Matrix3d axes = clone.shape.axes;
-    mean.velocity.angular_rad_s = velocity_.angular_rad_s + axes * mean_rad_s;
-    end.velocity.angular_rad_s = velocity_.angular_rad_s + axes * end_rad_s;
-    mean.per_kg_m2 = axes * mean_per_kg_m2.asDiagonal() * axes.transpose();
-    end.per_kg_m2 = axes * end_per_kg_m2.asDiagonal() * axes.transpose();
-    mean.turns = end.turns = true;
+    step.mean.angular_rad_s += axes * mean_rad_s;
+    step.end.angular_rad_s += axes * end_rad_s;
+    step.per_kg_m2 = axes * per_kg_m2.asDiagonal() * axes.transpose();
+    step.mean_turn_by_ahead = axes * mean_by_ahead.asDiagonal() * axes.transpose();
+    step.turns = true;
   }
 
   // Of one axis, kept: most steps are as long as the last.
@@ -170,6 +185,8 @@ class BoxesSimulator : public DecouplingSimulator {
   Body& clone() { return world_->body(clone_index); }
   static std::size_t index_of(std::size_t cube) { return cube + 1; }
   void note_impulses();
+  double regular_piece_s(const Velocity& of_target, double h_s);
+  double longest_after_hit_s(double regular_s);
 
   std::size_t n_cubes_ = 0;
   std::optional<BoxWorld> world_;
@@ -210,23 +227,33 @@ void BoxesSimulator::step(const Pose& target, double h_s) {
   const Pose from = target_;
   double left_s = h_s;
   for (int i = 0; left_s > 0; ++i) {
-    const double travel_m = left_s * std::max(clone().tip_speed_m_s(clone().velocity),
-                                              clone().tip_speed_m_s(of_target));
-    const double n_turning = left_s * world_->fastest_turn_rad_s() / turn_rad;
-    const bool near = world_->near_driven(near_m + travel_m);
-    const double n_swinging = near ? left_s * coupled_.fastest_per_s() / oscillation_rad : 0;
-    const bool momentary = n_swinging <= most_pieces;
-    double n = std::max(n_turning, momentary ? n_swinging : 0);
-    n = std::max(1.0, std::ceil(std::min(n, most_pieces * left_s / h_s)));
-    const bool cuts = i < most_cuts;
     coupled_.follow(target_, of_target);
-    const double done_s = world_->advance(left_s / n, {coupled_, cuts, momentary});
-    left_s = n == 1 && done_s == left_s ? 0 : left_s - done_s;
+    const double regular_s = regular_piece_s(of_target, h_s);
+    const double piece_s = left_s / std::ceil(left_s / regular_s - rounding);
+    const double done_s = world_->advance(std::min(piece_s, longest_after_hit_s(regular_s)),
+                                          {coupled_, regular_s, i < most_cuts});
+    left_s = done_s > (1 - rounding) * left_s ? 0 : left_s - done_s;
     target_ = left_s > 0 ? interpolate(from, target, 1 - left_s / h_s) : target;
     coupled_.keep_on(target_, clone());
     note_impulses();
   }
   last_h_s_ = h_s;
+}
+
+// Of a step of h_s seconds.
+double BoxesSimulator::regular_piece_s(const Velocity& of_target, double h_s) {
+  const double travel_m =
+      h_s * std::max(clone().tip_speed_m_s(clone().velocity), clone().tip_speed_m_s(of_target));
+  const bool near = world_->near_driven(near_m + travel_m);
+  const double n_swinging = near ? h_s * coupled_.fastest_per_s() / oscillation_rad : 0;
+  const double n_turning = h_s * world_->fastest_turn_rad_s() / turn_rad;
+  const double n = std::max(n_turning, n_swinging <= most_pieces ? n_swinging : 0);
+  return h_s / std::clamp(std::ceil(n), 1.0, most_pieces);
+}
+
+// How a push grows is known from the piece before, but not after a hit.
+double BoxesSimulator::longest_after_hit_s(double regular_s) {
+  return clone().pushed_s > 0 ? 2 * clone().pushed_s : regular_s / 8;
 }
 
 void BoxesSimulator::note_impulses() {

@@ -1,6 +1,5 @@
 // One pair of bodies that touch or are about to, in the form that the solver iterates over: at most
-// four points in one plane across a normal, each with a normal impulse and a friction impulse, at
-// both levels of a step (see Body.h).
+// four points in one plane across a normal, each with a normal impulse and a friction impulse.
 //
 // How rigid bodies move against each other at any of the points follows from six numbers, how they
 // do at the points' middle; and what the points' impulses do to the bodies from their six sums
@@ -43,45 +42,47 @@ class Manifold {
 
   /// Takes note of where the bodies are and how they move when a step begins.
   void start();
-  /// Takes the bodies' motions over a step of h_s seconds; 0: over an instant, for a hit.
-  /// @param parting_m_s at most so fast overlaps are undone
-  void take_step(double h_s, double parting_m_s);
+  /// Takes the bodies' motions over a step.
+  void take_step(const StepTime& time);
 
   /// From now on points that are still apart stop the bodies where they meet; without this they are
-  /// left to hit each other, see share_before_hit().
+  /// left to hit each other, see fraction_before_hit().
   void stop_at_gaps();
 
   /// Applies the impulses known so far.
-  void warm_start(Level level);
+  void warm_start();
   /// Extrapolates the impulses of the last two steps, where that was right for the last one.
   void extrapolate();
-  /// Goes on by a share of how far the last sweep's end is from the one before; the bodies'
+  /// Goes on by a fraction of how far the last sweep's end is from the one before; the bodies'
   /// velocities have to follow.
-  void begin_sweeps(Level level) { rows_[level].swept = rows_[level].impulses; }
-  void go_on(Level level, double share);
+  void begin_sweeps() { swept_ = impulses_; }
+  void go_on(double fraction);
 
   /// One sweep of projected Gauss-Seidel.
   /// @return the largest change of a velocity at a point, m/s
-  double relax(Level level);
+  double relax();
 
-  /// The largest speed at which points that touch close in, as the bodies move now, m/s.
-  double closing_m_s() const;
-  /// The share of the step after which points that are apart now meet, as the mean velocities have
-  /// it; none if they do not.
-  std::optional<double> share_before_hit() const;
+  /// The largest speed at which points that touch close in when the step begins, m/s.
+  double closing_m_s() const { return closing_at_start_m_s_; }
+  /// The fraction of the step after which points that are apart now meet; none if they do not.
+  std::optional<double> fraction_before_hit() const {
+    return touching_ == (1u << n_) - 1 ? std::nullopt : fraction_before_meeting();
+  }
+  /// The fraction of the step after which friction stops a patch that slips now; none if it slips
+  /// on or does not slip.
+  std::optional<double> fraction_before_stop() const;
 
-  /// A hit starts from no impulse; the step after it from what the mean was started from.
-  void begin_hit() { rows_[end].impulses.setZero(); }
+  /// The same over an instant. A hit starts from no impulse; the step after it from what was held
+  /// before.
+  void begin_hit();
   /// @return the hit's impulse on the first body, N s
   Eigen::Vector3d end_hit();
 
-  /// Whether a driven body is in it and an overlap is to be undone: impulses are no pushes then.
-  bool parts_driven() const;
-  bool touches() const { return n_ > 0 && rows_[mean].impulses.col(0).maxCoeff() > 0; }
+  bool touches() const { return n_ > 0 && impulses_.col(0).maxCoeff() > 0; }
   bool empty() const { return n_ == 0; }
   const Eigen::Vector3d& normal() const { return normal_; }  ///< from the second to the first, unit
   /// Impulse on the first body over the step, N s.
-  Eigen::Vector3d impulse_n_s() const { return in_world(rows_[mean].impulses); }
+  Eigen::Vector3d impulse_n_s() const { return in_world(impulses_); }
   void forget_impulses();
 
  private:
@@ -96,55 +97,36 @@ class Manifold {
     Eigen::Vector3d tangential = Eigen::Vector3d::Zero();  // along u, along v, about the normal
   };
 
-  // What is solved for at one level.
-  struct Rows {
-    double first_per_kg = 0, second_per_kg = 0;  // that the rest was made with
-    // Changes of the motion per impulse, and the impulse that stops a unit tangential motion.
-    Eigen::Matrix3d normal_by_normal, tangential_by_normal, tangential_by_tangential;
-    Eigen::Matrix3d tangential_mass;
-    Eigen::Matrix4d response;  // velocities along the normal per normal impulse at each point
-    Eigen::Matrix4d stopping;  // its inverse over a set of the points
-    unsigned stopping_set = 0;
-    Points slip_per_kg;  // the most that a friction impulse changes a slip by
-    Points closing_m_s = Points::Zero();
-    Points softness = Points::Zero();  // m/s per N s
-    Impulses impulses = Impulses::Zero();
-    Impulses before = Impulses::Zero();    // at the start of the last solve's step before
-    Impulses foreseen = Impulses::Zero();  // by a line through the last two
-    Impulses swept = Impulses::Zero();     // the end of the last sweep
-  };
-
+  std::optional<double> fraction_before_meeting() const;
   void take_points(const Contact& contact);
   void take_frame(const Contact& contact);
-  void couple(Rows& rows, const Motion& first, const Motion& second) const;
-  void set_closing(double parting_m_s);
+  void couple_if_new();
+  void couple();
+  void set_closing();
   void find_balance();
   Eigen::Vector3d moved_m() const;
 
   Six moving(const Velocity& first, const Velocity& second) const;
-  Six moving(Level level) const {
-    return moving(first_->step[level].velocity, second_->step[level].velocity);
-  }
   Eigen::Vector3d tangential_sum(const Impulses& impulses) const;
   Eigen::Vector3d in_world(const Impulses& impulses) const;
-  void apply(Level level, const Six& impulses_n_s);
+  void apply(const Six& impulses_n_s);
 
-  double press(Rows& rows, Six& moving, Six& change);
-  Points release(Rows& rows, unsigned active, const Points& missing);
-  const Eigen::Matrix4d& stopping(Rows& rows, unsigned set);
-  void balance(Rows& rows) const;
+  double press(Six& moving, Six& change);
+  Points release(unsigned active, const Points& missing);
+  const Eigen::Matrix4d& stopping(unsigned set);
+  void balance();
 
-  double stick(Level level, const Six& moving, Six& change);
-  Eigen::Vector3d until_stop(const Rows& rows, const Eigen::Vector3d& stopping_n_s) const;
-  bool share_friction(Impulses& impulses, const Eigen::Vector3d& more) const;
-  double slip(Rows& rows, const Eigen::Vector3d& slips, const Eigen::Vector3d& bias,
-              Six& change) const;
+  double stick(const Six& moving, Six& change);
+  bool share_friction(const Eigen::Vector3d& more);
+  double slip(const Eigen::Vector3d& slips, Six& change);
+  double slip_straight(const Eigen::Vector3d& slips, Six& change);
 
   Body* first_ = nullptr;
   Body* second_ = nullptr;
   bool on_table_ = false;
   ContactSurface surface_;
-  double h_s_ = 0, margin_m_ = 0;
+  StepTime time_;
+  double margin_m_ = 0;
   Pose first_seen_, second_seen_;  // by prepare()
 
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ(), u_ = normal_, v_ = normal_;
@@ -163,7 +145,24 @@ class Manifold {
   Points balance_ = Points::Zero();
 
   Six at_start_;  // how the bodies moved when the step began
-  std::array<Rows, 2> rows_;
+  double closing_at_start_m_s_ = 0;
+  bool sticks_ = false;
+
+  // Changes of the motion per impulse, and the impulse that stops a unit tangential motion.
+  double first_per_kg_ = 0, second_per_kg_ = 0;  // that the rest was made with
+  Eigen::Matrix3d tangential_by_normal_, tangential_by_tangential_, tangential_mass_;
+  Eigen::Matrix4d response_;  // velocities along the normal per normal impulse at each point
+  Eigen::Matrix4d stopping_;  // its inverse over a set of the points
+  unsigned stopping_set_ = 0;
+  Points slip_per_kg_ = Points::Zero();  // the most that a friction impulse changes a slip by
+  Points closing_m_s_ = Points::Zero();  // at which points may close in
+  Points softness_ = Points::Zero();     // m/s per N s
+
+  Impulses impulses_ = Impulses::Zero();
+  Impulses before_ = impulses_;    // at the end of the step before
+  Impulses foreseen_ = impulses_;  // by a line through the last two
+  Impulses swept_ = impulses_;     // at the end of the last sweep
+  Impulses held_ = impulses_;      // before a hit
 };
 
 }  // namespace heft::boxes

@@ -12,6 +12,7 @@ using Eigen::Vector3d;
 
 namespace {
 constexpr double least_spread_m = 1e-6;       // of points that are worth calling a patch
+constexpr double straight = 1e-3;             // of a slip that may be spin
 constexpr double least_slip_m_s = 1e-4;       // that is worth stopping exactly
 constexpr double least_impulse_n_s = 1e-100;  // that can be divided by
 constexpr double least_spread_m2 = 1e-12;     // of loads that can bear a moment about the normal
@@ -35,39 +36,40 @@ Vector3d Manifold::tangential_sum(const Impulses& impulses) const {
 // Stops the patch where friction is strong enough for that, at every point, if the points share it
 // in proportion to their loads.
 // @return the velocity that it had, m/s; negative where friction is too weak: nothing is changed
-double Manifold::stick(Level level, const Six& moving, Six& change) {
-  Rows& rows = rows_[level];
-  if (spread_m_ < least_spread_m || !(rows.tangential_by_tangential(2, 2) > 0)) return -1;
-  Vector3d over = moving.tangential;
-  if (level == mean && at_start_.tangential.head<2>().norm() > least_slip_m_s)
-    over -= until_stop(rows, tangential_sum(rows.impulses) - rows.tangential_mass * over);
-  const Vector3d more = -(rows.tangential_mass * over);
-  if (!share_friction(rows.impulses, more)) return -1;
+double Manifold::stick(const Six& moving, Six& change) {
+  sticks_ = false;
+  if (spread_m_ < least_spread_m || !(tangential_by_tangential_(2, 2) > 0)) return -1;
+  const Vector3d& over = moving.tangential;
+  const Vector3d more = -(tangential_mass_ * over);
+  if (!share_friction(more)) return -1;
+  sticks_ = true;
   change.tangential += more;
   return std::max({std::abs(over[0]), std::abs(over[1]), std::abs(over[2]) * spread_m_});
 }
 
-// Friction at its limit that would turn a slip s0 into one backwards stops it after a share of the
-// step; until then it has gone on, and is s0 share / 2 in the mean over the step.
-// @param stopping_n_s friction's impulse if the mean were none
-Vector3d Manifold::until_stop(const Rows& rows, const Vector3d& stopping_n_s) const {
+// Friction at its limit would turn the slip at the start, s0, into one backwards, s, beyond the
+// end. A slip that changes steadily from s0 is s on the way, after (1 - mean weight / 2) of the
+// step.
+std::optional<double> Manifold::fraction_before_stop() const {
   const Vector3d& slip = at_start_.tangential;
   const double speed_m_s = slip.head<2>().norm();
-  const double mean_mass_kg = slip.dot(rows.tangential_mass * slip) / slip.squaredNorm();
-  const double limit_n_s = surface_.friction * rows.impulses.col(0).sum();
-  const double spare_m_s = (limit_n_s - stopping_n_s.head<2>().norm()) * 2 / mean_mass_kg;
-  const double share = speed_m_s / std::max(speed_m_s, 2 * speed_m_s + spare_m_s);
-  return share / 2 * slip;
+  if (!sticks_ || speed_m_s < least_slip_m_s) return std::nullopt;
+  const Vector3d friction_n_s = tangential_sum(impulses_);
+  const double mass_kg = slip.dot(tangential_mass_ * slip) / slip.squaredNorm();
+  const double spare_n_s =
+      surface_.friction * impulses_.col(0).sum() - friction_n_s.head<2>().norm();
+  return (1 - time_.mean_weight() / 2) * speed_m_s /
+         (speed_m_s + std::max(0.0, spare_n_s) / mass_kg);
 }
 
 // Adds a force impulse and a moment impulse about the patch's middle to the sum of the points'
 // friction, and shares the whole among them in proportion to their loads. That leaves no impulses
 // that only pull the points against each other.
-bool Manifold::share_friction(Impulses& impulses, const Vector3d& more) const {
-  const Points loads = impulses.col(0);
+bool Manifold::share_friction(const Vector3d& more) {
+  const Points loads = impulses_.col(0);
   const double load = loads.sum(), friction = surface_.friction;
   if (!(load > 0)) return false;
-  const Vector3d sum = tangential_sum(impulses) + more;
+  const Vector3d sum = tangential_sum(impulses_) + more;
   // Points that share the load cannot hold more than all of it would.
   if (sum.head<2>().squaredNorm() > friction * friction * load * load) return false;
   const double per_load = 1 / load;
@@ -81,24 +83,49 @@ bool Manifold::share_friction(Impulses& impulses, const Vector3d& more) const {
   const Points v = loads.array() * per_load * (sum[1] + turn * (at_u_m_.array() - center_u_m));
   const Points beyond = u.cwiseAbs2() + v.cwiseAbs2() - friction * friction * loads.cwiseAbs2();
   if (beyond.maxCoeff() > 0) return false;
-  impulses.col(1) = u;
-  impulses.col(2) = v;
+  impulses_.col(1) = u;
+  impulses_.col(2) = v;
   return true;
 }
 
+// A patch at its limit that does not spin slips as one.
+// @return the change of its velocity, m/s; negative where that is not so: nothing is changed
+double Manifold::slip_straight(const Vector3d& slips, Six& change) {
+  const double load = impulses_.col(0).sum(), limit = surface_.friction * load;
+  const Vector3d bias = (1 - time_.mean_weight()) * at_start_.tangential;
+  const Vector3d mean = slips + bias;
+  if (!(load > 0) || std::abs(mean[2]) * spread_m_ > straight * mean.head<2>().norm()) return -1;
+  const Vector3d was = tangential_sum(impulses_);
+  double& per_kg = slip_per_kg_[0];
+  if (per_kg == 0) per_kg = response_at(at_u_m_[0], at_v_m_[0], tangential_by_tangential_);
+  Vector2d now = was.head<2>() - slips.head<2>() / per_kg;
+  if (now.squaredNorm() <= limit * limit) return -1;
+  now -= bias.head<2>() / per_kg;
+  now *= limit / now.norm();
+  const Points portions = impulses_.col(0) / load;
+  impulses_.col(1) = now[0] * portions;
+  impulses_.col(2) = now[1] * portions;
+  const Vector3d more = tangential_sum(impulses_) - was;
+  change.tangential += more;
+  return per_kg * more.head<2>().cwiseAbs().maxCoeff();
+}
+
 // By projected gradient on Coulomb's disk, one point after the other: an impulse inside it stops
-// the slip; one on its rim is against the slip, and against `bias` beside it.
+// the slip; one on its rim is against the mean slip over the step, which is between that at its
+// start and the one that is solved for.
 // @return the largest change of a velocity at a point, m/s
-double Manifold::slip(Rows& rows, const Vector3d& slips, const Vector3d& bias, Six& change) const {
+double Manifold::slip(const Vector3d& slips, Six& change) {
+  if (const double changed_m_s = slip_straight(slips, change); changed_m_s >= 0) return changed_m_s;
   Vector3d speed = slips;
   double largest = 0;
-  const Matrix3d& by = rows.tangential_by_tangential;
+  const Vector3d bias = (1 - time_.mean_weight()) * at_start_.tangential;
+  const Matrix3d& by = tangential_by_tangential_;
   for (int i = 0; i < n_; ++i) {
-    const double limit = surface_.friction * rows.impulses(i, 0);
-    const Vector2d was = rows.impulses.row(i).tail<2>();
+    const double limit = surface_.friction * impulses_(i, 0);
+    const Vector2d was = impulses_.row(i).tail<2>();
     if (limit == 0 && was.isZero(0)) continue;
     const double at_u_m = at_u_m_[i], at_v_m = at_v_m_[i];
-    double& per_kg = rows.slip_per_kg[i];
+    double& per_kg = slip_per_kg_[i];
     if (per_kg == 0) per_kg = response_at(at_u_m, at_v_m, by);
     const auto at_point = [&](const Vector3d& of_patch) {
       return Vector2d(of_patch[0] - at_v_m * of_patch[2], of_patch[1] + at_u_m * of_patch[2]);
@@ -110,7 +137,7 @@ double Manifold::slip(Rows& rows, const Vector3d& slips, const Vector3d& bias, S
     }
     const Vector2d more = now - was;
     const Vector3d on_patch(more[0], more[1], at_u_m * more[1] - at_v_m * more[0]);
-    rows.impulses.row(i).tail<2>() = now;
+    impulses_.row(i).tail<2>() = now;
     speed += by * on_patch;
     change.tangential += on_patch;
     largest = std::max(largest, more.cwiseAbs().maxCoeff() * per_kg);

@@ -23,29 +23,28 @@ bool has(unsigned set, int i) {
 
 // The normal impulses at the points of a set that change their velocities as wanted, per velocity;
 // zero for the other points. Kept: most sweeps ask for the same set.
-const Matrix4d& Manifold::stopping(Rows& rows, unsigned set) {
-  if (rows.stopping_set == set) return rows.stopping;
-  rows.stopping_set = set;
+const Matrix4d& Manifold::stopping(unsigned set) {
+  if (stopping_set_ == set) return stopping_;
+  stopping_set_ = set;
   Matrix4d block = Matrix4d::Identity();
   Points in_set;
   for (int i = 0; i < 4; ++i) {
     in_set[i] = has(set, i);
     for (int j = 0; j < 4; ++j)
-      if (has(set, i) && has(set, j)) block(i, j) = rows.response(i, j);
-    if (has(set, i)) block(i, i) = (1 + firmness) * (rows.response(i, i) + rows.softness[i]);
+      if (has(set, i) && has(set, j)) block(i, j) = response_(i, j);
+    if (has(set, i)) block(i, i) = (1 + firmness) * (response_(i, i) + softness_[i]);
   }
-  rows.stopping = block.llt().solve(Matrix4d(in_set.asDiagonal()));
-  return rows.stopping;
+  stopping_ = block.llt().solve(Matrix4d(in_set.asDiagonal()));
+  return stopping_;
 }
 
 // All points at once: a light clone before a heavy cube feels the sum of its points' impulses, the
 // cube how they are spread, and one point after the other would find the spread only slowly.
 // @param moving its tangential part follows
 // @return the largest change of a velocity at a point, m/s
-double Manifold::press(Rows& rows, Six& moving, Six& change) {
-  const Points now = rows.impulses.col(0);
-  const Points missing =
-      -(levers_ * moving.normal) - rows.closing_m_s - rows.softness.cwiseProduct(now);
+double Manifold::press(Six& moving, Six& change) {
+  const Points now = impulses_.col(0);
+  const Points missing = -(levers_ * moving.normal) - closing_m_s_ - softness_.cwiseProduct(now);
   unsigned active = 0;
   double largest = 0;
   for (int i = 0; i < n_; ++i) {
@@ -54,21 +53,21 @@ double Manifold::press(Rows& rows, Six& moving, Six& change) {
     largest = std::max(largest, std::abs(missing[i]));
   }
   if (active == 0) return 0;
-  Points more = stopping(rows, active) * missing;
-  if ((now + more).minCoeff() < 0) more = release(rows, active, missing);
-  rows.impulses.col(0) = (now + more).cwiseMax(0);
+  Points more = stopping(active) * missing;
+  if ((now + more).minCoeff() < 0) more = release(active, missing);
+  impulses_.col(0) = (now + more).cwiseMax(0);
   change.normal = levers_.transpose() * more;
-  moving.tangential += rows.tangential_by_normal * change.normal;
+  moving.tangential += tangential_by_normal_ * change.normal;
   return largest;
 }
 
 // Lets go of one point after the other that would have to pull.
 // @return changes of the normal impulses
-Manifold::Points Manifold::release(Rows& rows, unsigned active, const Points& missing) {
-  const Points now = rows.impulses.col(0);
+Manifold::Points Manifold::release(unsigned active, const Points& missing) {
+  const Points now = impulses_.col(0);
   Points more, given = Points::Zero();
   for (;;) {
-    more = stopping(rows, active) * (missing - rows.response * given) + given;
+    more = stopping(active) * (missing - response_ * given) + given;
     int worst = 0;
     if ((now + more).minCoeff(&worst) >= 0 || !has(active, worst)) return more;
     active &= ~(1u << worst);
@@ -91,13 +90,13 @@ void Manifold::find_balance() {
 
 // Of all normal impulses that do the same, those with the smallest sum of squares: the limit of
 // equally stiff points as they become rigid.
-void Manifold::balance(Rows& rows) const {
-  const Points now = rows.impulses.col(0);
+void Manifold::balance() {
+  const Points now = impulses_.col(0);
   if (!(now.minCoeff() > 0)) return;
   double uneven = balance_.dot(now);
   for (int i = 0; i < 4; ++i)  // no further than to zero
     if (uneven * balance_[i] > now[i]) uneven = now[i] / balance_[i];
-  rows.impulses.col(0) = (now - uneven * balance_).cwiseMax(0);
+  impulses_.col(0) = (now - uneven * balance_).cwiseMax(0);
 }
 
 }  // namespace heft::boxes

@@ -8,48 +8,38 @@ namespace heft::boxes {
 using Eigen::Vector3d;
 
 namespace {
-constexpr double right_share = 0.1;  // of a change, squared, that was foreseen wrongly
+constexpr double right_enough = 0.1;  // of a change, squared, that was foreseen wrongly
 }
 
-void Manifold::warm_start(Level level) {
-  const Impulses& known = rows_[level].impulses;
-  if (n_ > 0 && known.col(0).maxCoeff() > 0)
-    apply(level, {levers_.transpose() * known.col(0), tangential_sum(known)});
+void Manifold::warm_start() {
+  if (touches()) apply({levers_.transpose() * impulses_.col(0), tangential_sum(impulses_)});
 }
 
 void Manifold::extrapolate() {
-  if (!surface_.shortcuts) return;
-  for (Rows& rows : rows_) {
-    const Impulses last = rows.impulses, line = 2 * last - rows.before;
-    const double off_before = (last - rows.before).squaredNorm();
-    const bool grows = (last - rows.foreseen).squaredNorm() < right_share * off_before;
-    rows.before = last;
-    rows.foreseen = line;
-    for (int i = 0; grows && i < n_; ++i)
-      if (line(i, 0) > 0 && last(i, 0) > 0) rows.impulses.row(i) = line.row(i);
-  }
+  if (!surface_.shortcuts || !touches()) return;
+  const Impulses last = impulses_, line = 2 * last - before_;
+  const double off_before = (last - before_).squaredNorm();
+  const bool grows = (last - foreseen_).squaredNorm() < right_enough * off_before;
+  before_ = last;
+  foreseen_ = line;
+  for (int i = 0; grows && i < n_; ++i)
+    if (line(i, 0) > 0 && last(i, 0) > 0) impulses_.row(i) = line.row(i);
 }
 
-void Manifold::go_on(Level level, double share) {
-  Rows& rows = rows_[level];
-  const Impulses swept = rows.impulses;
-  rows.impulses += share * (swept - rows.swept);
-  rows.swept = swept;
+void Manifold::go_on(double fraction) {
+  const Impulses swept = impulses_;
+  impulses_ += fraction * (swept - swept_);
+  swept_ = swept;
 }
 
-double Manifold::relax(Level level) {
-  Rows& rows = rows_[level];
-  Six now = moving(level), change;
-  const double pressed_m_s = press(rows, now, change);
-  if (n_ == 4) balance(rows);
-  double rubbed_m_s = stick(level, now, change);
-  if (rubbed_m_s < 0) {
-    // Friction is against the mean slip over the step. The bodies speed up steadily.
-    const Vector3d bias = level == end ? at_start_.tangential : Vector3d::Zero();
-    rubbed_m_s = slip(rows, now.tangential, bias, change);
-  }
+double Manifold::relax() {
+  Six now = moving(first_->step.ahead, second_->step.ahead), change;
+  const double pressed_m_s = press(now, change);
+  if (n_ == 4 && pressed_m_s > 0) balance();
+  double rubbed_m_s = stick(now, change);
+  if (rubbed_m_s < 0) rubbed_m_s = slip(now.tangential, change);
   const double changed_m_s = std::max(pressed_m_s, rubbed_m_s);
-  if (changed_m_s > 0) apply(level, change);
+  if (changed_m_s > 0) apply(change);
   return changed_m_s;
 }
 
@@ -64,12 +54,12 @@ Manifold::Six Manifold::moving(const Velocity& first, const Velocity& second) co
           {along.dot(u_), along.dot(v_), about.dot(normal_)}};
 }
 
-void Manifold::apply(Level level, const Six& impulses_n_s) {
+void Manifold::apply(const Six& impulses_n_s) {
   const auto& [normal, tangential] = impulses_n_s;
   const Vector3d along = normal[0] * normal_ + tangential[0] * u_ + tangential[1] * v_;
   const Vector3d about = tangential[2] * normal_ + normal[1] * u_ + normal[2] * v_;
-  first_->step[level].push(along, arm_first_m_.cross(along) + about);
-  if (!on_table_) second_->step[level].push(-along, -(arm_second_m_.cross(along) + about));
+  first_->step.push(along, arm_first_m_.cross(along) + about);
+  if (!on_table_) second_->step.push(-along, -(arm_second_m_.cross(along) + about));
 }
 
 }  // namespace heft::boxes
