@@ -1,5 +1,5 @@
 // The normal impulses of a Manifold: all points at once.
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -26,15 +26,16 @@ bool has(unsigned set, int i) {
 const Matrix4d& Manifold::stopping(unsigned set) {
   if (stopping_set_ == set) return stopping_;
   stopping_set_ = set;
-  Matrix4d block = Matrix4d::Identity();
-  Points in_set;
+  Matrix4d block = Matrix4d::Zero();
   for (int i = 0; i < 4; ++i) {
-    in_set[i] = has(set, i);
-    for (int j = 0; j < 4; ++j)
-      if (has(set, i) && has(set, j)) block(i, j) = response_(i, j);
-    if (has(set, i)) block(i, i) = (1 + firmness) * (response_(i, i) + softness_[i]);
+    block(i, i) = (1 + firmness) * (response_(i, i) + softness_[i]);
+    if (!(block(i, i) > 0)) block(i, i) = response_(0, 0);  // no point
+    for (int j = 0; j < i; ++j)
+      if (has(set, i) && has(set, j)) block(i, j) = block(j, i) = response_(i, j);
   }
-  stopping_ = block.llt().solve(Matrix4d(in_set.asDiagonal()));
+  stopping_ = block.inverse();
+  for (int i = 0; i < 4; ++i)
+    if (!has(set, i)) stopping_(i, i) = 0;
   return stopping_;
 }
 
