@@ -168,6 +168,10 @@ void Manifold::couple() {
 void Manifold::set_closing() {
   const double c = surface_.compliance_m_per_n;
   softness_.setZero();
+  if (c == 0 && touching_ == 0b1111 && gaps_m_.cwiseAbs().maxCoeff() < flat_m) {  // by far most
+    closing_m_s_.setZero();
+    return;
+  }
   closing_m_s_.setConstant(never_m_s);
   double nearest_m = gaps_m_[0];
   for (int i = 1; i < n_; ++i) nearest_m = std::min(nearest_m, gaps_m_[i]);

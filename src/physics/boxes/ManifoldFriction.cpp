@@ -115,7 +115,6 @@ double Manifold::slip_straight(const Vector3d& slips, Six& change) {
 // start and the one that is solved for.
 // @return the largest change of a velocity at a point, m/s
 double Manifold::slip(const Vector3d& slips, Six& change) {
-  if (const double changed_m_s = slip_straight(slips, change); changed_m_s >= 0) return changed_m_s;
   Vector3d speed = slips;
   double largest = 0;
   const Vector3d bias = (1 - time_.mean_weight()) * at_start_.tangential;
