@@ -26,6 +26,28 @@ CouplingLaw::Sampled CouplingLaw::sampled(const CouplingAxis& axis, double h_s) 
           0};
 }
 
+OscillatorStep oscillator_step(const CouplingAxis& axis, double h_s) {
+  const auto [half_trace, impulse, d, a, decay, turn] = CouplingLaw::sampled(axis, h_s);
+  const double k = axis.stiffness, m = axis.mass, damping_s = 2 * decay * m / k;
+  const double lost = (a - std::expm1(-2 * decay * h_s)) / 2 - decay * impulse;
+  OscillatorStep step;
+  step.offset_by_offset = 1 - lost;
+  step.offset_by_velocity = impulse;
+  step.offset_by_force = lost / k;
+  step.velocity_by_offset = -k / m * impulse;
+  step.velocity_by_velocity = half_trace - decay * impulse;
+  step.velocity_by_force = impulse / m;
+  if (h_s * std::sqrt(k / m) < 0.01) {  // the differences below are lost in rounding
+    step.offset_by_growth = -h_s * h_s * h_s / (12 * m);
+    step.velocity_by_growth = decay * h_s * h_s * h_s / (6 * m);
+  } else {
+    step.offset_by_growth = (h_s - impulse - lost * (damping_s + h_s / 2)) / k;
+    step.velocity_by_growth =
+        (1 - step.velocity_by_velocity + step.velocity_by_offset * (damping_s + h_s / 2)) / k;
+  }
+  return step;
+}
+
 void CouplingLaw::sample(double h_s) {
   if (std::abs(h_s - sampled_h_s_) <= 1e-12 * h_s) return;  // a difference of times rounds
   now_ = sampled(axis_, h_s);
@@ -69,7 +91,7 @@ FreeStep CouplingLaw::begin(double offset, double target_velocity, double h_s) {
     const double a = now_.a;
     step_.solver_mass = k * h_s * h_s / a;
     step_.velocity =
-        u + memory(offset, h_s) - a / h_s * offset - m / step_.solver_mass * (u - target_velocity_);
+        u + memory(offset, h_s) - a / h_s * offset - now_.impulse / h_s * (u - target_velocity_);
   }
   h_s_ = h_s;
   next_target_velocity_ = u;
@@ -77,8 +99,7 @@ FreeStep CouplingLaw::begin(double offset, double target_velocity, double h_s) {
 }
 
 void CouplingLaw::end(double velocity) {
-  const double contact = step_.solver_mass * (velocity - step_.velocity) / h_s_;
-  load_ = contact - axis_.mass * (next_target_velocity_ - target_velocity_) / h_s_;
+  load_ = step_.solver_mass * (velocity - step_.velocity) / h_s_;
   velocity_ = velocity;
   target_velocity_ = next_target_velocity_;
   last_h_s_ = h_s_;

@@ -6,10 +6,12 @@
 // With e = clone - target at the start of the step, u0 and u1 = the target's mean velocity over the
 // last and this step, w = mean velocity of the clone over the last step, less u0:
 //   implicit Euler    M = m + h c + h^2 k,   v = u1 + (m (w + u0 - u1) - h k e) / M
-//   exact             M = k h^2 / a,         v = u1 + d w - (a / h) e - (m / M) (u1 - u0)
-// where d = e^(-2 z w0 h), s = 2 e^(-z w0 h) Re cosh(w0 h sqrt(z^2 - 1)), a = 1 - s + d are those
-// of the sampled oscillator with w0 = sqrt(k/m) and damping ratio z: it is exact in free motion and
-// under a steady load, for every step.
+//   exact             M = k h^2 / a,         v = u1 + d w - (a / h) e - (b / h) (u1 - u0)
+// where d = e^(-2 z w0 h), s = 2 e^(-z w0 h) Re cosh(w0 h sqrt(z^2 - 1)), a = 1 - s + d and the
+// impulse response b are those of the sampled oscillator with w0 = sqrt(k/m) and damping ratio z:
+// it is exact in free motion, under a steady load, and where the target's velocity steps.
+//
+// A solver that keeps momentary velocities needs no memory: oscillator_step() is all there is.
 #pragma once
 
 namespace heft {
@@ -28,6 +30,18 @@ struct FreeStep {
   double solver_mass = 0;
   double velocity = 0;  ///< at which the clone moves if nothing touches it
 };
+
+/// What an axis does by itself, and under a steady force, in a step: exact. Offset and velocity are
+/// the clone's against a target that goes straight on; `offset_by_force` is how far 1 N takes it.
+struct OscillatorStep {
+  double offset_by_offset = 1, offset_by_velocity = 0, offset_by_force = 0;
+  double velocity_by_offset = 0, velocity_by_velocity = 1, velocity_by_force = 0;
+  /// The same of a force that grows by 1 N/s and is 0 in the middle of the step.
+  double offset_by_growth = 0, velocity_by_growth = 0;
+};
+
+/// @param h_s above 0
+OscillatorStep oscillator_step(const CouplingAxis& axis, double h_s);
 
 class CouplingLaw {
  public:
@@ -52,6 +66,7 @@ class CouplingLaw {
     double turn = 0;   // radians of oscillation in h; 0 unless underdamped
   };
   static Sampled sampled(const CouplingAxis& axis, double h_s);
+  friend OscillatorStep oscillator_step(const CouplingAxis& axis, double h_s);
   void sample(double h_s);
   double memory(double offset, double h_s) const;
 

@@ -47,6 +47,9 @@ class DecouplingSimulator {
 
   /// State after the last step.
   virtual WorldState state() const = 0;
+
+  /// How often, since the reset, velocities were taken before its solver had settled on them.
+  virtual long unsettled() const { return 0; }
 };
 
 using MakeSimulator = std::unique_ptr<DecouplingSimulator> (*)();

@@ -52,6 +52,9 @@ class Drive {
 
   const WorldState& state() const { return state_; }
 
+  /// As DecouplingSimulator::unsettled.
+  long unsettled() const { return simulator_->unsettled(); }
+
  private:
   void start(const TargetSample& sample);
   Pose end_of_path(const TargetSample& sample) const;

@@ -129,7 +129,7 @@ TEST_F(QuickStudy, DrawsRandomHandsFromItsSeed) {
     if (row.at("simulator") == "boxes" && row.at("rate_hz") == "240")
       n_ran[row.at("setting")] = std::stoi(row.at("n_ran"));
   }
-  EXPECT_EQ(n_ran["promised"], 7);
+  EXPECT_EQ(n_ran["promised"], 8);
   const BenchScene one = random_scene(Setting::staggered, 7, 3);
   EXPECT_EQ(path_csv(one), path_csv(random_scene(Setting::staggered, 7, 3)));
   EXPECT_NE(path_csv(one), path_csv(random_scene(Setting::staggered, 7, 4)));

@@ -17,12 +17,6 @@ namespace {
 // are kept in 99.5 %, as n_over_tolerance counts.
 constexpr double nearly_all = 0.9975;
 
-// What auto's promise is for. Where a second cube is met while the first is pushed, no rate keeps
-// it.
-bool is_promised(Setting setting) {
-  return has_one_answer(setting) && setting != Setting::staggered;
-}
-
 // A simulator and the rates that it is measured at.
 struct Entry {
   std::string_view name;
@@ -154,7 +148,7 @@ void study_hands(const StudyOptions& options) {
     }
     for (const auto& [key, runs] : here) {
       write(csv, options.seed, key, settings[s], runs);
-      if (is_promised(static_cast<Setting>(s))) promised[key].add(runs);
+      if (has_one_answer(static_cast<Setting>(s))) promised[key].add(runs);
     }
   }
   for (const auto& [key, runs] : promised) write(csv, options.seed, key, "promised", runs);

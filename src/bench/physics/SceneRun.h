@@ -39,8 +39,9 @@ struct EnumNames<Fate> {
 
 struct SceneRun {
   Fate fate = Fate::ran;
-  std::string why;   ///< in the simulator's words, unless it ran
-  SceneTrack track;  ///< until then
+  std::string why;       ///< in the simulator's words, unless it ran
+  SceneTrack track;      ///< until then
+  long n_unsettled = 0;  ///< solves that ended before velocities had settled
 };
 
 /// Steps along the scene's path at step_rate_hz and keeps states at keep_rate_hz, a divisor of it.

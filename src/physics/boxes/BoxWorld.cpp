@@ -8,71 +8,65 @@ namespace heft::boxes {
 using Eigen::Vector3d;
 
 namespace {
-constexpr double calm_speed_m_s = 1e-4, calm_turn_rad_s = 5e-3, calm_for_s = 0.25;
-// Contacts are looked for this far ahead, beside what the boxes can cover in a step.
+constexpr double resting_m_s = 1e-4, resting_rad_s = 5e-3, resting_for_s = 0.25;
+// Contacts are looked for this far ahead, beside what the boxes cover in a step: the speculative
+// margin.
 constexpr double near_m = 0.1e-3;
-// How much faster than in the last step boxes may become before contacts are looked for again.
-constexpr double hurry = 1.2, hurry_m_s = 0.01;
-// A travel that is worth finding out where on the way boxes meet.
-constexpr double far_m = 0.1e-3;
+constexpr double faster_m_s = 0.1;  // than at its start a body may become within a step
+// How far beyond the margin neighbours are listed: so far bodies move before it is done again.
+constexpr double listed_beyond_m = 0.02;
+constexpr double far_m = 0.1e-3;  // a travel worth finding out where on the way boxes meet
 constexpr double clear_m = 1e-6;  // boxes that slid off each other are so far apart
 constexpr double exactly_m = 1e-9;
-constexpr double rounding = 1e-10;  // m or rad
-constexpr int most_sweeps = 500;
-constexpr double enough_m_s = 2e-6;    // sweeps end when no velocity changes by more
-constexpr double settled_m_s = 2e-7;   // a contact that a sweep changed by less has settled
+constexpr double hit_m_s = 0.01;
+constexpr double least_step_s = 1e-6;  // up to an event
+constexpr double least_cut_s = 5e-6;   // of a step that is worth cutting off
+constexpr double farthest = 100;       // that sweeps are extrapolated, in sweeps
+constexpr int most_sweeps = 100;
+constexpr double settled_m_s = 1e-5;   // sweeps end when no velocity changes by more
 constexpr double squeezed_m_s = 0.01;  // what never ends has no answer
-
-// Any body may become as fast as the fastest within a step, by being hit.
-double look_ahead_m(double h_s, double up_to_m_s) {
-  return near_m + 2 * h_s * up_to_m_s;
-}
 }  // namespace
 
-BoxWorld::BoxWorld(const ContactSurface& surface, double gravity_m_s2, std::size_t n_bodies,
-                   bool mass_blind)
-    : surface_(surface), gravity_m_s2_(gravity_m_s2), mass_blind_(mass_blind) {
-  if (mass_blind) surface_.same_place = rounding;
-  surface_.foresees = !mass_blind;
+BoxWorld::BoxWorld(const ContactSurface& surface, double gravity_m_s2, std::size_t n_bodies)
+    : surface_(surface), gravity_m_s2_(gravity_m_s2) {
+  const std::size_t n_pairs = n_bodies * (n_bodies + 1) / 2;
   bodies_.reserve(n_bodies);
-  pairs_.reserve(n_bodies * (n_bodies + 1) / 2);
-  course_.reserve(n_bodies);
-  starts_.reserve(n_bodies);
-  velocities_.reserve(n_bodies);
+  listed_m_.reserve(n_bodies);
+  for (auto* pairs : {&pairs_, &old_pairs_}) pairs->reserve(n_pairs);
+  touching_.reserve(n_pairs);
   table_.solid = false;  // not one of the boxes
 }
 
 std::size_t BoxWorld::add(const Body& body) {
-  const std::size_t index = bodies_.size();
   bodies_.push_back(body);
-  for (std::size_t i = 0; i <= index; ++i) pairs_.push_back({index, i, {}});
-  touching_.reserve(pairs_.size());
-  return index;
+  listed_m_.push_back(body.pose.position_m);
+  listed_reach_m_ = 0;
+  return bodies_.size() - 1;
 }
 
 void BoxWorld::settle_at_start() {
   for (Body& body : bodies_) {
     const Contact standing = contact_with_table(body.shape, near_m);
-    body.asleep = body.has_weight && standing.n_points == 4;
+    body.asleep = !body.driven && standing.n_points == 4;
     for (const ContactPoint& point : standing.all())
       if (std::abs(point.distance_m) > exactly_m) body.asleep = false;
   }
-  for (const Pair& pair : pairs_) {
-    if (pair.with_table() || contact(pair, 0, near_m).n_points == 0) continue;
-    bodies_[pair.first].asleep = bodies_[pair.second].asleep = false;
-  }
+  for (Body& first : bodies_)
+    for (Body* second = bodies_.data(); second != &first; ++second)
+      if (near(first, *second, near_m) &&
+          contact_between(first.shape, second->shape, near_m).n_points > 0)
+        first.asleep = second->asleep = false;
+  listed_reach_m_ = 0;
 }
 
-double BoxWorld::fastest_m_s() const {
-  double fastest_m_s = 0;
-  for (const Body& body : bodies_)
-    if (moves(body)) fastest_m_s = std::max(fastest_m_s, body.tip_speed_m_s());
-  return fastest_m_s;
+// How far a body may get in a step.
+double BoxWorld::reach_m(const Body& body, double h_s) const {
+  if (!body.moves()) return 0;
+  const double free_m_s = body.driven ? body.tip_speed_m_s(body.step.mean) : 0;
+  return near_m + h_s * (faster_m_s + std::max(free_m_s, body.tip_speed_m_s(body.velocity)));
 }
 
-bool BoxWorld::near(const Pair& pair, double margin_m) const {
-  const Body& first = bodies_[pair.first];
-  const Body& second = bodies_[pair.second];
+bool BoxWorld::near(const Body& first, const Body& second, double margin_m) const {
   const double reach_m = first.radius_m + second.radius_m + margin_m;
   return (first.pose.position_m - second.pose.position_m).squaredNorm() < reach_m * reach_m;
 }
@@ -81,213 +75,305 @@ Contact BoxWorld::contact(const Pair& pair, double h_s, double margin_m) const {
   const Body& first = bodies_[pair.first];
   const Body& second = bodies_[pair.second];
   if (pair.with_table()) return contact_with_table(first.shape, margin_m);
-  if (!near(pair, margin_m)) return {};
-  const Vector3d travel_m = h_s * (first.velocity.linear_m_s - second.velocity.linear_m_s);
+  if (!near(first, second, margin_m)) return {};
+  const auto velocity = [](const Body& body) {
+    return body.driven ? body.step.mean.linear_m_s : body.velocity.linear_m_s;
+  };
+  const Vector3d travel_m = h_s * (velocity(first) - velocity(second));
   if (pair.manifold.touches() || travel_m.squaredNorm() < far_m * far_m)
     return contact_between(first.shape, second.shape, margin_m);
   return contact_on_the_way(first.shape, second.shape, travel_m, margin_m);
 }
 
-void BoxWorld::wake_reached(double h_s, double up_to_m_s) {
-  const double margin_m = look_ahead_m(h_s, up_to_m_s);
-  for (bool woken = true; woken;) {
-    woken = false;
+// The list holds as long as no two bodies together get farther than it reaches.
+void BoxWorld::find_neighbours(double h_s) {
+  double farthest_m = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    bodies_[i].reach_m = reach_m(bodies_[i], h_s);
+    if (bodies_[i].asleep) continue;
+    const double gone_m = (bodies_[i].pose.position_m - listed_m_[i]).norm();
+    farthest_m = std::max(farthest_m, gone_m + bodies_[i].reach_m);
+  }
+  if (2 * farthest_m <= listed_reach_m_) return;
+  listed_reach_m_ = 2 * farthest_m + listed_beyond_m;
+  list_neighbours();
+}
+
+void BoxWorld::list_neighbours() {
+  std::swap(pairs_, old_pairs_);
+  pairs_.clear();
+  const auto list = [this](std::size_t i, std::size_t j) {
+    const auto known = std::ranges::find_if(
+        old_pairs_, [&](const Pair& pair) { return pair.first == i && pair.second == j; });
+    if (known != old_pairs_.end())
+      pairs_.push_back(*known);
+    else
+      pairs_.push_back({i, j, {}, Vector3d::Zero()});
+  };
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    listed_m_[i] = bodies_[i].pose.position_m;
+    for (std::size_t j = 0; j < i; ++j) {
+      const Body &first = bodies_[i], &second = bodies_[j];
+      if (!(first.asleep && second.asleep) && near(first, second, listed_reach_m_)) list(i, j);
+    }
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (!bodies_[i].asleep) list(i, i);
+}
+
+// @return whether anything woke
+bool BoxWorld::wake_reached(double h_s) {
+  bool any = false;
+  for (bool more = true; more; any = any || more) {
+    more = false;
     for (const Pair& pair : pairs_) {
       Body& first = bodies_[pair.first];
       Body& second = bodies_[pair.second];
       if (first.asleep == second.asleep || !first.solid || !second.solid) continue;
-      if (!near(pair, margin_m) || contact(pair, h_s, margin_m).n_points == 0) continue;
-      first.wake();
-      second.wake();
-      woken = true;
+      const double margin_m = first.reach_m + second.reach_m;
+      if (!near(first, second, margin_m) || contact(pair, h_s, margin_m).n_points == 0) continue;
+      for (Body* woken : {&first, &second}) {
+        woken->wake();
+        woken->reach_m = reach_m(*woken, h_s);
+      }
+      more = true;
     }
+    if (more) list_neighbours();
   }
+  return any;
 }
 
-bool BoxWorld::can_push(const Pair& pair) const {
-  const Body& first = bodies_[pair.first];
-  const Body& second = bodies_[pair.second];
-  const bool gives = first.inverse_mass_per_kg > 0 || second.inverse_mass_per_kg > 0;
-  return gives && moves(first) && moves(second);
-}
-
-void BoxWorld::find_contacts(double h_s, double up_to_m_s) {
-  touching_.clear();
-  const bool as_long = instant_share * h_s < last_h_s_ && instant_share * last_h_s_ < h_s;
-  if (squeezed_ || !as_long)  // they tell nothing about this step's
-    for (Pair& pair : pairs_) pair.manifold.forget_impulses();
-  for (const bool with_table : {false, true}) {
-    const double margin_m = look_ahead_m(h_s, with_table ? up_to_m_s / 2 : up_to_m_s);
-    for (Pair& pair : pairs_) {
-      if (pair.with_table() != with_table) continue;
-      Body& first = bodies_[pair.first];
-      Body& second = with_table ? table_ : bodies_[pair.second];
-      if (first.asleep && (with_table || second.asleep)) continue;  // keep their impulses
-      if (!can_push(pair))
-        pair.manifold.clear();
-      else if (pair.manifold.still_fits(margin_m))
-        pair.manifold.prepare_again(h_s);
-      else
-        pair.manifold.prepare(contact(pair, h_s, margin_m), first, second, surface_, h_s, margin_m);
-      if (!pair.manifold.empty()) touching_.push_back(&pair.manifold);
-    }
+double BoxWorld::advance(double h_s, const SteppedBy& how) {
+  set_motions(h_s, how);
+  find_neighbours(h_s);
+  if (wake_reached(h_s)) set_motions(h_s, how);
+  find_contacts(h_s);
+  hit_ = hits();
+  if (hit_ && how.cuts) {
+    hit(how.driver);
+    return 0;
   }
-}
-
-// The table comes last in a sweep: where a coupled clone squeezes a cube against it there is no
-// answer, and the cube should stay above the table. The impulses grow without end then and are no
-// start for the next step. Sweeps leave out contacts that have settled, and come back to these when
-// the others have settled too.
-void BoxWorld::relax() {
-  for (Manifold* manifold : touching_) manifold->warm_start();
-  course_.begin(bodies_, touching_);
-  double change_m_s = 0;
-  Sweep next = Sweep::all;
-  for (int i = 0; i < most_sweeps; ++i) {
-    change_m_s = sweep(next);
-    const bool settled = change_m_s <= enough_m_s;
-    if (settled && next != Sweep::unsettled) break;
-    if (mass_blind_) continue;
-    if (next == Sweep::left_out) course_.begin(bodies_, touching_);
-    next = settled ? Sweep::left_out : Sweep::unsettled;
-    if (!settled) course_.go_on(bodies_, touching_);
+  hit_ = false;
+  solve(h_s, how);
+  const Event event = how.cuts ? next_event(h_s) : Event{};
+  if (event.fraction < 1) {
+    h_s = std::min(h_s, std::max(event.fraction * h_s, least_step_s));
+    set_motions(h_s, how);
+    solve(h_s, how);
   }
-  squeezed_ = change_m_s > squeezed_m_s;
+  move(h_s, event.ends_pushes);
+  return h_s;
 }
 
-double BoxWorld::sweep(Sweep which) {
-  double change_m_s = 0;
-  for (Manifold* manifold : touching_) {
-    const bool unsettled = manifold->changed_m_s() > settled_m_s;
-    manifold->left_out =
-        which == Sweep::unsettled ? !unsettled : which == Sweep::left_out && !manifold->left_out;
-    if (!manifold->left_out) change_m_s = std::max(change_m_s, manifold->relax());
-  }
-  return change_m_s;
-}
-
-void BoxWorld::solve(double h_s) {
-  begin_step(h_s);
-  attempt(h_s);
-  if (was_released()) attempt(h_s);
-  note_rates(h_s);
-  last_h_s_ = h_s;
-}
-
-// A clone that is held back would be much faster if it were not: contacts are looked for as far as
-// boxes can go at about the speeds of the last step, and farther only if they turn out to be
-// faster.
-void BoxWorld::attempt(double h_s) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].velocity = starts_[i].velocity;
-  const double free_m_s = fastest_m_s();
-  const double foreseen_m_s = std::min(free_m_s, hurry * reached_m_s_ + hurry_m_s);
-  wake_reached(h_s, free_m_s);
-  add_weight(h_s);
-  velocities_.clear();
-  for (const Body& body : bodies_) velocities_.push_back(body.velocity);
-  solve_contacts(h_s, foreseen_m_s);
-  if (reached_m_s_ <= foreseen_m_s || foreseen_m_s == free_m_s) return;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].velocity = velocities_[i];
-  solve_contacts(h_s, free_m_s);
-}
-
-void BoxWorld::solve_contacts(double h_s, double up_to_m_s) {
-  find_contacts(h_s, up_to_m_s);
-  relax();
-  reached_m_s_ = fastest_m_s();
-}
-
-void BoxWorld::move(double h_s) {
-  for (Body& body : bodies_)
-    if (!body.asleep) body.move(h_s);
-  bool pushed = false;
-  for (Manifold* manifold : touching_) pushed = manifold->push_apart() || pushed;
-  if (pushed && surface_.compliance_m_per_n == 0) lift_from_table();
-  settle(h_s);
-}
-
-// The table has the last word: a coupled clone may have pushed a cube into it.
-void BoxWorld::lift_from_table() {
+void BoxWorld::set_motions(double h_s, const SteppedBy& how) {
   for (Body& body : bodies_) {
-    if (!body.has_weight || body.asleep) continue;
-    const Contact standing = contact_with_table(body.shape, 0);
-    double deepest_m = 0;
-    for (const ContactPoint& point : standing.all())
-      deepest_m = std::max(deepest_m, -point.distance_m);
-    if (deepest_m > 0) body.shift({0, 0, deepest_m}, Vector3d::Zero());
+    if (body.driven)
+      how.driver.set_motion(body, {h_s, how.beyond_s});
+    else if (!body.asleep)
+      body.fall(gravity_m_s2_, {h_s, how.beyond_s});
   }
+}
+
+void BoxWorld::find_contacts(double h_s) {
+  touching_.clear();
+  for (Pair& pair : pairs_) {
+    Body& first = bodies_[pair.first];
+    Body& second = pair.with_table() ? table_ : bodies_[pair.second];
+    if (first.asleep && (pair.with_table() || second.asleep)) continue;
+    const bool gives = first.step.per_kg > 0 || second.step.per_kg > 0;
+    const double margin_m = first.reach_m + second.reach_m;
+    if (!gives || !first.solid || (!second.solid && !pair.with_table()))
+      pair.manifold.clear();
+    else if (!pair.manifold.still_fits(margin_m))
+      pair.manifold.prepare(contact(pair, h_s, margin_m), first, second, surface_, margin_m);
+    if (pair.manifold.empty()) continue;
+    pair.manifold.start();
+    pair.manifold.extrapolate();
+    touching_.push_back(&pair.manifold);
+  }
+  // Sweeps settle sooner from the table up. But where a coupled clone squeezes a cube against it
+  // there is no answer, and the cube should stay above the table.
+  if (surface_.shortcuts) std::ranges::reverse(touching_);
+}
+
+bool BoxWorld::hits() const {
+  return std::ranges::any_of(touching_,
+                             [](const Manifold* m) { return m->closing_m_s() > hit_m_s; });
+}
+
+void BoxWorld::hit(const Driver& driver) {
+  set_motions(0, {driver});
+  for (Body& body : bodies_) body.step.begin(0);
+  for (Manifold* manifold : touching_) {
+    manifold->begin_hit();
+  }
+  relax();
+  for (Pair& pair : pairs_)
+    pair.hit_n_s = pair.manifold.empty() ? Vector3d::Zero() : pair.manifold.end_hit();
+  for (Body& body : bodies_)
+    if (body.moves()) {
+      body.velocity = body.step.ahead;
+      body.pushed_s = 0;
+    }
+}
+
+void BoxWorld::solve(double h_s, const SteppedBy& how) {
+  const StepTime time{h_s, how.beyond_s};
+  for (Body& body : bodies_)
+    if (!body.asleep) body.step.begin(time.mean_weight());
+  for (Manifold* manifold : touching_) {
+    manifold->take_step(time);
+    if (!how.cuts) manifold->stop_at_gaps();
+    manifold->warm_start();
+  }
+  relax();
+  for (Body& body : bodies_)
+    if (!body.asleep) body.step.finish(time.mean_weight(), body.driven);
+}
+
+// Where a clone squeezes a cube there may be no answer. The impulses grow without end then and are
+// no start for the next step.
+void BoxWorld::relax() {
+  for (Manifold* manifold : touching_) manifold->begin_sweeps();
+  for (Body& body : bodies_) body.step.begin_sweeps();
+  last_energy_j_ = 0;
+  double change_m_s = 0;
+  for (int i = 0; i < most_sweeps; ++i) {
+    if (i > 0 && surface_.shortcuts) mix();
+    change_m_s = 0;
+    for (Manifold* manifold : touching_) change_m_s = std::max(change_m_s, manifold->relax());
+    if (change_m_s <= settled_m_s) return;
+  }
+  ++n_unsettled_;
+  if (change_m_s > squeezed_m_s)
+    for (Manifold* manifold : touching_) manifold->forget_impulses();
+}
+
+// Anderson's (1965) mixing with one step of memory. Sweeps that settle slowly do so in one
+// direction, each change a fixed part of the last one: velocities and impulses go on to where the
+// changes would have the least energy. Velocities depend linearly on impulses, so that both go on
+// by the same fraction and still belong together. What the last sweep leaves is the result.
+void BoxWorld::mix() {
+  double energy_j = 0, common_j = 0;
+  for (Body& body : bodies_) {
+    Motion& motion = body.step;
+    if (body.asleep || !(motion.per_kg > 0)) continue;
+    const Velocity last = motion.change;
+    motion.change = {motion.ahead.linear_m_s - motion.start.linear_m_s,
+                     motion.ahead.angular_rad_s - motion.start.angular_rad_s};
+    const double mass_kg = 1 / motion.per_kg;
+    const double inertia = motion.turns ? 1 / motion.per_kg_m2.diagonal().maxCoeff() : 0;
+    const auto& [along, about] = motion.change;
+    energy_j += mass_kg * along.squaredNorm() + inertia * about.squaredNorm();
+    common_j += mass_kg * along.dot(last.linear_m_s) + inertia * about.dot(last.angular_rad_s);
+  }
+  const double between_j = energy_j + last_energy_j_ - 2 * common_j;
+  const bool known = last_energy_j_ > 0 && between_j > 0;
+  const double fraction = known ? std::clamp((common_j - energy_j) / between_j, 0.0, farthest) : 0;
+  last_energy_j_ = energy_j;
+  for (Body& body : bodies_)
+    if (!body.asleep) body.step.go_on(fraction);
+  for (Manifold* manifold : touching_) manifold->go_on(fraction);
+}
+
+BoxWorld::Event BoxWorld::next_event(double h_s) const {
+  Event soonest;
+  const auto note = [&](std::optional<double> fraction, bool ends_pushes) {
+    if (fraction && (1 - *fraction) * h_s > least_cut_s && *fraction < soonest.fraction)
+      soonest = {*fraction, ends_pushes};
+  };
+  for (const Pair& pair : pairs_) {
+    if (pair.manifold.empty() || bodies_[pair.first].asleep) continue;
+    note(pair.manifold.fraction_before_hit(), false);
+    note(pair.manifold.fraction_before_stop(), false);
+    const bool slides = bodies_[pair.first].driven || bodies_[pair.second].driven;
+    if (slides && !pair.with_table()) note(fraction_before_sliding_off(pair, h_s), true);
+  }
+  return soonest;
+}
+
+// A drawn clone that slides off a cube snaps back; a step later it would be millimeters elsewhere.
+std::optional<double> BoxWorld::fraction_before_sliding_off(const Pair& pair, double h_s) const {
+  const Body &first = bodies_[pair.first], &second = bodies_[pair.second];
+  const Vector3d& normal = pair.manifold.normal();
+  if (!pair.manifold.touches()) return std::nullopt;
+  Vector3d travel_m = h_s * (first.step.mean.linear_m_s - second.step.mean.linear_m_s);
+  travel_m -= travel_m.dot(normal) * normal;
+  if (travel_m.squaredNorm() < clear_m * clear_m) return std::nullopt;
+  Box sunk = first.shape;
+  sunk.center_m -= near_m * normal;  // so that they overlap
+  const auto fraction = parting(sunk, second.shape, travel_m);
+  if (!fraction) return std::nullopt;
+  return *fraction + clear_m / travel_m.norm();
+}
+
+void BoxWorld::move(double h_s, bool ends_pushes) {
+  for (Body& body : bodies_) {
+    if (body.asleep) continue;
+    if (body.driven && body.step.per_kg > 0) {
+      body.pushed_n =
+          (body.step.ahead.linear_m_s - body.step.free.linear_m_s) / (body.step.per_kg * h_s);
+      body.pushed_s = ends_pushes ? 0 : h_s;
+    }
+    body.move(body.step.mean, h_s);
+    body.velocity = body.step.end;
+  }
+  settle(h_s);
 }
 
 void BoxWorld::settle(double h_s) {
   for (Body& body : bodies_) {
     if (body.asleep) continue;
-    const bool calm = body.has_weight &&
-                      body.velocity.linear_m_s.squaredNorm() < calm_speed_m_s * calm_speed_m_s &&
-                      body.velocity.angular_rad_s.squaredNorm() < calm_turn_rad_s * calm_turn_rad_s;
-    body.calm_s = calm ? body.calm_s + h_s : 0;
+    const auto& [along, about] = body.velocity;
+    const bool rests = !body.driven && along.squaredNorm() < resting_m_s * resting_m_s &&
+                       about.squaredNorm() < resting_rad_s * resting_rad_s;
+    body.at_rest_s = rests ? body.at_rest_s + h_s : 0;
   }
   for (const Pair& pair : pairs_) {
     if (pair.with_table() || !pair.manifold.touches()) continue;
-    double& first_s = bodies_[pair.first].calm_s;
-    double& second_s = bodies_[pair.second].calm_s;
+    double& first_s = bodies_[pair.first].at_rest_s;
+    double& second_s = bodies_[pair.second].at_rest_s;
     first_s = second_s = std::min(first_s, second_s);
   }
   for (Body& body : bodies_) {
-    if (body.asleep || body.calm_s < calm_for_s) continue;
+    if (body.asleep || body.at_rest_s < resting_for_s) continue;
     body.asleep = true;
     body.velocity = {};
   }
 }
 
-bool BoxWorld::steady() const {
-  return std::ranges::all_of(bodies_, [](const Body& body) {
-    return !body.has_weight || body.asleep || body.fresh || body.steady;
+bool BoxWorld::near_driven(double reach_m) const {
+  return std::ranges::any_of(bodies_, [&](const Body& driven) {
+    if (!driven.driven || !driven.solid) return false;
+    const double half_height_m = driven.shape.axes.row(2).cwiseAbs().dot(driven.shape.half_m);
+    return driven.pose.position_m.z() - half_height_m < reach_m ||
+           std::ranges::any_of(bodies_, [&](const Body& body) {
+             return !body.driven && near(driven, body, reach_m);
+           });
   });
 }
 
-bool BoxWorld::crowded(double reach_m) const {
-  return std::ranges::any_of(pairs_, [&](const Pair& pair) {
-    const Body& first = bodies_[pair.first];
-    const Body& second = bodies_[pair.second];
-    return !pair.with_table() && !(first.asleep && second.asleep) && first.solid && second.solid &&
-           near(pair, reach_m);
-  });
-}
-
-std::optional<double> BoxWorld::share_before_sliding_off(std::size_t i, double h_s) const {
-  for (const Pair& pair : pairs_) {
-    if (pair.with_table() || (pair.first != i && pair.second != i)) continue;
-    if (!pair.manifold.touches()) continue;
-    const Body& second = bodies_[pair.second];
-    const Vector3d& normal = pair.manifold.normal();
-    Vector3d travel_m =
-        h_s * (bodies_[pair.first].velocity.linear_m_s - second.velocity.linear_m_s);
-    travel_m -= travel_m.dot(normal) * normal;
-    if (travel_m.squaredNorm() < clear_m * clear_m) continue;
-    Box first = bodies_[pair.first].shape;
-    first.center_m -= near_m * normal;  // so that they overlap
-    const auto share = parting(first, second.shape, travel_m);
-    if (share) return std::min(1.0, *share + clear_m / travel_m.norm());
-  }
-  return std::nullopt;
+double BoxWorld::fastest_turn_rad_s() const {
+  double fastest = 0;
+  for (const Body& body : bodies_)
+    if (!body.asleep) fastest = std::max(fastest, body.velocity.angular_rad_s.squaredNorm());
+  return std::sqrt(fastest);
 }
 
 Vector3d BoxWorld::impulse_n_s(std::size_t pusher, std::size_t pushed) const {
-  const auto [low, high] = std::minmax(pusher, pushed);
-  const Vector3d on_high = pairs_[high * (high + 1) / 2 + low].manifold.impulse_n_s();
-  return pushed == high ? on_high : Vector3d(-on_high);
-}
-
-bool BoxWorld::touches(std::size_t i) const {
-  return std::ranges::any_of(pairs_, [i](const Pair& pair) {
-    return !pair.with_table() && (pair.first == i || pair.second == i) && pair.manifold.touches();
-  });
+  for (const Pair& pair : pairs_) {
+    if (pair.with_table() || !pair.has(pusher) || !pair.has(pushed)) continue;
+    const Vector3d on_first = hit_ ? pair.hit_n_s : pair.manifold.impulse_n_s();
+    return pushed == pair.first ? on_first : Vector3d(-on_first);
+  }
+  return Vector3d::Zero();
 }
 
 void BoxWorld::forget_contacts(std::size_t i) {
   for (Body& body : bodies_) body.wake();
   for (Pair& pair : pairs_)
-    if (pair.first == i || pair.second == i) pair.manifold.clear();
+    if (pair.has(i)) pair.manifold.clear();
+  listed_reach_m_ = 0;
 }
 
 }  // namespace heft::boxes

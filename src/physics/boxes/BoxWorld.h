@@ -1,117 +1,125 @@
-// Boxes on a table. One step, in order: sleeping boxes that something could reach wake; weight is
-// added; contacts are found, where boxes would meet within the step too, or taken over from the
-// last step where nothing moved against each other; projected Gauss-Seidel, started from the last
-// step's impulses and hastened (SweepCourse), finds velocities at which nothing overlaps at the end
-// of the step; boxes move; those that overlapped are shifted apart; boxes that stay calm fall
-// asleep. Velocities are means over a step. Nothing is allocated after the last add().
+// Boxes on a table. One step, in order:
+//
+// 1. Each body's free motion: two velocities, the mean over the step, which says where it gets to,
+//    and the one at its end, which is what the next step starts from. Pushes are steady over a
+//    step; a steady push changes a box's mean velocity by half of what it changes the end's by, and
+//    the clone's two follow from its oscillator and are set by whoever drives it.
+// 2. Neighbours (a Verlet list: pairs within some reach, looked for anew when a body has used the
+//    reach up) are tested for contact as far ahead as the bodies get; what sleeps and is reached
+//    wakes.
+// 3. Points that touch and close in have hit: impulses without duration, and without weight, make
+//    them move together. What was held before is held through the hit. It is a step of its own that
+//    takes no time.
+// 4. Contacts are solved by projected Gauss-Seidel with an extrapolated warm start and Anderson
+//    mixing: with steady pushes, points that touch shall touch one step beyond the end, if nothing
+//    pushes any more from the end on. With the end in place of that, velocities would ring from
+//    step to step; with velocities alone, bodies would drift apart. Looking ahead takes two thirds
+//    of a gap away in a step, so that both die out.
+// 5. Points that are apart and would meet within the step, a patch whose slip friction stops, and
+//    the clone sliding off a face, are events: the step ends there, and is solved anew for that
+//    length with every contact in it.
+// 6. Bodies move; boxes that stay at rest for a while fall asleep.
+//
+// Nothing is allocated after the last add().
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "physics/boxes/SweepCourse.h"
+#include "physics/boxes/Manifold.h"
 
 namespace heft::boxes {
 
+/// Says how driven bodies move by themselves: sets their motion for a step; for one of 0 s, what
+/// pushes do to them within an instant.
+class Driver {
+ public:
+  virtual ~Driver() = default;
+  virtual void set_motion(Body& driven, const StepTime& time) const = 0;
+};
+
+struct SteppedBy {
+  const Driver& driver;
+  double beyond_s = 0;  ///< how far contacts look beyond the step's end
+  bool cuts = true;     ///< false: what meets within the step stops there
+};
+
 class BoxWorld {
  public:
-  /// @param mass_blind where masses change no motion they change none by more than 1e-9 m: no
-  /// shortcut that rounding could decide. Slower.
-  BoxWorld(const ContactSurface& surface, double gravity_m_s2, std::size_t n_bodies,
-           bool mass_blind);
+  BoxWorld(const ContactSurface& surface, double gravity_m_s2, std::size_t n_bodies);
 
   /// @return its index
   std::size_t add(const Body& body);
   Body& body(std::size_t i) { return bodies_[i]; }
   const Body& body(std::size_t i) const { return bodies_[i]; }
-  std::size_t size() const { return bodies_.size(); }
 
   /// Puts to sleep what stands on the table and touches nothing else.
   void settle_at_start();
 
-  /// Changes velocities so that nothing overlaps at the end of a step of h_s seconds.
-  void solve(double h_s);
+  /// Goes on by h_s seconds, or until something happens that a step cannot contain: then the rest
+  /// is for the next step.
+  /// @return how long the step was; 0 if it was a hit
+  double advance(double h_s, const SteppedBy& how);
 
-  /// Moves all bodies to the end of the step that was solved.
-  void move(double h_s);
+  /// Whether driven bodies are nearer than reach_m to a box or the table.
+  bool near_driven(double reach_m) const;
+  /// Of boxes, rad/s.
+  double fastest_turn_rad_s() const;
 
-  /// Upper bound of the speed of any point of a body that moves and is solid.
-  double fastest_m_s() const;
-
-  /// Whether every box's velocity changes as it did a step ago: the length of a step may change.
-  bool steady() const;
-
-  /// Whether any two bodies that are not both asleep are nearer than reach_m, at most: their
-  /// surrounding spheres are compared.
-  bool crowded(double reach_m) const;
-
-  /// The share of a step of h_s seconds after which a body that goes on as it does hits one that it
-  /// does not touch yet; none if it does not, or so slowly that it does not matter when.
-  std::optional<double> share_before_hitting(std::size_t i, double h_s) const;
-
-  /// The share of a step of h_s seconds after which a body slides off one that it presses on, if it
-  /// goes on as it does; none if it does not.
-  std::optional<double> share_before_sliding_off(std::size_t i, double h_s) const;
-
-  /// Mean impulse of `pusher` on `pushed` in the last step, N s; zero if they don't touch.
+  /// Impulse of `pusher` on `pushed` over the last step, N s.
   Eigen::Vector3d impulse_n_s(std::size_t pusher, std::size_t pushed) const;
-
-  /// Whether a body and another pressed on each other in the last step.
-  bool touches(std::size_t i) const;
 
   /// Forgets the contacts that a body has had, and wakes all.
   void forget_contacts(std::size_t i);
+
+  /// Solves that ended before velocities had settled.
+  long unsettled() const { return n_unsettled_; }
 
  private:
   // Two bodies, or a body (first) and the table.
   struct Pair {
     std::size_t first, second;
     Manifold manifold;
+    Eigen::Vector3d hit_n_s = Eigen::Vector3d::Zero();  // on the first, of the last hit
     bool with_table() const { return first == second; }
+    bool has(std::size_t i) const { return first == i || second == i; }
   };
 
-  bool moves(const Body& body) const { return body.solid && !body.asleep; }
+  // Something within a step that the step cannot contain.
+  struct Event {
+    double fraction = 1;       // of the step, before it
+    bool ends_pushes = false;  // of the clone: they say nothing of those that follow
+  };
+
+  double reach_m(const Body& body, double h_s) const;
+  bool near(const Body& first, const Body& second, double margin_m) const;
   Contact contact(const Pair& pair, double h_s, double margin_m) const;
-  bool near(const Pair& pair, double margin_m) const;
-  bool can_push(const Pair& pair) const;
-  void wake_reached(double h_s, double up_to_m_s);
-  void begin_step(double h_s);
-  void attempt(double h_s);
-  void add_weight(double h_s);
-  bool was_released();
-  void note_rates(double h_s);
-  void note_pushed();
-  std::optional<double> share_before_hit(std::size_t i, double h_s) const;
-  void find_contacts(double h_s, double up_to_m_s);
-  void solve_contacts(double h_s, double up_to_m_s);
+  void find_neighbours(double h_s);
+  void list_neighbours();
+  bool wake_reached(double h_s);
+  void find_contacts(double h_s);
+  bool hits() const;
+  void hit(const Driver& driver);
+  void set_motions(double h_s, const SteppedBy& how);
+  void solve(double h_s, const SteppedBy& how);
   void relax();
-  enum class Sweep { all, unsettled, left_out };
-  double sweep(Sweep which);
-  void lift_from_table();
+  void mix();
+  Event next_event(double h_s) const;
+  std::optional<double> fraction_before_sliding_off(const Pair& pair, double h_s) const;
+  void move(double h_s, bool ends_pushes);
   void settle(double h_s);
 
   ContactSurface surface_;
   double gravity_m_s2_;
-  bool mass_blind_;
-  double last_h_s_ = 0;
   std::vector<Body> bodies_;
   Body table_;
-  std::vector<Pair> pairs_;          ///< each body with the bodies before it, then with the table
-  std::vector<Manifold*> touching_;  ///< of this step; the table's last
-  SweepCourse course_;
-  static constexpr double instant_share = 0.01;  // of another step: one that takes no time
-  // A body at the start of the step.
-  struct Start {
-    Velocity velocity;
-    double mean_over_s;  ///< of which its velocity is the mean; 0: it is momentary
-    double owed_s;
-    bool pushed;
-    bool is_momentary(double h_s) const { return mean_over_s < instant_share * h_s; }
-  };
-  std::vector<Start> starts_;
-  std::vector<Velocity> velocities_;  ///< before this step's contacts
-  double reached_m_s_ = 0;            ///< by the fastest in the last step
-  bool squeezed_ = false;             ///< in the last step a box had no room
+  std::vector<Pair> pairs_, old_pairs_;    ///< neighbours; each body with the table last
+  std::vector<Eigen::Vector3d> listed_m_;  ///< where bodies were when neighbours were listed
+  double listed_reach_m_ = 0;              ///< 0: to be listed anew
+  bool hit_ = false;                       ///< the last step was one
+  std::vector<Manifold*> touching_;        ///< of this step, in a sweep's order
+  long n_unsettled_ = 0;
+  double last_energy_j_ = 0;  ///< of the last sweep's changes
 };
 
 }  // namespace heft::boxes

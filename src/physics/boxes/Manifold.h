@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "physics/boxes/Body.h"
 
@@ -17,55 +18,71 @@ namespace heft::boxes {
 struct ContactSurface {
   double friction = 0.8;
   double compliance_m_per_n = 0;  ///< of each point; 0: rigid
+  /// Whether to save sweeps by ways that rounding may decide: not for a coupled clone, which shows
+  /// no mass.
+  bool shortcuts = true;
   /// Bodies that moved or turned against each other by less, m or rad, keep their contact: no lever
   /// changes noticeably.
-  double same_place = 1e-6;
-  bool foresees = true;  ///< a step may start from where its impulses seem to go
+  double same_place() const { return shortcuts ? 1e-6 : 1e-10; }
 };
 
 class Manifold {
  public:
-  /// Takes this step's contact; points that were there in the last step start from its impulses.
-  /// @param second the table is a body without mass
+  /// Takes a contact; points that were there in the last one start from its impulses.
+  /// @param second the table is a body that is not solid
   /// @param margin_m with which the contact was looked for
   void prepare(const Contact& contact, Body& first, Body& second, const ContactSurface& surface,
-               double h_s, double margin_m);
+               double margin_m);
 
-  /// Whether the contact of the last prepare() still holds: the bodies have the masses they had,
-  /// and did not move against each other noticeably.
+  /// Whether the contact of the last prepare() still holds: the bodies did not move against each
+  /// other noticeably.
   /// @param margin_m of a contact that would be looked for now
   bool still_fits(double margin_m) const;
+  void clear() { n_ = 0; }
 
-  /// Takes the last step's contact once more, with the gaps of now.
-  void prepare_again(double h_s);
+  /// Takes note of where the bodies are and how they move when a step begins.
+  void start();
+  /// Takes the bodies' motions over a step.
+  void take_step(const StepTime& time);
+
+  /// From now on points that are still apart stop the bodies where they meet; without this they are
+  /// left to hit each other, see fraction_before_hit().
+  void stop_at_gaps();
 
   /// Applies the impulses known so far.
   void warm_start();
+  /// Extrapolates the impulses of the last two steps, where that was right for the last one.
+  void extrapolate();
+  /// Goes on by a fraction of how far the last sweep's end is from the one before; the bodies'
+  /// velocities have to follow.
+  void begin_sweeps() { swept_ = impulses_; }
+  void go_on(double fraction);
 
   /// One sweep of projected Gauss-Seidel.
   /// @return the largest change of a velocity at a point, m/s
   double relax();
-  /// What the last relax() returned.
-  double changed_m_s() const { return changed_m_s_; }
-  bool left_out = false;  ///< of the last sweep
 
-  /// Remembers the impulses, before the first sweep.
-  void begin_course() { end_ = impulses_; }
-  /// Goes on by a share of how far the last sweep's end is from the one before. The bodies'
-  /// velocities have to follow: see SweepCourse.
-  void go_on(double share);
+  /// The largest speed at which points that touch close in when the step begins, m/s.
+  double closing_m_s() const { return closing_at_start_m_s_; }
+  /// The fraction of the step after which points that are apart now meet; none if they do not.
+  std::optional<double> fraction_before_hit() const {
+    return touching_ == (1u << n_) - 1 ? std::nullopt : fraction_before_meeting();
+  }
+  /// The fraction of the step after which friction stops a patch that slips now; none if it slips
+  /// on or does not slip.
+  std::optional<double> fraction_before_stop() const;
 
-  /// Moves overlapping bodies apart by half the overlap, without a change of velocity.
-  /// @return whether there was any
-  bool push_apart();
+  /// The same over an instant. A hit starts from no impulse; the step after it from what was held
+  /// before.
+  void begin_hit();
+  /// @return the hit's impulse on the first body, N s
+  Eigen::Vector3d end_hit();
 
   bool touches() const { return n_ > 0 && impulses_.col(0).maxCoeff() > 0; }
   bool empty() const { return n_ == 0; }
-  /// From the second to the first, unit.
-  const Eigen::Vector3d& normal() const { return normal_; }
+  const Eigen::Vector3d& normal() const { return normal_; }  ///< from the second to the first, unit
   /// Impulse on the first body over the step, N s.
-  Eigen::Vector3d impulse_n_s() const;
-  void clear() { n_ = 0; }
+  Eigen::Vector3d impulse_n_s() const { return in_world(impulses_); }
   void forget_impulses();
 
  private:
@@ -74,88 +91,78 @@ class Manifold {
   using Impulses = PointRows;                     // N s: along the normal, u and v
 
   // At the middle of the points, in the frame (normal, u, v): how the first body moves against the
-  // second, or impulses on it. Normal impulses press, friction drags.
-  struct Patch {
-    Eigen::Vector3d press = Eigen::Vector3d::Zero();  // along the normal, about u, about v
-    Eigen::Vector3d drag = Eigen::Vector3d::Zero();   // along u, along v, about the normal
+  // second, or impulses on it.
+  struct Six {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();      // along the normal, about u, about v
+    Eigen::Vector3d tangential = Eigen::Vector3d::Zero();  // along u, along v, about the normal
   };
 
-  // What prepare() saw.
-  struct Seen {
-    Pose first, second;
-    double first_per_kg = 0, second_per_kg = 0;
-    double margin_m = 0;
-  };
-
+  std::optional<double> fraction_before_meeting() const;
   void take_points(const Contact& contact);
   void take_frame(const Contact& contact);
-  void couple_bodies();
-  void prepare_points(const ContactSurface& surface);
-  void set_speeds();
+  void couple_if_new();
+  void couple();
+  void set_closing();
   void find_balance();
-  void foresee(double scale);
   Eigen::Vector3d moved_m() const;
 
-  Patch moving() const;
-  Patch sum_n_s() const;
-  Eigen::Vector3d dragged_n_s() const;
-  void apply(const Patch& impulses_n_s);
+  Six moving(const Velocity& first, const Velocity& second) const;
+  Eigen::Vector3d tangential_sum(const Impulses& impulses) const;
+  Eigen::Vector3d in_world(const Impulses& impulses) const;
+  void apply(const Six& impulses_n_s);
 
-  double press(Patch& moving, Patch& change);
+  double press(Six& moving, Six& change);
   Points release(unsigned active, const Points& missing);
-  const Eigen::Matrix4d& stopping(unsigned active);
+  const Eigen::Matrix4d& stopping(unsigned set);
   void balance();
 
-  double hold(const Patch& moving, Patch& change);
+  double stick(const Six& moving, Six& change);
   bool share_friction(const Eigen::Vector3d& more);
-  double slide(const Patch& moving, Patch& change);
-  bool slide_together(const Eigen::Vector3d& speed);
-  void slide_one_by_one(const Eigen::Vector3d& speed);
+  double slip(const Eigen::Vector3d& slips, Six& change);
+  double slip_straight(const Eigen::Vector3d& slips, Six& change);
 
   Body* first_ = nullptr;
   Body* second_ = nullptr;
-  bool alone_ = false;  // the second is the table
-  double friction_ = 0, h_s_ = 0;
-  bool rigid_ = true;
-  double same_place_ = 0;
-  bool foresees_ = true;
-  double changed_m_s_ = 0;
-  Seen seen_;
+  bool on_table_ = false;
+  ContactSurface surface_;
+  StepTime time_;
+  double margin_m_ = 0;
+  Pose first_seen_, second_seen_;  // by prepare()
 
   Eigen::Vector3d normal_ = Eigen::Vector3d::UnitZ(), u_ = normal_, v_ = normal_;
   Eigen::Vector3d arm_first_m_ = Eigen::Vector3d::Zero(),
                   arm_second_m_ = arm_first_m_;  // from the bodies' centers to the middle
-  // Changes of the motion per impulse, and the impulse that stops a unit drag motion.
-  Eigen::Matrix3d press_by_press_, drag_by_press_, drag_by_drag_, drag_mass_;
-  bool can_stick_ = false;  // more than one point, on bodies that can turn
-  double spread_m_ = 0;     // of the points around the middle, root mean square
-
   int n_ = 0;
   std::array<int, 4> features_{};
+  unsigned touching_ = 0;                              // a bit for each point that has no gap
   Points at_u_m_ = Points::Zero(), at_v_m_ = at_u_m_;  // from the middle
   Points squares_m2_ = Points::Zero();                 // of their distances to it
-  // What a unit normal impulse at a point presses, and what the motion's press is there.
+  double spread_m_ = 0;                                // their root mean
+  // What a unit normal impulse at a point does at the middle, and what a motion there is here.
   PointRows levers_ = PointRows::Zero();
   Points gaps_m_ = Points::Zero(), prepared_gaps_m_ = gaps_m_;
-  Points speeds_m_s_ = Points::Zero();   // at which the points may close in: gap / h
-  Points softness_ = Points::Zero();     // m/s per N s
-  Points drag_per_kg_ = Points::Zero();  // the most that a friction impulse changes the drag by
-
-  Impulses impulses_ = Impulses::Zero(), end_ = impulses_;  // the end of the last sweep
-  // Of the step before, and as a line or a parabola through earlier ones foresaw.
-  Impulses before_ = impulses_, line_ = impulses_, curve_ = impulses_;
-
-  // Velocities along the normal per normal impulse at each point, and what stopping() knows.
-  Eigen::Matrix4d response_ = Eigen::Matrix4d::Zero();
-  std::array<Eigen::Matrix4d, 16> stopping_;
-  unsigned known_ = 0;  // a bit for each
   // Normal impulses in these proportions push nothing anywhere; all zero unless four points touch.
   Points balance_ = Points::Zero();
-};
 
-inline Eigen::Vector3d Manifold::dragged_n_s() const {
-  const auto u = impulses_.col(1), v = impulses_.col(2);
-  return {u.sum(), v.sum(), at_u_m_.dot(v) - at_v_m_.dot(u)};
-}
+  Six at_start_;  // how the bodies moved when the step began
+  double closing_at_start_m_s_ = 0;
+  bool sticks_ = false;
+
+  // Changes of the motion per impulse, and the impulse that stops a unit tangential motion.
+  double first_per_kg_ = 0, second_per_kg_ = 0;  // that the rest was made with
+  Eigen::Matrix3d tangential_by_normal_, tangential_by_tangential_, tangential_mass_;
+  Eigen::Matrix4d response_;  // velocities along the normal per normal impulse at each point
+  Eigen::Matrix4d stopping_;  // its inverse over a set of the points
+  unsigned stopping_set_ = 0;
+  Points slip_per_kg_ = Points::Zero();  // the most that a friction impulse changes a slip by
+  Points closing_m_s_ = Points::Zero();  // at which points may close in
+  Points softness_ = Points::Zero();     // m/s per N s
+
+  Impulses impulses_ = Impulses::Zero();
+  Impulses before_ = impulses_;    // at the end of the step before
+  Impulses foreseen_ = impulses_;  // by a line through the last two
+  Impulses swept_ = impulses_;     // at the end of the last sweep
+  Impulses held_ = impulses_;      // before a hit
+};
 
 }  // namespace heft::boxes

@@ -1,4 +1,4 @@
-// The friction of a Manifold: points that stick as one patch, or slide one by one.
+// The friction of a Manifold: points that stick as one patch, or slip one by one.
 #include <algorithm>
 #include <cmath>
 
@@ -7,32 +7,59 @@
 namespace heft::boxes {
 
 using Eigen::Matrix3d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
-constexpr double least_squared_m2_s2 = 1e-300;  // that can be divided by
-constexpr double least_spread_m2 = 1e-12;       // of loads that can bear a moment about the normal
+constexpr double least_spread_m = 1e-6;       // of points that are worth calling a patch
+constexpr double straight = 1e-3;             // of a slip that may be spin
+constexpr double least_slip_m_s = 1e-4;       // that is worth stopping exactly
+constexpr double least_impulse_n_s = 1e-100;  // that can be divided by
+constexpr double least_spread_m2 = 1e-12;     // of loads that can bear a moment about the normal
 
 // The most that an impulse along the plane changes a velocity by, at a point.
-double response_at(double at_u_m, double at_v_m, const Matrix3d& drag_by_drag) {
+double response_at(double at_u_m, double at_v_m, const Matrix3d& by_tangential) {
   const Vector3d along_u(1, 0, -at_v_m), along_v(0, 1, at_u_m);
-  const Vector3d by_u = drag_by_drag * along_u;
+  const Vector3d by_u = by_tangential * along_u;
   const double uu = along_u.dot(by_u), uv = along_v.dot(by_u);
-  const double vv = along_v.dot(drag_by_drag * along_v);
+  const double vv = along_v.dot(by_tangential * along_v);
   const double half = (uu - vv) / 2;
   return (uu + vv) / 2 + std::sqrt(half * half + uv * uv);
 }
 }  // namespace
 
+Vector3d Manifold::tangential_sum(const Impulses& impulses) const {
+  const auto u = impulses.col(1), v = impulses.col(2);
+  return {u.sum(), v.sum(), at_u_m_.dot(v) - at_v_m_.dot(u)};
+}
+
 // Stops the patch where friction is strong enough for that, at every point, if the points share it
 // in proportion to their loads.
 // @return the velocity that it had, m/s; negative where friction is too weak: nothing is changed
-double Manifold::hold(const Patch& moving, Patch& change) {
-  const Vector3d more = -(drag_mass_ * moving.drag);
+double Manifold::stick(const Six& moving, Six& change) {
+  sticks_ = false;
+  if (spread_m_ < least_spread_m || !(tangential_by_tangential_(2, 2) > 0)) return -1;
+  const Vector3d& over = moving.tangential;
+  const Vector3d more = -(tangential_mass_ * over);
   if (!share_friction(more)) return -1;
-  change.drag += more;
-  return std::max(
-      {std::abs(moving.drag[0]), std::abs(moving.drag[1]), std::abs(moving.drag[2]) * spread_m_});
+  sticks_ = true;
+  change.tangential += more;
+  return std::max({std::abs(over[0]), std::abs(over[1]), std::abs(over[2]) * spread_m_});
+}
+
+// Friction at its limit would turn the slip at the start, s0, into one backwards, s, beyond the
+// end. A slip that changes steadily from s0 is s on the way, after (1 - mean weight / 2) of the
+// step.
+std::optional<double> Manifold::fraction_before_stop() const {
+  const Vector3d& slip = at_start_.tangential;
+  const double speed_m_s = slip.head<2>().norm();
+  if (!sticks_ || speed_m_s < least_slip_m_s) return std::nullopt;
+  const Vector3d friction_n_s = tangential_sum(impulses_);
+  const double mass_kg = slip.dot(tangential_mass_ * slip) / slip.squaredNorm();
+  const double spare_n_s =
+      surface_.friction * impulses_.col(0).sum() - friction_n_s.head<2>().norm();
+  return (1 - time_.mean_weight() / 2) * speed_m_s /
+         (speed_m_s + std::max(0.0, spare_n_s) / mass_kg);
 }
 
 // Adds a force impulse and a moment impulse about the patch's middle to the sum of the points'
@@ -40,11 +67,11 @@ double Manifold::hold(const Patch& moving, Patch& change) {
 // that only pull the points against each other.
 bool Manifold::share_friction(const Vector3d& more) {
   const Points loads = impulses_.col(0);
-  const double load = loads.sum();
+  const double load = loads.sum(), friction = surface_.friction;
   if (!(load > 0)) return false;
-  const Vector3d sum = dragged_n_s() + more;
+  const Vector3d sum = tangential_sum(impulses_) + more;
   // Points that share the load cannot hold more than all of it would.
-  if (sum[0] * sum[0] + sum[1] * sum[1] > friction_ * friction_ * load * load) return false;
+  if (sum.head<2>().squaredNorm() > friction * friction * load * load) return false;
   const double per_load = 1 / load;
   const double center_u_m = loads.dot(at_u_m_) * per_load;
   const double center_v_m = loads.dot(at_v_m_) * per_load;
@@ -54,72 +81,67 @@ bool Manifold::share_friction(const Vector3d& more) {
   const double turn = (sum[2] - center_u_m * sum[1] + center_v_m * sum[0]) / spread_m2;
   const Points u = loads.array() * per_load * (sum[0] - turn * (at_v_m_.array() - center_v_m));
   const Points v = loads.array() * per_load * (sum[1] + turn * (at_u_m_.array() - center_u_m));
-  const Points beyond = u.cwiseAbs2() + v.cwiseAbs2() - friction_ * friction_ * loads.cwiseAbs2();
+  const Points beyond = u.cwiseAbs2() + v.cwiseAbs2() - friction * friction * loads.cwiseAbs2();
   if (beyond.maxCoeff() > 0) return false;
   impulses_.col(1) = u;
   impulses_.col(2) = v;
   return true;
 }
 
-// By projected gradient on Coulomb's disk: the impulse ends on the disk's rim, exactly against the
-// sliding, or inside it, where nothing slides.
+// A patch at its limit that does not spin slips as one.
+// @return the change of its velocity, m/s; negative where that is not so: nothing is changed
+double Manifold::slip_straight(const Vector3d& slips, Six& change) {
+  const double load = impulses_.col(0).sum(), limit = surface_.friction * load;
+  const Vector3d bias = (1 - time_.mean_weight()) * at_start_.tangential;
+  const Vector3d mean = slips + bias;
+  if (!(load > 0) || std::abs(mean[2]) * spread_m_ > straight * mean.head<2>().norm()) return -1;
+  const Vector3d was = tangential_sum(impulses_);
+  double& per_kg = slip_per_kg_[0];
+  if (per_kg == 0) per_kg = response_at(at_u_m_[0], at_v_m_[0], tangential_by_tangential_);
+  Vector2d now = was.head<2>() - slips.head<2>() / per_kg;
+  if (now.squaredNorm() <= limit * limit) return -1;
+  now -= bias.head<2>() / per_kg;
+  now *= limit / now.norm();
+  const Points portions = impulses_.col(0) / load;
+  impulses_.col(1) = now[0] * portions;
+  impulses_.col(2) = now[1] * portions;
+  const Vector3d more = tangential_sum(impulses_) - was;
+  change.tangential += more;
+  return per_kg * more.head<2>().cwiseAbs().maxCoeff();
+}
+
+// By projected gradient on Coulomb's disk, one point after the other: an impulse inside it stops
+// the slip; one on its rim is against the mean slip over the step, which is between that at its
+// start and the one that is solved for.
 // @return the largest change of a velocity at a point, m/s
-double Manifold::slide(const Patch& moving, Patch& change) {
-  const Points before_u = impulses_.col(1), before_v = impulses_.col(2);
-  for (int i = 0; i < n_; ++i)
-    if (drag_per_kg_[i] == 0) drag_per_kg_[i] = response_at(at_u_m_[i], at_v_m_[i], drag_by_drag_);
-  if (!foresees_ || !slide_together(moving.drag)) slide_one_by_one(moving.drag);
-  const Points more_u = impulses_.col(1) - before_u, more_v = impulses_.col(2) - before_v;
-  change.drag += Vector3d(more_u.sum(), more_v.sum(), at_u_m_.dot(more_v) - at_v_m_.dot(more_u));
-  return more_u.cwiseAbs().cwiseMax(more_v.cwiseAbs()).cwiseProduct(drag_per_kg_).maxCoeff();
-}
-
-// All points at once, if all that are loaded slide. Each step is as small as it has to be where all
-// of them push the same way.
-bool Manifold::slide_together(const Vector3d& speed) {
-  const auto limits = friction_ * impulses_.col(0).array();
-  // Impulses times how they all change the drag.
-  const Points per_kg = n_ * drag_per_kg_;
-  const Eigen::Array4d u =
-      impulses_.col(1).cwiseProduct(per_kg) - (Points::Constant(speed[0]) - speed[2] * at_v_m_);
-  const Eigen::Array4d v =
-      impulses_.col(2).cwiseProduct(per_kg) - (Points::Constant(speed[1]) + speed[2] * at_u_m_);
-  const Eigen::Array4d squared = u.square() + v.square();
-  const Eigen::Array4d rims = limits * per_kg.array();
-  if ((squared - rims.square()).minCoeff() < 0) return false;
-  const Eigen::Array4d scale = limits / squared.max(least_squared_m2_s2).sqrt();
-  impulses_.col(1) = u * scale;
-  impulses_.col(2) = v * scale;
-  return true;
-}
-
-void Manifold::slide_one_by_one(const Vector3d& speed) {
-  Points along_u = impulses_.col(1), along_v = impulses_.col(2);
-  double speed_u = speed[0], speed_v = speed[1], spin = speed[2];
-  const Matrix3d& by = drag_by_drag_;
+double Manifold::slip(const Vector3d& slips, Six& change) {
+  Vector3d speed = slips;
+  double largest = 0;
+  const Vector3d bias = (1 - time_.mean_weight()) * at_start_.tangential;
+  const Matrix3d& by = tangential_by_tangential_;
   for (int i = 0; i < n_; ++i) {
-    const double limit = friction_ * impulses_(i, 0);
-    if (limit == 0 && along_u[i] == 0 && along_v[i] == 0) continue;
+    const double limit = surface_.friction * impulses_(i, 0);
+    const Vector2d was = impulses_.row(i).tail<2>();
+    if (limit == 0 && was.isZero(0)) continue;
     const double at_u_m = at_u_m_[i], at_v_m = at_v_m_[i];
-    const double mass_kg = 1 / drag_per_kg_[i];
-    double u = along_u[i] - mass_kg * (speed_u - at_v_m * spin);
-    double v = along_v[i] - mass_kg * (speed_v + at_u_m * spin);
-    const double squared = u * u + v * v;
-    if (squared > limit * limit) {
-      const double scale = limit / std::sqrt(squared);
-      u *= scale;
-      v *= scale;
+    double& per_kg = slip_per_kg_[i];
+    if (per_kg == 0) per_kg = response_at(at_u_m, at_v_m, by);
+    const auto at_point = [&](const Vector3d& of_patch) {
+      return Vector2d(of_patch[0] - at_v_m * of_patch[2], of_patch[1] + at_u_m * of_patch[2]);
+    };
+    Vector2d now = was - at_point(speed) / per_kg;
+    if (now.squaredNorm() > limit * limit) {
+      now -= at_point(bias) / per_kg;
+      now *= limit / std::max(now.norm(), least_impulse_n_s);
     }
-    const double more_u = u - along_u[i], more_v = v - along_v[i];
-    const double moment = at_u_m * more_v - at_v_m * more_u;
-    along_u[i] = u;
-    along_v[i] = v;
-    speed_u += by(0, 0) * more_u + by(0, 1) * more_v + by(0, 2) * moment;
-    speed_v += by(1, 0) * more_u + by(1, 1) * more_v + by(1, 2) * moment;
-    spin += by(2, 0) * more_u + by(2, 1) * more_v + by(2, 2) * moment;
+    const Vector2d more = now - was;
+    const Vector3d on_patch(more[0], more[1], at_u_m * more[1] - at_v_m * more[0]);
+    impulses_.row(i).tail<2>() = now;
+    speed += by * on_patch;
+    change.tangential += on_patch;
+    largest = std::max(largest, more.cwiseAbs().maxCoeff() * per_kg);
   }
-  impulses_.col(1) = along_u;
-  impulses_.col(2) = along_v;
+  return largest;
 }
 
 }  // namespace heft::boxes

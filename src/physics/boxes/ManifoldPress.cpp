@@ -1,5 +1,6 @@
 // The normal impulses of a Manifold: all points at once.
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "physics/boxes/Manifold.h"
@@ -10,9 +11,10 @@ using Eigen::Matrix4d;
 using Eigen::Vector3d;
 
 namespace {
+// Of a point without a load: whether it is one of those that share must not hang on rounding.
+constexpr double rounding_m_s = 1e-12;
 constexpr double firmness = 1e-5;       // of a block's diagonal, so that it can be solved
 constexpr double least_area_m2 = 1e-8;  // of points that are not on a line
-constexpr double unmoved_m_s = 1e-10;   // a nanometer in ten seconds
 
 bool has(unsigned set, int i) {
   return (set >> i & 1) != 0;
@@ -20,44 +22,43 @@ bool has(unsigned set, int i) {
 }  // namespace
 
 // The normal impulses at the points of a set that change their velocities as wanted, per velocity;
-// zero for the other points. Kept: few of the sixteen sets are ever asked for.
+// zero for the other points. Kept: most sweeps ask for the same set.
 const Matrix4d& Manifold::stopping(unsigned set) {
-  Matrix4d& inverse = stopping_[set];
-  if (known_ >> set & 1) return inverse;
-  known_ |= 1u << set;
-  Matrix4d block = Matrix4d::Identity();
-  Points in_set;
+  if (stopping_set_ == set) return stopping_;
+  stopping_set_ = set;
+  Matrix4d block = Matrix4d::Zero();
   for (int i = 0; i < 4; ++i) {
-    in_set[i] = has(set, i);
-    for (int j = 0; j < 4; ++j)
-      if (has(set, i) && has(set, j)) block(i, j) = response_(i, j);
-    if (has(set, i)) block(i, i) = (1 + firmness) * (response_(i, i) + softness_[i]);
+    block(i, i) = (1 + firmness) * (response_(i, i) + softness_[i]);
+    if (!(block(i, i) > 0)) block(i, i) = response_(0, 0);  // no point
+    for (int j = 0; j < i; ++j)
+      if (has(set, i) && has(set, j)) block(i, j) = block(j, i) = response_(i, j);
   }
-  inverse = block.llt().solve(Matrix4d(in_set.asDiagonal()));
-  return inverse;
+  stopping_ = block.inverse();
+  for (int i = 0; i < 4; ++i)
+    if (!has(set, i)) stopping_(i, i) = 0;
+  return stopping_;
 }
 
 // All points at once: a light clone before a heavy cube feels the sum of its points' impulses, the
 // cube how they are spread, and one point after the other would find the spread only slowly.
-// @param moving its drag follows
+// @param moving its tangential part follows
 // @return the largest change of a velocity at a point, m/s
-double Manifold::press(Patch& moving, Patch& change) {
+double Manifold::press(Six& moving, Six& change) {
   const Points now = impulses_.col(0);
-  const Points missing = -(levers_ * moving.press) - speeds_m_s_ - softness_.cwiseProduct(now);
+  const Points missing = -(levers_ * moving.normal) - closing_m_s_ - softness_.cwiseProduct(now);
   unsigned active = 0;
   double largest = 0;
-  for (int i = 0; i < 4; ++i) {
-    if (now[i] == 0 && !(missing[i] > 0)) continue;
+  for (int i = 0; i < n_; ++i) {
+    if (now[i] == 0 && !(missing[i] > rounding_m_s)) continue;
     active |= 1u << i;
     largest = std::max(largest, std::abs(missing[i]));
   }
   if (active == 0) return 0;
-  if (foresees_ && largest <= unmoved_m_s && now.minCoeff() >= 0) return 0;
   Points more = stopping(active) * missing;
   if ((now + more).minCoeff() < 0) more = release(active, missing);
   impulses_.col(0) = (now + more).cwiseMax(0);
-  change.press = levers_.transpose() * more;
-  moving.drag += drag_by_press_ * change.press;
+  change.normal = levers_.transpose() * more;
+  moving.tangential += tangential_by_normal_ * change.normal;
   return largest;
 }
 
