@@ -144,7 +144,22 @@ void check_view(const Setup& options) {
                 ExitCode::usage);
 }
 
+void check_dragged(const Setup& options) {
+  if (!has_person(options))
+    throw Error(fmt::format("tracker \"mouse\": a person drags the effector, but the responder is "
+                            "\"{}\", which has a hand of its own; expected --tracker hand or "
+                            "synthetic, or --responder human",
+                            split_name(options.responder).name),
+                ExitCode::usage);
+  if (!view_named(split_name(options.view).name).has_screen)
+    throw Error(fmt::format("tracker \"mouse\": the effector is dragged in the window, and the view "
+                            "\"{}\" has none; expected --view window",
+                            options.view),
+                ExitCode::usage);
+}
+
 void check_tracker(const Setup& options) {
+  if (tracker_named(options.tracker).is_dragged) check_dragged(options);
   if (tracker_named(options.tracker).what == TrackerWhat::settings)
     parse_synthetic_camera(options.tracker_text, split_name(options.tracker).file);
 }
@@ -177,8 +192,8 @@ void complete(Setup& options) {
 
 void check(const Setup& options) {
   if (!has_person(options)) checked_responder(options.responder);
-  check_view(options);
   check_tracker(options);
+  check_view(options);
   apparatus_of(options);
   const bool has_screen = view_named(split_name(options.view).name).has_screen;
   if (has_person(options) || has_screen) parse_texts(options.texts_text, options.texts_file);

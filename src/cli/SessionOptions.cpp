@@ -34,7 +34,9 @@ constexpr std::array who_and_what{
         "--tracker", &GivenOptions::tracker,
         "where effector poses come from: camera:N, video:FILE, frames:FOLDER, synthetic (a "
         "rendered camera films a model's hand; synthetic:FILE.toml says what it gets wrong, "
-        "as protocols/apparatus/synthetic_camera.toml explains), hand (that hand as it is)",
+        "as protocols/apparatus/synthetic_camera.toml explains), hand (that hand as it is), mouse "
+        "(you drag the effector in the window with the mouse or a finger and turn it with the "
+        "wheel: to try and to teach without a print)",
         "camera:0 for a person, hand for a model"},
     SessionOption{"--view", &GivenOptions::view,
                   "what shows the session: window, headless, video:FILE",
@@ -43,7 +45,7 @@ constexpr std::array who_and_what{
 constexpr std::array apparatus{
     SessionOption{"--camera-file", &GivenOptions::camera_file,
                   "the camera's calibration, from heft calibrate camera",
-                  "camera.yaml in this folder, for synthetic a made-up one"},
+                  "camera.yaml in this folder, for synthetic and mouse a made-up one"},
     SessionOption{"--board", &GivenOptions::board_file, "the printed board",
                   "protocols/apparatus/board.toml"},
     SessionOption{"--effector", &GivenOptions::effector_file, "the effector's tags",
@@ -92,7 +94,8 @@ Setup with_defaults(const GivenOptions& given) {
   options.view = given.view.value_or(person ? "window" : "headless");
   options.simulator = given.simulator.value_or("");
   options.settings = fmt::format("{}", fmt::join(given.settings, "\n"));
-  const bool synthetic = split_name(options.tracker).name == "synthetic";
+  const std::string tracker = split_name(options.tracker).name;
+  const bool synthetic = tracker == "synthetic" || tracker == "mouse";
   options.camera_file =
       synthetic ? or_shipped(given.camera_file, "protocols/apparatus/synthetic_camera.yaml")
                 : given.camera_file.value_or("");

@@ -12,7 +12,8 @@ namespace heft {
 
 namespace {
 struct PageKeys {
-  std::string_view page, keys;  ///< keys: parted by spaces
+  std::string_view page, keys;     ///< keys: parted by spaces
+  std::string_view may_lack = {};  ///< keys that came later than files that people keep
 };
 
 constexpr std::array required_pages{
@@ -30,7 +31,7 @@ constexpr std::array required_pages{
     PageKeys{"instructions_introduction", "title text"},
     PageKeys{"instructions_sorting", "title text"},
     PageKeys{"instructions_comparison", "title text"},
-    PageKeys{"trial", "wait_for_cubes touch_every_cube"},
+    PageKeys{"trial", "wait_for_cubes touch_every_cube", "drag_effector"},
     PageKeys{"trial_introduction", "question try_again"},
     PageKeys{"trial_sorting",
              "question tap_a_cube lightest intermediate heaviest validate dont_know"},
@@ -62,10 +63,12 @@ std::string read_text(TableReader& table, std::string_view key) {
   return text;
 }
 
-std::map<std::string, std::string> read_page(TableReader& table, std::string_view keys) {
+std::map<std::string, std::string> read_page(TableReader& table, const PageKeys& page) {
   std::map<std::string, std::string> texts;
-  std::istringstream words{std::string(keys)};
+  std::istringstream words{std::string(page.keys)}, more{std::string(page.may_lack)};
   for (std::string key; words >> key;) texts.emplace(key, read_text(table, key));
+  for (std::string key; more >> key;)
+    if (table.has(key)) texts.emplace(key, read_text(table, key));
   table.close();
   return texts;
 }
@@ -77,9 +80,10 @@ ScreenTexts parse_texts(const std::string& text, const std::string& file) {
   TableReader reader(root, mistakes);
   ScreenTexts texts;
   texts.language = read_text(reader, "language");
-  for (const auto& [page, keys] : required_pages) {
-    reader.require({page});
-    if (auto table = reader.table(page)) texts.pages.emplace(page, read_page(*table, keys));
+  for (const PageKeys& page : required_pages) {
+    reader.require({page.page});
+    if (auto table = reader.table(page.page))
+      texts.pages.emplace(page.page, read_page(*table, page));
   }
   reader.close();
   mistakes.throw_if_any();

@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "physics/DecouplingSimulator.h"
 #include "protocol/Files.h"
+#include "responders/Hand.h"
 
 namespace heft {
 
@@ -66,7 +67,15 @@ ViewSetup view_setup(const Protocol& protocol, const Setup& options, const Appar
   setup.left_handed = options.handed == "left";
   setup.file = split_name(options.view).file;
   setup.rate_hz = protocol.display_rate_hz;
+  setup.area_m = protocol.layout.area_m;
   return setup;
+}
+
+// Where a model's hand would rest; none where it is not dragged.
+std::shared_ptr<DraggedEffector> dragged_effector(const Protocol& protocol, const Setup& options) {
+  constexpr double hover_m = 0.005;
+  if (!tracker_named(options.tracker).is_dragged) return {};
+  return std::make_shared<DraggedEffector>(resting_pose(stage_of(protocol, 3), hover_m));
 }
 }  // namespace
 
@@ -81,11 +90,12 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const Setup& opti
   if (has_person_) require_general_simulator(protocol_->simulator.name);
   const Apparatus apparatus = fitting_apparatus(*protocol_, options);
   setup_ = view_setup(*protocol_, options, apparatus);
+  setup_.dragged = dragged_effector(*protocol_, options);
   demonstrated_ =
       apparatus.board.tags.empty() ? unfilmed_apparatus(*protocol_, options) : apparatus;
   pictures_ = open_pictures(
       options.tracker, {*protocol_, *responder_, apparatus, split_name(options.tracker).file, clock,
-                        seed, options.record_camera, options.tracker_text});
+                        seed, options.record_camera, options.tracker_text, setup_.dragged});
   const ViewEntry& view = view_named(split_name(options.view).name);
   has_screen_ = view.has_screen;
   view_ = view.make(setup_);

@@ -11,6 +11,7 @@
 
 #include "base/Image.h"
 #include "experiment/DisplayedFrame.h"
+#include "experiment/DraggedEffector.h"
 #include "experiment/ScreenState.h"
 #include "experiment/ScreenTexts.h"
 #include "experiment/Stage.h"
@@ -35,6 +36,8 @@ struct ViewSetup {
   bool left_handed = false;  ///< mirrors the controls, never the cubes
   std::string file;          ///< what follows the colon: "video:session.mp4"
   double rate_hz = 15;       ///< frames a second
+  Eigen::Vector2d area_m{0.40, 0.30};  ///< working area: width and depth around the board's center
+  std::shared_ptr<DraggedEffector> dragged = {};  ///< to be dragged in trials; none: it is held
 };
 
 class ArView {

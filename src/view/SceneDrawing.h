@@ -27,6 +27,12 @@ class SceneDrawing {
   /// not in the frame.
   std::optional<Eigen::Vector2d> label_place(int slot) const;
 
+  /// The point at that height over the table that is seen at a pixel; none: there is none.
+  std::optional<Eigen::Vector3d> point_at_height(const Eigen::Vector2d& pixel,
+                                                 double height_m) const {
+    return viewpoint_.point_at_height(pixel, height_m);
+  }
+
  private:
   SceneDrawing(const Stage& stage, const Intrinsics& camera);
   void draw_plain_table();

@@ -170,6 +170,49 @@ class Window(unittest.TestCase):
         replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
 
+    def drag(self, start, end):
+        """With the mouse, in steps as a hand would."""
+        steps = 12
+        self.screen.do("mousemove", *start, "mousedown", 1)
+        for i in range(1, steps + 1):
+            self.screen.do("mousemove", *(a + (b - a) * i // steps for a, b in zip(start, end)))
+            time.sleep(0.03)
+        self.screen.do("mouseup", 1)
+        time.sleep(0.3)
+
+    def wait_for_cubes(self, person):
+        deadline = time.time() + 60
+        while not (person.open_trial() or (0, "", None))[2]:
+            self.assertLess(time.time(), deadline)
+            self.assertIsNone(self.program.poll())
+            if person.page() and not person.open_trial():
+                self.screen.key("Return")
+            time.sleep(0.4)
+
+    def test_a_newcomer_without_a_printer_pushes_a_cube_with_the_mouse(self):
+        person = self.start("--tracker", "mouse")
+        self.wait_for_cubes(person)
+        self.drag((355, 440), (290, 440))
+        self.drag((290, 440), (290, 250))
+        self.screen.do("click", "--repeat", 3, 4)
+        deadline = time.time() + 60
+        while not person.log("select 1 from cube where n_pushes > 0 and slot = 1"):
+            self.assertLess(time.time(), deadline, "no cube was pushed")
+            time.sleep(0.3)
+        self.program.terminate()
+        self.program.communicate(timeout=60)
+        moved = query(self.db, "select max(effector_y_m) - min(effector_y_m), max(tracked), "
+                               "max(abs(effector_qw - 0.7071)) from frame")
+        self.assertGreater(moved[0][0], 0.05)
+        self.assertEqual(moved[0][1], 1)
+        self.assertGreater(moved[0][2], 0.05, "the wheel turned it")
+        self.assertEqual(query(self.db, "select tracker, responder from setup"),
+                         [("mouse", "human")])
+        replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+        told = subprocess.run([HEFT, "analyse", "--db", self.db], capture_output=True, text=True)
+        self.assertIn("dragged on the screen", told.stdout + told.stderr)
+
     def test_without_a_display_nothing_is_begun(self):
         environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         run = subprocess.run([HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07",

@@ -163,6 +163,87 @@ TEST_F(Window, ACubeInThePictureIsAsGoodAsItsButton) {
   EXPECT_EQ(touched[0].action.slot, 2);
 }
 
+// With the effector of picture_of() to be dragged.
+class WindowToDragIn : public Window {
+ protected:
+  WindowToDragIn() {
+    effector->pose = picture_of(setup).frame.effector;
+    setup.dragged = effector;
+    open(setup);
+  }
+
+  /// The middle of where the effector can be taken.
+  std::pair<float, float> middle_of_effector() {
+    show(trial_state(Task::sorting));
+    const Measures all = view->measures();
+    float x_sum = 0, y_sum = 0, n = 0;
+    for (float y = 0; y < all.height; y += 16)
+      for (float x = 0; x < all.width; x += 16) {
+        if (!view->is_on_effector(x, y)) continue;
+        x_sum += x, y_sum += y, ++n;
+      }
+    if (n == 0) throw std::out_of_range("no effector is to be dragged");
+    return {x_sum / n, y_sum / n};
+  }
+
+  std::shared_ptr<DraggedEffector> effector = std::make_shared<DraggedEffector>();
+};
+
+TEST_F(WindowToDragIn, TheEffectorGoesWhereTheMouseGoesAndTheWheelTurnsIt) {
+  const auto [x, y] = middle_of_effector();
+  const Pose before = effector->pose;
+  push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
+  push_mouse_motion(x + 60, y - 60);
+  EXPECT_THAT(touches(), IsEmpty()) << "it answers nothing";
+  const auto moved_m = effector->pose.position_m - before.position_m;
+  EXPECT_GT(moved_m.x(), 0.01);
+  EXPECT_GT(moved_m.y(), 0.01);
+  EXPECT_EQ(moved_m.z(), 0);
+  push_wheel(2);
+  push_mouse(SDL_MOUSEBUTTONUP, x + 60, y - 60);
+  push_mouse_motion(x - 90, y);
+  EXPECT_THAT(touches(), IsEmpty());
+  EXPECT_EQ(effector->pose.position_m - before.position_m, moved_m) << "it was let go";
+  EXPECT_NEAR(effector->pose.orientation.angularDistance(before.orientation), 0.1745, 1e-3);
+}
+
+TEST_F(WindowToDragIn, AFingerDragsItAndAnotherTapsMeanwhile) {
+  const auto [x, y] = middle_of_effector();
+  const double before_m = effector->pose.position_m.x();
+  push_finger(SDL_FINGERDOWN, x, y, 1);
+  tap(*view, "cube_2");
+  push_finger(SDL_FINGERMOTION, x + 50, y, 1);
+  view->wait(0);
+  EXPECT_TRUE(control_named(*view, "cube_2").chosen);
+  EXPECT_GT(effector->pose.position_m.x(), before_m);
+}
+
+TEST_F(WindowToDragIn, OutsideOfTrialsNothingIsDragged) {
+  const auto [x, y] = middle_of_effector();
+  const Pose before = effector->pose;
+  push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
+  view->wait(0);
+  show(page_state(Screen::demonstration));
+  push_mouse_motion(x + 60, y);
+  push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
+  push_mouse_motion(x + 60, y);
+  push_wheel(3);
+  view->wait(0);
+  EXPECT_EQ(effector->pose.position_m, before.position_m);
+  EXPECT_EQ(effector->pose.orientation.coeffs(), before.orientation.coeffs());
+}
+
+TEST_F(Window, WithoutAnEffectorToDragTheMouseTapsOnly) {
+  show(trial_state(Task::sorting));
+  const auto [x, y] = place_in_picture(*view, "cube_2");
+  push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
+  push_mouse_motion(x + 1, y);
+  push_wheel(1);
+  push_mouse(SDL_MOUSEBUTTONUP, x + 1, y);
+  EXPECT_THAT(touches(), IsEmpty());
+  EXPECT_TRUE(control_named(*view, "cube_2").chosen);
+}
+
 TEST_F(Window, CubesInThePictureWaitForLeaveToo) {
   ScreenState state = trial_state(Task::comparison);
   show(state);

@@ -182,8 +182,21 @@ void SceneOnScreen::place(const std::optional<Rect>& room) {
 
 std::optional<int> SceneOnScreen::slot_at(float x, float y) const {
   if (!area_ || !area_->contains(x, y)) return std::nullopt;
-  // Pixel centers are integers in the frame, halves on the screen.
-  return drawing_.slot_at((x - area_->x) / scale() - 0.5, (y - area_->y) / scale() - 0.5);
+  const Eigen::Vector2d pixel = frame_pixel(x, y);
+  return drawing_.slot_at(pixel.x(), pixel.y());
+}
+
+// Pixel centers are integers in the frame, halves on the screen.
+Eigen::Vector2d SceneOnScreen::frame_pixel(float x, float y) const {
+  return {(x - area_->x) / scale() - 0.5, (y - area_->y) / scale() - 0.5};
+}
+
+std::optional<Eigen::Vector3d> SceneOnScreen::point_at_height(float x, float y,
+                                                              double height_m) const {
+  if (!area_) return std::nullopt;
+  const float inside_x = std::clamp(x, area_->x, area_->right());
+  const float inside_y = std::clamp(y, area_->y, area_->bottom());
+  return drawing_.point_at_height(frame_pixel(inside_x, inside_y), height_m);
 }
 
 std::optional<int> SceneOnScreen::slot_near(float x, float y, float reach_px) const {

@@ -64,11 +64,15 @@ class SceneOnScreen {
 
   /// The cube at a pixel of the window, or else the only one within reach of it.
   std::optional<int> slot_near(float x, float y, float reach_px) const;
+  /// The point at that height over the table that is seen at a pixel of the window, or at the
+  /// scene's pixel next to it.
+  std::optional<Eigen::Vector3d> point_at_height(float x, float y, double height_m) const;
   /// The marks of cubes that are in the frame.
   std::vector<PlacedMark> placed(const std::vector<CubeMark>& marks) const;
 
  private:
   std::optional<int> slot_at(float x, float y) const;
+  Eigen::Vector2d frame_pixel(float x, float y) const;
   float scale() const { return area_->width / static_cast<float>(width_px_); }
 
   SceneDrawing drawing_;

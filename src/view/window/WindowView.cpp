@@ -36,13 +36,17 @@ WindowView::WindowView(const ViewSetup& setup)
       screens_(setup.texts, setup.left_handed),
       measures_(window_.measures()),
       typeface_(std::make_unique<Typeface>(setup.texts, measures_)),
-      sdl_start_s_(monotonic_s() - static_cast<double>(SDL_GetTicks64()) * 1e-3) {}
+      sdl_start_s_(monotonic_s() - static_cast<double>(SDL_GetTicks64()) * 1e-3) {
+  if (setup.dragged) drag_.emplace(setup);
+}
 
 void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
   if (screens_.show(screen, !shown.frame.cubes.empty())) {
     taps_.forget();
     page_since_s_ = monotonic_s();
   }
+  in_trial_ = screen.screen == Screen::trial;
+  if (drag_ && !in_trial_) drag_->let_go();
   lay_out();
   if (!page_.scene) return;
   window_.upload(scene_.draw(shown));
@@ -57,6 +61,9 @@ void WindowView::lay_out() {
     typeface_ = std::make_unique<Typeface>(screens_.texts(), measures_);
   }
   page_ = screens_.page(*typeface_, measures_);
+  if (drag_ && in_trial_ && !drag_->was_taken())
+    if (const std::string& hint = screens_.texts().if_any("trial", "drag_effector"); !hint.empty())
+      page_.notice = hint;
   scene_.place(page_.scene);
   stale_ = true;
 }
@@ -87,7 +94,26 @@ std::optional<std::string> WindowView::target_at(float x, float y) const {
   return enabled_control(name) ? std::optional(name) : std::nullopt;
 }
 
+// Where a pointer that drags the effector is, at its height.
+std::optional<Eigen::Vector3d> WindowView::dragged_to(float x, float y) const {
+  return drag_ ? scene_.point_at_height(x, y, drag_->height_m()) : std::nullopt;
+}
+
+bool WindowView::is_on_effector(float x, float y) const {
+  if (!in_trial_ || !scene_.area() || !scene_.area()->contains(x, y)) return false;
+  const auto at_m = dragged_to(x, y);
+  return at_m && drag_->is_at(*at_m);
+}
+
+void WindowView::moved(Taps::Pointer pointer, float x, float y) {
+  if (const auto at_m = dragged_to(x, y)) drag_->move(pointer, *at_m);
+}
+
 void WindowView::down(Taps::Pointer pointer, float x, float y, double t_s) {
+  if (is_on_effector(x, y)) {  // at any time: it answers nothing
+    drag_->take(pointer, *dragged_to(x, y));
+    return lay_out();
+  }
   if (t_s < page_since_s_ + settle_s) return;
   if (const auto target = target_at(x, y)) {
     taps_.down(pointer, *target);
@@ -96,6 +122,7 @@ void WindowView::down(Taps::Pointer pointer, float x, float y, double t_s) {
 }
 
 void WindowView::up(Taps::Pointer pointer, float x, float y, double t_s) {
+  if (drag_ && drag_->is_held_by(pointer)) return drag_->let_go(pointer);
   const auto target = target_at(x, y);
   stale_ = true;
   if (taps_.up(pointer, target)) apply(*enabled_control(*target), t_s);
@@ -130,8 +157,16 @@ void WindowView::handle(const SDL_Event& event) {
     case SDL_FINGERUP:
       return up(event.tfinger.fingerId, event.tfinger.x * measures_.width,
                 event.tfinger.y * measures_.height, t_s);
+    case SDL_FINGERMOTION:
+      return moved(event.tfinger.fingerId, event.tfinger.x * measures_.width,
+                   event.tfinger.y * measures_.height);
     case SDL_MOUSEMOTION:
       SDL_ShowCursor(SDL_ENABLE);
+      if (event.motion.which != SDL_TOUCH_MOUSEID)
+        moved(Taps::mouse, mouse_at(event.motion.x), mouse_at(event.motion.y));
+      return;
+    case SDL_MOUSEWHEEL:
+      if (drag_ && in_trial_) drag_->turn(event.wheel.y);
       return;
     case SDL_MOUSEBUTTONDOWN:
       if (event.button.button == SDL_BUTTON_LEFT && event.button.which != SDL_TOUCH_MOUSEID)

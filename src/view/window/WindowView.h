@@ -1,7 +1,8 @@
 // The participant's window: SDL2 and OpenGL, full screen, for touch at arm's length. Fingers and
 // mouse are equal: a tap is going down and up on the same control, or on the same cube in the
 // scene, which is as good as its button. Targets' sizes: Measures.h. F11 changes between full
-// screen and a window.
+// screen and a window. An effector that is to be dragged goes with the finger or mouse that went
+// down on it; the wheel turns it.
 //
 // Keyboard: 1...9 a cube or a form's choice; L, I, H lightest, intermediate, heaviest (whatever the
 // language); Enter goes on, agrees, validates; D "I don't know"; N "No difference", "I do not
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "view/ArView.h"
+#include "view/window/EffectorDrag.h"
 #include "view/window/GlWindow.h"
 #include "view/window/Painter.h"
 #include "view/window/Screens.h"
@@ -29,8 +31,11 @@ class WindowView final : public ArView {
   std::optional<double> present(const ViewFrame& shown, const ScreenState& screen) override;
   std::vector<Touch> wait(double seconds) override;
 
+  const Measures& measures() const { return measures_; }
   /// The controls as last shown, in pixels of the window: for tests, and for scripts that tap.
   const std::vector<Control>& controls() const { return page_.controls; }
+  /// Whether a finger that goes down there takes the effector, to drag it.
+  bool is_on_effector(float x, float y) const;
   /// The name of the enabled control that a tap at this pixel is for; a cube in the scene goes by
   /// its button's name.
   std::optional<std::string> target_at(float x, float y) const;
@@ -40,6 +45,8 @@ class WindowView final : public ArView {
   void draw();
   void handle_pending();
   void handle(const SDL_Event& event);
+  std::optional<Eigen::Vector3d> dragged_to(float x, float y) const;
+  void moved(Taps::Pointer pointer, float x, float y);
   void down(Taps::Pointer pointer, float x, float y, double t_s);
   void up(Taps::Pointer pointer, float x, float y, double t_s);
   void key(char key, double t_s);
@@ -55,6 +62,8 @@ class WindowView final : public ArView {
   std::unique_ptr<Typeface> typeface_;
   Page page_;
   Taps taps_;
+  std::optional<EffectorDrag> drag_;  ///< none: the effector is held, or a model's
+  bool in_trial_ = false;
   std::vector<Touch> touches_;
   double sdl_start_s_;  ///< SDL counts events' times from there, in milliseconds of the same clock
   double page_since_s_ = 0;
