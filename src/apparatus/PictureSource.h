@@ -63,6 +63,9 @@ class PictureSource {
   /// @param wanted_rate_hz of the display
   virtual std::vector<CheckResult> check(double wanted_rate_hz [[maybe_unused]]) { return {}; }
 
+  /// check() looks at something, which takes a while.
+  virtual bool has_checks() const { return false; }
+
   /// No picture will come any more: the end of a file.
   virtual bool ended() const { return false; }
 };
@@ -77,6 +80,7 @@ struct PictureParts {
   std::uint64_t seed = 0;  ///< the session's
   std::string record_to;   ///< a folder that the camera's pictures are kept in; empty: they are not
   std::string settings = {};  ///< contents of the file that `what` names, where it names settings
+  bool left_hand = false;     ///< holds the effector, where a rendered camera films one
   /// What a person drags on the screen; none: there is no such window.
   std::shared_ptr<const DraggedEffector> dragged = {};
 };

@@ -22,6 +22,7 @@ struct Options {
   std::optional<std::string> language;
   std::optional<std::string> purpose;
   std::string record_camera;
+  std::optional<std::string> controls, hand;
   bool left_handed = false, unblind = false, again = false;
 };
 
@@ -80,12 +81,19 @@ Purpose purpose_of(const Options& options, const Setup& setup) {
   return named<Purpose>(options.purpose.value_or(is_dragged(setup) ? "test" : "main")).value();
 }
 
+std::string side_of_controls(const Options& options) {
+  if (options.left_handed && options.controls == "right")
+    throw Error("--left-handed is --controls left; expected one of them", ExitCode::usage);
+  return options.left_handed ? "left" : options.controls.value_or("right");
+}
+
 SessionRequest request_of(const Options& options) {
   SessionRequest request;
   request.protocol = load_protocol(options.protocol, options.given.settings);
   Setup setup = with_defaults(options.given);
   setup.texts_file = texts_file(options.language.value_or(request.protocol.screens.language));
-  setup.handed = options.left_handed ? "left" : "right";
+  setup.handed = side_of_controls(options);
+  setup.hand = options.hand.value_or("right");
   setup.record_camera = options.record_camera;
   complete_and_tell(setup);
   request.setup = in_force(std::move(setup), request.protocol);
@@ -189,8 +197,16 @@ void add_run(Command& app) {
   command.add_option("--language", &options->language,
                      "of the participant's screens: en, fr, or a text FILE.toml (default: the "
                      "protocol's)");
-  command.add_flag("--left-handed", options->left_handed,
-                   "mirror the controls (the cubes stay where they are)");
+  command
+      .add_option("--hand", &options->hand,
+                  "that holds the effector: the demonstration shows it (default: right)")
+      .one_of({"left", "right"});
+  command
+      .add_option("--controls", &options->controls,
+                  "the side of the screen that the buttons are on, for the hand that taps; the "
+                  "cubes stay where they are (default: right)")
+      .one_of({"left", "right"});
+  command.add_flag("--left-handed", options->left_handed, "the same as --controls left");
   command
       .add_option("--purpose", &options->purpose,
                   "of a person's session; analyse keeps them apart (default: main, with --tracker "

@@ -42,6 +42,13 @@ constexpr std::array who_and_what{
                   "what shows the session: window, headless, video:FILE",
                   "window for a person, headless for a model"}};
 
+constexpr std::array display{
+    SessionOption{"--display", &GivenOptions::display,
+                  "the number of the display that the window is on (heft doctor lists them)", "0"},
+    SessionOption{"--display-file", &GivenOptions::display_file,
+                  "the measured display, from heft calibrate display",
+                  "display.toml in this folder, if there is one"}};
+
 constexpr std::array apparatus{
     SessionOption{"--camera-file", &GivenOptions::camera_file,
                   "the camera's calibration, from heft calibrate camera",
@@ -71,6 +78,9 @@ void add_session_options(Command& command, GivenOptions& given, bool stay) {
   add_options(command, given, who_and_what, stay);
   if (!stay) command.group("Apparatus");
   add_options(command, given, apparatus, stay);
+  add_options(command, given, display, stay);
+  command.add_flag("--windowed", given.windowed,
+                   "the window does not fill the display; F11 changes that, too");
 }
 
 void add_settings(Command& command, std::vector<std::string>& settings) {
@@ -93,6 +103,9 @@ Setup with_defaults(const GivenOptions& given) {
   options.tracker = given.tracker.value_or(person ? "camera:0" : "hand");
   options.view = given.view.value_or(person ? "window" : "headless");
   options.simulator = given.simulator.value_or("");
+  options.display = given.display.value_or("");
+  options.display_file = given.display_file.value_or("");
+  if (given.windowed) options.window = "window";
   options.settings = fmt::format("{}", fmt::join(given.settings, "\n"));
   const std::string tracker = split_name(options.tracker).name;
   const bool synthetic = tracker == "synthetic" || tracker == "mouse";

@@ -20,13 +20,14 @@ enum class Screen {
   rest,
   paused,
   how_decided,
-  thanks
+  thanks,
+  setting_up  ///< before anything else, while the apparatus is looked at
 };
 template <>
 struct EnumNames<Screen> {
-  static constexpr std::array<std::string_view, 10> names{
-      "consent", "welcome", "about_you", "demonstration", "instructions",
-      "trial",   "rest",    "paused",    "how_decided",   "thanks"};
+  static constexpr std::array<std::string_view, 11> names{
+      "consent", "welcome", "about_you",   "demonstration", "instructions", "trial",
+      "rest",    "paused",  "how_decided", "thanks",        "setting_up"};
 };
 
 struct ScreenState {

@@ -42,7 +42,8 @@ constexpr std::array required_pages{
              "title basis basis_seen basis_felt basis_both basis_guessed certainty certainty_very "
              "certainty_fairly certainty_little certainty_none movement movement_slow "
              "movement_fast movement_varied movement_unaware"},
-    PageKeys{"thanks", "title text"}};
+    PageKeys{"thanks", "title text"},
+    PageKeys{"setting_up", "", "title text"}};
 
 std::string trimmed(const std::string& text) {
   std::string kept;
@@ -81,9 +82,11 @@ ScreenTexts parse_texts(const std::string& text, const std::string& file) {
   ScreenTexts texts;
   texts.language = read_text(reader, "language");
   for (const PageKeys& page : required_pages) {
-    reader.require({page.page});
+    if (!page.keys.empty()) reader.require({page.page});
     if (auto table = reader.table(page.page))
       texts.pages.emplace(page.page, read_page(*table, page));
+    else
+      texts.pages.emplace(page.page, std::map<std::string, std::string>{});
   }
   reader.close();
   mistakes.throw_if_any();

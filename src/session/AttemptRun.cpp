@@ -153,6 +153,7 @@ void AttemptRun::show(const ShownFrame& shown, const Picture& picture, FrameRow&
   const auto presented = screen_.present(shown_, engine().screen());
   row.present_s = presented && parts_.clock.is_wall() ? log_time(parts_.clock.session_s(*presented))
                                                       : journal_.now_s();
+  row.clone_offset_px = screen_.clone_offset_px();
   if (cubes_appear) {
     journal_.emit({row.present_s, CubesShown{}}, Durability::acknowledged);
     if (parts_.has_screen)

@@ -41,6 +41,8 @@ bool Runner::wait_for_log(double waited_s) {
 
 void Runner::check_apparatus() {
   std::string failed;
+  if (parts_.has_screen && parts_.pictures.has_checks())
+    screen_.present({}, ScreenState{.screen = Screen::setting_up});
   for (const CheckResult& result : parts_.pictures.check(parts_.protocol.display_rate_hz)) {
     journal_.emit_now(result);
     const bool has_failed = result.verdict == CheckVerdict::failed;
@@ -116,7 +118,7 @@ void Runner::take_break(const std::string& name, double least_s) {
 
 void Runner::show_demonstration(const DemonstrationBlock& block) {
   if (is_looked_at())
-    pages_.demonstration(block, parts_.apparatus);
+    pages_.demonstration(block, parts_.apparatus, parts_.left_hand);
   else
     parts_.clock.advance_to(journal_.now_s() + block.duration_s);
   if (!control_.leaving()) journal_.emit_now(DemonstrationShown{block.name});

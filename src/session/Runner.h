@@ -27,6 +27,7 @@ struct SessionParts {
   bool has_screen = false;             ///< the view can be looked at and touched
   const ScreenTexts* texts = nullptr;  ///< of the person who answers; null: the responder answers
   Apparatus apparatus = {};  ///< what the demonstration shows; without a board a plain table
+  bool left_hand = false;    ///< holds the effector in it
 };
 
 struct RunnerOptions {

@@ -61,7 +61,8 @@ inline std::vector<NamedScreen> page_screens() {
           {"rest", page_state(Screen::rest)},
           {"paused", page_state(Screen::paused)},
           {"how_decided", page_state(Screen::how_decided)},
-          {"thanks", page_state(Screen::thanks)}};
+          {"thanks", page_state(Screen::thanks)},
+          {"setting_up", page_state(Screen::setting_up)}};
 }
 
 inline std::vector<NamedScreen> trial_screens() {

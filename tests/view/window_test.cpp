@@ -306,6 +306,76 @@ TEST_F(Window, ChangesItsLayoutWithItsSize) {
   }
 }
 
+// On the smallest screen, 7" and 1024 x 600: cubes are 10 mm wide and more, and still tapped where
+// they are.
+TEST_F(Window, ShowsOfThePictureWhatTheCubesNeed) {
+  setup.windowed = true;
+  for (auto& slot_m : setup.stage.slots_m) slot_m.y() = 0;  // as protocols have it
+  const auto cube_mm = [&] {
+    open(setup);
+    SDL_SetWindowSize(SDL_GL_GetCurrentWindow(), 1024, 600);
+    ViewFrame shown = picture_of(setup);
+    shown.frame.effector = shown.frame.cubes[1];
+    shown.frame.clone = shown.frame.cubes[1];
+    shown.frame.clone->position_m.x() += setup.stage.cube_size_m;
+    view->wait(0);
+    view->present(shown, trial_state(Task::sorting));
+    return view->clone_offset_px().value() * 154.2 / 1024;
+  };
+  const double whole_mm = cube_mm();
+  EXPECT_LT(whole_mm, 10);
+  setup.shown_m =
+      Eigen::AlignedBox3d(Eigen::Vector3d(-0.14, -0.12, 0), Eigen::Vector3d(0.14, 0.15, 0.035));
+  EXPECT_GE(cube_mm(), 10);
+  view->wait(0.25);
+  const auto [x1, y1] = place_in_picture(*view, "cube_1");
+  const auto [x3, y3] = place_in_picture(*view, "cube_3");
+  tap_with_finger(x3, y3);
+  EXPECT_THAT(touches(), IsEmpty());
+  EXPECT_TRUE(control_named(*view, "cube_3").chosen);
+  EXPECT_NEAR((x3 - x1) * 154.2 / 1024, cube_mm() * 0.14 / 0.035, 4);
+}
+
+TEST_F(Window, TellsItsDisplayAndHowFarTheCloneIsSeenBesideTheEffector) {
+  const auto display = view->display();
+  ASSERT_TRUE(display);
+  EXPECT_EQ(display->number, 0);
+  EXPECT_GT(display->w_px, 100);
+  EXPECT_EQ(display->scale, 1);
+  ViewFrame shown = picture_of(setup);
+  view->present(shown, trial_state(Task::sorting));
+  EXPECT_EQ(view->clone_offset_px(), 0);
+  shown.frame.clone->position_m.x() += 0.01;
+  view->present(shown, trial_state(Task::sorting));
+  const double offset_px = view->clone_offset_px().value();
+  shown.frame.clone->position_m.x() += 0.01;
+  view->present(shown, trial_state(Task::sorting));
+  EXPECT_NEAR(view->clone_offset_px().value(), 2 * offset_px, 0.02 * offset_px);
+  shown.frame.tracked = false;
+  view->present(shown, trial_state(Task::sorting));
+  EXPECT_FALSE(view->clone_offset_px());
+  view->present(picture_of(setup), page_state(Screen::rest));
+  EXPECT_FALSE(view->clone_offset_px());
+}
+
+TEST_F(Window, OpensAsAWindowOrFullScreenOnTheDisplayThatIsNamed) {
+  const auto is_full = [] {
+    return (SDL_GetWindowFlags(SDL_GL_GetCurrentWindow()) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
+  };
+  EXPECT_TRUE(is_full());
+  setup.windowed = true;
+  open(setup);
+  EXPECT_FALSE(is_full());
+  setup.display = 7;
+  try {
+    open(setup);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::device_missing);
+    EXPECT_THAT(error.what(), testing::HasSubstr("no display 7"));
+  }
+}
+
 TEST_F(Window, OutlivesALostOpenGlContext) {
   show(trial_state(Task::sorting));
   SDL_GL_DeleteContext(SDL_GL_GetCurrentContext());

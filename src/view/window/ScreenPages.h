@@ -38,6 +38,11 @@ class PageBuilder {
     return texts_.at(of_page, key);
   }
 
+  /// Empty where the file lacks it, as it may.
+  std::string text_if_any(const std::string& of_page, const std::string& key) const {
+    return texts_.if_any(of_page, key);
+  }
+
   /// Lines below each other; an empty one is half as high.
   /// @return the bottom of the last
   float add_lines(const std::vector<std::string>& lines, float x, float y, float size_px,
@@ -75,7 +80,7 @@ using FillPage = void(PageBuilder& builder);
 
 // Text: TextScreens.cpp. A text too long for the screen comes in parts.
 FillPage consent_screen, welcome_screen, instructions_screen, rest_screen, paused_screen,
-    thanks_screen;
+    thanks_screen, setting_up_screen;
 // Forms of one question at a time, each to be skipped at will: there, too.
 FillPage about_you_screen, how_decided_screen;
 // Beside the scene: SceneScreens.cpp.

@@ -15,8 +15,9 @@ float advance_px(const std::string& line, float size_px) {
 
 // In the order of Screen and of Task.
 constexpr std::array<FillPage*, EnumNames<Screen>::names.size()> pages{
-    consent_screen, welcome_screen, about_you_screen, demonstration_screen, instructions_screen,
-    nullptr,        rest_screen,    paused_screen,    how_decided_screen,   thanks_screen};
+    consent_screen,      welcome_screen, about_you_screen, demonstration_screen,
+    instructions_screen, nullptr,        rest_screen,      paused_screen,
+    how_decided_screen,  thanks_screen,  setting_up_screen};
 constexpr std::array<FillPage*, EnumNames<Task>::names.size()> trial_pages{
     introduction_screen, sorting_screen, comparison_screen};
 }  // namespace

@@ -31,7 +31,7 @@ std::optional<char> key_of(const SDL_Keysym& key) {
 }  // namespace
 
 WindowView::WindowView(const ViewSetup& setup)
-    : window_("Heft"),
+    : window_("Heft", {setup.display, setup.windowed}),
       scene_(setup),
       screens_(setup.texts, setup.left_handed),
       measures_(window_.measures()),
@@ -48,9 +48,13 @@ void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
   in_trial_ = screen.screen == Screen::trial;
   if (drag_ && !in_trial_) drag_->let_go();
   lay_out();
+  clone_offset_px_.reset();
   if (!page_.scene) return;
   window_.upload(scene_.draw(shown));
   scene_.place(page_.scene);
+  if (shown.frame.tracked && shown.frame.clone)
+    clone_offset_px_ =
+        scene_.distance_px(shown.frame.effector.position_m, shown.frame.clone->position_m);
 }
 
 // The page for the window's size and the screens' memory as they are now.
@@ -70,7 +74,7 @@ void WindowView::lay_out() {
 
 void WindowView::draw() {
   std::optional<PaintedScene> painted;
-  if (scene_.area()) painted = PaintedScene{window_.texture(), *scene_.area()};
+  if (scene_.area()) painted = PaintedScene{window_.texture(), *scene_.area(), scene_.part()};
   ImDrawList& list = window_.begin_frame(typeface_->atlas());
   paint_page(list, page_,
              {*typeface_, measures_, painted, scene_.placed(page_.marks),

@@ -30,6 +30,8 @@ class WindowView final : public ArView {
 
   std::optional<double> present(const ViewFrame& shown, const ScreenState& screen) override;
   std::vector<Touch> wait(double seconds) override;
+  std::optional<DisplayFacts> display() const override { return window_.display(); }
+  std::optional<double> clone_offset_px() const override { return clone_offset_px_; }
 
   const Measures& measures() const { return measures_; }
   /// The controls as last shown, in pixels of the window: for tests, and for scripts that tap.
@@ -64,6 +66,7 @@ class WindowView final : public ArView {
   Taps taps_;
   std::optional<EffectorDrag> drag_;  ///< none: the effector is held, or a model's
   bool in_trial_ = false;
+  std::optional<double> clone_offset_px_;
   std::vector<Touch> touches_;
   double sdl_start_s_;  ///< SDL counts events' times from there, in milliseconds of the same clock
   double page_since_s_ = 0;
