@@ -85,6 +85,20 @@ std::string simulated_note(const Summary& summary) {
   return "Figures of persons and of simulated responders are mixed here.";
 }
 
+// Nobody held anything: what they felt is of the same physics, and of another hand.
+std::string dragged_note(const Dataset& dataset) {
+  std::vector<std::string> sessions;
+  for (const SessionData& data : dataset.sessions)
+    if (std::ranges::any_of(data.setups, [](const auto& s) { return s.setup.tracker == "mouse"; }))
+      sessions.push_back(
+          fmt::format("{} ({})", data.session.session_id, data.session.header.participant));
+  if (sessions.empty()) return "";
+  return fmt::format(
+      "The effector was dragged on the screen (tracker mouse), not held, in session {}: to try and "
+      "to teach, not to be put beside a held one's figures.",
+      some_of(sessions));
+}
+
 std::string pictures_note(const Dataset& dataset) {
   PictureCounts all;
   for (const SessionData& data : dataset.sessions) {
@@ -108,10 +122,10 @@ std::string missing_note(const Summary& summary) {
 }  // namespace
 
 std::vector<std::string> notes_on(const Dataset& dataset, const Summary& summary) {
-  std::vector<std::string> notes{simulated_note(summary),     missing_note(summary),
-                                 unfinished_note(summary),    excluded_note(summary),
-                                 repeated_note(dataset),      protocols_note(dataset),
-                                 other_methods_note(dataset), pictures_note(dataset)};
+  std::vector<std::string> notes{
+      simulated_note(summary),     missing_note(summary),  unfinished_note(summary),
+      excluded_note(summary),      repeated_note(dataset), protocols_note(dataset),
+      other_methods_note(dataset), dragged_note(dataset),  pictures_note(dataset)};
   std::erase(notes, "");
   return notes;
 }

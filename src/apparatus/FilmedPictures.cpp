@@ -30,6 +30,7 @@ SyntheticSettings settings_for(const PictureParts& parts) {
                             "each lasts {:.4g} s, expected at most that",
                             parts.what, exposure_s, rate_hz, 1 / rate_hz),
                 ExitCode::invalid_file);
+  settings.left_hand = parts.left_hand;
   settings.motion_samples = 1;  // more only where something moves
   return settings;
 }

@@ -53,6 +53,7 @@ class CameraPictures final : public PictureSource {
   void listen_anew() override;
   std::optional<double> rate_hz() const override;
   std::vector<CheckResult> check(double wanted_rate_hz) override;
+  bool has_checks() const override { return true; }
   bool ended() const override { return camera_->ended(); }
 
  private:
@@ -82,6 +83,7 @@ class SyntheticPictures final : public PictureSource {
   void skip_to(double t_s) override { count_.skip_to(t_s); }
   void listen_anew() override;
   std::vector<CheckResult> check(double wanted_rate_hz) override;
+  bool has_checks() const override { return true; }
 
  private:
   Responder& hand_;

@@ -22,6 +22,7 @@ class PacedPictures final : public PictureSource {
   std::vector<CheckResult> check(double wanted_rate_hz) override {
     return source_->check(wanted_rate_hz);
   }
+  bool has_checks() const override { return source_->has_checks(); }
   bool ended() const override { return source_->ended(); }
   std::optional<double> rate_hz() const override { return source_->rate_hz(); }
 

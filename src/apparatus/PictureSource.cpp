@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "apparatus/DraggedPictures.h"
 #include "apparatus/FilmedPictures.h"
 #include "apparatus/PacedPictures.h"
 #include "base/PlugTable.h"
@@ -20,6 +21,10 @@ std::unique_ptr<PictureSource> make_hand(const PictureParts& parts) {
 
 std::unique_ptr<PictureSource> make_synthetic(const PictureParts& parts) {
   return std::make_unique<SyntheticPictures>(parts);
+}
+
+std::unique_ptr<PictureSource> make_dragged(const PictureParts& parts) {
+  return std::make_unique<DraggedPictures>(parts);
 }
 
 std::unique_ptr<PictureSource> open(const std::string& kind, const PictureParts& parts) {
@@ -38,6 +43,10 @@ constexpr std::array table{
                  "a rendered camera that films the responder's hand; synthetic:FILE.toml says what "
                  "it gets wrong",
                  true, false, TrackerWhat::settings, make_synthetic},
+    TrackerEntry{"mouse",
+                 "the person drags the effector in the window, with the mouse or a finger; to try "
+                 "and to teach without a print",
+                 true, false, TrackerWhat::nothing, make_dragged, true},
     TrackerEntry{"camera", "camera:N, a live camera", true, true, TrackerWhat::source,
                  [](const PictureParts& parts) { return open("camera", parts); }},
     TrackerEntry{"video", "video:FILE, a video", true, false, TrackerWhat::source,

@@ -13,6 +13,7 @@
 #include "apparatus/ApparatusCheck.h"
 #include "apparatus/SessionClock.h"
 #include "base/Image.h"
+#include "experiment/DraggedEffector.h"
 #include "physics/Drive.h"
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
@@ -62,6 +63,9 @@ class PictureSource {
   /// @param wanted_rate_hz of the display
   virtual std::vector<CheckResult> check(double wanted_rate_hz [[maybe_unused]]) { return {}; }
 
+  /// check() looks at something, which takes a while.
+  virtual bool has_checks() const { return false; }
+
   /// No picture will come any more: the end of a file.
   virtual bool ended() const { return false; }
 };
@@ -76,6 +80,9 @@ struct PictureParts {
   std::uint64_t seed = 0;  ///< the session's
   std::string record_to;   ///< a folder that the camera's pictures are kept in; empty: they are not
   std::string settings = {};  ///< contents of the file that `what` names, where it names settings
+  bool left_hand = false;     ///< holds the effector, where a rendered camera films one
+  /// What a person drags on the screen; none: there is no such window.
+  std::shared_ptr<const DraggedEffector> dragged = {};
 };
 
 /// What follows the colon of a tracker's name.
@@ -94,6 +101,7 @@ struct TrackerEntry {
   TrackerWhat what;
   /// @throws Error (device_missing) when the camera is not there
   std::unique_ptr<PictureSource> (*make)(const PictureParts& parts);
+  bool is_dragged = false;  ///< a person drags the effector in the window
 };
 
 std::span<const TrackerEntry> trackers();
@@ -113,6 +121,7 @@ class PictureCount {
 
   void restart() { next_ = 0, n_skipped_ = 0; }
   std::uint64_t take() { return next_++; }
+  double next_s() const { return time_s(next_); }
   double time_s(std::uint64_t number) const {
     return static_cast<double>(number) / rate_hz_;  // no accumulated rounding
   }

@@ -130,6 +130,31 @@ void complete_texts(Setup& options) {
   if (!has_person(options) && !has_screen) options.texts_file = options.texts_text = "";
 }
 
+// What the display's window tells is told anew by each window.
+void forget_display(Setup& options) {
+  options.window = options.display = options.display_file = "";
+  options.display_w_px = options.display_h_px = {};
+  options.display_w_mm = options.display_h_mm = options.refresh_hz = {};
+  options.eye_distance_mm = options.display_scale = {};
+}
+
+void complete_display(Setup& options) {
+  if (!view_named(split_name(options.view).name).has_screen) return forget_display(options);
+  display_number(options);
+  std::error_code unknown;
+  if (options.display_file.empty() && std::filesystem::exists(default_display_file, unknown))
+    options.display_file = default_display_file;
+  if (options.display_file.empty()) return;
+  std::string text;
+  read_file(options.display_file, text);
+  const DisplayMeasures measured = parse_display(text, options.display_file);
+  options.display_w_px = measured.w_px;
+  options.display_h_px = measured.h_px;
+  options.display_w_mm = measured.w_mm;
+  options.display_h_mm = measured.h_mm;
+  options.eye_distance_mm = measured.eye_distance_mm;
+}
+
 void check_view(const Setup& options) {
   const auto [name, file] = split_name(options.view);
   const ViewEntry& view = view_named(name);
@@ -144,7 +169,23 @@ void check_view(const Setup& options) {
                 ExitCode::usage);
 }
 
+void check_dragged(const Setup& options) {
+  if (!has_person(options))
+    throw Error(fmt::format("tracker \"mouse\": a person drags the effector, but the responder is "
+                            "\"{}\", which has a hand of its own; expected --tracker hand or "
+                            "synthetic, or --responder human",
+                            split_name(options.responder).name),
+                ExitCode::usage);
+  if (!view_named(split_name(options.view).name).has_screen)
+    throw Error(
+        fmt::format("tracker \"mouse\": the effector is dragged in the window, and the view "
+                    "\"{}\" has none; expected --view window",
+                    options.view),
+        ExitCode::usage);
+}
+
 void check_tracker(const Setup& options) {
+  if (tracker_named(options.tracker).is_dragged) check_dragged(options);
   if (tracker_named(options.tracker).what == TrackerWhat::settings)
     parse_synthetic_camera(options.tracker_text, split_name(options.tracker).file);
 }
@@ -172,13 +213,14 @@ void complete(Setup& options) {
   options.view = with_absolute_path(options.view);
   if (!options.record_camera.empty()) options.record_camera = absolute_path(options.record_camera);
   complete_texts(options);
+  complete_display(options);
   check(options);
 }
 
 void check(const Setup& options) {
   if (!has_person(options)) checked_responder(options.responder);
-  check_view(options);
   check_tracker(options);
+  check_view(options);
   apparatus_of(options);
   const bool has_screen = view_named(split_name(options.view).name).has_screen;
   if (has_person(options) || has_screen) parse_texts(options.texts_text, options.texts_file);
@@ -247,6 +289,9 @@ struct Shown {
   void operator()(const LogColumn& column, const std::string& text) const {
     values[std::string(column.name)] = text;
   }
+  void operator()(const LogColumn& column, const NullIfEmpty<const std::string>& text) const {
+    (*this)(column, text.value);
+  }
   template <typename Value>
   void operator()(const LogColumn& column, const std::optional<Value>& value) const {
     values[std::string(column.name)] = value ? fmt::format("{}", *value) : "";
@@ -276,6 +321,40 @@ Setup in_force(Setup setup, const Protocol& protocol) {
   setup.texts_sha256 = hash_of(setup.texts_text);
   setup.heft_version = HEFT_VERSION;
   setup.build = build_name();
+  return setup;
+}
+
+int display_number(const Setup& setup) {
+  const std::string number = setup.display.substr(0, setup.display.find(' '));
+  if (number.empty()) return 0;
+  if (number.size() < 3 && std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; }))
+    return std::stoi(number);
+  throw Error(fmt::format("--display {}: expected the number of a display, from 0 (heft doctor "
+                          "lists them)",
+                          setup.display),
+              ExitCode::usage);
+}
+
+bool is_windowed(const Setup& setup) {
+  return setup.window == "window";
+}
+
+Setup with_display(Setup setup, const std::optional<DisplayFacts>& display) {
+  if (!display) return setup;
+  const auto& [number, name, w_px, h_px, refresh_hz, scale] = *display;
+  if (setup.display_w_mm && (setup.display_w_px != w_px || setup.display_h_px != h_px))
+    throw Error(fmt::format("{} is of a display of {} x {} pixels, but this one has {} x {}: "
+                            "measure it (heft calibrate display), or name its file with "
+                            "--display-file",
+                            setup.display_file, setup.display_w_px.value_or(0),
+                            setup.display_h_px.value_or(0), w_px, h_px),
+                ExitCode::invalid_file);
+  setup.display = fmt::format("{} {}", number, name);
+  setup.display_w_px = w_px;
+  setup.display_h_px = h_px;
+  setup.refresh_hz = refresh_hz;
+  setup.display_scale = scale;
+  if (setup.window.empty()) setup.window = "full screen";
   return setup;
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiment/DisplayFacts.h"
 #include "experiment/Setup.h"
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
@@ -23,6 +24,8 @@ struct SimulatorPick;
 struct GivenOptions {
   std::optional<std::string> responder, tracker, view, simulator;
   std::optional<std::string> camera_file, board_file, effector_file, texts_file;
+  std::optional<std::string> display, display_file;
+  bool windowed = false;
   std::vector<std::string> settings;  ///< changes to the protocol, KEY=VALUE each
 };
 
@@ -43,6 +46,9 @@ NameAndFile split_name(const std::string& option);
 
 /// The calibration that is taken where nobody names another, if the working folder has it.
 inline constexpr const char* default_camera_file = "camera.yaml";
+
+/// The measured display that is taken where nobody names another, likewise.
+inline constexpr const char* default_display_file = "display.toml";
 
 /// Makes the files' names absolute, reads what the session needs of them, and checks everything.
 /// @throws Error (usage) for unknown names and combinations that can't work
@@ -71,6 +77,17 @@ Setup in_force(Setup setup, const Protocol& protocol);
 
 /// The setup with what its simulated participant is drawn as from the session's seed.
 Setup with_participant(Setup setup, std::uint64_t seed);
+
+/// The setup with the display that the view is on; without one, where nothing is shown.
+/// @throws Error (invalid_file) when its file is of a display of another size in pixels
+Setup with_display(Setup setup, const std::optional<DisplayFacts>& display);
+
+/// The number of the display that a setup names, "1" or "1 NAME"; 0 where it names none.
+/// @throws Error (usage) when it is no number
+int display_number(const Setup& setup);
+
+/// The setup's window is not full screen.
+bool is_windowed(const Setup& setup);
 
 /// The setup with the rate of its pictures' source, where that is not about the display's.
 Setup with_source_rate(Setup setup, std::optional<double> rate_hz);

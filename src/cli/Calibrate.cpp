@@ -1,8 +1,11 @@
-// heft calibrate: the camera from views of the board, and where the effector's tags really are.
+// heft calibrate: the camera from views of the board, where the effector's tags really are, and how
+// large a display is.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <regex>
@@ -11,11 +14,15 @@
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
+#include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
+#include "experiment/DisplayFacts.h"
 #include "protocol/Files.h"
 #include "tracking/Camera.h"
 #include "tracking/EffectorCalibration.h"
 #include "tracking/ViewCollector.h"
+#include "view/window/CardWindow.h"
+#include "view/window/Displays.h"
 
 namespace heft::cli {
 
@@ -232,19 +239,94 @@ void add_effector(Command& parent) {
   command.add_option("--out", &options->out, "the effector file to write").required();
   command.does([options] { calibrate_the_effector(*options); });
 }
+
+struct DisplayOptions {
+  int display = 0;
+  std::optional<double> width_mm, height_mm, eye_distance_mm;
+  std::string out = "display.toml";
+};
+
+double asked_mm(const std::string& what, const std::string& option) {
+  if (isatty(STDIN_FILENO) != 1)
+    throw Error(fmt::format("there is no terminal to ask for {}; give it with {}", what, option),
+                ExitCode::usage);
+  for (std::string line;;) {
+    say("{}, in millimeters: ", what);
+    if (!std::getline(std::cin, line)) throw Error("nothing was answered", ExitCode::usage);
+    if (const auto mm = number_in(line); mm && *mm > 0) return *mm;
+    say("expected a number such as 450\n");
+  }
+}
+
+// Its pixels are square.
+DisplayMeasures by_card(int display) {
+  say("Hold a bank card against the display and make the blue rectangle as large as it is: with "
+      "the\n"
+      "arrow keys (Shift: faster), the wheel or the mouse. Enter when it is, Escape to leave.\n");
+  const auto card = measure_card(display, load_texts(texts_file("en")));
+  if (!card) throw Error("the display was not measured", ExitCode::interrupted);
+  const double mm_per_px = card_w_mm / card->w_px;
+  const DisplayFacts& facts = card->display;
+  return {facts.w_px, facts.h_px, facts.w_px * mm_per_px, facts.h_px * mm_per_px, 0};
+}
+
+DisplayMeasures by_ruler(const DisplayOptions& options) {
+  const std::vector<DisplayFacts> all = displays();
+  const auto number = static_cast<std::size_t>(options.display);
+  if (options.display < 0 || number >= all.size())
+    throw Error(fmt::format("there is no display {}; heft doctor lists them", options.display),
+                ExitCode::device_missing);
+  return {all[number].w_px, all[number].h_px, *options.width_mm, *options.height_mm, 0};
+}
+
+void calibrate_the_display(const DisplayOptions& options) {
+  require_writable(options.out);
+  if (options.width_mm.has_value() != options.height_mm.has_value())
+    throw Error("expected both --width-mm and --height-mm, or neither", ExitCode::usage);
+  DisplayMeasures measured = options.width_mm ? by_ruler(options) : by_card(options.display);
+  measured.eye_distance_mm =
+      options.eye_distance_mm
+          ? *options.eye_distance_mm
+          : asked_mm("from the participant's eyes to the display", "--eye-distance-mm");
+  const std::string text = to_toml(measured);
+  parse_display(text, options.out);  // what can't be is not written
+  write_result(options.out, text);
+  print("{} x {} pixels are {:.1f} x {:.1f} mm, seen from {:.0f} mm\n", measured.w_px,
+        measured.h_px, measured.w_mm, measured.h_mm, measured.eye_distance_mm);
+  say("{} is written. Sessions that start in this folder take it, others with --display-file\n",
+      options.out);
+}
+
+void add_display(Command& parent) {
+  Command command = parent.add_command(
+      "display", "how large the participant's display is, with a bank card held to it",
+      {"heft calibrate display", "heft calibrate display --display 1 --eye-distance-mm 450",
+       "heft calibrate display --width-mm 154 --height-mm 90 --eye-distance-mm 450"});
+  const auto options = std::make_shared<DisplayOptions>();
+  command.add_option("--display", &options->display, "its number (heft doctor lists them)")
+      .shows_default();
+  command.add_option("--width-mm", &options->width_mm, "of its picture, by a ruler: no card then");
+  command.add_option("--height-mm", &options->height_mm, "likewise");
+  command.add_option("--eye-distance-mm", &options->eye_distance_mm,
+                     "from the participant's eyes to the display (default: it is asked)");
+  command.add_option("--out", &options->out, "the file to write").shows_default();
+  command.does([options] { calibrate_the_display(*options); });
+}
 }  // namespace
 
 void add_calibrate(Command& app) {
   Command command = app.add_command(
-      "calibrate", "measure the camera, or where the effector's tags are",
+      "calibrate", "measure the camera, where the effector's tags are, or the display",
       {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
        "heft calibrate camera --camera camera:0 --size 1280x720 --board BOARD.toml \\\n"
        "      --out camera.yaml",
        "heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
-       "      --effector EFFECTOR.toml --out MEASURED.toml"});
+       "      --effector EFFECTOR.toml --out MEASURED.toml",
+       "heft calibrate display"});
   command.needs_command();
   add_camera(command);
   add_effector(command);
+  add_display(command);
 }
 
 }  // namespace heft::cli

@@ -23,12 +23,14 @@
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "physics/DecouplingSimulator.h"
+#include "protocol/Files.h"
 #include "record/Integrity.h"
 #include "responders/Responder.h"
 #include "session/Session.h"
 #include "tracking/Camera.h"
 #include "tracking/VideoDevices.h"
 #include "view/ArView.h"
+#include "view/window/Displays.h"
 
 namespace heft::cli {
 
@@ -196,6 +198,8 @@ void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) 
   check_file_system(report, folder);
   check_commit(report, folder);
   check_log(report, db);
+  for (const CheckResult& result : check_displays(load_texts(texts_file("en"))))
+    report.line(result.verdict, result.name, result.finding);
   if (given.tracker) check_tracker(report, given, rate_hz);
   list_cameras();
   list_plugs();

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "apparatus/PictureSource.h"
 #include "base/Error.h"
 #include "base/Printable.h"
 #include "cli/Commands.h"
@@ -19,7 +20,8 @@ struct Options {
   std::optional<std::uint64_t> seed;
   GivenOptions given;
   std::optional<std::string> language;
-  std::string purpose = "main", record_camera;
+  std::optional<std::string> purpose, controls, hand;
+  std::string record_camera;
   bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
 };
 
@@ -69,20 +71,37 @@ void say_finished(const SessionResult& result, const std::string& db) {
       shell_quoted(db), result.session_id);
 }
 
+bool is_dragged(const Setup& setup) {
+  return tracker_named(setup.tracker).is_dragged;
+}
+
+// Nobody takes a session that was played with the mouse for data by leaving an option out.
+Purpose purpose_of(const Options& options, const Setup& setup) {
+  return named<Purpose>(options.purpose.value_or(is_dragged(setup) ? "test" : "main")).value();
+}
+
+std::string side_of_controls(const Options& options) {
+  if (options.left_handed && options.controls == "right")
+    throw Error("--left-handed is --controls left; expected one of them", ExitCode::usage);
+  return options.left_handed ? "left" : options.controls.value_or("right");
+}
+
 SessionRequest request_of(const Options& options) {
   SessionRequest request;
   request.protocol = load_protocol(options.protocol, options.given.settings);
   Setup setup = with_defaults(options.given);
   setup.texts_file = texts_file(options.language.value_or(request.protocol.screens.language));
-  setup.handed = options.left_handed ? "left" : "right";
+  setup.handed = side_of_controls(options);
+  setup.hand = options.hand.value_or("right");
   setup.record_camera = options.record_camera;
-  if (has_person(setup)) setup.keys = options.keys || options.purpose == "test" ? "yes" : "no";
+  if (has_person(setup))
+    setup.keys = options.keys || purpose_of(options, setup) == Purpose::test ? "yes" : "no";
   complete_and_tell(setup);
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant;
   request.db = options.db;
   request.seed = options.seed.value_or(fresh_seed());
-  request.purpose = named<Purpose>(options.purpose).value();
+  request.purpose = purpose_of(options, request.setup);
   request.again = options.again;
   return request;
 }
@@ -93,6 +112,9 @@ void run(const Options& options) {
   say("participant {}, protocol {}, responder {}, seed {}\n", request.participant,
       request.protocol.name, request.setup.responder, request.seed);
   tell_simulator(request.protocol, request.setup);
+  if (is_dragged(request.setup))
+    say("heft: you drag the effector in the window (tracker mouse): mouse or finger, the wheel "
+        "turns it. This is to try and to teach; the log and every report say so\n");
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
   say_finished(
       run_session({request.protocol, request.setup, request.db, options.unblind, options.go_on},
@@ -155,6 +177,7 @@ void add_run(Command& app) {
   Command command = app.add_command(
       "run", "run one participant's session of a protocol",
       {"heft run protocols/paper.toml --participant 07 --camera-file camera.yaml --db lab.db",
+       "heft run protocols/quick.toml --participant me --tracker mouse",
        "heft run protocols/quick.toml --participant 07 --tracker synthetic",
        "heft run protocols/quick.toml --participant 07 --responder simulated --tracker synthetic "
        "--record-camera pictures",
@@ -177,15 +200,24 @@ void add_run(Command& app) {
   command.add_option("--language", &options->language,
                      "of the participant's screens: en, fr, or a text FILE.toml (default: the "
                      "protocol's)");
-  command.add_flag("--left-handed", options->left_handed,
-                   "mirror the controls (the cubes stay where they are)");
   command.add_flag("--keys", options->keys,
                    "let the participant's window take keys as answers (default: only with "
                    "--purpose test); without it what somebody types there does nothing");
   command
-      .add_option("--purpose", &options->purpose, "of a person's session; analyse keeps them apart")
-      .one_of({"main", "pilot", "test"})
-      .shows_default();
+      .add_option("--hand", &options->hand,
+                  "that holds the effector: the demonstration shows it (default: right)")
+      .one_of({"left", "right"});
+  command
+      .add_option("--controls", &options->controls,
+                  "the side of the screen that the buttons are on, for the hand that taps; the "
+                  "cubes stay where they are (default: right)")
+      .one_of({"left", "right"});
+  command.add_flag("--left-handed", options->left_handed, "the same as --controls left");
+  command
+      .add_option("--purpose", &options->purpose,
+                  "of a person's session; analyse keeps them apart (default: main, with --tracker "
+                  "mouse test)")
+      .one_of({"main", "pilot", "test"});
   command.add_option("--record-camera", &options->record_camera,
                      "keep the camera's pictures in this folder, their times in its times.csv; "
                      "without it none are kept. Of a synthetic camera truth.csv has the exact "

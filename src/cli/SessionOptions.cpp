@@ -34,16 +34,25 @@ constexpr std::array who_and_what{
         "--tracker", &GivenOptions::tracker,
         "where effector poses come from: camera:N, video:FILE, frames:FOLDER, synthetic (a "
         "rendered camera films a model's hand; synthetic:FILE.toml says what it gets wrong, "
-        "as protocols/apparatus/synthetic_camera.toml explains), hand (that hand as it is)",
+        "as protocols/apparatus/synthetic_camera.toml explains), hand (that hand as it is), mouse "
+        "(you drag the effector in the window with the mouse or a finger and turn it with the "
+        "wheel: to try and to teach without a print)",
         "camera:0 for a person, hand for a model"},
     SessionOption{"--view", &GivenOptions::view,
                   "what shows the session: window, headless, video:FILE",
                   "window for a person, headless for a model"}};
 
+constexpr std::array display{
+    SessionOption{"--display", &GivenOptions::display,
+                  "the number of the display that the window is on (heft doctor lists them)", "0"},
+    SessionOption{"--display-file", &GivenOptions::display_file,
+                  "the measured display, from heft calibrate display",
+                  "display.toml in this folder, if there is one"}};
+
 constexpr std::array apparatus{
     SessionOption{"--camera-file", &GivenOptions::camera_file,
                   "the camera's calibration, from heft calibrate camera",
-                  "camera.yaml in this folder, for synthetic a made-up one"},
+                  "camera.yaml in this folder, for synthetic and mouse a made-up one"},
     SessionOption{"--board", &GivenOptions::board_file, "the printed board",
                   "protocols/apparatus/board.toml"},
     SessionOption{"--effector", &GivenOptions::effector_file, "the effector's tags",
@@ -69,6 +78,9 @@ void add_session_options(Command& command, GivenOptions& given, bool stay) {
   add_options(command, given, who_and_what, stay);
   if (!stay) command.group("Apparatus");
   add_options(command, given, apparatus, stay);
+  add_options(command, given, display, stay);
+  command.add_flag("--windowed", given.windowed,
+                   "the window does not fill the display; F11 changes that, too");
 }
 
 void add_settings(Command& command, std::vector<std::string>& settings) {
@@ -97,8 +109,12 @@ Setup with_defaults(const GivenOptions& given) {
   options.tracker = given.tracker.value_or(person ? "camera:0" : "hand");
   options.view = given.view.value_or(person ? "window" : "headless");
   options.simulator = given.simulator.value_or("");
+  options.display = given.display.value_or("");
+  options.display_file = given.display_file.value_or("");
+  if (given.windowed) options.window = "window";
   options.settings = fmt::format("{}", fmt::join(given.settings, "\n"));
-  const bool synthetic = split_name(options.tracker).name == "synthetic";
+  const std::string tracker = split_name(options.tracker).name;
+  const bool synthetic = tracker == "synthetic" || tracker == "mouse";
   options.camera_file =
       synthetic ? or_shipped(given.camera_file, "protocols/apparatus/synthetic_camera.yaml")
                 : given.camera_file.value_or("");

@@ -244,6 +244,7 @@ struct FrameRow {
   std::vector<Pose> cubes;  ///< by slot
   std::optional<double> detected_s, simulated_s;
   std::optional<int> n_dropped;
+  std::optional<double> clone_offset_px{};
 };
 template <typename Row, typename Visit>
 requires RowOf<Row, FrameRow>
@@ -278,6 +279,11 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(PoseColumns{"cube4", "cube of slot 4", 3}, PoseAt{row.cubes, 3});
   visit(PoseColumns{"cube5", "cube of slot 5", 3}, PoseAt{row.cubes, 4});
   visit(PoseColumns{"cube6", "cube of slot 6", 3}, PoseAt{row.cubes, 5});
+  visit(LogColumn{"clone_offset_px", "px",
+                  "on the display, from the middle of the effector to its clone's; none: no window "
+                  "showed both",
+                  4, ">= 0"},
+        row.clone_offset_px);
 }
 
 }  // namespace heft

@@ -23,13 +23,14 @@ enum class Screen {
   paused,
   how_decided,
   thanks,
-  declined  ///< who does not agree to take part can take that back
+  declined,   ///< who does not agree to take part can take that back
+  setting_up  ///< before anything else, while the apparatus is looked at
 };
 template <>
 struct EnumNames<Screen> {
-  static constexpr std::array<std::string_view, 11> names{
+  static constexpr std::array<std::string_view, 12> names{
       "consent", "welcome", "about_you",   "demonstration", "instructions", "trial",
-      "rest",    "paused",  "how_decided", "thanks",        "declined"};
+      "rest",    "paused",  "how_decided", "thanks",        "declined",     "setting_up"};
 };
 
 /// Which page it is: what is touched on one means nothing on another.

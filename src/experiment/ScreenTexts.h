@@ -17,6 +17,13 @@ struct ScreenTexts {
   const std::string& at(const std::string& page, const std::string& key) const {
     return pages.at(page).at(key);
   }
+  /// Empty where the file has none: what came to the texts later than files that people keep.
+  std::string if_any(const std::string& page, const std::string& key) const {
+    const auto found = pages.find(page);
+    if (found == pages.end()) return "";
+    const auto text = found->second.find(key);
+    return text == found->second.end() ? "" : text->second;
+  }
 };
 
 /// The page of texts that a screen shows: its name, with the task's where there is a page for each

@@ -26,6 +26,9 @@ struct Setup {
   std::optional<double> source_rate_hz;
   std::string settings;
   std::string handed = "right";
+  std::string hand;
+  std::string window, display_file;
+  std::optional<double> display_scale;
   std::string language;
   std::string display;
   std::optional<int> display_w_px, display_h_px;
@@ -109,6 +112,15 @@ void visit_columns(Row& row, Visit&& visit) {
                   "window",
                   4},
         row.keys);
+  visit(LogColumn{"hand", "", "hand that holds the effector: left, right; empty: not told", 4},
+        NullIfEmpty{row.hand});
+  visit(
+      LogColumn{"window", "", "how the window stood at first: full screen, window; empty: none", 4},
+      NullIfEmpty{row.window});
+  visit(LogColumn{"display_scale", "", "pixels of the display a unit of the window system", 4},
+        row.display_scale);
+  visit(LogColumn{"display_file", "", "file of the measured display", 4},
+        NullIfEmpty{row.display_file});
 }
 
 /// What only the event keeps: the contents of its files, and the drawn participant.

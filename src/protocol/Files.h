@@ -9,6 +9,7 @@
 
 namespace heft {
 
+struct DisplayMeasures;
 struct InterleavedProcedures;
 struct MarkerBody;
 struct Optics;
@@ -97,5 +98,12 @@ std::string page_text(const ScreenTexts& texts, const std::string& page);
 /// order. Tables and arrays are refused.
 /// @throws InvalidFile with every mistake at its place
 std::vector<Parameter> parse_parameters(const std::string& text, const std::string& file);
+
+/// A measured display.
+/// @throws InvalidFile with every mistake at its line and column
+DisplayMeasures parse_display(const std::string& text, const std::string& file);
+
+/// What parse_display reads.
+std::string to_toml(const DisplayMeasures& display);
 
 }  // namespace heft

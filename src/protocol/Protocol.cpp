@@ -46,6 +46,7 @@ void read_screens(TableReader& reader, ScreensChosen& screens) {
     table.read("consent", screens.consent);
     table.read("about_you", screens.about_you);
     table.read("how_decided", screens.how_decided);
+    table.read("crop", screens.crop);
   });
 }
 

@@ -36,6 +36,7 @@ struct ScreensChosen {
   bool consent = false;
   bool about_you = false;
   bool how_decided = false;
+  bool crop = true;  ///< the scene is shown as far as the cubes and the effector go
 };
 
 struct SimulatorChoice {

@@ -31,7 +31,7 @@ constexpr std::array required_pages{
     PageKeys{"instructions_introduction", "title text"},
     PageKeys{"instructions_sorting", "title text"},
     PageKeys{"instructions_comparison", "title text"},
-    PageKeys{"trial", "wait_for_cubes touch_every_cube", "next_cubes"},
+    PageKeys{"trial", "wait_for_cubes touch_every_cube", "next_cubes drag_effector"},
     PageKeys{"trial_introduction", "question try_again"},
     PageKeys{"trial_sorting",
              "question tap_a_cube lightest intermediate heaviest validate dont_know"},
@@ -44,7 +44,8 @@ constexpr std::array required_pages{
              "movement_fast movement_varied movement_unaware"},
     PageKeys{"thanks", "title text"}};
 /// May be missing, too.
-constexpr std::array later_pages{PageKeys{"declined", "title text take_back leave"}};
+constexpr std::array later_pages{PageKeys{"declined", "title text take_back leave"},
+                                 PageKeys{"setting_up", "title text"}};
 
 std::string trimmed(const std::string& text) {
   std::string kept;

@@ -20,6 +20,9 @@ struct Write {
   void operator()(const LogColumn& column, const Value& value) const {
     (*this)(column.name, value);
   }
+  void operator()(const LogColumn& column, const NullIfEmpty<const std::string>& text) const {
+    (*this)(column.name, text.value);
+  }
   void operator()(std::string_view name, const std::string& text) const {
     if (!text.empty()) json[std::string(name)] = text;
   }
@@ -38,6 +41,9 @@ struct Read {
   template <typename Value>
   void operator()(const LogColumn& column, Value& value) const {
     (*this)(column.name, value);
+  }
+  void operator()(const LogColumn& column, const NullIfEmpty<std::string>& text) const {
+    (*this)(column.name, text.value);
   }
   void operator()(std::string_view name, std::string& text) const {
     const auto found = json.find(std::string(name));

@@ -81,7 +81,8 @@ std::string tables() {
 
 // v_trial: a row an attempt, with what was in force. v_jnd: a row a staircase that ended.
 // v_sorting: a row a completed sorting trial, with the mass of the cube that carries each label at
-// its end (NULL: no cube does).
+// its end (NULL: no cube does). v_frame: how far the clone was seen beside the effector; degrees of
+// visual angle where the display was measured (small angles: the arc is the chord).
 const char* const views = R"sql(
 CREATE VIEW v_trial AS
 SELECT s.session_id, s.participant, s.protocol_name, s.purpose, u.responder, u.simulator,
@@ -134,6 +135,15 @@ SELECT t.session_id, t.participant, t.protocol_name, t.purpose, t.responder,
   t.outcome, t.is_practice, t.n_answers, t.n_pushes, t.contact_s, t.deepest_push_m, t.peak_lag_m,
   t.response_time_s
 FROM v_trial t WHERE t.task = 'sorting' AND t.status = 'completed';
+
+CREATE VIEW v_frame AS
+SELECT f.frame_id, f.session_id, f.trial_id, t.trial_number, t.attempt, t.task, t.condition,
+  f.t_s, f.trial_t_s, f.present_s, f.tracked, f.contact_slot, f.clone_offset_px,
+  f.clone_offset_px * u.display_w_mm / u.display_w_px AS clone_offset_mm,
+  f.clone_offset_px * u.display_w_mm / u.display_w_px / u.eye_distance_mm * 57.29577951308232
+    AS clone_offset_deg
+FROM frame f LEFT JOIN trial t ON t.trial_id = f.trial_id
+LEFT JOIN setup u ON u.setup_id = t.setup_id;
 )sql";
 
 }  // namespace heft::schema

@@ -154,6 +154,7 @@ void AttemptRun::show(const ShownFrame& shown, const Picture& picture, FrameRow&
       screen_.present(shown_, cubes_appear ? engine().screen_with_cubes() : engine().screen());
   row.present_s = presented && parts_.clock.is_wall() ? log_time(parts_.clock.session_s(*presented))
                                                       : journal_.now_s();
+  row.clone_offset_px = screen_.clone_offset_px();
   if (cubes_appear) journal_.emit({row.present_s, CubesShown{}}, Durability::acknowledged);
   row.attempt_index = engine().n_attempts();
   row.contact_slot = shown.contact_slot;

@@ -39,23 +39,25 @@ Pose as_people_hold_it(const Pose& upright, const Eigen::Vector3d& size_m) {
 }
 
 // From where a session without a camera is drawn, too.
-SyntheticSettings camera_settings() {
+SyntheticSettings camera_settings(bool left_hand) {
   SyntheticSettings settings;
+  settings.left_hand = left_hand;
   settings.camera_from_board = default_camera_from_board();
   return settings;
 }
 }  // namespace
 
 Demonstration::Demonstration(const Protocol& protocol, const Apparatus& apparatus,
-                             std::uint64_t seed)
+                             std::uint64_t seed, bool left_hand)
     : step_s_(1 / protocol.display_rate_hz),
       effector_size_m_(protocol.effector_size_m),
       hand_(hand_for(seed)),
       world_(protocol, plan_of_demonstration()) {
   hand_->begin_trial({0, 1, Task::sorting, stage_of(protocol, 3)});
   if (apparatus.board.tags.empty()) return;
-  camera_.emplace(apparatus, camera_settings(), seed);
-  last_.camera_from_board = camera_settings().camera_from_board;
+  const SyntheticSettings settings = camera_settings(left_hand);
+  camera_.emplace(apparatus, settings, seed);
+  last_.camera_from_board = settings.camera_from_board;
 }
 
 ViewFrame Demonstration::at(double t_s) {
@@ -78,13 +80,16 @@ void Demonstration::advance() {
   hand_->see(last_.frame, screen);
 }
 
-// Only what is looked at.
+// Only what is looked at. Here it is known where the hand is: cubes are drawn behind it.
 void Demonstration::film() {
   const DisplayedFrame& frame = last_.frame;
   const auto held = [&](double) {
     return frame.tracked ? std::optional(frame.effector) : std::nullopt;
   };
   last_.camera = std::make_shared<const Image>(camera_->picture(held, frame.t_s, count_));
+  last_.in_front = frame.tracked
+                       ? std::make_shared<const Image>(camera_->hand_in_picture(frame.effector))
+                       : nullptr;
 }
 
 }  // namespace heft

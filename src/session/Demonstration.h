@@ -17,8 +17,10 @@ class Demonstration {
  public:
   /// @param protocol outlives this
   /// @param apparatus what is filmed, and through what lens; without a board nothing is filmed
-  Demonstration(const Protocol& protocol, const Apparatus& apparatus, std::uint64_t seed);
-  Demonstration(Protocol&&, const Apparatus&, std::uint64_t) = delete;
+  /// @param left_hand which hand holds the effector
+  Demonstration(const Protocol& protocol, const Apparatus& apparatus, std::uint64_t seed,
+                bool left_hand = false);
+  Demonstration(Protocol&&, const Apparatus&, std::uint64_t, bool = false) = delete;
 
   /// What is displayed at a time since its start; times increase.
   ViewFrame at(double t_s);

@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "physics/DecouplingSimulator.h"
 #include "protocol/Files.h"
+#include "responders/Hand.h"
 
 namespace heft {
 
@@ -57,6 +58,23 @@ Apparatus unfilmed_apparatus(const Protocol& protocol, const Setup& options) {
   return apparatus;
 }
 
+// The row with most cubes and as much as a gap beside it, in front of it the resting effector's
+// fore half, behind it all that cubes can be pushed.
+Eigen::AlignedBox3d working_box(const Protocol& protocol) {
+  const Layout& layout = protocol.layout;
+  std::size_t n = 3;
+  for (const Block& block : protocol.blocks)
+    if (const auto* sorting = std::get_if<SortingBlock>(&block))
+      n = std::max(n, sorting->masses_g.size());
+  const Stage stage = stage_of(protocol, static_cast<int>(n));
+  const double beside_m = layout.cube_size_m / 2 + layout.gap_m;
+  const double front_m = layout.row_y_m - layout.cube_size_m / 2 - layout.start_distance_m -
+                         stage.effector_size_m.x() / 2;
+  const double back_m = std::max(layout.area_m.y() / 2, layout.row_y_m + layout.cube_size_m);
+  return {Eigen::Vector3d(stage.slots_m.front().x() - beside_m, front_m, 0),
+          Eigen::Vector3d(stage.slots_m.back().x() + beside_m, back_m, layout.cube_size_m)};
+}
+
 ViewSetup view_setup(const Protocol& protocol, const Setup& options, const Apparatus& apparatus) {
   ViewSetup setup;
   setup.stage = stage_of(protocol, 3);
@@ -67,7 +85,18 @@ ViewSetup view_setup(const Protocol& protocol, const Setup& options, const Appar
   setup.takes_keys = options.keys == "yes";
   setup.file = split_name(options.view).file;
   setup.rate_hz = protocol.display_rate_hz;
+  setup.area_m = protocol.layout.area_m;
+  setup.display = display_number(options);
+  setup.windowed = is_windowed(options);
+  if (protocol.screens.crop) setup.shown_m = working_box(protocol);
   return setup;
+}
+
+// Where a model's hand would rest; none where it is not dragged.
+std::shared_ptr<DraggedEffector> dragged_effector(const Protocol& protocol, const Setup& options) {
+  constexpr double hover_m = 0.005;
+  if (!tracker_named(options.tracker).is_dragged) return {};
+  return std::make_shared<DraggedEffector>(resting_pose(stage_of(protocol, 3), hover_m));
 }
 }  // namespace
 
@@ -78,25 +107,28 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const Setup& opti
       protocol_(std::move(protocol)),
       seed_(seed),
       has_person_(has_person(options)),
+      left_hand_(options.hand == "left"),
       responder_(make_responder(options, seed)) {
   if (has_person_) require_general_simulator(protocol_->simulator.name);
   const Apparatus apparatus = fitting_apparatus(*protocol_, options);
   setup_ = view_setup(*protocol_, options, apparatus);
+  setup_.dragged = dragged_effector(*protocol_, options);
   demonstrated_ =
       apparatus.board.tags.empty() ? unfilmed_apparatus(*protocol_, options) : apparatus;
   pictures_ = open_pictures(
-      options.tracker, {*protocol_, *responder_, apparatus, split_name(options.tracker).file, clock,
-                        seed, options.record_camera, options.tracker_text});
+      options.tracker,
+      {*protocol_, *responder_, apparatus, split_name(options.tracker).file, clock, seed,
+       options.record_camera, options.tracker_text, options.hand == "left", setup_.dragged});
   const ViewEntry& view = view_named(split_name(options.view).name);
   has_screen_ = view.has_screen;
   view_ = view.make(setup_);
 }
 
 SessionParts Equipment::parts(Engine& engine, EventSink& sink) {
-  return {*protocol_,   engine,      sink,
-          *pictures_,   *responder_, *view_,
-          clock,        has_screen_, has_person_ ? &setup_.texts : nullptr,
-          demonstrated_};
+  return {*protocol_,    engine,      sink,
+          *pictures_,    *responder_, *view_,
+          clock,         has_screen_, has_person_ ? &setup_.texts : nullptr,
+          demonstrated_, left_hand_};
 }
 
 }  // namespace heft

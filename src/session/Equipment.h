@@ -19,8 +19,10 @@ class Equipment {
   SessionParts parts(Engine& engine, EventSink& sink);
 
   /// The setup with what only the opened devices and the responder tell.
+  /// @throws Error (invalid_file) when the display is not the one that was measured
   Setup told_by_devices(const Setup& setup) const {
-    return with_participant(with_source_rate(setup, pictures_->rate_hz()), seed_);
+    return with_display(with_participant(with_source_rate(setup, pictures_->rate_hz()), seed_),
+                        view_->display());
   }
 
   SessionClock clock;
@@ -30,7 +32,7 @@ class Equipment {
   std::uint64_t seed_;
   ViewSetup setup_;
   Apparatus demonstrated_;
-  bool has_person_;
+  bool has_person_, left_hand_;
   bool has_screen_;
   std::unique_ptr<Responder> responder_;
   std::unique_ptr<ArView> view_;

@@ -46,8 +46,9 @@ void Pages::instructions(Task task) {
   show(ScreenState{.screen = Screen::instructions, .task = task});
 }
 
-void Pages::demonstration(const DemonstrationBlock& block, const Apparatus& apparatus) {
-  Demonstration moving(protocol_, apparatus, journal_.engine().seed());
+void Pages::demonstration(const DemonstrationBlock& block, const Apparatus& apparatus,
+                          bool left_hand) {
+  Demonstration moving(protocol_, apparatus, journal_.engine().seed(), left_hand);
   show(ScreenState{.screen = Screen::demonstration}, block.duration_s,
        [&](double t_s) { return moving.at(t_s); });
 }

@@ -33,8 +33,8 @@ class Pages {
   void instructions(Task task);
 
   /// The demonstration, for as long as the block says and until the person goes on.
-  /// @param apparatus as Demonstration
-  void demonstration(const DemonstrationBlock& block, const Apparatus& apparatus);
+  /// @param apparatus, left_hand as Demonstration
+  void demonstration(const DemonstrationBlock& block, const Apparatus& apparatus, bool left_hand);
 
   /// A break of at least so many seconds.
   void rest(double least_s);

@@ -62,6 +62,8 @@ void Runner::check_apparatus() {
 // @return the names of what failed, as said and logged
 std::string Runner::failed_checks() {
   std::string failed;
+  if (parts_.has_screen && parts_.pictures.has_checks())
+    screen_.present({}, ScreenState{.screen = Screen::setting_up});
   for (const CheckResult& result : parts_.pictures.check(parts_.protocol.display_rate_hz)) {
     journal_.emit_now(result);
     const bool has_failed = result.verdict == CheckVerdict::failed;
@@ -149,7 +151,7 @@ void Runner::take_break(const std::string& name, double least_s) {
 
 void Runner::show_demonstration(const DemonstrationBlock& block) {
   if (is_looked_at())
-    pages_.demonstration(block, parts_.apparatus);
+    pages_.demonstration(block, parts_.apparatus, parts_.left_hand);
   else
     parts_.clock.advance_to(journal_.now_s() + block.duration_s);
   const bool due = parts_.engine.next().kind == Next::Kind::demonstration;

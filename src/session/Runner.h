@@ -28,6 +28,7 @@ struct SessionParts {
   const ScreenTexts* texts = nullptr;  ///< of the person who answers; null: the responder answers
   Apparatus apparatus = {};  ///< what the demonstration shows; without a board a plain table
   GoneThrough before = {};   ///< of a session that goes on
+  bool left_hand = false;    ///< holds the effector in it
 };
 
 struct RunnerOptions {

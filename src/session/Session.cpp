@@ -206,11 +206,14 @@ void change_setup(LoggedSession& session, const GivenOptions& again) {
                                     {&setup.board_file, &again.board_file},
                                     {&setup.effector_file, &again.effector_file},
                                     {&setup.texts_file, &again.texts_file},
+                                    {&setup.display, &again.display},
+                                    {&setup.display_file, &again.display_file},
                                     {&setup.responder, &again.responder}}) {
     if (!*given) continue;
     *held = **given;
     files_stay = false;
   }
+  if (again.windowed) setup.window = "window";
   files_stay ? check(setup) : complete(setup);
   session.setup = in_force(std::move(setup), *session.protocol);
   session.protocol = protocol_for(*session.protocol, session.setup);

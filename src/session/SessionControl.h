@@ -27,6 +27,8 @@ class ParticipantScreen {
   std::optional<double> present(const ViewFrame& frame, const ScreenState& screen);
 
   std::vector<Touch> wait(double seconds) { return view_.wait(seconds); }
+  /// As ArView::clone_offset_px.
+  std::optional<double> clone_offset_px() const { return view_.clone_offset_px(); }
 
   /// What was presented last; none: nothing yet.
   const std::optional<ScreenState>& shown() const { return shown_; }

@@ -55,6 +55,7 @@ struct SyntheticCamera::Impl {
   int motion_samples(const EffectorPath& path, double t_s) const;
   PixelBox extent(const Pose& pose) const;
   void draw_hand_and_effector(const Pose& pose);
+  void draw_effector(const SeenBody& body, const PixelBox& extent);
   PixelBox reached(const EffectorPath& path, double t_s) const;
   void draw_moving(const std::vector<std::optional<Pose>>& poses, const PixelBox& box);
   void draw_moving(const EffectorPath& path, double t_s);
@@ -79,7 +80,7 @@ SyntheticCamera::Impl::Impl(const Apparatus& apparatus, const SyntheticSettings&
     : settings(with),
       lens(apparatus.camera),
       effector(printed_effector(apparatus.effector)),
-      hand(apparatus.effector.size_m),
+      hand(apparatus.effector.size_m, with.left_hand),
       sensor(with.optics, apparatus.camera.width_px, apparatus.camera.height_px, seed),
       still(still_scene(apparatus.board, with.camera_from_board, lens)) {
   sensor.expose(still, RowSpans::whole(still.box), still_levels);
@@ -118,11 +119,15 @@ void SyntheticCamera::Impl::draw_hand_and_effector(const Pose& pose) {
   const auto extent = extent_of(effector, body, lens);
   if (!extent) return;
   if (settings.hand) hand.draw(FilmedHand::Side::before_box, body, lens, instant);
-  raster.begin(extent->within(instant.box));
+  draw_effector(body, *extent);
+  if (settings.hand) hand.draw(FilmedHand::Side::behind_box, body, lens, instant);
+}
+
+void SyntheticCamera::Impl::draw_effector(const SeenBody& body, const PixelBox& extent) {
+  raster.begin(extent.within(instant.box));
   for (const PrintedFace& face : effector)
     if (is_seen(face, body)) draw_face(face, body, lens, raster);
   raster.draw_behind(instant);
-  if (settings.hand) hand.draw(FilmedHand::Side::behind_box, body, lens, instant);
 }
 
 // Of every row's exposure, from the first one's to the last one's.
@@ -206,6 +211,30 @@ Image SyntheticCamera::picture(const EffectorPath& board_from_effector, double t
   Image picture = p.sensor.develop(p.levels, number);
   p.forget(changed);
   return picture;
+}
+
+// What of a pixel is covered after the hand's parts are drawn and was not before.
+Image SyntheticCamera::hand_in_picture(const Pose& board_from_effector) {
+  Impl& p = *impl_;
+  Image hand(p.lens.camera().width_px, p.lens.camera().height_px, 1);
+  const SeenBody body = p.seen(board_from_effector);
+  const auto extent = extent_of(p.effector, body, p.lens);
+  const PixelBox box = p.extent(board_from_effector).within(p.still.box);
+  if (!p.settings.hand || !extent || box.empty()) return hand;
+  p.instant.reset(box);
+  p.hand.draw(FilmedHand::Side::before_box, body, p.lens, p.instant);
+  const std::vector<Light> before = p.instant.light;
+  p.draw_effector(body, *extent);
+  const std::vector<Light> both = p.instant.light;
+  p.hand.draw(FilmedHand::Side::behind_box, body, p.lens, p.instant);
+  std::size_t i = 0;
+  for (int y = box.y0; y < box.y1; ++y)
+    for (int x = box.x0; x < box.x1; ++x, ++i) {
+      const float covered = before[i][3] + p.instant.light[i][3] - both[i][3];
+      hand.pixels[static_cast<std::size_t>(y * hand.width + x)] =
+          static_cast<std::uint8_t>(std::lround(255 * std::clamp(covered, 0.0F, 1.0F)));
+    }
+  return hand;
 }
 
 }  // namespace heft

@@ -35,6 +35,7 @@ struct SyntheticSettings {
   Pose camera_from_board;
   Optics optics;
   bool hand = true;  ///< a hand that holds the effector's back end and occludes
+  bool left_hand = false;
   /// Renderings averaged over the exposure where the effector moves, at least; more where it smears
   /// so far that they would show.
   int motion_samples = 4;
@@ -59,6 +60,9 @@ class SyntheticCamera {
   /// The picture whose exposure, of its first row, has its middle at t_s. @param number of the
   /// picture: its noise
   Image picture(const EffectorPath& board_from_effector, double t_s, std::uint64_t number);
+
+  /// What of a picture is hand, as it is seen: 255 wholly, one channel.
+  Image hand_in_picture(const Pose& board_from_effector);
 
  private:
   struct Impl;

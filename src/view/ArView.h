@@ -2,6 +2,7 @@
 // given and reports what was touched; it decides nothing. One table, in ArView.cpp, names them all.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,7 +11,9 @@
 #include <vector>
 
 #include "base/Image.h"
+#include "experiment/DisplayFacts.h"
 #include "experiment/DisplayedFrame.h"
+#include "experiment/DraggedEffector.h"
 #include "experiment/ScreenState.h"
 #include "experiment/ScreenTexts.h"
 #include "experiment/Stage.h"
@@ -24,7 +27,9 @@ struct ViewFrame {
   DisplayedFrame frame;
   std::shared_ptr<const Image> camera;    ///< none: a plain table is drawn
   std::optional<Pose> camera_from_board;  ///< none: where the camera was last, or the default
-  std::optional<Pose> other_clone = {};   ///< of a what-if, in another color; none: not drawn
+  /// Of the camera picture, what is before all cubes: 255 wholly, one channel; none: nothing known.
+  std::shared_ptr<const Image> in_front = {};
+  std::optional<Pose> other_clone = {};  ///< of a what-if, in another color; none: not drawn
 };
 
 /// What a view needs to know before the first frame.
@@ -32,10 +37,16 @@ struct ViewSetup {
   Stage stage;
   std::optional<Intrinsics> camera;  ///< none: no camera pictures will come
   ScreenTexts texts;
-  bool left_handed = false;  ///< mirrors the controls, never the cubes
-  bool takes_keys = false;   ///< answers from the keyboard too
-  std::string file;          ///< what follows the colon: "video:session.mp4"
-  double rate_hz = 15;       ///< frames a second
+  bool left_handed = false;            ///< mirrors the controls, never the cubes
+  bool takes_keys = false;             ///< answers from the keyboard too
+  std::string file;                    ///< what follows the colon: "video:session.mp4"
+  double rate_hz = 15;                 ///< frames a second
+  Eigen::Vector2d area_m{0.40, 0.30};  ///< working area: width and depth around the board's center
+  /// What of the board frame a window shows; none: all of the picture.
+  std::optional<Eigen::AlignedBox3d> shown_m = {};
+  int display = 0;                                ///< its number
+  bool windowed = false;                          ///< not full screen
+  std::shared_ptr<DraggedEffector> dragged = {};  ///< to be dragged in trials; none: it is held
 };
 
 class ArView {
@@ -49,6 +60,12 @@ class ArView {
   /// Keeps the screen alive for up to `seconds` and returns early with what was touched since the
   /// last call, in order. A view without a screen returns nothing at once.
   virtual std::vector<Touch> wait(double seconds) = 0;
+
+  /// Where it is shown; none: on no display.
+  virtual std::optional<DisplayFacts> display() const { return std::nullopt; }
+  /// Pixels of the display from the middle of the effector to its clone's, in the frame presented
+  /// last; none: not both were shown.
+  virtual std::optional<double> clone_offset_px() const { return std::nullopt; }
 };
 
 /// A row of the table of views.

@@ -215,11 +215,32 @@ Span Rasterizer::columns_in(int y) const {
   return {samples.begin / 2, (samples.end + 1) / 2};
 }
 
-void Rasterizer::paint(Image& frame) const {
+// The frame's own pixels come back, and what is translucent over them.
+void Rasterizer::put_in_front(int y, const std::uint8_t* share, const std::uint8_t* below,
+                              std::uint8_t* bgr) const {
+  const Sample *glass = glass_.row(2 * y), *glass_below = glass_.row(2 * y + 1);
+  for (int x = 0; x < darkness_.n_columns(); ++x) {
+    if (!share[x]) continue;
+    std::array<std::uint8_t, 3> own{below[3 * x], below[3 * x + 1], below[3 * x + 2]};
+    const Four glasses = four_of(glass + 2 * x, glass_below + 2 * x);
+    if (!nothing(glasses)) paint_pixel({}, glasses, own.data());
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::uint8_t& painted = bgr[3 * static_cast<std::size_t>(x) + c];
+      painted = static_cast<std::uint8_t>((painted * (255 - share[x]) + own[c] * share[x]) / 255);
+    }
+  }
+}
+
+void Rasterizer::paint(Image& frame, const Image* in_front) const {
+  std::vector<std::uint8_t> below;
   for (int y = 0; y < darkness_.n_rows(); ++y) {
-    std::uint8_t* bgr = frame.pixels.data() + static_cast<std::size_t>(y) * frame.row_bytes();
+    const auto row = static_cast<std::size_t>(y);
+    std::uint8_t* bgr = frame.pixels.data() + row * frame.row_bytes();
+    if (in_front) below.assign(bgr, bgr + frame.row_bytes());
     shade_row(y, bgr);
     paint_row(y, bgr);
+    if (in_front)
+      put_in_front(y, in_front->pixels.data() + row * in_front->row_bytes(), below.data(), bgr);
   }
 }
 

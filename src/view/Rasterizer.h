@@ -95,7 +95,9 @@ class Rasterizer {
   void shade(const RasterTriangle& triangle);
 
   /// Paints everything over a frame of blue, green and red of the rasterizer's size.
-  void paint(Image& frame) const;
+  /// @param in_front one channel of the same size: how much of the frame, of 255, is in front of
+  ///   all solid surfaces and shade and stays; translucent ones are painted over it. Null: nothing
+  void paint(Image& frame, const Image* in_front = nullptr) const;
 
   /// The object whose solid surface was filled nearest to a pixel, within so many pixels.
   std::optional<int> find_object(const Eigen::Vector2d& pixel, double reach_px) const;
@@ -114,6 +116,8 @@ class Rasterizer {
 
   void shade_row(int y, std::uint8_t* bgr) const;
   void paint_row(int y, std::uint8_t* bgr) const;
+  void put_in_front(int y, const std::uint8_t* share, const std::uint8_t* below,
+                    std::uint8_t* bgr) const;
   Span columns_in(int y) const;
   void paint_pixel(const Four& solid, const Four& glass, std::uint8_t* bgr) const;
   std::array<int, 3> color(Sample solid, Sample glass, const std::uint8_t* below) const;

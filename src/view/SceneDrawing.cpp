@@ -91,24 +91,24 @@ void SceneDrawing::draw_background(const ViewFrame& shown) {
 }
 
 // Shadows first, then solid things, then the translucent one: the rasterizer's order.
-void SceneDrawing::draw_virtual(const DisplayedFrame& shown,
-                                const std::optional<Pose>& other_clone) {
+void SceneDrawing::draw_virtual(const ViewFrame& shown) {
+  const std::optional<Pose>& clone = shown.frame.clone;
+  const std::vector<Pose>& cubes = shown.frame.cubes;
   rasterizer_.clear();
   const Vector3d cube_size_m = Vector3d::Constant(stage_.cube_size_m);
-  for (const Pose& cube : shown.cubes)
+  for (const Pose& cube : cubes)
     draw_shadow(rasterizer_, viewpoint_, cube, cube_size_m, cube_shadow);
-  if (shown.clone)
-    draw_shadow(rasterizer_, viewpoint_, *shown.clone, stage_.effector_size_m, clone_shadow);
+  if (clone) draw_shadow(rasterizer_, viewpoint_, *clone, stage_.effector_size_m, clone_shadow);
   int slot = 0;
-  for (const Pose& cube : shown.cubes)
+  for (const Pose& cube : cubes)
     draw_box(rasterizer_, viewpoint_, cube, cube_size_m, cube_look(++slot));
-  if (shown.clone)
-    draw_box(rasterizer_, viewpoint_, *shown.clone, stage_.effector_size_m,
+  if (clone)
+    draw_box(rasterizer_, viewpoint_, *clone, stage_.effector_size_m,
              {clone_face, clone_edge, clone_opacity, 0});
-  if (other_clone)
-    draw_box(rasterizer_, viewpoint_, *other_clone, stage_.effector_size_m,
+  if (shown.other_clone)
+    draw_box(rasterizer_, viewpoint_, *shown.other_clone, stage_.effector_size_m,
              {other_face, other_edge, clone_opacity, 0});
-  rasterizer_.paint(frame_);
+  rasterizer_.paint(frame_, shown.in_front.get());
 }
 
 const Image& SceneDrawing::draw(const ViewFrame& shown) {
@@ -117,7 +117,7 @@ const Image& SceneDrawing::draw(const ViewFrame& shown) {
     plain_table_ = {};
   }
   draw_background(shown);
-  draw_virtual(shown.frame, shown.other_clone);
+  draw_virtual(shown);
   cubes_ = shown.frame.cubes;
   return frame_;
 }
@@ -127,14 +127,30 @@ std::optional<int> SceneDrawing::slot_at(double x_px, double y_px) const {
   return rasterizer_.find_object({x_px, y_px}, reach_px);
 }
 
+std::optional<Vector2d> SceneDrawing::pixel_of(const Vector3d& board_m) const {
+  const Corner place = viewpoint_.corner(board_m);
+  if (place.hidden_by) return {};
+  return place.pixel;
+}
+
+Eigen::AlignedBox2d SceneDrawing::pixels_around(const Eigen::AlignedBox3d& board_m) const {
+  const Eigen::AlignedBox2d frame(Vector2d::Zero(), Vector2d(frame_.width, frame_.height));
+  Eigen::AlignedBox2d around;
+  for (int i = 0; i < 8; ++i) {
+    const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
+    const auto pixel = pixel_of(board_m.corner(corner));
+    if (!pixel) return frame;  // it reaches beyond the picture
+    around.extend(*pixel + Vector2d::Constant(0.5));
+  }
+  return around.intersection(frame);
+}
+
 std::optional<Vector2d> SceneDrawing::label_place(int slot) const {
   if (slot < 1 || slot > static_cast<int>(cubes_.size())) return {};
   // Half a cube above its top: in the frame, behind the top's far edge.
   const Pose& cube = cubes_[static_cast<std::size_t>(slot - 1)];
   const Vector3d above_m(0, 0, stage_.cube_size_m);
-  const Corner place = viewpoint_.corner(cube.position_m + above_m);
-  if (place.hidden_by) return {};
-  return place.pixel;
+  return pixel_of(cube.position_m + above_m);
 }
 
 }  // namespace heft

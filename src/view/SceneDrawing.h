@@ -3,6 +3,7 @@
 // software rasterizer for every view, so what is recorded is what was seen.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <optional>
 #include <vector>
 
@@ -27,12 +28,24 @@ class SceneDrawing {
   /// not in the frame.
   std::optional<Eigen::Vector2d> label_place(int slot) const;
 
+  /// The pixel of a point of the board frame in the last frame; none: not in it.
+  std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector3d& board_m) const;
+
+  /// The pixels that a box of the board frame reaches, within the frame: its least and last corner.
+  Eigen::AlignedBox2d pixels_around(const Eigen::AlignedBox3d& board_m) const;
+
+  /// The point at that height over the table that is seen at a pixel; none: there is none.
+  std::optional<Eigen::Vector3d> point_at_height(const Eigen::Vector2d& pixel,
+                                                 double height_m) const {
+    return viewpoint_.point_at_height(pixel, height_m);
+  }
+
  private:
   SceneDrawing(const Stage& stage, const Intrinsics& camera);
   void draw_plain_table();
   void draw_background(const ViewFrame& shown);
   void draw_real_effector(const Pose& effector);
-  void draw_virtual(const DisplayedFrame& shown, const std::optional<Pose>& other_clone);
+  void draw_virtual(const ViewFrame& shown);
 
   Stage stage_;
   Viewpoint viewpoint_;

@@ -85,6 +85,16 @@ Corner Viewpoint::corner(const Vector3d& board_m, double darkness) const {
   return seen(camera_from_board_ * board_m, darkness);
 }
 
+std::optional<Vector3d> Viewpoint::point_at_height(const Vector2d& pixel, double height_m) const {
+  const Vector2d last(camera_.width_px - 1, camera_.height_px - 1);
+  const Vector2d ray = undistort(camera_, pixel.cwiseMax(0.0).cwiseMin(last));
+  const Eigen::Quaterniond board_from_camera = camera_from_board_.orientation.conjugate();
+  const Vector3d along = board_from_camera * Vector3d(ray.x(), ray.y(), 1);
+  const double distance = (height_m - eye_board_m_.z()) / along.z();
+  if (!(distance > nearest_m)) return std::nullopt;
+  return eye_board_m_ + distance * along;
+}
+
 bool Viewpoint::faces_camera(const Vector3d& point_board_m, const Vector3d& normal) const {
   return normal.dot(eye_board_m_ - point_board_m) > 0;
 }

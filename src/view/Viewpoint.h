@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
 
 #include "base/Polygon.h"
@@ -31,6 +32,11 @@ class Viewpoint {
   const Pose& camera_from_board() const { return camera_from_board_; }
 
   Corner corner(const Eigen::Vector3d& board_m, double darkness = 0) const;
+
+  /// The point at that height over the table that is seen at a pixel (of the nearest pixel of the
+  /// frame, if it is beside it); none: nothing at that height is.
+  std::optional<Eigen::Vector3d> point_at_height(const Eigen::Vector2d& pixel,
+                                                 double height_m) const;
 
   /// Whether a face with that outward normal (board frame) turns its front to the camera.
   bool faces_camera(const Eigen::Vector3d& point_board_m, const Eigen::Vector3d& normal) const;

@@ -170,6 +170,111 @@ class Window(unittest.TestCase):
         replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
 
+    def drag(self, start, end):
+        """With the mouse, in steps as a hand would."""
+        steps = 12
+        self.screen.do("mousemove", *start, "mousedown", 1)
+        for i in range(1, steps + 1):
+            self.screen.do("mousemove", *(a + (b - a) * i // steps for a, b in zip(start, end)))
+            time.sleep(0.03)
+        self.screen.do("mouseup", 1)
+        time.sleep(0.3)
+
+    def wait_for_cubes(self, person):
+        deadline = time.time() + 60
+        while not (person.open_trial() or (0, "", None))[2]:
+            self.assertLess(time.time(), deadline)
+            self.assertIsNone(self.program.poll())
+            if person.page() and not person.open_trial():
+                self.screen.key("Return")
+            time.sleep(0.4)
+
+    def test_a_newcomer_without_a_printer_pushes_a_cube_with_the_mouse(self):
+        person = self.start("--tracker", "mouse")
+        self.wait_for_cubes(person)
+        self.drag((355, 470), (277, 470))
+        self.drag((277, 470), (277, 280))
+        self.screen.do("click", "--repeat", 3, 4)
+        deadline = time.time() + 60
+        while not person.log("select 1 from cube where n_pushes > 0 and slot = 1"):
+            self.assertLess(time.time(), deadline, "no cube was pushed")
+            time.sleep(0.3)
+        self.program.terminate()
+        self.program.communicate(timeout=60)
+        moved = query(self.db, "select max(effector_y_m) - min(effector_y_m), max(tracked), "
+                               "max(abs(effector_qw - 0.7071)) from frame")
+        self.assertGreater(moved[0][0], 0.05)
+        self.assertEqual(moved[0][1], 1)
+        self.assertGreater(moved[0][2], 0.05, "the wheel turned it")
+        self.assertEqual(query(self.db, "select tracker, responder from setup"),
+                         [("mouse", "human")])
+        replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+        told = subprocess.run([HEFT, "analyse", "--db", self.db], capture_output=True, text=True)
+        self.assertIn("dragged on the screen", told.stdout + told.stderr)
+
+    def test_the_display_is_in_the_setup_and_the_clones_offset_in_degrees(self):
+        measured = Path(self.folder.name) / "display.toml"
+        calibrate = subprocess.Popen(
+            [HEFT, "calibrate", "display", "--eye-distance-mm", "450", "--out", str(measured)],
+            env=self.screen.environment(), text=True, stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.program = calibrate
+        while calibrate.poll() is None:
+            for _ in range(3):  # the window may not be there yet; then half a card's 570 px
+                time.sleep(1)
+                self.screen.do("mousemove", 700, 300, "mousedown", 1, "mousemove", 797, 300,
+                               "mouseup", 1)
+            self.screen.key("Return")
+            time.sleep(1)
+        told, talk = calibrate.communicate(timeout=60)
+        self.assertEqual(calibrate.returncode, 0, talk)
+        self.assertRegex(told, r"^1024 x 600 pixels are 153\.[0-9] x 90\.[0-9] mm, seen from 450 mm")
+        person = self.start("--tracker", "synthetic", "--display-file", str(measured), "--windowed",
+                            "--hand", "left", "--controls", "left")
+        self.wait_for_cubes(person)
+        time.sleep(2)
+        self.program.terminate()
+        self.program.communicate(timeout=60)
+        setup = query(self.db, "select display like '0 %', display_w_px, display_h_px, "
+                               "round(display_w_mm), eye_distance_mm, display_scale, window, hand, "
+                               "handed from setup")
+        self.assertEqual(setup, [(1, 1024, 600, 154.0, 450.0, 1.0, "window", "left", "left")])
+        pages = query(self.db, "select json_extract(detail, '$.page') from event "
+                               "where kind = 'text_shown' order by event_id")
+        self.assertEqual(pages[0], ("setting_up",))
+        seen, largest_deg = query(self.db, "select count(clone_offset_px), max(clone_offset_deg) "
+                                           "from v_frame")[0]
+        self.assertGreater(seen, 5)
+        self.assertTrue(0 <= largest_deg < 15, largest_deg)
+        replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+
+    def test_another_display_than_the_measured_one_or_none_of_that_number_is_refused(self):
+        measured = Path(self.folder.name) / "display.toml"
+        subprocess.run([HEFT, "calibrate", "display", "--width-mm", "154", "--height-mm", "90",
+                        "--eye-distance-mm", "450", "--out", str(measured)], check=True,
+                       env=self.screen.environment(), capture_output=True, timeout=60)
+        text = measured.read_text(encoding="utf-8")
+        measured.write_text(text.replace("width_px = 1024", "width_px = 1920"), encoding="utf-8")
+        for code, options, why in ((3, ["--display-file", str(measured)], "heft calibrate display"),
+                                   (4, ["--display", "3"], "no display 3"),
+                                   (2, ["--display", "left"], "heft doctor")):
+            run = subprocess.run([HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07",
+                                  "--db", self.db, "--tracker", "hand", *options],
+                                 env=self.screen.environment(), text=True, capture_output=True,
+                                 timeout=60)
+            self.assertEqual(run.returncode, code, run.stderr)
+            self.assertIn(why, run.stderr)
+            self.assertFalse(Path(self.db).exists())
+
+    def test_doctor_tells_of_display_graphics_typeface_and_touch(self):
+        run = subprocess.run([HEFT, "doctor", "--db", self.db], env=self.screen.environment(),
+                             text=True, capture_output=True, timeout=120)
+        for line in (r"ok       display +0 \(.*\), 1024 x 600 pixels", r"graphics +\S",
+                     r"ok       typeface", r"ok       touch"):
+            self.assertRegex(run.stdout, line)
+
     def test_without_a_display_nothing_is_begun(self):
         environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         run = subprocess.run([HEFT, "run", str(PROTOCOLS / "quick.toml"), "--participant", "07",

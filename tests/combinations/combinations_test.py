@@ -79,7 +79,7 @@ class Combinations(unittest.TestCase):
 
     def options(self, name, tracker, view):
         """Of a tracker and a view, by the names that they have here."""
-        of_tracker = {"hand": ["hand"], "synthetic": ["synthetic"],
+        of_tracker = {"hand": ["hand"], "synthetic": ["synthetic"], "mouse": ["mouse"],
                       "frames": [f"frames:{self.folder / 'frames'}", "--camera-file", CAMERA],
                       "video": [f"video:{self.folder / 'film.avi'}", "--camera-file", CAMERA]}
         file = f":{self.folder / name}.avi" if view == "video" else ""
@@ -224,7 +224,7 @@ class Combinations(unittest.TestCase):
     @unittest.skipUnless(HAS_SCREEN, "needs Xvfb and xdotool")
     def test_people(self):
         with concurrent.futures.ThreadPoolExecutor() as pool:
-            running = [pool.submit(self.person, tracker) for tracker in ("hand", "synthetic")]
+            running = [pool.submit(self.person, tracker) for tracker in ("hand", "synthetic", "mouse")]
             running.append(pool.submit(self.person_after_model))
         for done in running:
             done.result()
@@ -271,6 +271,9 @@ class Combinations(unittest.TestCase):
          "window"),
         (2, ["--responder", "human", "--view", "window", "--tracker", "hand", "--simulator",
              "push"], "straight strokes"),
+        (2, ["--responder", "coin", "--tracker", "mouse", "--view", "window"], "hand of its own"),
+        (2, ["--responder", "human", "--tracker", "mouse", "--view", "headless"], "window"),
+        (2, ["--responder", "human", "--tracker", "mouse:FOLDER/frames"], "nothing after"),
         (2, ["--responder", "nobody"], "nobody"),
         (2, ["--responder", "scripted"], "folder"),
         (1, ["--responder", "scripted:FOLDER/none"], "none"),
@@ -324,7 +327,8 @@ class Combinations(unittest.TestCase):
         nothing = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         for code, words in ((2, ["--responder", "human"]), (4, ["--view", "window"]),
                             (4, ["--tracker", "camera:63", "--camera-file", str(CAMERA)]),
-                            (2, ["--simulator", "nothing"]), (2, ["--responder", "scripted"])):
+                            (2, ["--tracker", "mouse"]), (2, ["--simulator", "nothing"]),
+                            (2, ["--responder", "scripted"])):
             with self.subTest(words=words):
                 done = self.heft("resume", "--db", db, *words, expect=code, environment=nothing)
                 self.assertIn("heft: ", done.stderr)

@@ -75,6 +75,30 @@ TEST_F(views, a_comparison_has_its_comparison_mass_and_no_third_cube) {
   EXPECT_EQ(of("SELECT count(*) FROM v_sorting"), "0");
 }
 
+// 40 px of 0.15 mm are 6 mm; seen from 450 mm 0.7639 degrees, of which the arc is 0.76394.
+TEST_F(views, a_frame_tells_the_clones_offset_as_it_was_seen) {
+  heft::Setup setup;
+  setup.display_w_px = 1000;
+  setup.display_w_mm = 150;
+  setup.eye_distance_mm = 450;
+  Changes told;
+  told.setup = setup;
+  log_.append(Event{9, setup}, told, Durability::acknowledged);
+  TrialRow trial = sorting_trial(1, 10);
+  trial.setup_index = 1;
+  log_.append(event(10, EventKind::trial_started), starting(trial), Durability::acknowledged);
+  FrameRow frame;
+  frame.attempt_index = 1;
+  frame.clone_offset_px = 40;
+  log_.add_frame(frame);
+  frame.clone_offset_px.reset();
+  log_.add_frame(frame);
+  log_.flush();
+  EXPECT_EQ(of("SELECT clone_offset_mm FROM v_frame ORDER BY frame_id"), "6.0");
+  EXPECT_EQ(of("SELECT round(clone_offset_deg, 4) FROM v_frame ORDER BY frame_id"), "0.7639");
+  EXPECT_EQ(of("SELECT count(clone_offset_deg) FROM v_frame"), "1");
+}
+
 TEST_F(views, jnd_names_the_reference_of_its_staircase) {
   TrialRow trial = sorting_trial(1, 10);
   trial.plan.task = Task::comparison;

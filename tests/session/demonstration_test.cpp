@@ -15,6 +15,7 @@
 #include "session/Runner.h"
 #include "tracking/MarkerBody.h"
 #include "tracking/Tracker.h"
+#include "view/SceneDrawing.h"
 
 namespace heft {
 namespace {
@@ -58,6 +59,37 @@ TEST(Demonstration, shows_a_filmed_effector_under_its_clone_with_two_faces_to_th
     if (tracked.n_effector_faces >= 2) ++n_two_faces;
   }
   EXPECT_GT(n_two_faces, 0.9 * n_pictures);
+}
+
+// Cubes are drawn over the film; where the hand is, they are not.
+TEST(Demonstration, never_draws_a_cube_over_the_hand) {
+  const Protocol protocol;
+  Demonstration demonstration(protocol, apparatus(), 7);
+  ViewSetup setup;
+  setup.stage = stage_of(protocol, 3);
+  setup.camera = apparatus().camera;
+  SceneDrawing drawing(setup);
+  int n_hand_px = 0, n_hidden_px = 0;
+  for (double t_s = 0.5; t_s < 20; t_s += 0.5) {
+    ViewFrame shown = demonstration.at(t_s);
+    ASSERT_TRUE(shown.in_front);
+    shown.frame.clone.reset();  // that is seen over fingers in trials too
+    const Image drawn = drawing.draw(shown);
+    shown.in_front.reset();
+    const Image without_hand = drawing.draw(shown);
+    const ViewFrame again = demonstration.at(t_s);
+    for (std::size_t i = 0; i < again.in_front->pixels.size(); ++i) {
+      if (again.in_front->pixels[i] < 255) continue;
+      ++n_hand_px;
+      const bool as_filmed =
+          std::equal(&drawn.pixels[3 * i], &drawn.pixels[3 * i] + 3, &again.camera->pixels[3 * i]);
+      ASSERT_TRUE(as_filmed) << t_s;
+      n_hidden_px += !std::equal(&without_hand.pixels[3 * i], &without_hand.pixels[3 * i] + 3,
+                                 &again.camera->pixels[3 * i]);
+    }
+  }
+  EXPECT_GT(n_hand_px, 100000);
+  EXPECT_GT(n_hidden_px, 0) << "nothing was in its way: this test looks at nothing";
 }
 
 TEST(Demonstration, pushes_every_cube_forward_and_none_over) {

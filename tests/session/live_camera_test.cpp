@@ -204,8 +204,8 @@ void expect_void_and_again(Does what) {
   EXPECT_THAT(frames_between(*session, paused[0].t_s, continued[0].t_s), IsEmpty());
   EXPECT_THAT(session->screen.screens, Contains(Field(&ScreenState::screen, Screen::paused)));
   EXPECT_THAT(testing::pages_of(session->sink),
-              ElementsAre("welcome", "instructions_sorting", "trial_sorting", "paused",
-                          "trial_sorting", "thanks"));
+              ElementsAre("setting_up", "welcome", "instructions_sorting", "trial_sorting",
+                          "paused", "trial_sorting", "thanks"));
   EXPECT_EQ(session->engine->n_completed(), 2);
   EXPECT_EQ(session->engine->n_attempts(), 3);
 }

@@ -249,5 +249,58 @@ TEST(SyntheticGeometry, TheHandHidesTheBackAndNotTheTagsAtTheTip) {
   EXPECT_TRUE(differ_at({-0.030, 0.008, 0.02}));                       // thumb
 }
 
+// Wherever people push: from the resting place to behind the cubes, turned to both sides.
+TEST(SyntheticGeometry, TheArmComesFromBeyondThePicture) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticSettings settings = ideal_sensor();
+  settings.hand = true;
+  SyntheticCamera camera(apparatus, settings, 1);
+  for (const double y_m : {-0.12, -0.05, 0.05})
+    for (const double x_m : {-0.1, 0.0, 0.1})
+      for (const double yaw : {-0.4, 0.0, 0.4}) {
+        const Pose pose{{x_m, y_m, 0.03},
+                        Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2 + yaw, Vector3d::UnitZ()))};
+        const Image hand = camera.hand_in_picture(pose);
+        int n_at_edge = 0;
+        for (int x = 0; x < hand.width; ++x)
+          n_at_edge +=
+              hand.pixels[static_cast<std::size_t>((hand.height - 1) * hand.width + x)] > 0;
+        for (int y = 0; y < hand.height; ++y)
+          for (const int x : {0, hand.width - 1})
+            n_at_edge += hand.pixels[static_cast<std::size_t>(y * hand.width + x)] > 0;
+        EXPECT_GT(n_at_edge, 30) << x_m << ' ' << y_m << ' ' << yaw;
+      }
+}
+
+TEST(SyntheticGeometry, TheHandInThePictureIsWhatDiffersFromNoHandAndMirrorsForTheLeft) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticSettings settings = ideal_sensor();
+  SyntheticCamera bare(apparatus, settings, 1);
+  settings.hand = true;
+  SyntheticCamera right(apparatus, settings, 1);
+  settings.left_hand = true;
+  SyntheticCamera left(apparatus, settings, 1);
+  const Pose pose{{0, -0.02, 0.05},
+                  Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()))};
+  const auto column = [&](SyntheticCamera& camera) {
+    const Image without = bare.picture(held_at(pose), 0, 0);
+    const Image with = camera.picture(held_at(pose), 0, 0);
+    const Image hand = camera.hand_in_picture(pose);
+    double sum = 0, n = 0;
+    for (int y = 0; y < hand.height; ++y)
+      for (int x = 0; x < hand.width; ++x) {
+        const auto covered = hand.pixels[static_cast<std::size_t>(y * hand.width + x)];
+        if (covered == 0) {
+          EXPECT_EQ(bgr(with, x, y), bgr(without, x, y)) << x << ' ' << y;
+        }
+        if (covered == 255 && y < 300) sum += x, ++n;
+      }
+    EXPECT_GT(n, 1000);
+    return sum / n;
+  };
+  EXPECT_NEAR(column(left) + column(right), apparatus.camera.width_px - 1, 3) << "mirrored";
+  EXPECT_GT(std::abs(column(left) - column(right)), 4);
+}
+
 }  // namespace
 }  // namespace heft

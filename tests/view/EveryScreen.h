@@ -62,7 +62,8 @@ inline std::vector<NamedScreen> page_screens() {
           {"paused", page_state(Screen::paused)},
           {"how_decided", page_state(Screen::how_decided)},
           {"thanks", page_state(Screen::thanks)},
-          {"declined", page_state(Screen::declined)}};
+          {"declined", page_state(Screen::declined)},
+          {"setting_up", page_state(Screen::setting_up)}};
 }
 
 inline std::vector<NamedScreen> trial_screens() {

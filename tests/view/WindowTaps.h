@@ -47,6 +47,21 @@ inline void push_mouse(Uint32 type, float x, float y, Uint32 which = 0) {
   SDL_PushEvent(&event);
 }
 
+inline void push_mouse_motion(float x, float y) {
+  SDL_Event event{};
+  event.type = SDL_MOUSEMOTION;
+  event.motion.x = static_cast<Sint32>(x);
+  event.motion.y = static_cast<Sint32>(y);
+  SDL_PushEvent(&event);
+}
+
+inline void push_wheel(Sint32 notches) {
+  SDL_Event event{};
+  event.type = SDL_MOUSEWHEEL;
+  event.wheel.y = notches;
+  SDL_PushEvent(&event);
+}
+
 inline void push_key(SDL_Scancode code) {
   SDL_Event event{};
   event.type = SDL_KEYDOWN;

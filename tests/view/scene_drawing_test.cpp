@@ -47,6 +47,26 @@ TEST_F(OverFilm, TheFilmIsShownAsItIsWhereNothingIsDrawn) {
   EXPECT_EQ(drawing.draw(shown).pixels, picture->pixels);
 }
 
+// A hand before a cube hides it and takes no shade; its clone is seen over both.
+TEST_F(OverFilm, WhatTheFilmHasInFrontHidesCubesAndNotTheClone) {
+  shown.frame.clone = pointing_away(0, 0.02, 0.06);
+  const Eigen::Vector2d left = top_of(1), middle = top_of(2), right = top_of(3);
+  const Bgr clone_over_cube = at(drawing.draw(shown), middle),
+            cube = at(drawing.draw(shown), right);
+  auto mask = std::make_shared<Image>(setup.camera->width_px, setup.camera->height_px, 1);
+  for (int y = 0; y < mask->height; ++y)
+    for (int x = 0; x < mask->width / 2 + 60; ++x)
+      mask->pixels[static_cast<std::size_t>(y * mask->width + x)] = 255;
+  shown.in_front = mask;
+  const Image& drawn = drawing.draw(shown);
+  EXPECT_EQ(at(drawn, left), picture_gray);
+  EXPECT_EQ(at(drawn, right), cube) << "beside the mask";
+  EXPECT_TRUE(bluer(at(drawn, middle), picture_gray));
+  EXPECT_NE(at(drawn, middle), clone_over_cube) << "no cube shines through";
+  for (int x = 0; x < 300; x += 7)
+    EXPECT_EQ(at(drawn, x, 240), picture_gray) << "no shade at " << x;
+}
+
 TEST_F(OverFilm, AGrayFilmLooksAsItsGrayInColor) {
   const Image in_color = drawing.draw(shown);
   shown.camera = gray_picture(*setup.camera, 1);

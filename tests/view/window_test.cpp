@@ -169,6 +169,87 @@ TEST_F(Window, ACubeInThePictureIsAsGoodAsItsButton) {
   EXPECT_EQ(touched[0].action.slot, 2);
 }
 
+// With the effector of picture_of() to be dragged.
+class WindowToDragIn : public Window {
+ protected:
+  WindowToDragIn() {
+    effector->pose = picture_of(setup).frame.effector;
+    setup.dragged = effector;
+    open(setup);
+  }
+
+  /// The middle of where the effector can be taken.
+  std::pair<float, float> middle_of_effector() {
+    show(trial_state(Task::sorting));
+    const Measures all = view->measures();
+    float x_sum = 0, y_sum = 0, n = 0;
+    for (float y = 0; y < all.height; y += 16)
+      for (float x = 0; x < all.width; x += 16) {
+        if (!view->is_on_effector(x, y)) continue;
+        x_sum += x, y_sum += y, ++n;
+      }
+    if (n == 0) throw std::out_of_range("no effector is to be dragged");
+    return {x_sum / n, y_sum / n};
+  }
+
+  std::shared_ptr<DraggedEffector> effector = std::make_shared<DraggedEffector>();
+};
+
+TEST_F(WindowToDragIn, TheEffectorGoesWhereTheMouseGoesAndTheWheelTurnsIt) {
+  const auto [x, y] = middle_of_effector();
+  const Pose before = effector->pose;
+  push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
+  push_mouse_motion(x + 60, y - 60);
+  EXPECT_THAT(touches(), IsEmpty()) << "it answers nothing";
+  const auto moved_m = effector->pose.position_m - before.position_m;
+  EXPECT_GT(moved_m.x(), 0.01);
+  EXPECT_GT(moved_m.y(), 0.01);
+  EXPECT_EQ(moved_m.z(), 0);
+  push_wheel(2);
+  push_mouse(SDL_MOUSEBUTTONUP, x + 60, y - 60);
+  push_mouse_motion(x - 90, y);
+  EXPECT_THAT(touches(), IsEmpty());
+  EXPECT_EQ(effector->pose.position_m - before.position_m, moved_m) << "it was let go";
+  EXPECT_NEAR(effector->pose.orientation.angularDistance(before.orientation), 0.1745, 1e-3);
+}
+
+TEST_F(WindowToDragIn, AFingerDragsItAndAnotherTapsMeanwhile) {
+  const auto [x, y] = middle_of_effector();
+  const double before_m = effector->pose.position_m.x();
+  push_finger(SDL_FINGERDOWN, x, y, 1);
+  tap(*view, "cube_2");
+  push_finger(SDL_FINGERMOTION, x + 50, y, 1);
+  view->wait(0);
+  EXPECT_TRUE(control_named(*view, "cube_2").chosen);
+  EXPECT_GT(effector->pose.position_m.x(), before_m);
+}
+
+TEST_F(WindowToDragIn, OutsideOfTrialsNothingIsDragged) {
+  const auto [x, y] = middle_of_effector();
+  const Pose before = effector->pose;
+  push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
+  view->wait(0);
+  show(page_state(Screen::demonstration));
+  push_mouse_motion(x + 60, y);
+  push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
+  push_mouse_motion(x + 60, y);
+  push_wheel(3);
+  view->wait(0);
+  EXPECT_EQ(effector->pose.position_m, before.position_m);
+  EXPECT_EQ(effector->pose.orientation.coeffs(), before.orientation.coeffs());
+}
+
+TEST_F(Window, WithoutAnEffectorToDragTheMouseTapsOnly) {
+  show(trial_state(Task::sorting));
+  const auto [x, y] = place_in_picture(*view, "cube_2");
+  push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
+  push_mouse_motion(x + 1, y);
+  push_wheel(1);
+  push_mouse(SDL_MOUSEBUTTONUP, x + 1, y);
+  EXPECT_THAT(touches(), IsEmpty());
+  EXPECT_TRUE(control_named(*view, "cube_2").chosen);
+}
+
 TEST_F(Window, CubesInThePictureWaitForLeaveToo) {
   ScreenState state = trial_state(Task::comparison);
   show(state);
@@ -240,6 +321,76 @@ TEST_F(Window, ChangesItsLayoutWithItsSize) {
     const Rect validate = control_named(*view, "validate").area;
     EXPECT_LE(validate.right(), static_cast<float>(width));
     EXPECT_GT(validate.right(), 0.9f * static_cast<float>(width));
+  }
+}
+
+// On the smallest screen, 7" and 1024 x 600: cubes are 10 mm wide and more, and still tapped where
+// they are.
+TEST_F(Window, ShowsOfThePictureWhatTheCubesNeed) {
+  setup.windowed = true;
+  for (auto& slot_m : setup.stage.slots_m) slot_m.y() = 0;  // as protocols have it
+  const auto cube_mm = [&] {
+    open(setup);
+    SDL_SetWindowSize(SDL_GL_GetCurrentWindow(), 1024, 600);
+    ViewFrame shown = picture_of(setup);
+    shown.frame.effector = shown.frame.cubes[1];
+    shown.frame.clone = shown.frame.cubes[1];
+    shown.frame.clone->position_m.x() += setup.stage.cube_size_m;
+    view->wait(0);
+    view->present(shown, trial_state(Task::sorting));
+    return view->clone_offset_px().value() * 154.2 / 1024;
+  };
+  const double whole_mm = cube_mm();
+  EXPECT_LT(whole_mm, 10);
+  setup.shown_m =
+      Eigen::AlignedBox3d(Eigen::Vector3d(-0.14, -0.12, 0), Eigen::Vector3d(0.14, 0.15, 0.035));
+  EXPECT_GE(cube_mm(), 10);
+  view->wait(0.25);
+  const auto [x1, y1] = place_in_picture(*view, "cube_1");
+  const auto [x3, y3] = place_in_picture(*view, "cube_3");
+  tap_with_finger(x3, y3);
+  EXPECT_THAT(touches(), IsEmpty());
+  EXPECT_TRUE(control_named(*view, "cube_3").chosen);
+  EXPECT_NEAR((x3 - x1) * 154.2 / 1024, cube_mm() * 0.14 / 0.035, 4);
+}
+
+TEST_F(Window, TellsItsDisplayAndHowFarTheCloneIsSeenBesideTheEffector) {
+  const auto display = view->display();
+  ASSERT_TRUE(display);
+  EXPECT_EQ(display->number, 0);
+  EXPECT_GT(display->w_px, 100);
+  EXPECT_EQ(display->scale, 1);
+  ViewFrame shown = picture_of(setup);
+  view->present(shown, trial_state(Task::sorting));
+  EXPECT_EQ(view->clone_offset_px(), 0);
+  shown.frame.clone->position_m.x() += 0.01;
+  view->present(shown, trial_state(Task::sorting));
+  const double offset_px = view->clone_offset_px().value();
+  shown.frame.clone->position_m.x() += 0.01;
+  view->present(shown, trial_state(Task::sorting));
+  EXPECT_NEAR(view->clone_offset_px().value(), 2 * offset_px, 0.02 * offset_px);
+  shown.frame.tracked = false;
+  view->present(shown, trial_state(Task::sorting));
+  EXPECT_FALSE(view->clone_offset_px());
+  view->present(picture_of(setup), page_state(Screen::rest));
+  EXPECT_FALSE(view->clone_offset_px());
+}
+
+TEST_F(Window, OpensAsAWindowOrFullScreenOnTheDisplayThatIsNamed) {
+  const auto is_full = [] {
+    return (SDL_GetWindowFlags(SDL_GL_GetCurrentWindow()) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
+  };
+  EXPECT_TRUE(is_full());
+  setup.windowed = true;
+  open(setup);
+  EXPECT_FALSE(is_full());
+  setup.display = 7;
+  try {
+    open(setup);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::device_missing);
+    EXPECT_THAT(error.what(), testing::HasSubstr("no display 7"));
   }
 }
 

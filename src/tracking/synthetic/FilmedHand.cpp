@@ -136,15 +136,18 @@ bool FilmedHand::SeenCone::may_be(Side side, const Surroundings& surroundings) c
   });
 }
 
-// x from the box's back end towards the tip; the thumb on top, the fingers around the right side.
-FilmedHand::FilmedHand(const Vector3d& box_size_m) : half_m_(box_size_m / 2) {
+// x from the box's back end towards the tip; the thumb on top, a right hand's fingers around the
+// right side.
+FilmedHand::FilmedHand(const Vector3d& box_size_m, bool left) : half_m_(box_size_m / 2) {
   const double y = half_m_.y(), z = half_m_.z();
   const double grip = std::min(0.034, 0.36 * box_size_m.x());  // how far fingers reach over the box
   const auto add = [&](const Vector3d& from, const Vector3d& to, double from_radius,
                        double to_radius) {
-    const Vector3d back(-half_m_.x(), 0, 0);
-    cones_.push_back({back + from, back + to, from_radius, to_radius});
+    const Vector3d back(-half_m_.x(), 0, 0), mirrored(1, left ? -1 : 1, 1);
+    cones_.push_back({back + from.cwiseProduct(mirrored), back + to.cwiseProduct(mirrored),
+                      from_radius, to_radius});
   };
+  add({-0.24, 0.02, 0.05}, {-0.60, 0.05, 0.16}, 0.033, 0.045);         // the rest of the arm
   add({-0.115, 0, 0.012}, {-0.24, 0.02, 0.05}, 0.026, 0.033);          // forearm
   add({-0.026, 0.016, -0.004}, {-0.115, 0.004, 0.012}, 0.024, 0.026);  // palm
   add({-0.026, -0.014, -0.002}, {-0.115, -0.004, 0.012}, 0.024, 0.025);
@@ -159,17 +162,27 @@ FilmedHand::FilmedHand(const Vector3d& box_size_m) : half_m_(box_size_m / 2) {
   }
 }
 
+// An arm may go past the camera: it ends where it would come too near, beyond the picture's edge.
+FilmedHand::Ball FilmedHand::far_enough(const Cone& cone, const Vector3d& from_m,
+                                        const Vector3d& to_m) {
+  if (to_m.z() >= nearest_m) return {to_m, cone.to_radius_m};
+  const double s = (from_m.z() - nearest_m) / (from_m.z() - to_m.z());
+  return {from_m + s * (to_m - from_m),
+          cone.from_radius_m + s * (cone.to_radius_m - cone.from_radius_m)};
+}
+
 std::vector<FilmedHand::SeenCone> FilmedHand::seen(const SeenBody& effector,
                                                    const Lens& lens) const {
   std::vector<SeenCone> all;
   for (const Cone& cone : cones_) {
-    const Vector3d from_m = effector.in_camera(cone.from_m), to_m = effector.in_camera(cone.to_m);
-    if (from_m.z() < Lens::nearest_m || to_m.z() < Lens::nearest_m) continue;
+    const Vector3d from_m = effector.in_camera(cone.from_m);
+    if (from_m.z() < nearest_m) continue;
+    const auto [to_m, to_radius_m] = far_enough(cone, from_m, effector.in_camera(cone.to_m));
     all.push_back({from_m.cast<float>(), to_m.cast<float>(), static_cast<float>(cone.from_radius_m),
-                   static_cast<float>(cone.to_radius_m), lens.pixel(from_m).cast<float>(),
+                   static_cast<float>(to_radius_m), lens.pixel(from_m).cast<float>(),
                    lens.pixel(to_m).cast<float>(),
                    static_cast<float>(cone.from_radius_m * lens.px_per_m(from_m.z())),
-                   static_cast<float>(cone.to_radius_m * lens.px_per_m(to_m.z()))});
+                   static_cast<float>(to_radius_m * lens.px_per_m(to_m.z()))});
   }
   std::ranges::stable_sort(all, std::less{}, &SeenCone::distance_m);
   return all;

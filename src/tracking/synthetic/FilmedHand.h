@@ -1,4 +1,5 @@
-// A hand that holds the effector by its back end: palm, wrist, thumb and fingers as rounded cones.
+// A hand that holds the effector by its back end: fingers, thumb, palm, wrist and an arm that comes
+// from beyond the picture's edge, as rounded cones.
 // It is there to occlude and to look like skin, not to be measured: its outline is smooth and in
 // perspective, its surface approximate.
 #pragma once
@@ -12,9 +13,9 @@ namespace heft {
 class FilmedHand {
  public:
   /// @param box_size_m of the effector that it holds
-  explicit FilmedHand(const Eigen::Vector3d& box_size_m);
+  explicit FilmedHand(const Eigen::Vector3d& box_size_m, bool left = false);
 
-  /// The pixels that the hand reaches; empty where it comes too near to the camera to be drawn.
+  /// The pixels that the hand reaches; what comes too near to the camera is not drawn.
   PixelBox extent(const SeenBody& effector, const Lens& lens) const;
 
   enum class Side { behind_box, before_box };
@@ -35,6 +36,14 @@ class FilmedHand {
   struct Surroundings;
   struct SkinInRow;
 
+  /// One end of a cone, in the camera's frame.
+  struct Ball {
+    Eigen::Vector3d center_m;
+    double radius_m;
+  };
+  static constexpr double nearest_m = 0.10;  ///< to the camera that an arm is drawn
+  static Ball far_enough(const Cone& cone, const Eigen::Vector3d& from_m,
+                         const Eigen::Vector3d& to_m);
   std::vector<SeenCone> seen(const SeenBody& effector, const Lens& lens) const;
 
   Eigen::Vector3d half_m_;

@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 #include "base/Error.h"
+#include "view/window/Displays.h"
 
 namespace heft {
 
@@ -62,15 +65,43 @@ void set_hints() {
   SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
 }
 
+DisplayFacts facts_of(int number) {
+  DisplayFacts facts;
+  facts.number = number;
+  if (const char* name = SDL_GetDisplayName(number)) facts.name = name;
+  SDL_DisplayMode mode{};
+  if (SDL_GetDesktopDisplayMode(number, &mode) != 0) return facts;
+  facts.w_px = mode.w;
+  facts.h_px = mode.h;
+  if (mode.refresh_rate > 0) facts.refresh_hz = mode.refresh_rate;
+  return facts;
+}
+
+void require_display(int number) {
+  const int n = SDL_GetNumVideoDisplays();
+  if (n <= 0) throw no_display("no display");
+  if (number < n) return;
+  throw Error(fmt::format("there is no display {}: this machine has {}, numbered from 0 (heft "
+                          "doctor lists them)",
+                          number, n),
+              ExitCode::device_missing);
+}
+
 // Of the display's size from the start: where no window manager runs, as on a bare touch display,
 // nobody would enlarge a smaller window to full screen.
-SDL_Window* full_screen_window(const char* title) {
-  SDL_DisplayMode mode{};
-  if (SDL_GetDesktopDisplayMode(0, &mode) != 0) throw no_display("no display");
-  SDL_Window* window =
-      SDL_CreateWindow(title, 0, 0, mode.w, mode.h,
-                       SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_FULLSCREEN_DESKTOP |
-                           SDL_WINDOW_ALLOW_HIGHDPI);
+SDL_Window* window_on(const WindowChoice& choice, const char* title) {
+  require_display(choice.display);
+  SDL_Rect place{};
+  SDL_GetDisplayBounds(choice.display, &place);
+  Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
+  if (choice.windowed || choice.hidden) {
+    place = {place.x + 40, place.y + 40, std::min(place.w, windowed_width_px),
+             std::min(place.h, windowed_height_px)};
+    if (choice.hidden) flags |= SDL_WINDOW_HIDDEN;
+  } else {
+    flags |= SDL_WINDOW_FULLSCREEN_DESKTOP;
+  }
+  SDL_Window* window = SDL_CreateWindow(title, place.x, place.y, place.w, place.h, flags);
   if (!window) throw no_display("no window");
   return window;
 }
@@ -126,9 +157,9 @@ struct GlWindow::Graphics {
   ImGuiContext* painter = nullptr;
 };
 
-GlWindow::GlWindow(const char* title)
+GlWindow::GlWindow(const char* title, const WindowChoice& choice)
     : video_(std::make_unique<Video>()),
-      window_(full_screen_window(title), SDL_DestroyWindow),
+      window_(window_on(choice, title), SDL_DestroyWindow),
       graphics_(std::make_unique<Graphics>(window_.get())) {}
 
 GlWindow::~GlWindow() = default;
@@ -145,8 +176,39 @@ float GlWindow::scale() const {
   return measures().width / static_cast<float>(std::max(width, 1));
 }
 
+bool GlWindow::is_full_screen() const {
+  return (SDL_GetWindowFlags(window_.get()) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
+}
+
+// Its mode is told in the window system's units.
+DisplayFacts GlWindow::display() const {
+  DisplayFacts facts = facts_of(std::max(0, SDL_GetWindowDisplayIndex(window_.get())));
+  facts.scale = static_cast<double>(scale());
+  facts.w_px = static_cast<int>(std::lround(facts.w_px * facts.scale));
+  facts.h_px = static_cast<int>(std::lround(facts.h_px * facts.scale));
+  return facts;
+}
+
+std::string GlWindow::renderer() const {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name ? name : "unknown";
+}
+
+int touch_devices() {
+  return SDL_GetNumTouchDevices();
+}
+
+std::vector<DisplayFacts> displays() {
+  std::vector<DisplayFacts> all;
+  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return all;
+  for (int i = 0; i < SDL_GetNumVideoDisplays() && !nobody_can_look(); ++i)
+    all.push_back(facts_of(i));
+  SDL_QuitSubSystem(SDL_INIT_VIDEO);
+  return all;
+}
+
 void GlWindow::toggle_full_screen() {
-  const bool full = (SDL_GetWindowFlags(window_.get()) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
+  const bool full = is_full_screen();
   SDL_SetWindowFullscreen(window_.get(), full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
   if (full) SDL_SetWindowSize(window_.get(), windowed_width_px, windowed_height_px);
 }

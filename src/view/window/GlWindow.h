@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/Image.h"
+#include "experiment/DisplayFacts.h"
 #include "view/window/Page.h"
 
 struct ImDrawList;
@@ -16,11 +17,20 @@ struct ImFontAtlas;
 
 namespace heft {
 
+/// Fingers can touch so many devices.
+int touch_devices();
+
+struct WindowChoice {
+  int display = 0;
+  bool windowed = false;
+  bool hidden = false;  ///< to see whether one can be had
+};
+
 class GlWindow {
  public:
-  /// Opens full screen.
-  /// @throws Error (device_missing) saying what to do when there is no display that can draw
-  explicit GlWindow(const char* title);
+  /// @throws Error (device_missing) saying what to do when there is no such display, or none that
+  ///   can draw
+  GlWindow(const char* title, const WindowChoice& choice);
   ~GlWindow();
   GlWindow(const GlWindow&) = delete;
   GlWindow& operator=(const GlWindow&) = delete;
@@ -30,6 +40,11 @@ class GlWindow {
   /// Pixels a unit of the window system.
   float scale() const;
   void toggle_full_screen();
+  bool is_full_screen() const;
+  /// The display that it is on now.
+  DisplayFacts display() const;
+  /// What draws, as the driver calls it.
+  std::string renderer() const;
 
   /// Makes the frame's pixels (blue, green, red) the texture.
   void upload(const Image& frame);

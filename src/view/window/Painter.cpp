@@ -84,8 +84,8 @@ void paint_control(ImDrawList& list, const Control& control, const Paint& paint)
 void paint_scene(ImDrawList& list, const PaintedScene& scene) {
   const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture));
   const auto alpha = static_cast<int>(std::lround(255 * std::clamp(scene.opacity, 0.f, 1.f)));
-  list.AddImage(id, corner(scene.area), opposite_corner(scene.area), {0, 0}, {1, 1},
-                IM_COL32(255, 255, 255, alpha));
+  list.AddImage(id, corner(scene.area), opposite_corner(scene.area), corner(scene.part),
+                opposite_corner(scene.part), IM_COL32(255, 255, 255, alpha));
 }
 
 bool overlap(const Rect& a, const Rect& b) {
@@ -163,29 +163,93 @@ void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
   for (const Control& control : page.controls) paint_control(list, control, paint);
 }
 
-Rect fitted_scene(const Rect& room, int width_px, int height_px) {
-  const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
+Rect fitted_scene(const Rect& room, float width, float height) {
   const float scale = std::min(room.width / width, room.height / height);
   return {room.x + (room.width - scale * width) / 2, room.y + (room.height - scale * height) / 2,
           scale * width, scale * height};
 }
 
+namespace {
+Rect rect_of(const Eigen::AlignedBox2d& box) {
+  const Eigen::Vector2f from = box.min().cast<float>(), size = box.sizes().cast<float>();
+  return {from.x(), from.y(), size.x(), size.y()};
+}
+
+// Begins earlier and ends later, as far as 0 and the limit allow.
+void widen(float& begin, float& length, float wanted, float limit) {
+  wanted = std::min(wanted, limit);
+  if (wanted <= length) return;
+  begin = std::clamp(begin - (wanted - length) / 2, 0.f, limit - wanted);
+  length = wanted;
+}
+}  // namespace
+
 const Image& SceneOnScreen::draw(const ViewFrame& shown) {
   const Image& image = drawing_.draw(shown);
   width_px_ = image.width;
   height_px_ = image.height;
+  find_part();
   return image;
+}
+
+// A camera's place is measured anew in each picture, a little differently: what is shown stays.
+void SceneOnScreen::find_part() {
+  constexpr float still_px = 12;
+  const Rect whole{0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
+  const Rect found = shown_m_ ? rect_of(drawing_.pixels_around(*shown_m_)) : whole;
+  const float moved = std::max({std::abs(found.x - wanted_px_.x), std::abs(found.y - wanted_px_.y),
+                                std::abs(found.right() - wanted_px_.right()),
+                                std::abs(found.bottom() - wanted_px_.bottom())});
+  if (moved > still_px) wanted_px_ = found;
+}
+
+// Room that is left is filled with more of the frame.
+void SceneOnScreen::fill_room(const Rect& room) {
+  part_px_ = wanted_px_;
+  const float ratio = room.width / room.height;
+  widen(part_px_.x, part_px_.width, part_px_.height * ratio, static_cast<float>(width_px_));
+  widen(part_px_.y, part_px_.height, part_px_.width / ratio, static_cast<float>(height_px_));
 }
 
 void SceneOnScreen::place(const std::optional<Rect>& room) {
   area_.reset();
-  if (room && width_px_ > 0) area_ = fitted_scene(*room, width_px_, height_px_);
+  if (!room || width_px_ == 0) return;
+  fill_room(*room);
+  area_ = fitted_scene(*room, part_px_.width, part_px_.height);
+}
+
+Rect SceneOnScreen::part() const {
+  const auto width = static_cast<float>(width_px_), height = static_cast<float>(height_px_);
+  return {part_px_.x / width, part_px_.y / height, part_px_.width / width,
+          part_px_.height / height};
+}
+
+std::optional<double> SceneOnScreen::distance_px(const Eigen::Vector3d& a_m,
+                                                 const Eigen::Vector3d& b_m) const {
+  if (!area_) return std::nullopt;
+  const auto a = drawing_.pixel_of(a_m), b = drawing_.pixel_of(b_m);
+  if (!a || !b) return std::nullopt;
+  return (*a - *b).norm() * static_cast<double>(scale());
 }
 
 std::optional<int> SceneOnScreen::slot_at(float x, float y) const {
   if (!area_ || !area_->contains(x, y)) return std::nullopt;
-  // Pixel centers are integers in the frame, halves on the screen.
-  return drawing_.slot_at((x - area_->x) / scale() - 0.5, (y - area_->y) / scale() - 0.5);
+  const Eigen::Vector2d pixel = frame_pixel(x, y);
+  return drawing_.slot_at(pixel.x(), pixel.y());
+}
+
+// Pixel centers are integers in the frame, halves on the screen.
+Eigen::Vector2d SceneOnScreen::frame_pixel(float x, float y) const {
+  return {part_px_.x + (x - area_->x) / scale() - 0.5f,
+          part_px_.y + (y - area_->y) / scale() - 0.5f};
+}
+
+std::optional<Eigen::Vector3d> SceneOnScreen::point_at_height(float x, float y,
+                                                              double height_m) const {
+  if (!area_) return std::nullopt;
+  const float inside_x = std::clamp(x, area_->x, area_->right());
+  const float inside_y = std::clamp(y, area_->y, area_->bottom());
+  return drawing_.point_at_height(frame_pixel(inside_x, inside_y), height_m);
 }
 
 std::optional<int> SceneOnScreen::slot_near(float x, float y, float reach_px) const {
@@ -208,8 +272,8 @@ std::vector<PlacedMark> SceneOnScreen::placed(const std::vector<CubeMark>& marks
   if (!area_) return all;
   for (const CubeMark& mark : marks)
     if (const auto place = drawing_.label_place(mark.slot))
-      all.push_back({mark, area_->x + static_cast<float>(place->x() + 0.5) * scale(),
-                     area_->y + static_cast<float>(place->y() + 0.5) * scale()});
+      all.push_back({mark, area_->x + (static_cast<float>(place->x() + 0.5) - part_px_.x) * scale(),
+                     area_->y + (static_cast<float>(place->y() + 0.5) - part_px_.y) * scale()});
   return all;
 }
 

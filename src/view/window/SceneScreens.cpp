@@ -112,7 +112,7 @@ void add_put_back(PageBuilder& builder, const Rect& area) {
 // What must be done before an answer is possible.
 void add_hint(PageBuilder& builder) {
   if (builder.state.faded)
-    builder.page.notice = builder.text_or_none("trial", "next_cubes");
+    builder.page.notice = builder.text_if_any("trial", "next_cubes");
   else if (!builder.memory.cubes_shown)
     builder.page.notice = builder.text("trial", "wait_for_cubes");
   else if (builder.state.touch_first)

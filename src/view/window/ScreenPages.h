@@ -39,8 +39,10 @@ class PageBuilder {
   const std::string& text(const std::string& of_page, const std::string& key) const {
     return texts_.at(of_page, key);
   }
-  /// Empty where the texts, which are older than this page or key, lack it.
-  std::string text_or_none(const std::string& of_page, const std::string& key) const;
+  /// Empty where the file lacks it, as it may.
+  std::string text_if_any(const std::string& of_page, const std::string& key) const {
+    return texts_.if_any(of_page, key);
+  }
 
   /// Lines below each other; an empty one is half as high.
   /// @return the bottom of the last
@@ -81,7 +83,7 @@ using FillPage = void(PageBuilder& builder);
 
 // Text: TextScreens.cpp. A text too long for the screen comes in parts.
 FillPage consent_screen, welcome_screen, instructions_screen, rest_screen, paused_screen,
-    thanks_screen, declined_screen;
+    thanks_screen, declined_screen, setting_up_screen;
 // Forms of one question at a time, each to be skipped at will: there, too.
 FillPage about_you_screen, how_decided_screen;
 /// Of a form, the first question without an answer, or its last; elsewhere 0.

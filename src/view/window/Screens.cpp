@@ -17,7 +17,7 @@ float advance_px(const std::string& line, float size_px) {
 constexpr std::array<FillPage*, EnumNames<Screen>::names.size()> pages{
     consent_screen,      welcome_screen, about_you_screen, demonstration_screen,
     instructions_screen, nullptr,        rest_screen,      paused_screen,
-    how_decided_screen,  thanks_screen,  declined_screen};
+    how_decided_screen,  thanks_screen,  declined_screen,  setting_up_screen};
 constexpr std::array<FillPage*, EnumNames<Task>::names.size()> trial_pages{
     introduction_screen, sorting_screen, comparison_screen};
 }  // namespace
@@ -61,13 +61,6 @@ Rect PageBuilder::choice_button(int i) const {
   const float width = (area.width - measures.gap) / 2;
   const float x = (i == 0) == left_handed ? area.x : area.right() - width;
   return {x, below.y - measures.gap - measures.target, width, measures.target};
-}
-
-std::string PageBuilder::text_or_none(const std::string& of_page, const std::string& key) const {
-  const auto found = texts_.pages.find(of_page);
-  if (found == texts_.pages.end()) return {};
-  const auto words = found->second.find(key);
-  return words == found->second.end() ? std::string() : words->second;
 }
 
 Rect PageBuilder::text_area(int n_rows) const {

@@ -218,6 +218,16 @@ void thanks_screen(PageBuilder& builder) {
   text_screen(builder, "thanks", "finish");
 }
 
+void setting_up_screen(PageBuilder& builder) {
+  const Measures& m = builder.measures;
+  const Rect area = builder.text_area();
+  const auto lines = [&](const char* key, float size_px) {
+    return builder.typeface.wrapped(builder.text_if_any("setting_up", key), size_px, area.width);
+  };
+  const float y = builder.add_lines(lines("title", m.title), area.x, 0.3f * m.height, m.title);
+  builder.add_lines(lines("text", m.body), area.x, y + m.margin, m.body, Tone::soft);
+}
+
 void about_you_screen(PageBuilder& builder) {
   form_screen(builder, "about_you", about_you);
 }

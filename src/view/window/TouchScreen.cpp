@@ -8,7 +8,8 @@
 namespace heft {
 
 // After a trial the gap settles, and answers have a time of their own from when they count: the
-// engine keeps it, and logs what comes earlier. So the page takes presses as soon as it can be seen.
+// engine keeps it, and logs what comes earlier. So the page takes presses as soon as it can be
+// seen.
 void TouchScreen::show(const ScreenState& state, bool cubes_shown) {
   const bool after_a_trial = screens_.page_id().screen == Screen::trial &&
                              state.screen == Screen::trial && !state.try_again;
@@ -28,8 +29,10 @@ void TouchScreen::turn(double settles_s) {
   settles_s_ = settles_s;
 }
 
-void TouchScreen::lay_out(const Typeface& typeface, const Measures& measures, double now_s) {
+void TouchScreen::lay_out(const Typeface& typeface, const Measures& measures, double now_s,
+                          const std::string& hint) {
   page_ = screens_.page(typeface, measures, presented_ ? now_s - since_s_ : 0);
+  if (!hint.empty()) page_.notice = hint;
 }
 
 void TouchScreen::presented(double t_s) {

@@ -27,21 +27,29 @@ std::optional<char> key_of(const SDL_Keysym& key) {
 }  // namespace
 
 WindowView::WindowView(const ViewSetup& setup)
-    : window_("Heft"),
+    : window_("Heft", {setup.display, setup.windowed}),
       scene_(setup),
       touched_(
           setup.texts, setup.left_handed, setup.takes_keys,
           [this](float x, float y) { return scene_.slot_near(x, y, around * measures_.target); }),
       measures_(window_.measures()),
       typeface_(std::make_unique<Typeface>(setup.texts, measures_)),
-      sdl_start_s_(monotonic_s() - static_cast<double>(SDL_GetTicks64()) * 1e-3) {}
+      sdl_start_s_(monotonic_s() - static_cast<double>(SDL_GetTicks64()) * 1e-3) {
+  if (setup.dragged) drag_.emplace(setup);
+}
 
 void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
   touched_.show(screen, !shown.frame.cubes.empty());
+  in_trial_ = screen.screen == Screen::trial;
+  if (drag_ && !in_trial_) drag_->let_go();
   lay_out();
+  clone_offset_px_.reset();
   if (!touched_.page().scene) return;
   window_.upload(scene_.draw(shown));
   scene_.place(touched_.page().scene);
+  if (shown.frame.tracked && shown.frame.clone)
+    clone_offset_px_ =
+        scene_.distance_px(shown.frame.effector.position_m, shown.frame.clone->position_m);
 }
 
 // The page for the window's size and the screens' memory as they are now.
@@ -51,7 +59,9 @@ void WindowView::lay_out() {
     measures_ = now;
     typeface_ = std::make_unique<Typeface>(touched_.texts(), measures_);
   }
-  touched_.lay_out(*typeface_, measures_, monotonic_s());
+  const bool untried = drag_ && in_trial_ && !drag_->was_taken();
+  touched_.lay_out(*typeface_, measures_, monotonic_s(),
+                   untried ? touched_.texts().if_any("trial", "drag_effector") : "");
   scene_.place(touched_.page().scene);
   stale_ = true;
 }
@@ -59,7 +69,8 @@ void WindowView::lay_out() {
 void WindowView::draw() {
   const Page& page = touched_.page();
   std::optional<PaintedScene> painted;
-  if (scene_.area()) painted = PaintedScene{window_.texture(), *scene_.area(), page.scene_opacity};
+  if (scene_.area())
+    painted = PaintedScene{window_.texture(), *scene_.area(), scene_.part(), page.scene_opacity};
   ImDrawList& list = window_.begin_frame(typeface_->atlas());
   paint_page(list, page,
              {*typeface_, measures_, painted, scene_.placed(page.marks),
@@ -69,33 +80,66 @@ void WindowView::draw() {
   stale_ = false;
 }
 
+// Where a pointer that drags the effector is, at its height.
+std::optional<Eigen::Vector3d> WindowView::dragged_to(float x, float y) const {
+  return drag_ ? scene_.point_at_height(x, y, drag_->height_m()) : std::nullopt;
+}
+
+bool WindowView::is_on_effector(float x, float y) const {
+  if (!in_trial_ || !scene_.area() || !scene_.area()->contains(x, y)) return false;
+  const auto at_m = dragged_to(x, y);
+  return at_m && drag_->is_at(*at_m);
+}
+
+void WindowView::down(Taps::Pointer pointer, float x, float y, double t_s) {
+  if (is_on_effector(x, y)) {  // at any time: it answers nothing
+    drag_->take(pointer, *dragged_to(x, y));
+    lay_out();
+  } else if (touched_.down(pointer, x, y, t_s)) {
+    stale_ = true;
+  }
+}
+
+void WindowView::moved(Taps::Pointer pointer, float x, float y) {
+  if (const auto at_m = dragged_to(x, y)) drag_->move(pointer, *at_m);
+}
+
+void WindowView::up(Taps::Pointer pointer, float x, float y, double t_s) {
+  if (drag_ && drag_->is_held_by(pointer))
+    drag_->let_go(pointer);
+  else if (touched_.up(pointer, x, y, t_s))
+    lay_out();
+}
+
 void WindowView::handle(const SDL_Event& event) {
   const double t_s = sdl_start_s_ + event.common.timestamp * 1e-3;
-  const auto down = [&](Taps::Pointer pointer, float x, float y) {
-    if (touched_.down(pointer, x, y, t_s)) stale_ = true;
-  };
-  const auto up = [&](Taps::Pointer pointer, float x, float y) {
-    if (touched_.up(pointer, x, y, t_s)) lay_out();
-  };
   const auto mouse_at = [&](Sint32 place) { return static_cast<float>(place) * window_.scale(); };
   switch (event.type) {
     case SDL_FINGERDOWN:
       SDL_ShowCursor(SDL_DISABLE);
       return down(event.tfinger.fingerId, event.tfinger.x * measures_.width,
-                  event.tfinger.y * measures_.height);
+                  event.tfinger.y * measures_.height, t_s);
     case SDL_FINGERUP:
       return up(event.tfinger.fingerId, event.tfinger.x * measures_.width,
-                event.tfinger.y * measures_.height);
+                event.tfinger.y * measures_.height, t_s);
+    case SDL_FINGERMOTION:
+      return moved(event.tfinger.fingerId, event.tfinger.x * measures_.width,
+                   event.tfinger.y * measures_.height);
     case SDL_MOUSEMOTION:
       SDL_ShowCursor(SDL_ENABLE);
+      if (event.motion.which != SDL_TOUCH_MOUSEID)
+        moved(Taps::mouse, mouse_at(event.motion.x), mouse_at(event.motion.y));
+      return;
+    case SDL_MOUSEWHEEL:
+      if (drag_ && in_trial_) drag_->turn(event.wheel.y);
       return;
     case SDL_MOUSEBUTTONDOWN:
       if (event.button.button == SDL_BUTTON_LEFT && event.button.which != SDL_TOUCH_MOUSEID)
-        down(Taps::mouse, mouse_at(event.button.x), mouse_at(event.button.y));
+        down(Taps::mouse, mouse_at(event.button.x), mouse_at(event.button.y), t_s);
       return;
     case SDL_MOUSEBUTTONUP:
       if (event.button.button == SDL_BUTTON_LEFT && event.button.which != SDL_TOUCH_MOUSEID)
-        up(Taps::mouse, mouse_at(event.button.x), mouse_at(event.button.y));
+        up(Taps::mouse, mouse_at(event.button.x), mouse_at(event.button.y), t_s);
       return;
     case SDL_KEYDOWN:
       if (event.key.repeat != 0) return;

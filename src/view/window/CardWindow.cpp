@@ -1,0 +1,93 @@
+#include "view/window/CardWindow.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "view/window/GlWindow.h"
+#include "view/window/Typeface.h"
+
+namespace heft {
+
+namespace {
+constexpr double start_share = 0.4;  // of the display's width
+constexpr int wait_ms = 100;
+
+enum class Wish { none, done, leave };
+
+struct Card {
+  double w_px, most_px;
+
+  void set(double wanted_px) { w_px = std::clamp(wanted_px, 50.0, most_px); }
+  void change(double by_px) { set(w_px + by_px); }
+};
+
+Wish key(const SDL_Keysym& pressed, Card& card) {
+  const double step = (pressed.mod & KMOD_SHIFT) != 0 ? 10 : 1;
+  switch (pressed.sym) {
+    case SDLK_RETURN:
+    case SDLK_KP_ENTER:
+      return Wish::done;
+    case SDLK_ESCAPE:
+      return Wish::leave;
+    case SDLK_RIGHT:
+    case SDLK_UP:
+      card.change(step);
+      return Wish::none;
+    case SDLK_LEFT:
+    case SDLK_DOWN:
+      card.change(-step);
+      return Wish::none;
+    default:
+      return Wish::none;
+  }
+}
+
+Wish handle(const SDL_Event& event, float scale, const Measures& window, Card& card) {
+  switch (event.type) {
+    case SDL_KEYDOWN:
+      return key(event.key.keysym, card);
+    case SDL_MOUSEWHEEL:
+      card.change(event.wheel.y);
+      return Wish::none;
+    case SDL_MOUSEMOTION:
+      if ((event.motion.state & SDL_BUTTON_LMASK) != 0)
+        card.set(2 * std::abs(static_cast<double>(static_cast<float>(event.motion.x) * scale -
+                                                  window.width / 2)));
+      return Wish::none;
+    case SDL_QUIT:
+      return Wish::leave;
+    default:
+      return Wish::none;
+  }
+}
+
+void draw(GlWindow& window, const Typeface& typeface, const Card& card) {
+  const Measures m = window.measures();
+  const auto w = static_cast<float>(card.w_px);
+  const auto h = static_cast<float>(card.w_px * card_h_mm / card_w_mm);
+  ImDrawList& list = window.begin_frame(typeface.atlas());
+  list.AddRectFilled({0, 0}, {m.width, m.height}, IM_COL32(20, 23, 27, 255));
+  list.AddRectFilled({(m.width - w) / 2, (m.height - h) / 2},
+                     {(m.width + w) / 2, (m.height + h) / 2}, IM_COL32(94, 177, 255, 255));
+  window.end_frame();
+}
+}  // namespace
+
+std::optional<MeasuredCard> measure_card(int display, const ScreenTexts& texts) {
+  GlWindow window("Heft", {display});
+  const Measures m = window.measures();
+  const Typeface typeface(texts, m);
+  Card card{start_share * static_cast<double>(m.width), static_cast<double>(m.width)};
+  for (;;) {
+    draw(window, typeface, card);
+    SDL_Event event;
+    if (SDL_WaitEventTimeout(&event, wait_ms) == 0) continue;
+    const Wish wish = handle(event, window.scale(), m, card);
+    if (wish == Wish::leave) return std::nullopt;
+    if (wish == Wish::done) return MeasuredCard{window.display(), card.w_px};
+  }
+}
+
+}  // namespace heft

@@ -1,0 +1,32 @@
+// The file of a measured display.
+#include <gmock/gmock.h>
+
+#include "base/Error.h"
+#include "experiment/DisplayFacts.h"
+#include "protocol/Files.h"
+
+namespace heft {
+namespace {
+
+TEST(DisplayFile, ReadsBackWhatIsWritten) {
+  const DisplayMeasures read = parse_display(to_toml({1024, 600, 154.25, 90.5, 450}), "d.toml");
+  EXPECT_EQ(read.w_px, 1024);
+  EXPECT_EQ(read.h_px, 600);
+  EXPECT_NEAR(read.w_mm, 154.25, 0.1);
+  EXPECT_NEAR(read.h_mm, 90.5, 0.1);
+  EXPECT_EQ(read.eye_distance_mm, 450);
+}
+
+TEST(DisplayFile, WhatIsMissingOrImpossibleIsNamedAtItsLine) {
+  const std::string text = "width_px = 1024\nheight_px = 600\nwidth_mm = 0\nheight_mm = 90\n";
+  try {
+    parse_display(text, "d.toml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("d.toml:3:"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("eye_distance_mm"));
+  }
+}
+
+}  // namespace
+}  // namespace heft
