@@ -214,9 +214,10 @@ void add_run(Command& app) {
       .one_of({"left", "right"});
   command.add_flag("--left-handed", options->left_handed, "the same as --controls left");
   command
-      .add_option("--purpose", &options->purpose,
-                  "of a person's session; analyse keeps them apart (default: main, with --tracker "
-                  "mouse test)")
+      .add_option(
+          "--purpose", &options->purpose,
+          "of a person's session; analyse keeps them apart; with --tracker mouse it is test "
+          "unless told (default: main)")
       .one_of({"main", "pilot", "test"});
   command.add_option("--record-camera", &options->record_camera,
                      "keep the camera's pictures in this folder, their times in its times.csv; "
