@@ -63,7 +63,7 @@ std::string comparison_sentence(const Summary& summary) {
   }
   std::string text = "Comparisons: ";
   if (!known.empty())
-    text += fmt::format("a difference that three of four people would name rightly is {}", known);
+    text += fmt::format("a difference that is named rightly three times in four is {}", known);
   if (!unknown.empty())
     text += fmt::format("{}the data bear no threshold at {}", known.empty() ? "" : "; ", unknown);
   return text + ".";
