@@ -148,10 +148,11 @@ GivenOptions with_missing_files(const LoggedSession& session, GivenOptions again
 }
 
 void resume(const std::string& db, std::optional<std::int64_t> session_id,
-            const GivenOptions& again, bool unblind, bool go_on) {
+            const GivenOptions& again, bool unblind, bool go_on, bool keys) {
   LoggedSession session = session_to_resume(db, session_id);
   const Setup before = session.setup;
   change_setup(session, with_missing_files(session, again));
+  if (keys) session.setup.keys = "yes";
   say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
       session.row.header.participant, session.protocol->name);
   for (const auto& [column, from, to] : changes_between(before, session.setup))
@@ -236,7 +237,7 @@ void add_resume(Command& app) {
     std::string db = "heft.db";
     std::optional<std::int64_t> session;
     GivenOptions again;
-    bool end = false, unblind = false, go_on = false;
+    bool end = false, unblind = false, go_on = false, keys = false;
   };
   const auto options = std::make_shared<ResumeOptions>();
   Command command = app.add_command(
@@ -253,12 +254,15 @@ void add_resume(Command& app) {
   command.group("Options");
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
+  command.add_flag("--keys", options->keys,
+                   "let the participant's window take keys as answers from here on");
   add_go_on(command, options->go_on);
   command.add_flag("--end", options->end,
                    "don't go on: end the session as it is, for somebody who will not come back");
   command.does([options] {
     if (options->end) return end(options->db, options->session);
-    resume(options->db, options->session, options->again, options->unblind, options->go_on);
+    resume(options->db, options->session, options->again, options->unblind, options->go_on,
+           options->keys);
   });
 }
 

@@ -210,14 +210,15 @@ class Combinations(unittest.TestCase):
     def person(self, tracker):
         db = self.new("person", tracker)
         self.answered(db, "run", self.folder / "one.toml", "--participant", "1", "--purpose",
-                      "test", "--db", db, "--seed", SEED, *self.options("", tracker, "window"))
+                      "test", "--go-on", "--db", db, "--seed", SEED, *self.options("", tracker, "window"))
         self.verified(db)
         told = json.loads(self.heft("analyse", "--db", db, "--json").stdout)
         self.assertIs(told["simulated"], False)
 
     def person_after_model(self):
         db = self.interrupted("person")
-        self.answered(db, "resume", "--db", db, "--responder", "human", "--view", "window")
+        self.answered(db, "resume", "--db", db, "--responder", "human", "--view", "window",
+                      "--keys")
         self.verified(db)
         self.said_to_be_simulated(db)
 
