@@ -124,15 +124,13 @@ double UpDown::moved(double level, Direction direction, double step) const {
   return held_finite(up ? level * factor : level / factor);
 }
 
-// A linear step that ends a billionth of itself beside a bound was to end on it: .3 - .1 - .1 - .1
-// is not 0, and what rounding leaves over is no level that anybody planned. Ratios meet no bound by
-// counting, and there other programs' last bits are kept.
+// A linear step that ends a billionth of itself beside a bound of 0 was to end on it: .3 - .1 - .1
+// - .1 is not 0, and what rounding leaves over would be the whole level. Beside other bounds it is
+// a last bit, and there other programs' bits are kept.
 double UpDown::landed(double target) const {
   if (config_.step_scale != StepScale::linear) return target;
-  const double ghost = 1e-9 * std::abs(target - planned_);
-  for (const std::optional<double>& bound : {config_.floor, config_.ceiling})
-    if (bound && std::abs(target - *bound) <= ghost) return *bound;
-  return target;
+  const bool has_zero = config_.floor == 0.0 || config_.ceiling == 0.0;
+  return has_zero && std::abs(target) <= 1e-9 * std::abs(target - planned_) ? 0 : target;
 }
 
 double UpDown::presented(double level) const {

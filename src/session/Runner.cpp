@@ -77,8 +77,7 @@ std::string Runner::failed_checks() {
 }
 
 SessionControl::Answer Runner::ask_whether_failures_matter() {
-  const std::string shown =
-      screen_.shown() ? "" : "; nothing was shown to anybody yet";
+  const std::string shown = screen_.shown() ? "" : "; nothing was shown to anybody yet";
   return control_.ask_to_go_on("go on? y goes on, n leaves, r checks again" + shown);
 }
 

@@ -52,7 +52,7 @@ class Validate(unittest.TestCase):
         self.assertEqual(len(lines), len(paths))
         for path, line in zip(paths, lines):
             self.assertRegex(
-                line, rf"^{re.escape(str(path))}: ok, a protocol: about \d+ trials and \d+ minutes"
+                line, rf"^{re.escape(str(path))}: ok, a protocol: about \d+ trials( \(\d+ to \d+ in 6 simulated participants\))? and \d+ minutes"
             )
 
     def test_warns_of_choices_for_see_through_displays(self):

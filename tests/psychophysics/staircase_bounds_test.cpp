@@ -33,21 +33,16 @@ TEST(UpDown, ReachingTheFloorExactlyIsNotCutShort) {
 }
 
 // In binary .3 - .1 - .1 - .1 is 2.8e-17, and -.3 + .1 + .1 + .1 is -2.8e-17.
-TEST(UpDown, ReachesABoundExactlyWhereOnlyRoundingIsBetween) {
-  for (const double sign : {1.0, -1.0}) {
-    UpDown staircase({.start = sign * 0.3, .step = 0.1, .floor = -0.3, .ceiling = 0.3});
-    UpDown to_zero = sign > 0 ? UpDown({.start = 0.3, .step = 0.1, .floor = 0})
-                              : UpDown({.start = -0.3, .step = 0.1, .ceiling = 0});
-    for (int i = 0; i < 3; ++i) {
-      to_zero.respond(sign > 0);
-      staircase.respond(sign > 0);
-    }
-    EXPECT_EQ(to_zero.level(), 0) << sign;
-    EXPECT_EQ(to_zero.n_floor() + to_zero.n_ceiling(), 0) << "reached, not cut short";
-    for (int i = 0; i < 3; ++i) staircase.respond(sign > 0);
-    EXPECT_EQ(staircase.level(), -sign * 0.3);
-    to_zero.respond(sign > 0);
-    EXPECT_EQ(to_zero.n_floor() + to_zero.n_ceiling(), 1);
+TEST(UpDown, ReachesZeroExactlyWhereOnlyRoundingIsBetween) {
+  for (const bool down : {true, false}) {
+    UpDown staircase(down ? UpDownConfig{.start = 0.3, .step = 0.1, .floor = 0}
+                          : UpDownConfig{.start = -0.3, .step = 0.1, .ceiling = 0});
+    for (int i = 0; i < 3; ++i) staircase.respond(down);
+    EXPECT_EQ(staircase.level(), 0);
+    EXPECT_EQ(staircase.n_floor() + staircase.n_ceiling(), 0) << "reached, not cut short";
+    staircase.respond(down);
+    EXPECT_EQ(staircase.level(), 0);
+    EXPECT_EQ(staircase.n_floor() + staircase.n_ceiling(), 1);
   }
 }
 

@@ -345,7 +345,7 @@ TEST_F(Window, ShowsOfThePictureWhatTheCubesNeed) {
   setup.shown_m =
       Eigen::AlignedBox3d(Eigen::Vector3d(-0.14, -0.12, 0), Eigen::Vector3d(0.14, 0.15, 0.035));
   EXPECT_GE(cube_mm(), 10);
-  view->wait(0.25);
+  view->wait(settled_s);
   const auto [x1, y1] = place_in_picture(*view, "cube_1");
   const auto [x3, y3] = place_in_picture(*view, "cube_3");
   tap_with_finger(x3, y3);

@@ -150,9 +150,12 @@ class Manifold {
 
   // Changes of the motion per impulse, and the impulse that stops a unit tangential motion.
   double first_per_kg_ = 0, second_per_kg_ = 0;  // that the rest was made with
-  Eigen::Matrix3d tangential_by_normal_, tangential_by_tangential_, tangential_mass_;
-  Eigen::Matrix4d response_;  // velocities along the normal per normal impulse at each point
-  Eigen::Matrix4d stopping_;  // its inverse over a set of the points
+  Eigen::Matrix3d tangential_by_normal_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d tangential_by_tangential_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d tangential_mass_ = Eigen::Matrix3d::Zero();
+  // Velocities along the normal per normal impulse at each point, and its inverse over a set of
+  // them.
+  Eigen::Matrix4d response_ = Eigen::Matrix4d::Zero(), stopping_ = Eigen::Matrix4d::Zero();
   unsigned stopping_set_ = 0;
   Points slip_per_kg_ = Points::Zero();  // the most that a friction impulse changes a slip by
   Points closing_m_s_ = Points::Zero();  // at which points may close in
