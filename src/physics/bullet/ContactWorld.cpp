@@ -7,7 +7,7 @@
 namespace heft {
 
 namespace {
-constexpr double calm_speed_m_s = 1e-4, calm_turn_rad_s = 5e-3, calm_for_s = 0.25;
+constexpr double still_m_s = 1e-4, still_rad_s = 5e-3, still_for_s = 0.25;
 // Contacts are looked for this far ahead, beside what the boxes can cover in a step.
 constexpr double look_ahead_m = 0.2e-3;
 }  // namespace
@@ -151,18 +151,18 @@ void ContactWorld::run_solver(btAlignedObjectArray<btPersistentManifold*>& touch
 
 void ContactWorld::settle(double h_s) {
   for (RigidBox& box : boxes_) {
-    const bool calm = !box.driven && box.velocity.linear_m_s.norm() < calm_speed_m_s &&
-                      box.velocity.angular_rad_s.norm() < calm_turn_rad_s;
-    box.calm_s = calm ? box.calm_s + h_s : 0;
+    const bool still = !box.driven && box.velocity.linear_m_s.norm() < still_m_s &&
+                       box.velocity.angular_rad_s.norm() < still_rad_s;
+    box.still_s = still ? box.still_s + h_s : 0;
   }
   for (const Pair& pair : pairs_) {
     if (pair.manifold->getNumContacts() == 0) continue;
-    double& first_s = boxes_[pair.first].calm_s;
-    double& second_s = boxes_[pair.second].calm_s;
+    double& first_s = boxes_[pair.first].still_s;
+    double& second_s = boxes_[pair.second].still_s;
     first_s = second_s = std::min(first_s, second_s);
   }
   for (RigidBox& box : boxes_) {
-    if (box.at_rest || box.calm_s < calm_for_s) continue;
+    if (box.at_rest || box.still_s < still_for_s) continue;
     box.at_rest = true;
     box.velocity = {};
   }

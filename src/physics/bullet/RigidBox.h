@@ -29,7 +29,7 @@ struct RigidBox {
   double mass_kg = 0;   ///< 0: moves as its velocity says, whatever touches it
   bool solid = true;    ///< false: touches nothing
   bool driven = false;  ///< true: has no weight and never rests
-  double calm_s = 0;    ///< for how long it has not moved noticeably
+  double still_s = 0;   ///< for how long it has not moved noticeably
   bool at_rest = false;
   std::unique_ptr<btRigidBody> body;
 
@@ -37,7 +37,7 @@ struct RigidBox {
   void set_mass(double kg, const Eigen::Vector3d& inertia_kg_m2);
   void wake() {
     at_rest = false;
-    calm_s = 0;
+    still_s = 0;
   }
   /// Wakes it, too.
   void put(const Pose& to, const Velocity& at);

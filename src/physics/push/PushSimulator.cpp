@@ -29,12 +29,12 @@ struct Fall {
 // Where f falls to zero within (from, to], f(to) being zero or below, to a millionth of a
 // microsecond: false position, halving the weight of an end that stays (the Illinois rule).
 template <typename F>
-double narrowed(const F& f, double from_s, double at_from, double to_s, double at_to) {
+double bracketed_root(const F& f, double from_s, double at_from, double to_s, double at_to) {
   constexpr double exactly_s = 1e-12;
   int last = 0;
   for (int i = 0; i < 100 && to_s - from_s > exactly_s && at_to < 0; ++i) {
-    const double share = at_from > 0 && i < 20 ? at_from / (at_from - at_to) : 0.5;
-    const double t_s = from_s + share * (to_s - from_s);
+    const double fraction = at_from > 0 && i < 20 ? at_from / (at_from - at_to) : 0.5;
+    const double t_s = from_s + fraction * (to_s - from_s);
     if (!(t_s > from_s && t_s < to_s)) break;
     const double at = f(t_s);
     const int side = at > 0 ? 1 : -1;
@@ -53,7 +53,7 @@ Fall first_fall(const F& f, double end_s, int n) {
   double from_s = 0, at_from = 0;
   for (int i = 1; i <= n; ++i) {
     const double to_s = i == n ? end_s : end_s * i / n, at_to = f(to_s);
-    if (at_to <= 0) return {narrowed(f, from_s, at_from, to_s, at_to), true};
+    if (at_to <= 0) return {bracketed_root(f, from_s, at_from, to_s, at_to), true};
     from_s = to_s;
     at_from = at_to;
   }
