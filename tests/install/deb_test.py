@@ -58,7 +58,7 @@ class Packages(unittest.TestCase):
         self.assertIn("heft (=", self.field("heft-bench", "Depends"))
         self.assertNotIn("bullet", self.field("libheft-dev", "Depends"))
         library = must("dpkg-deb", "-c", self.debs["libheft-dev"])
-        for file in ("psychophysics/Staircase.h", "libheft_psychophysics.a", "heft-config.cmake"):
+        for file in ("psychophysics/UpDown.h", "libheft_psychophysics.a", "heft-config.cmake"):
             self.assertIn(file, library)
 
     def test_2_heft_runs_in_a_clean_root(self):
