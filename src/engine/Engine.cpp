@@ -211,8 +211,8 @@ void Engine::keep_answer(const TrialRow& row, const Changes& changes) {
 }
 
 // What was answered stays in `answer`; the trial has no outcome, so that nobody counts it. The
-// block's procedures are told every answer but this one once more, from the start: nothing of it can
-// be left over.
+// block's procedures are told every answer but this one once more, from the start: nothing of it
+// can be left over.
 void Engine::veto_answer(const std::string& reason, double t_s, Changes& changes) {
   TrialRow row = answered_->trials.back();
   answered_->trials.pop_back();
