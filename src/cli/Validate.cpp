@@ -10,6 +10,7 @@
 
 #include "apparatus/SessionSetup.h"
 #include "base/Error.h"
+#include "base/PlugTable.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
@@ -51,8 +52,11 @@ struct TrialsOfSome {
   int least = 0, most = 0;
 };
 
-// The same few participants each time, so that a protocol always gets the same numbers.
+// The same few participants each time, so that a protocol always gets the same numbers. None where
+// a session has no end, or where the protocol's simulator can't do what hands do (cautions()).
 std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int participants) {
+  if (!entry_named("simulator", protocol.simulator.name, simulators()).for_sessions)
+    return std::nullopt;
   std::vector<std::future<std::optional<int>>> running;
   for (int i = 1; i <= participants; ++i)
     running.push_back(

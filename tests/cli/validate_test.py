@@ -52,8 +52,18 @@ class Validate(unittest.TestCase):
         self.assertEqual(len(lines), len(paths))
         for path, line in zip(paths, lines):
             self.assertRegex(
-                line, rf"^{re.escape(str(path))}: ok, a protocol: about \d+ trials( \(\d+ to \d+ in 6 simulated participants\))? and \d+ minutes"
+                line,
+                rf"^{re.escape(str(path))}: ok, a protocol: about \d+ trials"
+                r"( \(\d+ to \d+ in 6 simulated participants\))? and \d+ minutes"
             )
+
+    def test_a_simulator_for_one_stroke_is_warned_of_and_no_mistake(self):
+        text = (PROTOCOLS / "quick.toml").read_text(encoding="utf-8")
+        path = self.file("a.toml", text + '[physics]\nsimulator = "push"\n')
+        run = self.validate(path)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stdout, r"ok, a protocol: about \d+ trials and \d+ minutes")
+        self.assertIn("models one straight push", run.stderr)
 
     def test_warns_of_choices_for_see_through_displays(self):
         text = (PROTOCOLS / "quick.toml").read_text(encoding="utf-8")
