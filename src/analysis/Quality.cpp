@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "analysis/Timing.h"
+#include "experiment/Block.h"
 
 namespace heft {
 
@@ -23,10 +24,10 @@ bool was_touched(const Attempt& attempt) {
   return false;
 }
 
-Impossible impossible_in(const Attempt& attempt, double min_answer_s) {
+Impossible impossible_in(const Attempt& attempt) {
   Impossible found;
   if (const auto time = response_time_s(attempt.trial)) {
-    found.early = *time < min_answer_s;
+    found.early = *time < Onset{}.min_answer_s;
     found.fast = *time < fastest_answer_s;
   }
   found.untouched = !was_touched(attempt);
@@ -58,12 +59,12 @@ LossKey key_of(const TrialPlan& plan) {
   return {plan.task, plan.condition, compared ? band_of(*plan.level_g, differences_g) + 1 : 0};
 }
 
-void count_loss(LossRow& row, const Attempt& attempt, double min_answer_s) {
+void count_loss(LossRow& row, const Attempt& attempt) {
   row.n_attempts += 1;
   row.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
   row.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
   row.lost_s += attempt.trial.lost_s;
-  if (attempt.completed()) row.n_impossible += impossible_in(attempt, min_answer_s).any() ? 1 : 0;
+  row.n_impossible += attempt.completed() && is_impossible(attempt) ? 1 : 0;
 }
 
 void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attempt) {
@@ -77,18 +78,13 @@ void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attemp
 }
 
 struct Sums {
-  int n_completed = 0, n_early = 0, n_fast = 0, n_untouched = 0, n_attempts = 0, n_void = 0,
-      n_lost = 0;
+  int n_completed = 0, n_early = 0, n_fast = 0, n_untouched = 0;
   EventCounts events;
   int n_unfinished = 0;
 };
 
-void count_attempt(Sums& sums, const Attempt& attempt) {
-  sums.n_attempts += 1;
-  sums.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
-  sums.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
-  if (!attempt.completed()) return;
-  const Impossible found = impossible_in(attempt, default_min_answer_s);
+void count_completed(Sums& sums, const Attempt& attempt) {
+  const Impossible found = impossible_in(attempt);
   sums.n_completed += 1;
   sums.n_early += found.early ? 1 : 0;
   sums.n_fast += found.fast ? 1 : 0;
@@ -104,14 +100,20 @@ void count_session(Sums& sums, const SessionData& data) {
   sums.n_unfinished += data.finished() ? 0 : 1;
 }
 
-std::vector<CountedRow> rows_of(const Sums& sums, int n_sessions) {
+std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losses, int n_sessions) {
+  LossRow all;
+  for (const LossRow& row : losses) {
+    all.n_attempts += row.n_attempts;
+    all.n_void += row.n_void;
+    all.n_lost += row.n_lost;
+  }
   return {
       {"answers earlier than 0.5 s", sums.n_early, sums.n_completed, "after all cubes were shown"},
       {"answers faster than 0.3 s", sums.n_fast, sums.n_completed,
        "faster than anybody sees and presses; among those above"},
       {"answers without contact", sums.n_untouched, sums.n_completed, "no cube was touched before"},
-      {"void attempts", sums.n_void, sums.n_attempts, "each was presented again"},
-      {"attempts with the effector out of view", sums.n_lost, sums.n_attempts,
+      {"void attempts", all.n_void, all.n_attempts, "each was presented again"},
+      {"attempts with the effector out of view", all.n_lost, all.n_attempts,
        "they count; the time is taken off the response time"},
       {"notes", sums.events.notes, std::nullopt, "of the experimenter or the program, in the log"},
       {"deviations from the protocol", sums.events.deviations, std::nullopt, "in the log"},
@@ -125,7 +127,7 @@ std::vector<CountedRow> rows_of(const Sums& sums, int n_sessions) {
 }  // namespace
 
 bool is_impossible(const Attempt& attempt) {
-  return impossible_in(attempt, default_min_answer_s).any();
+  return impossible_in(attempt).any();
 }
 
 Quality quality_of(std::span<const SessionData> sessions) {
@@ -141,13 +143,15 @@ Quality quality_of(std::span<const SessionData> sessions) {
       row.task = plan.task;
       row.condition = plan.condition;
       if (std::get<2>(key) > 0) row.difference = band_name(std::get<2>(key) - 1, differences_g);
-      count_attempt(sums, attempt);
-      count_loss(row, attempt, default_min_answer_s);
-      if (attempt.completed()) count_resets(resets, attempt);
+      count_loss(row, attempt);
+      if (!attempt.completed()) continue;
+      count_completed(sums, attempt);
+      count_resets(resets, attempt);
     }
   }
-  Quality quality{rows_of(sums, static_cast<int>(sessions.size())), {}, {}};
+  Quality quality;
   for (const auto& [key, row] : losses) quality.losses.push_back(row);
+  quality.counted = rows_of(sums, quality.losses, static_cast<int>(sessions.size()));
   for (const auto& [band, row] : resets) quality.resets.push_back(row);
   return quality;
 }

@@ -13,8 +13,6 @@ namespace heft {
 
 /// Nobody sees, judges and presses in less.
 inline constexpr double fastest_answer_s = 0.3;
-/// Where the protocol says nothing else ([onset] min_answer_s).
-inline constexpr double default_min_answer_s = 0.5;
 
 struct CountedRow {
   std::string what;
@@ -30,7 +28,7 @@ struct LossRow {
   std::string difference;  ///< comparisons: "0 g", "1-100 g"...; otherwise empty
   int n_attempts = 0, n_void = 0, n_lost = 0;  ///< n_lost: the effector was out of view
   double lost_s = 0;                           ///< in all
-  int n_impossible = 0;                        ///< answers too early, too fast or without contact
+  int n_impossible = 0;  ///< answers too early (as Onset has it), too fast or without contact
 };
 
 struct ResetRow {
