@@ -162,6 +162,13 @@ struct EstimateRow {
   Finish reason = Finish::reversals;
   std::optional<Censored> censored;
 };
+/// What a procedure that ended so says, as its row.
+inline EstimateRow row_of(const std::string& staircase, const Estimate& estimate, Finish finish) {
+  return {
+      staircase,         estimate.method,      estimate.value,   estimate.low,       estimate.high,
+      estimate.n_trials, estimate.n_reversals, estimate.n_floor, estimate.n_ceiling, finish,
+      estimate.censored};
+}
 template <typename Row, typename Visit>
 requires RowOf<Row, EstimateRow>
 void visit_columns(Row& row, Visit&& visit) {

@@ -104,18 +104,7 @@ inline void compare(SessionData& data, const Chooser& chooser, const ComparisonD
     const Update update = staircases[index].respond(design.only_right_choices ? right : chosen);
     attempt.is_reversal = update.reversal.has_value();
     if (!update.finish) continue;
-    const Estimate estimate = staircases[index].estimates().at(0);
-    EstimateRow row;
-    row.staircase = name;
-    row.method = estimate.method;
-    row.jnd_g = estimate.value;
-    row.n_trials = estimate.n_trials;
-    row.n_reversals = estimate.n_reversals;
-    row.n_floor = estimate.n_floor;
-    row.n_ceiling = estimate.n_ceiling;
-    row.reason = *update.finish;
-    row.censored = estimate.censored;
-    data.estimates.push_back(row);
+    data.estimates.push_back(row_of(name, staircases[index].estimates().at(0), *update.finish));
   }
 }
 

@@ -57,22 +57,6 @@ std::vector<double> catch_references(const ComparisonBlock& block, std::uint64_t
   }
   return references_g;
 }
-
-EstimateRow row_of(const std::string& staircase, const Estimate& estimate, Finish finish) {
-  EstimateRow row;
-  row.staircase = staircase;
-  row.method = estimate.method;
-  row.jnd_g = estimate.value;
-  row.low_g = estimate.low;
-  row.high_g = estimate.high;
-  row.n_trials = estimate.n_trials;
-  row.n_reversals = estimate.n_reversals;
-  row.n_floor = estimate.n_floor;
-  row.n_ceiling = estimate.n_ceiling;
-  row.reason = finish;
-  row.censored = estimate.censored;
-  return row;
-}
 }  // namespace
 
 const TaskRules comparison_rules{
