@@ -55,6 +55,17 @@ inline Protocol every_page_protocol() {
   return protocol;
 }
 
+/// The same with a short staircase at the end.
+inline Protocol whole_protocol(double display_rate_hz, int stop_reversals) {
+  Protocol protocol = every_page_protocol();
+  protocol.display_rate_hz = display_rate_hz;
+  ComparisonBlock comparison;
+  comparison.name = "comparison";
+  comparison.staircases = {{15, staircase("15g", 175, 50, stop_reversals)}};
+  protocol.blocks.push_back(comparison);
+  return protocol;
+}
+
 inline std::shared_ptr<const Protocol> shared(Protocol protocol) {
   return std::make_shared<const Protocol>(std::move(protocol));
 }

@@ -22,16 +22,6 @@ using testing::TappedScreen;
 
 constexpr double gap_s = 0.6, min_answer_s = 0.5;
 
-Protocol tapped_protocol() {
-  Protocol protocol = testing::every_page_protocol();
-  protocol.display_rate_hz = 15;
-  ComparisonBlock comparison;
-  comparison.name = "comparison";
-  comparison.staircases = {{15, testing::staircase("15g", 175, 50, 6)}};
-  protocol.blocks.push_back(comparison);
-  return protocol;
-}
-
 struct TappedSession {
   TappedSession(Protocol made, TappedScreen::NextTap next_tap)
       : protocol(shared(std::move(made))), screen(texts, std::move(next_tap)) {
@@ -131,7 +121,7 @@ TEST(Taps, a_double_tap_on_any_button_of_any_page_does_one_thing) {
   std::set<std::string> tapped;
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     SCOPED_TRACE(seed);
-    TappedSession session(tapped_protocol(), DoubleTapper(seed));
+    TappedSession session(testing::whole_protocol(15, 6), DoubleTapper(seed));
     const RunEnd end = session.run();
     EXPECT_THAT(end, ::testing::AnyOf(RunEnd::finished, RunEnd::declined));
     const auto& done = session.screen.done;
@@ -176,7 +166,7 @@ class WildTapper {
 };
 
 TEST(Taps, of_two_thousand_wild_ones_none_answers_unseen_cubes) {
-  Protocol protocol = tapped_protocol();
+  Protocol protocol = testing::whole_protocol(15, 6);
   protocol.screens = {"en", false, false, false};
   int n_taps = 0;
   std::size_t n_answers = 0, n_refused = 0;

@@ -16,10 +16,10 @@ namespace {
 
 using ::testing::ElementsAre;
 using testing::events_of;
-using testing::every_page_protocol;
 using ::testing::IsEmpty;
 using testing::shared;
 using ::testing::SizeIs;
+using testing::whole_protocol;
 
 // Sees the window's controls, and taps with a finger what a person would. One tap at a time, and
 // again if it had no effect: a page's first moments take none.
@@ -109,17 +109,6 @@ class FingersOnTheWindow final : public ArView {
   bool looked_ = false;  // at what is shown: whoever tapped waits for what comes of it
 };
 
-// A short staircase at the end, at a rate that the window can draw.
-Protocol touched_protocol() {
-  Protocol protocol = every_page_protocol();
-  protocol.display_rate_hz = 30;
-  ComparisonBlock comparison;
-  comparison.name = "comparison";
-  comparison.staircases = {{15, testing::staircase("15g", 175, 50, 4)}};
-  protocol.blocks.push_back(comparison);
-  return protocol;
-}
-
 class TouchedWindow : public ::testing::Test {
  protected:
   TouchedWindow() {
@@ -168,7 +157,7 @@ class TouchedWindow : public ::testing::Test {
         << "corrected, then validated";
   }
 
-  std::shared_ptr<const Protocol> protocol = shared(touched_protocol());
+  std::shared_ptr<const Protocol> protocol = shared(whole_protocol(30, 4));
   ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/fr.toml");
   Engine engine{protocol, 7};
   RecordedSession sink{SessionHeader{}};
