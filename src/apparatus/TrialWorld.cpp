@@ -126,10 +126,10 @@ std::vector<Event> TrialWorld::end_contacts(double t_s) {
 
 void TrialWorld::return_cubes(double t_s, ShownFrame& shown) {
   const WorldState& world = drive_->state();
-  const bool clear = !world.clone_present || clear_of_all(world.clone.pose);
-  const bool reset = reset_requested_ && clear;
+  const auto is_clear = [&] { return !world.clone_present || clear_of_all(world.clone.pose); };
+  const bool reset = reset_requested_ && is_clear();
   if (reset) reset_requested_ = false;
-  const bool all_back = clear && go_back_together();
+  const bool all_back = go_back_together() && is_clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const bool back = protocol_.layout.out_of_area == OutOfArea::give_back && is_out(i) &&
                       !contacts_[i].since_s && place_is_free(i);

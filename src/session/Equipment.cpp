@@ -118,7 +118,7 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const Setup& opti
   pictures_ = open_pictures(
       options.tracker,
       {*protocol_, *responder_, apparatus, split_name(options.tracker).file, clock, seed,
-       options.record_camera, options.tracker_text, options.hand == "left", setup_.dragged});
+       options.record_camera, options.tracker_text, left_hand_, setup_.dragged});
   const ViewEntry& view = view_named(split_name(options.view).name);
   has_screen_ = view.has_screen;
   view_ = view.make(setup_);

@@ -216,17 +216,18 @@ Span Rasterizer::columns_in(int y) const {
 }
 
 // The frame's own pixels come back, and what is translucent over them.
-void Rasterizer::put_in_front(int y, const std::uint8_t* share, const std::uint8_t* below,
+void Rasterizer::put_in_front(int y, const std::uint8_t* opacity, const std::uint8_t* below,
                               std::uint8_t* bgr) const {
   const Sample *glass = glass_.row(2 * y), *glass_below = glass_.row(2 * y + 1);
   for (int x = 0; x < darkness_.n_columns(); ++x) {
-    if (!share[x]) continue;
+    if (!opacity[x]) continue;
     std::array<std::uint8_t, 3> own{below[3 * x], below[3 * x + 1], below[3 * x + 2]};
     const Four glasses = four_of(glass + 2 * x, glass_below + 2 * x);
     if (!nothing(glasses)) paint_pixel({}, glasses, own.data());
     for (std::size_t c = 0; c < 3; ++c) {
       std::uint8_t& painted = bgr[3 * static_cast<std::size_t>(x) + c];
-      painted = static_cast<std::uint8_t>((painted * (255 - share[x]) + own[c] * share[x]) / 255);
+      painted =
+          static_cast<std::uint8_t>((painted * (255 - opacity[x]) + own[c] * opacity[x]) / 255);
     }
   }
 }

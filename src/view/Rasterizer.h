@@ -116,7 +116,7 @@ class Rasterizer {
 
   void shade_row(int y, std::uint8_t* bgr) const;
   void paint_row(int y, std::uint8_t* bgr) const;
-  void put_in_front(int y, const std::uint8_t* share, const std::uint8_t* below,
+  void put_in_front(int y, const std::uint8_t* opacity, const std::uint8_t* below,
                     std::uint8_t* bgr) const;
   Span columns_in(int y) const;
   void paint_pixel(const Four& solid, const Four& glass, std::uint8_t* bgr) const;

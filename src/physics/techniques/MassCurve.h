@@ -25,9 +25,9 @@ class MassCurve {
     if (above == points_.begin()) return above->value;
     const Point& below = *std::prev(above);
     if (above == points_.end()) return below.value;
-    const double share =
+    const double fraction =
         std::log(mass_kg / below.mass_kg) / std::log(above->mass_kg / below.mass_kg);
-    return std::lerp(below.value, above->value, share);
+    return std::lerp(below.value, above->value, fraction);
   }
 
  private:

@@ -11,7 +11,7 @@
 namespace heft {
 
 namespace {
-constexpr double start_share = 0.4;  // of the display's width
+constexpr double start_fraction = 0.4;  // of the display's width
 constexpr int wait_ms = 100;
 
 enum class Wish { none, done, leave };
@@ -79,7 +79,7 @@ std::optional<MeasuredCard> measure_card(int display, const ScreenTexts& texts) 
   GlWindow window("Heft", {display});
   const Measures m = window.measures();
   const Typeface typeface(texts, m);
-  Card card{start_share * static_cast<double>(m.width), static_cast<double>(m.width)};
+  Card card{start_fraction * static_cast<double>(m.width), static_cast<double>(m.width)};
   for (;;) {
     draw(window, typeface, card);
     SDL_Event event;
