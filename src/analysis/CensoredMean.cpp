@@ -1,7 +1,9 @@
 #include "analysis/CensoredMean.h"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -10,8 +12,6 @@
 namespace heft {
 
 namespace {
-constexpr double golden = 0.6180339887498949;
-
 // log of normal_cdf, also where that is 0 by the digits.
 double log_normal_cdf(double z) {
   if (z > -30) return std::log(normal_cdf(z));
@@ -20,23 +20,11 @@ double log_normal_cdf(double z) {
 
 // Where a function with one hill is highest.
 template <typename Function>
-double highest(Function function, double low, double high, int n_steps) {
-  double left = high - golden * (high - low), right = low + golden * (high - low);
-  double at_left = function(left), at_right = function(right);
-  for (int i = 0; i < n_steps; ++i) {
-    if (at_left > at_right) {
-      high = std::exchange(right, left);
-      at_right = at_left;
-      left = high - golden * (high - low);
-      at_left = function(left);
-    } else {
-      low = std::exchange(left, right);
-      at_left = at_right;
-      right = low + golden * (high - low);
-      at_right = function(right);
-    }
-  }
-  return (low + high) / 2;
+double highest(Function function, double low, double high) {
+  constexpr int bits =
+      std::numeric_limits<double>::digits / 2;  // more, rounding doesn't tell apart
+  const auto below = [&](double at) { return -function(at); };
+  return boost::math::tools::brent_find_minima(below, low, high, bits).first;
 }
 
 /// The values shifted and scaled, so that the exact ones have mean 0 and SD 1.
@@ -61,13 +49,13 @@ class Tobit {
   }
 
   double best_log_sigma(double mu) const {
-    return highest([&](double log_sigma) { return log_likelihood(mu, log_sigma); }, -4.0, 6.0, 34);
+    return highest([&](double log_sigma) { return log_likelihood(mu, log_sigma); }, -4.0, 6.0);
   }
 
   double profile(double mu) const { return log_likelihood(mu, best_log_sigma(mu)); }
 
   double best_mu() const {
-    return highest([&](double mu) { return profile(mu); }, -20.0, 20.0, 42);
+    return highest([&](double mu) { return profile(mu); }, -20.0, 20.0);
   }
 
   // From the best mu outwards, to where the profile has fallen by so much.
