@@ -14,6 +14,10 @@
 
 namespace heft {
 
+/// The normal quantile of 75 %, with the digits that the field prints: threshold_75_g is this by
+/// the sensitivity.
+inline constexpr double z_75 = 0.6745;
+
 /// How often each answer was given, by level. Psychometric: negative, positive. Indecision:
 /// reference, none, comparison.
 using AnswersByLevel = std::map<double, std::array<double, 3>>;

@@ -18,7 +18,6 @@ enum Unknown : Eigen::Index { sensitivity, indecision, bias, lapse };
 constexpr std::array<const char*, 4> names{"sensitivity", "indecision", "bias", "lapse"};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double z_75 = 0.6745;  // the normal quantile, with the digits that the field prints
 constexpr double most_free_lapse = 0.5;
 
 double largest_level(const AnswersByLevel& answers) {

@@ -14,7 +14,6 @@
 namespace heft {
 
 namespace {
-constexpr double z_75 = 0.6745;  // the normal quantile, with the digits that the field prints
 
 // Sensitivities per largest level: dense around 0, and up to thresholds of a four-hundredth of it.
 constexpr std::size_t n_grid = 56;
