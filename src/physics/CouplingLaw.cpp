@@ -9,9 +9,10 @@ CouplingLaw::Sampled CouplingLaw::sampled(const CouplingAxis& axis, double h_s) 
   const double x = z * omega * h_s;
   const double y = omega * h_s * std::sqrt(std::abs(z * z - 1));
   const double e = std::exp(-x), d = std::exp(-2 * x);
-  if (y < 1e-4) {  // sinh(y) / y and sin(y) / y are 1 to the last bit that matters
-    const double bend = z < 1 ? y * y : -y * y;
-    return {e, e * h_s, d, std::expm1(-x) * std::expm1(-x) + e * bend, z * omega, 0};
+  if (y < 1e-4) {  // y is divided by: the first terms of the series, exact to the last bit
+    const double bend = z < 1 ? -y * y : y * y;
+    const double a = std::expm1(-x) * std::expm1(-x) - e * bend * (1 + bend / 12);
+    return {e * (1 + bend / 2), e * h_s * (1 + bend / 6), d, a, z * omega, z < 1 ? y : 0};
   }
   if (z < 1) {
     const double a = std::expm1(-x) * std::expm1(-x) + 4 * e * std::pow(std::sin(y / 2), 2);

@@ -50,6 +50,18 @@ RC_GTEST_PROP(CouplingLaw, ExactSchemeStaysExactWhenTheStepChanges, ()) {
   }
 }
 
+// A soft spring and short steps: what one step gives way is a billionth, and must be that.
+TEST(CouplingLaw, TheFirstOfManySmallStepsIsAsLongAsItIs) {
+  for (const double z : {0.999, 1.0, 1.01, 2.01, 5.0}) {
+    const CouplingAxis axis{1, 0.001, z};
+    CouplingLaw law(CouplingScheme::exact, axis);
+    const double h_s = 1e-3, turn = h_s * std::sqrt(axis.stiffness / axis.mass);
+    const double first_m = 0.03 * turn * turn / 2 * (1 - 2 * z * turn / 3);
+    EXPECT_NEAR(law.begin(0.03, 0, h_s).velocity * h_s / -first_m, 1, 1e-6) << z;
+    EXPECT_NEAR(oscillator_step(axis, h_s).offset_by_offset, 1 - first_m / 0.03, 1e-14) << z;
+  }
+}
+
 TEST(CouplingLaw, ALoadedRestIsNotDisturbedByAChangeOfStep) {
   Axis x{CouplingLaw(CouplingScheme::exact, paper)};
   for (int i = 0; i < 500; ++i) x.step(1.0 / 240, 0, -1.5);
