@@ -231,22 +231,37 @@ void BoxWorld::solve(double h_s, const SteppedBy& how) {
     if (!body.asleep) body.step.finish(time.mean_weight(), body.driven);
 }
 
-// Where a clone squeezes a cube there may be no answer. The impulses grow without end then and are
-// no start for the next step.
+// The impulses of the last step, and mixing, may lead sweeps astray: then they start anew without
+// either, where each one takes energy from the bodies. Where a clone squeezes a cube there is no
+// answer, and the impulses grow without end: they are no start for the next step.
 void BoxWorld::relax() {
+  double change_m_s = sweeps(surface_.shortcuts);
+  if (change_m_s > squeezed_m_s) {
+    forget_impulses();
+    for (Body& body : bodies_) body.step.ahead = body.step.free;
+    change_m_s = sweeps(false);
+  }
+  if (change_m_s > settled_m_s) ++n_unsettled_;
+  if (change_m_s > squeezed_m_s) forget_impulses();
+}
+
+void BoxWorld::forget_impulses() {
+  for (Manifold* manifold : touching_) manifold->forget_impulses();
+}
+
+// @return the largest change of a velocity at a point in the last one, m/s
+double BoxWorld::sweeps(bool mixed) {
   for (Manifold* manifold : touching_) manifold->begin_sweeps();
   for (Body& body : bodies_) body.step.begin_sweeps();
   last_energy_j_ = 0;
   double change_m_s = 0;
   for (int i = 0; i < most_sweeps; ++i) {
-    if (i > 0 && surface_.shortcuts) mix();
+    if (i > 0 && mixed) mix();
     change_m_s = 0;
     for (Manifold* manifold : touching_) change_m_s = std::max(change_m_s, manifold->relax());
-    if (change_m_s <= settled_m_s) return;
+    if (change_m_s <= settled_m_s) break;
   }
-  ++n_unsettled_;
-  if (change_m_s > squeezed_m_s)
-    for (Manifold* manifold : touching_) manifold->forget_impulses();
+  return change_m_s;
 }
 
 // Anderson's (1965) mixing with one step of memory. Sweeps that settle slowly do so in one

@@ -103,6 +103,8 @@ class BoxWorld {
   void set_motions(double h_s, const SteppedBy& how);
   void solve(double h_s, const SteppedBy& how);
   void relax();
+  double sweeps(bool mixed);
+  void forget_impulses();
   void mix();
   Event next_event(double h_s) const;
   std::optional<double> fraction_before_sliding_off(const Pair& pair, double h_s) const;
