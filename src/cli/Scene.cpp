@@ -93,9 +93,10 @@ void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take&
   }
 }
 
-void explain_unsettled(const Options& options, const Drive& drive) {
+void explain_solves(const Options& options, const Drive& drive) {
   if (options.explain)
-    say("heft: {} solves ended before velocities had settled\n", drive.unsettled());
+    say("heft: {} hits; {} solves ended before velocities had settled\n", drive.hits(),
+        drive.unsettled());
 }
 
 // Climbs the ladder until a simulator models all of the path; only its rows are shown.
@@ -111,7 +112,7 @@ void run_auto(const Options& options, const Scene& scene, const Trajectory& traj
       Drive drive(make_simulator(pick.simulator), scene, pick.rate_hz);
       run(drive, trajectory, options.rate_hz,
           [&](const std::string& line) { rows += line + '\n'; });
-      explain_unsettled(options, drive);
+      explain_solves(options, drive);
     } catch (const OutsideModel& outside) {
       if (&pick == &ladder.back()) throw;
       explain(fmt::format("{} does not model this: {}; the run starts over", pick.simulator,
@@ -138,7 +139,7 @@ void run_named(const Options& options, const Scene& scene, const Trajectory& tra
       fmt::print("{}\n", line);
       ++n_rows;
     });
-    explain_unsettled(options, drive);
+    explain_solves(options, drive);
   } catch (const OutsideModel& outside) {
     const double t_s = trajectory.start_s() + static_cast<double>(n_rows) / options.rate_hz;
     throw Error(

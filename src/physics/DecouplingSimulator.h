@@ -50,6 +50,8 @@ class DecouplingSimulator {
 
   /// How often, since the reset, velocities were taken before its solver had settled on them.
   virtual long unsettled() const { return 0; }
+  /// How often, since the reset, bodies have hit each other: closed in at once, without duration.
+  virtual long hits() const { return 0; }
 };
 
 using MakeSimulator = std::unique_ptr<DecouplingSimulator> (*)();

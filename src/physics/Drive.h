@@ -54,6 +54,8 @@ class Drive {
 
   /// As DecouplingSimulator::unsettled.
   long unsettled() const { return simulator_->unsettled(); }
+  /// As DecouplingSimulator::hits.
+  long hits() const { return simulator_->hits(); }
 
  private:
   void start(const TargetSample& sample);

@@ -22,10 +22,13 @@ std::vector<int> rates_to_measure(bool quick) {
 
 Measurement measure_one(const SimulatorEntry& simulator, const BenchScene& scene, int rate_hz,
                         const SceneTrack& reference, bool quick) {
-  Measurement one{std::string(simulator.name), rate_hz, scene, Fate::ran, "", {}, nothing};
+  Measurement one{
+      std::string(simulator.name), rate_hz, scene, Fate::ran, "", {}, nothing, nothing, nothing};
   const SceneRun run = run_scene(simulator.make(), scene, rate_hz, rate_hz);
   one.fate = run.fate;
   one.why = run.why;
+  one.unsettled_per_s = static_cast<double>(run.n_unsettled) / scene.duration_s();
+  one.hits_per_s = static_cast<double>(run.n_hits) / scene.duration_s();
   if (run.fate == Fate::ran) one.error = error_of(run.track, reference, scene);
   if (run.fate != Fate::outside_model)
     one.cpu_us_per_s = cpu_us_per_s(simulator, scene, rate_hz, quick ? 0 : 0.01);
@@ -70,14 +73,16 @@ Measurements measure(const StudyOptions& options) {
 void write_tables(const StudyOptions& options, const Measurements& measurements) {
   CsvFile csv(options, "work_precision.csv",
               "simulator,rate_hz,scene,scene_class,unique_if_rigid,fate,clone_rms_mm,clone_max_mm,"
-              "clone_turn_rms_deg,cubes_rms_mm,lag_error_g,cpu_us_per_simulated_s");
+              "clone_turn_rms_deg,cubes_rms_mm,lag_error_g,cpu_us_per_simulated_s,unsettled_per_s,"
+              "hits_per_s");
   for (const Measurement& one : measurements.all) {
     const auto known = [&](double value) { return one.fate == Fate::ran ? value : nothing; };
     csv.row(one.simulator, one.rate_hz, one.scene.name, name_of(one.scene.kind),
             one.scene.unique_if_rigid() ? "yes" : "no", name_of(one.fate),
             known(one.error.clone_rms_mm), known(one.error.clone_max_mm),
             known(one.error.clone_turn_rms_deg), known(one.error.cubes_rms_mm),
-            known(one.error.lag_error_g), one.cpu_us_per_s);
+            known(one.error.lag_error_g), one.cpu_us_per_s, known(one.unsettled_per_s),
+            known(one.hits_per_s));
   }
   write_references(options, measurements);
 }

@@ -64,6 +64,7 @@ SceneRun run_scene(std::unique_ptr<DecouplingSimulator> simulator, const BenchSc
       const WorldState& state = drive.advance(sample_of(t_s, path.at(t_s)));
       if (n % every == 0) run.track.states.push_back(state);
       run.n_unsettled = drive.unsettled();
+      run.n_hits = drive.hits();
     }
   } catch (const OutsideModel& error) {
     run.fate = Fate::outside_model;

@@ -148,7 +148,7 @@ double BoxWorld::advance(double h_s, const SteppedBy& how) {
   find_neighbours(h_s);
   if (wake_reached(h_s)) set_motions(h_s, how);
   find_contacts(h_s);
-  hit_ = hits();
+  hit_ = any_closes_in();
   if (hit_ && how.cuts) {
     hit(how.driver);
     return 0;
@@ -196,12 +196,13 @@ void BoxWorld::find_contacts(double h_s) {
   if (surface_.shortcuts) std::ranges::reverse(touching_);
 }
 
-bool BoxWorld::hits() const {
+bool BoxWorld::any_closes_in() const {
   return std::ranges::any_of(touching_,
                              [](const Manifold* m) { return m->closing_m_s() > hit_m_s; });
 }
 
 void BoxWorld::hit(const Driver& driver) {
+  ++n_hits_;
   set_motions(0, {driver});
   for (Body& body : bodies_) body.step.begin(0);
   for (Manifold* manifold : touching_) {

@@ -74,6 +74,7 @@ class BoxWorld {
 
   /// Solves that ended before velocities had settled.
   long unsettled() const { return n_unsettled_; }
+  long hits() const { return n_hits_; }
 
  private:
   // Two bodies, or a body (first) and the table.
@@ -98,7 +99,7 @@ class BoxWorld {
   void list_neighbours();
   bool wake_reached(double h_s);
   void find_contacts(double h_s);
-  bool hits() const;
+  bool any_closes_in() const;
   void hit(const Driver& driver);
   void set_motions(double h_s, const SteppedBy& how);
   void solve(double h_s, const SteppedBy& how);
@@ -120,7 +121,7 @@ class BoxWorld {
   double listed_reach_m_ = 0;              ///< 0: to be listed anew
   bool hit_ = false;                       ///< the last step was one
   std::vector<Manifold*> touching_;        ///< of this step, in a sweep's order
-  long n_unsettled_ = 0;
+  long n_unsettled_ = 0, n_hits_ = 0;
   double last_energy_j_ = 0;  ///< of the last sweep's changes
 };
 

@@ -179,6 +179,7 @@ class BoxesSimulator : public DecouplingSimulator {
   void place_cube(int cube, const Pose& pose) override;
   WorldState state() const override;
   long unsettled() const override { return world_ ? world_->unsettled() : 0; }
+  long hits() const override { return world_ ? world_->hits() : 0; }
 
  private:
   static constexpr std::size_t clone_index = 0;
