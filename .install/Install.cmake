@@ -10,7 +10,7 @@ install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR}
 install(TARGETS heft_bench_program COMPONENT bench)
 
 # The program writes its own manual page and completion.
-foreach(made man/heft.1 bash/heft)
+foreach(made man/heft.1 bash/heft zsh/_heft fish/heft.fish)
   get_filename_component(what ${made} DIRECTORY)
   list(APPEND heft_told ${PROJECT_BINARY_DIR}/told/${made})
   add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/told/${made}
@@ -23,6 +23,10 @@ install(FILES ${PROJECT_BINARY_DIR}/told/man/heft.1 DESTINATION ${CMAKE_INSTALL_
         COMPONENT heft)
 install(FILES ${PROJECT_BINARY_DIR}/told/bash/heft
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT heft)
+install(FILES ${PROJECT_BINARY_DIR}/told/zsh/_heft
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT heft)
+install(FILES ${PROJECT_BINARY_DIR}/told/fish/heft.fish
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT heft)
 
 set(heft_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/heft)
 # heft_install(component rooms...): their libraries and headers.

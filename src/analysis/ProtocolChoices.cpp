@@ -7,6 +7,7 @@
 
 #include "base/Error.h"
 #include "protocol/ProcedureReader.h"
+#include "protocol/StudyPlan.h"
 
 namespace heft {
 
@@ -106,6 +107,17 @@ class Collector {
   std::string name_;
 };
 
+// Participants of a study have one protocol, each in an order of its own.
+bool is_order(const std::string& setting) {
+  return setting.starts_with(std::string(order_key) + "=");
+}
+
+std::vector<std::string> changed_by(const Setup& setup) {
+  std::vector<std::string> settings = settings_of(setup);
+  std::erase_if(settings, is_order);
+  return settings;
+}
+
 // What was in force in the trials of a protocol's sessions, as their setups tell it; each once.
 class InForce {
  public:
@@ -122,7 +134,10 @@ class InForce {
           setup.source_rate_hz && *setup.source_rate_hz < wanted_hz
               ? fmt::format("{:g}, of a source that gives {:.3g}", wanted_hz, *setup.source_rate_hz)
               : fmt::format("{:g}", wanted_hz));
-      if (!setup.settings.empty()) settings_.insert(setup.settings);
+      if (const auto changed = changed_by(setup); !changed.empty())
+        settings_.insert(fmt::format("{}", fmt::join(changed, "\n")));
+      for (const std::string& setting : settings_of(setup))
+        if (is_order(setting)) orders_.insert(setting);
     }
   }
 
@@ -130,6 +145,7 @@ class InForce {
     std::vector<ProtocolChoice> choices{{protocol, "frames a second", joined(rates_)},
                                         {protocol, "simulator", joined(simulators_)}};
     if (!settings_.empty()) choices.push_back({protocol, "changed by --set", joined(settings_)});
+    if (!orders_.empty()) choices.push_back({protocol, "orders of blocks", joined(orders_)});
     return choices;
   }
 
@@ -138,18 +154,18 @@ class InForce {
     return fmt::format("{}", fmt::join(texts, "; "));
   }
 
-  std::set<std::string> simulators_, rates_, settings_;
+  std::set<std::string> simulators_, rates_, settings_, orders_;
 };
 
-std::vector<std::string> settings_of(const SessionData& data) {
-  return data.setups.empty() ? std::vector<std::string>{} : settings_of(data.setups.front().setup);
+std::vector<std::string> changed_by(const SessionData& data) {
+  return data.setups.empty() ? std::vector<std::string>{} : changed_by(data.setups.front().setup);
 }
 
 // Sessions with one key had one protocol.
 std::string key_of(const SessionData& data) {
   const SessionHeader& header = data.session.header;
   return fmt::format("{}{}{}", header.protocol_name, header.protocol_sha256,
-                     fmt::join(settings_of(data), "\n"));
+                     fmt::join(changed_by(data), "\n"));
 }
 
 }  // namespace
@@ -169,11 +185,11 @@ std::vector<ProtocolChoice> protocol_choices(const std::vector<SessionData>& ses
     if (!seen.insert(key_of(data)).second) continue;
     try {
       Protocol protocol =
-          parse_protocol(header.protocol_text, header.protocol_name, settings_of(data));
+          parse_protocol(header.protocol_text, header.protocol_name, changed_by(data));
       protocol.name = header.protocol_name;
       if (hashes_by_name[header.protocol_name].size() > 1)
         protocol.name = fmt::format("{} {:.8}", header.protocol_name, header.protocol_sha256);
-      if (!settings_of(data).empty()) protocol.name += " with --set";
+      if (!changed_by(data).empty()) protocol.name += " with --set";
       InForce in_force;
       for (const SessionData& other : sessions)
         if (key_of(other) == key_of(data)) in_force.add(other, protocol);

@@ -78,6 +78,10 @@ std::string limits_sentence(const Summary& summary) {
       summary.plan ? "What they can't say: what the protocol did not declare is exploratory"
                    : "What they can't say: no analysis was declared beforehand, so all of it is "
                      "exploratory";
+  if (summary.simulated())
+    text += summary.data == "simulated"
+                ? "; a model answered, so nothing of this is about people"
+                : "; a model answered a part of it, so it is not about people alone";
   if (!summary.jnd.empty())
     text +=
         "; the paper's JND follows the criterion and the start, so it is no measure of what "

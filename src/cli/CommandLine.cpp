@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <map>
 
 #include "base/Error.h"
 #include "base/Names.h"
@@ -128,15 +129,18 @@ std::size_t help_width() {
 void add_completion(Command& program, const CLI::App& app) {
   Command command = program.add_command(
       "completion", "print what completes commands and options in a shell, or the manual page",
-      {"source <(heft completion bash)", "heft completion man > heft.1"});
+      {"source <(heft completion bash)", "source <(heft completion zsh)",
+       "heft completion fish | source", "heft completion man > heft.1"});
+  const std::map<std::string, std::string (*)(const CommandDescription&)> makers{
+      {"bash", bash_completion},
+      {"zsh", zsh_completion},
+      {"fish", fish_completion},
+      {"man", manual_page}};
   const auto what = std::make_shared<std::string>();
-  command.add_option("WHAT", what.get(), "bash, or man for the manual page")
+  command.add_option("WHAT", what.get(), "bash, zsh or fish, or man for the manual page")
       .required()
-      .one_of({"bash", "man"});
-  command.does([what, &app] {
-    const CommandDescription all = described(app, "");
-    fmt::print("{}", *what == "man" ? manual_page(all) : bash_completion(all));
-  });
+      .one_of({"bash", "zsh", "fish", "man"});
+  command.does([what, makers, &app] { fmt::print("{}", makers.at(*what)(described(app, ""))); });
 }
 
 }  // namespace

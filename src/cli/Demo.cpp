@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "analysis/Notes.h"
 #include "analysis/Report.h"
 #include "analysis/Summary.h"
 #include "analysis/Tables.h"
@@ -66,11 +67,12 @@ void demo(const Options& options) {
   explain_missing_charts(write_report(summary, report), report);
   say("\n{} trials, {:.0f} minutes of session time, in {:.1f} s.\n"
       "The log:     {}\n"
-      "The report:  {}/report.html\n"
       "Check it:    ./heft replay --db {} --session {}\n"
-      "Try it:      ./heft run protocols/quick.toml --participant 01 --responder simulated\n",
-      result.n_completed, result.duration_s / 60, elapsed.count(), request.db, report,
+      "Try it:      ./heft run protocols/quick.toml --participant 01 --responder simulated\n\n",
+      result.n_completed, result.duration_s / 60, elapsed.count(), request.db,
       shell_quoted(request.db), result.session_id);
+  for (const std::string& sentence : three_sentences(summary)) say("{}\n", sentence);
+  say("The report:  {}/report.html\n", report);
 }
 
 }  // namespace

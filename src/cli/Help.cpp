@@ -150,6 +150,78 @@ complete -o default -F _{1}_completion {0}
                      program.name, function, cases);
 }
 
+std::string zsh_completion(const CommandDescription& program) {
+  std::string cases;
+  add_cases(program, "", cases);
+  std::string function = program.name;
+  std::ranges::replace(function, '-', '_');
+  return fmt::format(R"(#compdef {0}
+# Completion for zsh. In ~/.zshrc, after compinit: source <({0} completion zsh)
+_{1}_completion() {{
+  local given= commands= options= i
+  for ((i = 1; i < CURRENT; i++)); do
+    if ((i > 1)); then
+      [[ " $commands " == *" ${{words[i]}} "* ]] || break
+      given+="/${{words[i]}}"
+    fi
+    case "$given" in
+{2}    esac
+  done
+  if [[ ${{words[CURRENT]}} == -* ]]; then
+    compadd -- ${{=options}}
+  else
+    [[ -z $commands ]] || compadd -- ${{=commands}}
+    _files
+  fi
+}}
+compdef _{1}_completion {0}
+[[ ${{funcstack[1]}} != _{0} ]] || _{1}_completion "$@"  # installed as a function of its own file
+)",
+                     program.name, function, cases);
+}
+
+namespace {
+// In single quotes, in which fish takes \\ and \' for what they stand for.
+std::string fish_quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\\' || c == '\'') quoted += '\\';
+    quoted += c == '\n' ? ' ' : c;
+  }
+  return quoted + "'";
+}
+
+// @param seen what fish asks before it offers a command's own
+void add_fish_lines(const CommandDescription& command, const std::string& program,
+                    const std::string& seen, std::string& lines) {
+  const std::string begin = fmt::format("complete -c {} -n {}", program, fish_quoted(seen));
+  for (const OptionDescription& option : command.options) {
+    const auto dashes = option.names.rfind("--");
+    if (option.by_place || dashes == std::string::npos) continue;
+    lines += fmt::format("{} -l {}{} -d {}\n", begin, option.names.substr(dashes + 2),
+                         option.value.empty() ? "" : " -r", fish_quoted(option.help));
+  }
+  std::string inner_names;
+  for (const CommandDescription& inner : command.commands)
+    inner_names += " " + last_word(inner.name);
+  for (const CommandDescription& inner : command.commands) {
+    const std::string name = last_word(inner.name);
+    lines += fmt::format("complete -c {} -n {} -f -a {} -d {}\n", program,
+                         fish_quoted(seen + "; and not __fish_seen_subcommand_from" + inner_names),
+                         name, fish_quoted(inner.summary));
+    add_fish_lines(inner, program, seen + "; and __fish_seen_subcommand_from " + name, lines);
+  }
+}
+}  // namespace
+
+std::string fish_completion(const CommandDescription& program) {
+  std::string lines = fmt::format(
+      "# Completion for fish: {0} completion fish > ~/.config/fish/completions/{0}.fish\n",
+      program.name);
+  add_fish_lines(program, program.name, "true", lines);
+  return lines;
+}
+
 std::string manual_page(const CommandDescription& program) {
   std::string page = fmt::format(
       ".TH HEFT 1 \"\" \"heft {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n.SH DESCRIPTION\n{}\n"

@@ -26,8 +26,10 @@ struct CommandDescription {
 ///   shown as it is
 std::string help_of(const CommandDescription& command, std::size_t width);
 
-/// A script to be sourced by bash: commands and options; elsewhere files.
+/// Scripts to be sourced by a shell: commands and options; elsewhere files.
 std::string bash_completion(const CommandDescription& program);
+std::string zsh_completion(const CommandDescription& program);
+std::string fish_completion(const CommandDescription& program);
 
 /// A page of section 1, in man's macros.
 std::string manual_page(const CommandDescription& program);

@@ -89,6 +89,8 @@ void add_commands(Command& app) {
   add_demo(app);
   add_run(app);
   add_resume(app);
+  add_list(app);
+  add_show(app);
   add_simulate(app);
   add_replay(app);
   add_analyse(app);

@@ -1,9 +1,13 @@
 // heft run and heft resume: one participant's session.
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <iostream>
 #include <memory>
 
 #include "apparatus/PictureSource.h"
+#include "apparatus/StudyPlaces.h"
 #include "base/Error.h"
 #include "base/Printable.h"
 #include "cli/Commands.h"
@@ -15,13 +19,18 @@ namespace heft::cli {
 
 namespace {
 
+constexpr const char* usual_db = "heft.db";
+
 struct Options {
-  std::string protocol, participant, db = "heft.db";
+  std::string protocol, plan;
+  std::optional<std::string> participant, db;
   std::optional<std::uint64_t> seed;
   GivenOptions given;
   std::optional<std::string> language;
   std::optional<std::string> purpose, controls, hand;
   std::string record_camera;
+  Elsewhere elsewhere;
+  std::map<std::string, std::string> participant_info;  // what the plan gave
   bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
 };
 
@@ -98,17 +107,109 @@ SessionRequest request_of(const Options& options) {
     setup.keys = options.keys || purpose_of(options, setup) == Purpose::test ? "yes" : "no";
   complete_and_tell(setup);
   request.setup = in_force(std::move(setup), request.protocol);
-  request.participant = options.participant;
-  request.db = options.db;
+  request.participant = options.participant.value();
+  request.participant_info = options.participant_info;
+  request.db = options.db.value();
   request.seed = options.seed.value_or(fresh_seed());
   request.purpose = purpose_of(options, request.setup);
   request.again = options.again;
   return request;
 }
 
-void run(const Options& options) {
-  check_participant(options.participant);
+// Sessions that the log has already; a missing file has none.
+std::vector<SessionRow> sessions_in(const std::string& db) {
+  refuse_special_file(db);
+  std::error_code unknown;
+  return std::filesystem::exists(db, unknown) ? LogReader(db).sessions()
+                                              : std::vector<SessionRow>{};
+}
+
+// What the plan says goes where the command line says nothing.
+void fill_from(const StudyPlan& plan, Options& options) {
+  const auto fill = [](std::optional<std::string>& given,
+                       const std::optional<std::string>& planned) {
+    if (!given) given = planned;
+  };
+  fill(options.db, plan.db);
+  fill(options.given.display,
+       plan.display ? std::optional(fmt::format("{}", *plan.display)) : std::nullopt);
+  fill(options.given.display_file, plan.display_file);
+  if (options.elsewhere.backup.empty()) options.elsewhere.backup = plan.backup.value_or("");
+}
+
+void give_place(const StudyPlan& plan, const PlannedParticipant& planned, Options& options) {
+  const StudyGroup& group = plan.groups[static_cast<std::size_t>(planned.place.group)];
+  options.participant = planned.id;
+  options.protocol = group.protocol;
+  if (!options.language) options.language = group.language;
+  const auto& order = plan.orders[static_cast<std::size_t>(planned.place.order)];
+  if (!order.empty()) options.given.settings.push_back(order_setting(order));
+  options.participant_info = info_of(plan, planned.place);
+  if (!options.elsewhere.backup.empty())  // for whoever goes on with it
+    options.participant_info["study_backup"] =
+        std::filesystem::absolute(options.elsewhere.backup).string();
+}
+
+void take_from_plan(Options& options) {
+  if (!options.protocol.empty())
+    throw Error(fmt::format("the plan {} says which protocol is next, expected no other one ({})",
+                            options.plan, options.protocol),
+                ExitCode::usage);
+  const StudyPlan plan = load_study(options.plan);
+  fill_from(plan, options);
+  if (!options.db) options.db = usual_db;
+  const Setup setup = with_defaults(options.given);
+  const Purpose purpose = has_person(setup) ? purpose_of(options, setup) : Purpose::simulated;
+  const PlannedParticipant planned =
+      planned_participant(plan, sessions_in(*options.db), purpose, options.participant);
+  give_place(plan, planned, options);
+  say("participant {} of the study {}: {} of {}\n", planned.id, plan.name, planned.place.number,
+      plan.participants);
+}
+
+// Who is asked at a terminal types y or n; any other word is asked again, the end of input is no.
+bool answers_yes(const std::string& question) {
+  for (std::string answer; say("{} y/n: ", question), std::getline(std::cin, answer);) {
+    if (answer == "y" || answer == "yes") return true;
+    if (answer == "n" || answer == "no") return false;
+  }
+  return false;
+}
+
+// 1 for 01 would part one person's sessions.
+void refuse_near_id(const Options& options) {
+  const auto near = near_id(*options.participant, sessions_in(*options.db));
+  if (!near || options.again) return;
+  const std::string found = fmt::format("participant \"{}\" is new in {}, but there is \"{}\"",
+                                        *options.participant, *options.db, *near);
+  const bool has_terminal = isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
+  if (has_terminal && answers_yes(found + ". Are these two people?")) return;
+  throw Error(fmt::format("{}: give that id if it is the same person; if it is another one, add "
+                          "--again",
+                          found),
+              ExitCode::usage);
+}
+
+[[noreturn]] void refuse_missing(const char* option) {
+  throw Error(
+      fmt::format("{} is required, or --plan STUDY.toml, which says it; see heft run --help",
+                  option),
+      ExitCode::usage);
+}
+
+void complete(Options& options) {
+  if (options.participant) check_participant(*options.participant);
+  if (!options.plan.empty()) take_from_plan(options);
+  if (options.protocol.empty()) refuse_missing("PROTOCOL");
+  if (!options.participant) refuse_missing("--participant");
+  check_participant(*options.participant);
+  if (!options.db) options.db = usual_db;
+}
+
+void run(Options options) {
+  complete(options);
   const SessionRequest request = request_of(options);
+  refuse_near_id(options);
   say("participant {}, protocol {}, responder {}, seed {}\n", request.participant,
       request.protocol.name, request.setup.responder, request.seed);
   tell_simulator(request.protocol, request.setup);
@@ -117,7 +218,8 @@ void run(const Options& options) {
         "turns it. This is to try and to teach; the log and every report say so\n");
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
   say_finished(
-      run_session({request.protocol, request.setup, request.db, options.unblind, options.go_on},
+      run_session({request.protocol, request.setup, request.db, options.unblind, options.go_on,
+                   options.elsewhere, place_words(options.participant_info)},
                   start),
       request.db);
 }
@@ -148,7 +250,7 @@ GivenOptions with_missing_files(const LoggedSession& session, GivenOptions again
 }
 
 void resume(const std::string& db, std::optional<std::int64_t> session_id,
-            const GivenOptions& again, bool unblind, bool go_on, bool keys) {
+            const GivenOptions& again, Elsewhere elsewhere, bool unblind, bool go_on, bool keys) {
   LoggedSession session = session_to_resume(db, session_id);
   const Setup before = session.setup;
   change_setup(session, with_missing_files(session, again));
@@ -158,9 +260,13 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
   for (const auto& [column, from, to] : changes_between(before, session.setup))
     if (!from.empty()) say("from here on with {} {} instead of {}\n", column, to, from);
   say_next_parts(session.setup);
+  const auto& info = session.row.header.participant_info;
+  if (const auto place = place_of(info); place && elsewhere.backup.empty())
+    elsewhere.backup = place->backup;
   say_finished(
-      run_session({*session.protocol, session.setup, db, unblind, go_on},
-                  [&](const RunnerOptions& runner) { return resume_session(session, runner); }),
+      run_session(
+          {*session.protocol, session.setup, db, unblind, go_on, elsewhere, place_words(info)},
+          [&](const RunnerOptions& runner) { return resume_session(session, runner); }),
       db);
 }
 
@@ -185,16 +291,23 @@ void add_run(Command& app) {
        "heft run protocols/quick.toml --participant 07 --responder simulated",
        "heft run protocols/paper.toml --participant 07 --responder simulated --seed 42 --db lab.db",
        "heft run protocols/jnd.toml --participant 07 --responder scripted:recorded/07 --db "
-       "lab.db"});
-  command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
-  command
-      .add_option("--participant", &options->participant,
-                  "the participant's id; text, kept as it is")
-      .required();
-  command.add_option("--db", &options->db, "the log; an existing one gets one more session")
-      .shows_default();
+       "lab.db",
+       "heft run --plan study/STUDY.toml",
+       "heft run protocols/paper.toml --participant 07 --backup /media/stick --events "
+       "udp:127.0.0.1:5005"});
+  command.add_option("PROTOCOL", &options->protocol, "a protocol file (not with --plan)");
+  command.add_option("--plan", &options->plan,
+                     "a study's plan, STUDY.toml: the next participant's session, or that of the "
+                     "--participant given, with the group, protocol and order of blocks that the "
+                     "plan gives them (heft validate STUDY.toml shows these)");
+  command.add_option("--participant", &options->participant,
+                     "the participant's id; text, kept as it is (with --plan default: the next)");
+  command.add_option("--db", &options->db,
+                     "the log; an existing one gets one more session (default: the plan's, or "
+                     "heft.db)");
   command.add_seed(options->seed);
   add_session_options(command, options->given);
+  add_elsewhere_options(command, options->elsewhere);
   command.group("The protocol and the log");
   command.add_option("--simulator", &options->given.simulator, "instead of the protocol's");
   add_settings(command, options->given.settings);
@@ -228,7 +341,8 @@ void add_run(Command& app) {
                    "show the experimenter masses and conditions; it is logged");
   add_go_on(command, options->go_on);
   command.add_flag("--again", options->again,
-                   "run once more a protocol that the participant has finished");
+                   "run once more a protocol that the participant has finished; or take an id "
+                   "that is nearly another's, as 1 and 01 are");
   command.does([options] { run(*options); });
 }
 
@@ -237,6 +351,7 @@ void add_resume(Command& app) {
     std::string db = "heft.db";
     std::optional<std::int64_t> session;
     GivenOptions again;
+    Elsewhere elsewhere;
     bool end = false, unblind = false, go_on = false, keys = false;
   };
   const auto options = std::make_shared<ResumeOptions>();
@@ -251,6 +366,7 @@ void add_resume(Command& app) {
   add_session_options(command, options->again, true);
   command.add_option("--simulator", &options->again.simulator,
                      "from here on; each trial is replayed with the one that it ran with");
+  add_elsewhere_options(command, options->elsewhere);
   command.group("Options");
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
@@ -261,8 +377,8 @@ void add_resume(Command& app) {
                    "don't go on: end the session as it is, for somebody who will not come back");
   command.does([options] {
     if (options->end) return end(options->db, options->session);
-    resume(options->db, options->session, options->again, options->unblind, options->go_on,
-           options->keys);
+    resume(options->db, options->session, options->again, options->elsewhere, options->unblind,
+           options->go_on, options->keys);
   });
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "apparatus/EventOutlet.h"
 #include "base/Error.h"
 #include "base/PlugTable.h"
 #include "cli/Installation.h"
@@ -16,6 +17,7 @@
 #include "physics/Oracles.h"
 #include "physics/auto/Choice.h"
 #include "protocol/ExpectedLength.h"
+#include "record/Backup.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -93,6 +95,16 @@ void add_go_on(Command& command, bool& go_on) {
   command.add_flag("--go-on", go_on,
                    "go on although the check of the apparatus FAILED, where there is no terminal "
                    "to ask at; it is logged");
+}
+
+void add_elsewhere_options(Command& command, Elsewhere& elsewhere) {
+  command.group("Backups and other recorders");
+  command.add_option("--backup", &elsewhere.backup,
+                     "a folder, best on another disk: after the session a copy of the log is put "
+                     "there and checked (default: the study plan's, if it has one)");
+  command.add_option("--events", &elsewhere.events,
+                     "udp:HOST:PORT, fifo:PATH or serial:DEVICE: a line of JSON for each event, "
+                     "once it is in the log, with its t_s and UTC; the session never waits for it");
 }
 
 namespace {
@@ -195,8 +207,31 @@ std::string texts_file(const std::string& language) {
   return (folder / (language + ".toml")).string();
 }
 
+namespace {
+// What went wrong with a copy harms no session, but somebody has to know it.
+void back_up_and_tell(const std::string& db, const std::string& folder, std::int64_t session_id) {
+  try {
+    say("backup, checked: {}\n", back_up(db, folder, session_id));
+  } catch (const std::exception& error) {
+    ring();
+    say("heft: WARNING: there is NO BACKUP of session {}: {}. The session itself is saved in {}; "
+        "copy that file to a safe place: cp {} FOLDER\n",
+        session_id, error.what(), db, shell_quoted(db));
+  }
+}
+
+void tell_dropped(const EventOutlet& events, const std::string& where) {
+  if (events.n_dropped() == 0) return;
+  say("heft: WARNING: {} of {} events could not be handed on to {}: nobody took them in time. All "
+      "of them are in the log\n",
+      events.n_dropped(), events.n_dropped() + events.n_sent(), where);
+}
+}  // namespace
+
 SessionResult run_session(const CommandedSession& session,
                           const std::function<SessionResult(const RunnerOptions&)>& run) {
+  std::optional<EventOutlet> events;
+  if (!session.elsewhere.events.empty()) events.emplace(session.elsewhere.events);
   const StopOnSignal stop_on_signal;
   ProgressBar bar("session");
   std::optional<TerminalConsole> console;
@@ -204,9 +239,10 @@ SessionResult run_session(const CommandedSession& session,
   RunnerOptions options;
   options.stop = &stop_on_signal.requested();
   options.go_on_unchecked = session.go_on_unchecked;
+  options.events = events ? &*events : nullptr;
   options.tell = [](const std::string& text) { say("heft: {}\n", text); };
   if (runs_on_wall_clock(session.setup))
-    options.console = &console.emplace(expected, session.unblind);
+    options.console = &console.emplace(expected, session.unblind, session.place);
   else  // nothing that would unblind whoever watches: no mass, level, condition or correctness
     options.progress = [&](const Engine& engine) {
       bar.update(expected > 0 ? engine.n_completed() / expected : 0,  // a demonstration alone: 0
@@ -215,6 +251,9 @@ SessionResult run_session(const CommandedSession& session,
     };
   const SessionResult result = run(options);
   console.reset();
+  if (events) tell_dropped(*events, session.elsewhere.events);
+  if (!session.elsewhere.backup.empty())
+    back_up_and_tell(session.db, session.elsewhere.backup, result.session_id);
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
   if (result.end == RunEnd::stopped)

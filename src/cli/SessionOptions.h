@@ -51,12 +51,23 @@ std::vector<std::string> cautions(const Protocol& protocol);
 /// @throws Error (usage) naming the languages that there are
 std::string texts_file(const std::string& language);
 
+/// Where a session's events and copies go beside its log; empty: nowhere.
+struct Elsewhere {
+  std::string backup;  ///< folder
+  std::string events;  ///< as EventOutlet takes it
+};
+
+/// --backup, --events
+void add_elsewhere_options(Command& command, Elsewhere& elsewhere);
+
 struct CommandedSession {
   const Protocol& protocol;
   const Setup& setup;
   std::string db;
   bool unblind = false;
   bool go_on_unchecked = false;
+  Elsewhere elsewhere = {};
+  std::string place = {};  ///< in a study, "7 of 24"
 };
 
 /// --go-on

@@ -109,14 +109,16 @@ std::string cut_to(const std::string& text, int width, bool keep_end) {
   return keep_end ? "<" + words : words + ">";
 }
 
-std::string status_line(const ConsoleStatus& status, double expected_trials, int width) {
-  const std::string line = escaped_line(status_words(status, expected_trials, false));
+std::string status_line(const ConsoleStatus& status, double expected_trials, int width,
+                        const std::string& place) {
+  const std::string who = place.empty() ? "" : place + "  ";
+  const std::string line = escaped_line(who + status_words(status, expected_trials, false));
   if (width_of(line) <= width) return line;
-  return cut_to(escaped_line(status_words(status, expected_trials, true)), width);
+  return cut_to(escaped_line(who + status_words(status, expected_trials, true)), width);
 }
 
-TerminalConsole::TerminalConsole(double expected_trials, bool unblind)
-    : expected_trials_(expected_trials) {
+TerminalConsole::TerminalConsole(double expected_trials, bool unblind, std::string place)
+    : expected_trials_(expected_trials), place_(std::move(place)) {
   if (unblind) commands_.push_back({ConsoleCommandKind::unblind, {}});
 }
 
@@ -279,7 +281,7 @@ void TerminalConsole::show(const ConsoleStatus& status) {
   drawn_ = now;
   sound(status);
   const int width = RawTerminal::width() - 1;  // the cursor stays on the line
-  draw(fmt::format("\r\033[J{}\n{}\033[A\r", status_line(status, expected_trials_, width),
+  draw(fmt::format("\r\033[J{}\n{}\033[A\r", status_line(status, expected_trials_, width, place_),
                    cut_to(prompt(width), width)));
 }
 

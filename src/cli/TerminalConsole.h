@@ -14,7 +14,8 @@ namespace heft::cli {
 class TerminalConsole final : public Console {
  public:
   /// @param expected_trials of the session  @param unblind from the start
-  TerminalConsole(double expected_trials, bool unblind);
+  /// @param place of the participant in a study, "7 of 24"; empty: none
+  TerminalConsole(double expected_trials, bool unblind, std::string place = {});
   ~TerminalConsole() override;
   TerminalConsole(const TerminalConsole&) = delete;
   TerminalConsole& operator=(const TerminalConsole&) = delete;
@@ -41,6 +42,7 @@ class TerminalConsole final : public Console {
 
   RawTerminal terminal_;
   double expected_trials_;
+  std::string place_;
   std::deque<ConsoleCommand> commands_;
   Asking asking_ = Asking::nothing;
   std::string question_, text_;
@@ -50,7 +52,9 @@ class TerminalConsole final : public Console {
 
 /// The status in one line of a terminal: in fewer words where they don't fit, cut where these
 /// don't.
-std::string status_line(const ConsoleStatus& status, double expected_trials, int width);
+/// @param place as TerminalConsole has it
+std::string status_line(const ConsoleStatus& status, double expected_trials, int width,
+                        const std::string& place = {});
 
 /// At most so many columns of a text of one line: its end where `keep_end`, else its beginning.
 std::string cut_to(const std::string& text, int width, bool keep_end = false);

@@ -1,12 +1,14 @@
-// heft validate: checks protocols, procedure, scene, board, effector, synthetic camera and text
-// files, and reports every mistake of every file.
+// heft validate: checks protocols, study plans and every other file that people write, and reports
+// every mistake of every file.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
 #include <future>
 #include <limits>
+#include <map>
 #include <memory>
+#include <numbers>
 
 #include "apparatus/SessionSetup.h"
 #include "base/Error.h"
@@ -15,11 +17,13 @@
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
+#include "experiment/DisplayFacts.h"
 #include "experiment/ScreenTexts.h"
 #include "physics/Scene.h"
 #include "physics/auto/Choice.h"
 #include "protocol/ExpectedLength.h"
 #include "protocol/Files.h"
+#include "protocol/StudyPlan.h"
 #include "psychophysics/Interleaving.h"
 #include "session/Session.h"
 #include "tracking/MarkerBody.h"
@@ -79,7 +83,8 @@ std::string described(const Protocol& protocol) {
   std::string simulated;
   if (length.staircases > 0)
     if (const auto taken = trials_of_simulated(protocol, participants)) {
-      length.minutes += (taken->mean - length.trials) * durations.comparison_s / 60;
+      length.minutes +=
+          (taken->mean - length.trials) * (durations.comparison_s + protocol.onset.gap_s) / 60;
       length.trials = taken->mean;
       simulated = fmt::format(" ({} to {} in {} simulated participants)", taken->least, taken->most,
                               participants);
@@ -94,6 +99,47 @@ std::string described(const Protocol& protocol) {
 
 std::string described(const ScreenTexts& texts) {
   return fmt::format("{} page(s) in the language \"{}\"", texts.pages.size(), texts.language);
+}
+
+std::string described(const DisplayMeasures& display) {
+  const double pitch_mm = display.w_mm / display.w_px;
+  return fmt::format("{} x {} px on {:g} x {:g} mm, seen from {:g} mm: {:.3g} px a degree",
+                     display.w_px, display.h_px, display.w_mm, display.h_mm,
+                     display.eye_distance_mm,
+                     display.eye_distance_mm * std::numbers::pi / 180 / pitch_mm);
+}
+
+// Each group and order, with how many of the planned participants get it.
+std::string described(const StudyPlan& plan) {
+  std::map<std::pair<int, int>, int> people;
+  for (int number = 1; number <= plan.participants; ++number) {
+    const StudyPlace place = place_in(plan, number);
+    ++people[{place.group, place.order}];
+  }
+  std::string text = fmt::format("\"{}\", {} participants {} to {}", escaped_line(plan.name),
+                                 plan.participants, escaped_line(planned_id(plan, 1)),
+                                 escaped_line(planned_id(plan, plan.participants)));
+  for (int group = 0; group < static_cast<int>(plan.groups.size()); ++group)
+    for (int order = 0; order < static_cast<int>(plan.orders.size()); ++order) {
+      const StudyGroup& one = plan.groups[static_cast<std::size_t>(group)];
+      const BlockOrder& blocks = plan.orders[static_cast<std::size_t>(order)];
+      text += fmt::format("\n  {:>4} with {}{}{}", people[{group, order}],
+                          one.name.empty() ? "" : "group " + escaped_line(one.name) + ", ",
+                          escaped_line(one.protocol),
+                          blocks.empty() ? "" : ": " + escaped_line(heft::described(blocks)));
+    }
+  return text;
+}
+
+std::string caution_of(const StudyPlan& plan) {
+  const int n_cells = static_cast<int>(plan.groups.size() * plan.orders.size());
+  if (plan.participants % n_cells == 0) return "";
+  const int below = plan.participants / n_cells * n_cells;
+  return fmt::format(
+      "{} participants can't be as many in each of {} group(s) with each of {} order(s), expected "
+      "{}{}",
+      plan.participants, plan.groups.size(), plan.orders.size(),
+      below > 0 ? fmt::format("{} or ", below) : "", below + n_cells);
 }
 
 std::string checked(FileKind kind, const std::string& text, const std::string& path) {
@@ -112,6 +158,10 @@ std::string checked(FileKind kind, const std::string& text, const std::string& p
       return described(parse_synthetic_camera(text, path).optics);
     case FileKind::texts:
       return described(parse_texts(text, path));
+    case FileKind::display:
+      return described(parse_display(text, path));
+    case FileKind::study:
+      return described(parse_study(text, path));
   }
   return {};
 }
@@ -130,6 +180,9 @@ ExitCode validate(const std::string& path) {
       print("{}: ok, {}: {}\n", path, with_article(kind), summary);
       if (kind == FileKind::protocol)
         for (const std::string& caution : cautions(parse_protocol(text, path)))
+          say("{}: {}\n", path, caution);
+      if (kind == FileKind::study)
+        if (const std::string caution = caution_of(parse_study(text, path)); !caution.empty())
           say("{}: {}\n", path, caution);
     } catch (const InvalidFile& error) {
       say("{}\n{}: not valid as {}: {} mistake(s)\n", error.what(), path, with_article(kind),
@@ -160,7 +213,8 @@ void validate_all(const std::vector<std::string>& paths) {
 void add_validate(Command& app) {
   Command command = app.add_command(
       "validate",
-      "check protocols, procedure, scene, board, effector, synthetic camera and text files",
+      "check protocols, study plans, procedure, scene, board, effector, synthetic camera, display "
+      "and text files",
       {"heft validate protocols/paper.toml", "heft validate my_study/*.toml"});
   auto paths = std::make_shared<std::vector<std::string>>();
   command.add_option("FILE", paths.get(), "files to check; their kind is recognized").required();

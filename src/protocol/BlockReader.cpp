@@ -266,7 +266,42 @@ void check_breaks(std::vector<TableReader>& tables,
       tables[i].mistake("kind", "a break follows a break, expected one longer break");
   }
 }
+
+const std::string& name_of_block(const Block& block) {
+  return std::visit([](const auto& any) -> const std::string& { return any.name; }, block);
+}
+
+// The place of each named block in the file; a break stays between the blocks that it parts.
+std::vector<std::size_t> places_of(TableReader& protocol, const std::vector<Block>& blocks,
+                                   const std::vector<std::string>& order) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto found = std::ranges::find(blocks, order[i], name_of_block);
+    const auto place = static_cast<std::size_t>(found - blocks.begin());
+    if (found == blocks.end())
+      protocol.mistake("block_order", i, fmt::format("there is no block \"{}\"", order[i]));
+    else if (std::holds_alternative<BreakBlock>(*found))
+      protocol.mistake("block_order", i,
+                       fmt::format("\"{}\" is a break, which stays where it is", order[i]));
+    else if (std::ranges::count(places, place) > 0)
+      protocol.mistake("block_order", i, fmt::format("\"{}\" is there twice", order[i]));
+    places.push_back(place);
+  }
+  return places;
+}
 }  // namespace
+
+void read_block_order(TableReader& protocol, std::vector<Block>& blocks) {
+  std::vector<std::string> order;
+  protocol.read("block_order", order);
+  if (order.empty() || !protocol.good({"block"})) return;
+  const std::vector<std::size_t> wanted = places_of(protocol, blocks, order);
+  if (!protocol.good({"block_order"})) return;
+  std::vector<std::size_t> places = wanted;
+  std::ranges::sort(places);
+  const std::vector<Block> before = blocks;
+  for (std::size_t i = 0; i < places.size(); ++i) blocks[places[i]] = before[wanted[i]];
+}
 
 std::vector<Block> read_blocks(TableReader& protocol, const TechniqueNames& techniques) {
   NamesInUse names{techniques};

@@ -48,7 +48,7 @@ double largest_start_g(const ComparisonBlock& block, double reference_g) {
 
 class Forecast {
  public:
-  explicit Forecast(const TrialDurations& durations) : durations_(durations) {}
+  Forecast(const TrialDurations& durations, double gap_s) : durations_(durations), gap_s_(gap_s) {}
 
   void operator()(const DemonstrationBlock& block) { seconds_ += block.duration_s; }
   void operator()(const BreakBlock& block) { seconds_ += block.least_duration_s; }
@@ -74,17 +74,18 @@ class Forecast {
  private:
   void add_trials(double trials, double seconds_each) {
     length_.trials += trials;
-    seconds_ += trials * seconds_each;
+    seconds_ += trials * (seconds_each + gap_s_);
   }
 
   TrialDurations durations_;
+  double gap_s_;
   ExpectedLength length_;
   double seconds_ = 0;
 };
 }  // namespace
 
 ExpectedLength expected_length(const Protocol& protocol, const TrialDurations& durations) {
-  Forecast forecast(durations);
+  Forecast forecast(durations, protocol.onset.gap_s);
   for (const Block& block : protocol.blocks) std::visit(forecast, block);
   return forecast.length();
 }

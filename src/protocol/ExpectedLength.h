@@ -15,7 +15,7 @@ struct TrialDurations {
 
 struct ExpectedLength {
   double trials = 0;   ///< with catch trials
-  double minutes = 0;  ///< with demonstrations and least breaks
+  double minutes = 0;  ///< with demonstrations, least breaks and the gaps between trials
   int staircases = 0;
   double staircase_trials = 0;  ///< of all staircases together, without catch trials
 };

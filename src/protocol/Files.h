@@ -19,12 +19,23 @@ struct ScreenTexts;
 struct SyntheticSettings;
 
 /// What kind of file a TOML text is, by the keys at its top level.
-enum class FileKind { protocol, procedure, scene, board, effector, synthetic_camera, texts };
+enum class FileKind {
+  protocol,
+  procedure,
+  scene,
+  board,
+  effector,
+  synthetic_camera,
+  texts,
+  display,
+  study
+};
 template <>
 struct EnumNames<FileKind> {
-  static constexpr std::array<std::string_view, 7> names{
-      "protocol",      "procedure file",        "scene file", "board file",
-      "effector file", "synthetic camera file", "text file"};
+  static constexpr std::array<std::string_view, 9> names{
+      "protocol",   "procedure file", "scene file",
+      "board file", "effector file",  "synthetic camera file",
+      "text file",  "display file",   "study plan"};
 };
 
 /// The kind whose tables the text has, or else most of whose keys.

@@ -120,6 +120,7 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
   read_analysis(reader, protocol.analysis);
   read_exclusion(reader, protocol.exclusion);
   protocol.blocks = read_blocks(reader, TechniqueNames(protocol.techniques));
+  read_block_order(reader, protocol.blocks);
   read_layout(reader, protocol.layout, most_cubes(protocol.blocks));
   reader.close();
   mistakes.throw_if_any();

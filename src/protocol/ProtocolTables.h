@@ -39,6 +39,10 @@ class TechniqueNames {
 /// Reads and checks every block; those with mistakes may be left out.
 std::vector<Block> read_blocks(TableReader& protocol, const TechniqueNames& techniques);
 
+/// Puts the blocks that the key `block_order` names into that order, at the places that they have
+/// together in the file; others stay where they are.
+void read_block_order(TableReader& protocol, std::vector<Block>& blocks);
+
 /// Changes to a parsed file from the command line: "coupling.stiffness_n_per_m=100",
 /// "block.sorting.trials=4" (an array's table is named by its `name`, or by its kind).
 /// Puts each setting's value, written as in TOML, at its place in the tree. A key that the tree

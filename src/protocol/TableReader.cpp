@@ -213,6 +213,23 @@ void TableReader::read(std::string_view key, std::vector<double>& field, const R
   if (auto values = numbers(key, range, 0)) field = std::move(*values);
 }
 
+void TableReader::read(std::string_view key, std::vector<std::string>& field) {
+  const TomlEntry* entry = take(key);
+  if (!entry) return;
+  const std::string expected = "texts in quotes, in brackets, none of them empty";
+  const auto* array = std::get_if<TomlArray>(&entry->node.value);
+  if (!array || array->empty()) return refuse(entry->node, key, expected);
+  std::vector<std::string> texts;
+  for (const TomlNode& element : *array) {
+    const auto* text = std::get_if<std::string>(&element.value);
+    if (text && text->find_first_not_of(" \t") != std::string::npos)
+      texts.push_back(*text);
+    else
+      refuse(element, key, expected);
+  }
+  if (good({key})) field = std::move(texts);
+}
+
 void TableReader::read(std::string_view key, Eigen::Vector2d& field, const Range& range) {
   if (const auto values = numbers(key, range, 2)) field = Eigen::Vector2d(values->data());
 }

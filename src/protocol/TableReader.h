@@ -57,6 +57,8 @@ class TableReader {
   void read(std::string_view key, std::string& field);
   /// Any number of numbers, but not none.
   void read(std::string_view key, std::vector<double>& field, const Range& range = any_number);
+  /// Any number of texts that are not empty, but not none.
+  void read(std::string_view key, std::vector<std::string>& field);
   void read(std::string_view key, Eigen::Vector2d& field, const Range& range = any_number);
   void read(std::string_view key, Eigen::Vector3d& field, const Range& range = any_number);
   /// Any number of pairs [a, b], but not none; none after a mistake.

@@ -82,7 +82,8 @@ std::string tables() {
 // v_trial: a row an attempt, with what was in force. v_jnd: a row a staircase that ended.
 // v_sorting: a row a completed sorting trial, with the mass of the cube that carries each label at
 // its end (NULL: no cube does). v_frame: how far the clone was seen beside the effector; degrees of
-// visual angle where the display was measured (small angles: the arc is the chord).
+// visual angle where the display was measured (small angles: the arc is the chord); v_trial has the
+// largest of a trial's frames.
 const char* const views = R"sql(
 CREATE VIEW v_trial AS
 SELECT s.session_id, s.participant, s.protocol_name, s.purpose, u.responder, u.simulator,
@@ -100,6 +101,9 @@ SELECT s.session_id, s.participant, s.protocol_name, s.purpose, u.responder, u.s
   (SELECT sum(contact_s) FROM cube c WHERE c.trial_id = t.trial_id) AS contact_s,
   (SELECT max(deepest_push_m) FROM cube c WHERE c.trial_id = t.trial_id) AS deepest_push_m,
   (SELECT max(peak_lag_m) FROM cube c WHERE c.trial_id = t.trial_id) AS peak_lag_m,
+  (SELECT max(clone_offset_px) FROM frame f WHERE f.trial_id = t.trial_id)
+    * u.display_w_mm / u.display_w_px / u.eye_distance_mm * 57.29577951308232
+    AS peak_clone_offset_deg,
   t.started_s, t.shown_s, t.first_contact_s, t.first_choice_s, t.validated_s, t.paused_s, t.lost_s,
   t.ended_s,
   t.validated_s - t.shown_s - t.paused_s - t.lost_s AS response_time_s

@@ -15,6 +15,8 @@
 
 namespace heft {
 
+class EventOutlet;
+
 /// What a session is run with.
 struct SessionParts {
   const Protocol& protocol;
@@ -40,6 +42,8 @@ struct RunnerOptions {
   /// What is to be said where there is no console.
   std::function<void(const std::string&)> tell = [](const std::string&) {};
   Console* console = nullptr;  ///< the experimenter's; only on a wall clock
+  /// Other recorders, told of each event that is on disk; null: there are none.
+  EventOutlet* events = nullptr;
   /// Go on although the check failed, where nobody can be asked.
   bool go_on_unchecked = false;
 };

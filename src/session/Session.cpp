@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <random>
 
+#include "apparatus/AnnouncingSink.h"
 #include "base/Build.h"
 #include "base/Error.h"
 #include "base/Printable.h"
@@ -75,6 +76,7 @@ SessionHeader header_of(const SessionRequest& request, const Setup& setup) {
   header.purpose = has_person(request.setup) ? request.purpose : Purpose::simulated;
   header.responder = request.setup.responder;
   header.started_utc = utc_now();
+  header.participant_info = request.participant_info;
   return header;
 }
 
@@ -118,15 +120,25 @@ struct Reopened {
       events.push_back(logged.event);
     }
   }
-  void append(const Event& event) { log.append(event, engine.apply(event), Durability::buffered); }
+  void append(const Event& event) {
+    sink->append(event, engine.apply(event), Durability::buffered);
+  }
   void close_attempt(std::string_view why) {
     if (engine.trial_is_open()) append({engine.last_s(), TrialVoided{std::string(why)}});
   }
 
   SessionLog log;
+  EventSink* sink = &log;
   Engine engine;
   std::vector<Event> events;
 };
+
+// The log, or what tells others of its events too.
+EventSink& heard_by_others(std::optional<AnnouncingSink>& announcing, SessionLog& log,
+                           const RunnerOptions& runner, const std::string& participant) {
+  if (!runner.events) return log;
+  return announcing.emplace(log, *runner.events, log.session_id(), participant);
+}
 
 // From here on this is in force.
 void tell_setup(Engine& engine, EventSink& sink, const Setup& setup) {
@@ -160,10 +172,13 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   const Setup setup = equipment.told_by_devices(request.setup);
   Engine engine(protocol, request.seed);
   const Event told{0, setup};
-  SessionLog log = SessionLog::start(request.db, header_of(request, setup),
-                                     RecordedEvent{told, engine.apply(told)});
-  const RunEnd end = run_with(equipment, engine, log, runner, 0);
-  log.flush();  // it is still where it is thought to be
+  const RecordedEvent first{told, engine.apply(told)};
+  SessionLog log = SessionLog::start(request.db, header_of(request, setup), first);
+  std::optional<AnnouncingSink> announcing;
+  EventSink& sink = heard_by_others(announcing, log, runner, request.participant);
+  if (announcing) announcing->announce(first.event, first.changes);
+  const RunEnd end = run_with(equipment, engine, sink, runner, 0);
+  sink.flush();  // it is still where it is thought to be
   return result_of(engine, end, log.session_id());
 }
 
@@ -222,17 +237,21 @@ void change_setup(LoggedSession& session, const GivenOptions& again) {
 SessionResult resume_session(const LoggedSession& session, const RunnerOptions& runner) {
   Equipment equipment(session.protocol, with_next_parts(session.setup), session.row.header.seed);
   Reopened reopened(session);
+  std::optional<AnnouncingSink> announcing;
+  EventSink& sink =
+      heard_by_others(announcing, reopened.log, runner, session.row.header.participant);
+  reopened.sink = &sink;
   const double last_s = reopened.engine.last_s();
   reopened.close_attempt(void_interrupted);
   const double now_s = log_time(std::max(last_s, seconds_since(session.row.header.started_utc)));
   reopened.append({now_s, SessionResumed{utc_now(), now_s - last_s}});
   if (const Setup setup = equipment.told_by_devices(session.setup);
       setup != session.setups.back().setup)
-    tell_setup(reopened.engine, reopened.log, setup);
-  reopened.log.flush();  // all of the return or nothing of it
-  const RunEnd end = run_with(equipment, reopened.engine, reopened.log, runner, now_s,
+    tell_setup(reopened.engine, sink, setup);
+  sink.flush();  // all of the return or nothing of it
+  const RunEnd end = run_with(equipment, reopened.engine, sink, runner, now_s,
                               gone_through(reopened.events, session.row.header.participant_info));
-  reopened.log.flush();
+  sink.flush();
   return result_of(reopened.engine, end, session.row.session_id);
 }
 

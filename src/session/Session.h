@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,8 @@ struct SessionRequest {
   std::string db = "heft.db";
   std::uint64_t seed = 0;
   Purpose purpose = Purpose::main;  ///< of a person's session
+  /// What is known of the participant beforehand: their place in a study.
+  std::map<std::string, std::string> participant_info = {};
   bool again = false;  ///< one more session of a participant who finished this protocol
 };
 

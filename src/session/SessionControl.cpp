@@ -58,11 +58,22 @@ std::vector<Touch> SessionControl::poll(double seconds) {
   if (!has_screen_) std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   if (std::ranges::any_of(touches, [](const Touch& t) { return t.kind == TouchKind::close; }))
     leaving_ = true;
+  note_window();
   journal_.flush_now_and_then();
   if (!console_) return touches;
   while (const auto command = console_->command()) obey(*command);
   show();
   return touches;
+}
+
+// How it stood at first is in the setup; F11 changes it.
+void SessionControl::note_window() {
+  const std::optional<bool> full = screen_.is_full_screen();
+  const bool is_over = journal_.engine().next().kind == Next::Kind::over;
+  if (full && full_screen_ && *full != *full_screen_ && !is_over)
+    journal_.emit_now(Note{*full ? "the window is full screen now"
+                                 : "the window is not full screen any more"});
+  if (full) full_screen_ = full;
 }
 
 void SessionControl::show() {

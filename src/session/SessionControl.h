@@ -27,6 +27,8 @@ class ParticipantScreen {
   std::optional<double> present(const ViewFrame& frame, const ScreenState& screen);
 
   std::vector<Touch> wait(double seconds) { return view_.wait(seconds); }
+  /// As ArView::is_full_screen.
+  std::optional<bool> is_full_screen() const { return view_.is_full_screen(); }
   /// As ArView::clone_offset_px.
   std::optional<double> clone_offset_px() const { return view_.clone_offset_px(); }
 
@@ -91,6 +93,7 @@ class SessionControl {
 
  private:
   std::vector<Touch> poll(double seconds);
+  void note_window();
   void obey(const ConsoleCommand& command);
   void veto(const std::string& why);
   void veto_answer(const std::string& why);
@@ -106,6 +109,7 @@ class SessionControl {
   bool has_screen_;
   std::function<void()> check_;
   std::optional<Answer> answer_;  // to what is being asked
+  std::optional<bool> full_screen_;
   bool leaving_ = false, holding_ = false, asking_ = false;
   bool rest_wanted_ = false, check_wanted_ = false, unblinded_ = false;
 };

@@ -63,6 +63,8 @@ class ArView {
 
   /// Where it is shown; none: on no display.
   virtual std::optional<DisplayFacts> display() const { return std::nullopt; }
+  /// Whether the window fills the display; none: there is no window.
+  virtual std::optional<bool> is_full_screen() const { return std::nullopt; }
   /// Pixels of the display from the middle of the effector to its clone's, in the frame presented
   /// last; none: not both were shown.
   virtual std::optional<double> clone_offset_px() const { return std::nullopt; }

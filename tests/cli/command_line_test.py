@@ -186,6 +186,31 @@ class Output(CommandLine):
         self.assertEqual(self.completed("heft", "calibrate", "camera", "--exp"), ["--exposure-ms"])
         self.assertEqual(self.completed("heft", "run", "proto"), [])  # bash's own: files
 
+    def test_zsh_completes_the_same(self):
+        zsh = shutil.which("zsh")
+        if not zsh:
+            self.skipTest("needs zsh")
+        for words, expected in ((["heft", "res"], "resume"), (["heft", "run", "--part"],
+                                                              "--participant")):
+            script = ("compdef() { }; _files() { }; compadd() { shift; print -l -- $@; }\n"
+                      + self.run_heft("completion", "zsh").stdout
+                      + f"words=({' '.join(words)}) CURRENT={len(words)}\n_heft_completion\n")
+            done = subprocess.run([zsh, "-f", "-c", script], capture_output=True, text=True)
+            self.assertEqual(done.stderr, "")
+            self.assertIn(expected, done.stdout.split())
+
+    def test_fish_completes_the_same(self):
+        fish = shutil.which("fish")
+        if not fish:
+            self.skipTest("needs fish")
+        script = self.run_heft("completion", "fish").stdout
+        for line, expected in (("heft res", "resume"), ("heft run --part", "--participant"),
+                               ("heft calibrate c", "camera")):
+            done = subprocess.run([fish, "-N", "-c", script + f"complete -C '{line}'\n"],
+                                  capture_output=True, text=True)
+            self.assertIn(expected, done.stdout.split())
+            self.assertEqual(done.stdout.split().count(expected), 1, done.stdout)
+
     def test_the_manual_page_has_every_command(self):
         page = self.run_heft("completion", "man").stdout
         for line in (".TH HEFT 1", ".SS heft run", ".SS heft calibrate camera"):

@@ -74,10 +74,13 @@ class AtAConsole(unittest.TestCase):
         self.db = str(self.folder / "console.db")
 
     def start(self, *options, protocol=PROTOCOLS / "quick.toml"):
+        self.start_as([str(protocol), "--participant", "07"], *options)
+
+    def start_as(self, whom, *options):
         self.screen = Screen()
         self.addCleanup(self.screen.close)
-        self.terminal = Terminal(
-            [HEFT, "run", str(protocol), "--participant", "07", "--db", self.db, "--seed", "5", "--purpose", "test", *options], self.screen.environment())
+        self.terminal = Terminal([HEFT, "run", *whom, "--db", self.db, "--seed", "5", "--purpose",
+                                  "test", *options], self.screen.environment())
         self.addCleanup(self.end)
         self.person = Person(self.screen, self.db, self.terminal.program)
 
@@ -235,6 +238,35 @@ class DemonstrationAlone(AtAConsole):
         self.assertEqual(self.n("paused"), 0)
         self.person.take_part(30)
         self.wait_for_end()
+
+
+@unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")
+class OfAStudy(AtAConsole):
+    def test_the_desk_has_the_participants_place_and_stays_blind(self):
+        plan = self.folder / "STUDY.toml"
+        plan.write_text(f"""study = "mass"
+participants = 24
+protocol = "{PROTOCOLS / 'quick.toml'}"
+backup = "copies"
+[order]
+blocks = ["sorting", "comparison"]
+[[group]]
+name = "heavy ones"
+[[group]]
+name = "light ones"
+""")
+        self.start_as(["--plan", str(plan), "--participant", "07"], "--tracker", "hand")
+        self.shows("7 of 24  0:0")
+        self.shows("welcome")
+        self.assertNotIn("ones", self.terminal.shown)
+        self.assertNotIn("sorting", self.terminal.shown)
+        self.terminal.press("ey")
+        self.shows("backup, checked: ")
+        self.terminal.program.wait()
+        self.assertEqual(self.terminal.program.returncode, 130)
+        copy, = (self.folder / "copies").iterdir()
+        self.assertEqual(query(copy, "select value from participant_info where key = "
+                                     "'study_place'"), [("7",)])
 
 
 @unittest.skipUnless(shutil.which("Xvfb") and shutil.which("xdotool"), "needs Xvfb and xdotool")

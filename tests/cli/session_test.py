@@ -106,6 +106,11 @@ class Running(SessionTest):
         done = self.run_heft("demo", cwd=self.folder, timeout=3000)
         self.assertIn("published", done.stdout)
         self.assertTrue((self.folder / "heft-demo/report/report.html").exists())
+        *sentences, report = done.stderr.splitlines()[-4:]
+        for sentence, begin in zip(sentences, ("Sorting: ", "Comparisons: ", "What they can't say: ")):
+            self.assertTrue(sentence.startswith(begin) and sentence.endswith("."), sentence)
+        self.assertIn("a model answered, so nothing of this is about people", sentences[2])
+        self.assertTrue(report.endswith("heft-demo/report/report.html"), report)
         self.run_heft("replay", "--db", self.folder / "heft-demo/demo.db")
 
 

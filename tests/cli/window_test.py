@@ -170,6 +170,22 @@ class Window(unittest.TestCase):
         replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
 
+    def test_a_window_that_is_made_smaller_is_noted(self):
+        person = self.start("--tracker", "hand", "--display", "0")
+        notes = "select detail from event where kind = 'note' order by event_id"
+        deadline = time.time() + 60
+        while not person.page() and time.time() < deadline:
+            time.sleep(0.1)
+        for told in (["the window is not full screen any more"],
+                     ["the window is not full screen any more", "the window is full screen now"]):
+            time.sleep(0.5)
+            self.screen.key("F11")
+            while [text for text, in person.log(notes)] != told and time.time() < deadline:
+                time.sleep(0.1)
+            self.assertEqual([text for text, in person.log(notes)], told)
+        self.program.terminate()
+        self.program.wait(timeout=60)
+
     def drag(self, start, end):
         """With the mouse, in steps as a hand would."""
         steps = 12

@@ -46,7 +46,9 @@ class Programs(Installed):
         heft, db = prefix / "bin/heft", self.folder / "lab.db"
         protocols = prefix / "share/heft/protocols"
         self.assertIn(".SS heft run", (prefix / "share/man/man1/heft.1").read_text())
-        self.assertTrue((prefix / "share/bash-completion/completions/heft").exists())
+        for completion in ("bash-completion/completions/heft", "zsh/vendor-completions/_heft",
+                           "fish/vendor_completions.d/heft.fish"):
+            self.assertTrue((prefix / "share" / completion).exists(), completion)
         self.assertRegex(self.must(heft, "--version", env=BARE).stdout, r"^heft \d+\.\d+\.\d+")
         self.must(heft, "validate", *sorted(protocols.glob("*.toml")), env=BARE)
         self.must(heft, "simulate", protocols / "jnd.toml", "--participants", 1, "--seed", 1,

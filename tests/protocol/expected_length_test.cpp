@@ -22,7 +22,7 @@ TEST(ExpectedLength, AddsUpBlocks) {
                      BreakBlock{"b", 60}};
   const ExpectedLength length = expected_length(protocol, {12, 20, 5});
   EXPECT_DOUBLE_EQ(length.trials, 11);
-  EXPECT_DOUBLE_EQ(length.minutes, (30 + 12 + 10 * 20 + 60) / 60.0);
+  EXPECT_DOUBLE_EQ(length.minutes, (30 + 12.6 + 10 * 20.6 + 60) / 60.0);
 }
 
 TEST(ExpectedLength, CountsCatchTrials) {

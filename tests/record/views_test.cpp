@@ -97,6 +97,7 @@ TEST_F(views, a_frame_tells_the_clones_offset_as_it_was_seen) {
   EXPECT_EQ(of("SELECT clone_offset_mm FROM v_frame ORDER BY frame_id"), "6.0");
   EXPECT_EQ(of("SELECT round(clone_offset_deg, 4) FROM v_frame ORDER BY frame_id"), "0.7639");
   EXPECT_EQ(of("SELECT count(clone_offset_deg) FROM v_frame"), "1");
+  EXPECT_EQ(of("SELECT round(peak_clone_offset_deg, 4) FROM v_trial"), "0.7639");
 }
 
 TEST_F(views, jnd_names_the_reference_of_its_staircase) {

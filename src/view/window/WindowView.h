@@ -32,6 +32,7 @@ class WindowView final : public ArView {
   std::optional<double> present(const ViewFrame& shown, const ScreenState& screen) override;
   std::vector<Touch> wait(double seconds) override;
   std::optional<DisplayFacts> display() const override { return window_.display(); }
+  std::optional<bool> is_full_screen() const override { return window_.is_full_screen(); }
   std::optional<double> clone_offset_px() const override { return clone_offset_px_; }
 
   const Measures& measures() const { return measures_; }

@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+"""Heft's events as a Lab Streaming Layer stream of markers, a line of JSON each.
+
+    pip install pylsl
+    python3 lsl_bridge.py 5005 &
+    heft run PROTOCOL --participant 07 --events udp:127.0.0.1:5005
+
+A marker's time stamp is the event's own time: the smallest delay seen so far between an event and
+its arrival is taken for that of the way here, so that a late datagram moves no marker.
+"""
+import json
+import socket
+import sys
+from datetime import datetime
+
+import pylsl
+
+
+def main(port):
+    info = pylsl.StreamInfo("heft", "Markers", 1, pylsl.IRREGULAR_RATE, "string", f"heft-{port}")
+    outlet = pylsl.StreamOutlet(info)
+    events = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    events.bind(("127.0.0.1", port))
+    offset_s = {}  # of each session: from UTC to LSL's clock
+    while True:
+        line = events.recv(65536).decode().strip()
+        arrived_s = pylsl.local_clock()
+        event = json.loads(line)
+        utc_s = datetime.fromisoformat(event["utc"].replace("Z", "+00:00")).timestamp()
+        key = event["session"]
+        offset_s[key] = min(offset_s.get(key, float("inf")), arrived_s - utc_s)
+        outlet.push_sample([line], utc_s + offset_s[key])
+        print(f"{event['t_s']:10.3f} s  {event['kind']}", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 5005)

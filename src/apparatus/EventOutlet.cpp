@@ -1,0 +1,185 @@
+#include "apparatus/EventOutlet.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <netdb.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "base/Error.h"
+#include "base/Printable.h"
+
+namespace heft {
+
+namespace {
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  int number() const { return number_; }
+  bool is_open() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+[[noreturn]] void refuse(const std::string& spec, const std::string& why) {
+  throw Error(fmt::format("--events {}: {}, expected udp:HOST:PORT, fifo:PATH or serial:DEVICE",
+                          printable(spec), why),
+              ExitCode::usage);
+}
+
+[[noreturn]] void miss(const std::string& spec, const std::string& why) {
+  throw Error(fmt::format("--events {}: {}", printable(spec), why), ExitCode::device_missing);
+}
+}  // namespace
+
+class EventOutlet::Way {
+ public:
+  virtual ~Way() = default;
+  /// @return whether all of it was taken, or will be before the next
+  virtual bool hand_over(const std::string& line) = 0;
+};
+
+namespace {
+class Datagrams final : public EventOutlet::Way {
+ public:
+  Datagrams(const std::string& host, const std::string& port, const std::string& spec) {
+    addrinfo wanted{}, *found = nullptr;
+    wanted.ai_socktype = SOCK_DGRAM;
+    wanted.ai_flags = AI_NUMERICSERV;
+    if (const int error = getaddrinfo(host.c_str(), port.c_str(), &wanted, &found); error != 0)
+      miss(spec, fmt::format("{}: {}", host, gai_strerror(error)));
+    for (const addrinfo* one = found; one && !socket_.is_open(); one = one->ai_next) {
+      Descriptor socket(::socket(one->ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+      if (socket.is_open() && connect(socket.number(), one->ai_addr, one->ai_addrlen) == 0)
+        socket_ = std::move(socket);
+    }
+    freeaddrinfo(found);
+    if (!socket_.is_open()) miss(spec, std::strerror(errno));
+  }
+
+  // That nobody listened to the one before is told now, and is no reason not to send this one.
+  bool hand_over(const std::string& line) override {
+    return sends(line) || (errno == ECONNREFUSED && sends(line));
+  }
+
+ private:
+  bool sends(const std::string& line) {
+    return ::send(socket_.number(), line.data(), line.size(), MSG_NOSIGNAL) ==
+           static_cast<ssize_t>(line.size());
+  }
+  Descriptor socket_;
+};
+
+// Opened when there is a reader, and again when there is another one.
+class NamedPipe final : public EventOutlet::Way {
+ public:
+  NamedPipe(std::string path, const std::string& spec) : path_(std::move(path)) {
+    struct stat there {};
+    if (stat(path_.c_str(), &there) != 0)
+      miss(spec,
+           fmt::format("there is no such pipe; make it with: mkfifo {}", shell_quoted(path_)));
+    if (!S_ISFIFO(there.st_mode)) refuse(spec, fmt::format("{} is no named pipe", path_));
+  }
+
+  bool hand_over(const std::string& line) override {
+    if (!pipe_.is_open())
+      pipe_ = Descriptor(open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
+    if (!pipe_.is_open()) return false;
+    if (write(pipe_.number(), line.data(), line.size()) == static_cast<ssize_t>(line.size()))
+      return true;
+    if (errno == EPIPE) pipe_ = Descriptor();
+    return false;
+  }
+
+ private:
+  std::string path_;
+  Descriptor pipe_;
+};
+
+// A line that was begun is ended before the next one.
+class SerialLine final : public EventOutlet::Way {
+ public:
+  SerialLine(const std::string& device, const std::string& spec)
+      : line_(open(device.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
+    if (!line_.is_open()) miss(spec, std::strerror(errno));
+    termios settings{};
+    if (tcgetattr(line_.number(), &settings) != 0)
+      refuse(spec, fmt::format("{} is no serial line", device));
+    cfmakeraw(&settings);
+    settings.c_cflag |= CLOCAL;
+    cfsetspeed(&settings, B115200);
+    tcsetattr(line_.number(), TCSANOW, &settings);
+  }
+
+  bool hand_over(const std::string& line) override {
+    write_some();
+    if (!rest_.empty()) return false;
+    rest_ = line;
+    write_some();
+    if (rest_.size() < line.size() || rest_.empty()) return true;
+    rest_.clear();
+    return false;
+  }
+
+ private:
+  void write_some() {
+    const ssize_t n = rest_.empty() ? 0 : write(line_.number(), rest_.data(), rest_.size());
+    if (n > 0) rest_.erase(0, static_cast<std::size_t>(n));
+  }
+  Descriptor line_;
+  std::string rest_;
+};
+
+std::unique_ptr<EventOutlet::Way> datagrams_to(const std::string& target, const std::string& spec) {
+  const auto colon = target.rfind(':');
+  if (colon == std::string::npos || colon == 0) refuse(spec, "there is no HOST:PORT");
+  std::string host = target.substr(0, colon);
+  const std::string port = target.substr(colon + 1);
+  if (host.size() > 2 && host.front() == '[' && host.back() == ']')
+    host = host.substr(1, host.size() - 2);
+  else if (host.find(':') != std::string::npos)
+    refuse(spec, "an address with colons stands in brackets");
+  const bool is_number = !port.empty() && port.size() <= 5 &&
+                         port.find_first_not_of("0123456789") == std::string::npos;
+  if (!is_number || std::stoi(port) < 1 || std::stoi(port) > 65535)
+    refuse(spec, fmt::format("\"{}\" is no port from 1 to 65535", printable(port)));
+  return std::make_unique<Datagrams>(host, port, spec);
+}
+
+std::unique_ptr<EventOutlet::Way> way_to(const std::string& spec) {
+  const auto colon = spec.find(':');
+  if (colon == std::string::npos) refuse(spec, "there is no colon");
+  const std::string kind = spec.substr(0, colon), target = spec.substr(colon + 1);
+  if (target.empty()) refuse(spec, "there is nothing after the colon");
+  if (kind == "udp") return datagrams_to(target, spec);
+  if (kind == "fifo") return std::make_unique<NamedPipe>(target, spec);
+  if (kind == "serial") return std::make_unique<SerialLine>(target, spec);
+  refuse(spec, fmt::format("\"{}\" is no such way", printable(kind)));
+}
+}  // namespace
+
+EventOutlet::EventOutlet(const std::string& spec) : way_(way_to(spec)) {}
+EventOutlet::~EventOutlet() = default;
+
+void EventOutlet::send(const std::string& line) {
+  constexpr std::size_t longest = 4096;  // what a pipe takes whole or not at all (PIPE_BUF)
+  const bool is_taken = line.size() < longest && way_->hand_over(line + '\n');
+  ++(is_taken ? n_sent_ : n_dropped_);
+}
+
+}  // namespace heft

@@ -1,0 +1,151 @@
+#include "apparatus/StudyPlaces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/Error.h"
+#include "base/TextFile.h"
+
+namespace heft {
+
+namespace {
+std::string value_of(const ParticipantInfo& info, const char* key) {
+  const auto found = info.find(key);
+  return found == info.end() ? "" : found->second;
+}
+
+int whole(const std::string& text) {
+  return static_cast<int>(number_in(text).value_or(0));
+}
+
+bool counts(const SessionRow& session, const StudyPlan& plan, Purpose purpose) {
+  return session.header.purpose == purpose &&
+         value_of(session.header.participant_info, "study") == plan.name;
+}
+
+// A plan that was edited so that places mean something else would give some twice and others never.
+void refuse_other_place(const SessionRow& session, const LoggedPlace& logged,
+                        const StudyPlan& plan) {
+  std::string now = fmt::format("has only {} places", plan.participants);
+  if (logged.number >= 1 && logged.number <= plan.participants) {
+    const auto planned = info_of(plan, place_in(plan, logged.number));
+    if (planned.at("study_group") == logged.group && planned.at("study_order") == logged.order)
+      return;
+    now = fmt::format("gives group \"{}\", order \"{}\"", planned.at("study_group"),
+                      planned.at("study_order"));
+  }
+  throw Error(
+      fmt::format("session {} of participant {} has place {} of the study \"{}\" (group "
+                  "\"{}\", order \"{}\"), but the plan now {}: its groups, orders, seed or "
+                  "number of participants were changed. Undo that, or give the changed "
+                  "study another name",
+                  session.session_id, session.header.participant, logged.number, plan.name,
+                  logged.group, logged.order, now));
+}
+
+std::map<int, const SessionRow*> taken_places(const StudyPlan& plan,
+                                              const std::vector<SessionRow>& sessions,
+                                              Purpose purpose) {
+  std::map<int, const SessionRow*> taken;
+  for (const SessionRow& session : sessions) {
+    if (!counts(session, plan, purpose)) continue;
+    const auto logged = place_of(session.header.participant_info);
+    if (!logged) continue;
+    refuse_other_place(session, *logged, plan);
+    if (session.state != SessionState::aborted) taken[logged->number] = &session;
+  }
+  return taken;
+}
+
+bool is_in(const std::vector<SessionRow>& sessions, const std::string& id) {
+  return std::ranges::any_of(
+      sessions, [&](const SessionRow& session) { return session.header.participant == id; });
+}
+
+// As the plan calls them; P07b where a P07 began and was ended.
+std::string fresh_id(const StudyPlan& plan, int number, const std::vector<SessionRow>& sessions) {
+  const std::string planned = planned_id(plan, number);
+  std::string id = planned;
+  for (char letter = 'b'; is_in(sessions, id) && letter <= 'z'; ++letter) id = planned + letter;
+  return id;
+}
+
+// Blanks, hyphens and zeros at the beginning of a number mean nothing to people, nor do capitals;
+// O is taken for 0, l and I for 1.
+std::string folded(const std::string& id) {
+  std::string plain;
+  for (const char c : id) {
+    if (c == ' ' || c == '\t' || c == '-' || c == '_' || c == '.') continue;
+    const char small = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    plain += small == 'o' ? '0' : small == 'l' || small == 'i' ? '1' : small;
+  }
+  std::string folded;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const auto is_digit = [&](std::size_t k) { return plain[k] >= '0' && plain[k] <= '9'; };
+    const bool leads =
+        plain[i] == '0' && (i == 0 || !is_digit(i - 1)) && i + 1 < plain.size() && is_digit(i + 1);
+    if (leads)
+      plain[i] = ' ';  // so that the next zero leads too
+    else
+      folded += plain[i];
+  }
+  return folded;
+}
+}  // namespace
+
+std::optional<LoggedPlace> place_of(const ParticipantInfo& info) {
+  if (value_of(info, "study").empty()) return std::nullopt;
+  return LoggedPlace{value_of(info, "study"),
+                     value_of(info, "study_group"),
+                     value_of(info, "study_order"),
+                     whole(value_of(info, "study_place")),
+                     whole(value_of(info, "study_participants")),
+                     value_of(info, "study_backup")};
+}
+
+std::string place_words(const ParticipantInfo& info) {
+  const auto place = place_of(info);
+  return place ? fmt::format("{} of {}", place->number, place->participants) : "";
+}
+
+PlannedParticipant planned_participant(const StudyPlan& plan,
+                                       const std::vector<SessionRow>& sessions, Purpose purpose,
+                                       const std::optional<std::string>& id) {
+  const auto taken = taken_places(plan, sessions, purpose);
+  const auto is_free = [&](int number) { return !taken.contains(number); };
+  const auto given = [&](int number, const std::string& participant) {
+    return PlannedParticipant{place_in(plan, number), participant};
+  };
+  if (id) {
+    for (const auto& [number, session] : taken)
+      if (session->header.participant == *id) return given(number, *id);
+    for (int number = 1; number <= plan.participants; ++number)
+      if (is_free(number) && planned_id(plan, number) == *id) return given(number, *id);
+  }
+  for (int number = 1; number <= plan.participants; ++number)
+    if (is_free(number)) return given(number, id.value_or(fresh_id(plan, number, sessions)));
+  throw Error(
+      fmt::format("all {} participants of the study \"{}\" have their sessions; to go on, "
+                  "plan more: a larger `participants` leaves the places before as they are",
+                  plan.participants, plan.name));
+}
+
+ParticipantInfo info_of(const StudyPlan& plan, const StudyPlace& place) {
+  const StudyGroup& group = plan.groups[static_cast<std::size_t>(place.group)];
+  return {{"study", plan.name},
+          {"study_sha256", plan.sha256},
+          {"study_place", fmt::format("{}", place.number)},
+          {"study_participants", fmt::format("{}", plan.participants)},
+          {"study_group", group.name},
+          {"study_order", described(plan.orders[static_cast<std::size_t>(place.order)])}};
+}
+
+std::optional<std::string> near_id(const std::string& id, const std::vector<SessionRow>& sessions) {
+  if (is_in(sessions, id)) return std::nullopt;
+  for (const SessionRow& session : sessions)
+    if (folded(session.header.participant) == folded(id)) return session.header.participant;
+  return std::nullopt;
+}
+
+}  // namespace heft

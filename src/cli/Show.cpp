@@ -1,0 +1,244 @@
+// heft show: one session of a log: how far it is, what was in force, and what the experimenter and
+// the apparatus had to say.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apparatus/LoggedSession.h"
+#include "base/Error.h"
+#include "base/Printable.h"
+#include "cli/Commands.h"
+#include "cli/SessionFacts.h"
+#include "cli/Terminal.h"
+#include "record/EventRow.h"
+#include "record/SetupJson.h"
+#include "session/Session.h"
+
+namespace heft::cli {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+// What is told of the session's course, in order; trials are counted instead.
+bool is_worth_telling(const Event& event) {
+  switch (event.kind()) {
+    case EventKind::note:
+    case EventKind::deviation:
+    case EventKind::unblinding:
+    case EventKind::paused:
+    case EventKind::continued:
+    case EventKind::resumed:
+    case EventKind::rest:
+    case EventKind::consent:
+    case EventKind::answer_vetoed:
+    case EventKind::ended:
+      return true;
+    default:
+      return false;
+  }
+}
+
+struct BlockProgress {
+  std::string block;
+  int n_completed = 0, n_void = 0;
+};
+
+// In the order in which they came.
+std::vector<BlockProgress> progress_of(const std::vector<TrialRow>& trials) {
+  std::vector<BlockProgress> blocks;
+  for (const TrialRow& trial : trials) {
+    auto found = std::ranges::find(blocks, trial.plan.block, &BlockProgress::block);
+    if (found == blocks.end()) found = blocks.insert(blocks.end(), {trial.plan.block});
+    found->n_completed += trial.status == TrialStatus::completed ? 1 : 0;
+    found->n_void += trial.status == TrialStatus::voided ? 1 : 0;
+  }
+  return blocks;
+}
+
+struct Shown {
+  SessionFacts facts;
+  std::vector<LoggedEvent> events;
+  std::vector<TrialRow> trials;
+  std::vector<LoggedSetup> setups;
+};
+
+Shown read(const std::string& db, std::optional<std::int64_t> session_id) {
+  refuse_special_file(db);
+  const LogReader reader(db);
+  const auto sessions = reader.sessions();
+  if (sessions.empty()) throw Error(fmt::format("{} holds no session yet", db));
+  const SessionRow row = session_id ? reader.session(*session_id) : sessions.back();
+  const std::int64_t id = row.session_id;
+  return {facts_of(reader, row), reader.events(id), reader.trials(id), reader.setups(id)};
+}
+
+// The participant's own answers, without what a study's plan gave.
+std::map<std::string, std::string> told_by_participant(const SessionRow& row) {
+  auto told = row.header.participant_info;
+  std::erase_if(told, [](const auto& entry) {
+    return entry.first == "study" || entry.first.starts_with("study_");
+  });
+  return told;
+}
+
+std::string minutes(double t_s) {
+  const auto seconds = static_cast<long>(t_s);
+  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+}
+
+void print_head(const SessionFacts& facts) {
+  const SessionHeader& header = facts.row.header;
+  print("session {}: participant {}, protocol {}, purpose {}, seed {}\n", facts.row.session_id,
+        escaped_line(header.participant), escaped_line(header.protocol_name),
+        name_of(header.purpose), header.seed);
+  if (const auto& place = facts.place)
+    print("study {}: {} of {}{}{}\n", escaped_line(place->study), place->number,
+          place->participants, place->group.empty() ? "" : ", group " + escaped_line(place->group),
+          place->order.empty() ? "" : ", order " + escaped_line(place->order));
+  print("{}: {} trials completed, {} void, {} minutes of session time; started {}\n",
+        name_of(facts.row.state), trials_text(facts), facts.n_void, minutes(facts.duration_s),
+        header.started_utc);
+}
+
+void print_progress(const std::vector<TrialRow>& trials) {
+  const auto blocks = progress_of(trials);
+  if (!blocks.empty()) print("\ntrials by block\n");
+  for (const BlockProgress& block : blocks)
+    print("  {}: {} completed{}\n", escaped_line(block.block), block.n_completed,
+          block.n_void > 0 ? fmt::format(", {} void", block.n_void) : "");
+  for (const TrialRow& trial : trials)
+    if (trial.status == TrialStatus::voided)
+      print("  void: trial {}, attempt {}, at {}: {}\n", trial.plan.trial_number,
+            trial.plan.attempt, minutes(trial.ended_s.value_or(trial.started_s)),
+            escaped_line(trial.void_reason.value_or("")));
+}
+
+void print_setups(const std::vector<LoggedSetup>& setups) {
+  print("\nsetups\n");
+  const Setup* before = nullptr;
+  for (const LoggedSetup& logged : setups) {
+    print("  from event {}:", logged.from_event);
+    if (!before) {
+      const Setup& setup = logged.setup;
+      print(" responder {}, tracker {}, simulator {}, view {}{}\n", escaped_line(setup.responder),
+            escaped_line(setup.tracker), escaped_line(setup.simulator), escaped_line(setup.view),
+            setup.display.empty() ? "" : ", display " + escaped_line(setup.display));
+    } else {
+      std::string changes;
+      for (const auto& [column, from, to] : changes_between(*before, logged.setup))
+        changes += fmt::format("{} {} {} instead of {}", changes.empty() ? "" : ",", column,
+                               to.empty() ? "none" : escaped_line(to),
+                               from.empty() ? "none" : escaped_line(from));
+      print("{}\n", changes);
+    }
+    before = &logged.setup;
+  }
+}
+
+void print_checks(const std::vector<LoggedEvent>& events) {
+  bool any = false;
+  for (const LoggedEvent& logged : events)
+    if (const auto* check = logged.event.as<CheckResult>()) {
+      if (!std::exchange(any, true)) print("\nchecks of the apparatus\n");
+      print("  {} {}: {} ({})\n", minutes(logged.event.t_s), escaped_line(check->name),
+            escaped_line(check->finding), name_of(check->verdict));
+    }
+}
+
+void print_course(const std::vector<LoggedEvent>& events) {
+  bool any = false;
+  for (const LoggedEvent& logged : events) {
+    if (!is_worth_telling(logged.event)) continue;
+    if (!std::exchange(any, true)) print("\nwhat happened\n");
+    const EventRow row = row_of(logged.event);
+    print("  {} {}{}{}\n", minutes(row.t_s), name_of(row.kind), row.detail.empty() ? "" : ": ",
+          escaped_line(row.detail));
+  }
+}
+
+void print_info(const SessionRow& row) {
+  const auto told = told_by_participant(row);
+  if (!told.empty()) print("\nwhat the participant told\n");
+  for (const auto& [key, value] : told) print("  {}: {}\n", escaped_line(key), escaped_line(value));
+}
+
+// Columns alone: the contents of files are long, and in the log.
+Json setup_json(const LoggedSetup& logged) {
+  const Json all = Json::parse(to_json(logged.setup));
+  Json columns{{"from_event", logged.from_event}};
+  for (const auto& [key, value] : all.items())
+    if (!key.ends_with("_text")) columns[key] = value;
+  return columns;
+}
+
+Json as_json(const Shown& shown) {
+  Json json = as_json(shown.facts);
+  json["seed"] = shown.facts.row.header.seed;
+  json["blocks"] = Json::array();
+  for (const BlockProgress& block : progress_of(shown.trials))
+    json["blocks"].push_back(
+        {{"block", block.block}, {"n_completed", block.n_completed}, {"n_void", block.n_void}});
+  json["voids"] = Json::array();
+  for (const TrialRow& trial : shown.trials)
+    if (trial.status == TrialStatus::voided)
+      json["voids"].push_back({{"trial_number", trial.plan.trial_number},
+                               {"attempt", trial.plan.attempt},
+                               {"t_s", trial.ended_s.value_or(trial.started_s)},
+                               {"reason", trial.void_reason.value_or("")}});
+  json["setups"] = Json::array();
+  for (const LoggedSetup& setup : shown.setups) json["setups"].push_back(setup_json(setup));
+  json["checks"] = Json::array();
+  json["events"] = Json::array();
+  for (const auto& [event, attempt] : shown.events) {
+    if (const auto* check = event.as<CheckResult>())
+      json["checks"].push_back({{"t_s", event.t_s},
+                                {"name", check->name},
+                                {"verdict", name_of(check->verdict)},
+                                {"finding", check->finding}});
+    if (!is_worth_telling(event)) continue;
+    const EventRow row = row_of(event);
+    json["events"].push_back(
+        {{"t_s", row.t_s}, {"kind", name_of(row.kind)}, {"detail", row.detail}});
+  }
+  json["participant_info"] = Json::object();
+  for (const auto& [key, value] : told_by_participant(shown.facts.row))
+    json["participant_info"][key] = value;
+  return json;
+}
+
+void show(const std::string& db, std::optional<std::int64_t> session_id, bool json) {
+  const Shown shown = read(db, session_id);
+  if (json)
+    return fmt::print("{}\n", as_json(shown).dump(2, ' ', false, Json::error_handler_t::replace));
+  print_head(shown.facts);
+  print_progress(shown.trials);
+  print_setups(shown.setups);
+  print_checks(shown.events);
+  print_course(shown.events);
+  print_info(shown.facts.row);
+  flush_output();
+  say("\n");
+  for (const std::string& step : next_steps({shown.facts}, db)) say("{}\n", step);
+}
+}  // namespace
+
+void add_show(Command& app) {
+  struct Options {
+    std::string db = "heft.db";
+    std::optional<std::int64_t> session;
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
+  Command command =
+      app.add_command("show", "one session: progress, setups, checks, notes, voids, what was told",
+                      {"heft show --db lab.db", "heft show --db lab.db --session 3 --json"});
+  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_session(options->session, "the newest one");
+  command.add_flag("--json", options->json, "JSON on stdout instead of text");
+  command.does([options] { show(options->db, options->session, options->json); });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,381 @@
+"""Studies: who is next, in which group and order; what the log says of it, its backups, and the
+events that others hear of.
+
+Run: python3 tests/cli/study_test.py path/to/heft
+"""
+import json
+import os
+import pty
+import signal
+import socket
+import subprocess
+import threading
+import time
+from datetime import datetime
+
+from session_harness import PROTOCOLS, SessionTest, main, query
+
+STUDY = f"""
+study = "mass"
+participants = 4
+seed = 1
+id_prefix = "P"
+db = "logs/mass.db"
+backup = "copies"
+
+[order]
+design = "latin"
+blocks = ["sorting", "comparison"]
+
+[[group]]
+name = "first"
+protocol = "{PROTOCOLS / 'quick.toml'}"
+
+[[group]]
+name = "second"
+protocol = "again.toml"
+language = "fr"
+"""
+
+
+class StudyTest(SessionTest):
+    def setUp(self):
+        super().setUp()
+        self.plan = self.folder / "STUDY.toml"
+        self.db = self.folder / "logs" / "mass.db"
+        self.db.parent.mkdir()
+        (self.folder / "again.toml").write_text((PROTOCOLS / "quick.toml").read_text())
+        self.plan.write_text(STUDY)
+
+    def next(self, *words, **options):
+        return self.run_heft("run", "--plan", self.plan, "--responder", "simulated", "--seed", 5,
+                             *words, **options)
+
+    def info(self, session):
+        return dict(query(self.db, "select key, value from participant_info where session_id = "
+                                   f"{session}"))
+
+
+class Plans(StudyTest):
+    def test_each_participant_gets_the_next_place(self):
+        for number in range(1, 5):
+            said = self.next().stderr
+            self.assertIn(f"participant P0{number} of the study mass: {number} of 4", said)
+        cells = {(self.info(i)["study_group"], self.info(i)["study_order"]) for i in range(1, 5)}
+        self.assertEqual(len(cells), 4, cells)
+        for session, protocol in query(self.db, "select session_id, protocol_name from session"):
+            group = self.info(session)["study_group"]
+            self.assertEqual(protocol, "quick" if group == "first" else "again")
+            shown = [block for block, in query(
+                self.db, f"select distinct block from trial where session_id = {session} "
+                         "order by trial_id")]
+            self.assertEqual(shown[0], "introduction")
+            self.assertEqual(", ".join(shown[1:]), self.info(session)["study_order"])
+        said = self.next(expect=1).stderr
+        self.assertIn("all 4 participants", said)
+
+    def test_a_participant_can_be_named(self):
+        self.next("--participant", "P03")
+        self.assertEqual(self.info(1)["study_place"], "3")
+        self.next("--participant", "Anna")
+        self.assertEqual(self.info(2)["study_place"], "1")
+        self.assertIn("--again", self.next("--participant", "Anna", expect=2).stderr)
+        self.next("--participant", "Anna", "--again")
+        self.assertEqual(self.info(3)["study_place"], "1")
+        self.assertIn("P02", self.next().stderr)
+
+    def test_its_sessions_go_on_and_replay(self):
+        self.next()
+        self.next()
+        for session in (1, 2):
+            said = self.run_heft("replay", "--db", self.db, "--session", session)
+            self.assertIn("verified", said.stdout + said.stderr)
+
+    def test_one_that_was_killed_goes_on_in_its_order(self):
+        self.next()  # as it would have been
+        whole = self.folder / "logs" / "whole.db"
+        self.db.rename(whole)
+        process = subprocess.Popen([self.heft, "run", "--plan", self.plan, "--responder",
+                                    "simulated", "--seed", "5"], stderr=subprocess.DEVNULL)
+        while process.poll() is None and not self.is_under_way(self.db):
+            time.sleep(0.005)
+        process.kill()
+        process.wait()
+        if query(self.db, "select state from session") == [("finished",)]:
+            self.skipTest("it was over before it could be killed")
+        said = self.next("--participant", "P01", expect=2).stderr
+        self.assertIn("heft resume", said)
+        before = len(list((self.folder / "copies").iterdir()))
+        self.run_heft("resume", "--db", self.db)
+        trials = "select trial_number, block, outcome from trial where status = 'completed'"
+        self.assertEqual(query(self.db, trials), query(whole, trials))
+        said = self.run_heft("replay", "--db", self.db)
+        self.assertIn("verified", said.stdout + said.stderr)
+        self.assertEqual(len(list((self.folder / "copies").iterdir())), before + 1)
+
+    def test_a_plan_that_was_changed_on_the_way_is_refused(self):
+        self.next()
+        self.plan.write_text(STUDY.replace('"first"', '"other"').replace('"second"', '"more"'))
+        self.assertIn("session 1 of participant P01 has place 1", self.next(expect=1).stderr)
+        self.plan.write_text(STUDY.replace("participants = 4", "participants = 8"))
+        self.assertIn("2 of 8", self.next().stderr)
+
+    def test_validate_shows_the_orders(self):
+        said = self.run_heft("validate", self.plan).stdout
+        self.assertIn("ok, a study plan", said)
+        self.assertEqual(said.count("   1 with group"), 4)
+        self.assertIn("sorting, comparison", said)
+        self.assertIn("comparison, sorting", said)
+        self.plan.write_text(STUDY.replace("participants = 4", "participants = 5"))
+        self.assertIn("expected 4 or 8", self.run_heft("validate", self.plan).stderr)
+
+    def test_mistakes_are_told_at_their_places(self):
+        self.plan.write_text(STUDY.replace('"comparison"]', '"comparisons"]'))
+        for words in (["validate", self.plan], ["run", "--plan", self.plan]):
+            said = self.run_heft(*words, expect=3).stderr
+            self.assertIn(f"{self.plan}:11:22: ", said)
+            self.assertIn('"comparison"', said)
+        self.assertFalse(self.db.exists())
+        self.assertIn("expected no other one",
+                      self.run_heft("run", PROTOCOLS / "quick.toml", "--plan", self.plan,
+                                    expect=2).stderr)
+
+    def test_analyse_takes_orders_for_one_protocol(self):
+        self.next()
+        self.next()
+        said = self.run_heft("analyse", "--db", self.db).stdout
+        self.assertNotIn("with --set", said)
+
+
+class NearIds(StudyTest):
+    def test_are_asked_about(self):
+        db = self.folder / "a.db"
+        self.session(db, participant="01")
+        for near in ("1", " 01", "O1"):
+            said = self.session(db, participant=near, expect=2).stderr
+            self.assertIn('there is "01"', said)
+            self.assertIn("--again", said)
+        self.session(db, participant="02")
+        self.session(db, "--again", participant="1")
+        self.assertEqual(len(query(db, "select * from session")), 3)
+
+    def answered(self, answer):
+        db = self.folder / "a.db"
+        self.session(db, participant="01")
+        there, here = pty.openpty()
+        process = subprocess.Popen(
+            [self.heft, "run", PROTOCOLS / "quick.toml", "--participant", "1", "--responder",
+             "simulated", "--db", db], stdin=here, stderr=here, stdout=subprocess.DEVNULL)
+        os.close(here)
+        os.write(there, answer)
+        try:
+            while os.read(there, 4096):
+                pass
+        except OSError:
+            pass
+        return process.wait(), len(query(db, "select * from session"))
+
+    def test_a_terminal_is_asked(self):
+        self.assertEqual(self.answered(b"n\n"), (2, 1))
+        (self.folder / "a.db").unlink()
+        self.assertEqual(self.answered(b"what\ny\n"), (0, 2))
+
+
+class ListAndShow(StudyTest):
+    def test_tell_who_what_and_how_far(self):
+        self.next()
+        self.next()
+        self.session(self.db, "--purpose", "pilot", protocol="sorting", participant="X 9")
+        said = self.run_heft("list", "--db", self.db)
+        lines = said.stdout.splitlines()
+        self.assertEqual(len(lines), 4)
+        self.assertTrue(lines[0].startswith("session"))
+        self.assertIn("mass 2 of 4", lines[2])
+        self.assertIn("X 9", lines[3])
+        self.assertIn(f"heft analyse --db {self.db}", said.stderr)
+        rows = json.loads(self.run_heft("list", "--db", self.db, "--json").stdout)
+        self.assertEqual([row["participant"] for row in rows], ["P01", "P02", "X 9"])
+        self.assertEqual(rows[1]["study"]["place"], 2)
+        self.assertIsNone(rows[2]["study"])
+        self.assertEqual(rows[0]["n_completed"], query(
+            self.db, "select count(*) from trial where session_id = 1 and "
+                     "status = 'completed'")[0][0])
+
+    def test_an_unfinished_one_says_how_to_go_on(self):
+        db = self.folder / "it's.db"
+        self.kill_under_way(db)
+        said = self.run_heft("list", "--db", db)
+        self.assertRegex(said.stdout, r"\d+ of about \d+")
+        self.assertIn("heft resume --db '", said.stderr)
+        said = self.run_heft("show", "--db", db)
+        self.assertIn("session 1: participant 01", said.stdout)
+        self.assertIn("trials by block", said.stdout)
+        self.assertIn("--session 1", said.stderr)
+        shown = json.loads(self.run_heft("show", "--db", db, "--json").stdout)
+        self.assertEqual(shown["setups"][0]["responder"], "simulated")
+        self.assertEqual(shown["state"], "running")
+
+    def test_show_tells_nothing_of_masses(self):
+        self.next()
+        said = self.run_heft("show", "--db", self.db).stdout
+        self.assertIn("study mass: 1 of 4", said)
+        self.assertNotRegex(said, r"\d+ ?g\b")
+
+    def test_logs_that_are_none_are_refused(self):
+        self.assertIn("there is no file", self.run_heft("list", "--db", self.folder / "no.db",
+                                                        expect=1).stderr)
+        self.session(self.folder / "a.db")
+        self.assertIn("holds no session 7", self.run_heft("show", "--db", self.folder / "a.db",
+                                                          "--session", 7, expect=1).stderr)
+
+
+class Backups(StudyTest):
+    def copies(self, folder="copies"):
+        return sorted((self.folder / folder).glob("*"))
+
+    def test_are_whole_logs_for_their_owner(self):
+        said = self.next().stderr
+        self.next()
+        first, second = self.copies()
+        self.assertIn(str(first), said)
+        self.assertRegex(second.name, r"^P02_session2_\d{8}T\d{6}Z\.db$")
+        self.assertEqual(second.stat().st_mode & 0o777, 0o600)
+        everything = "select * from event order by event_id"
+        self.assertEqual(query(second, everything), query(self.db, everything))
+        for session in (1, 2):
+            said = self.run_heft("replay", "--db", second, "--session", session)
+            self.assertIn("verified", said.stdout + said.stderr)
+
+    def test_that_fail_harm_nothing_and_are_told(self):
+        (self.folder / "file").write_text("mine")
+        said = self.session(self.folder / "a.db", "--backup", self.folder / "file").stderr
+        self.assertIn("WARNING: there is NO BACKUP of session 1", said)
+        self.assertIn("is finished", said)
+        self.assertEqual(query(self.folder / "a.db", "select state from session"), [("finished",)])
+
+    def test_come_after_a_stop_too(self):
+        db = self.folder / "a.db"
+        process = subprocess.Popen(
+            [self.heft, "run", PROTOCOLS / "jnd.toml", "--participant", "01", "--responder",
+             "simulated", "--db", db, "--backup", self.folder / "copies"],
+            stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not self.is_under_way(db):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate()[1]
+        if process.returncode == 0:
+            self.skipTest("it was over before it could be stopped")
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("backup, checked: ", said)
+        self.assertEqual(query(self.copies()[0], "select state from session"), [("paused",)])
+
+
+class Events(StudyTest):
+    def received(self, lines, db):
+        """Lines as they came are the log's events, in order."""
+        told = [json.loads(line) for line in lines]
+        logged = query(db, "select t_s, kind, slot from event order by event_id")
+        self.assertEqual([(line["t_s"], line["kind"], line.get("slot")) for line in told], logged)
+        shown = [line for line in told if line["kind"] == "cubes_shown"]
+        self.assertEqual(len(shown), query(db, "select count(*) from trial")[0][0])
+        self.assertEqual({line["trial"] for line in shown},
+                         {n for n, in query(db, "select trial_number from trial")})
+        begins, ends = (datetime.fromisoformat(told[i]["utc"].replace("Z", "+00:00"))
+                        for i in (0, -1))
+        self.assertAlmostEqual((ends - begins).total_seconds(), told[-1]["t_s"], delta=0.01)
+        return told
+
+    def test_come_as_datagrams(self):
+        port = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        port.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
+        port.bind(("127.0.0.1", 0))
+        self.addCleanup(port.close)
+        port.settimeout(0.5)
+        db, lines = self.folder / "a.db", []
+        run = threading.Thread(daemon=True, target=self.session, args=(
+            db, "--events", f"udp:127.0.0.1:{port.getsockname()[1]}"))
+        run.start()
+        while True:
+            try:
+                lines.append(port.recv(65536).decode())
+            except TimeoutError:
+                if not run.is_alive():
+                    break
+        run.join()
+        told = self.received(lines, db)
+        self.assertEqual(told[0]["kind"], "setup")
+        self.assertEqual(told[0]["participant"], "01")
+        self.assertNotIn("mass", "".join(lines))
+
+    def test_come_through_a_pipe(self):
+        pipe, db = self.folder / "pipe", self.folder / "a.db"
+        os.mkfifo(pipe)
+        reader = subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE, text=True)
+        hold = os.open(pipe, os.O_WRONLY)  # opened once the reader is there
+        lines = []
+        read = threading.Thread(daemon=True, target=lambda: lines.extend(reader.stdout))
+        read.start()
+        said = self.session(db, "--events", f"fifo:{pipe}").stderr
+        os.close(hold)
+        read.join()
+        reader.wait()
+        reader.stdout.close()
+        if "could not be handed on" not in said:  # a slow reader may miss some
+            self.received(lines, db)
+
+    def test_without_a_reader_are_dropped_and_counted(self):
+        pipe, db = self.folder / "pipe", self.folder / "a.db"
+        os.mkfifo(pipe)
+        said = self.session(db, "--events", f"fifo:{pipe}").stderr
+        n = query(db, "select count(*) from event")[0][0]
+        self.assertIn(f"{n} of {n} events could not be handed on", said)
+        self.assertEqual(query(db, "select state from session"), [("finished",)])
+
+    def test_on_a_serial_line_end_with_a_line_end(self):
+        there, here = pty.openpty()
+        os.set_blocking(there, False)
+        bytes_read, over = [], threading.Event()
+
+        def read():
+            while True:
+                try:
+                    bytes_read.append(os.read(there, 65536))
+                except BlockingIOError:
+                    if over.is_set():
+                        return
+                    time.sleep(0.001)
+        reader = threading.Thread(daemon=True, target=read)
+        reader.start()
+        self.session(self.folder / "a.db", "--events", f"serial:{os.ttyname(here)}")
+        over.set()
+        reader.join()
+        for line in b"".join(bytes_read).split(b"\n")[:-1]:
+            self.assertIn("kind", json.loads(line))
+        self.assertTrue(b"".join(bytes_read).endswith(b"\n"))
+
+    def test_anything_else_is_refused(self):
+        for spec in ("udp", "udp:", "udp:localhost", "udp:localhost:0", "udp:localhost:65536",
+                     "udp:::1:5", "tcp:localhost:5", "fifo:", f"fifo:{self.folder}",
+                     "serial:/dev/null", "udp:localhost:12a"):
+            said = self.session(self.folder / "a.db", "--events", spec, expect=2).stderr
+            self.assertIn("expected udp:HOST:PORT", said, spec)
+        said = self.session(self.folder / "a.db", "--events", "fifo:/no/pipe", expect=4).stderr
+        self.assertIn("mkfifo", said)
+        self.session(self.folder / "a.db", "--events", "serial:/dev/no", expect=4)
+        self.assertFalse((self.folder / "a.db").exists())
+
+    def test_of_a_session_that_goes_on_are_told_too(self):
+        db, pipe = self.folder / "a.db", self.folder / "pipe"
+        self.kill_under_way(db)
+        before = query(db, "select count(*) from event")[0][0]
+        os.mkfifo(pipe)
+        reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+        self.run_heft("resume", "--db", db, "--events", f"fifo:{pipe}")
+        first = json.loads(os.read(reader, 1 << 20).decode().splitlines()[0])
+        os.close(reader)
+        kind, = query(db, f"select kind from event order by event_id limit 1 offset {before}")[0]
+        self.assertEqual(first["kind"], kind)
+
+
+if __name__ == "__main__":
+    main(__name__)

@@ -1,0 +1,163 @@
+// A backup is a whole, sound log of its owner's alone, or there is none.
+#include "record/Backup.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include "base/Error.h"
+#include "record/Integrity.h"
+#include "record/LogReader.h"
+#include "record/SessionLog.h"
+#include "record/child.h"
+#include "record/rows.h"
+#include "record/temporary_folder.h"
+
+namespace heft::test {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+std::vector<std::string> files_in(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+class Backup : public testing::Test {
+ protected:
+  Backup() { write_session("P/01 ä"); }
+
+  void write_session(const std::string& participant, int n_events = 12) {
+    SessionLog log = SessionLog::start(db, header_of(participant));
+    for (int n = 1; n <= n_events; ++n)
+      log.append(event(n, EventKind::note, std::string(200, 'x')), {}, Durability::acknowledged);
+    log.add_info("age", "30");
+  }
+
+  TemporaryFolder home;
+  const std::string db = home.file("a.db"), folder = home.file("backups");
+};
+
+TEST_F(Backup, HasEverySessionOfTheLog) {
+  write_session("P02");
+  const std::string copy = back_up(db, folder, 2);
+  const LogReader reader(copy), original(db);
+  ASSERT_EQ(reader.sessions().size(), 2u);
+  for (const std::int64_t id : {1, 2}) {
+    EXPECT_FALSE(reader.first_broken_digest(id));
+    EXPECT_EQ(reader.events(id).size(), original.events(id).size());
+    EXPECT_EQ(reader.session(id).header.participant, original.session(id).header.participant);
+  }
+  EXPECT_TRUE(check_integrity(copy).empty());
+}
+
+TEST_F(Backup, CanBeWrittenToAsALog) {
+  const std::string copy = back_up(db, folder, 1);
+  SessionLog log = SessionLog::reopen(copy, 1);
+  log.append(event(99, EventKind::note, "more"), {}, Durability::acknowledged);
+  EXPECT_EQ(LogReader(copy).events(1).size(), LogReader(db).events(1).size() + 1);
+}
+
+TEST_F(Backup, IsNamedAfterWhoWhatAndWhen) {
+  EXPECT_EQ(backup_name("P/01 ä", 7, "2026-11-22T09:30:00.123Z"),
+            "P_01____session7_20261122T093000Z");
+  EXPECT_EQ(backup_name("../../etc", 1, "2026-11-22T09:30:00Z"),
+            "______etc_session1_20261122T093000Z");
+  EXPECT_THAT(back_up(db, folder, 1), HasSubstr("/P_01____session1_20"));
+  EXPECT_EQ(files_in(folder).size(), 1u);
+}
+
+TEST_F(Backup, IsForItsOwnersEyes) {
+  struct stat there {};
+  ASSERT_EQ(stat(back_up(db, folder, 1).c_str(), &there), 0);
+  EXPECT_EQ(there.st_mode & 0777, 0600u);
+  ASSERT_EQ(stat(folder.c_str(), &there), 0);
+  EXPECT_EQ(there.st_mode & 0777, 0700u);
+}
+
+TEST_F(Backup, NeverTakesTheNameOfAnother) {
+  std::set<std::string> copies;
+  for (int i = 0; i < 5; ++i) copies.insert(back_up(db, folder, 1));
+  EXPECT_EQ(copies.size(), 5u);
+  EXPECT_EQ(files_in(folder).size(), 5u);
+}
+
+TEST_F(Backup, OfALogThatWasChangedIsNotCalledOne) {
+  { SQLite::Database(db, SQLite::OPEN_READWRITE).exec("UPDATE event SET detail = 'forged'"); }
+  try {
+    back_up(db, folder, 1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("is not as it was written"));
+  }
+  EXPECT_TRUE(files_in(folder).empty());
+}
+
+TEST_F(Backup, WhereNobodyMayWriteIsToldAndLeavesTheLogAsItIs) {
+  fs::create_directory(folder);
+  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
+  fs::permissions(home.path(), fs::perms::others_all | fs::perms::owner_all);
+  fs::permissions(db, fs::perms::others_read | fs::perms::owner_all);
+  EXPECT_THAT(failure_as_ordinary_user([&] { back_up(db, folder, 1); }), HasSubstr(folder));
+  EXPECT_TRUE(files_in(folder).empty());
+  EXPECT_TRUE(check_integrity(db).empty());
+}
+
+TEST_F(Backup, InAFileInsteadOfAFolderIsTold) {
+  std::ofstream(folder) << "mine";
+  EXPECT_THROW(back_up(db, folder, 1), Error);
+}
+
+TEST_F(Backup, OnAFullDiskIsToldAndLeavesNothing) {
+  write_session("long", 2000);
+  Child child([&](int out) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{100000, 100000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      back_up(db, folder, 2);
+      say(out, "made");
+    } catch (const std::exception& error) {
+      say(out, error.what());
+    }
+  });
+  EXPECT_THAT(child.read_all(), HasSubstr("can't be made"));
+  EXPECT_TRUE(files_in(folder).empty());
+}
+
+TEST_F(Backup, KilledOnTheWayLeavesNoHalfOneUnderItsName) {
+  write_session("long", 3000);
+  for (int i = 0; i < 30; ++i) {
+    {
+      Child child([&](int out) {
+        say(out, "s");
+        back_up(db, folder, 2);
+      });
+      child.read_byte();
+      std::this_thread::sleep_for(std::chrono::microseconds(700 * i));
+    }
+    if (!fs::exists(folder)) continue;
+    for (const std::string& name : files_in(folder))
+      if (name.ends_with(".db")) {
+        EXPECT_TRUE(check_integrity(folder + "/" + name).empty());
+        EXPECT_FALSE(LogReader(folder + "/" + name).first_broken_digest(2));
+      }
+  }
+  EXPECT_TRUE(check_integrity(db).empty());
+}
+
+}  // namespace
+}  // namespace heft::test
