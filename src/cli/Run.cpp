@@ -249,8 +249,16 @@ GivenOptions with_missing_files(const LoggedSession& session, GivenOptions again
   return again;
 }
 
+// The folder that was given, or the one that the study's plan gave the session.
+Elsewhere with_planned_backup(Elsewhere elsewhere, const LoggedSession& session) {
+  const auto place = place_of(session.row.header.participant_info);
+  if (place && elsewhere.backup.empty()) elsewhere.backup = place->backup;
+  return elsewhere;
+}
+
 void resume(const std::string& db, std::optional<std::int64_t> session_id,
-            const GivenOptions& again, Elsewhere elsewhere, bool unblind, bool go_on, bool keys) {
+            const GivenOptions& again, const Elsewhere& elsewhere, bool unblind, bool go_on,
+            bool keys) {
   LoggedSession session = session_to_resume(db, session_id);
   const Setup before = session.setup;
   change_setup(session, with_missing_files(session, again));
@@ -260,19 +268,19 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
   for (const auto& [column, from, to] : changes_between(before, session.setup))
     if (!from.empty()) say("from here on with {} {} instead of {}\n", column, to, from);
   say_next_parts(session.setup);
-  const auto& info = session.row.header.participant_info;
-  if (const auto place = place_of(info); place && elsewhere.backup.empty())
-    elsewhere.backup = place->backup;
   say_finished(
-      run_session(
-          {*session.protocol, session.setup, db, unblind, go_on, elsewhere, place_words(info)},
-          [&](const RunnerOptions& runner) { return resume_session(session, runner); }),
+      run_session({*session.protocol, session.setup, db, unblind, go_on,
+                   with_planned_backup(elsewhere, session),
+                   place_words(session.row.header.participant_info)},
+                  [&](const RunnerOptions& runner) { return resume_session(session, runner); }),
       db);
 }
 
-void end(const std::string& db, std::optional<std::int64_t> session_id) {
+void end(const std::string& db, std::optional<std::int64_t> session_id,
+         const Elsewhere& elsewhere) {
   const LoggedSession session = session_to_resume(db, session_id);
   abort_session(session);
+  back_up_and_tell(db, with_planned_backup(elsewhere, session).backup, session.row.session_id);
   say("session {} of participant {} is ended as it is; what was answered is kept\n",
       session.row.session_id, session.row.header.participant);
 }
@@ -300,8 +308,9 @@ void add_run(Command& app) {
                      "a study's plan, STUDY.toml: the next participant's session, or that of the "
                      "--participant given, with the group, protocol and order of blocks that the "
                      "plan gives them (heft validate STUDY.toml shows these)");
-  command.add_option("--participant", &options->participant,
-                     "the participant's id; text, kept as it is (with --plan default: the next)");
+  command.add_option(
+      "--participant", &options->participant,
+      "the participant's id; text, kept as it is (default with --plan: the next one's)");
   command.add_option("--db", &options->db,
                      "the log; an existing one gets one more session (default: the plan's, or "
                      "heft.db)");
@@ -376,7 +385,7 @@ void add_resume(Command& app) {
   command.add_flag("--end", options->end,
                    "don't go on: end the session as it is, for somebody who will not come back");
   command.does([options] {
-    if (options->end) return end(options->db, options->session);
+    if (options->end) return end(options->db, options->session, options->elsewhere);
     resume(options->db, options->session, options->again, options->elsewhere, options->unblind,
            options->go_on, options->keys);
   });

@@ -207,9 +207,8 @@ std::string texts_file(const std::string& language) {
   return (folder / (language + ".toml")).string();
 }
 
-namespace {
-// What went wrong with a copy harms no session, but somebody has to know it.
 void back_up_and_tell(const std::string& db, const std::string& folder, std::int64_t session_id) {
+  if (folder.empty()) return;
   try {
     say("backup, checked: {}\n", back_up(db, folder, session_id));
   } catch (const std::exception& error) {
@@ -220,6 +219,7 @@ void back_up_and_tell(const std::string& db, const std::string& folder, std::int
   }
 }
 
+namespace {
 void tell_dropped(const EventOutlet& events, const std::string& where) {
   if (events.n_dropped() == 0) return;
   say("heft: WARNING: {} of {} events could not be handed on to {}: nobody took them in time. All "
@@ -252,8 +252,7 @@ SessionResult run_session(const CommandedSession& session,
   const SessionResult result = run(options);
   console.reset();
   if (events) tell_dropped(*events, session.elsewhere.events);
-  if (!session.elsewhere.backup.empty())
-    back_up_and_tell(session.db, session.elsewhere.backup, result.session_id);
+  back_up_and_tell(session.db, session.elsewhere.backup, result.session_id);
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
   if (result.end == RunEnd::stopped)

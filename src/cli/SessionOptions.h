@@ -60,6 +60,11 @@ struct Elsewhere {
 /// --backup, --events
 void add_elsewhere_options(Command& command, Elsewhere& elsewhere);
 
+/// Puts a copy of the log there and says where, or loudly that there is none: that harms no
+/// session, but somebody has to know it.
+/// @param folder empty: none is wanted
+void back_up_and_tell(const std::string& db, const std::string& folder, std::int64_t session_id);
+
 struct CommandedSession {
   const Protocol& protocol;
   const Setup& setup;

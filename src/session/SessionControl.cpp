@@ -71,8 +71,8 @@ void SessionControl::note_window() {
   const std::optional<bool> full = screen_.is_full_screen();
   const bool is_over = journal_.engine().next().kind == Next::Kind::over;
   if (full && full_screen_ && *full != *full_screen_ && !is_over)
-    journal_.emit_now(Note{*full ? "the window is full screen now"
-                                 : "the window is not full screen any more"});
+    journal_.emit_now(
+        Note{*full ? "the window is full screen now" : "the window is not full screen any more"});
   if (full) full_screen_ = full;
 }
 

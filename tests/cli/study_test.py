@@ -253,6 +253,13 @@ class Backups(StudyTest):
         self.assertIn("is finished", said)
         self.assertEqual(query(self.folder / "a.db", "select state from session"), [("finished",)])
 
+    def test_come_when_a_session_is_ended_for_good(self):
+        db = self.folder / "a.db"
+        self.kill_under_way(db)
+        said = self.run_heft("resume", "--db", db, "--end", "--backup", self.folder / "copies")
+        self.assertIn("backup, checked: ", said.stderr)
+        self.assertEqual(query(self.copies()[0], "select state from session"), [("aborted",)])
+
     def test_come_after_a_stop_too(self):
         db = self.folder / "a.db"
         process = subprocess.Popen(
