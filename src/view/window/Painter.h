@@ -11,6 +11,7 @@
 #include "view/SceneDrawing.h"
 #include "view/window/Page.h"
 #include "view/window/Typeface.h"
+#include "view/window/WrittenTextures.h"
 
 struct ImDrawList;
 
@@ -34,6 +35,7 @@ struct PlacedMark {
 struct Paint {
   const Typeface& typeface;
   const Measures& measures;
+  WrittenTextures& textures;
   std::optional<PaintedScene> scene;
   std::vector<PlacedMark> marks;
   std::function<bool(const std::string& control)> is_pressed;
@@ -46,6 +48,15 @@ struct ControlWords {
 };
 
 ControlWords words_on(const Control& control, const Typeface& typeface, const Measures& measures);
+
+/// A notice over the scene, made to fit, and its plate.
+struct NoticeWords {
+  FittedText text;
+  Rect area;
+};
+
+NoticeWords words_of_notice(const std::string& notice, const Rect& scene, const Typeface& typeface,
+                            const Measures& measures);
 
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
 

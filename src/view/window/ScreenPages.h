@@ -22,6 +22,7 @@ struct ScreenMemory {
   int part = 0;                                ///< of a long text, or question of a form; from 0
   std::map<std::string, std::string> entries;  ///< of a form, as chosen so far
   bool cubes_shown = false;                    ///< in the scene
+  std::string named;                           ///< the button of the last choice, while it fades
   double up_s = 0;                             ///< how long the part or question has been there
 };
 
@@ -44,9 +45,10 @@ class PageBuilder {
     return texts_.if_any(of_page, key);
   }
 
-  /// Lines below each other; an empty one is half as high.
+  /// Lines below each other from y on, each at the side of the column where reading it begins; an
+  /// empty one is half as high.
   /// @return the bottom of the last
-  float add_lines(const std::vector<std::string>& lines, float x, float y, float size_px,
+  float add_lines(const std::vector<std::string>& lines, const Rect& column, float y, float size_px,
                   Tone tone = Tone::strong);
   float height_px(const std::vector<std::string>& lines, float size_px) const;
 

@@ -22,10 +22,14 @@ constexpr std::array<FillPage*, EnumNames<Task>::names.size()> trial_pages{
     introduction_screen, sorting_screen, comparison_screen};
 }  // namespace
 
-float PageBuilder::add_lines(const std::vector<std::string>& lines, float x, float y, float size_px,
-                             Tone tone) {
+float PageBuilder::add_lines(const std::vector<std::string>& lines, const Rect& column, float y,
+                             float size_px, Tone tone) {
   for (const std::string& line : lines) {
-    if (!line.empty()) page.lines.push_back({line, x, y, size_px, tone});
+    if (!line.empty()) {
+      const bool leftward = typeface.written(line, size_px).direction == Direction::right_to_left;
+      const float x = leftward ? column.right() - typeface.width_px(line, size_px) : column.x;
+      page.lines.push_back({line, x, y, size_px, tone});
+    }
     y += advance_px(line, size_px);
   }
   return y;
@@ -99,12 +103,14 @@ void Screens::remember(const ScreenState& state) {
     paused_ = {state_.page(), std::exchange(memory_, {})};
     return;
   }
+  std::string named = state.faded ? std::move(memory_.named) : "";
   if (paused_ && paused_->page == state.page()) {
     memory_ = std::move(paused_->memory);
   } else {
     memory_ = {};
     memory_.entries = state.entries;
     memory_.part = first_open_question(state);
+    memory_.named = std::move(named);
   }
   paused_.reset();
 }
@@ -139,6 +145,7 @@ std::optional<Touch> Screens::tapped(const Control& control) {
   const auto* touch = std::get_if<Touch>(&control.effect);
   if (!touch) return std::nullopt;
   if (touch->kind == TouchKind::entry) memory_.entries[touch->key] = touch->value;
+  if (touch->kind == TouchKind::action) memory_.named = control.name;
   return *touch;
 }
 

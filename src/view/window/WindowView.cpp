@@ -32,8 +32,9 @@ WindowView::WindowView(const ViewSetup& setup)
       touched_(
           setup.texts, setup.left_handed, setup.takes_keys,
           [this](float x, float y) { return scene_.slot_near(x, y, around * measures_.target); }),
-      measures_(window_.measures()),
-      typeface_(std::make_unique<Typeface>(setup.texts, measures_)),
+      text_size_(static_cast<float>(setup.text_size)),
+      measures_(measured()),
+      typeface_(setup.texts),
       sdl_start_s_(monotonic_s() - static_cast<double>(SDL_GetTicks64()) * 1e-3) {
   if (setup.dragged) drag_.emplace(setup);
 }
@@ -52,15 +53,16 @@ void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
         scene_.distance_px(shown.frame.effector.position_m, shown.frame.clone->position_m);
 }
 
+Measures WindowView::measured() const {
+  const Measures window = window_.measures();
+  return {window.width, window.height, text_size_};
+}
+
 // The page for the window's size and the screens' memory as they are now.
 void WindowView::lay_out() {
-  const Measures now = window_.measures();
-  if (now.width != measures_.width || now.height != measures_.height) {
-    measures_ = now;
-    typeface_ = std::make_unique<Typeface>(touched_.texts(), measures_);
-  }
+  measures_ = measured();
   const bool untried = drag_ && in_trial_ && !drag_->was_taken();
-  touched_.lay_out(*typeface_, measures_, monotonic_s(),
+  touched_.lay_out(typeface_, measures_, monotonic_s(),
                    untried ? touched_.texts().if_any("trial", "drag_effector") : "");
   scene_.place(touched_.page().scene);
   stale_ = true;
@@ -71,9 +73,9 @@ void WindowView::draw() {
   std::optional<PaintedScene> painted;
   if (scene_.area())
     painted = PaintedScene{window_.texture(), *scene_.area(), scene_.part(), page.scene_opacity};
-  ImDrawList& list = window_.begin_frame(typeface_->atlas());
+  ImDrawList& list = window_.begin_frame();
   paint_page(list, page,
-             {*typeface_, measures_, painted, scene_.placed(page.marks),
+             {typeface_, measures_, window_.written(), painted, scene_.placed(page.marks),
               [&](const std::string& name) { return touched_.holds(name); }});
   window_.end_frame();
   touched_.presented(monotonic_s());
