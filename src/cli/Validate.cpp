@@ -24,6 +24,7 @@
 #include "session/Session.h"
 #include "tracking/MarkerBody.h"
 #include "tracking/SyntheticCamera.h"
+#include "view/window/TextFit.h"
 
 namespace heft::cli {
 
@@ -92,6 +93,13 @@ std::string described(const Protocol& protocol) {
   return text;
 }
 
+// What of the texts would not be read well on the smallest screen, a sentence each.
+void say_what_does_not_fit(const ScreenTexts& texts, double text_size, const std::string& path) {
+  const Measures smallest = smallest_screen(text_size);
+  for (const std::string& sentence : texts_that_do_not_fit(texts, smallest))
+    say("{}: on a screen of {} x {}: {}\n", path, smallest.width, smallest.height, sentence);
+}
+
 std::string described(const ScreenTexts& texts) {
   return fmt::format("{} page(s) in the language \"{}\"", texts.pages.size(), texts.language);
 }
@@ -110,10 +118,20 @@ std::string checked(FileKind kind, const std::string& text, const std::string& p
       return described(parse_effector(text, path));
     case FileKind::synthetic_camera:
       return described(parse_synthetic_camera(text, path).optics);
-    case FileKind::texts:
-      return described(parse_texts(text, path));
+    case FileKind::texts: {
+      const ScreenTexts texts = parse_texts(text, path);
+      say_what_does_not_fit(texts, 1, path);
+      return described(texts);
+    }
   }
   return {};
+}
+
+void say_cautions(const Protocol& protocol, const std::string& path) {
+  for (const std::string& caution : cautions(protocol)) say("{}: {}\n", path, caution);
+  const auto& [language, text_size] =
+      std::tie(protocol.screens.language, protocol.screens.text_size);
+  if (text_size != 1) say_what_does_not_fit(load_texts(texts_file(language)), text_size, path);
 }
 
 std::string with_article(FileKind kind) {
@@ -128,9 +146,7 @@ ExitCode validate(const std::string& path) {
     try {
       const std::string summary = checked(kind, text, path);
       print("{}: ok, {}: {}\n", path, with_article(kind), summary);
-      if (kind == FileKind::protocol)
-        for (const std::string& caution : cautions(parse_protocol(text, path)))
-          say("{}: {}\n", path, caution);
+      if (kind == FileKind::protocol) say_cautions(parse_protocol(text, path), path);
     } catch (const InvalidFile& error) {
       say("{}\n{}: not valid as {}: {} mistake(s)\n", error.what(), path, with_article(kind),
           error.mistakes().size());

@@ -19,6 +19,7 @@ constexpr Range display_rates_hz{1, 1000};
 constexpr Range physics_rates_hz{1, 100000};
 constexpr Range predictions_s{0, 0.2};  // beyond it no hand goes on as it did
 constexpr Range onsets_s{0, 60};
+constexpr Range text_sizes{0.75, 2};
 
 void read_physics(TableReader& reader, Protocol& protocol) {
   reader.in_table("physics", [&](TableReader& table) {
@@ -47,6 +48,7 @@ void read_screens(TableReader& reader, ScreensChosen& screens) {
     table.read("about_you", screens.about_you);
     table.read("how_decided", screens.how_decided);
     table.read("crop", screens.crop);
+    table.read("text_size", screens.text_size, text_sizes);
   });
 }
 

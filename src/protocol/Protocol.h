@@ -36,7 +36,8 @@ struct ScreensChosen {
   bool consent = false;
   bool about_you = false;
   bool how_decided = false;
-  bool crop = true;  ///< the scene is shown as far as the cubes and the effector go
+  bool crop = true;      ///< the scene is shown as far as the cubes and the effector go
+  double text_size = 1;  ///< times as large as usual
 };
 
 struct SimulatorChoice {
