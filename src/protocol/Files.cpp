@@ -62,7 +62,8 @@ const std::vector<KindKeys>& kinds() {
       {FileKind::synthetic_camera,
        "exposure_s",
        {"blur_px", "vignetting", "light", "gamma", "noise_levels", "hand"}},
-      {FileKind::texts, "language", {"buttons", "slots", "consent", "welcome", "trial", "thanks"}}};
+      {FileKind::texts, "language", {"buttons", "slots", "consent", "welcome", "trial", "thanks"}},
+      {FileKind::questionnaires, "questionnaire", {}}};
   return table;
 }
 
@@ -84,8 +85,8 @@ FileKind recognized_kind(const std::string& text, const std::string& file) {
   mistakes.add({},
                "no key of this file belongs to a protocol (it has [[block]]), a procedure file "
                "([[staircase]]), a scene file ([[cube]]), a board file ([grid] or [[tag]]), an "
-               "effector file ([box] or [[tag]]), a synthetic camera file (exposure_s) or a text "
-               "file (language)");
+               "effector file ([box] or [[tag]]), a synthetic camera file (exposure_s), a text "
+               "file (language) or a questionnaire file ([questionnaire.NAME])");
   throw mistakes.as_error();
 }
 

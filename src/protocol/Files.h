@@ -19,12 +19,21 @@ struct ScreenTexts;
 struct SyntheticSettings;
 
 /// What kind of file a TOML text is, by the keys at its top level.
-enum class FileKind { protocol, procedure, scene, board, effector, synthetic_camera, texts };
+enum class FileKind {
+  protocol,
+  procedure,
+  scene,
+  board,
+  effector,
+  synthetic_camera,
+  texts,
+  questionnaires
+};
 template <>
 struct EnumNames<FileKind> {
-  static constexpr std::array<std::string_view, 7> names{
+  static constexpr std::array<std::string_view, 8> names{
       "protocol",      "procedure file",        "scene file", "board file",
-      "effector file", "synthetic camera file", "text file"};
+      "effector file", "synthetic camera file", "text file",  "questionnaire file"};
 };
 
 /// The kind whose tables the text has, or else most of whose keys.
@@ -84,6 +93,11 @@ std::string described(const Optics& optics);
 /// text's beginning and end are dropped.
 /// @throws InvalidFile with every missing, unknown or empty page and key at its line and column
 ScreenTexts parse_texts(const std::string& text, const std::string& file);
+
+/// Questionnaires alone, [questionnaire.NAME] each, as they may also stand in a text file: such a
+/// file's text may be written below a text file's.
+/// @throws InvalidFile with every mistake at its line and column
+ScreenTexts parse_questionnaires(const std::string& text, const std::string& file);
 
 /// @throws Error when the file can't be read, InvalidFile as parse_texts
 ScreenTexts load_texts(const std::string& path);

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "base/PlugTable.h"
+#include "base/Printable.h"
 #include "base/Sha256.h"
 #include "base/TextFile.h"
 #include "physics/DecouplingSimulator.h"
@@ -41,6 +43,28 @@ void read_onset(TableReader& reader, Onset& onset) {
   });
 }
 
+void read_asked(TableReader& table, ScreensChosen& screens) {
+  std::string name, after;
+  table.require({"name"});
+  table.read("name", name);
+  table.read("after", after);
+  table.close();
+  screens.questionnaires[after].push_back(name);
+}
+
+// A misspelled block would mean a questionnaire that nobody is asked.
+void check_asked(TableReader& reader, const Protocol& protocol) {
+  std::set<std::string> blocks{""};
+  for (const Block& block : protocol.blocks)
+    blocks.insert(std::visit([](const auto& of_kind) { return of_kind.name; }, block));
+  for (const auto& [after, names] : protocol.screens.questionnaires)
+    if (!blocks.contains(after) && reader.good({"screens", "block"}))
+      reader.mistake("screens",
+                     fmt::format("a questionnaire comes after \"{}\", and no block is called so, "
+                                 "expected a block's name, or none for the end",
+                                 printable(after)));
+}
+
 void read_screens(TableReader& reader, ScreensChosen& screens) {
   reader.in_table("screens", [&](TableReader& table) {
     table.read("language", screens.language);
@@ -49,6 +73,7 @@ void read_screens(TableReader& reader, ScreensChosen& screens) {
     table.read("how_decided", screens.how_decided);
     table.read("crop", screens.crop);
     table.read("text_size", screens.text_size, text_sizes);
+    for (TableReader& one : table.tables("questionnaire")) read_asked(one, screens);
   });
 }
 
@@ -122,6 +147,7 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
   read_analysis(reader, protocol.analysis);
   read_exclusion(reader, protocol.exclusion);
   protocol.blocks = read_blocks(reader, TechniqueNames(protocol.techniques));
+  check_asked(reader, protocol);
   read_layout(reader, protocol.layout, most_cubes(protocol.blocks));
   reader.close();
   mistakes.throw_if_any();

@@ -2,6 +2,7 @@
 // and default is a comment in protocols/paper.toml.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct ScreensChosen {
   bool how_decided = false;
   bool crop = true;      ///< the scene is shown as far as the cubes and the effector go
   double text_size = 1;  ///< times as large as usual
+  /// Questionnaires by name, by the block that they come after; of the name "" at the end.
+  std::map<std::string, std::vector<std::string>> questionnaires = {};
 };
 
 struct SimulatorChoice {
