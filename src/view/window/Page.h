@@ -39,10 +39,21 @@ struct TurnPart {
   int by = 1;
 };
 
+/// Sets an entry to where it is tapped, 0...100.
+struct Slide {
+  std::string key;
+  bool from_the_right = false;
+};
+
 /// What a tap does: something that the session must know, or something between view and person.
-using Effect = std::variant<Touch, SelectCube, TurnPart>;
+using Effect = std::variant<Touch, SelectCube, TurnPart, Slide>;
 
 enum class Look { plain, primary };
+
+/// How far from its left end a slider is set; none: not yet.
+struct Slid {
+  std::optional<float> fraction;
+};
 
 struct Control {
   std::string name;  ///< stable, for tests and scripts: "validate", "cube_1", "label_lightest"
@@ -53,7 +64,8 @@ struct Control {
   char key = 0;  ///< the keyboard's equivalent (see WindowView.h); 0: none
   Look look = Look::plain;
   bool enabled = true;
-  bool chosen = false;  ///< drawn as switched on
+  bool chosen = false;             ///< drawn as switched on
+  std::optional<Slid> slide = {};  ///< drawn as a slider
 };
 
 enum class Tone { strong, soft };

@@ -82,6 +82,17 @@ void paint_words(ImDrawList& list, const Control& control, const Paint& paint, I
     write_centered(list, paint, words.note, words.note_area, colors::accent);
 }
 
+// A line from end to end, and a bar where it is set.
+void paint_slider(ImDrawList& list, const Rect& area, const Slid& slid, float target) {
+  const float thick = 0.06f * target, inset = 0.12f * target;
+  const float left = area.x + inset, right = area.right() - inset, y = area.y + area.height / 2;
+  list.AddRectFilled({left, y - thick / 2}, {right, y + thick / 2}, colors::soft, thick / 2);
+  if (!slid.fraction) return;
+  const float x = std::clamp(area.x + *slid.fraction * area.width, left, right);
+  list.AddRectFilled({x - thick, area.y + inset}, {x + thick, area.bottom() - inset},
+                     colors::accent, thick);
+}
+
 void paint_control(ImDrawList& list, const Control& control, const Paint& paint) {
   const bool pressed = control.enabled && paint.is_pressed(control.name);
   const float rounding = 0.14f * paint.measures.target;
@@ -89,6 +100,7 @@ void paint_control(ImDrawList& list, const Control& control, const Paint& paint)
   list.AddRectFilled(from, to, fill_of(control, pressed), rounding);
   if (control.chosen)
     list.AddRect(from, to, colors::accent, rounding, 0, 0.045f * paint.measures.target);
+  if (control.slide) return paint_slider(list, control.area, *control.slide, paint.measures.target);
   paint_words(list, control, paint, ink_of(control));
 }
 

@@ -65,6 +65,11 @@ class PageBuilder {
   /// Where text pages write: centered, of a width that reads well, above the rows of buttons.
   Rect text_area(int n_rows = 1) const;
 
+  const Questionnaire& questionnaire() const { return texts_.questionnaires.at(state.form); }
+  /// Of a questionnaire's entry, in the log.
+  std::string entry_key(const std::string& question) const { return state.form_prefix + question; }
+  Touch entry(const std::string& question, const std::string& value) const;
+
   Page page;
   const ScreenState& state;
   const ScreenMemory& memory;
@@ -90,6 +95,12 @@ FillPage consent_screen, welcome_screen, instructions_screen, rest_screen, pause
 FillPage about_you_screen, how_decided_screen;
 /// Of a form, the first question without an answer, or its last; elsewhere 0.
 int first_open_question(const ScreenState& state);
+/// The button that leads on from the i-th of n questions, and the one that leads back.
+void add_turning(PageBuilder& builder, int i, int n, bool answered);
+// QuestionnaireScreen.cpp
+FillPage questionnaire_screen;
+int first_open_question(const Questionnaire& form, const std::string& prefix,
+                        const std::map<std::string, std::string>& entries);
 // Beside the scene: SceneScreens.cpp.
 FillPage demonstration_screen, introduction_screen, sorting_screen, comparison_screen;
 

@@ -17,7 +17,8 @@ float advance_px(const std::string& line, float size_px) {
 constexpr std::array<FillPage*, EnumNames<Screen>::names.size()> pages{
     consent_screen,      welcome_screen, about_you_screen, demonstration_screen,
     instructions_screen, nullptr,        rest_screen,      paused_screen,
-    how_decided_screen,  thanks_screen,  declined_screen,  setting_up_screen};
+    how_decided_screen,  thanks_screen,  declined_screen,  setting_up_screen,
+    questionnaire_screen};
 constexpr std::array<FillPage*, EnumNames<Task>::names.size()> trial_pages{
     introduction_screen, sorting_screen, comparison_screen};
 }  // namespace
@@ -83,6 +84,13 @@ Control& PageBuilder::add_primary(std::string name, const Rect& area, std::strin
   return control;
 }
 
+Touch PageBuilder::entry(const std::string& question, const std::string& value) const {
+  Touch touch = touch_of(TouchKind::entry);
+  touch.key = entry_key(question);
+  touch.value = value;
+  return touch;
+}
+
 Touch touch_of(TouchKind kind) {
   Touch touch;
   touch.kind = kind;
@@ -109,7 +117,10 @@ void Screens::remember(const ScreenState& state) {
   } else {
     memory_ = {};
     memory_.entries = state.entries;
-    memory_.part = first_open_question(state);
+    memory_.part = state.screen == Screen::questionnaire
+                       ? first_open_question(texts_.questionnaires.at(state.form),
+                                             state.form_prefix, state.entries)
+                       : first_open_question(state);
     memory_.named = std::move(named);
   }
   paused_.reset();

@@ -13,11 +13,12 @@ namespace {
 constexpr float least_size = 0.7f;  // of what texts are written in elsewhere
 
 // Every screen that has words of its own, as full of them as it gets.
-std::vector<ScreenState> states() {
+std::vector<ScreenState> states(const ScreenTexts& texts) {
   std::vector<ScreenState> all;
   for (std::size_t i = 0; i < EnumNames<Screen>::names.size(); ++i)
-    if (const auto screen = static_cast<Screen>(i);
-        screen != Screen::trial && screen != Screen::instructions)
+    if (const auto screen = static_cast<Screen>(i); screen != Screen::trial &&
+                                                    screen != Screen::instructions &&
+                                                    screen != Screen::questionnaire)
       all.push_back({.screen = screen});
   for (std::size_t i = 0; i < EnumNames<Task>::names.size(); ++i) {
     const auto task = static_cast<Task>(i);
@@ -31,6 +32,8 @@ std::vector<ScreenState> states() {
     all.push_back(trial);
   }
   all.push_back({.screen = Screen::rest, .wait_s = 599});
+  for (const auto& [name, questionnaire] : texts.questionnaires)
+    all.push_back({.screen = Screen::questionnaire, .form = name, .form_prefix = name});
   return all;
 }
 
@@ -41,7 +44,7 @@ class FitCheck {
 
   void look_at(const ScreenState& state) {
     screens_.show(state, true);
-    name_ = text_page(state.screen, state.task);
+    name_ = text_page(state);
     constexpr int most_parts = 100;
     for (int i = 0; i < most_parts && look_at(screens_.page(typeface_, measures_)); ++i) continue;
   }
@@ -117,7 +120,7 @@ Measures smallest_screen(double text_size) {
 
 std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures) {
   FitCheck check(texts, measures);
-  for (const ScreenState& state : states()) check.look_at(state);
+  for (const ScreenState& state : states(texts)) check.look_at(state);
   return check.found;
 }
 

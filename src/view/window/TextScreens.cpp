@@ -126,16 +126,6 @@ void add_choices(PageBuilder& builder, const std::string& page, const Question& 
   }
 }
 
-void add_turning(PageBuilder& builder, int i, int n, bool answered) {
-  const bool last = i + 1 == n;
-  builder
-      .add_button("next", builder.bottom_button(0),
-                  builder.text("buttons", answered ? "next" : "skip"),
-                  last ? Effect(touch_of(TouchKind::next)) : Effect(TurnPart{1}), key_enter)
-      .look = answered ? Look::primary : Look::plain;
-  if (i > 0) add_back(builder);
-}
-
 int first_open(std::span<const Question> questions,
                const std::map<std::string, std::string>& entries) {
   const auto open = std::ranges::find_if(
@@ -166,6 +156,16 @@ double reading_time_s(const PageBuilder& builder) {
   return std::max(glance_s, letter_s * static_cast<double>(n));
 }
 }  // namespace
+
+void add_turning(PageBuilder& builder, int i, int n, bool answered) {
+  const bool last = i + 1 == n;
+  builder
+      .add_button("next", builder.bottom_button(0),
+                  builder.text("buttons", answered ? "next" : "skip"),
+                  last ? Effect(touch_of(TouchKind::next)) : Effect(TurnPart{1}), key_enter)
+      .look = answered ? Look::primary : Look::plain;
+  if (i > 0) add_back(builder);
+}
 
 // Who reads on does not tap where others agree.
 void consent_screen(PageBuilder& builder) {
