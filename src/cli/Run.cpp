@@ -105,6 +105,7 @@ SessionRequest request_of(const Options& options) {
   if (has_person(setup))
     setup.keys = options.keys || purpose_of(options, setup) == Purpose::test ? "yes" : "no";
   complete_and_tell(setup);
+  add_questionnaires(setup, request.protocol, options.protocol);
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant;
   request.db = options.db;

@@ -51,6 +51,12 @@ std::vector<std::string> cautions(const Protocol& protocol);
 /// @throws Error (usage) naming the languages that there are
 std::string texts_file(const std::string& language);
 
+/// Puts the protocol's questionnaires below the texts that the session's person reads, from
+/// NAME.LANGUAGE.toml in the protocol's folder or in protocols/questionnaires.
+/// @param protocol_file where it was read
+/// @throws Error naming what is not there, InvalidFile where it has mistakes
+void add_questionnaires(Setup& setup, const Protocol& protocol, const std::string& protocol_file);
+
 struct CommandedSession {
   const Protocol& protocol;
   const Setup& setup;

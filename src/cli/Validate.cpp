@@ -118,6 +118,14 @@ std::string checked(FileKind kind, const std::string& text, const std::string& p
       return described(parse_effector(text, path));
     case FileKind::synthetic_camera:
       return described(parse_synthetic_camera(text, path).optics);
+    case FileKind::questionnaires: {
+      ScreenTexts texts = load_texts(texts_file("en"));
+      const ScreenTexts read = parse_questionnaires(text, path);
+      texts.questionnaires = read.questionnaires;
+      for (const auto& [page, words] : read.pages) texts.pages[page] = words;
+      say_what_does_not_fit(texts, 1, path);
+      return fmt::format("{} questionnaire(s)", read.questionnaires.size());
+    }
     case FileKind::texts: {
       const ScreenTexts texts = parse_texts(text, path);
       say_what_does_not_fit(texts, 1, path);

@@ -23,7 +23,9 @@ struct TappedSession {
   }
 
   RunEnd run() {
-    return Runner({*protocol, engine, sink, pictures, *hand, screen, clock, true, &texts}, {})
+    return Runner(
+               {*protocol, engine, sink, pictures, *hand, screen, clock, true, &texts, {}, before},
+               {})
         .run();
   }
 
@@ -35,6 +37,7 @@ struct TappedSession {
   std::unique_ptr<Responder> hand = responder_named("simulated").make({});
   HandPictures pictures{*hand, protocol->display_rate_hz};
   TappedScreen screen;
+  GoneThrough before;  ///< of a session that goes on
 };
 
 }  // namespace heft::testing
