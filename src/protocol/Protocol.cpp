@@ -73,6 +73,7 @@ void read_screens(TableReader& reader, ScreensChosen& screens) {
     table.read("how_decided", screens.how_decided);
     table.read("crop", screens.crop);
     table.read("text_size", screens.text_size, text_sizes);
+    table.read("patch", screens.patch);
     for (TableReader& one : table.tables("questionnaire")) read_asked(one, screens);
   });
 }

@@ -39,6 +39,7 @@ struct ScreensChosen {
   bool how_decided = false;
   bool crop = true;      ///< the scene is shown as far as the cubes and the effector go
   double text_size = 1;  ///< times as large as usual
+  bool patch = false;    ///< for a photodiode: another shade with each frame
   /// Questionnaires by name, by the block that they come after; of the name "" at the end.
   std::map<std::string, std::vector<std::string>> questionnaires = {};
 };

@@ -166,6 +166,27 @@ TEST(Screens, GivenLabelsAreReadInOneLineAsLargeAsTheRest) {
   EXPECT_GT(n_notes, 0);
 }
 
+// Where a photodiode is stuck to the screen, no finger goes and nothing is read.
+TEST(Screens, ThePhotodiodesPatchCoversNoControlAndNoText) {
+  on_every_page([](const Fixture& fixture, const Page& page) {
+    const bool left_handed =
+        !page.controls.empty() && page.scene && page.controls.front().area.x < page.scene->x;
+    for (const bool left : {true, false}) {
+      if (page.scene && left == left_handed) continue;  // it is beside the scene
+      const Rect patch = place_of({true, left}, fixture.measures);
+      EXPECT_GE(patch.width, 1.9f * fixture.measures.margin);
+      EXPECT_TRUE(inside(patch, {0, 0, fixture.measures.width, fixture.measures.height}));
+      for (const Control& control : page.controls)
+        EXPECT_FALSE(overlap(patch, control.area)) << control.name;
+      for (const TextLine& line : page.lines)
+        EXPECT_FALSE(overlap(
+            patch,
+            {line.x, line.y, fixture.typeface.width_px(line.text, line.size_px), line.size_px}))
+            << line.text;
+    }
+  });
+}
+
 TEST(Screens, NothingIsThereBeforeTheSessionShowsSomething) {
   Fixture fixture;
   EXPECT_THAT(fixture.page().lines, testing::IsEmpty());

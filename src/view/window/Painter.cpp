@@ -185,6 +185,15 @@ void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
     write(list, paint, line.text, line.x, line.y, line.size_px,
           line.tone == Tone::strong ? colors::strong : colors::soft);
   for (const Control& control : page.controls) paint_control(list, control, paint);
+  if (!paint.patch) return;
+  const Rect place = place_of(*paint.patch, paint.measures);
+  list.AddRectFilled(corner(place), opposite_corner(place),
+                     paint.patch->white ? IM_COL32_WHITE : IM_COL32_BLACK);
+}
+
+Rect place_of(const Patch& patch, const Measures& measures) {
+  const float size = 2 * measures.margin;
+  return {patch.left ? 0 : measures.width - size, measures.height - size, size, size};
 }
 
 Rect fitted_scene(const Rect& room, float width, float height) {

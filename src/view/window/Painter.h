@@ -31,6 +31,15 @@ struct PlacedMark {
   float x = 0, y = 0;
 };
 
+/// A square in a lower corner for a photodiode, white or black.
+struct Patch {
+  bool white = false;
+  bool left = true;  ///< of the screen's sides
+};
+
+/// Twice the margin wide: 4 to 5 mm on a 7" screen; no control reaches into it.
+Rect place_of(const Patch& patch, const Measures& measures);
+
 /// What a page is painted with besides itself.
 struct Paint {
   const Typeface& typeface;
@@ -39,6 +48,7 @@ struct Paint {
   std::optional<PaintedScene> scene;
   std::vector<PlacedMark> marks;
   std::function<bool(const std::string& control)> is_pressed;
+  std::optional<Patch> patch = {};
 };
 
 /// A control's words and the note below them, made to fit their places on it.

@@ -37,6 +37,7 @@ WindowView::WindowView(const ViewSetup& setup)
       typeface_(setup.texts),
       sdl_start_s_(monotonic_s() - static_cast<double>(SDL_GetTicks64()) * 1e-3) {
   if (setup.dragged) drag_.emplace(setup);
+  if (setup.patch) patch_ = Patch{false, !setup.left_handed};
 }
 
 void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
@@ -76,7 +77,7 @@ void WindowView::draw() {
   ImDrawList& list = window_.begin_frame();
   paint_page(list, page,
              {typeface_, measures_, window_.written(), painted, scene_.placed(page.marks),
-              [&](const std::string& name) { return touched_.holds(name); }});
+              [&](const std::string& name) { return touched_.holds(name); }, patch_});
   window_.end_frame();
   touched_.presented(monotonic_s());
   stale_ = false;
@@ -163,6 +164,7 @@ void WindowView::handle_pending() {
 std::optional<double> WindowView::present(const ViewFrame& shown, const ScreenState& screen) {
   handle_pending();  // what was tapped so far was meant for the page before
   show(shown, screen);
+  if (patch_) patch_->white = !patch_->white;  // what is drawn in between is the same frame
   draw();
   const double presented_s = monotonic_s();
   SDL_PumpEvents();  // events get their times here

@@ -58,6 +58,7 @@ class WindowView final : public ArView {
   SceneOnScreen scene_;
   TouchScreen touched_;
   float text_size_;
+  std::optional<Patch> patch_;
   Measures measures_;
   Typeface typeface_;
   std::optional<EffectorDrag> drag_;  ///< none: the effector is held, or a model's
