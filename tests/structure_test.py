@@ -38,6 +38,7 @@ LIBRARY_ROOMS = {
     r"bullet/|btBullet|Bullet": {"physics", "bench"},
     r"apriltag": {"tracking"},
     r"cairo": {"tracking"},
+    r"pango": {"view"},
     r"ode/|mujoco": {"bench"},
     r"opencv": {"tracking", "view", "bench"},
     r"SDL|imgui": {"view"},

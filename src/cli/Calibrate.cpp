@@ -263,7 +263,7 @@ DisplayMeasures by_card(int display) {
   say("Hold a bank card against the display and make the blue rectangle as large as it is: with "
       "the\n"
       "arrow keys (Shift: faster), the wheel or the mouse. Enter when it is, Escape to leave.\n");
-  const auto card = measure_card(display, load_texts(texts_file("en")));
+  const auto card = measure_card(display);
   if (!card) throw Error("the display was not measured", ExitCode::interrupted);
   const double mm_per_px = card_w_mm / card->w_px;
   const DisplayFacts& facts = card->display;

@@ -275,6 +275,7 @@ void show(const LogReader& reader, const Options& options) {
   setup.stage = stage_of(*session.protocol, 3);
   if (entry.has_screen) setup.texts = texts_of(session.setup);
   setup.left_handed = session.setup.handed == "left";
+  setup.text_size = session.protocol->screens.text_size;
   setup.file = file;
   setup.rate_hz = session.protocol->display_rate_hz;
   const StopOnSignal stop;

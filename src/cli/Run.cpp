@@ -28,6 +28,7 @@ struct Options {
   GivenOptions given;
   std::optional<std::string> language;
   std::optional<std::string> purpose, controls, hand;
+  std::optional<double> text_size;
   std::string record_camera;
   Elsewhere elsewhere;
   std::map<std::string, std::string> participant_info;  // what the plan gave
@@ -95,10 +96,17 @@ std::string side_of_controls(const Options& options) {
   return options.left_handed ? "left" : options.controls.value_or("right");
 }
 
+// It is kept with the session, as the key of the protocol that it is.
+GivenOptions with_text_size(GivenOptions given, const std::optional<double>& text_size) {
+  if (text_size) given.settings.push_back(fmt::format("screens.text_size={}", *text_size));
+  return given;
+}
+
 SessionRequest request_of(const Options& options) {
   SessionRequest request;
-  request.protocol = load_protocol(options.protocol, options.given.settings);
-  Setup setup = with_defaults(options.given);
+  const GivenOptions given = with_text_size(options.given, options.text_size);
+  request.protocol = load_protocol(options.protocol, given.settings);
+  Setup setup = with_defaults(given);
   setup.texts_file = texts_file(options.language.value_or(request.protocol.screens.language));
   setup.handed = side_of_controls(options);
   setup.hand = options.hand.value_or("right");
@@ -106,6 +114,7 @@ SessionRequest request_of(const Options& options) {
   if (has_person(setup))
     setup.keys = options.keys || purpose_of(options, setup) == Purpose::test ? "yes" : "no";
   complete_and_tell(setup);
+  add_questionnaires(setup, request.protocol, options.protocol);
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant.value();
   request.participant_info = options.participant_info;
@@ -336,6 +345,9 @@ void add_run(Command& app) {
                   "cubes stay where they are (default: right)")
       .one_of({"left", "right"});
   command.add_flag("--left-handed", options->left_handed, "the same as --controls left");
+  command.add_option("--text-size", &options->text_size,
+                     "how large the participant's texts are, 0.75 to 2 times the usual, as "
+                     "--set screens.text_size=... does (default: the protocol's)");
   command
       .add_option(
           "--purpose", &options->purpose,

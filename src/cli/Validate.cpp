@@ -28,6 +28,7 @@
 #include "session/Session.h"
 #include "tracking/MarkerBody.h"
 #include "tracking/SyntheticCamera.h"
+#include "view/window/TextFit.h"
 
 namespace heft::cli {
 
@@ -97,6 +98,13 @@ std::string described(const Protocol& protocol) {
   return text;
 }
 
+// What of the texts would not be read well on the smallest screen, a sentence each.
+void say_what_does_not_fit(const ScreenTexts& texts, double text_size, const std::string& path) {
+  const Measures smallest = smallest_screen(text_size);
+  for (const std::string& sentence : texts_that_do_not_fit(texts, smallest))
+    say("{}: on a screen of {} x {}: {}\n", path, smallest.width, smallest.height, sentence);
+}
+
 std::string described(const ScreenTexts& texts) {
   return fmt::format("{} page(s) in the language \"{}\"", texts.pages.size(), texts.language);
 }
@@ -156,14 +164,32 @@ std::string checked(FileKind kind, const std::string& text, const std::string& p
       return described(parse_effector(text, path));
     case FileKind::synthetic_camera:
       return described(parse_synthetic_camera(text, path).optics);
-    case FileKind::texts:
-      return described(parse_texts(text, path));
+    case FileKind::questionnaires: {
+      ScreenTexts texts = load_texts(texts_file("en"));
+      const ScreenTexts read = parse_questionnaires(text, path);
+      texts.questionnaires = read.questionnaires;
+      for (const auto& [page, words] : read.pages) texts.pages[page] = words;
+      say_what_does_not_fit(texts, 1, path);
+      return fmt::format("{} questionnaire(s)", read.questionnaires.size());
+    }
+    case FileKind::texts: {
+      const ScreenTexts texts = parse_texts(text, path);
+      say_what_does_not_fit(texts, 1, path);
+      return described(texts);
+    }
     case FileKind::display:
       return described(parse_display(text, path));
     case FileKind::study:
       return described(parse_study(text, path));
   }
   return {};
+}
+
+void say_cautions(const Protocol& protocol, const std::string& path) {
+  for (const std::string& caution : cautions(protocol)) say("{}: {}\n", path, caution);
+  const auto& [language, text_size] =
+      std::tie(protocol.screens.language, protocol.screens.text_size);
+  if (text_size != 1) say_what_does_not_fit(load_texts(texts_file(language)), text_size, path);
 }
 
 std::string with_article(FileKind kind) {
@@ -178,9 +204,7 @@ ExitCode validate(const std::string& path) {
     try {
       const std::string summary = checked(kind, text, path);
       print("{}: ok, {}: {}\n", path, with_article(kind), summary);
-      if (kind == FileKind::protocol)
-        for (const std::string& caution : cautions(parse_protocol(text, path)))
-          say("{}: {}\n", path, caution);
+      if (kind == FileKind::protocol) say_cautions(parse_protocol(text, path), path);
       if (kind == FileKind::study)
         if (const std::string caution = caution_of(parse_study(text, path)); !caution.empty())
           say("{}: {}\n", path, caution);

@@ -23,14 +23,16 @@ enum class Screen {
   paused,
   how_decided,
   thanks,
-  declined,   ///< who does not agree to take part can take that back
-  setting_up  ///< before anything else, while the apparatus is looked at
+  declined,      ///< who does not agree to take part can take that back
+  setting_up,    ///< before anything else, while the apparatus is looked at
+  questionnaire  ///< `form` of the texts
 };
 template <>
 struct EnumNames<Screen> {
-  static constexpr std::array<std::string_view, 12> names{
-      "consent", "welcome", "about_you",   "demonstration", "instructions", "trial",
-      "rest",    "paused",  "how_decided", "thanks",        "declined",     "setting_up"};
+  static constexpr std::array<std::string_view, 13> names{
+      "consent",  "welcome",    "about_you",    "demonstration", "instructions",
+      "trial",    "rest",       "paused",       "how_decided",   "thanks",
+      "declined", "setting_up", "questionnaire"};
 };
 
 /// Which page it is: what is touched on one means nothing on another.
@@ -38,6 +40,7 @@ struct PageId {
   Screen screen = Screen::welcome;
   Task task = Task::sorting;
   int trial_number = 0, attempt = 0, n_reshuffles = 0;
+  std::string form = {};  ///< questionnaire: its name and what it is about
 
   bool operator==(const PageId&) const = default;
 };
@@ -60,11 +63,17 @@ struct ScreenState {
   int n_choices = 0;          ///< select, label and unlabel actions so far in this trial
   double wait_s = 0;          ///< pages: the button to go on appears in so many seconds
   std::map<std::string, std::string> entries = {};  ///< forms: what was answered before
+  /// Questionnaire: its name, and what its entries' keys begin with ("sorting.nasa_tlx.").
+  std::string form = {}, form_prefix = {};
 
   PageId page() const {
     const bool of_trial = screen == Screen::trial;
-    return {screen, task, of_trial ? trial_number : 0, of_trial ? attempt : 0,
-            of_trial ? n_reshuffles : 0};
+    return {screen,
+            task,
+            of_trial ? trial_number : 0,
+            of_trial ? attempt : 0,
+            of_trial ? n_reshuffles : 0,
+            form_prefix};
   }
 };
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "experiment/Questionnaire.h"
 #include "experiment/ScreenState.h"
 
 namespace heft {
@@ -12,6 +13,8 @@ namespace heft {
 struct ScreenTexts {
   std::string language;                                             ///< "en", "fr"...
   std::map<std::string, std::map<std::string, std::string>> pages;  ///< page -> key -> text
+  std::map<std::string, Questionnaire> questionnaires =
+      {};  ///< by name; their words are pages, too
 
   /// @throws std::out_of_range for a page or key that the file's reader did not demand
   const std::string& at(const std::string& page, const std::string& key) const {
@@ -27,11 +30,17 @@ struct ScreenTexts {
 };
 
 /// The page of texts that a screen shows: its name, with the task's where there is a page for each
-/// ("trial_sorting"). Buttons, places and a trial's hints are on pages of their own.
+/// ("trial_sorting"). Buttons, places and a trial's hints are on pages of their own, and so is each
+/// questionnaire.
 inline std::string text_page(Screen screen, Task task) {
   const std::string name(name_of(screen));
   const bool by_task = screen == Screen::instructions || screen == Screen::trial;
   return by_task ? name + '_' + std::string(name_of(task)) : name;
+}
+
+inline std::string text_page(const ScreenState& state) {
+  return state.screen == Screen::questionnaire ? questionnaire_page(state.form)
+                                               : text_page(state.screen, state.task);
 }
 
 }  // namespace heft

@@ -63,6 +63,7 @@ const std::vector<KindKeys>& kinds() {
        "exposure_s",
        {"blur_px", "vignetting", "light", "gamma", "noise_levels", "hand"}},
       {FileKind::texts, "language", {"buttons", "slots", "consent", "welcome", "trial", "thanks"}},
+      {FileKind::questionnaires, "questionnaire", {}},
       {FileKind::display, "eye_distance_mm", {"width_px", "height_px", "width_mm", "height_mm"}},
       {FileKind::study,
        "study",
@@ -89,7 +90,8 @@ FileKind recognized_kind(const std::string& text, const std::string& file) {
                "no key of this file belongs to a protocol (it has [[block]]), a procedure file "
                "([[staircase]]), a scene file ([[cube]]), a board file ([grid] or [[tag]]), an "
                "effector file ([box] or [[tag]]), a synthetic camera file (exposure_s), a text "
-               "file (language), a display file (eye_distance_mm) or a study plan (study)");
+               "file (language), a questionnaire file ([questionnaire.NAME]), a display file "
+               "(eye_distance_mm) or a study plan (study)");
   throw mistakes.as_error();
 }
 

@@ -27,15 +27,16 @@ enum class FileKind {
   effector,
   synthetic_camera,
   texts,
+  questionnaires,
   display,
   study
 };
 template <>
 struct EnumNames<FileKind> {
-  static constexpr std::array<std::string_view, 9> names{
-      "protocol",   "procedure file", "scene file",
-      "board file", "effector file",  "synthetic camera file",
-      "text file",  "display file",   "study plan"};
+  static constexpr std::array<std::string_view, 10> names{
+      "protocol",      "procedure file",        "scene file", "board file",
+      "effector file", "synthetic camera file", "text file",  "questionnaire file",
+      "display file",  "study plan"};
 };
 
 /// The kind whose tables the text has, or else most of whose keys.
@@ -95,6 +96,11 @@ std::string described(const Optics& optics);
 /// text's beginning and end are dropped.
 /// @throws InvalidFile with every missing, unknown or empty page and key at its line and column
 ScreenTexts parse_texts(const std::string& text, const std::string& file);
+
+/// Questionnaires alone, [questionnaire.NAME] each, as they may also stand in a text file: such a
+/// file's text may be written below a text file's.
+/// @throws InvalidFile with every mistake at its line and column
+ScreenTexts parse_questionnaires(const std::string& text, const std::string& file);
 
 /// @throws Error when the file can't be read, InvalidFile as parse_texts
 ScreenTexts load_texts(const std::string& path);

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "base/PlugTable.h"
+#include "base/Printable.h"
 #include "base/Sha256.h"
 #include "base/TextFile.h"
 #include "physics/DecouplingSimulator.h"
@@ -19,6 +21,7 @@ constexpr Range display_rates_hz{1, 1000};
 constexpr Range physics_rates_hz{1, 100000};
 constexpr Range predictions_s{0, 0.2};  // beyond it no hand goes on as it did
 constexpr Range onsets_s{0, 60};
+constexpr Range text_sizes{0.75, 2};
 
 void read_physics(TableReader& reader, Protocol& protocol) {
   reader.in_table("physics", [&](TableReader& table) {
@@ -40,6 +43,28 @@ void read_onset(TableReader& reader, Onset& onset) {
   });
 }
 
+void read_asked(TableReader& table, ScreensChosen& screens) {
+  std::string name, after;
+  table.require({"name"});
+  table.read("name", name);
+  table.read("after", after);
+  table.close();
+  screens.questionnaires[after].push_back(name);
+}
+
+// A misspelled block would mean a questionnaire that nobody is asked.
+void check_asked(TableReader& reader, const Protocol& protocol) {
+  std::set<std::string> blocks{""};
+  for (const Block& block : protocol.blocks)
+    blocks.insert(std::visit([](const auto& of_kind) { return of_kind.name; }, block));
+  for (const auto& [after, names] : protocol.screens.questionnaires)
+    if (!blocks.contains(after) && reader.good({"screens", "block"}))
+      reader.mistake("screens",
+                     fmt::format("a questionnaire comes after \"{}\", and no block is called so, "
+                                 "expected a block's name, or none for the end",
+                                 printable(after)));
+}
+
 void read_screens(TableReader& reader, ScreensChosen& screens) {
   reader.in_table("screens", [&](TableReader& table) {
     table.read("language", screens.language);
@@ -47,6 +72,9 @@ void read_screens(TableReader& reader, ScreensChosen& screens) {
     table.read("about_you", screens.about_you);
     table.read("how_decided", screens.how_decided);
     table.read("crop", screens.crop);
+    table.read("text_size", screens.text_size, text_sizes);
+    table.read("patch", screens.patch);
+    for (TableReader& one : table.tables("questionnaire")) read_asked(one, screens);
   });
 }
 
@@ -121,6 +149,7 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
   read_exclusion(reader, protocol.exclusion);
   protocol.blocks = read_blocks(reader, TechniqueNames(protocol.techniques));
   read_block_order(reader, protocol.blocks);
+  check_asked(reader, protocol);
   read_layout(reader, protocol.layout, most_cubes(protocol.blocks));
   reader.close();
   mistakes.throw_if_any();

@@ -2,6 +2,7 @@
 // and default is a comment in protocols/paper.toml.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,11 @@ struct ScreensChosen {
   bool consent = false;
   bool about_you = false;
   bool how_decided = false;
-  bool crop = true;  ///< the scene is shown as far as the cubes and the effector go
+  bool crop = true;      ///< the scene is shown as far as the cubes and the effector go
+  double text_size = 1;  ///< times as large as usual
+  bool patch = false;    ///< for a photodiode: another shade with each frame
+  /// Questionnaires by name, by the block that they come after; of the name "" at the end.
+  std::map<std::string, std::vector<std::string>> questionnaires = {};
 };
 
 struct SimulatorChoice {

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <set>
 #include <sstream>
 
+#include "base/Printable.h"
 #include "base/TextFile.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/Files.h"
@@ -75,7 +78,132 @@ std::map<std::string, std::string> read_page(TableReader& table, const PageKeys&
   table.close();
   return texts;
 }
+constexpr WholeRange points_of_scales{0, 10};
+constexpr std::size_t most_choices = 12;
+
+// A key goes into the log's table; a name into the protocol.
+void check_key(TableReader& table, std::string_view key, const std::string& value) {
+  const bool plain = std::ranges::all_of(
+      value, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
+  if (value == "done_s")  // is when the questionnaire was gone through
+    table.mistake(key, fmt::format("{} is \"done_s\", which the log keeps for itself", key));
+  if (!plain && table.good({key}))
+    table.mistake(key, fmt::format("{} is \"{}\", expected small letters, digits and _ only", key,
+                                   printable(value)));
+}
+
+void read_choices(TableReader& table, FormQuestion& question) {
+  std::set<std::string> values;
+  for (TableReader& choice : table.tables("choice")) {
+    AnswerChoice read{read_text(choice, "value"), read_text(choice, "text")};
+    choice.close();
+    if (!read.value.empty() && !values.insert(read.value).second)
+      choice.mistake("value", fmt::format("two choices are \"{}\", expected different ones",
+                                          printable(read.value)));
+    question.choices.push_back(std::move(read));
+  }
+  const std::size_t n = question.choices.size();
+  if (table.good({"choice"}) && (n < 2 || n > most_choices))
+    table.mistake("choice", fmt::format("a choice of {}, expected 2 to {}", n, most_choices));
+}
+
+void read_number_range(TableReader& table, FormQuestion& question) {
+  table.require({"least", "most"});
+  table.read("least", question.least);
+  table.read("most", question.most);
+  if (table.good({"least", "most"}) && table.has("most") && question.most <= question.least)
+    table.mistake("most", fmt::format("most is {:g}, expected more than least {:g}", question.most,
+                                      question.least));
+}
+
+FormQuestion read_question(TableReader& table) {
+  FormQuestion question;
+  question.key = read_text(table, "key");
+  check_key(table, "key", question.key);
+  question.text = read_text(table, "text");
+  const auto kind = table.read_nearest_name("kind", EnumNames<QuestionKind>::names);
+  if (!kind) return question;
+  question.kind = *named<QuestionKind>(*kind);
+  switch (question.kind) {
+    case QuestionKind::choice:
+      read_choices(table, question);
+      break;
+    case QuestionKind::likert:
+      table.read("from", question.from, points_of_scales);
+      table.read("to", question.to, points_of_scales);
+      if (table.good({"from", "to"}) && question.to < question.from + 2)
+        table.mistake(table.has("to") ? "to" : "from",
+                      fmt::format("from {} to {}, expected three points or more", question.from,
+                                  question.to));
+      [[fallthrough]];
+    case QuestionKind::slider:
+      question.low = read_text(table, "low");
+      question.high = read_text(table, "high");
+      break;
+    case QuestionKind::number:
+      read_number_range(table, question);
+      break;
+    case QuestionKind::text:
+      break;
+  }
+  table.close();
+  return question;
+}
+
+Questionnaire read_questionnaire(TableReader& table) {
+  Questionnaire questionnaire;
+  questionnaire.title = read_text(table, "title");
+  table.read("source", questionnaire.source);
+  table.require({"question"});
+  std::set<std::string> keys;
+  for (TableReader& question : table.tables("question")) {
+    questionnaire.questions.push_back(read_question(question));
+    const std::string& key = questionnaire.questions.back().key;
+    if (!key.empty() && !keys.insert(key).second)
+      question.mistake(
+          "key", fmt::format("two questions are \"{}\", expected different keys", printable(key)));
+  }
+  table.close();
+  return questionnaire;
+}
+
+// All that people read of it.
+std::map<std::string, std::string> words_of(const Questionnaire& questionnaire) {
+  std::map<std::string, std::string> words{{"title", questionnaire.title}};
+  for (const FormQuestion& question : questionnaire.questions) {
+    words[question.key] = question.text;
+    if (!question.low.empty()) words[question.key + "_low"] = question.low;
+    if (!question.high.empty()) words[question.key + "_high"] = question.high;
+    for (const AnswerChoice& choice : question.choices)
+      words[question.key + '_' + choice.value] = choice.text;
+  }
+  return words;
+}
+
+void read_questionnaires(TableReader& reader, ScreenTexts& texts) {
+  reader.in_table("questionnaire", [&](TableReader& all) {
+    for (const std::string& name : all.keys()) {
+      auto table = all.table(name);
+      if (!table) continue;
+      Questionnaire read = read_questionnaire(*table);
+      texts.pages[questionnaire_page(name)] = words_of(read);
+      texts.questionnaires.emplace(name, std::move(read));
+    }
+  });
+}
 }  // namespace
+
+ScreenTexts parse_questionnaires(const std::string& text, const std::string& file) {
+  Mistakes mistakes(file);
+  const TomlTable root = parse_toml(text, file);
+  TableReader reader(root, mistakes);
+  ScreenTexts texts;
+  reader.require({"questionnaire"});
+  read_questionnaires(reader, texts);
+  reader.close();
+  mistakes.throw_if_any();
+  return texts;
+}
 
 ScreenTexts parse_texts(const std::string& text, const std::string& file) {
   Mistakes mistakes(file);
@@ -91,6 +219,7 @@ ScreenTexts parse_texts(const std::string& text, const std::string& file) {
   for (const PageKeys& keys : later_pages)
     if (auto table = reader.table(keys.page))
       texts.pages.emplace(keys.page, read_page(*table, keys));
+  read_questionnaires(reader, texts);
   reader.close();
   mistakes.throw_if_any();
   return texts;

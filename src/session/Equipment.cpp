@@ -83,6 +83,8 @@ ViewSetup view_setup(const Protocol& protocol, const Setup& options, const Appar
     setup.texts = parse_texts(options.texts_text, options.texts_file);
   setup.left_handed = options.handed == "left";
   setup.takes_keys = options.keys == "yes";
+  setup.text_size = protocol.screens.text_size;
+  setup.patch = protocol.screens.patch;
   setup.file = split_name(options.view).file;
   setup.rate_hz = protocol.display_rate_hz;
   setup.area_m = protocol.layout.area_m;

@@ -1,6 +1,9 @@
 #include "session/Pages.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <variant>
 
 #include "base/Sha256.h"
 #include "protocol/Files.h"
@@ -59,6 +62,40 @@ void Pages::rest(double least_s) {
 
 void Pages::how_decided() {
   if (protocol_.screens.how_decided) show_form(Screen::how_decided);
+}
+
+// Once it was gone through, its own entry has the time; until then it comes again after a
+// break-off, with its first question that has no answer.
+void Pages::ask(const std::string& name, const std::string& after) {
+  const std::string asked = (after.empty() ? "" : after + '.') + name;
+  const std::string done = asked + ".done_s";
+  if (gone_.entries.contains(done) || control_.leaving()) return;
+  if (!texts_->questionnaires.contains(name)) {
+    gone_.entries[done] = "";
+    return journal_.emit_now(
+        Note{fmt::format("the texts have no questionnaire \"{}\": not asked", name)});
+  }
+  ScreenState screen{.screen = Screen::questionnaire, .entries = gone_.entries};
+  screen.form = name;
+  screen.form_prefix = asked + '.';
+  if (show(screen) != TouchKind::next) return;
+  gone_.entries[done] = fmt::format("{:.3f}", journal_.now_s());
+  journal_.add_info(done, gone_.entries[done]);
+}
+
+void Pages::questionnaires(const std::string& before_block) {
+  const auto& asked = protocol_.screens.questionnaires;
+  if (asked.empty()) return;
+  const auto ask_after = [&](const std::string& block) {
+    if (const auto found = asked.find(block); found != asked.end())
+      for (const std::string& name : found->second) ask(name, block);
+  };
+  for (const Block& block : protocol_.blocks) {
+    const std::string name = std::visit([](const auto& kind) { return kind.name; }, block);
+    if (!before_block.empty() && name == before_block) return;
+    ask_after(name);
+  }
+  if (before_block.empty()) ask_after("");
 }
 
 void Pages::thanks() {

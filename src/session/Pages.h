@@ -39,6 +39,10 @@ class Pages {
   /// A break of at least so many seconds.
   void rest(double least_s);
 
+  /// The questionnaires after the blocks before this one that were not asked yet; before none: all,
+  /// and those at the end.
+  void questionnaires(const std::string& before_block = {});
+
   /// The pages after the last trial.
   void how_decided();
   void thanks();
@@ -50,6 +54,7 @@ class Pages {
   TouchKind show(ScreenState screen, double least_s = 0, const Moving& frame_at = {});
   TouchKind show(Screen screen) { return show(ScreenState{.screen = screen}); }
   void show_once(Screen screen);
+  void ask(const std::string& name, const std::string& after);
   void show_form(Screen screen);
   bool agrees();
 

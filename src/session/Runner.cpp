@@ -131,7 +131,10 @@ RunEnd Runner::run_blocks() {
 
 // None: the last answer was vetoed meanwhile, and there is more to do.
 std::optional<RunEnd> Runner::finish() {
-  if (pages_.has_reader()) pages_.how_decided();
+  if (pages_.has_reader()) {
+    pages_.questionnaires();
+    pages_.how_decided();
+  }
   if (control_.leaving()) return RunEnd::stopped;
   if (parts_.engine.next().kind != Next::Kind::finish) return std::nullopt;
   journal_.emit_now(SessionEnded{});
@@ -166,6 +169,8 @@ void Runner::run_trial(const TrialPlan& plan) {
                          plan.trial_number)});
   }
   if (pages_.has_reader() && instructed_block_ != plan.block) {
+    pages_.questionnaires(plan.block);
+    if (control_.leaving()) return;
     pages_.instructions(plan.task);
     if (control_.leaving()) return;
     instructed_block_ = plan.block;

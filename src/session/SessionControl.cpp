@@ -12,7 +12,7 @@ namespace heft {
 
 std::optional<double> ParticipantScreen::present(const ViewFrame& frame,
                                                  const ScreenState& screen) {
-  if (texts_) log_text(text_page(screen.screen, screen.task));
+  if (texts_) log_text(text_page(screen));
   shown_ = screen;
   return view_.present(frame, screen);
 }

@@ -38,6 +38,8 @@ struct ViewSetup {
   std::optional<Intrinsics> camera;  ///< none: no camera pictures will come
   ScreenTexts texts;
   bool left_handed = false;            ///< mirrors the controls, never the cubes
+  bool patch = false;                  ///< a photodiode's, which changes with each frame
+  double text_size = 1;                ///< times as large as usual
   bool takes_keys = false;             ///< answers from the keyboard too
   std::string file;                    ///< what follows the colon: "video:session.mp4"
   double rate_hz = 15;                 ///< frames a second

@@ -66,12 +66,23 @@ class Programs(Installed):
         film, module = self.folder / "film.avi", next(prefix.rglob("heft-codecs.so"))
         self.must(*filming, "--db", self.folder / "lab.db", "--view", f"video:{film}", env=BARE)
         self.assertGreater(film.stat().st_size, 10_000)
-        self.assertNotIn("imgcodecs", run("ldd", prefix / "bin/heft").stdout)
+        libraries = run("ldd", prefix / "bin/heft").stdout
+        self.assertNotIn("imgcodecs", libraries)
+        self.assertNotIn("pango", libraries)
         module.unlink()
         without = run(*filming, "--db", self.folder / "no.db", "--view",
                       f"video:{self.folder / 'none.avi'}", env=BARE)
         self.assertEqual(without.returncode, 1, without.stderr)
         self.assertIn("heft-codecs.so", without.stderr)
+
+    def test_texts_are_written_by_a_module_that_is_named_where_it_is_missing(self):
+        prefix = self.install("--component", "heft")
+        texts = prefix / "share/heft/protocols/texts/en.toml"
+        self.must(prefix / "bin/heft", "validate", texts, env=BARE)
+        next(prefix.rglob("heft-letters.so")).unlink()
+        without = run(prefix / "bin/heft", "validate", texts, env=BARE)
+        self.assertEqual(without.returncode, 1, without.stderr)
+        self.assertIn("heft-letters.so", without.stderr)
 
     def test_bench_is_found_beside_in_libexec_or_on_the_path(self):
         prefix = self.install()

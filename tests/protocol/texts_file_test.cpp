@@ -46,7 +46,9 @@ TEST(TextsFile, ShippedTextsNameNeitherLagNorIllusionNorMassesNorConditions) {
 
 TEST(TextsFile, EveryScreenHasItsPage) {
   const ScreenTexts texts = load_texts(texts_path("en"));
-  for (std::size_t screen = 0; screen < EnumNames<Screen>::names.size(); ++screen)
+  const auto n_screens = static_cast<std::size_t>(Screen::questionnaire);  // pages of their own
+  ASSERT_EQ(n_screens + 1, EnumNames<Screen>::names.size());
+  for (std::size_t screen = 0; screen < n_screens; ++screen)
     for (const Task task : {Task::introduction, Task::sorting, Task::comparison})
       EXPECT_TRUE(texts.pages.contains(text_page(static_cast<Screen>(screen), task)));
 }

@@ -27,10 +27,12 @@ class TappedScreen final : public ArView {
   /// Asked for the next tap whenever the one before is over; its times are not before now.
   using NextTap = std::function<std::optional<Tap>(const TappedScreen&)>;
 
-  TappedScreen(const ScreenTexts& texts, NextTap next_tap)
-      : next_tap_(std::move(next_tap)),
-        typeface_(texts, measures),
-        touched_(texts, false, false, [](float, float) { return std::nullopt; }) {}
+  TappedScreen(const ScreenTexts& texts, NextTap next_tap, Measures window = {1024, 600},
+               bool left_handed = false)
+      : measures(window),
+        next_tap_(std::move(next_tap)),
+        typeface_(texts),
+        touched_(texts, left_handed, false, [](float, float) { return std::nullopt; }) {}
 
   std::optional<double> present(const ViewFrame& frame, const ScreenState& screen) override {
     constexpr double drawing_s = 0.004;
@@ -52,7 +54,7 @@ class TappedScreen final : public ArView {
   const Page& page() const { return touched_.page(); }
   const ScreenState& screen() const { return screen_; }
 
-  const Measures measures{1024, 600};
+  const Measures measures;
   /// What each tap came to: how many touches for the session, and whether it turned a part or chose
   /// a cube.
   struct Done {

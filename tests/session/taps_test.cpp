@@ -8,50 +8,22 @@
 #include "protocol/Files.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"
-#include "session/Runner.h"
-#include "session/TappedScreen.h"
+#include "session/TappedSession.h"
 
 namespace heft {
 namespace {
 
-using testing::made_up_monotonic;
 using testing::made_up_s;
-using testing::shared;
 using testing::Tap;
 using testing::TappedScreen;
+using testing::TappedSession;
 
-constexpr double gap_s = 0.6, min_answer_s = 0.5;
-
-struct TappedSession {
-  TappedSession(Protocol made, TappedScreen::NextTap next_tap)
-      : protocol(shared(std::move(made))), screen(texts, std::move(next_tap)) {
-    Setup setup;
-    setup.gap_s = gap_s;
-    setup.min_answer_s = min_answer_s;
-    engine.apply({0, setup});
-  }
-
-  RunEnd run() {
-    return Runner({*protocol, engine, sink, pictures, *hand, screen, clock, true, &texts}, {})
-        .run();
-  }
-
-  // A consent page of several parts.
-  static ScreenTexts long_texts() {
-    ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
-    for (int i = 0; i < 60; ++i) texts.pages["consent"]["text"] += " There is more to read.";
-    return texts;
-  }
-
-  ScreenTexts texts = long_texts();
-  std::shared_ptr<const Protocol> protocol;
-  Engine engine{protocol, 7};
-  RecordedSession sink{SessionHeader{}};
-  SessionClock clock = SessionClock::wall_from(0, made_up_monotonic);
-  std::unique_ptr<Responder> hand = responder_named("simulated").make({});
-  HandPictures pictures{*hand, protocol->display_rate_hz};
-  TappedScreen screen;
-};
+// A consent page of several parts.
+ScreenTexts long_texts() {
+  ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+  for (int i = 0; i < 60; ++i) texts.pages["consent"]["text"] += " There is more to read.";
+  return texts;
+}
 
 double between(RandomStream& random, double low, double high) {
   return low + (high - low) * random.uniform();
@@ -121,7 +93,7 @@ TEST(Taps, a_double_tap_on_any_button_of_any_page_does_one_thing) {
   std::set<std::string> tapped;
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     SCOPED_TRACE(seed);
-    TappedSession session(testing::whole_protocol(15, 6), DoubleTapper(seed));
+    TappedSession session(testing::whole_protocol(15, 6), long_texts(), DoubleTapper(seed));
     const RunEnd end = session.run();
     EXPECT_THAT(end, ::testing::AnyOf(RunEnd::finished, RunEnd::declined));
     const auto& done = session.screen.done;
@@ -133,7 +105,7 @@ TEST(Taps, a_double_tap_on_any_button_of_any_page_does_one_thing) {
                                       << " s after " << first.control;
       EXPECT_FALSE(second.changed_page) << second.control << " after " << first.control;
     }
-    for (const double t_s : answer_times_s(session)) EXPECT_GE(t_s, min_answer_s - 1e-5);
+    for (const double t_s : answer_times_s(session)) EXPECT_GE(t_s, testing::min_answer_s - 1e-5);
   }
   for (const char* name : {"next", "more", "decline", "back", "cube_1", "cube_2", "cube_3",
                            "label_lightest", "label_heaviest", "validate", "dont_know",
@@ -172,9 +144,9 @@ TEST(Taps, of_two_thousand_wild_ones_none_answers_unseen_cubes) {
   std::size_t n_answers = 0, n_refused = 0;
   for (std::uint64_t seed = 1; n_taps < 2000; ++seed) {
     SCOPED_TRACE(seed);
-    TappedSession session(protocol, WildTapper(seed, n_taps));
+    TappedSession session(protocol, long_texts(), WildTapper(seed, n_taps));
     ASSERT_EQ(session.run(), RunEnd::finished);
-    for (const double t_s : answer_times_s(session)) EXPECT_GE(t_s, min_answer_s - 1e-5);
+    for (const double t_s : answer_times_s(session)) EXPECT_GE(t_s, testing::min_answer_s - 1e-5);
     n_answers += n_actions(session);
     for (const Event& event : testing::events_of(session.sink, EventKind::refused)) {
       ++n_refused;

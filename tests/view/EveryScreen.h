@@ -22,6 +22,12 @@ inline ScreenTexts shipped_texts(const std::string& language) {
   return load_texts(std::string(HEFT_SOURCE_DIR) + "/protocols/texts/" + language + ".toml");
 }
 
+/// Those that are shipped, and those for tests of other scripts.
+inline ScreenTexts texts_in(const std::string& language) {
+  if (language == "en" || language == "fr") return shipped_texts(language);
+  return load_texts(std::string(HEFT_SOURCE_DIR) + "/tests/texts/" + language + ".toml");
+}
+
 inline ScreenState sorting_state(int n_slots) {
   ScreenState state;
   state.screen = Screen::trial;
@@ -106,7 +112,7 @@ inline std::vector<NamedScreen> every_screen() {
 /// The paper's cubes side by side, and the effector before them.
 inline ViewSetup setup_for(const std::string& language, int n_cubes = 3) {
   ViewSetup setup;
-  setup.texts = shipped_texts(language);
+  setup.texts = texts_in(language);
   for (int i = 0; i < n_cubes; ++i)
     setup.stage.slots_m.emplace_back(0.07 * (i - 0.5 * (n_cubes - 1)), 0.03, 0.0175);
   return setup;

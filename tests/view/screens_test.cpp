@@ -12,6 +12,7 @@
 #include "EveryScreen.h"
 #include "base/Error.h"
 #include "view/window/Painter.h"
+#include "view/window/TextFit.h"
 
 namespace heft {
 namespace {
@@ -21,8 +22,8 @@ using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 using testing::UnorderedElementsAreArray;
 
-const std::vector<Measures> windows{
-    {800, 480}, {1024, 600}, {1280, 800}, {1920, 1080}, {800, 1280}};
+const std::vector<Measures> windows{{800, 480},  {1024, 600},        {1280, 800},      {1920, 1080},
+                                    {800, 1280}, {1024, 600, 0.75f}, {1024, 600, 1.3f}};
 
 bool inside(const Rect& inner, const Rect& outer) {
   constexpr float rounding = 0.01f;
@@ -31,7 +32,7 @@ bool inside(const Rect& inner, const Rect& outer) {
 }
 
 bool overlap(const Rect& a, const Rect& b) {
-  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+  return a.overlaps(b);
 }
 
 std::vector<std::string> names(const Page& page, bool enabled_only = false) {
@@ -45,9 +46,7 @@ std::vector<std::string> names(const Page& page, bool enabled_only = false) {
 struct Fixture {
   explicit Fixture(const std::string& language = "en", Measures window = {1024, 600},
                    bool left_handed = false)
-      : measures(window),
-        typeface(shipped_texts(language), window),
-        screens(shipped_texts(language), left_handed) {}
+      : measures(window), typeface(texts_in(language)), screens(texts_in(language), left_handed) {}
 
   Page page() const { return screens.page(typeface, measures); }
   Control control(const std::string& name) const {
@@ -75,7 +74,7 @@ Action action(const std::optional<Touch>& touch) {
 // Visits every screen, every question and every part in a window.
 template <typename Check>
 void on_every_page(const Check& check) {
-  for (const std::string language : {"en", "fr"})
+  for (const std::string language : {"en", "fr", "ar", "ja"})
     for (const Measures& window : windows)
       for (const bool left_handed : {false, true}) {
         Fixture fixture(language, window, left_handed);
@@ -135,10 +134,12 @@ TEST(Screens, TextStaysInTheWindowAndOffTheControls) {
 
 TEST(Screens, ButtonsHoldTheirWordsAtAReadableSize) {
   on_every_page([](const Fixture& fixture, const Page& page) {
+    const Measures asked = fixture.measures, usual(asked.width, asked.height);
+    if (asked.body < usual.body) return;  // smaller was asked for
     for (const Control& control : page.controls) {
       const auto [words, note, words_area, note_area] =
           words_on(control, fixture.typeface, fixture.measures);
-      EXPECT_GE(words.size_px, 0.7f * fixture.measures.body) << control.text;
+      EXPECT_GE(words.size_px, 0.7f * usual.body) << control.text;
       for (const std::string& line : words.lines)
         EXPECT_LE(fixture.typeface.width_px(line, words.size_px), words_area.width) << line;
     }
@@ -152,16 +153,38 @@ TEST(Screens, GivenLabelsAreReadInOneLineAsLargeAsTheRest) {
     for (const Control& control : page.controls) {
       if (control.note.empty()) continue;
       ++n_notes;
+      const Measures asked = fixture.measures, usual(asked.width, asked.height);
       const ControlWords words = words_on(control, fixture.typeface, fixture.measures);
       for (const FittedText& text : {words.text, words.note}) {
         EXPECT_EQ(text.lines.size(), 1U) << text.lines.front();
-        EXPECT_GE(text.size_px, 0.85f * fixture.measures.body) << text.lines.front();
+        EXPECT_GE(text.size_px, 0.85f * std::min(usual.body, asked.body)) << text.lines.front();
       }
       EXPECT_FALSE(overlap(words.text_area, words.note_area));
       EXPECT_TRUE(inside(words.note_area, control.area));
     }
   });
   EXPECT_GT(n_notes, 0);
+}
+
+// Where a photodiode is stuck to the screen, no finger goes and nothing is read.
+TEST(Screens, ThePhotodiodesPatchCoversNoControlAndNoText) {
+  on_every_page([](const Fixture& fixture, const Page& page) {
+    const bool left_handed =
+        !page.controls.empty() && page.scene && page.controls.front().area.x < page.scene->x;
+    for (const bool left : {true, false}) {
+      if (page.scene && left == left_handed) continue;  // it is beside the scene
+      const Rect patch = place_of({true, left}, fixture.measures);
+      EXPECT_GE(patch.width, 1.9f * fixture.measures.margin);
+      EXPECT_TRUE(inside(patch, {0, 0, fixture.measures.width, fixture.measures.height}));
+      for (const Control& control : page.controls)
+        EXPECT_FALSE(overlap(patch, control.area)) << control.name;
+      for (const TextLine& line : page.lines)
+        EXPECT_FALSE(overlap(
+            patch,
+            {line.x, line.y, fixture.typeface.width_px(line.text, line.size_px), line.size_px}))
+            << line.text;
+    }
+  });
 }
 
 TEST(Screens, NothingIsThereBeforeTheSessionShowsSomething) {
@@ -330,6 +353,29 @@ TEST(Screens, CubesThatAppearAreToldFromAPageThatTurns) {
   EXPECT_FALSE(names(fixture.page(), true).empty());
 }
 
+TEST(Screens, TheNamedChoiceStaysMarkedWhileItsCubesFade) {
+  for (const char* named : {"cube_2", "no_difference"}) {
+    Fixture fixture;
+    ScreenState state = trial_state(Task::comparison);
+    fixture.screens.show(state, true);
+    fixture.tap(named);
+    const auto chosen = [&] {
+      std::vector<std::string> all;
+      for (const Control& control : fixture.page().controls)
+        if (control.chosen) all.push_back(control.name);
+      return all;
+    };
+    EXPECT_THAT(chosen(), ElementsAre()) << "it is the session that takes it";
+    state.trial_number = 2;
+    state.faded = 0.1;
+    fixture.screens.show(state, true);
+    EXPECT_THAT(chosen(), ElementsAre(named));
+    state.faded.reset();
+    fixture.screens.show(state, true);
+    EXPECT_THAT(chosen(), ElementsAre()) << "the next cubes are another question";
+  }
+}
+
 TEST(Screens, HintsComeOnlyWhereTheProtocolAsksForWhatTheySay) {
   Fixture fixture;
   ScreenState state = trial_state(Task::comparison);
@@ -469,20 +515,106 @@ TEST(Screens, AllCubesLookTheSame) {
 
 TEST(Typeface, RefusesACharacterThatItLacks) {
   ScreenTexts texts = shipped_texts("en");
-  texts.pages["welcome"]["title"] = "歓迎";
+  texts.pages["welcome"]["title"] = "\U00010FFF";  // given to no script
   try {
-    Typeface(texts, {1024, 600});
+    Typeface{texts};
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::invalid_file);
-    EXPECT_THAT(error.what(), testing::HasSubstr("U+6B53"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("U+10FFF in welcome.title"));
   }
 }
 
-TEST(Typeface, HasTheLettersOfOtherAlphabets) {
+TEST(Typeface, HasTheLettersOfOtherScriptsWhoseFontsAreInstalled) {
   ScreenTexts texts = shipped_texts("en");
-  texts.pages["welcome"]["title"] = "Добро пожаловать Καλώς ήρθατε Vítejte Ťŕíźňę";
-  EXPECT_NO_THROW(Typeface(texts, {1024, 600}));
+  texts.pages["welcome"]["title"] =
+      "Добро пожаловать Καλώς ήρθατε Vítejte Ťŕíźňę שלום مرحبا 歓迎 \u200f\u00a0";
+  EXPECT_NO_THROW(Typeface{texts});
+  EXPECT_THAT(characters_without_font(texts), testing::IsEmpty());
+}
+
+TEST(Typeface, ArabicIsShapedAndItsLettersJoin) {
+  const Typeface typeface(texts_in("ar"));
+  constexpr float size_px = 40;
+  // Three letters in a row are other, narrower forms than three that stand alone.
+  EXPECT_LT(typeface.width_px("ععع", size_px), 0.95f * 3 * typeface.width_px("ع", size_px));
+  EXPECT_EQ(typeface.written("ععع", size_px).direction, Direction::right_to_left);
+}
+
+TEST(Typeface, ALineGoesWithItsLanguageUnlessAllOfItsLettersGoTheOtherWay) {
+  const Typeface arabic(texts_in("ar")), english(texts_in("en"));
+  EXPECT_TRUE(arabic.reads_right_to_left());
+  EXPECT_FALSE(english.reads_right_to_left());
+  const auto leftward = [](const Typeface& typeface, const std::string& line) {
+    return typeface.written(line, 20).direction == Direction::right_to_left;
+  };
+  EXPECT_TRUE(leftward(arabic, "3 / 5"));
+  EXPECT_FALSE(leftward(english, "3 / 5"));
+  EXPECT_TRUE(leftward(arabic, "NASA مكعب"));
+  EXPECT_FALSE(leftward(arabic, "Heft"));
+  EXPECT_FALSE(leftward(english, "مكعب cube"));
+  EXPECT_TRUE(leftward(english, "مكعب"));
+}
+
+TEST(Typeface, WhatHasNoSpacesIsBrokenWhereItsScriptMayBe) {
+  const Typeface typeface(texts_in("ja"));
+  const std::string text =
+      "同じように見える二つの立方体が現れます。一方は他方より重くなっています。";
+  const auto lines = typeface.wrapped(text, 30, 300);
+  EXPECT_GT(lines.size(), 2U);
+  std::string all;
+  for (const std::string& line : lines) {
+    EXPECT_LE(typeface.width_px(line, 30), 300);
+    EXPECT_FALSE(line.starts_with("。")) << "no line begins with a full stop";
+    all += line;
+  }
+  EXPECT_EQ(all, text);
+}
+
+TEST(Typeface, MeasuresWhatItDraws) {
+  for (const char* language : {"en", "ar", "ja"}) {
+    const ScreenTexts texts = texts_in(language);
+    const Typeface typeface(texts);
+    for (const auto& [key, text] : texts.pages.at("trial_sorting"))
+      for (const float size_px : {12.f, 25.2f, 71.f}) {
+        const Ink ink = typeface.ink(typeface.written(text, size_px));
+        const auto width = static_cast<float>(ink.width);
+        const float measured = typeface.width_px(text, size_px);
+        EXPECT_LE(width, measured + 4 + 0.12f * size_px) << text;
+        EXPECT_GE(width, measured - size_px) << text << ": a full stop may have half its size free";
+        EXPECT_GE(ink.top, -0.3f * size_px) << text;
+        EXPECT_LE(ink.top + ink.height, 1.3f * size_px + 2) << text;
+        EXPECT_GT(std::ranges::max(ink.coverage), 200) << text;
+      }
+  }
+}
+
+TEST(TextFit, OfTheTextsNothingIsTooLargeForTheSmallestScreen) {
+  for (const char* language : {"en", "fr", "ar", "ja"})
+    EXPECT_THAT(texts_that_do_not_fit(texts_in(language), smallest_screen()), testing::IsEmpty());
+}
+
+TEST(TextFit, NamesWhatIsTooLongForItsButtonOrItsPlace) {
+  ScreenTexts texts = shipped_texts("en");
+  texts.pages["trial_sorting"]["dont_know"] = "Rindfleischetikettierungsüberwachungsaufgabe";
+  texts.pages["welcome"]["title"] = std::string(60, 'W');
+  texts.pages["trial"]["touch_every_cube"] = std::string(80, 'M');
+  const auto found = texts_that_do_not_fit(texts, smallest_screen());
+  EXPECT_THAT(found, IsSupersetOf(std::vector<testing::Matcher<std::string>>{
+                         testing::StartsWith("trial_sorting: \"Rindfleisch"),
+                         testing::StartsWith("welcome: \"WWW"),
+                         testing::StartsWith("trial_comparison: \"MMM")}));
+  EXPECT_THAT(texts_that_do_not_fit(shipped_texts("en"), smallest_screen(2)),
+              testing::Not(testing::IsEmpty()))
+      << "twice as large is too large somewhere";
+}
+
+TEST(Screens, FormsOfALanguageFromTheRightBeginThere) {
+  Fixture fixture("ar");
+  fixture.screens.show(page_state(Screen::about_you), false);
+  EXPECT_GT(fixture.control("age_under_18").area.x, fixture.control("age_18_24").area.right());
+  const TextLine title = fixture.page().lines.front();
+  EXPECT_GT(title.x, 512) << "and so do lines";
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 
 #include "EveryScreen.h"
@@ -12,6 +13,7 @@
 namespace heft {
 namespace {
 
+using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -53,6 +55,41 @@ class Window : public testing::Test {
   ViewSetup setup;
   std::unique_ptr<WindowView> view;
 };
+
+// The shade of what is on the display in a lower corner.
+int shade_in_corner(bool left) {
+  using ReadPixels = void (*)(int, int, int, int, unsigned, unsigned, void*);
+  using ReadBuffer = void (*)(unsigned);
+  constexpr unsigned front = 0x0404, rgb = 0x1907, bytes = 0x1401;
+  const auto read_buffer = reinterpret_cast<ReadBuffer>(SDL_GL_GetProcAddress("glReadBuffer"));
+  const auto read_pixels = reinterpret_cast<ReadPixels>(SDL_GL_GetProcAddress("glReadPixels"));
+  int width = 0;
+  SDL_GL_GetDrawableSize(SDL_GL_GetCurrentWindow(), &width, nullptr);
+  std::array<unsigned char, 4> pixel{};
+  read_buffer(front);
+  read_pixels(left ? 3 : width - 4, 3, 1, 1, rgb, bytes, pixel.data());
+  return pixel[1];
+}
+
+TEST_F(Window, ThePatchIsAnotherShadeWithEachFrameAndStaysBetween) {
+  for (const bool left_handed : {false, true}) {
+    ViewSetup with_patch = setup_for("en");
+    with_patch.patch = true;
+    with_patch.left_handed = left_handed;
+    open(with_patch);
+    std::vector<int> shades;
+    for (int i = 0; i < 6; ++i) {
+      view->present(picture_of(setup), trial_state(Task::sorting));
+      shades.push_back(shade_in_corner(!left_handed));
+      SDL_Event redraw{};
+      redraw.type = SDL_WINDOWEVENT;  // perhaps uncovered
+      SDL_PushEvent(&redraw);
+      view->wait(0.01);
+      EXPECT_EQ(shade_in_corner(!left_handed), shades.back());
+    }
+    EXPECT_THAT(shades, ElementsAre(255, 0, 255, 0, 255, 0));
+  }
+}
 
 TEST_F(Window, EveryControlOfEveryScreenGivesItsTouch) {
   for (const NamedScreen& screen : every_screen()) {

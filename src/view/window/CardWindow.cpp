@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "view/window/GlWindow.h"
-#include "view/window/Typeface.h"
 
 namespace heft {
 
@@ -63,11 +62,11 @@ Wish handle(const SDL_Event& event, float scale, const Measures& window, Card& c
   }
 }
 
-void draw(GlWindow& window, const Typeface& typeface, const Card& card) {
+void draw(GlWindow& window, const Card& card) {
   const Measures m = window.measures();
   const auto w = static_cast<float>(card.w_px);
   const auto h = static_cast<float>(card.w_px * card_h_mm / card_w_mm);
-  ImDrawList& list = window.begin_frame(typeface.atlas());
+  ImDrawList& list = window.begin_frame();
   list.AddRectFilled({0, 0}, {m.width, m.height}, IM_COL32(20, 23, 27, 255));
   list.AddRectFilled({(m.width - w) / 2, (m.height - h) / 2},
                      {(m.width + w) / 2, (m.height + h) / 2}, IM_COL32(94, 177, 255, 255));
@@ -75,13 +74,12 @@ void draw(GlWindow& window, const Typeface& typeface, const Card& card) {
 }
 }  // namespace
 
-std::optional<MeasuredCard> measure_card(int display, const ScreenTexts& texts) {
+std::optional<MeasuredCard> measure_card(int display) {
   GlWindow window("Heft", {display});
   const Measures m = window.measures();
-  const Typeface typeface(texts, m);
   Card card{start_fraction * static_cast<double>(m.width), static_cast<double>(m.width)};
   for (;;) {
-    draw(window, typeface, card);
+    draw(window, card);
     SDL_Event event;
     if (SDL_WaitEventTimeout(&event, wait_ms) == 0) continue;
     const Wish wish = handle(event, window.scale(), m, card);

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "experiment/DisplayFacts.h"
-#include "experiment/ScreenTexts.h"
 
 namespace heft {
 
@@ -19,6 +18,6 @@ struct MeasuredCard {
 /// Shows the rectangle, full screen. The wheel and the arrow keys change it by a pixel (with Shift
 /// ten), dragging the mouse makes it as wide; Enter ends it, Escape without a result.
 /// @throws Error (device_missing) when there is no such display
-std::optional<MeasuredCard> measure_card(int display, const ScreenTexts& texts);
+std::optional<MeasuredCard> measure_card(int display);
 
 }  // namespace heft

@@ -22,7 +22,7 @@ std::string described(const DisplayFacts& display) {
 
 // Text can be made without a display.
 CheckResult check_typeface(const ScreenTexts& texts) try {
-  const Typeface typeface(texts, Measures(1024, 600));
+  const Typeface typeface(texts);
   return {CheckVerdict::ok, "typeface", "has every character of the participant's texts"};
 } catch (const Error& error) {
   return {CheckVerdict::failed, "typeface", error.what()};

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <utility>
 
 #include "base/Error.h"
 #include "view/window/Displays.h"
@@ -127,33 +129,21 @@ struct GlWindow::Graphics {
     if (!context) throw no_display("no OpenGL 3");
     SDL_GL_SetSwapInterval(1);  // may be refused: the session paces its frames by itself
     glGenTextures(1, &texture);
+    painter = ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    if (!ImGui_ImplOpenGL3_Init()) throw no_display("no OpenGL 3");
   }
   ~Graphics() {
-    drop_painter();
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext(painter);
+    written.reset();
     glDeleteTextures(1, &texture);
     SDL_GL_DeleteContext(context);
   }
 
-  void drop_painter() {
-    if (!painter) return;
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui::DestroyContext(painter);
-    painter = nullptr;
-  }
-
-  // ImGui keeps to one atlas, so other characters mean another ImGui.
-  void use(std::shared_ptr<ImFontAtlas> new_fonts) {
-    if (painter && fonts == new_fonts) return;
-    drop_painter();
-    fonts = std::move(new_fonts);
-    painter = ImGui::CreateContext(fonts.get());
-    ImGui::GetIO().IniFilename = nullptr;
-    if (!ImGui_ImplOpenGL3_Init()) throw no_display("no OpenGL 3");
-  }
-
   SDL_GLContext context;
   GLuint texture = 0;
-  std::shared_ptr<ImFontAtlas> fonts;
+  std::optional<WrittenTextures> written{std::in_place};
   ImGuiContext* painter = nullptr;
 };
 
@@ -235,9 +225,12 @@ void GlWindow::renew_graphics() {
   if (!last_frame_.empty()) upload(last_frame_);
 }
 
-ImDrawList& GlWindow::begin_frame(std::shared_ptr<ImFontAtlas> fonts) {
+WrittenTextures& GlWindow::written() {
+  return *graphics_->written;
+}
+
+ImDrawList& GlWindow::begin_frame() {
   if (SDL_GL_MakeCurrent(window_.get(), graphics_->context) != 0) renew_graphics();
-  graphics_->use(std::move(fonts));
   const Measures m = measures();
   ImGui::GetIO().DisplaySize = {m.width, m.height};
   ImGui_ImplOpenGL3_NewFrame();
@@ -252,6 +245,7 @@ void GlWindow::end_frame() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   SDL_GL_SwapWindow(window_.get());
   glFinish();
+  graphics_->written->end_frame();
 }
 
 }  // namespace heft

@@ -6,14 +6,13 @@
 #include <SDL.h>
 
 #include <memory>
-#include <optional>
 
 #include "base/Image.h"
 #include "experiment/DisplayFacts.h"
 #include "view/window/Page.h"
+#include "view/window/WrittenTextures.h"
 
 struct ImDrawList;
-struct ImFontAtlas;
 
 namespace heft {
 
@@ -50,9 +49,11 @@ class GlWindow {
   void upload(const Image& frame);
   unsigned texture() const;
 
-  /// Begins a frame with these characters, to be painted on the list that it gives.
+  /// Begins a frame, to be painted on the list that it gives.
   /// @throws Error (device_missing) when the graphics are lost and can't be had again
-  ImDrawList& begin_frame(std::shared_ptr<ImFontAtlas> fonts);
+  ImDrawList& begin_frame();
+  /// For what is written in this frame.
+  WrittenTextures& written();
   /// Shows what was painted. Returns once the display has it, as far as the driver tells.
   void end_frame();
 

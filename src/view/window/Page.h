@@ -24,6 +24,9 @@ struct Rect {
   bool contains(float point_x, float point_y) const {
     return point_x >= x && point_x < right() && point_y >= y && point_y < bottom();
   }
+  bool overlaps(const Rect& other) const {
+    return x < other.right() && other.x < right() && y < other.bottom() && other.y < bottom();
+  }
 };
 
 /// Marks a cube as the one that the next label is for; the session need not know.
@@ -36,10 +39,21 @@ struct TurnPart {
   int by = 1;
 };
 
+/// Sets an entry to where it is tapped, 0...100.
+struct Slide {
+  std::string key;
+  bool from_the_right = false;
+};
+
 /// What a tap does: something that the session must know, or something between view and person.
-using Effect = std::variant<Touch, SelectCube, TurnPart>;
+using Effect = std::variant<Touch, SelectCube, TurnPart, Slide>;
 
 enum class Look { plain, primary };
+
+/// How far from its left end a slider is set; none: not yet.
+struct Slid {
+  std::optional<float> fraction;
+};
 
 struct Control {
   std::string name;  ///< stable, for tests and scripts: "validate", "cube_1", "label_lightest"
@@ -50,7 +64,8 @@ struct Control {
   char key = 0;  ///< the keyboard's equivalent (see WindowView.h); 0: none
   Look look = Look::plain;
   bool enabled = true;
-  bool chosen = false;  ///< drawn as switched on
+  bool chosen = false;             ///< drawn as switched on
+  std::optional<Slid> slide = {};  ///< drawn as a slider
 };
 
 enum class Tone { strong, soft };
@@ -87,14 +102,16 @@ struct Measures {
   float gap, margin;         ///< between controls; around them
   float small, body, title;  ///< text
 
-  Measures(float width_px, float height_px) : width(width_px), height(height_px) {
+  /// @param text_size times as large as usual; targets and their places stay
+  Measures(float width_px, float height_px, float text_size = 1)
+      : width(width_px), height(height_px) {
     const float unit = std::min(height_px, 0.6f * width_px);
     target = 0.14f * unit;
     gap = 0.016f * unit;
     margin = 0.025f * unit;
-    small = 0.031f * unit;
-    body = 0.042f * unit;
-    title = 0.065f * unit;
+    small = 0.031f * unit * text_size;
+    body = 0.042f * unit * text_size;
+    title = 0.065f * unit * text_size;
   }
 };
 

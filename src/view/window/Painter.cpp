@@ -33,21 +33,32 @@ ImVec2 opposite_corner(const Rect& area) {
   return {area.right(), area.bottom()};
 }
 
-void write(ImDrawList& list, const Typeface& typeface, const std::string& text, float x, float y,
+ImTextureID drawable(unsigned texture) {
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+}
+
+// On whole pixels, or the letters would blur.
+void write(ImDrawList& list, const Paint& paint, const std::string& text, float x, float y,
            float size_px, ImU32 color) {
-  list.AddText(&typeface.font(size_px), size_px, {x, y}, color, text.c_str());
+  const WrittenTexture& ink =
+      paint.textures.of(paint.typeface.written(text, size_px), paint.typeface);
+  if (ink.texture == 0) return;
+  const ImVec2 from{std::round(x) + static_cast<float>(ink.left),
+                    std::round(y) + static_cast<float>(ink.top)};
+  const ImVec2 to{from.x + static_cast<float>(ink.width), from.y + static_cast<float>(ink.height)};
+  list.AddImage(drawable(ink.texture), from, to, {0, 0}, {1, 1}, color);
 }
 
 // Lines centered in an area.
-void write_centered(ImDrawList& list, const Typeface& typeface, const FittedText& text,
-                    const Rect& area, ImU32 color) {
+void write_centered(ImDrawList& list, const Paint& paint, const FittedText& text, const Rect& area,
+                    ImU32 color) {
   const float line_px = Typeface::line_height_px(text.size_px);
   // A line's letters stand at the top of its height.
   const float height_px = line_px * static_cast<float>(text.lines.size() - 1) + text.size_px;
   float y = area.y + (area.height - height_px) / 2;
   for (const std::string& line : text.lines) {
-    const float x = area.x + (area.width - typeface.width_px(line, text.size_px)) / 2;
-    write(list, typeface, line, x, y, text.size_px, color);
+    const float x = area.x + (area.width - paint.typeface.width_px(line, text.size_px)) / 2;
+    write(list, paint, line, x, y, text.size_px, color);
     y += line_px;
   }
 }
@@ -66,9 +77,20 @@ ImU32 ink_of(const Control& control) {
 
 void paint_words(ImDrawList& list, const Control& control, const Paint& paint, ImU32 ink) {
   const ControlWords words = words_on(control, paint.typeface, paint.measures);
-  write_centered(list, paint.typeface, words.text, words.text_area, ink);
+  write_centered(list, paint, words.text, words.text_area, ink);
   if (!control.note.empty())
-    write_centered(list, paint.typeface, words.note, words.note_area, colors::accent);
+    write_centered(list, paint, words.note, words.note_area, colors::accent);
+}
+
+// A line from end to end, and a bar where it is set.
+void paint_slider(ImDrawList& list, const Rect& area, const Slid& slid, float target) {
+  const float thick = 0.06f * target, inset = 0.12f * target;
+  const float left = area.x + inset, right = area.right() - inset, y = area.y + area.height / 2;
+  list.AddRectFilled({left, y - thick / 2}, {right, y + thick / 2}, colors::soft, thick / 2);
+  if (!slid.fraction) return;
+  const float x = std::clamp(area.x + *slid.fraction * area.width, left, right);
+  list.AddRectFilled({x - thick, area.y + inset}, {x + thick, area.bottom() - inset},
+                     colors::accent, thick);
 }
 
 void paint_control(ImDrawList& list, const Control& control, const Paint& paint) {
@@ -78,18 +100,14 @@ void paint_control(ImDrawList& list, const Control& control, const Paint& paint)
   list.AddRectFilled(from, to, fill_of(control, pressed), rounding);
   if (control.chosen)
     list.AddRect(from, to, colors::accent, rounding, 0, 0.045f * paint.measures.target);
+  if (control.slide) return paint_slider(list, control.area, *control.slide, paint.measures.target);
   paint_words(list, control, paint, ink_of(control));
 }
 
 void paint_scene(ImDrawList& list, const PaintedScene& scene) {
-  const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(scene.texture));
   const auto alpha = static_cast<int>(std::lround(255 * std::clamp(scene.opacity, 0.f, 1.f)));
-  list.AddImage(id, corner(scene.area), opposite_corner(scene.area), corner(scene.part),
-                opposite_corner(scene.part), IM_COL32(255, 255, 255, alpha));
-}
-
-bool overlap(const Rect& a, const Rect& b) {
-  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+  list.AddImage(drawable(scene.texture), corner(scene.area), opposite_corner(scene.area),
+                corner(scene.part), opposite_corner(scene.part), IM_COL32(255, 255, 255, alpha));
 }
 
 // A flag with a label, its tip at the cube; only the tip where no label is given yet. Higher where
@@ -104,30 +122,20 @@ void paint_mark(ImDrawList& list, const PlacedMark& placed, const Paint& paint,
   const float width = paint.typeface.width_px(placed.mark.text, size) + 1.2f * size;
   const float height = 1.7f * size;
   Rect flag{placed.x - width / 2, placed.y - tip - height + 1, width, height};
-  while (std::ranges::any_of(flags, [&](const Rect& other) { return overlap(flag, other); }))
+  while (std::ranges::any_of(flags, [&](const Rect& other) { return flag.overlaps(other); }))
     flag.y -= height / 4;
   flags.push_back(flag);
   list.AddLine({placed.x, flag.bottom() - 1}, {placed.x, placed.y}, fill, 0.15f * size);
   list.AddRectFilled(corner(flag), opposite_corner(flag), fill, height / 4);
-  write_centered(list, paint.typeface, {size, {placed.mark.text}}, flag, colors::on_accent);
+  write_centered(list, paint, {size, {placed.mark.text}}, flag, colors::on_accent);
 }
 
 void paint_notice(ImDrawList& list, const std::string& notice, const Rect& scene,
                   const Paint& paint) {
-  const Measures& m = paint.measures;
-  const FittedText text =
-      paint.typeface.fitted(notice, m.body, scene.width - 4 * m.margin, 0.25f * scene.height);
-  float width = 0;
-  for (const std::string& line : text.lines)
-    width = std::max(width, paint.typeface.width_px(line, text.size_px));
-  width += 2 * m.margin;
-  const float height =
-      Typeface::line_height_px(text.size_px) * static_cast<float>(text.lines.size()) +
-      1.2f * m.margin;
-  const Rect area{scene.x + (scene.width - width) / 2, scene.bottom() - m.margin - height, width,
-                  height};
-  list.AddRectFilled(corner(area), opposite_corner(area), colors::notice, 0.1f * m.target);
-  write_centered(list, paint.typeface, text, area, colors::strong);
+  const auto [text, area] = words_of_notice(notice, scene, paint.typeface, paint.measures);
+  list.AddRectFilled(corner(area), opposite_corner(area), colors::notice,
+                     0.1f * paint.measures.target);
+  write_centered(list, paint, text, area, colors::strong);
 }
 }  // namespace
 
@@ -147,6 +155,22 @@ ControlWords words_on(const Control& control, const Typeface& typeface, const Me
   return words;
 }
 
+NoticeWords words_of_notice(const std::string& notice, const Rect& scene, const Typeface& typeface,
+                            const Measures& measures) {
+  const float margin = measures.margin;
+  NoticeWords words{
+      typeface.fitted(notice, measures.body, scene.width - 4 * margin, 0.25f * scene.height), {}};
+  const auto& [size_px, lines] = words.text;
+  float width = 0;
+  for (const std::string& line : lines) width = std::max(width, typeface.width_px(line, size_px));
+  width += 2 * margin;
+  const float height =
+      Typeface::line_height_px(size_px) * static_cast<float>(lines.size()) + 1.2f * margin;
+  words.area = {scene.x + (scene.width - width) / 2, scene.bottom() - margin - height, width,
+                height};
+  return words;
+}
+
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
   list.AddRectFilled({0, 0}, {paint.measures.width, paint.measures.height}, colors::background);
   if (paint.scene) {
@@ -158,9 +182,18 @@ void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
     if (!page.notice.empty()) paint_notice(list, page.notice, paint.scene->area, paint);
   }
   for (const TextLine& line : page.lines)
-    write(list, paint.typeface, line.text, line.x, line.y, line.size_px,
+    write(list, paint, line.text, line.x, line.y, line.size_px,
           line.tone == Tone::strong ? colors::strong : colors::soft);
   for (const Control& control : page.controls) paint_control(list, control, paint);
+  if (!paint.patch) return;
+  const Rect place = place_of(*paint.patch, paint.measures);
+  list.AddRectFilled(corner(place), opposite_corner(place),
+                     paint.patch->white ? IM_COL32_WHITE : IM_COL32_BLACK);
+}
+
+Rect place_of(const Patch& patch, const Measures& measures) {
+  const float size = 2 * measures.margin;
+  return {patch.left ? 0 : measures.width - size, measures.height - size, size, size};
 }
 
 Rect fitted_scene(const Rect& room, float width, float height) {

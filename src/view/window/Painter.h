@@ -11,6 +11,7 @@
 #include "view/SceneDrawing.h"
 #include "view/window/Page.h"
 #include "view/window/Typeface.h"
+#include "view/window/WrittenTextures.h"
 
 struct ImDrawList;
 
@@ -30,13 +31,24 @@ struct PlacedMark {
   float x = 0, y = 0;
 };
 
+/// A square in a lower corner for a photodiode, white or black.
+struct Patch {
+  bool white = false;
+  bool left = true;  ///< of the screen's sides
+};
+
+/// Twice the margin wide: 4 to 5 mm on a 7" screen; no control reaches into it.
+Rect place_of(const Patch& patch, const Measures& measures);
+
 /// What a page is painted with besides itself.
 struct Paint {
   const Typeface& typeface;
   const Measures& measures;
+  WrittenTextures& textures;
   std::optional<PaintedScene> scene;
   std::vector<PlacedMark> marks;
   std::function<bool(const std::string& control)> is_pressed;
+  std::optional<Patch> patch = {};
 };
 
 /// A control's words and the note below them, made to fit their places on it.
@@ -46,6 +58,15 @@ struct ControlWords {
 };
 
 ControlWords words_on(const Control& control, const Typeface& typeface, const Measures& measures);
+
+/// A notice over the scene, made to fit, and its plate.
+struct NoticeWords {
+  FittedText text;
+  Rect area;
+};
+
+NoticeWords words_of_notice(const std::string& notice, const Rect& scene, const Typeface& typeface,
+                            const Measures& measures);
 
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
 

@@ -22,7 +22,7 @@ void add_scene(PageBuilder& builder, const std::string& above) {
   const float x = builder.left_handed ? column.right() + m.margin : m.margin;
   const float width = m.width - column.width - 3 * m.margin;
   const FittedText words = builder.typeface.fitted(above, m.body, width, 3 * m.body);
-  const float bottom = builder.add_lines(words.lines, x, m.margin, words.size_px);
+  const float bottom = builder.add_lines(words.lines, {x, 0, width, 0}, m.margin, words.size_px);
   const float y = bottom + m.gap;
   builder.page.scene = Rect{x, y, width, m.height - m.margin - y};
   builder.page.scene_opacity = static_cast<float>(1 - builder.state.faded.value_or(0));
@@ -172,6 +172,13 @@ void add_labels(PageBuilder& builder, const Rect& first_row) {
   }
 }
 
+// What was answered last stays marked until its cubes are gone, so that people see that it counted.
+void mark_named(PageBuilder& builder) {
+  if (!builder.state.faded) return;
+  for (Control& control : builder.page.controls)
+    if (control.name == builder.memory.named) control.chosen = true;
+}
+
 // Two cubes, of which one is chosen with one tap.
 void choice_screen(PageBuilder& builder) {
   add_scene(builder, builder.text(text_page(Screen::trial, builder.state.task), "question"));
@@ -190,7 +197,7 @@ void demonstration_screen(PageBuilder& builder) {
   const auto words =
       builder.typeface.fitted(builder.text("demonstration", "text"), builder.measures.body,
                               column.width, button.y - column.y - builder.measures.gap);
-  builder.add_lines(words.lines, column.x, builder.page.scene->y, words.size_px, Tone::soft);
+  builder.add_lines(words.lines, column, builder.page.scene->y, words.size_px, Tone::soft);
   if (builder.state.wait_s > 0) return;
   builder.add_primary("next", button, builder.text("buttons", "next"), touch_of(TouchKind::next));
 }
@@ -210,6 +217,7 @@ void comparison_screen(PageBuilder& builder) {
       .add_button("no_difference", area, builder.text("trial_comparison", "no_difference"),
                   answer(ActionKind::no_difference), 'n')
       .enabled = builder.state.can_answer && builder.memory.cubes_shown;
+  mark_named(builder);
 }
 
 void sorting_screen(PageBuilder& builder) {

@@ -22,6 +22,7 @@ struct ScreenMemory {
   int part = 0;                                ///< of a long text, or question of a form; from 0
   std::map<std::string, std::string> entries;  ///< of a form, as chosen so far
   bool cubes_shown = false;                    ///< in the scene
+  std::string named;                           ///< the button of the last choice, while it fades
   double up_s = 0;                             ///< how long the part or question has been there
 };
 
@@ -44,9 +45,10 @@ class PageBuilder {
     return texts_.if_any(of_page, key);
   }
 
-  /// Lines below each other; an empty one is half as high.
+  /// Lines below each other from y on, each at the side of the column where reading it begins; an
+  /// empty one is half as high.
   /// @return the bottom of the last
-  float add_lines(const std::vector<std::string>& lines, float x, float y, float size_px,
+  float add_lines(const std::vector<std::string>& lines, const Rect& column, float y, float size_px,
                   Tone tone = Tone::strong);
   float height_px(const std::vector<std::string>& lines, float size_px) const;
 
@@ -62,6 +64,11 @@ class PageBuilder {
   Rect bottom_button(int i) const;
   /// Where text pages write: centered, of a width that reads well, above the rows of buttons.
   Rect text_area(int n_rows = 1) const;
+
+  const Questionnaire& questionnaire() const { return texts_.questionnaires.at(state.form); }
+  /// Of a questionnaire's entry, in the log.
+  std::string entry_key(const std::string& question) const { return state.form_prefix + question; }
+  Touch entry(const std::string& question, const std::string& value) const;
 
   Page page;
   const ScreenState& state;
@@ -88,6 +95,12 @@ FillPage consent_screen, welcome_screen, instructions_screen, rest_screen, pause
 FillPage about_you_screen, how_decided_screen;
 /// Of a form, the first question without an answer, or its last; elsewhere 0.
 int first_open_question(const ScreenState& state);
+/// The button that leads on from the i-th of n questions, and the one that leads back.
+void add_turning(PageBuilder& builder, int i, int n, bool answered);
+// QuestionnaireScreen.cpp
+FillPage questionnaire_screen;
+int first_open_question(const Questionnaire& form, const std::string& prefix,
+                        const std::map<std::string, std::string>& entries);
 // Beside the scene: SceneScreens.cpp.
 FillPage demonstration_screen, introduction_screen, sorting_screen, comparison_screen;
 

@@ -17,15 +17,20 @@ float advance_px(const std::string& line, float size_px) {
 constexpr std::array<FillPage*, EnumNames<Screen>::names.size()> pages{
     consent_screen,      welcome_screen, about_you_screen, demonstration_screen,
     instructions_screen, nullptr,        rest_screen,      paused_screen,
-    how_decided_screen,  thanks_screen,  declined_screen,  setting_up_screen};
+    how_decided_screen,  thanks_screen,  declined_screen,  setting_up_screen,
+    questionnaire_screen};
 constexpr std::array<FillPage*, EnumNames<Task>::names.size()> trial_pages{
     introduction_screen, sorting_screen, comparison_screen};
 }  // namespace
 
-float PageBuilder::add_lines(const std::vector<std::string>& lines, float x, float y, float size_px,
-                             Tone tone) {
+float PageBuilder::add_lines(const std::vector<std::string>& lines, const Rect& column, float y,
+                             float size_px, Tone tone) {
   for (const std::string& line : lines) {
-    if (!line.empty()) page.lines.push_back({line, x, y, size_px, tone});
+    if (!line.empty()) {
+      const bool leftward = typeface.written(line, size_px).direction == Direction::right_to_left;
+      const float x = leftward ? column.right() - typeface.width_px(line, size_px) : column.x;
+      page.lines.push_back({line, x, y, size_px, tone});
+    }
     y += advance_px(line, size_px);
   }
   return y;
@@ -79,6 +84,13 @@ Control& PageBuilder::add_primary(std::string name, const Rect& area, std::strin
   return control;
 }
 
+Touch PageBuilder::entry(const std::string& question, const std::string& value) const {
+  Touch touch = touch_of(TouchKind::entry);
+  touch.key = entry_key(question);
+  touch.value = value;
+  return touch;
+}
+
 Touch touch_of(TouchKind kind) {
   Touch touch;
   touch.kind = kind;
@@ -99,12 +111,17 @@ void Screens::remember(const ScreenState& state) {
     paused_ = {state_.page(), std::exchange(memory_, {})};
     return;
   }
+  std::string named = state.faded ? std::move(memory_.named) : "";
   if (paused_ && paused_->page == state.page()) {
     memory_ = std::move(paused_->memory);
   } else {
     memory_ = {};
     memory_.entries = state.entries;
-    memory_.part = first_open_question(state);
+    memory_.part = state.screen == Screen::questionnaire
+                       ? first_open_question(texts_.questionnaires.at(state.form),
+                                             state.form_prefix, state.entries)
+                       : first_open_question(state);
+    memory_.named = std::move(named);
   }
   paused_.reset();
 }
@@ -139,6 +156,7 @@ std::optional<Touch> Screens::tapped(const Control& control) {
   const auto* touch = std::get_if<Touch>(&control.effect);
   if (!touch) return std::nullopt;
   if (touch->kind == TouchKind::entry) memory_.entries[touch->key] = touch->value;
+  if (touch->kind == TouchKind::action) memory_.named = control.name;
   return *touch;
 }
 

@@ -48,8 +48,8 @@ bool add_text(PageBuilder& builder, const std::string& page, int wished_part, in
   const Lines& lines = parts[static_cast<std::size_t>(part)];
   const float free_px = area.height - title_px - builder.height_px(lines, m.body);
   const float y = n_parts > 1 ? area.y : area.y + std::max(0.f, 0.4f * free_px);
-  builder.add_lines(title, area.x, y, m.title);
-  builder.add_lines(lines, area.x, y + title_px, m.body, Tone::soft);
+  builder.add_lines(title, area, y, m.title);
+  builder.add_lines(lines, area, y + title_px, m.body, Tone::soft);
   if (part > 0) add_back(builder);
   if (part + 1 == n_parts) return true;
   builder.add_primary("more", builder.bottom_button(0), builder.text("buttons", "more"),
@@ -92,16 +92,20 @@ Touch entry(std::string_view key, std::string_view value) {
   return touch;
 }
 
+// Above its choices, as large as they leave room for.
 // @return the bottom of the question
 float add_question(PageBuilder& builder, const std::string& page, const Question& question,
                    const std::string& progress) {
   const Measures& m = builder.measures;
   const Rect area = builder.text_area();
   const float y = builder.add_lines({fmt::format("{}   {}", builder.text(page, "title"), progress)},
-                                    area.x, area.y, m.body, Tone::soft);
-  const auto words = builder.typeface.fitted(builder.text(page, std::string(question.key)),
-                                             0.7f * m.title, area.width, 2 * m.title);
-  return builder.add_lines(words.lines, area.x, y + m.gap, words.size_px);
+                                    area, area.y, m.body, Tone::soft);
+  const auto n_rows = static_cast<float>((question.values.size() + 1) / 2);
+  const float choices_px = n_rows * (m.target + m.gap) + 2 * m.gap;
+  const auto words =
+      builder.typeface.fitted(builder.text(page, std::string(question.key)), 0.7f * m.title,
+                              area.width, std::min(2 * m.title, area.bottom() - choices_px - y));
+  return builder.add_lines(words.lines, area, y + m.gap, words.size_px);
 }
 
 void add_choices(PageBuilder& builder, const std::string& page, const Question& question,
@@ -111,7 +115,8 @@ void add_choices(PageBuilder& builder, const std::string& page, const Question& 
   const float width = (area.width - m.gap) / 2;
   for (std::size_t i = 0; i < question.values.size(); ++i) {
     const std::string_view value = question.values[i];
-    const Rect place{area.x + static_cast<float>(i % 2) * (width + m.gap),
+    const bool left = (i % 2 == 0) != builder.typeface.reads_right_to_left();
+    const Rect place{left ? area.x : area.right() - width,
                      top + static_cast<float>(i / 2) * (m.target + m.gap), width, m.target};
     const std::string name = fmt::format("{}_{}", question.key, value);
     builder
@@ -119,16 +124,6 @@ void add_choices(PageBuilder& builder, const std::string& page, const Question& 
                     static_cast<char>('1' + i))
         .chosen = value == chosen;
   }
-}
-
-void add_turning(PageBuilder& builder, int i, int n, bool answered) {
-  const bool last = i + 1 == n;
-  builder
-      .add_button("next", builder.bottom_button(0),
-                  builder.text("buttons", answered ? "next" : "skip"),
-                  last ? Effect(touch_of(TouchKind::next)) : Effect(TurnPart{1}), key_enter)
-      .look = answered ? Look::primary : Look::plain;
-  if (i > 0) add_back(builder);
 }
 
 int first_open(std::span<const Question> questions,
@@ -146,7 +141,7 @@ void form_screen(PageBuilder& builder, const std::string& page,
   const Question& question = questions[static_cast<std::size_t>(i)];
   const auto chosen = builder.memory.entries.find(std::string(question.key));
   const bool answered = chosen != builder.memory.entries.end();
-  const float bottom = add_question(builder, page, question, fmt::format("{} / {}", i + 1, n));
+  const float bottom = add_question(builder, page, question, fmt::format("{}/{}", i + 1, n));
   add_choices(builder, page, question, answered ? chosen->second : "",
               bottom + builder.measures.gap);
   add_turning(builder, i, n, answered);
@@ -161,6 +156,16 @@ double reading_time_s(const PageBuilder& builder) {
   return std::max(glance_s, letter_s * static_cast<double>(n));
 }
 }  // namespace
+
+void add_turning(PageBuilder& builder, int i, int n, bool answered) {
+  const bool last = i + 1 == n;
+  builder
+      .add_button("next", builder.bottom_button(0),
+                  builder.text("buttons", answered ? "next" : "skip"),
+                  last ? Effect(touch_of(TouchKind::next)) : Effect(TurnPart{1}), key_enter)
+      .look = answered ? Look::primary : Look::plain;
+  if (i > 0) add_back(builder);
+}
 
 // Who reads on does not tap where others agree.
 void consent_screen(PageBuilder& builder) {
@@ -177,7 +182,7 @@ void consent_screen(PageBuilder& builder) {
 }
 
 void declined_screen(PageBuilder& builder) {
-  add_text(builder, "declined", 0, 2);
+  if (!add_text(builder, "declined", builder.memory.part, 2)) return;
   builder.add_button("next", builder.bottom_button(0), builder.text("declined", "take_back"),
                      touch_of(TouchKind::next));
   builder.add_button("decline", builder.bottom_button(2), builder.text("declined", "leave"),
@@ -199,19 +204,21 @@ void instructions_screen(PageBuilder& builder) {
 }
 
 void rest_screen(PageBuilder& builder) {
-  add_text(builder, "rest", 0);
+  if (!add_text(builder, "rest", builder.memory.part)) return;
   if (builder.state.wait_s <= 0) return add_next(builder, "next");
   const Rect area = builder.bottom_button(0);
   const auto left_s = static_cast<int>(std::ceil(builder.state.wait_s));
-  const float x = builder.text_area().x;
-  const float y = builder.add_lines({builder.text("rest", "time_left")}, x, area.y,
-                                    builder.measures.body, Tone::soft);
-  builder.add_lines({fmt::format("{}:{:02}", left_s / 60, left_s % 60)}, x, y,
-                    builder.measures.title);
+  const Rect column = builder.text_area();
+  const Measures& m = builder.measures;
+  const float height_px = Typeface::line_height_px(m.body + m.title);
+  const float top = std::min(area.y, m.height - m.margin - height_px);
+  const float y =
+      builder.add_lines({builder.text("rest", "time_left")}, column, top, m.body, Tone::soft);
+  builder.add_lines({fmt::format("{}:{:02}", left_s / 60, left_s % 60)}, column, y, m.title);
 }
 
 void paused_screen(PageBuilder& builder) {
-  add_text(builder, "paused", 0);
+  add_text(builder, "paused", builder.memory.part);
 }
 
 void thanks_screen(PageBuilder& builder) {
@@ -224,8 +231,8 @@ void setting_up_screen(PageBuilder& builder) {
   const auto lines = [&](const char* key, float size_px) {
     return builder.typeface.wrapped(builder.text_if_any("setting_up", key), size_px, area.width);
   };
-  const float y = builder.add_lines(lines("title", m.title), area.x, 0.3f * m.height, m.title);
-  builder.add_lines(lines("text", m.body), area.x, y + m.margin, m.body, Tone::soft);
+  const float y = builder.add_lines(lines("title", m.title), area, 0.3f * m.height, m.title);
+  builder.add_lines(lines("text", m.body), area, y + m.margin, m.body, Tone::soft);
 }
 
 void about_you_screen(PageBuilder& builder) {

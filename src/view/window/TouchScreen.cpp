@@ -3,9 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 namespace heft {
+
+namespace {
+Touch slid_to(const Slide& slide, float fraction) {
+  constexpr float most = 100;
+  const float set = slide.from_the_right ? 1 - fraction : fraction;
+  Touch touch = touch_of(TouchKind::entry);
+  touch.key = slide.key;
+  touch.value = std::to_string(std::lround(most * std::clamp(set, 0.f, 1.f)));
+  return touch;
+}
+}  // namespace
 
 // After a trial the gap settles, and answers have a time of their own from when they count: the
 // engine keeps it, and logs what comes earlier. So the page takes presses as soon as it can be
@@ -55,7 +68,7 @@ bool TouchScreen::down(Taps::Pointer pointer, float x, float y, double t_s) {
 
 bool TouchScreen::up(Taps::Pointer pointer, float x, float y, double t_s) {
   const auto target = target_at(x, y);
-  if (taps_.up(pointer, target)) apply(*enabled_control(*target), t_s);
+  if (taps_.up(pointer, target)) apply(*enabled_control(*target), x, t_s);
   return true;
 }
 
@@ -65,12 +78,14 @@ bool TouchScreen::key(char key, double t_s) {
     return control.key == key && control.enabled;
   });
   if (found == page_.controls.end() || !takes(found->name, t_s)) return false;
-  apply(Control(*found), t_s);
+  apply(*found, found->area.x + found->area.width / 2, t_s);
   return true;
 }
 
-void TouchScreen::apply(const Control& control, double t_s) {
+void TouchScreen::apply(Control control, float x, double t_s) {
   tapped_ = {control.name, t_s};
+  if (const auto* slide = std::get_if<Slide>(&control.effect))
+    control.effect = slid_to(*slide, (x - control.area.x) / control.area.width);
   if (std::holds_alternative<TurnPart>(control.effect)) turn(settle_s);
   if (auto touch = screens_.tapped(control)) report(std::move(*touch), t_s);
 }

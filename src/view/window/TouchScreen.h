@@ -63,7 +63,8 @@ class TouchScreen {
 
   bool takes(const std::string& control, double t_s) const;
   const Control* enabled_control(const std::string& name) const;
-  void apply(const Control& control, double t_s);
+  /// @param x of the tap
+  void apply(Control control, float x, double t_s);
   void turn(double settles_s);
 
   Screens screens_;

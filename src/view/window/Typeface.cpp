@@ -1,13 +1,9 @@
 #include "view/window/Typeface.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
-#include <cfloat>
-#include <cmath>
-#include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "base/Error.h"
@@ -15,54 +11,14 @@
 namespace heft {
 
 namespace {
-// Where distributions put it; Debian's package is fonts-dejavu-core.
-constexpr std::array font_files{
-    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-    "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
+constexpr std::size_t most_remembered = 4096;
 
-std::string font_file() {
-  for (const char* file : font_files)
-    if (std::filesystem::exists(file)) return file;
-  throw Error(fmt::format("the typeface of the participant's screens is not installed: there is no "
-                          "{}; install DejaVu Sans (Debian: apt-get install fonts-dejavu-core)",
-                          font_files.front()),
-              ExitCode::device_missing);
-}
-
-std::string all_characters(const ScreenTexts& texts) {
-  std::string all;
-  for (char c = ' '; c < 127; ++c) all += c;
-  for (const auto& [page, keys] : texts.pages)
-    for (const auto& [key, text] : keys) all += text;
-  std::erase(all, '\n');
-  return all;
-}
-
-ImVector<ImWchar> ranges_of(const std::string& characters) {
-  ImFontGlyphRangesBuilder builder;
-  builder.AddText(characters.c_str());
-  ImVector<ImWchar> ranges;
-  builder.BuildRanges(&ranges);
-  return ranges;
-}
-
-void refuse_missing(const ImFont& font, const ImVector<ImWchar>& ranges,
-                    const std::string& language) {
-  for (int i = 0; ranges[i] != 0; i += 2)
-    for (unsigned c = ranges[i]; c <= ranges[i + 1]; ++c)
-      if (c != 0xA0 && !font.FindGlyphNoFallback(static_cast<ImWchar>(c)))
-        throw Error(fmt::format("the text file in the language \"{}\" has the character U+{:04X}, "
-                                "which DejaVu Sans lacks; write it in another way",
-                                language, c),
-                    ExitCode::invalid_file);
-}
-
-std::vector<std::string> words_of(const std::string& paragraph) {
+// In single spaces, and without line ends.
+std::string in_one_line(const std::string& paragraph) {
   std::istringstream stream(paragraph);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
+  std::string line;
+  for (std::string word; stream >> word;) line += (line.empty() ? "" : " ") + word;
+  return line;
 }
 
 std::vector<std::string> paragraphs_of(const std::string& text) {
@@ -73,50 +29,81 @@ std::vector<std::string> paragraphs_of(const std::string& text) {
   paragraphs.push_back(text.substr(from));
   return paragraphs;
 }
+
+// What most of the texts' own words begin with: one may begin with a name from elsewhere.
+Direction direction_of(const ScreenTexts& texts, const Letters& letters) {
+  int balance = 0;
+  for (const auto& [page, keys] : texts.pages)
+    for (const auto& [key, text] : keys)
+      if (const Runs runs = letters.runs(text); runs.left_to_right || runs.right_to_left)
+        balance += runs.first == Direction::right_to_left ? 1 : -1;
+  return balance > 0 ? Direction::right_to_left : Direction::left_to_right;
+}
+
+std::vector<LackingCharacter> lacking(const ScreenTexts& texts, const Letters& letters) {
+  std::vector<LackingCharacter> all;
+  std::set<char32_t> told;
+  for (const auto& [page, keys] : texts.pages)
+    for (const auto& [key, text] : keys)
+      for (const char32_t code : letters.without_font(text))
+        if (told.insert(code).second) all.push_back({code, page + '.' + key});
+  return all;
+}
+
+std::string listed(const std::vector<LackingCharacter>& characters) {
+  constexpr std::size_t most_told = 6;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(most_told, characters.size()); ++i)
+    list += fmt::format("{}U+{:04X} in {}", i > 0 ? ", " : "",
+                        static_cast<unsigned>(characters[i].code), characters[i].text);
+  if (characters.size() > most_told)
+    list += fmt::format(" and {} more", characters.size() - most_told);
+  return list;
+}
+
+template <typename Key, typename Value, typename Make>
+const Value& remembered(std::map<Key, Value>& memory, const Key& key, const Make& make) {
+  if (const auto found = memory.find(key); found != memory.end()) return found->second;
+  if (memory.size() >= most_remembered) memory.clear();
+  return memory.emplace(key, make()).first->second;
+}
 }  // namespace
 
-Typeface::Typeface(const ScreenTexts& texts, const Measures& measures)
-    : atlas_(std::make_shared<ImFontAtlas>()) {
-  const std::string file = font_file();
-  const ImVector<ImWchar> ranges = ranges_of(all_characters(texts));
-  for (const float size_px : {measures.small, measures.body, measures.title})
-    fonts_.push_back(atlas_->AddFontFromFileTTF(file.c_str(), std::max(6.f, std::round(size_px)),
-                                                nullptr, ranges.Data));
-  if (!atlas_->Build())
-    throw Error(fmt::format("{} is no typeface that can be used; install DejaVu Sans again", file),
-                ExitCode::device_missing);
-  refuse_missing(*fonts_.front(), ranges, texts.language);
+Typeface::Typeface(const ScreenTexts& texts)
+    : letters_(make_letters(texts.language)), direction_(direction_of(texts, *letters_)) {
+  const auto missing = lacking(texts, *letters_);
+  if (missing.empty()) return;
+  throw Error(
+      fmt::format("the text file in the language \"{}\" has characters that no installed font has: "
+                  "{}; install a font that has them (Debian: apt-get install fonts-dejavu-core, "
+                  "fonts-noto-core or fonts-noto-cjk), or write them in another way",
+                  texts.language, listed(missing)),
+      ExitCode::invalid_file);
 }
 
-const ImFont& Typeface::font(float size_px) const {
-  for (const ImFont* font : fonts_)
-    if (font->FontSize >= size_px - 0.5f) return *font;
-  return *fonts_.back();
+WrittenLine Typeface::written(const std::string& line, float size_px) const {
+  const Runs runs = letters_->runs(line);
+  const bool one_way = runs.left_to_right != runs.right_to_left;
+  return {line, size_px, one_way ? runs.first : direction_};
 }
 
-float Typeface::width_px(const std::string& text, float size_px) const {
-  const char* begin = text.c_str();
-  return font(size_px).CalcTextSizeA(size_px, FLT_MAX, 0, begin, begin + text.size()).x;
+float Typeface::width_px(const std::string& line, float size_px) const {
+  const WrittenLine written_line = written(line, size_px);
+  return remembered(widths_px_, written_line, [&] { return letters_->width_px(written_line); });
 }
 
 std::vector<std::string> Typeface::wrapped(const std::string& text, float size_px,
                                            float width) const {
-  std::vector<std::string> lines;
-  for (const std::string& paragraph : paragraphs_of(text)) {
-    if (!lines.empty()) lines.emplace_back();
-    std::string line;
-    for (const std::string& word : words_of(paragraph)) {
-      const std::string longer = line.empty() ? word : line + ' ' + word;
-      if (!line.empty() && width_px(longer, size_px) > width) {
-        lines.push_back(line);
-        line = word;
-      } else {
-        line = longer;
-      }
+  const auto wrap = [&] {
+    std::vector<std::string> lines;
+    for (const std::string& paragraph : paragraphs_of(text)) {
+      if (!lines.empty()) lines.emplace_back();
+      for (std::string& line : letters_->lines_of(written(in_one_line(paragraph), size_px), width))
+        lines.push_back(std::move(line));
     }
-    lines.push_back(line);
-  }
-  return lines;
+    return lines;
+  };
+  return remembered(wrapped_, std::pair(WrittenLine{text, size_px, direction_}, width), wrap);
 }
 
 FittedText Typeface::fitted(const std::string& text, float size_px, float width,
@@ -131,6 +118,10 @@ FittedText Typeface::fitted(const std::string& text, float size_px, float width,
     if (narrow && lines_px <= height) break;
   }
   return fit;
+}
+
+std::vector<LackingCharacter> characters_without_font(const ScreenTexts& texts) {
+  return lacking(texts, *make_letters(texts.language));
 }
 
 }  // namespace heft

@@ -32,10 +32,12 @@ WindowView::WindowView(const ViewSetup& setup)
       touched_(
           setup.texts, setup.left_handed, setup.takes_keys,
           [this](float x, float y) { return scene_.slot_near(x, y, around * measures_.target); }),
-      measures_(window_.measures()),
-      typeface_(std::make_unique<Typeface>(setup.texts, measures_)),
+      text_size_(static_cast<float>(setup.text_size)),
+      measures_(measured()),
+      typeface_(setup.texts),
       sdl_start_s_(monotonic_s() - static_cast<double>(SDL_GetTicks64()) * 1e-3) {
   if (setup.dragged) drag_.emplace(setup);
+  if (setup.patch) patch_ = Patch{false, !setup.left_handed};
 }
 
 void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
@@ -52,15 +54,16 @@ void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
         scene_.distance_px(shown.frame.effector.position_m, shown.frame.clone->position_m);
 }
 
+Measures WindowView::measured() const {
+  const Measures window = window_.measures();
+  return {window.width, window.height, text_size_};
+}
+
 // The page for the window's size and the screens' memory as they are now.
 void WindowView::lay_out() {
-  const Measures now = window_.measures();
-  if (now.width != measures_.width || now.height != measures_.height) {
-    measures_ = now;
-    typeface_ = std::make_unique<Typeface>(touched_.texts(), measures_);
-  }
+  measures_ = measured();
   const bool untried = drag_ && in_trial_ && !drag_->was_taken();
-  touched_.lay_out(*typeface_, measures_, monotonic_s(),
+  touched_.lay_out(typeface_, measures_, monotonic_s(),
                    untried ? touched_.texts().if_any("trial", "drag_effector") : "");
   scene_.place(touched_.page().scene);
   stale_ = true;
@@ -71,10 +74,10 @@ void WindowView::draw() {
   std::optional<PaintedScene> painted;
   if (scene_.area())
     painted = PaintedScene{window_.texture(), *scene_.area(), scene_.part(), page.scene_opacity};
-  ImDrawList& list = window_.begin_frame(typeface_->atlas());
+  ImDrawList& list = window_.begin_frame();
   paint_page(list, page,
-             {*typeface_, measures_, painted, scene_.placed(page.marks),
-              [&](const std::string& name) { return touched_.holds(name); }});
+             {typeface_, measures_, window_.written(), painted, scene_.placed(page.marks),
+              [&](const std::string& name) { return touched_.holds(name); }, patch_});
   window_.end_frame();
   touched_.presented(monotonic_s());
   stale_ = false;
@@ -161,6 +164,7 @@ void WindowView::handle_pending() {
 std::optional<double> WindowView::present(const ViewFrame& shown, const ScreenState& screen) {
   handle_pending();  // what was tapped so far was meant for the page before
   show(shown, screen);
+  if (patch_) patch_->white = !patch_->white;  // what is drawn in between is the same frame
   draw();
   const double presented_s = monotonic_s();
   SDL_PumpEvents();  // events get their times here

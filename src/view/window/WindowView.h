@@ -25,8 +25,8 @@ namespace heft {
 
 class WindowView final : public ArView {
  public:
-  /// @throws Error (device_missing) without a display or the typeface, (invalid_file) when the
-  /// typeface lacks a character of the texts
+  /// @throws Error (device_missing) without a display, (invalid_file) when no installed font has a
+  /// character of the texts
   explicit WindowView(const ViewSetup& setup);
 
   std::optional<double> present(const ViewFrame& shown, const ScreenState& screen) override;
@@ -53,12 +53,15 @@ class WindowView final : public ArView {
   void down(Taps::Pointer pointer, float x, float y, double t_s);
   void up(Taps::Pointer pointer, float x, float y, double t_s);
   void lay_out();
+  Measures measured() const;
 
   GlWindow window_;
   SceneOnScreen scene_;
   TouchScreen touched_;
+  float text_size_;
+  std::optional<Patch> patch_;
   Measures measures_;
-  std::unique_ptr<Typeface> typeface_;
+  Typeface typeface_;
   std::optional<EffectorDrag> drag_;  ///< none: the effector is held, or a model's
   bool in_trial_ = false;
   std::optional<double> clone_offset_px_;

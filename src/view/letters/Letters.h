@@ -1,0 +1,61 @@
+// Text in any script whose fonts are installed, by Pango: shaped, in both directions, with the
+// fonts that have its characters. Pango brings some twenty shared libraries along, which only
+// people's screens need; so it is a module by itself, loaded by whoever asks first.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace heft {
+
+enum class Direction { left_to_right, right_to_left };
+
+/// A line of text of a size, which is from a letter's top to the bottom of those that go below the
+/// line.
+struct WrittenLine {
+  std::string text;
+  float size_px = 0;
+  Direction direction = Direction::left_to_right;
+
+  auto operator<=>(const WrittenLine&) const = default;
+};
+
+/// How much of each pixel a line's ink covers, 0...255, row by row. Its place is from the line's
+/// left end at the top of its size.
+struct Ink {
+  int left = 0, top = 0, width = 0, height = 0;
+  std::vector<std::uint8_t> coverage;
+};
+
+/// Which ways a text's letters run; digits and marks run neither.
+struct Runs {
+  bool left_to_right = false, right_to_left = false;
+  Direction first = Direction::left_to_right;
+};
+
+class Letters {
+ public:
+  virtual ~Letters() = default;
+
+  virtual float width_px(const WrittenLine& line) const = 0;
+  /// A paragraph in lines no wider than that, broken where its script may be (what can't be broken
+  /// sticks out).
+  virtual std::vector<std::string> lines_of(const WrittenLine& paragraph, float width_px) const = 0;
+  virtual Ink ink(const WrittenLine& line) const = 0;
+  virtual Runs runs(const std::string& text) const = 0;
+  /// Its characters that no installed font has, each once.
+  virtual std::vector<char32_t> without_font(const std::string& text) const = 0;
+};
+
+/// @param language of the texts ("ja"): characters that are written otherwise elsewhere go by it
+/// @throws Error naming the module and what is wrong with it, if it can't be loaded
+std::unique_ptr<Letters> make_letters(const std::string& language);
+
+/// What the module has.
+struct LettersModule {
+  std::unique_ptr<Letters> (*make)(const std::string& language);
+};
+
+}  // namespace heft

@@ -1,0 +1,153 @@
+// Questionnaires in whole sessions: what people answered is what the log has, and nobody is asked
+// twice.
+#include <gmock/gmock.h>
+
+#include "base/Random.h"
+#include "base/TextFile.h"
+#include "protocol/Files.h"
+#include "session/TappedSession.h"
+
+namespace heft {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::IsSupersetOf;
+using testing::made_up_s;
+using ::testing::Not;
+using ::testing::StartsWith;
+using testing::Tap;
+using testing::TappedScreen;
+using testing::TappedSession;
+
+ScreenTexts texts_with(const std::vector<std::string>& names) {
+  std::string text = read_text_file(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+  for (const std::string& name : names)
+    text += '\n' + read_text_file(HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + ".en.toml");
+  return parse_texts(text, "texts");
+}
+
+// Answers each question once with any of its buttons, and goes on.
+class Asked {
+ public:
+  explicit Asked(std::uint64_t seed) : random_(seed, "questionnaires") {}
+
+  std::optional<Tap> operator()(const TappedScreen& screen) {
+    const auto& controls = screen.page().controls;
+    const bool asks = screen.screen().screen == Screen::questionnaire;
+    if (screen.screen().screen == Screen::trial) return tap(answer_to(screen, controls), 0.5);
+    const Control* next = named(controls, "next");
+    if (!asks || next == nullptr || next->text == "Continue") return tap(next, 0.5);
+    std::vector<const Control*> answers;
+    for (const Control& control : controls)
+      if (control.enabled && is_answer(control.name)) answers.push_back(&control);
+    if (answers.empty()) return tap(next, 0.5);  // told to the experimenter
+    const Control& chosen = *answers[random_.below(answers.size())];
+    const double at = 0.01 + 0.98 * random_.uniform();
+    if (const auto* touch = std::get_if<Touch>(&chosen.effect)) meant[touch->key] = touch->value;
+    if (const auto* slide = std::get_if<Slide>(&chosen.effect))
+      meant[slide->key] = std::to_string(std::lround(100 * at));
+    return tap(&chosen, at);
+  }
+
+  std::map<std::string, std::string> meant;
+
+ private:
+  // Of a keypad a digit: one is a number.
+  static bool is_answer(const std::string& name) {
+    const auto key = name.find("_key_");
+    if (key != std::string::npos) return name.back() >= '1' && name.back() <= '9';
+    return name != "next" && name != "back" && !name.ends_with("_delete");
+  }
+
+  static const Control* named(const std::vector<Control>& controls, const std::string& name) {
+    for (const Control& control : controls)
+      if (control.name == name) return &control;
+    return nullptr;
+  }
+
+  static const Control* answer_to(const TappedScreen& screen,
+                                  const std::vector<Control>& controls) {
+    const auto& state = screen.screen();
+    if (state.faded || state.task != Task::sorting) return named(controls, "cube_1");
+    return named(controls, "dont_know");
+  }
+
+  std::optional<Tap> tap(const Control* control, double at) {
+    if (control == nullptr || !control->enabled) return std::nullopt;
+    const double down_s = made_up_s + 0.8;
+    const Rect& area = control->area;
+    return Tap{down_s, down_s + 0.05, area.x + static_cast<float>(at) * area.width,
+               area.y + area.height / 2};
+  }
+
+  RandomStream random_;
+};
+
+Protocol asking() {
+  Protocol protocol = testing::quick_protocol();
+  protocol.display_rate_hz = 15;
+  auto second = std::get<SortingBlock>(protocol.blocks.front());
+  second.name = "again";
+  protocol.blocks.push_back(second);
+  protocol.screens.questionnaires = {{"sorting", {"nasa_tlx"}},
+                                     {"again", {"nasa_tlx", "borg_cr10"}},
+                                     {"", {"presence", "ownership"}}};
+  return protocol;
+}
+
+const std::vector<std::string> all{"nasa_tlx", "borg_cr10", "presence", "ownership"};
+
+std::vector<std::string> keys_of(const TappedSession& session) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : session.sink.header().participant_info) keys.push_back(key);
+  return keys;
+}
+
+TEST(Questionnaires, WhatPeopleAnswerIsLoggedByBlockWithItsTime) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Asked person(seed);
+    TappedSession session(asking(), texts_with(all), std::ref(person));
+    ASSERT_EQ(session.run(), RunEnd::finished);
+    std::map<std::string, std::string> logged = session.sink.header().participant_info;
+    double last_s = 0;
+    for (const char* asked : {"sorting.nasa_tlx.done_s", "again.nasa_tlx.done_s",
+                              "again.borg_cr10.done_s", "presence.done_s", "ownership.done_s"}) {
+      ASSERT_TRUE(logged.contains(asked)) << asked;
+      const double at_s = std::stod(logged.at(asked));
+      EXPECT_GT(at_s, last_s) << asked;
+      last_s = at_s;
+      logged.erase(asked);
+    }
+    EXPECT_EQ(logged, person.meant);
+    EXPECT_EQ(logged.size(), 6U + 6 + 1 + 3 + 5);
+    EXPECT_THAT(testing::pages_of(session.sink),
+                IsSupersetOf({"questionnaire_nasa_tlx", "questionnaire_presence"}));
+  }
+}
+
+TEST(Questionnaires, WhoComesBackIsNotAskedAgainAndGoesOnWhereTheyLeft) {
+  Asked person(3);
+  TappedSession session(asking(), texts_with(all), std::ref(person));
+  session.before.entries = {{"sorting.nasa_tlx.done_s", "12.000"},
+                            {"again.nasa_tlx.mental_demand", "40"},
+                            {"again.nasa_tlx.physical_demand", "50"}};
+  ASSERT_EQ(session.run(), RunEnd::finished);
+  const auto keys = keys_of(session);
+  EXPECT_THAT(keys, Each(Not(StartsWith("sorting."))));
+  EXPECT_THAT(keys, Contains("again.nasa_tlx.effort"));
+  EXPECT_THAT(keys, Not(Contains("again.nasa_tlx.mental_demand")));
+}
+
+TEST(Questionnaires, ThatTheTextsLackAreNotedAndPassedOver) {
+  Asked person(4);
+  TappedSession session(asking(), texts_with({"nasa_tlx"}), std::ref(person));
+  ASSERT_EQ(session.run(), RunEnd::finished);
+  std::vector<std::string> notes;
+  for (const Event& event : testing::events_of(session.sink, EventKind::note))
+    notes.push_back(event.as<Note>()->text);
+  EXPECT_THAT(notes, Contains(::testing::HasSubstr("\"presence\"")));
+}
+
+}  // namespace
+}  // namespace heft

@@ -1,0 +1,183 @@
+// Questionnaires on the screen: whether every question fits, and what taps on it are.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "EveryScreen.h"
+#include "base/TextFile.h"
+#include "view/window/TextFit.h"
+#include "view/window/TouchScreen.h"
+
+namespace heft {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+ScreenTexts texts_with_questionnaires(const std::string& language = "en") {
+  ScreenTexts texts = texts_in(language);
+  for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
+    const std::string file = HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + ".en.toml";
+    const ScreenTexts read = parse_questionnaires(read_text_file(file), file);
+    texts.questionnaires.insert(read.questionnaires.begin(), read.questionnaires.end());
+    texts.pages.insert(read.pages.begin(), read.pages.end());
+  }
+  return texts;
+}
+
+ScreenState asked(const std::string& name, std::map<std::string, std::string> entries = {}) {
+  ScreenState state = page_state(Screen::questionnaire);
+  state.form = name;
+  state.form_prefix = "sorting." + name + '.';
+  state.entries = std::move(entries);
+  return state;
+}
+
+// A questionnaire under a finger, on a made-up clock.
+struct Form {
+  explicit Form(const ScreenState& state, Measures window = {1024, 600},
+                const std::string& language = "en")
+      : texts(texts_with_questionnaires(language)),
+        measures(window),
+        screen(texts, false, false, [](float, float) { return std::nullopt; }) {
+    screen.show(state, false);
+    draw();
+  }
+
+  const Control* control(const std::string& name) const {
+    for (const Control& one : screen.page().controls)
+      if (one.name == name) return &one;
+    return nullptr;
+  }
+
+  /// Where of its width.
+  std::vector<Touch> tap(const std::string& name, float at = 0.5f) {
+    const Rect area = control(name)->area;
+    const float x = area.x + at * area.width, y = area.y + area.height / 2;
+    now_s += 2 * settle_s;
+    screen.down(Taps::mouse, x, y, now_s);
+    screen.up(Taps::mouse, x, y, now_s);
+    draw();
+    return screen.take();
+  }
+
+  void draw() {
+    screen.lay_out(typeface, measures, now_s);
+    screen.presented(now_s);
+  }
+
+  ScreenTexts texts;
+  Measures measures;
+  Typeface typeface{texts};
+  TouchScreen screen;
+  double now_s = 0;
+};
+
+bool inside(const Rect& inner, const Rect& outer) {
+  constexpr float rounding = 0.01f;
+  return inner.x >= outer.x - rounding && inner.y >= outer.y - rounding &&
+         inner.right() <= outer.right() + rounding && inner.bottom() <= outer.bottom() + rounding;
+}
+
+void expect_fits(const Form& form) {
+  const Rect window{0, 0, form.measures.width, form.measures.height};
+  for (const Control& control : form.screen.page().controls) {
+    EXPECT_TRUE(inside(control.area, window)) << control.name;
+    EXPECT_GE(control.area.width, form.measures.target - 0.01f) << control.name;
+    EXPECT_GE(control.area.height, form.measures.target - 0.01f) << control.name;
+    for (const Control& other : form.screen.page().controls)
+      EXPECT_FALSE(&other != &control && control.area.overlaps(other.area))
+          << control.name << " on " << other.name;
+  }
+  for (const TextLine& line : form.screen.page().lines) {
+    const Rect area{line.x, line.y, form.typeface.width_px(line.text, line.size_px), line.size_px};
+    EXPECT_TRUE(inside(area, window)) << line.text;
+    for (const Control& control : form.screen.page().controls)
+      EXPECT_FALSE(control.area.overlaps(area)) << line.text << " on " << control.name;
+  }
+}
+
+TEST(QuestionnaireScreen, EveryQuestionFitsEveryScreen) {
+  for (const Measures& window :
+       {Measures{1024, 600}, {1280, 800}, {1920, 1080}, {800, 1280}, {1024, 600, 1.3f}})
+    for (const char* language : {"en", "ar"})
+      for (const auto& [name, questionnaire] : texts_with_questionnaires().questionnaires) {
+        // Answered, so that all buttons are there.
+        std::map<std::string, std::string> entries;
+        for (const FormQuestion& question : questionnaire.questions)
+          entries["sorting." + name + '.' + question.key] = "5";
+        Form form(asked(name, entries), window, language);
+        while (form.control("back")) form.tap("back");
+        for (std::size_t i = 0; i < questionnaire.questions.size(); ++i) {
+          SCOPED_TRACE(name + ' ' + questionnaire.questions[i].key + ' ' +
+                       std::to_string(window.height));
+          expect_fits(form);
+          form.tap("next");
+        }
+      }
+}
+
+TEST(QuestionnaireScreen, OfTheShippedOnesNothingIsTooLargeForTheSmallestScreen) {
+  EXPECT_THAT(texts_that_do_not_fit(texts_with_questionnaires(), smallest_screen()), IsEmpty());
+}
+
+TEST(QuestionnaireScreen, ASliderIsSetWhereItIsTappedAndMovedByOne) {
+  Form form(asked("nasa_tlx"));
+  EXPECT_EQ(form.control("next")->text, "Skip");
+  EXPECT_EQ(form.control("mental_demand_more"), nullptr) << "nothing to move yet";
+  auto touches = form.tap("mental_demand_scale", 0.25f);
+  ASSERT_THAT(touches, SizeIs(1));
+  EXPECT_EQ(touches[0].kind, TouchKind::entry);
+  EXPECT_EQ(touches[0].key, "sorting.nasa_tlx.mental_demand");
+  EXPECT_EQ(touches[0].value, "25");
+  EXPECT_EQ(form.control("next")->text, "Continue");
+  EXPECT_EQ(form.tap("mental_demand_more").at(0).value, "26");
+  EXPECT_EQ(form.tap("mental_demand_less").at(0).value, "25");
+  EXPECT_EQ(form.tap("mental_demand_scale", 0.999f).at(0).value, "100");
+  EXPECT_EQ(form.tap("mental_demand_more").at(0).value, "100");
+}
+
+TEST(QuestionnaireScreen, ASliderRunsTheWayThatIsRead) {
+  Form form(asked("nasa_tlx"), {1024, 600}, "ar");
+  EXPECT_EQ(form.tap("mental_demand_scale", 0.25f).at(0).value, "75");
+  EXPECT_LT(form.control("mental_demand_more")->area.x, form.control("mental_demand_less")->area.x);
+}
+
+TEST(QuestionnaireScreen, APointAndAChoiceAreOneTap) {
+  Form likert(asked("presence"));
+  EXPECT_EQ(likert.tap("being_there_7").at(0).value, "7");
+  EXPECT_TRUE(likert.control("being_there_7")->chosen);
+  EXPECT_EQ(likert.control("being_there_8"), nullptr);
+  Form choice(asked("borg_cr10"));
+  EXPECT_EQ(choice.tap("exertion_0.5").at(0).value, "0.5");
+  EXPECT_THAT(choice.tap("next"), SizeIs(1)) << "of one question the last";
+}
+
+TEST(QuestionnaireScreen, ANumberIsTypedOnButtonsAndGoesOnWhenItIsOne) {
+  std::map<std::string, std::string> before;
+  for (const char* key : {"ownership", "ownership_control", "agency", "agency_control"})
+    before[std::string("sorting.ownership.") + key] = "4";
+  Form form(asked("ownership", before));
+  ASSERT_NE(form.control("pushes_key_1"), nullptr) << "the first question without an answer";
+  EXPECT_EQ(form.tap("pushes_key_1").at(0).value, "1");
+  EXPECT_EQ(form.tap("pushes_key_1").at(0).value, "11");
+  EXPECT_EQ(form.tap("pushes_key_0").at(0).value, "110");
+  EXPECT_TRUE(form.control("next")->enabled);
+  form.tap("pushes_key_0");
+  EXPECT_FALSE(form.control("next")->enabled) << "1100 is more than anybody pushes";
+  EXPECT_EQ(form.tap("pushes_delete").at(0).value, "110");
+  EXPECT_TRUE(form.control("next")->enabled);
+}
+
+TEST(QuestionnaireScreen, TwoInARowAreTwoPages) {
+  Form form(asked("presence"));
+  form.tap("being_there_7");
+  form.screen.show(asked("ownership"), false);
+  form.now_s += 5;
+  form.draw();
+  EXPECT_EQ(form.control("being_there_7"), nullptr);
+  ASSERT_NE(form.control("ownership_7"), nullptr);
+  EXPECT_FALSE(form.control("ownership_7")->chosen);
+}
+
+}  // namespace
+}  // namespace heft
