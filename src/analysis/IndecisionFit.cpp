@@ -108,21 +108,6 @@ FittedParameter threshold(const FittedParameter& s) {
   return result;
 }
 
-std::string no_threshold(const FittedParameter& s, double largest_g) {
-  if (!s.value)
-    return "there is separation: the levels part the answers without overlap, so that any "
-           "sensitivity that "
-           "is large enough fits as well; levels between are missing";
-  if (!s.low || (*s.low <= 0 && !(s.high && *s.high < 0)))
-    return "no sensitivity: its 95 % interval holds 0, so the answers don't surely follow the "
-           "level";
-  if (*s.low <= 0) return "the answers go against the level: sensitivity is negative";
-  if (z_75 / *s.low > 2 * largest_g)
-    return fmt::format(
-        "the threshold's 95 % interval reaches to {:.4g} g, beyond twice the largest level shown",
-        z_75 / *s.low);
-  return "";
-}
 }  // namespace
 
 Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
@@ -152,7 +137,8 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
   for (std::size_t i = 0; i < names.size(); ++i)
     fit.parameters.push_back(
         parameter(names[i], found.parameters[i], i == sensitivity ? unit : 1, bounds[i].fixed()));
-  if (fit.why.empty()) fit.why = no_threshold(fit.parameters[sensitivity], unit);
+  const FittedParameter& s = fit.parameters[sensitivity];
+  if (fit.why.empty()) fit.why = why_no_threshold(!s.value, s.low, s.high, unit);
   fit.parameters.push_back(fit.identifiable() ? threshold(fit.parameters[sensitivity])
                                               : FittedParameter{"threshold_75_g"});
   return fit;
