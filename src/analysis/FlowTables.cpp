@@ -1,6 +1,4 @@
 // Who took part, how well they were tracked, and each one's own threshold, as tables.
-#include <algorithm>
-
 #include "analysis/TableParts.h"
 
 namespace heft {
@@ -56,6 +54,13 @@ Table tracking_table(const Summary& summary) {
   return table;
 }
 
+namespace {
+// "no sensitivity: its 95 % interval..." is "no sensitivity": the words stand in the table of all.
+std::string in_short(const std::string& why) {
+  return why.substr(0, why.find(':'));
+}
+}  // namespace
+
 Table threshold_list(const Summary& summary) {
   Table table{"thresholds_by_participant",
               titled("Each participant's own threshold", summary),
@@ -81,7 +86,7 @@ Table threshold_list(const Summary& summary) {
          number(person.jnd ? std::optional(person.jnd->jnd_g) : std::nullopt),
          person.jnd && person.jnd->censored != Censored::none ? named_cell(person.jnd->censored)
                                                               : Cell(),
-         number(person.start_g), word(person.why)});
+         number(person.start_g), word(in_short(person.why))});
   return table;
 }
 
