@@ -26,6 +26,19 @@ double largest_level(const AnswersByLevel& answers) {
   return largest > 0 ? largest : 1;
 }
 
+// Only those that were given: most levels of a staircase have one answer alone, and the others'
+// shares would cost as much.
+IndecisionShares shares_of_given(const IndecisionParameters& parameters, double level,
+                                 const std::array<double, 3>& n) {
+  if (n[none] > 0) return indecision_shares(parameters, level);
+  const double felt = parameters.sensitivity * level + parameters.bias;
+  const auto share = [&](double z) {
+    return parameters.lapse / 3 + (1 - parameters.lapse) * normal_cdf(z);
+  };
+  return {n[reference] > 0 ? share(-felt - parameters.indecision) : 0, 0,
+          n[comparison] > 0 ? share(felt - parameters.indecision) : 0};
+}
+
 // Sensitivity is per largest level here.
 double log_likelihood(const AnswersByLevel& answers, double unit, const VectorXd& at,
                       VectorXd& gradient) {
@@ -34,20 +47,21 @@ double log_likelihood(const AnswersByLevel& answers, double unit, const VectorXd
   gradient.setZero();
   for (const auto& [level_g, n] : answers) {
     const double level = level_g / unit;
-    const IndecisionShares p = indecision_shares(parameters, level);
+    const IndecisionShares p = shares_of_given(parameters, level, n);
     const std::array<LogShare, 3> shares{log_share(n[reference], p.reference),
                                          log_share(n[none], p.none),
                                          log_share(n[comparison], p.comparison)};
     for (const LogShare& share : shares) sum += share.value;
     const double felt = at[sensitivity] * level + at[bias];
-    const double up = (1 - at[lapse]) * normal_density(felt - at[indecision]);
-    const double down = (1 - at[lapse]) * normal_density(felt + at[indecision]);
     const double at_up = shares[comparison].slope - shares[none].slope;
     const double at_down = shares[reference].slope - shares[none].slope;
-    const double by_felt = at_up * up - at_down * down;
-    gradient[sensitivity] += by_felt * level;
-    gradient[bias] += by_felt;
-    gradient[indecision] -= at_up * up + at_down * down;
+    const double up =
+        at_up == 0 ? 0 : at_up * (1 - at[lapse]) * normal_density(felt - at[indecision]);
+    const double down =
+        at_down == 0 ? 0 : at_down * (1 - at[lapse]) * normal_density(felt + at[indecision]);
+    gradient[sensitivity] += (up - down) * level;
+    gradient[bias] += up - down;
+    gradient[indecision] -= up + down;
     // p = lapse/3 + (1 - lapse) q
     const double third = 1.0 / 3;
     gradient[lapse] +=
