@@ -31,6 +31,8 @@ Chart tracks_chart(const Summary& summary);
 Chart choice_chart(const Summary& summary);
 std::vector<Chart> multiples_charts(const Summary& summary);
 std::vector<Chart> people_charts(const Summary& summary);
+Chart participant_flow_chart(const Summary& summary);
+std::vector<Chart> person_charts(const Summary& summary);  ///< thresholds, tracking
 
 /// "Made by: heft analyse --db heft.db --out report (heft 0.1.0)"
 std::string caption_of(const Summary& summary);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -33,6 +34,23 @@ std::string SessionData::participant() const {
   const auto responder = model();
   return responder ? fmt::format("{} ({})", session.header.participant, *responder)
                    : session.header.participant;
+}
+
+const Setup* SessionData::setup_of(const Attempt& attempt) const {
+  const auto found =
+      std::ranges::find(setups, attempt.trial.setup_index, &LoggedSetup::setup_index);
+  return found == setups.end() ? nullptr : &found->setup;
+}
+
+TrackingCounts SessionData::tracking() const {
+  TrackingCounts counts{events.effector_lost, 0, 0, frames};
+  for (const Attempt& attempt : attempts) {
+    const TrialRow& trial = attempt.trial;
+    if (!trial.shown_s || !trial.validated_s) continue;
+    counts.lost_s += trial.lost_s;
+    counts.answering_s += *trial.validated_s - *trial.shown_s - trial.paused_s;
+  }
+  return counts;
 }
 
 SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
@@ -75,6 +93,8 @@ EventCounts count_events(const std::vector<LoggedEvent>& events) {
     counts.notes += logged.event.kind() == EventKind::note ? 1 : 0;
     counts.deviations += logged.event.kind() == EventKind::deviation ? 1 : 0;
     counts.unblindings += logged.event.kind() == EventKind::unblinding ? 1 : 0;
+    counts.effector_lost += logged.event.kind() == EventKind::effector_lost ? 1 : 0;
+    if (const auto* consent = logged.event.as<Consent>()) counts.consented = consent->agreed;
     if (const auto* check = logged.event.as<CheckResult>()) {
       counts.checks_failed += check->verdict == CheckVerdict::failed ? 1 : 0;
       counts.checks_warned += check->verdict == CheckVerdict::warning ? 1 : 0;
@@ -89,6 +109,19 @@ struct Declared {
   std::optional<AnalysisPlan> plan;
   ExclusionRules exclusion;
 };
+
+constexpr std::array counted_kinds{
+    EventKind::note,   EventKind::deviation, EventKind::unblinding,   EventKind::check,
+    EventKind::camera, EventKind::consent,   EventKind::effector_lost};
+
+// The contents of a session's files, of which no figure is made: of a thousand sessions they are
+// most of what would be kept in memory.
+void forget_contents(Setup& setup) {
+  for (std::string* text : {&setup.responder_text, &setup.tracker_text, &setup.camera_text,
+                            &setup.board_text, &setup.effector_text, &setup.texts_text})
+    *text = {};
+  setup.participant_parameters.clear();
+}
 
 Declared declared_in(const std::string& protocol_text) {
   Declared declared{staircases_without_jnd(protocol_text), {}, {}};
@@ -116,12 +149,14 @@ Dataset read_dataset(const std::string& database, const std::vector<std::int64_t
                                                    log.reversals(id), log.estimates(id)}));
     SessionData& data = dataset.sessions.back();
     data.setups = log.setups(id);
+    for (LoggedSetup& logged : data.setups) forget_contents(logged.setup);
     const auto [found, is_new] = declared.try_emplace(session.header.protocol_text);
     if (is_new) found->second = declared_in(session.header.protocol_text);
     data.without_jnd = found->second.without_jnd;
     data.plan = found->second.plan;
     data.exclusion = found->second.exclusion;
-    const std::vector<LoggedEvent> events = log.events(id);
+    const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
+    data.frames = log.frame_counts(id);
     data.events = count_events(events);
     if (!data.simulated()) data.pictures = count_pictures(events);
   }

@@ -30,9 +30,18 @@ struct PictureCounts {
   int shown = 0, dropped = 0, late = 0;
 };
 
+/// How well the effector of a session was tracked.
+struct TrackingCounts {
+  int n_lost = 0;                      ///< times it went out of sight in a trial
+  double lost_s = 0, answering_s = 0;  ///< out of sight; of what time from shown to validated
+  FrameCounts frames;                  ///< none where frames were not kept
+};
+
 /// What was noted of a session beside its trials.
 struct EventCounts {
   int notes = 0, deviations = 0, checks_failed = 0, checks_warned = 0, unblindings = 0;
+  int effector_lost = 0;
+  std::optional<bool> consented{};  ///< none: it was not asked
 };
 
 struct SessionData {
@@ -41,6 +50,7 @@ struct SessionData {
   std::vector<EstimateRow> estimates;
   PictureCounts pictures;
   EventCounts events;
+  FrameCounts frames;               ///< none where frames were not kept
   std::vector<LoggedSetup> setups;  ///< what was in force, in order
   /// Staircases of the protocol that estimate no JND, such as constant stimuli.
   std::set<std::string> without_jnd{};
@@ -53,6 +63,9 @@ struct SessionData {
   std::optional<std::string> model() const;
   /// Who is counted as one. Simulated responders of one name but different models are not.
   std::string participant() const;
+  /// What was in force in a trial; null: the log doesn't tell.
+  const Setup* setup_of(const Attempt& attempt) const;
+  TrackingCounts tracking() const;
   bool finished() const { return session.state == SessionState::finished; }
 };
 

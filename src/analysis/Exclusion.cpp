@@ -10,11 +10,11 @@
 namespace heft {
 
 namespace {
-void count_attempt(ParticipantRow& row, const Attempt& attempt) {
+void count_attempt(ParticipantRow& row, const SessionData& data, const Attempt& attempt) {
   row.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
   if (!attempt.completed()) return;
   row.n_completed += 1;
-  row.n_impossible += is_impossible(attempt) ? 1 : 0;
+  row.n_impossible += is_impossible(data, attempt) ? 1 : 0;
   if (!attempt.trial.plan.is_catch) return;
   row.n_catch += 1;
   row.n_false_alarms += attempt.trial.outcome == Outcome::difference ? 1 : 0;
@@ -50,7 +50,7 @@ std::vector<ParticipantRow> participants_of(std::span<const SessionData> session
     if (!seen.rules) seen.rules = &data.exclusion;
     seen.row.n_sessions += 1;
     seen.row.n_finished += data.finished() ? 1 : 0;
-    for (const Attempt& attempt : data.attempts) count_attempt(seen.row, attempt);
+    for (const Attempt& attempt : data.attempts) count_attempt(seen.row, data, attempt);
     seen.n_attempts += static_cast<int>(data.attempts.size());
   }
   std::vector<ParticipantRow> rows;

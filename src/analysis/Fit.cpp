@@ -82,4 +82,20 @@ LogShare log_share(double n, double p) {
   return {n * std::log(share), n / share};
 }
 
+std::string why_no_threshold(bool separated, const std::optional<double>& low,
+                             const std::optional<double>& high, double largest_level_g) {
+  if (separated)
+    return "there is separation: the levels part the answers without overlap, so that any "
+           "sensitivity that is large enough fits as well; levels between are missing";
+  if (high && *high < 0) return "the answers go against the level: sensitivity is negative";
+  if (!low || *low <= 0)
+    return "no sensitivity: its 95 % interval holds 0, so the answers don't surely follow the "
+           "level";
+  if (z_75 / *low > 2 * largest_level_g)
+    return fmt::format(
+        "the threshold's 95 % interval reaches to {:.4g} g, beyond twice the largest level shown",
+        z_75 / *low);
+  return "";
+}
+
 }  // namespace heft

@@ -65,6 +65,10 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options);
 inline constexpr double least_trials_to_fit = 10;
 
 // What the two have in common.
+/// Why a sensitivity gives no threshold, in the words that heft fit and the report share; empty: it
+/// does. Ends of the interval at infinity are none.
+std::string why_no_threshold(bool separated, const std::optional<double>& low,
+                             const std::optional<double>& high, double largest_level_g);
 /// How often each answer was given, at any level.
 std::array<double, 3> totals(const AnswersByLevel& answers);
 double trials_in(const AnswersByLevel& answers);

@@ -26,6 +26,19 @@ double largest_level(const AnswersByLevel& answers) {
   return largest > 0 ? largest : 1;
 }
 
+// Only those that were given: most levels of a staircase have one answer alone, and the others'
+// shares would cost as much.
+IndecisionShares shares_of_given(const IndecisionParameters& parameters, double level,
+                                 const std::array<double, 3>& n) {
+  if (n[none] > 0) return indecision_shares(parameters, level);
+  const double felt = parameters.sensitivity * level + parameters.bias;
+  const auto share = [&](double z) {
+    return parameters.lapse / 3 + (1 - parameters.lapse) * normal_cdf(z);
+  };
+  return {n[reference] > 0 ? share(-felt - parameters.indecision) : 0, 0,
+          n[comparison] > 0 ? share(felt - parameters.indecision) : 0};
+}
+
 // Sensitivity is per largest level here.
 double log_likelihood(const AnswersByLevel& answers, double unit, const VectorXd& at,
                       VectorXd& gradient) {
@@ -34,20 +47,21 @@ double log_likelihood(const AnswersByLevel& answers, double unit, const VectorXd
   gradient.setZero();
   for (const auto& [level_g, n] : answers) {
     const double level = level_g / unit;
-    const IndecisionShares p = indecision_shares(parameters, level);
+    const IndecisionShares p = shares_of_given(parameters, level, n);
     const std::array<LogShare, 3> shares{log_share(n[reference], p.reference),
                                          log_share(n[none], p.none),
                                          log_share(n[comparison], p.comparison)};
     for (const LogShare& share : shares) sum += share.value;
     const double felt = at[sensitivity] * level + at[bias];
-    const double up = (1 - at[lapse]) * normal_density(felt - at[indecision]);
-    const double down = (1 - at[lapse]) * normal_density(felt + at[indecision]);
     const double at_up = shares[comparison].slope - shares[none].slope;
     const double at_down = shares[reference].slope - shares[none].slope;
-    const double by_felt = at_up * up - at_down * down;
-    gradient[sensitivity] += by_felt * level;
-    gradient[bias] += by_felt;
-    gradient[indecision] -= at_up * up + at_down * down;
+    const double up =
+        at_up == 0 ? 0 : at_up * (1 - at[lapse]) * normal_density(felt - at[indecision]);
+    const double down =
+        at_down == 0 ? 0 : at_down * (1 - at[lapse]) * normal_density(felt + at[indecision]);
+    gradient[sensitivity] += (up - down) * level;
+    gradient[bias] += up - down;
+    gradient[indecision] -= up + down;
     // p = lapse/3 + (1 - lapse) q
     const double third = 1.0 / 3;
     gradient[lapse] +=
@@ -108,21 +122,6 @@ FittedParameter threshold(const FittedParameter& s) {
   return result;
 }
 
-std::string no_threshold(const FittedParameter& s, double largest_g) {
-  if (!s.value)
-    return "there is separation: the levels part the answers without overlap, so that any "
-           "sensitivity that "
-           "is large enough fits as well; levels between are missing";
-  if (!s.low || (*s.low <= 0 && !(s.high && *s.high < 0)))
-    return "no sensitivity: its 95 % interval holds 0, so the answers don't surely follow the "
-           "level";
-  if (*s.low <= 0) return "the answers go against the level: sensitivity is negative";
-  if (z_75 / *s.low > 2 * largest_g)
-    return fmt::format(
-        "the threshold's 95 % interval reaches to {:.4g} g, beyond twice the largest level shown",
-        z_75 / *s.low);
-  return "";
-}
 }  // namespace
 
 Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
@@ -152,7 +151,8 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
   for (std::size_t i = 0; i < names.size(); ++i)
     fit.parameters.push_back(
         parameter(names[i], found.parameters[i], i == sensitivity ? unit : 1, bounds[i].fixed()));
-  if (fit.why.empty()) fit.why = no_threshold(fit.parameters[sensitivity], unit);
+  const FittedParameter& s = fit.parameters[sensitivity];
+  if (fit.why.empty()) fit.why = why_no_threshold(!s.value, s.low, s.high, unit);
   fit.parameters.push_back(fit.identifiable() ? threshold(fit.parameters[sensitivity])
                                               : FittedParameter{"threshold_75_g"});
   return fit;

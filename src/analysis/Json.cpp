@@ -248,6 +248,35 @@ ordered_json participant_json(const ParticipantRow& row) {
           {"excluded_because", row.excluded() ? ordered_json(row.excluded_because) : nullptr}};
 }
 
+ordered_json flow_json(const ParticipantFlow& flow) {
+  return {{"n_asked", flow.n_asked},       {"n_declined", flow.n_declined},
+          {"n_started", flow.n_started},   {"n_finished", flow.n_finished},
+          {"n_analyzed", flow.n_analyzed}, {"excluded", flow.excluded},
+          {"unfinished", flow.unfinished}};
+}
+
+ordered_json threshold_json(const PersonThreshold& person) {
+  return {{"reference_g", figure(person.compared.reference_g)},
+          {"condition", person.compared.condition},
+          {"participant", person.participant},
+          {"identifiable", person.identifiable()},
+          {"why", person.identifiable() ? ordered_json(nullptr) : ordered_json(person.why)},
+          {"threshold_75_g", figure(person.threshold_75_g)},
+          {"low_g", low(person.interval_g)},
+          {"high_g", high(person.interval_g)}};
+}
+
+ordered_json tracking_json(const PersonTracking& person) {
+  const FrameCounts& frames = person.counts.frames;
+  return {{"participant", person.participant},
+          {"in_view_percent", figure(person.in_view_percent())},
+          {"n_lost", person.counts.n_lost},
+          {"n_frames", frames.n_frames},
+          {"tracked_percent", figure(person.tracked_percent())},
+          {"n_jumps", frames.n_jumps},
+          {"mean_quality", figure(frames.mean_quality)}};
+}
+
 ordered_json comparison_json(const ComparisonSummary& comparison) {
   return {{"wrong_cube", rate_json(comparison.wrong_cube)},
           {"false_alarm", rate_json(comparison.false_alarm)},
@@ -275,15 +304,18 @@ std::string as_json(const Summary& summary) {
       {"analysis", summary.plan ? "declared" : "exploratory"},
       {"n_excluded", std::ranges::count_if(summary.participants, &ParticipantRow::excluded)},
       {"participants", array_of(summary.participants, participant_json)},
+      {"participant_flow", flow_json(summary.flow)},
       {"introduction", introduction_json(summary.introduction)},
       {"sorting", {{"C1", sorting_json(c1)}, {"C2", sorting_json(c2)}}},
       {"jnd", array_of(summary.jnd, jnd_json)},
       {"sensitivity", array_of(summary.sensitivity, sensitivity_json)},
+      {"thresholds", array_of(summary.thresholds, threshold_json)},
       {"comparison", comparison_json(summary.comparison)},
       {"response_times", array_of(summary.times, times_json)},
       {"voids", array_of(summary.voids, void_json)},
       {"hypotheses", hypotheses_json(summary)},
       {"quality", quality_json(summary.quality)},
+      {"tracking", array_of(summary.tracking, tracking_json)},
       {"notes", summary.notes},
       {"sessions", array_of(summary.sessions, session_json)}};
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';

@@ -172,20 +172,10 @@ double largest_level(std::span<const AnswersByLevel> people) {
   return largest_g;
 }
 
-std::string why_not(const PooledSensitivity& found, double largest_g) {
-  const double s = *found.sensitivity;
-  const Interval& interval = *found.sensitivity_interval;
-  if (interval.low <= 0 && interval.high >= 0)
-    return "no sensitivity: its 95 % interval holds 0, so the choices don't surely follow the mass";
-  if (s < 0) return "the choices go against the mass: sensitivity is negative";
-  if (s * largest_g >= 0.5 * sensitivity_at(n_grid - 1))
-    return "there is separation: the levels part the answers without overlap; levels between are "
-           "missing";
-  if (z_75 / interval.low > 2 * largest_g)
-    return fmt::format(
-        "the threshold's 95 % interval reaches to {:.0f} g, beyond twice the largest level shown",
-        z_75 / interval.low);
-  return "";
+// Where the grid ends, more would fit as well.
+bool is_separated(const PooledSensitivity& found, double largest_g) {
+  return found.sensitivity_interval->low > 0 &&
+         *found.sensitivity * largest_g >= 0.5 * sensitivity_at(n_grid - 1);
 }
 
 std::vector<SidedAnswers> answers_on_scale(const AnswersByLevel& by_level, double largest_g) {
@@ -227,7 +217,8 @@ void put_pooled(PooledSensitivity& found, std::span<const OnGrid> people, double
   for (double& sample : samples) sample /= largest_g;
   found.sensitivity_samples = std::move(samples);
   found.sensitivity_interval = Interval{interval.low / largest_g, interval.high / largest_g};
-  found.why = why_not(found, largest_g);
+  found.why = why_no_threshold(is_separated(found, largest_g), found.sensitivity_interval->low,
+                               found.sensitivity_interval->high, largest_g);
   if (!found.identifiable()) return;
   found.threshold_75_g = z_75 / *found.sensitivity;
   found.threshold_interval_g =

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "analysis/Timing.h"
@@ -24,10 +25,16 @@ bool was_touched(const Attempt& attempt) {
   return false;
 }
 
-Impossible impossible_in(const Attempt& attempt) {
+// The rule that was in force; where the log tells none, that of new protocols.
+double least_answer_s(const SessionData& data, const Attempt& attempt) {
+  const Setup* setup = data.setup_of(attempt);
+  return setup ? setup->min_answer_s.value_or(Onset{}.min_answer_s) : Onset{}.min_answer_s;
+}
+
+Impossible impossible_in(const SessionData& data, const Attempt& attempt) {
   Impossible found;
   if (const auto time = response_time_s(attempt.trial)) {
-    found.early = *time < Onset{}.min_answer_s;
+    found.early = *time < least_answer_s(data, attempt);
     found.fast = *time < fastest_answer_s;
   }
   found.untouched = !was_touched(attempt);
@@ -59,12 +66,12 @@ LossKey key_of(const TrialPlan& plan) {
   return {plan.task, plan.condition, compared ? band_of(*plan.level_g, differences_g) + 1 : 0};
 }
 
-void count_loss(LossRow& row, const Attempt& attempt) {
+void count_loss(LossRow& row, const SessionData& data, const Attempt& attempt) {
   row.n_attempts += 1;
   row.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
   row.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
   row.lost_s += attempt.trial.lost_s;
-  row.n_impossible += attempt.completed() && is_impossible(attempt) ? 1 : 0;
+  row.n_impossible += attempt.completed() && is_impossible(data, attempt) ? 1 : 0;
 }
 
 void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attempt) {
@@ -79,12 +86,14 @@ void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attemp
 
 struct Sums {
   int n_completed = 0, n_early = 0, n_fast = 0, n_untouched = 0;
+  std::set<double> least_answers_s;
   EventCounts events;
   int n_unfinished = 0;
 };
 
-void count_completed(Sums& sums, const Attempt& attempt) {
-  const Impossible found = impossible_in(attempt);
+void count_completed(Sums& sums, const SessionData& data, const Attempt& attempt) {
+  const Impossible found = impossible_in(data, attempt);
+  sums.least_answers_s.insert(least_answer_s(data, attempt));
   sums.n_completed += 1;
   sums.n_early += found.early ? 1 : 0;
   sums.n_fast += found.fast ? 1 : 0;
@@ -100,6 +109,12 @@ void count_session(Sums& sums, const SessionData& data) {
   sums.n_unfinished += data.finished() ? 0 : 1;
 }
 
+std::string too_early(const std::set<double>& least_answers_s) {
+  if (least_answers_s.empty())
+    return fmt::format("answers earlier than {:g} s", Onset{}.min_answer_s);
+  return fmt::format("answers earlier than {:g} s", fmt::join(least_answers_s, " or "));
+}
+
 std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losses, int n_sessions) {
   LossRow all;
   for (const LossRow& row : losses) {
@@ -108,7 +123,8 @@ std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losse
     all.n_lost += row.n_lost;
   }
   return {
-      {"answers earlier than 0.5 s", sums.n_early, sums.n_completed, "after all cubes were shown"},
+      {too_early(sums.least_answers_s), sums.n_early, sums.n_completed,
+       "after all cubes were shown; as the session's setup has it"},
       {"answers faster than 0.3 s", sums.n_fast, sums.n_completed,
        "faster than anybody sees and presses; among those above"},
       {"answers without contact", sums.n_untouched, sums.n_completed, "no cube was touched before"},
@@ -126,8 +142,8 @@ std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losse
 }
 }  // namespace
 
-bool is_impossible(const Attempt& attempt) {
-  return impossible_in(attempt).any();
+bool is_impossible(const SessionData& data, const Attempt& attempt) {
+  return impossible_in(data, attempt).any();
 }
 
 Quality quality_of(std::span<const SessionData> sessions) {
@@ -143,9 +159,9 @@ Quality quality_of(std::span<const SessionData> sessions) {
       row.task = plan.task;
       row.condition = plan.condition;
       if (std::get<2>(key) > 0) row.difference = band_name(std::get<2>(key) - 1, differences_g);
-      count_loss(row, attempt);
+      count_loss(row, data, attempt);
       if (!attempt.completed()) continue;
-      count_completed(sums, attempt);
+      count_completed(sums, data, attempt);
       count_resets(resets, attempt);
     }
   }

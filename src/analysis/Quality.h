@@ -28,7 +28,7 @@ struct LossRow {
   std::string difference;  ///< comparisons: "0 g", "1-100 g"...; otherwise empty
   int n_attempts = 0, n_void = 0, n_lost = 0;  ///< n_lost: the effector was out of view
   double lost_s = 0;                           ///< in all
-  int n_impossible = 0;  ///< answers too early (as Onset has it), too fast or without contact
+  int n_impossible = 0;  ///< answers too early (as the setup has it), too fast or without contact
 };
 
 struct ResetRow {
@@ -43,8 +43,9 @@ struct Quality {
   std::vector<ResetRow> resets;
 };
 
-/// Whether a completed trial's answer can't be one.
-bool is_impossible(const Attempt& attempt);
+/// Whether a completed trial's answer can't be one: earlier than its setup takes any, faster than
+/// anybody, or without contact.
+bool is_impossible(const SessionData& data, const Attempt& attempt);
 
 Quality quality_of(std::span<const SessionData> sessions);
 

@@ -174,6 +174,8 @@ std::string head_html(const Summary& summary) {
 std::string report_page(const Summary& summary, const std::vector<DrawnChart>& charts) {
   std::vector<Table> tables{participant_list(summary)};
   for (Table& table : tables_of(summary)) tables.push_back(std::move(table));
+  tables.push_back(threshold_list(summary));
+  tables.push_back(tracking_table(summary));
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
   std::string html = head_html(summary) + contents_html(charts, tables);
   constexpr std::size_t n_first = 4;  // participants and what is counted first

@@ -36,21 +36,27 @@ AnswersByLevel answers_by_side(std::span<const Attempt* const> attempts) {
   return answers;
 }
 
-std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions) {
-  std::map<Compared, std::map<std::string, std::vector<const Attempt*>>> attempts;
+std::map<std::pair<Compared, std::string>, std::vector<const Attempt*>> usable_comparisons(
+    std::span<const SessionData> sessions) {
+  std::map<std::pair<Compared, std::string>, std::vector<const Attempt*>> attempts;
   for (const SessionData& data : sessions) {
     const std::string participant = data.participant();
-    for (const Attempt& attempt : data.attempts)
+    for (const Attempt& attempt : data.attempts) {
+      const TrialPlan& plan = attempt.trial.plan;
       if (is_usable(attempt))
-        attempts[{*attempt.trial.plan.reference_g, attempt.trial.plan.condition}][participant]
-            .push_back(&attempt);
+        attempts[{{*plan.reference_g, plan.condition}, participant}].push_back(&attempt);
+    }
   }
+  return attempts;
+}
+
+std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions) {
+  std::map<Compared, std::vector<AnswersByLevel>> answers;
+  for (const auto& [key, attempts] : usable_comparisons(sessions))
+    answers[key.first].push_back(answers_by_side(attempts));
   const std::vector<StartEffect> effects = start_effects(sessions);
   std::vector<ReferenceSensitivity> all;
-  for (const auto& [compared, participants] : attempts) {
-    std::vector<AnswersByLevel> people;
-    for (const auto& [participant, theirs] : participants)
-      people.push_back(answers_by_side(theirs));
+  for (const auto& [compared, people] : answers) {
     ReferenceSensitivity one{compared, pooled_sensitivity(people), std::nullopt};
     const auto effect = std::ranges::find(effects, compared, &StartEffect::compared);
     if (effect != effects.end()) one.start_effect = *effect;

@@ -2,8 +2,11 @@
 // PooledSensitivity.h.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/Dataset.h"
@@ -21,6 +24,10 @@ struct ReferenceSensitivity {
 /// Completed comparisons of a participant at one reference, catch trials too: left, none, right by
 /// the mass on the right minus that on the left.
 AnswersByLevel answers_by_side(std::span<const Attempt* const> attempts);
+
+/// The comparisons that a fit takes, by what was compared and participant: completed, no practice.
+std::map<std::pair<Compared, std::string>, std::vector<const Attempt*>> usable_comparisons(
+    std::span<const SessionData> sessions);
 
 /// By reference, lightest first, and condition; participants' sessions together.
 std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions);

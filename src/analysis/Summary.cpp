@@ -29,7 +29,7 @@ std::string kind_of_data(const std::vector<SessionData>& sessions) {
   return n_simulated == sessions.size() ? "simulated" : "human and simulated";
 }
 
-int n_participants(const std::vector<SessionData>& sessions) {
+int n_participants(std::span<const SessionData> sessions) {
   std::set<std::string> participants;
   for (const SessionData& data : sessions) participants.insert(data.participant());
   return static_cast<int>(participants.size());
@@ -45,7 +45,10 @@ Summary summarize(const Dataset& dataset, const std::string& command) {
   summary.participants = participants_of(dataset.sessions);
   summary.plan = declared_plan(dataset.sessions);
   summary.quality = quality_of(dataset.sessions);
-  const std::vector<SessionData> sessions = included(dataset.sessions, summary.participants);
+  std::vector<SessionData> kept;  // a copy only where somebody is left out
+  std::span<const SessionData> sessions = dataset.sessions;
+  if (std::ranges::any_of(summary.participants, &ParticipantRow::excluded))
+    sessions = kept = included(sessions, summary.participants);
   summary.n_participants = n_participants(sessions);
   summary.sorting = sorting_of(sessions);
   summary.introduction = introduction_of(sessions);
@@ -58,6 +61,9 @@ Summary summarize(const Dataset& dataset, const std::string& command) {
   summary.tracks = example_tracks(sessions);
   summary.all_tracks = all_tracks(sessions);
   summary.points = points_of(sessions);
+  summary.thresholds = thresholds_of(sessions);
+  summary.tracking = tracking_of(dataset.sessions);
+  summary.flow = flow_of(dataset.sessions, summary.participants);
   summary.hypotheses = hypotheses_of(summary);
   summary.choices = protocol_choices(dataset.sessions);
   summary.notes = notes_on(dataset, summary);

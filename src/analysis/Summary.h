@@ -11,14 +11,17 @@
 #include "analysis/Comparison.h"
 #include "analysis/Dataset.h"
 #include "analysis/Exclusion.h"
+#include "analysis/Flow.h"
 #include "analysis/Introduction.h"
 #include "analysis/Jnd.h"
+#include "analysis/PersonThresholds.h"
 #include "analysis/Points.h"
 #include "analysis/ProtocolChoices.h"
 #include "analysis/Quality.h"
 #include "analysis/Sensitivity.h"
 #include "analysis/Sorting.h"
 #include "analysis/Timing.h"
+#include "analysis/TrackingQuality.h"
 #include "analysis/Tracks.h"
 
 namespace heft {
@@ -67,11 +70,14 @@ struct Summary {
   IntroductionSummary introduction;
   std::vector<ReferenceJnd> jnd;
   std::vector<ReferenceSensitivity> sensitivity;
+  std::vector<PersonThreshold> thresholds;
   std::vector<StaircaseResult> staircases;
   ComparisonSummary comparison;
   std::vector<ResponseTimes> times;
   std::vector<VoidCount> voids;
   Quality quality;
+  ParticipantFlow flow;
+  std::vector<PersonTracking> tracking;
   std::optional<SessionTracks> tracks;
   std::vector<SessionTracks> all_tracks;
   Points points;

@@ -23,6 +23,9 @@ Table level_list(const Summary& summary);
 Table session_list(const Summary& summary);
 Table label_table(const Summary& summary);
 Table participant_list(const Summary& summary);
+Table flow_table(const Summary& summary);
+Table tracking_table(const Summary& summary);
+Table threshold_list(const Summary& summary);
 std::vector<Table> point_lists(const Summary& summary);  ///< what the figures show point by point
 
 // Cells that several tables have.

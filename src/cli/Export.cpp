@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "base/Printable.h"
 #include "cli/Commands.h"
 #include "cli/Terminal.h"
+#include "record/Pseudonyms.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -17,37 +19,77 @@ namespace heft::cli {
 namespace {
 struct Options {
   std::vector<std::string> logs, databases;
-  std::string format = "csv", out;
+  std::string format = "csv", out, key_file;
+  bool pseudonymise = false;
 };
 
-void export_logs(const Options& options) {
+// Beside the folder, never in it: the folder is given away.
+std::optional<std::string> key_of(const Options& options) {
+  if (!options.pseudonymise && options.key_file.empty()) return std::nullopt;
+  std::string folder = options.out;
+  while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+  const PseudonymKey key =
+      pseudonym_key(options.key_file.empty() ? folder + ".key" : options.key_file);
+  say("{} {}: whoever has it can tell a pseudonym's person. Keep it to yourself.\n",
+      key.is_new ? "made the key" : "the key is that of", key.file);
+  return key.key;
+}
+
+void tell(const std::vector<ExportedFile>& files) {
+  constexpr std::size_t most_told = 20;
+  for (std::size_t i = 0; i < std::min(files.size(), most_told); ++i)
+    say("{:>10} {}  {}\n", files[i].n_rows ? std::to_string(*files[i].n_rows) : "",
+        files[i].n_rows ? "rows" : "    ", files[i].name);
+  if (files.size() > most_told) say("           and {} more files\n", files.size() - most_told);
+}
+
+void export_to(const Options& options) {
   std::vector<std::string> logs = options.logs;
   logs.insert(logs.end(), options.databases.begin(), options.databases.end());
   if (logs.empty()) logs.emplace_back("heft.db");
   for (const std::string& log : logs) refuse_special_file(log);
+  refuse_filled_folder(options.out);
+  const ExportFormat format = *named<ExportFormat>(options.format);
+  const ExportRequest request{logs, format, options.out, key_of(options)};
   std::vector<ExportedFile> files;
   {
     ProgressBar bar("exporting");
-    files = export_csv(logs, options.out, [&](double fraction) { bar.update(fraction, ""); });
+    files = export_logs(request, [&](double fraction) { bar.update(fraction, ""); });
   }
-  for (const ExportedFile& file : files) say("{:>10} rows  {}\n", file.n_rows, file.name);
-  say("\ndictionary.csv explains every column. In R: trials <- read.csv(\"{}/trials.csv\")\n",
-      options.out);
+  tell(files);
+  if (format == ExportFormat::csv)
+    say("\ndictionary.csv explains every column. In R: trials <- read.csv(\"{0}/trials.csv\"); "
+        "figures and models: (cd {1} && Rscript analysis.R)\n",
+        options.out, shell_quoted(options.out));
 }
 }  // namespace
 
 void add_export(Command& app) {
   const auto options = std::make_shared<Options>();
   Command command = app.add_command(
-      "export", "logs as CSV files for other programs, with a data dictionary",
-      {"heft export heft.db --format csv --out data", "heft export lab1.db lab2.db --out data"});
+      "export", "logs as files for other programs, with a data dictionary",
+      {"heft export --db heft.db --format csv --out data",
+       "heft export lab1.db lab2.db --format psych-ds --out dataset",
+       "heft export heft.db --format bids --pseudonymise --out shared", "",
+       "--pseudonymise puts names of the form p1a2b3c4d5e6f for participants (HMAC-SHA-256 with "
+       "the",
+       "key, so that the same person has the same one in each export with it), leaves out what was",
+       "typed (reasons, texts that participants wrote) and files' names, keeps of what "
+       "participants",
+       "told what is a number, and of dates the year."});
   command.add_option("LOG", &options->logs, "logs, together in one folder (default: heft.db)");
   command.add_option("--db", &options->databases, "the same");
-  command.add_option("--format", &options->format, "csv: a file a table")
+  command
+      .add_option("--format", &options->format,
+                  "csv: a file a table, and analysis.R; psych-ds, bids: a dataset by that standard")
       .shows_default()
-      .one_of({"csv"});
+      .one_of({"csv", "psych-ds", "bids"});
   command.add_option("--out", &options->out, "a new or empty folder").required();
-  command.does([options] { export_logs(*options); });
+  command.add_flag("--pseudonymise", options->pseudonymise,
+                   "nobody's name, nothing that was typed; the key is OUT.key, made if it is not "
+                   "there");
+  command.add_option("--key", &options->key_file, "another key for --pseudonymise");
+  command.does([options] { export_to(*options); });
 }
 
 }  // namespace heft::cli

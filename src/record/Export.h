@@ -1,40 +1,53 @@
-// Logs as CSV files for other programs: a file a table, and a data dictionary. Columns are the
-// log's, from the rows' descriptions; what is said here is which tables there are and how a row
-// finds its session.
+// Logs as files for other programs: CSV as this program writes it, or a dataset that follows the
+// standards Psych-DS or BIDS. Columns are the log's, from the rows' descriptions; what is said here
+// is which files there are and how a row finds its session.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/Names.h"
+
 namespace heft {
 
-/// A file that was written, and its rows without the header.
+enum class ExportFormat { csv, psych_ds, bids };
+template <>
+struct EnumNames<ExportFormat> {
+  static constexpr std::array<std::string_view, 3> names{"csv", "psych-ds", "bids"};
+};
+
+/// A file that was written, and its rows without the header; none: it has no rows.
 struct ExportedFile {
   std::string name;
-  std::int64_t n_rows = 0;
+  std::optional<std::int64_t> n_rows;
 };
 
-/// A column as dictionary.csv explains it.
-struct ExportColumn {
-  std::string name, unit, meaning;
-  std::string levels;  ///< the words of a closed list, "a|b|c"; empty: any value
-  std::string sql;     ///< what stands in it; r is the table's row, s its session
+struct ExportRequest {
+  std::vector<std::string> logs;
+  ExportFormat format = ExportFormat::csv;
+  std::string folder;                   ///< new or empty; made if need be
+  std::optional<std::string> key = {};  ///< of the pseudonyms; none: names stay (Pseudonyms.h)
 };
 
-/// Writes trials.csv, answers.csv, reversals.csv, estimates.csv, cubes.csv, participants.csv,
-/// setups.csv, frames.csv where frames were kept, and dictionary.csv, of all sessions of the logs
-/// together; the column `log` says whose. RFC 4180 with LF, UTF-8, '.' decimals with all their
-/// digits, an empty cell for NULL. Rows are in the order of the logs and of writing, so that equal
-/// logs give equal files. A text that a spreadsheet would take for a formula (it begins with = + -
-/// @ or a control character), or that begins with ', has a ' before it.
-/// @param folder made if need be
+/// All sessions of the logs together; the column `log` says whose.
+/// - csv: trials.csv, wide.csv, choices.csv, answers.csv, reversals.csv, estimates.csv, cubes.csv,
+///   participants.csv, setups.csv, frames.csv where frames were kept, dictionary.csv, analysis.R.
+/// - psych-ds: the same as data/description-..._data.csv, with dataset_description.json.
+/// - bids: participants.tsv and, a session and task, a table of its trials and one of its events.
+/// CSV is RFC 4180 with LF, UTF-8, '.' decimals with all their digits, an empty cell for NULL. Rows
+/// are in the order of the logs and of writing, so that equal logs give equal files. A text that a
+/// spreadsheet would take for a formula (it begins with = + - @ or a control character), or that
+/// begins with ', has a ' before it. While it is written the folder holds export_unfinished.txt.
 /// @param progress called with the fraction of rows done, 0...1
 /// @throws Error when a log can't be read or is given twice, or the folder holds something already
 ///   or can't be written
-std::vector<ExportedFile> export_csv(const std::vector<std::string>& logs,
-                                     const std::string& folder,
-                                     const std::function<void(double)>& progress);
+std::vector<ExportedFile> export_logs(const ExportRequest& request,
+                                      const std::function<void(double)>& progress);
+
+/// @throws Error (usage) when something is in the folder already, or it is no folder
+void refuse_filled_folder(const std::string& folder);
 
 }  // namespace heft

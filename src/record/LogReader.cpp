@@ -170,6 +170,14 @@ std::vector<LoggedEvent> LogReader::events(std::int64_t session_id) const {
   return impl_->events(session(session_id), "true");
 }
 
+std::vector<LoggedEvent> LogReader::events(std::int64_t session_id,
+                                           std::span<const EventKind> kinds) const {
+  std::string names;
+  for (const EventKind kind : kinds)
+    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", name_of(kind));
+  return impl_->events(session(session_id), fmt::format("kind IN ({})", names));
+}
+
 std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
   // Their files' contents stand in the events, or in an older session's header.
   std::deque<Setup> told;
@@ -245,6 +253,23 @@ std::vector<FrameRow> LogReader::frames(std::int64_t session_id, int attempt_ind
                   "ORDER BY frame_id",
                   columns_of<FrameRow>(), of_attempt),
       session_id, attempt_index);
+}
+
+FrameCounts LogReader::frame_counts(std::int64_t session_id) const {
+  const auto counts_from = [](Cells& cells) {
+    FrameCounts counts;
+    cells.read(counts.n_frames);
+    cells.read(counts.n_tracked);
+    cells.read(counts.n_jumps);
+    cells.read(counts.mean_quality);
+    return counts;
+  };
+  const auto counts =
+      impl_->rows(counts_from, "frame",
+             "SELECT 0, count(*), coalesce(sum(tracked), 0), coalesce(sum(jump), 0), avg(quality) "
+             "FROM frame WHERE trial_id IN (SELECT trial_id FROM trial WHERE session_id = ?1)",
+             session_id);
+  return counts.empty() ? FrameCounts{} : counts.front();
 }
 
 std::vector<std::string> LogReader::foreign_objects() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ struct LoggedSetup {
   int setup_index = 0;  ///< from 1
   int from_event = 0;   ///< the session's event that told it, from 1; 0: an older log's header
   Setup setup;
+};
+
+/// How well the effector was tracked.
+struct FrameCounts {
+  int n_frames = 0, n_tracked = 0, n_jumps = 0;
+  std::optional<double> mean_quality;  ///< of the poses that tell theirs
 };
 
 /// The first row of a chain of digests whose own does not fit: it was changed, or rows directly
@@ -72,6 +79,8 @@ class LogReader {
 
   /// What logs of versions 1 and 2 told as deviations comes as the setup that it was.
   std::vector<LoggedEvent> events(std::int64_t session_id) const;
+  /// Those of some kinds: a session's thousands of pushes and actions need not be built for a note.
+  std::vector<LoggedEvent> events(std::int64_t session_id, std::span<const EventKind> kinds) const;
   /// With the contents of their files.
   std::vector<LoggedSetup> setups(std::int64_t session_id) const;
   std::vector<TrialRow> trials(std::int64_t session_id) const;  ///< masses from their cube rows
@@ -82,6 +91,9 @@ class LogReader {
   std::vector<ParticipantParameterRow> participant_parameters(std::int64_t session_id) const;
   /// @param attempt_index 0: the frames outside of trials
   std::vector<FrameRow> frames(std::int64_t session_id, int attempt_index) const;
+
+  /// Of the frames of its trials, counted where they lie.
+  FrameCounts frame_counts(std::int64_t session_id) const;
 
   /// What the file holds that a log does not; see schema::foreign_objects.
   std::vector<std::string> foreign_objects() const;

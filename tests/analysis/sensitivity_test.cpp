@@ -123,6 +123,36 @@ TEST(CoverageOf, Thresholds) {
   }
 }
 
+// What a study of ever more people would find: above minus below, of those whose staircases end
+// well.
+double true_start_effect(const Population& population, const ComparisonDesign& design) {
+  RandomStream stream(29, "very many people");
+  const auto effects = start_effects(study(4000, population, {design}, stream));
+  return effects.at(0).difference_g.mean.value();
+}
+
+TEST(CoverageOf, AboveMinusBelow) {
+  const int studies = n_studies(60);
+  const double chance = by_chance_percent(studies);
+  for (const auto& [n_people, population, reference_g] :
+       {std::tuple{13, Population{150}, 200.0}, std::tuple{40, Population{150}, 200.0},
+        std::tuple{13, Population{50}, 15.0}}) {
+    const ComparisonDesign design = recommended_at(reference_g);
+    const double truth = true_start_effect(population, design);
+    RandomStream stream(31, "above and below", static_cast<std::uint64_t>(n_people));
+    Coverage found;
+    for (int i = 0; i < studies; ++i) {
+      const auto effects = start_effects(study(n_people, population, {design}, stream));
+      found.add(effects.at(0).difference_g.interval, truth);
+    }
+    std::cout << n_people << " people, threshold " << population.threshold_75_g
+              << " g, above - below " << truth << " g: " << found.percent() << " % of "
+              << found.given_percent() << " % given\n";
+    EXPECT_GE(found.percent(), 93 - chance);
+    EXPECT_LE(found.percent(), 98 + chance);
+  }
+}
+
 // People who see nothing: how many studies print a threshold or take E2-H1 for supported.
 struct Misled {
   double thresholds_percent = 0, supported_percent = 0;

@@ -1,9 +1,16 @@
-"""Logs as CSV: read back they are what SQLite holds, and the dictionary explains every column.
+"""Logs as CSV: read back they are what SQLite holds, the dictionary explains every column, and the
+figures of analyse come out of them again. Datasets by Psych-DS and BIDS keep their standards' rules
+(their own validators, R and pandas: export_against_others.py).
 
 Run: python3 tests/cli/export_test.py PATH_TO_HEFT
 """
 import csv
+import json
+import re
+import resource
 import sqlite3
+import stat
+from statistics import mean, stdev
 
 from session_harness import PROTOCOLS, SessionTest, change, main, query
 
@@ -14,6 +21,7 @@ LEFT_OUT = {"participants": {"protocol_text", "run_options", "n_events", "n_fram
                              "digest"}, "frames": {"digest"}}
 # All names that only CSV files have.
 ADDED = {"log", "participant", "session_id", "response_time_s"}
+TASKS = {"introduction", "sorting", "comparison"}
 
 
 def unescaped(text):
@@ -27,8 +35,8 @@ class Export(SessionTest):
                       seed, "--db", db, *words)
         return db
 
-    def export(self, *logs, out="data", **options):
-        return self.run_heft("export", *logs, "--format", "csv", "--out", self.folder / out,
+    def export(self, *logs, out="data", format="csv", **options):
+        return self.run_heft("export", *logs, "--format", format, "--out", self.folder / out,
                              cwd=self.folder, **options)
 
     def rows(self, file, out="data"):
@@ -130,9 +138,162 @@ class Export(SessionTest):
         (self.folder / "data").mkdir()
         self.export("lab.db")
         self.assertIn("nothing is overwritten", self.export("lab.db", expect=2).stderr)
+        (self.folder / "part").mkdir()
+        (self.folder / "part" / "export_unfinished.txt").write_text("")
+        self.assertIn("was interrupted", self.export("lab.db", out="part", expect=2).stderr)
         self.assertIn("is a file", self.export("lab.db", out="lab.db", expect=2).stderr)
         self.assertIn("no file", self.export("none.db", out="new", expect=1).stderr)
         self.assertFalse((self.folder / "new").exists())
+
+    def test_an_export_that_fails_says_that_it_is_not_whole(self):
+        db = self.simulate("lab.db", participants=1)
+        change(db, "update trial set block = hex(zeroblob(200000))")
+
+        def small_files_only():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
+        done = self.export(db, expect=1, preexec_fn=small_files_only)
+        self.assertIn("can't write", done.stderr)
+        self.assertTrue((self.folder / "data" / "export_unfinished.txt").exists())
+
+    # The figures of analyse, from the files alone.
+
+    def test_sorting_shares_are_those_of_analyse(self):
+        db = self.simulate("lab.db", participants=5)
+        self.export(db)
+        figures = json.loads(self.run_heft("analyse", "--db", db, "--json").stdout)
+        self.assertGreater(figures["sorting"]["C2"]["n_trials"], 0)
+        for condition in ("C1", "C2"):
+            told = figures["sorting"][condition]
+            for name, outcome in (("correct", "correct"), ("incorrect", "incorrect"),
+                                  ("none", "dont_know")):
+                shares = {}
+                for row in self.rows("trials"):
+                    if (row["task"], row["condition"], row["status"]) == ("sorting", condition,
+                                                                          "completed"):
+                        shares.setdefault(row["participant"], []).append(row["outcome"] == outcome)
+                percents = [100 * mean(hits) for hits in shares.values()]
+                if not percents:
+                    continue
+                self.assertEqual(told[name]["n_hits"], sum(map(sum, shares.values())))
+                self.assertAlmostEqual(told[name]["mean"], mean(percents), 9)
+                self.assertAlmostEqual(told[name]["sd"], stdev(percents), 9)
+
+    def test_choices_are_what_a_fit_is_made_of(self):
+        db = self.simulate("lab.db", participants=3)
+        self.export(db)
+        choices = self.rows("choices")
+        fits = json.loads(self.run_heft("fit", self.folder / "data" / "choices.csv", "--model",
+                                        "indecision", "--by", "compared", "--json").stdout)
+        self.assertEqual(sum(fit["n_trials"] for fit in fits), len(choices))
+        figures = json.loads(self.run_heft("analyse", "--db", db, "--json").stdout)
+        self.assertEqual(sum(one["n_trials"] for one in figures["sensitivity"]), len(choices))
+        for row in choices:
+            level, on_right = float(row["level_g"]), float(row["right_minus_left_g"])
+            self.assertEqual(abs(level), abs(on_right))
+            self.assertEqual(row["answer"] == "none", row["side"] == "none")
+            if row["answer"] != "none" and level:
+                self.assertEqual((row["answer"] == "comparison") == (level > 0),
+                                 (row["side"] == "right") == (on_right > 0))
+
+    def test_wide_has_a_row_a_completed_trial(self):
+        db = self.simulate("lab.db", participants=2)
+        change(db, "update trial set status = 'void' where trial_id = 2")
+        self.export(db)
+        wide = self.rows("wide")
+        completed = query(db, "select session_id, trial_number, response_time_s from v_trial where "
+                              "status = 'completed' order by trial_id")
+        self.assertEqual([(int(row["session"]), int(row["trial"]), float(row["response.rt"]))
+                          for row in wide], completed)
+        first = [int(row["trials.thisN"]) for row in wide if row["session"] == "1"]
+        self.assertEqual(first, list(range(len(first))))
+
+    # Datasets that follow a standard.
+
+    def test_psych_ds_keeps_its_rules(self):
+        self.export(self.simulate("lab.db", "--frames"), format="psych-ds")
+        data = self.folder / "data" / "data"
+        files = sorted(data.iterdir())
+        self.assertIn("description-frames_data.csv", [file.name for file in files])
+        description = json.loads((self.folder / "data" / "dataset_description.json").read_text())
+        self.assertEqual(description["@type"], "Dataset")
+        self.assertIn("schema.org", description["@context"])
+        explained = [variable["name"] for variable in description["variableMeasured"]]
+        self.assertEqual(len(explained), len(set(explained)))
+        for variable in description["variableMeasured"]:
+            self.assertTrue(variable["description"], variable)
+        used = set()
+        for file in files:
+            self.assertRegex(file.name, r"^([a-z]+-[A-Za-z0-9]+_)+data\.csv$")
+            with open(file, newline="", encoding="utf-8") as lines:
+                header = next(csv.reader(lines))
+            self.assertEqual(len(header), len(set(header)), file)
+            used |= set(header)
+        self.assertEqual(used, set(explained))
+
+    def test_bids_keeps_its_rules(self):
+        db = self.simulate("lab.db", participants=3)
+        change(db, "update session set participant = 'Ann B.' where session_id < 3")
+        change(db, "update session set participant = 'annb' where session_id = 3")
+        self.export(db, format="bids")
+        root = self.folder / "data"
+        people = self.table(root / "participants.tsv")
+        self.assertEqual([row["participant_id"] for row in people], ["sub-AnnB", "sub-annbx2"])
+        self.assertEqual([row["n_sessions"] for row in people], ["2", "1"])
+        tables = [file for file in root.rglob("*.tsv") if file.parent.name == "beh"]
+        name = r"^(sub-[A-Za-z0-9]+)_(ses-[0-9]+)_task-([a-z]+)_(beh|events)\.tsv$"
+        n_trials = 0
+        for file in tables:
+            subject, session, task, suffix = re.match(name, file.name).groups()
+            self.assertEqual(file.parent, root / subject / session / "beh")
+            sidecar = json.loads((root / f"task-{task}_{suffix}.json").read_text())
+            rows = self.table(file)
+            self.assertEqual(set(rows[0]) - set(sidecar), set(), file)
+            for row in rows:
+                self.assertNotIn("", row.values())
+                if suffix == "events":
+                    float(row["onset"]), float(row["duration"])
+            n_trials += len(rows) if suffix == "beh" else 0
+        self.assertEqual(n_trials, query(db, "select count(*) from trial")[0][0])
+
+    def table(self, file):
+        with open(file, newline="", encoding="utf-8") as lines:
+            return list(csv.DictReader(lines, delimiter="\t", quoting=csv.QUOTE_NONE))
+
+    def test_pseudonyms_leave_nobody_and_nothing_typed(self):
+        db = self.simulate("lab.db")
+        secrets = {"Ann Person": "update session set participant = 'Ann Person' where session_id = 1",
+                   "asked for water": "update trial set status = 'void', void_reason = 'asked for "
+                                      "water' where trial_id = 2",
+                   "I live in Lyon": "insert into participant_info values (1, 'where', 'I live in "
+                                     "Lyon')",
+                   "/home/ann": "update setup set board_file = '/home/ann/board.toml', responder = "
+                                "'simulated:/home/ann/model.toml'"}
+        for sql in secrets.values():
+            self.assertEqual(change(db, sql) > 0, True, sql)
+        change(db, "insert into participant_info values (1, 'age', '31')")
+        started = query(db, "select started_utc from session")[0][0]
+        for kind in ("csv", "psych-ds", "bids"):
+            with self.subTest(kind):
+                out = self.folder / f"{kind}-out"
+                done = self.run_heft("export", db, "--format", kind, "--pseudonymise", "--key",
+                                     self.folder / "my.key", "--out", out)
+                self.assertIn("my.key", done.stderr)
+                texts = {file: file.read_text() for file in out.rglob("*") if file.is_file()}
+                for secret in [*secrets, started, str(db)]:
+                    for file, text in texts.items():
+                        self.assertNotIn(secret, text + str(file.relative_to(out)), file)
+        mode = stat.S_IMODE((self.folder / "my.key").stat().st_mode)
+        self.assertEqual(mode, 0o600)
+        one, other = self.rows("participants", out="csv-out")
+        self.assertRegex(one["participant"], "^p[0-9a-f]{12}$")
+        self.assertNotEqual(one["participant"], other["participant"])
+        self.assertEqual([one["info_age"], one["info_where"], one["responder"]],
+                         ["31", "", "simulated"])
+        self.assertEqual(one["started_utc"], started[:4])
+        self.run_heft("export", db, "--pseudonymise", "--out", self.folder / "again")
+        self.assertTrue((self.folder / "again.key").exists())
+        again = self.rows("participants", out="again")
+        self.assertNotEqual(again[0]["participant"], one["participant"])
 
 
 if __name__ == "__main__":

@@ -1,0 +1,31 @@
+// Each participant's own threshold at each reference, where their trials bear one: a few dozen
+// seldom do, and who has none is counted, not left away. What a study says of people is
+// PooledSensitivity.h.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/Sensitivity.h"
+
+namespace heft {
+
+struct PersonThreshold {
+  Compared compared;
+  std::string participant;
+  int n_trials = 0;
+  std::optional<double> threshold_75_g;  ///< none: not identifiable
+  std::optional<Interval> interval_g;    ///< profile likelihood
+  std::string why;                       ///< not identifiable; empty: it is
+  std::optional<ParticipantJnd> jnd;     ///< the paper's, beside
+  std::optional<double> start_g;         ///< mean first level of their finished staircases
+
+  bool identifiable() const { return why.empty(); }
+};
+
+/// By reference and condition, then participant.
+std::vector<PersonThreshold> thresholds_of(std::span<const SessionData> sessions);
+
+}  // namespace heft

@@ -1,0 +1,112 @@
+// Who took part, how well they were tracked, and each one's own threshold.
+#include "analysis/Flow.h"
+
+#include <gmock/gmock.h>
+
+#include "MadeUpChoosers.h"
+#include "analysis/PersonThresholds.h"
+#include "analysis/Quality.h"
+#include "analysis/TrackingQuality.h"
+
+namespace heft {
+namespace {
+
+using namespace made_up;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Pair;
+
+TEST(ParticipantFlow, CountsWhoWentHowFarAndWhyNot) {
+  SessionData declined = session(1, "declined");
+  declined.events.consented = false;
+  declined.session.state = SessionState::aborted;
+  SessionData finished = session(2, "finished");
+  add_introduction(finished, 1);
+  SessionData paused = session(3, "paused");
+  add_introduction(paused, 1);
+  paused.session.state = SessionState::paused;
+  SessionData left_out = session(4, "left out");
+  left_out.exclusion.impossible_answers = 0;
+  add_introduction(left_out, 1).trial.validated_s = 0.1;
+  left_out.attempts[0].trial.shown_s = 0;
+  const std::vector<SessionData> sessions{declined, finished, paused, left_out};
+  const ParticipantFlow flow = flow_of(sessions, participants_of(sessions));
+  EXPECT_EQ(flow.n_asked, 4);
+  EXPECT_EQ(flow.n_declined, 1);
+  EXPECT_EQ(flow.n_started, 3);
+  EXPECT_EQ(flow.n_finished, 2);
+  EXPECT_EQ(flow.n_analyzed, 2);
+  EXPECT_THAT(flow.excluded, ElementsAre(Pair("impossible answers", 1)));
+  EXPECT_THAT(flow.unfinished, ElementsAre(Pair("paused", 1)));
+}
+
+TEST(ParticipantFlow, WhoAgreedInASecondSessionDidNotDecline) {
+  SessionData first = session(1, "a"), second = session(2, "a");
+  first.events.consented = false;
+  second.events.consented = true;
+  add_introduction(second, 1);
+  const std::vector<SessionData> sessions{first, second};
+  const ParticipantFlow flow = flow_of(sessions, participants_of(sessions));
+  EXPECT_EQ(flow.n_asked, 1);
+  EXPECT_EQ(flow.n_declined, 0);
+  EXPECT_EQ(flow.n_analyzed, 1);
+}
+
+TEST(TrackingQuality, AddsUpAParticipantsSessions) {
+  SessionData one = session(1, "a"), other = session(2, "a");
+  one.frames = {100, 90, 2, 0.5};
+  other.frames = {300, 300, 0, 0.9};
+  Attempt& attempt = add_introduction(one, 1);
+  attempt.trial.shown_s = 10;
+  attempt.trial.validated_s = 20;
+  attempt.trial.lost_s = 1;
+  const auto people = tracking_of(std::vector{one, other});
+  ASSERT_EQ(people.size(), 1u);
+  EXPECT_DOUBLE_EQ(*people[0].in_view_percent(), 90);
+  EXPECT_DOUBLE_EQ(*people[0].tracked_percent(), 97.5);
+  EXPECT_EQ(people[0].counts.frames.n_jumps, 2);
+  EXPECT_DOUBLE_EQ(*people[0].counts.frames.mean_quality, 0.8);
+}
+
+TEST(TrackingQuality, WithoutFramesTellsOfTheTimeAlone) {
+  const auto people = tracking_of(std::vector{session(1, "a")});
+  EXPECT_FALSE(people.at(0).tracked_percent().has_value());
+  EXPECT_FALSE(people[0].in_view_percent().has_value());
+}
+
+TEST(PersonThresholds, AreGivenWhereTheTrialsBearThem) {
+  RandomStream stream(3, "two people");
+  std::vector<SessionData> sessions{session(1, "sees"), session(2, "sees nothing")};
+  for (int i = 0; i < 6; ++i) {
+    compare(sessions[0], {0.6745 / 100}, recommended_at(200), stream);
+    compare(sessions[1], {0}, recommended_at(200), stream);
+  }
+  const auto people = thresholds_of(sessions);
+  ASSERT_EQ(people.size(), 2u);
+  EXPECT_EQ(people[0].participant, "sees");
+  ASSERT_TRUE(people[0].identifiable()) << people[0].why;
+  EXPECT_LT(people[0].interval_g->low, 100);
+  EXPECT_GT(people[0].interval_g->high, 100);
+  EXPECT_FALSE(people[1].identifiable());
+  EXPECT_THAT(people[1].why, HasSubstr("holds 0"));
+  EXPECT_FALSE(people[1].threshold_75_g.has_value());
+  EXPECT_TRUE(people[1].start_g.has_value());
+}
+
+TEST(EarlyAnswers, AreThoseThatTheSetupForbade) {
+  SessionData data = session(1, "a");
+  data.setups[0].setup.min_answer_s = 1.5;
+  Attempt& attempt = add_introduction(data, 1);
+  attempt.trial.shown_s = 0;
+  attempt.trial.validated_s = 1;
+  attempt.trial.first_contact_s = 0.5;
+  EXPECT_TRUE(is_impossible(data, data.attempts[0]));
+  const Quality quality = quality_of(std::vector{data});
+  EXPECT_EQ(quality.counted.at(0).what, "answers earlier than 1.5 s");
+  EXPECT_EQ(quality.counted[0].n, 1);
+  data.setups[0].setup.min_answer_s = 0.5;
+  EXPECT_FALSE(is_impossible(data, data.attempts[0]));
+}
+
+}  // namespace
+}  // namespace heft

@@ -1,0 +1,49 @@
+#include "record/Pseudonyms.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/Error.h"
+
+namespace heft {
+namespace {
+namespace fs = std::filesystem;
+
+TEST(Pseudonyms, HmacIsThatOfRfc4231) {
+  EXPECT_EQ(hmac_sha256("Jefe", "what do ya want for nothing?"),
+            "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
+  EXPECT_EQ(hmac_sha256(std::string(131, '\xaa'),
+                        "Test Using Larger Than Block-Size Key - Hash Key First"),
+            "60e431591ee0b67f0d8a26aacbf5b77f8e0bc6213728c5140546040f0ee37f54");
+}
+
+TEST(Pseudonyms, BelongToAKey) {
+  EXPECT_EQ(pseudonym("key", "01"), pseudonym("key", "01"));
+  EXPECT_NE(pseudonym("key", "01"), pseudonym("key", "02"));
+  EXPECT_NE(pseudonym("key", "01"), pseudonym("other", "01"));
+  EXPECT_THAT(pseudonym("key", "01"), testing::MatchesRegex("p[0-9a-f]{12}"));
+}
+
+TEST(Pseudonyms, AKeyIsMadeForItsOwnerAndFoundAgain) {
+  const fs::path file = fs::path(testing::TempDir()) / "heft_pseudonyms.key";
+  fs::remove(file);
+  const PseudonymKey made = pseudonym_key(file);
+  EXPECT_TRUE(made.is_new);
+  EXPECT_EQ(made.key.size(), 64u);
+  struct stat found {};
+  ASSERT_EQ(stat(file.c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 0777u, 0600u);
+  const PseudonymKey again = pseudonym_key(file);
+  EXPECT_FALSE(again.is_new);
+  EXPECT_EQ(again.key, made.key);
+  std::ofstream(file) << "short\n";
+  EXPECT_THROW(pseudonym_key(file), Error);
+  fs::remove(file);
+}
+
+}  // namespace
+}  // namespace heft
