@@ -91,6 +91,12 @@ BodyFit BodyFinder::aligned(const Image& gray, const BodyFit& found, const BiasP
     auto fit = align_densely(gray, camera_, tags, found, prior_for(settings_, prior), how_.curve,
                              how_.noise);
     if (!fit) return found;
+    // Where cells and borders tell different poses, one of them is wrong.
+    for (const TagObservation& tag : used)
+      for (const Eigen::Vector3d& corner_m : tag.corners_m)
+        fit->spread_m2 = std::max(
+            fit->spread_m2,
+            (fit->camera_from_body * corner_m - found.camera_from_body * corner_m).squaredNorm());
     fit->quality = pose_quality(used, *fit);
     return *fit;
   });

@@ -16,7 +16,7 @@ constexpr double worst_rms_px = 3;  // no pose of this body
 constexpr double apart_rad = 0.14;  // poses that differ by less are one
 constexpr double undecided = 12;    // difference of costs, in variances of the better fit
 // White that is clipped may be any brightness: on a single tag that is millimeters of depth.
-constexpr double saturated_quality = 0.4;
+constexpr double saturated_quality = 0.25;
 // What halves the quality: residuals, and how uncertain the body's place is, which for a single
 // small or slanted tag is several times what it is for tags on two faces.
 constexpr double halved_at_px = 1.0, halved_at_m = 0.0005;

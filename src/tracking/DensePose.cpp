@@ -31,7 +31,7 @@ constexpr double most_beyond_cells = 0.45, far_in_blurs = 3;
 constexpr double most_blur_cells = 0.45;
 constexpr double blur_sd = 0.05;  // relative; what the borders' fits left open
 constexpr double least_noise = 0.5;
-constexpr int rounds = 3;
+constexpr int rounds = 2;
 constexpr double most_pixels = 1800;  // of a tag, about
 constexpr double settled_rad = 5e-5, settled_m = 5e-6;
 // Of the pixels: a shadow's edge or a finger lies over a tag of which less is what it should be.
