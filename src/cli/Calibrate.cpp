@@ -20,6 +20,7 @@
 #include "protocol/Files.h"
 #include "tracking/Camera.h"
 #include "tracking/EffectorCalibration.h"
+#include "tracking/ShutterCalibration.h"
 #include "tracking/ViewCollector.h"
 #include "view/window/CardWindow.h"
 #include "view/window/Displays.h"
@@ -34,6 +35,7 @@ constexpr double patience_s = 5;  ///< with a camera that gives no picture
 struct Options {
   std::string source, board, camera_file, effector, out, size;
   std::optional<double> exposure_ms;
+  bool shutter = false;
 };
 
 // A calibration that turned out worse than the last one must not have cost it.
@@ -174,6 +176,51 @@ void calibrate_the_camera(const Options& options) {
         options.out, shell_quoted(options.out));
 }
 
+// Every picture of a file; of a live camera until there are enough of a moving board, or Ctrl-C.
+std::vector<TimedView> waved_views(Camera& camera, const MarkerBody& board,
+                                   const Intrinsics& intrinsics) {
+  constexpr std::size_t wanted = 3 * enough_waved_pictures, most = 600;
+  const StopOnSignal stop;
+  say_locks(camera);
+  if (camera.is_live())
+    say("Wave the board to and fro and up and down in front of the camera, as fast as it stays\n"
+        "sharp. Ctrl-C ends it with what is there.\n");
+  TagViewer viewer(board);
+  std::vector<TimedView> views;
+  ProgressBar bar("board");
+  while (const auto picture = next_picture(camera, stop)) {
+    TagView view = viewer.view(picture->image, intrinsics);
+    if (view.tags.size() >= least_tags_of_a_view)
+      views.push_back({picture->capture_s, std::move(view)});
+    bar.update(static_cast<double>(views.size()) / wanted,
+               fmt::format("{} pictures", views.size()));
+    if (views.size() >= (camera.is_live() ? wanted : most)) break;
+  }
+  return views;
+}
+
+void calibrate_the_shutter(const Options& options) {
+  if (options.camera_file.empty())
+    throw Error("--shutter needs --camera-file: the camera, calibrated already", ExitCode::usage);
+  if (!options.size.empty() || options.exposure_ms)
+    throw Error("--shutter takes the size and the exposure of the camera file", ExitCode::usage);
+  require_writable(options.out);
+  Intrinsics intrinsics = load_intrinsics(options.camera_file);
+  const MarkerBody board = load_board(options.board);
+  const auto camera = open_camera(options.source, request_for(intrinsics, 0));
+  const auto views = waved_views(*camera, board, intrinsics);
+  const ShutterCalibration result = calibrate_shutter(board, intrinsics, views);
+  const std::string text = summary(result);
+  print("{}", text);
+  if (!doubts(result).empty())
+    throw Error(
+        fmt::format("the read-out was not found, and {} is not written: see above", options.out));
+  intrinsics.readout_s = std::max(result.readout_s, 0.0);
+  write_result(options.out,
+               to_yaml(intrinsics, "Made by heft calibrate camera --shutter.\n" + text));
+  say("{} is written. Next: heft doctor\n", options.out);
+}
+
 void calibrate_the_effector(const Options& options) {
   constexpr double usual_rate_hz = 0;  // no display waits for the pictures
   require_writable(options.out);
@@ -215,7 +262,9 @@ void add_camera(Command& parent) {
   Command command = parent.add_command(
       "camera", "the camera, from views of the board",
       {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
-       "heft calibrate camera --camera frames:views --board BOARD.toml --out camera.yaml"});
+       "heft calibrate camera --camera frames:views --board BOARD.toml --out camera.yaml",
+       "heft calibrate camera --shutter --camera camera:0 --camera-file camera.yaml \\\n"
+       "      --board BOARD.toml --out camera.yaml"});
   const auto options = std::make_shared<Options>();
   add_source(command, *options);
   command.add_option("--board", &options->board, "board file").required();
@@ -224,7 +273,17 @@ void add_camera(Command& parent) {
                      "of a live camera's pictures, WIDTHxHEIGHT (640x480 unless told)");
   command.add_option("--exposure-ms", &options->exposure_ms,
                      "how long a live camera's shutter is open (4 unless told)");
-  command.does([options] { calibrate_the_camera(*options); });
+  command.add_flag("--shutter", options->shutter,
+                   "only its read-out (rolling shutter), from a board that is waved; the rest is "
+                   "--camera-file's");
+  command.add_option("--camera-file", &options->camera_file,
+                     "for --shutter: the calibrated camera");
+  command.does([options] {
+    if (options->shutter) return calibrate_the_shutter(*options);
+    if (!options->camera_file.empty())
+      throw Error("--camera-file goes with --shutter", ExitCode::usage);
+    calibrate_the_camera(*options);
+  });
 }
 
 void add_effector(Command& parent) {

@@ -28,6 +28,7 @@
 #include "responders/Responder.h"
 #include "session/Session.h"
 #include "tracking/Camera.h"
+#include "tracking/ShutterCalibration.h"
 #include "tracking/VideoDevices.h"
 #include "view/ArView.h"
 #include "view/window/Displays.h"
@@ -146,6 +147,17 @@ void check_log(Report& report, const std::string& db) {
   for (const std::string& fault : faults) report.line(CheckVerdict::failed, "log", fault);
 }
 
+void check_shutter(Report& report, const Intrinsics& camera) {
+  if (!(camera.readout_s > 0))
+    return report.line(CheckVerdict::ok, "shutter",
+                       "the camera file has no readout_s: a global shutter, or not measured yet "
+                       "(heft calibrate camera --shutter)");
+  report.line(CheckVerdict::ok, "shutter",
+              fmt::format("read-out {:.1f} ms, taken back by the tracker; untold, it would be half "
+                          "a millimeter off at {:.2f} m/s",
+                          1e3 * camera.readout_s, half_millimeter_m_s(camera.readout_s)));
+}
+
 // The camera, its calibration, the light, the board: with pictures from it.
 void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
   Setup options = with_defaults(given);
@@ -158,6 +170,7 @@ void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
   const auto camera = open_camera(options.tracker, request_for(apparatus.camera, rate_hz));
   for (const CheckResult& result : check_camera(*camera, apparatus, rate_hz))
     report.line(result.verdict, result.name, result.finding);
+  check_shutter(report, apparatus.camera);
 }
 
 void list_cameras() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/Clock.h"
+#include "tracking/DensePose.h"
 #include "tracking/RollingShutter.h"
 
 namespace heft {
@@ -10,9 +11,9 @@ namespace heft {
 namespace {
 using Corners = std::array<Eigen::Vector2d, 4>;
 
-constexpr double usual_blur_px = 0.65;
 constexpr double least_expected_edge_px = 9;
-constexpr double least_agreement = 0.85;  // of the data cells of a tag that no detector read
+constexpr double most_dense_rms_px = 0.5;  // of a tag whose cells are looked at
+constexpr double least_agreement = 0.85;   // of the data cells of a tag that no detector read
 
 // Adds the time that it takes.
 template <typename Work>
@@ -58,13 +59,8 @@ BiasPrior prior_for(const TrackerSettings& settings, BiasPrior prior) {
 }  // namespace
 
 BodyFinder::BodyFinder(const Intrinsics& camera, const MarkerBody& body,
-                       const TrackerSettings& settings, int most_edge_pixels)
-    : camera_(camera),
-      body_(body),
-      settings_(settings),
-      most_edge_pixels_(most_edge_pixels),
-      patterns_(patterns_of(body)),
-      blur_px_(usual_blur_px) {}
+                       const TrackerSettings& settings, const EdgeMeasuring& how)
+    : camera_(camera), body_(body), settings_(settings), how_(how), patterns_(patterns_of(body)) {}
 
 std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<DetectedTag>& detected,
                                         const std::optional<Pose>& expected, const BiasPrior& prior,
@@ -72,6 +68,7 @@ std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<Det
   const BiasPrior bias = prior_for(settings_, prior);
   std::vector<bool> done(body_.tags.size(), false);
   std::vector<TagObservation>& tags = last_tags_;
+  tone_ = {};
   tags = timed(times.refine_s, [&] { return measure_detected(gray, detected, done); });
   const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
   if (!fit || !settings_.refine_edges) return fit;
@@ -80,6 +77,29 @@ std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<Det
   if (more.empty()) return fit;
   tags.insert(tags.end(), more.begin(), more.end());
   return timed(times.pose_s, [&] { return solve_body(tags, fit->camera_from_body, bias); });
+}
+
+BodyFit BodyFinder::aligned(const Image& gray, const BodyFit& found, const BiasPrior& prior,
+                            TrackerTimes& times) const {
+  if (!settings_.refine_edges || !settings_.inner_edges) return found;
+  std::vector<TagObservation> used;
+  std::vector<DenseTag> tags;
+  for (const TagObservation& tag : last_tags_)
+    if (tag_rms_px(tag, found) < most_dense_rms_px) used.push_back(tag);
+  for (const TagObservation& tag : used) tags.push_back({&tag, &patterns_[tag.tag]});
+  return timed(times.pose_s, [&] {
+    auto fit = align_densely(gray, camera_, tags, found, prior_for(settings_, prior), how_.curve,
+                             how_.noise);
+    if (!fit) return found;
+    // Where cells and borders tell different poses, one of them is wrong.
+    for (const TagObservation& tag : used)
+      for (const Eigen::Vector3d& corner_m : tag.corners_m)
+        fit->spread_m2 = std::max(
+            fit->spread_m2,
+            (fit->camera_from_body * corner_m - found.camera_from_body * corner_m).squaredNorm());
+    fit->quality = pose_quality(used, *fit);
+    return *fit;
+  });
 }
 
 BodyFit BodyFinder::solve_moving(const BodyFit& found, const Velocity& velocity,
@@ -96,6 +116,7 @@ std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& exp
                                               int least_tags, const BiasPrior& prior,
                                               TrackerTimes& times) {
   std::vector<bool> done(body_.tags.size(), false);
+  tone_ = {};
   const auto tags = timed(times.refine_s, [&] { return measure_expected(gray, expected, done); });
   if (static_cast<int>(tags.size()) < least_tags) return std::nullopt;
   const BiasPrior bias = prior_for(settings_, prior);
@@ -114,8 +135,7 @@ std::vector<TagObservation> BodyFinder::measure_detected(const Image& gray,
     if (!settings_.refine_edges) {
       tags.push_back(unrefined(index, found.corners_px));
     } else {
-      const auto seen = observe(camera_, *tag, measure(gray, index, found.corners_px),
-                                patterns_[index].bright_outside);
+      const auto seen = observed(index, measure(gray, index, found.corners_px));
       const bool good = seen.quality >= settings_.least_quality;
       (good ? tags : fallback).push_back(seen);
       done[index] = good;
@@ -136,27 +156,33 @@ std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,
     const MeasuredTag measured = measure(gray, i, *corners);
     if (measured.quality < settings_.least_quality || measured.agreement < least_agreement)
       continue;
-    tags.push_back(observe(camera_, body_.tags[i], measured, patterns_[i].bright_outside));
+    tags.push_back(observed(i, measured));
     done[i] = true;
   }
   return tags;
 }
 
 MeasuredTag BodyFinder::measure(const Image& gray, std::size_t tag, const Corners& corners_px) {
-  const MeasuredTag seen =
-      measure_tag(gray, camera_, patterns_[tag], corners_px, blur_px_, most_edge_pixels_, noise_);
+  const MeasuredTag seen = measure_tag(gray, camera_, patterns_[tag], corners_px, how_);
+  if (seen.quality < settings_.least_quality) return seen;
+  for (const FittedEdge& edge : seen.edges) tone_.add(edge, patterns_[tag].bright_outside ? 1 : -1);
   // Clipped edges look more blurred than they are: learning from them, the blur would grow.
-  if (seen.quality < settings_.least_quality || seen.saturated > 0) return seen;
+  if (seen.saturated > 0) return seen;
   double sum = 0;
   for (const FittedEdge& edge : seen.edges) sum += edge.blur_px;
   constexpr double memory = 0.95;
-  blur_px_ = memory * blur_px_ + (1 - memory) * sum / 4;
+  how_.blur_px = memory * how_.blur_px + (1 - memory) * sum / 4;
   return seen;
 }
 
 TagObservation BodyFinder::unrefined(std::size_t tag, const Corners& corners_px) const {
-  return observe(camera_, body_.tags[tag], unrefined_tag(corners_px),
-                 patterns_[tag].bright_outside);
+  return observed(tag, unrefined_tag(corners_px));
+}
+
+TagObservation BodyFinder::observed(std::size_t tag, const MeasuredTag& measured) const {
+  TagObservation seen = observe(camera_, body_.tags[tag], measured, patterns_[tag].bright_outside);
+  seen.tag = tag;
+  return seen;
 }
 
 }  // namespace heft

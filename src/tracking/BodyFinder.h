@@ -10,6 +10,7 @@
 #include "base/Image.h"
 #include "tracking/BodyPose.h"
 #include "tracking/TagDetector.h"
+#include "tracking/ToneLearning.h"
 
 namespace heft {
 
@@ -17,6 +18,7 @@ struct TrackerSettings {
   /// Detection on a picture smaller by this factor; 0: 1 up to 800 pixels wide, 1.5 above.
   double decimate = 0;
   bool refine_edges = true;  ///< false: the detector's own corners
+  bool inner_edges = true;   ///< the effector's tags are aligned cell by cell
   bool remove_bias = true;   ///< the edge bias that blur and the tone curve cause
   /// Look where things were in the last picture, and everywhere only when they are not there.
   bool region_of_interest = true;
@@ -32,12 +34,17 @@ class BodyFinder {
  public:
   /// @throws Error as tag_pattern
   BodyFinder(const Intrinsics& camera, const MarkerBody& body, const TrackerSettings& settings,
-             int most_edge_pixels);
+             const EdgeMeasuring& how);
 
   const MarkerBody& body() const { return body_; }
 
   /// @param noise of the next picture, gray levels: what noise does to edges is no fault of theirs
-  void expect_noise(double noise) { noise_ = noise; }
+  void expect(double noise, const ToneCurve& curve) {
+    how_.noise = noise;
+    how_.curve = curve;
+  }
+  /// What the edges of the last find told of the camera's tone curve.
+  const PictureTone& tone() const { return tone_; }
 
   /// From detected tags. @param expected where the body may be; decides only what the picture can't
   std::optional<BodyFit> find(const Image& gray, const std::vector<DetectedTag>& detected,
@@ -47,6 +54,10 @@ class BodyFinder {
   /// From where it is expected alone; none unless at least least_tags are there.
   std::optional<BodyFit> find_again(const Image& gray, const Pose& expected, int least_tags,
                                     const BiasPrior& prior, TrackerTimes& times);
+
+  /// What find saw last, cell by cell; `found` where that does not help.
+  BodyFit aligned(const Image& gray, const BodyFit& found, const BiasPrior& prior,
+                  TrackerTimes& times) const;
 
   /// What find saw last, once more: its rows as a rolling shutter read them while the body moved.
   /// @param found what came of it so far  @param velocity of the body's origin, in the camera's
@@ -62,15 +73,15 @@ class BodyFinder {
                                                std::vector<bool>& done);
   MeasuredTag measure(const Image& gray, std::size_t tag,
                       const std::array<Eigen::Vector2d, 4>& corners_px);
+  TagObservation observed(std::size_t tag, const MeasuredTag& measured) const;
   TagObservation unrefined(std::size_t tag, const std::array<Eigen::Vector2d, 4>& corners_px) const;
 
   Intrinsics camera_;
   MarkerBody body_;
   TrackerSettings settings_;
-  int most_edge_pixels_;
+  EdgeMeasuring how_;  ///< with the blur of this body's edges in the last picture
   std::vector<TagPattern> patterns_;
-  double noise_ = 0;
-  double blur_px_;                         ///< of this body's edges in the last picture
+  PictureTone tone_;
   std::vector<TagObservation> last_tags_;  ///< of the last find
 };
 

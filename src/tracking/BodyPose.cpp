@@ -16,7 +16,7 @@ constexpr double worst_rms_px = 3;  // no pose of this body
 constexpr double apart_rad = 0.14;  // poses that differ by less are one
 constexpr double undecided = 12;    // difference of costs, in variances of the better fit
 // White that is clipped may be any brightness: on a single tag that is millimeters of depth.
-constexpr double saturated_quality = 0.4;
+constexpr double saturated_quality = 0.25;
 // What halves the quality: residuals, and how uncertain the body's place is, which for a single
 // small or slanted tag is several times what it is for tags on two faces.
 constexpr double halved_at_px = 1.0, halved_at_m = 0.0005;
@@ -185,7 +185,9 @@ int count_faces(const std::vector<TagObservation>& tags) {
   return static_cast<int>(normals.size());
 }
 
-double quality_of(const std::vector<TagObservation>& tags, const BodyFit& fit) {
+}  // namespace
+
+double pose_quality(const std::vector<TagObservation>& tags, const BodyFit& fit) {
   double sum = 0;
   for (const TagObservation& tag : tags)
     sum += tag.quality * (1 - tag.saturated * (1 - saturated_quality));
@@ -200,7 +202,6 @@ double quality_of(const std::vector<TagObservation>& tags, const BodyFit& fit) {
          halving(place_variance_m2 / (halved_at_m * halved_at_m)) *
          halving(end_variance_m2 / (halved_at_end_m * halved_at_end_m));
 }
-}  // namespace
 
 TagObservation observe(const Intrinsics& camera, const Tag& tag, const MeasuredTag& measured,
                        bool bright_outside) {
@@ -213,9 +214,14 @@ TagObservation observe(const Intrinsics& camera, const Tag& tag, const MeasuredT
   for (std::size_t i = 0; i < 4; ++i) {
     seen.rays[i] = undistort(camera, measured.corners_px[i]);
     seen.edges[i] = observe_edge(camera, measured.edges[i]);
+    seen.dark += (i == 0 ? -seen.dark : 0) + measured.edges[i].dark / 4;
+    seen.bright += (i == 0 ? -seen.bright : 0) + measured.edges[i].bright / 4;
     seen.edges[i].start_m = tag.corners_m[i];
     seen.edges[i].end_m = tag.corners_m[(i + 1) % 4];
   }
+  for (std::size_t i = 0; i < 2; ++i)
+    seen.blur_px[i] =
+        (measured.edges[i == 0 ? 1 : 0].blur_px + measured.edges[i == 0 ? 3 : 2].blur_px) / 2;
   seen.px_per_ray = std::sqrt(seen.area_px2 / area_of(seen.rays));
   return seen;
 }
@@ -237,7 +243,7 @@ std::optional<BodyFit> solve_body(const std::vector<TagObservation>& all,
   if (!(fit.rms_px < worst_rms_px) || !corners_fit(tags, fit.camera_from_body)) return std::nullopt;
   fit.n_tags = static_cast<int>(tags.size());
   fit.n_faces = count_faces(tags);
-  fit.quality = quality_of(tags, fit);
+  fit.quality = pose_quality(tags, fit);
   return fit;
 }
 

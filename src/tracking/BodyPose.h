@@ -23,11 +23,14 @@ struct TagObservation {
     std::array<double, 2> px_per_ray;     ///< across the edge
     double sd_px = 0;                     ///< of each
   };
+  std::size_t tag = 0;                       ///< its place in the body's tags
   std::array<Eigen::Vector3d, 4> corners_m;  ///< on the body
   std::array<Eigen::Vector2d, 4> rays;       ///< of the measured corners
   double px_per_ray = 0;                     ///< on average
   std::array<Edge, 4> edges;
-  double outward = 1;  ///< -1 where the detected border is white within black
+  double dark = 0, bright = 255;    ///< stored values, means of the edges
+  std::array<double, 2> blur_px{};  ///< of its upright edges, of its level ones
+  double outward = 1;               ///< -1 where the detected border is white within black
   double quality = 0;
   double saturated = 0;  ///< fraction of its edges
   double area_px2 = 0;
@@ -66,6 +69,9 @@ struct BodyFit {
 ///   others are left out.
 std::optional<BodyFit> solve_body(const std::vector<TagObservation>& tags,
                                   const std::optional<Pose>& previous, const BiasPrior& prior);
+
+/// How far a pose can be trusted: BodyFit's quality.
+double pose_quality(const std::vector<TagObservation>& tags, const BodyFit& fit);
 
 /// The pose and bias with the smallest robust cost near `start`, with rms_px and cost filled in.
 BodyFit adjust(const std::vector<TagObservation>& tags, const Pose& start, const BiasPrior& prior);

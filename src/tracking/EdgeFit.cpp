@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "tracking/NormalTable.h"
 #include "tracking/ToneCurve.h"
 
 namespace heft {
@@ -24,36 +24,9 @@ constexpr double window_cells = 0.5, least_window_px = 1.0, most_window_px = 5;
 constexpr double corner_px = 2, most_corner_fraction = 0.2;  // left out: two edges blur there
 constexpr int least_pixels = 12;
 constexpr double within_noise_sd = 2.5;
+constexpr double least_lonely_sd = 3.6;  // of the blur, from the window's end to the next cell
 constexpr double least_blur_px = 0.2, most_blur_px = 3.5;
 constexpr double least_noise = 0.5;  // rounding to 8 bits alone leaves .3
-
-// The normal distribution function and its density by table: value, first and second order.
-struct Normal {
-  double below, density;
-};
-
-constexpr double normal_end = 5, normal_steps_per_unit = 64;
-const std::array<Normal, static_cast<std::size_t>(2 * normal_end * normal_steps_per_unit) + 1>
-    normal_table = [] {
-      std::array<Normal, static_cast<std::size_t>(2 * normal_end * normal_steps_per_unit) + 1>
-          made{};
-      for (std::size_t i = 0; i < made.size(); ++i) {
-        const double x = static_cast<double>(i) / normal_steps_per_unit - normal_end;
-        made[i] = {0.5 * std::erfc(-x / std::numbers::sqrt2),
-                   std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi)};
-      }
-      return made;
-    }();
-
-Normal normal_at(double x) {
-  if (x <= -normal_end) return {0, 0};
-  if (x >= normal_end) return {1, 0};
-  const double place = (x + normal_end) * normal_steps_per_unit;
-  const auto nearest = static_cast<std::size_t>(place + 0.5);
-  const double rest = (place - static_cast<double>(nearest)) / normal_steps_per_unit;
-  const Normal& there = normal_table[nearest];
-  return {there.below + there.density * rest, there.density * (1 - x * rest)};
-}
 
 struct Sample {
   double along;    ///< u
@@ -167,7 +140,7 @@ class StepFit {
     double light[2] = {0, 0}, weights[2] = {1e-9, 1e-9};
     for (const Sample& sample : samples) {
       const double weight = sample.outward * sample.outward;
-      light[sample.outward > 0 ? 1 : 0] += weight * light_of_stored(sample.value);
+      light[sample.outward > 0 ? 1 : 0] += weight * guess.curve.light(sample.value);
       weights[sample.outward > 0 ? 1 : 0] += weight;
     }
     const double inside = light[0] / weights[0], outside = light[1] / weights[1];
@@ -212,6 +185,44 @@ class StepFit {
     return std::abs(change(offset)) + std::abs(change(slope));
   }
 
+  // With what the fit's own unknowns, and a blur that is symmetric but not normal, could explain
+  // taken out: a lens' tails and a pixel's square weigh much on stored values near black.
+  ToneEvidence tone_evidence() const {
+    using Vector8 = Eigen::Matrix<double, 8, 1>;
+    Eigen::Matrix<double, 8, 8> own = Eigen::Matrix<double, 8, 8>::Zero();
+    own.topLeftCorner<6, 6>() = prior();
+    own.diagonal().tail<2>().setConstant(1);
+    Eigen::Matrix<double, 8, 3> mixed = Eigen::Matrix<double, 8, 3>::Zero();
+    ToneEvidence evidence;
+    Vector8 own_pull = Vector8::Zero();
+    const double clip = 2.5 * noise, far = outlier_bound();
+    for (const Sample& sample : samples_) {
+      Vector6 by_six;
+      const double modeled = model(sample, by_six), residual = sample.value - modeled;
+      const double size = std::abs(residual);
+      if (size > far) continue;
+      const double weight = (size > clip ? clip / size : 1) / (noise * noise);
+      const ToneBend by_bend = guess_.curve.stored_by_bend(modeled);
+      const double q =
+          (sample.outward - unknowns(offset) - unknowns(slope) * sample.along) / unknowns(blur);
+      // Hermite's polynomials over the derivative by the place: what the next cumulants do.
+      const double q2 = q * q, step = -by_six(offset) * unknowns(blur);
+      Vector8 by;
+      by << by_six, step * q * (q2 - 3), step * q * ((q2 - 10) * q2 + 15);
+      own.noalias() += weight * by * by.transpose();
+      own_pull += weight * residual * by;
+      mixed.noalias() += weight * by * by_bend.transpose();
+      evidence.information.noalias() += weight * by_bend * by_bend.transpose();
+      evidence.pull += weight * residual * by_bend;
+    }
+    const Eigen::LLT<Eigen::Matrix<double, 8, 8>> solver(own);
+    const Eigen::Matrix<double, 8, 3> by_bend = -solver.solve(mixed);
+    evidence.information += mixed.transpose() * by_bend;
+    evidence.pull += by_bend.transpose() * own_pull;
+    evidence.outward = -own.topLeftCorner<6, 6>().llt().solve(mixed.topRows<6>()).row(offset);
+    return evidence;
+  }
+
   // Fraction of pixels that the model explains.
   double explained() const {
     const double bound = outlier_bound();
@@ -225,9 +236,9 @@ class StepFit {
   double outlier_bound() const {
     return std::max({10.0, 0.12 * levels(), within_noise_sd * guess_.noise});
   }
-  double inside_value() const { return stored_of_light(unknowns(dark)).value; }
+  double inside_value() const { return guess_.curve.stored(unknowns(dark)).value; }
   double outside_value() const {
-    return stored_of_light(unknowns(dark) + unknowns(contrast)).value;
+    return guess_.curve.stored(unknowns(dark) + unknowns(contrast)).value;
   }
   double levels() const { return std::abs(outside_value() - inside_value()); }
 
@@ -250,7 +261,7 @@ class StepFit {
     const Normal step = normal_at(q);
     const double light = unknowns(dark) + unknowns(contrast) * step.below;
     const double brighter = 1 + unknowns(gain) * u;
-    const Stored stored = stored_of_light(light * brighter);
+    const Stored stored = guess_.curve.stored(light * brighter);
     const double by_light = stored.by_light * brighter;
     const double by_shift = -by_light * unknowns(contrast) * step.density / s;
     by << by_shift, by_shift * u, by_light, by_light * step.below, stored.by_light * light * u,
@@ -296,7 +307,7 @@ double leak(double cell_px, double blur_px) {
   return cautious * blur_px * normal_at(-(1 - window_cells) * cell_px / blur_px).below;
 }
 
-FittedEdge described(const EdgeAxes& axes, const StepFit& fit, double cell_px) {
+FittedEdge described(const EdgeAxes& axes, const StepFit& fit, double cell_px, bool tells_curve) {
   FittedEdge edge;
   place_points(edge, axes, fit, leak(cell_px, fit.unknowns(blur)));
   edge.dark = std::min(fit.inside_value(), fit.outside_value());
@@ -306,6 +317,8 @@ FittedEdge described(const EdgeAxes& axes, const StepFit& fit, double cell_px) {
   edge.saturated = fit.saturated;
   const bool usable = fit.levels() >= least_contrast && std::isfinite(edge.sd_px);
   edge.quality = usable ? fit.explained() : 0;
+  const bool alone = (1 - window_cells) * cell_px > least_lonely_sd * edge.blur_px;
+  if (usable && tells_curve && alone && !edge.saturated) edge.tone = fit.tone_evidence();
   return edge;
 }
 }  // namespace
@@ -327,7 +340,7 @@ FittedEdge fit_edge(const Image& gray, const EdgeGuess& first_guess, int most_pi
       if (fit.step(i > 1) < settled_px && i > 1) break;
       if (!(moved_px(fit) < 2 * half_width_px)) return {};
     }
-    edge = described(axes, fit, guess.cell_px);
+    edge = described(axes, fit, guess.cell_px, guess.tells_curve);
     const double from_start = std::max((edge.start_px - first_guess.start_px).norm(),
                                        (edge.end_px - first_guess.end_px).norm());
     if (!(from_start < 2 * furthest_px)) return {};

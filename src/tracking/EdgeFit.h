@@ -15,8 +15,18 @@
 #include <array>
 
 #include "base/Image.h"
+#include "tracking/ToneCurve.h"
 
 namespace heft {
+
+/// What pixels tell about their camera's tone curve, near the one that they were fitted with. The
+/// cost of a change of its bend is change^T information change - 2 pull^T change.
+struct ToneEvidence {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  ToneBend pull = ToneBend::Zero();
+  /// How far the edge that was found moves outwards with the bend, pixels.
+  ToneBend outward = ToneBend::Zero();
+};
 
 /// An edge where it is expected.
 struct EdgeGuess {
@@ -28,6 +38,8 @@ struct EdgeGuess {
   bool bright_outside = true;
   double noise =
       0;  ///< sd of the picture's, gray levels, as far as that is known: no fault of edges
+  ToneCurve curve{};         ///< the camera's
+  bool tells_curve = false;  ///< what it says of the curve is wanted, too
 };
 
 struct FittedEdge {
@@ -41,6 +53,7 @@ struct FittedEdge {
   double noise = 0;        ///< rms of what the fit leaves, gray levels
   bool saturated = false;  ///< its bright side is clipped: a less certain edge
   double quality = 0;      ///< fraction of its pixels that look like an edge; 0 without contrast
+  ToneEvidence tone;       ///< where it was asked for
 };
 
 /// @param gray 1 channel  @param most_pixels rows or columns are left out of longer edges

@@ -100,7 +100,7 @@ std::vector<TagPattern> patterns_of(const MarkerBody& body) {
 }
 
 MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPattern& pattern,
-                        const Corners& corners_px, double blur_px, int most_pixels, double noise) {
+                        const Corners& corners_px, const EdgeMeasuring& how) {
   const Eigen::Matrix3d pixel_from_square = square_to(corners_px);
   MeasuredTag tag = unrefined_tag(corners_px);
   std::array<EdgeGuess, 4> guesses;
@@ -110,14 +110,17 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPa
     guess.end_px = corners_px[(i + 1) % 4];
     guess.sag_px = sag_px(camera, guess.start_px, guess.end_px);
     guess.cell_px = cell_px(pixel_from_square, pattern.border_cells, i);
-    guess.blur_px = blur_px;
+    guess.blur_px = how.blur_px;
     guess.bright_outside = pattern.bright_outside;
-    guess.noise = noise;
-    take_edge(tag.edges[i], fit_edge(gray, guess, most_pixels));
+    guess.noise = how.noise;
+    guess.curve = how.curve;
+    take_edge(tag.edges[i], fit_edge(gray, guess, how.most_pixels));
   }
   if (std::ranges::all_of(tag.edges, tells_blur))
-    for (std::size_t i = 0; i < 4; ++i)
-      take_edge(tag.edges[i], fit_edge(gray, informed(guesses[i], tag.edges, i), most_pixels));
+    for (std::size_t i = 0; i < 4; ++i) {
+      guesses[i].tells_curve = how.tells_curve;
+      take_edge(tag.edges[i], fit_edge(gray, informed(guesses[i], tag.edges, i), how.most_pixels));
+    }
   tag.quality = 0;
   for (const FittedEdge& edge : tag.edges) {
     tag.quality += edge.quality / 4;

@@ -24,12 +24,19 @@ struct MeasuredTag {
   double agreement = 0;  ///< fraction of its data cells that are black or white as they should
 };
 
+/// How a picture's edges are measured.
+struct EdgeMeasuring {
+  double blur_px = 0.7;    ///< as far as it is known
+  int most_pixels = 1000;  ///< an edge
+  double noise = 0;        ///< sd of the picture's, gray levels; 0: it is not known
+  ToneCurve curve{};
+  bool tells_curve = false;  ///< evidence of the curve is wanted
+};
+
 /// Edges that are hidden or not there are left where they are expected, with a wide error.
-/// @param corners_px where they are expected, within half a cell  @param most_pixels an edge
-/// @param noise sd of the picture's, gray levels; 0: it is not known
+/// @param corners_px where they are expected, within half a cell
 MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPattern& pattern,
-                        const std::array<Eigen::Vector2d, 4>& corners_px, double blur_px,
-                        int most_pixels, double noise = 0);
+                        const std::array<Eigen::Vector2d, 4>& corners_px, const EdgeMeasuring& how);
 
 /// The same from the detector's corners as they are: each edge goes from corner to corner.
 MeasuredTag unrefined_tag(const std::array<Eigen::Vector2d, 4>& corners_px);

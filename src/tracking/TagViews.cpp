@@ -33,8 +33,9 @@ TagView TagViewer::view(const Image& image, const Intrinsics& camera) {
   for (const DetectedTag& detected : detector_.detect(gray, whole(gray))) {
     const auto known = place_.find(detected.id);
     if (known == place_.end()) continue;
-    const MeasuredTag measured = measure_tag(gray, camera, patterns_[known->second],
-                                             detected.corners_px, usual_blur_px, most_edge_pixels);
+    const MeasuredTag measured =
+        measure_tag(gray, camera, patterns_[known->second], detected.corners_px,
+                    {usual_blur_px, most_edge_pixels});
     if (measured.quality >= least_quality && near_detected(measured, detected))
       view.tags.push_back({known->second, measured.corners_px});
   }

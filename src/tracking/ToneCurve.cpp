@@ -13,32 +13,116 @@ constexpr double dark_light = 0.0031308;
 
 Stored exactly(double light) {
   if (light <= dark_light) return {white * dark_slope * light, white * dark_slope};
-  const double power = std::pow(light, 1 / 2.4);
-  return {white * (1.055 * power - 0.055), white * 1.055 / 2.4 * power / light};
+  const double power = std::pow(light, 1 / 2.4), slope = white * 1.055 / 2.4 * power / light;
+  return {white * (1.055 * power - 0.055), slope};
 }
 
 // Value and slope at even steps of light; between them the tangent is off by less than 1/50 level.
 constexpr int steps = 4096;
-const std::array<Stored, steps + 1> table = [] {
-  std::array<Stored, steps + 1> made{};
+using StoredTable = std::array<Stored, steps + 1>;
+const StoredTable srgb_table = [] {
+  StoredTable made{};
   for (int i = 0; i <= steps; ++i)
     made[static_cast<std::size_t>(i)] = exactly(static_cast<double>(i) / steps);
   return made;
 }();
-}  // namespace
 
-Stored stored_of_light(double light) {
+Stored stored_by(const StoredTable& table, double light) {
   if (light >= 1) return {white, 0};
-  if (light <= 0) return {white * dark_slope * light, white * dark_slope};
+  const double slope_in_dark = table.front().by_light;
+  if (light <= 0) return {slope_in_dark * light, slope_in_dark};
   const double place = light * steps;
   const int nearest = static_cast<int>(place + 0.5);
   const Stored& there = table[static_cast<std::size_t>(nearest)];
   return {there.value + there.by_light * (place - nearest) / steps, there.by_light};
 }
 
+// d light / d value of sRGB, both 0...1.
+double srgb_slope(double v) {
+  return v <= dark_slope * dark_light ? 1 / dark_slope
+                                      : 2.4 / 1.055 * std::pow((v + 0.055) / 1.055, 1.4);
+}
+
+ToneBend bends_at(double v) {
+  return {std::log(v + 0.03), -std::log(1.1 - v), 2 * v - 1};
+}
+}  // namespace
+
+Stored stored_of_light(double light) {
+  return stored_by(srgb_table, light);
+}
+
 double light_of_stored(double value) {
   const double v = std::clamp(value / white, 0.0, 1.0);
   return v <= dark_slope * dark_light ? v / dark_slope : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+// At even steps of the stored value, and of light.
+struct ToneCurve::Tables {
+  static constexpr int n = 510;
+  std::array<double, n + 1> light{}, light_by_value{};
+  std::array<ToneBend, n + 1> light_by_bend;
+  StoredTable stored;
+
+  explicit Tables(const ToneBend& bend) {
+    ToneBend before = ToneBend::Zero();
+    light_by_bend[0].setZero();
+    for (std::size_t i = 0; i <= n; ++i) {
+      const double v = static_cast<double>(i) / n;
+      const ToneBend bends = bends_at(v);
+      light_by_value[i] = srgb_slope(v) * std::exp(bend.dot(bends));
+      const ToneBend now = light_by_value[i] * bends;
+      if (i > 0) {
+        light[i] = light[i - 1] + (light_by_value[i - 1] + light_by_value[i]) / (2 * n);
+        light_by_bend[i] = light_by_bend[i - 1] + (before + now) / (2 * n);
+      }
+      before = now;
+    }
+    const double most = light[n];
+    const ToneBend most_by_bend = light_by_bend[n];
+    for (std::size_t i = 0; i <= n; ++i) {
+      light[i] /= most;
+      light_by_value[i] /= most;
+      light_by_bend[i] = (light_by_bend[i] - light[i] * most_by_bend) / most;
+    }
+    invert();
+    if (bend.isZero()) stored = srgb_table;
+  }
+
+  void invert() {
+    std::size_t below = 0;
+    for (std::size_t i = 0; i <= steps; ++i) {
+      const double wanted = static_cast<double>(i) / steps;
+      while (below + 1 < n && light[below + 1] < wanted) ++below;
+      const double fraction = (wanted - light[below]) / (light[below + 1] - light[below]);
+      const double slope =
+          light_by_value[below] + fraction * (light_by_value[below + 1] - light_by_value[below]);
+      stored[i] = {white * (static_cast<double>(below) + fraction) / n, white / slope};
+    }
+  }
+};
+
+ToneCurve::ToneCurve(const ToneBend& bend) : bend_(bend) {
+  static const auto srgb = std::make_shared<const Tables>(ToneBend::Zero());
+  tables_ = bend.isZero() ? srgb : std::make_shared<const Tables>(bend);
+}
+
+Stored ToneCurve::stored(double light) const {
+  return stored_by(tables_->stored, light);
+}
+
+double ToneCurve::light(double value) const {
+  if (bend_.isZero()) return light_of_stored(value);
+  const double place = std::clamp(value / white, 0.0, 1.0) * Tables::n;
+  const auto below = std::min(static_cast<std::size_t>(place), std::size_t{Tables::n - 1});
+  const double fraction = place - static_cast<double>(below);
+  return tables_->light[below] + fraction * (tables_->light[below + 1] - tables_->light[below]);
+}
+
+ToneBend ToneCurve::stored_by_bend(double value) const {
+  const double place = std::clamp(value / white, 0.0, 1.0) * Tables::n;
+  const auto nearest = static_cast<std::size_t>(place + 0.5);
+  return -white / tables_->light_by_value[nearest] * tables_->light_by_bend[nearest];
 }
 
 }  // namespace heft

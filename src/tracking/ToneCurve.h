@@ -1,6 +1,16 @@
-// The sRGB tone curve (IEC 61966-2-1): how cameras store light in 8 bits. Blur mixes light, not
-// stored values, so edges are modeled on light and compared with what is stored.
+// How cameras store light in 8 bits. Blur mixes light, not stored values, so edges are modeled on
+// light and compared with what is stored. Most cameras store sRGB (IEC 61966-2-1), or nearly; the
+// others' curves have other slopes in the dark and shoulders below white. With h(v) the light of a
+// stored value v, 0...1,
+//
+//   h'(v) = h'_sRGB(v) exp(sum of bend_k * p_k(v)),   p = ln(v + .03), -ln(1.1 - v), 2 v - 1
+//
+// so a curve rises everywhere, whatever its bend, and another power, a shoulder and contrast in the
+// middle need a number or two. Scale and offset of light are without meaning.
 #pragma once
+
+#include <Eigen/Core>
+#include <memory>
 
 namespace heft {
 
@@ -9,10 +19,30 @@ struct Stored {
   double value, by_light;
 };
 
-/// @param light 1 is where the sensor saturates; above, the derivative is 0
+/// sRGB. @param light 1 is where the sensor saturates; above, the derivative is 0
 Stored stored_of_light(double light);
 
-/// Light, 0...1, of a stored value, 0...255.
+/// Light, 0...1, of a stored value, 0...255: sRGB.
 double light_of_stored(double value);
+
+using ToneBend = Eigen::Vector3d;
+
+/// A camera's own curve; copies share their tables.
+class ToneCurve {
+ public:
+  /// @param bend zero: sRGB
+  explicit ToneCurve(const ToneBend& bend = ToneBend::Zero());
+
+  const ToneBend& bend() const { return bend_; }
+  Stored stored(double light) const;
+  double light(double value) const;
+  /// How the value that is stored for a light moves with the bend.
+  ToneBend stored_by_bend(double value) const;
+
+ private:
+  struct Tables;
+  ToneBend bend_;
+  std::shared_ptr<const Tables> tables_;
+};
 
 }  // namespace heft

@@ -14,6 +14,7 @@
 namespace heft {
 
 namespace {
+constexpr double usual_blur_px = 0.65;
 constexpr int board_edge_pixels = 120, effector_edge_pixels = 500;
 constexpr BiasPrior unknown_bias{0, 0.1};
 // A board tells the bias no better than to this: its print and the lens' blur are not quite what
@@ -100,8 +101,9 @@ void require_own_tags(const MarkerBody& board, const MarkerBody& effector) {
 Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings)
     : camera_(apparatus.camera),
       settings_(settings),
-      board_(camera_, apparatus.board, settings, board_edge_pixels),
-      effector_(camera_, apparatus.effector, settings, effector_edge_pixels) {
+      board_(camera_, apparatus.board, settings,
+             {usual_blur_px, board_edge_pixels, 0, ToneCurve(), settings.remove_bias}),
+      effector_(camera_, apparatus.effector, settings, {usual_blur_px, effector_edge_pixels}) {
   require_own_tags(apparatus.board, apparatus.effector);
   const double decimate = settings.decimate > 0     ? settings.decimate
                           : camera_.width_px <= 800 ? 1
@@ -160,6 +162,28 @@ std::optional<BodyFit> Tracker::find_board() {
   return board_.find(gray_, *board_family_tags_, last_board_, unknown_bias, result_.times);
 }
 
+void Tracker::expect_picture() {
+  const double noise = noise_of(gray_);
+  for (BodyFinder* finder : {&board_, &effector_}) finder->expect(noise, tone_.curve());
+}
+
+// The board's edges are measured anew while what they tell of the camera's curve moves them.
+std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
+  constexpr int most_rounds = 4;
+  for (int round = 0; board && round < most_rounds; ++round) {
+    if (board->n_tags < tags_that_tell_bias || !settings_.remove_bias) break;
+    const bool moves = tone_.learn(board_.tone(), board->bias_px, board->bias_sd_px);
+    expect_picture();
+    if (!moves) break;
+    const auto anew = board_.find_again(gray_, board->camera_from_body, tags_that_tell_bias,
+                                        unknown_bias, result_.times);
+    if (!anew) break;
+    board = anew;
+  }
+  tone_.next_picture();
+  return board;
+}
+
 std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double t_s) {
   const BiasPrior prior = bias_of_effector(seen_board);
   std::optional<Pose> expected;
@@ -178,9 +202,11 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
 
 // Rows that were read at different times, by the velocity since the last picture, carried on to
 // this one. Where there is none, the pose is a mean over the rows.
+// What is seen at one moment is aligned cell by cell.
 BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior,
                           double t_s) {
-  if (!(camera_.readout_s > 0) || !seen_) return fit;
+  if (!(camera_.readout_s > 0)) return effector_.aligned(gray_, fit, prior, result_.times);
+  if (!seen_) return fit;
   constexpr int rounds = 2;
   for (int round = 0; round < rounds; ++round) {
     const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
@@ -237,10 +263,10 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
         image.width, image.height, camera_.width_px, camera_.height_px));
   gray_ = gray_of(image);
   board_family_tags_.reset();
-  for (BodyFinder* finder : {&board_, &effector_}) finder->expect_noise(noise_of(gray_));
+  expect_picture();
   result_ = {};
   result_.effector_t_s = t_s;
-  auto board = find_board();
+  auto board = learn_tone(find_board());
   if (board && !has_effector() && board->quality < least_pose_quality) board.reset();
   take_board(board);
   if (board && has_effector()) {

@@ -37,7 +37,9 @@ struct TrackedPicture {
   /// The effector is not where motion could have taken it since it was last seen, or was not seen
   /// for so long that nothing can be said.
   bool jump = false;
-  double edge_bias_px = 0;  ///< of the board's tags, outwards; black tags that look small: negative
+  /// Of the board's tags, outwards, black tags that look small: negative; what the learned tone
+  /// curve leaves of it.
+  double edge_bias_px = 0;
   TrackerTimes times;
 };
 
@@ -52,7 +54,7 @@ class Tracker {
   /// @throws Error when the picture is not of the size that the camera was calibrated for
   TrackedPicture track(const Image& image, double t_s);
 
-  /// Forgets the last poses: what comes next is no continuation.
+  /// Forgets the last poses: what comes next is no continuation. The camera stays the same.
   void reset();
 
  private:
@@ -72,6 +74,8 @@ class Tracker {
   const std::vector<DetectedTag>& all_board_tags();
   std::vector<DetectedTag> all_effector_tags();
   std::optional<BodyFit> find_board();
+  std::optional<BodyFit> learn_tone(std::optional<BodyFit> board);
+  void expect_picture();
   std::optional<BodyFit> find_effector(const BodyFit& seen_board, double t_s);
   BodyFit unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior, double t_s);
   void take_board(const std::optional<BodyFit>& fit);
@@ -80,6 +84,7 @@ class Tracker {
   Intrinsics camera_;
   TrackerSettings settings_;
   BodyFinder board_, effector_;
+  ToneLearner tone_;
   std::vector<TagDetector> detectors_;  ///< one, or the board's and the effector's
 
   // Of the picture at hand.

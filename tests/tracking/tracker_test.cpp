@@ -119,6 +119,7 @@ TEST(Tracker, KnowsThatOneFaceTellsLessThanTwo) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticSettings scene;
   scene.hand = false;
+  scene.optics.noise = 10;
   SyntheticCamera camera(apparatus, scene, 1);
   Tracker tracker(apparatus);
   const auto rolled = [&](double roll_rad) {
@@ -130,7 +131,7 @@ TEST(Tracker, KnowsThatOneFaceTellsLessThanTwo) {
   const TrackedPicture one = rolled(0), two = rolled(0.75);
   EXPECT_EQ(one.n_effector_faces, 1);
   EXPECT_EQ(two.n_effector_faces, 2);
-  EXPECT_GT(two.quality, 0.8);
+  EXPECT_GT(two.quality, 0.7);
   EXPECT_LT(one.quality, two.quality - 0.05);
 }
 
@@ -180,7 +181,7 @@ TEST(Tracker, TakesTheBiasOfAnUnknownToneCurveFromTheBoard) {
   const auto seen = tracker.track(
       camera.picture([](double) -> std::optional<Pose> { return std::nullopt; }, 0, 0), 0);
   ASSERT_TRUE(seen.camera_from_board);
-  EXPECT_GT(seen.edge_bias_px, 0.2);
+  EXPECT_LT(std::abs(seen.edge_bias_px), 0.02);  // of about .3 that a linear curve makes
   EXPECT_LT((seen.camera_from_board->position_m - scene.camera_from_board.position_m).norm(),
             0.0002);
   EXPECT_EQ(seen.n_board_tags, 24);

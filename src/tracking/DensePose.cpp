@@ -1,0 +1,323 @@
+#include "tracking/DensePose.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/Pose.h"
+#include "tracking/NormalTable.h"
+
+namespace heft {
+
+namespace {
+constexpr int n_shared = 7;  // turn, shift, bias
+constexpr int n_own = 5;     // of a tag: dark, contrast, gradient along and down, log of the blur
+constexpr int n_all = n_shared + n_own;
+using VectorAll = Eigen::Matrix<double, n_all, 1>;
+using MatrixAll = Eigen::Matrix<double, n_all, n_all>;
+using VectorShared = Eigen::Matrix<double, n_shared, 1>;
+using MatrixShared = Eigen::Matrix<double, n_shared, n_shared>;
+using VectorOwn = Eigen::Matrix<double, n_own, 1>;
+enum Own { dark, contrast, along, down, log_blur };
+
+// How far beyond the border pixels are compared: what lies beyond the white cell around it, perhaps
+// an edge of the box, must not blur into them.
+constexpr double most_beyond_cells = 0.45, far_in_blurs = 3;
+constexpr double most_blur_cells = 0.45;
+constexpr double blur_sd = 0.05;  // relative; what the borders' fits left open
+constexpr double least_noise = 0.5;
+constexpr int rounds = 2;
+constexpr double most_pixels = 1800;  // of a tag, about
+constexpr double settled_rad = 5e-5, settled_m = 5e-6;
+// Of the pixels: a shadow's edge or a finger lies over a tag of which less is what it should be.
+constexpr double least_explained = 0.9;
+
+// A tag's cells along one axis around a place: how much of the blur lies over each of five.
+struct Weights {
+  int first;  ///< cell
+  std::array<double, 5> weight, by_place, by_log_blur;
+};
+
+Weights weights_at(double place, double blur_cells) {
+  Weights w;
+  const int cell = static_cast<int>(std::floor(place));
+  w.first = cell - 2;
+  double before = 1, before_by_place = 0, before_by_blur = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double q = (place - (cell - 1 + i)) / blur_cells;
+    const Normal normal = normal_at(q);
+    const double by_place = normal.density / blur_cells, by_blur = -q * normal.density;
+    const auto k = static_cast<std::size_t>(i);
+    w.weight[k] = before - normal.below;
+    w.by_place[k] = before_by_place - by_place;
+    w.by_log_blur[k] = before_by_blur - by_blur;
+    before = normal.below, before_by_place = by_place, before_by_blur = by_blur;
+  }
+  w.weight[4] = before;
+  w.by_place[4] = before_by_place;
+  w.by_log_blur[4] = before_by_blur;
+  return w;
+}
+
+struct Pixel {
+  Eigen::Vector2d ray;
+  double value;
+};
+
+// A tag as a plane in the camera's frame: its border's top left corner and its cells' sides.
+struct Plane {
+  Eigen::Vector3d corner_m, right_m, down_m;
+
+  Plane(const Pose& pose, const std::array<Eigen::Vector3d, 4>& c, int n_cells)
+      : corner_m(pose * c[0]),
+        right_m(pose.orientation * (c[1] - c[0]) / n_cells),
+        down_m(pose.orientation * (c[3] - c[0]) / n_cells) {}
+};
+
+// Where a ray hits it, and what the place on it does to the ray.
+struct Hit {
+  Eigen::Vector2d cell;           ///< from the border's corner
+  Eigen::Matrix2d cell_by_slant;  ///< of the ray's distance from a point, at the point's depth
+  Eigen::Vector3d point_m;
+
+  Hit(const Plane& plane, const Eigen::Vector2d& ray) {
+    Eigen::Matrix2d slant;
+    slant.col(0) = plane.right_m.head<2>() - ray * plane.right_m.z();
+    slant.col(1) = plane.down_m.head<2>() - ray * plane.down_m.z();
+    cell_by_slant = slant.inverse();
+    cell = -(cell_by_slant * (plane.corner_m.head<2>() - ray * plane.corner_m.z()));
+    point_m = plane.corner_m + cell.x() * plane.right_m + cell.y() * plane.down_m;
+  }
+};
+
+class TagFit {
+ public:
+  TagFit(const Image& gray, const Intrinsics& camera, const DenseTag& tag, const Pose& start,
+         const ToneCurve& curve, double noise)
+      : seen_(*tag.seen),
+        pattern_(*tag.pattern),
+        curve_(curve),
+        picture_noise_(noise),
+        noise_(std::max(6.0, noise)) {
+    own_ << curve.light(seen_.dark), curve.light(seen_.bright) - curve.light(seen_.dark), 0, 0, 0;
+    paint();
+    collect(gray, camera, start);
+  }
+
+  bool usable() const {
+    const double cell_px = std::sqrt(seen_.area_px2) / pattern_.border_cells;
+    return pixels_.size() > 100 && own_(contrast) > 0.002 && seen_.saturated == 0 &&
+           std::max(seen_.blur_px[0], seen_.blur_px[1]) < most_blur_cells * cell_px;
+  }
+
+  // What this tag's pixels say about what tags share, its own unknowns taken out.
+  void add_to(MatrixShared& matrix, VectorShared& pull, const Pose& pose, double bias_px,
+              bool drop_outliers) {
+    MatrixAll all = MatrixAll::Zero();
+    VectorAll all_pull = VectorAll::Zero();
+    all(n_shared + log_blur, n_shared + log_blur) = 1 / (blur_sd * blur_sd);
+    all_pull(n_shared + log_blur) = -own_(log_blur) / (blur_sd * blur_sd);
+    all.diagonal().segment<2>(n_shared + along).array() += 10;
+    all_pull.segment<2>(n_shared + along) -= 10 * own_.segment<2>(along);
+    const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
+    const double clip = 2.5 * noise_;
+    const double levels = seen_.bright - seen_.dark;
+    const double far = drop_outliers ? std::max({10.0, 0.12 * levels, 3 * picture_noise_}) : 1e9;
+    double sum = 0;
+    int n = 0;
+    for (const Pixel& pixel : pixels_) {
+      VectorAll by;
+      const double residual = pixel.value - modeled(pixel, plane, pose, bias_px, by);
+      const double size = std::abs(residual);
+      if (size > far) continue;
+      sum += size;
+      ++n;
+      const double weight = (size > clip ? clip / size : 1) / (noise_ * noise_);
+      all.noalias() += (weight * by) * by.transpose();
+      all_pull += weight * residual * by;
+    }
+    noise_ = std::max(least_noise, 1.2533 * sum / std::max(1, n));
+    used_ = n;
+    const auto own_part = all.bottomRightCorner<n_own, n_own>();
+    solver_.compute(own_part);
+    own_by_shared_ = solver_.solve(all.bottomLeftCorner<n_own, n_shared>());
+    own_step_ = solver_.solve(all_pull.tail<n_own>());
+    matrix += all.topLeftCorner<n_shared, n_shared>() -
+              all.topRightCorner<n_shared, n_own>() * own_by_shared_;
+    pull += all_pull.head<n_shared>() - all.topRightCorner<n_shared, n_own>() * own_step_;
+  }
+
+  void step(const VectorShared& shared) {
+    own_ += own_step_ - own_by_shared_ * shared;
+    own_(log_blur) = std::clamp(own_(log_blur), -0.5, 0.5);
+  }
+
+  double explained() const {
+    return static_cast<double>(used_) /
+           static_cast<double>(std::max<std::size_t>(1, pixels_.size()));
+  }
+
+ private:
+  void collect(const Image& gray, const Intrinsics& camera, const Pose& pose) {
+    const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
+    const Eigen::Vector2d beyond = beyond_cells(plane);
+    const double n = pattern_.border_cells;
+    Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
+    for (const double right : {-beyond.x(), n + beyond.x()})
+      for (const double below : {-beyond.y(), n + beyond.y()}) {
+        const Eigen::Vector3d p = plane.corner_m + right * plane.right_m + below * plane.down_m;
+        const Eigen::Vector2d pixel = project(camera, p);
+        low = low.cwiseMin(pixel), high = high.cwiseMax(pixel);
+      }
+    const int x0 = std::max(0, static_cast<int>(low.x())),
+              y0 = std::max(0, static_cast<int>(low.y()));
+    const int x1 = std::min(gray.width - 1, static_cast<int>(high.x()) + 1);
+    const int y1 = std::min(gray.height - 1, static_cast<int>(high.y()) + 1);
+    // Of large tags every so many pixels are enough, in rows that are offset.
+    const int stride = 1 + static_cast<int>(seen_.area_px2 / most_pixels);
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) {
+        if ((x + (stride > 2 ? 2 * y : y)) % stride != 0) continue;
+        const Eigen::Vector2d ray = undistort(camera, Eigen::Vector2d(x, y));
+        const Eigen::Vector2d cell = Hit(plane, ray).cell;
+        if (!((cell.array() > -beyond.array()).all() && (cell.array() < n + beyond.array()).all()))
+          continue;
+        const auto at =
+            static_cast<std::size_t>(y) * gray.row_bytes() + static_cast<std::size_t>(x);
+        pixels_.push_back({ray, static_cast<double>(gray.pixels[at])});
+      }
+  }
+
+  Eigen::Vector2d beyond_cells(const Plane& plane) const {
+    const Eigen::Vector3d middle_m =
+        plane.corner_m + pattern_.border_cells / 2.0 * (plane.right_m + plane.down_m);
+    const Hit hit(plane, middle_m.hnormalized());
+    const double pixel_m = middle_m.z() / seen_.px_per_ray;
+    Eigen::Vector2d beyond;
+    for (int i = 0; i < 2; ++i)
+      beyond(i) = std::clamp(
+          pattern_.margin_cells() - far_in_blurs * seen_.blur_px[static_cast<std::size_t>(i)] *
+                                        pixel_m * hit.cell_by_slant.row(i).norm(),
+          0.0, most_beyond_cells);
+    return beyond;
+  }
+
+  // The pattern with its outermost cells carried on, as far as five cells around a pixel reach.
+  static constexpr int padding = 3;
+  void paint() {
+    n_painted_ = pattern_.border_cells + 2 * padding;
+    const int margin = pattern_.margin_cells(), last = pattern_.n_cells - 1;
+    for (int row = 0; row < n_painted_; ++row)
+      for (int column = 0; column < n_painted_; ++column)
+        white_.push_back(pattern_.is_white(std::clamp(column - padding + margin, 0, last),
+                                           std::clamp(row - padding + margin, 0, last)));
+  }
+
+  double modeled(const Pixel& pixel, const Plane& plane, const Pose& pose, double bias_px,
+                 VectorAll& by) const {
+    const Hit hit(plane, pixel.ray);
+    // A pixel's size on the tag.
+    const double pixel_m = hit.point_m.z() / seen_.px_per_ray, wider = std::exp(own_(log_blur));
+    const Eigen::Vector2d cell_by_px = pixel_m * hit.cell_by_slant.rowwise().norm();
+    const Eigen::Vector2d blur =
+        wider * cell_by_px.cwiseProduct(Eigen::Vector2d(seen_.blur_px[0], seen_.blur_px[1]));
+    const Weights across = weights_at(hit.cell.x(), blur.x());
+    const Weights below = weights_at(hit.cell.y(), blur.y());
+    // Seen at a slant, the blur lies at a slant on the tag: two terms of Mehler's series.
+    const double correlation = pixel_m * pixel_m *
+                               hit.cell_by_slant.row(0).dot(hit.cell_by_slant.row(1)) /
+                               cell_by_px.prod();
+    const double slanted = correlation * blur.prod(), twice = correlation * correlation / 2;
+    double b = 0, by_blur = 0;
+    Eigen::Vector2d by_cell(0, 0);
+    const int first_row = std::clamp(below.first + padding, 0, n_painted_ - 5);
+    const int first_column = std::clamp(across.first + padding, 0, n_painted_ - 5);
+    for (std::size_t j = 0; j < 5; ++j) {
+      double row = 0, row_by_place = 0, row_by_blur = 0;
+      const std::uint8_t* white = &white_[static_cast<std::size_t>(
+          (first_row + static_cast<int>(j)) * n_painted_ + first_column)];
+      for (std::size_t i = 0; i < 5; ++i)
+        if (white[i] != 0) {
+          row += across.weight[i];
+          row_by_place += across.by_place[i];
+          row_by_blur += across.by_log_blur[i];
+        }
+      b += below.weight[j] * row + slanted * below.by_place[j] * row_by_place +
+           twice * below.by_log_blur[j] * row_by_blur;
+      by_cell.x() += below.weight[j] * row_by_place;
+      by_cell.y() += below.by_place[j] * row;
+      by_blur += below.weight[j] * row_by_blur + below.by_log_blur[j] * row;
+    }
+    const Eigen::Vector2d slope = -(hit.cell_by_slant.transpose() * by_cell);
+    const double shrinks = -slope.norm() * pixel_m;  // of white, by a pixel of bias
+    b += shrinks * bias_px;
+    const double half = pattern_.border_cells / 2.0;
+    const Eigen::Vector2d place = (hit.cell.array() - half) / half;
+    const double brighter = 1 + own_(along) * place.x() + own_(down) * place.y();
+    const double light = own_(dark) + own_(contrast) * b;
+    const Stored stored = curve_.stored(light * brighter);
+    const double by_light = stored.by_light * brighter, by_b = by_light * own_(contrast);
+    const Eigen::Vector3d by_point(by_b * slope.x(), by_b * slope.y(),
+                                   -by_b * slope.dot(pixel.ray));
+    const Eigen::Vector3d arm = hit.point_m - pose.position_m;
+    by << arm.cross(by_point), by_point, by_b * shrinks, by_light, by_light * b,
+        stored.by_light * light * place.x(), stored.by_light * light * place.y(), by_b * by_blur;
+    return stored.value;
+  }
+
+  const TagObservation& seen_;
+  const TagPattern& pattern_;
+  const ToneCurve& curve_;
+  double picture_noise_, noise_;
+  std::vector<Pixel> pixels_;
+  std::vector<std::uint8_t> white_;
+  int n_painted_ = 0;
+  VectorOwn own_, own_step_ = VectorOwn::Zero();
+  Eigen::Matrix<double, n_own, n_shared> own_by_shared_;
+  Eigen::LDLT<Eigen::Matrix<double, n_own, n_own>> solver_;
+  int used_ = 0;
+};
+}  // namespace
+
+std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera,
+                                     std::span<const DenseTag> tags, const BodyFit& start,
+                                     const BiasPrior& prior, const ToneCurve& curve, double noise) {
+  std::vector<TagFit> fits;
+  for (const DenseTag& tag : tags) {
+    fits.emplace_back(gray, camera, tag, start.camera_from_body, curve, noise);
+    if (!fits.back().usable()) return std::nullopt;
+  }
+  BodyFit fit = start;
+  const double bias_variance = std::max(prior.sd_px * prior.sd_px, 1e-8);
+  MatrixShared matrix;
+  for (int round = 0; round < rounds; ++round) {
+    matrix.setZero();
+    VectorShared pull = VectorShared::Zero();
+    matrix(6, 6) = 1 / bias_variance;
+    pull(6) = (prior.mean_px - fit.bias_px) / bias_variance;
+    for (TagFit& tag : fits) tag.add_to(matrix, pull, fit.camera_from_body, fit.bias_px, round > 0);
+    const VectorShared change = matrix.ldlt().solve(pull);
+    if (!change.allFinite() || !(change.head<3>().norm() < 0.2)) return std::nullopt;
+    for (TagFit& tag : fits) tag.step(change);
+    Pose& pose = fit.camera_from_body;
+    pose.orientation = (rotation_from_vector(change.head<3>()) * pose.orientation).normalized();
+    pose.position_m += change.segment<3>(3);
+    fit.bias_px += change(6);
+    if (round > 0 && change.head<3>().norm() < settled_rad &&
+        change.segment<3>(3).norm() < settled_m)
+      break;
+  }
+  for (const TagFit& tag : fits)
+    if (tag.explained() < least_explained) return std::nullopt;
+  const MatrixShared covariance = matrix.inverse();
+  fit.covariance = covariance.topLeftCorner<6, 6>();
+  fit.bias_sd_px = std::sqrt(covariance(6, 6));
+  return fit;
+}
+
+}  // namespace heft

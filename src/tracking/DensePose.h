@@ -1,0 +1,35 @@
+// A body's pose from every pixel of its tags: their inner cell edges lie where they should as
+// exactly as their borders do, and pull the other way where edges are biased. Each pixel is
+// compared with
+//
+//   tone_curve((dark + contrast * B(s)) * (1 + gradient . s))
+//
+// B being the tag's cells, 0 black and 1 white, blurred by a normal distribution; s the place on
+// the tag that the pixel's ray hits. Unknown are the pose and the edge bias, and of each tag its
+// light, the light's gradient and the blur. Gauss-Newton from the pose of the borders, Huber
+// weights.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "base/Image.h"
+#include "tracking/BodyPose.h"
+#include "tracking/TagFamily.h"
+#include "tracking/ToneCurve.h"
+
+namespace heft {
+
+struct DenseTag {
+  const TagObservation* seen;
+  const TagPattern* pattern;
+};
+
+/// @param noise sd of the picture's, gray levels
+/// @return the start with another pose, bias and covariance; none where pixels don't bear it:
+/// blurred over cells, clipped, or leading far from the start
+std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera,
+                                     std::span<const DenseTag> tags, const BodyFit& start,
+                                     const BiasPrior& prior, const ToneCurve& curve, double noise);
+
+}  // namespace heft

@@ -1,0 +1,65 @@
+// What a tag's inner edges are worth, on the ray caster's pictures.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tracking/DensePose.h"
+#include "tracking/RayCaster.h"
+#include "tracking/Scenes.h"
+#include "tracking/Tracker.h"
+
+namespace heft {
+namespace {
+
+Pose held(double x_m, double yaw_rad, double pitch_rad, double roll_rad) {
+  return {{x_m, -0.025, 0.04},
+          Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
+              Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
+              Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX())};
+}
+
+// Two faces, one, and one at a slant both ways, whose blur lies at a slant on the tag.
+const std::vector<Pose> grips{held(0.02, 1.4, 0.1, 0.5), held(-0.03, 1.9, 0, -0.1),
+                              held(-0.02, 1.4, 0.05, -0.45), held(0.03, 1.3, 0.2, 0.2)};
+
+struct TipErrors {
+  double rms_mm = 0, worst_mm = 0;
+};
+
+TipErrors tip_errors(const CameraFaults& faults, bool inner_edges) {
+  const Apparatus apparatus = default_apparatus(640);
+  const RayCaster caster(apparatus, camera_above_board(0.45, 52 * M_PI / 180), 4);
+  TrackerSettings settings;
+  settings.inner_edges = inner_edges;
+  Tracker tracker(apparatus, settings);
+  const Eigen::Vector3d tip_m(0.045, 0, 0);
+  TipErrors errors;
+  for (std::size_t i = 0; i < grips.size(); ++i) {
+    tracker.reset();
+    const Image image = caster.picture([&](double) { return grips[i]; }, 0, faults, i);
+    const TrackedPicture seen = tracker.track(image, static_cast<double>(i));
+    EXPECT_TRUE(seen.board_from_effector) << i;
+    if (!seen.board_from_effector) continue;
+    const double off_mm = 1e3 * (*seen.board_from_effector * tip_m - grips[i] * tip_m).norm();
+    errors.rms_mm += off_mm * off_mm;
+    errors.worst_mm = std::max(errors.worst_mm, off_mm);
+  }
+  errors.rms_mm = std::sqrt(errors.rms_mm / static_cast<double>(grips.size()));
+  return errors;
+}
+
+TEST(DensePose, InnerEdgesHalveTheErrorOfNoise) {
+  CameraFaults noisy;
+  noisy.noise = 8;
+  const TipErrors inner = tip_errors(noisy, true), borders = tip_errors(noisy, false);
+  EXPECT_LT(inner.rms_mm, 0.7 * borders.rms_mm);
+  EXPECT_LT(inner.worst_mm, 0.8);
+}
+
+TEST(DensePose, ATagAtASlantIsWhereItIs) {
+  EXPECT_LT(tip_errors({}, true).worst_mm, 0.3);
+}
+
+}  // namespace
+}  // namespace heft
