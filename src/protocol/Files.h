@@ -33,10 +33,11 @@ enum class FileKind {
 };
 template <>
 struct EnumNames<FileKind> {
-  static constexpr std::array<std::string_view, 10> names{
-      "protocol",      "procedure file",        "scene file", "board file",
-      "effector file", "synthetic camera file", "text file",  "questionnaire file",
-      "display file",  "study plan"};
+  static constexpr std::array<std::string_view, 10> names{"protocol",      "procedure file",
+                                                          "scene file",    "board file",
+                                                          "effector file", "synthetic camera file",
+                                                          "text file",     "questionnaire file",
+                                                          "display file",  "study plan"};
 };
 
 /// The kind whose tables the text has, or else most of whose keys.

@@ -264,11 +264,11 @@ FrameCounts LogReader::frame_counts(std::int64_t session_id) const {
     cells.read(counts.mean_quality);
     return counts;
   };
-  const auto counts =
-      impl_->rows(counts_from, "frame",
-             "SELECT 0, count(*), coalesce(sum(tracked), 0), coalesce(sum(jump), 0), avg(quality) "
-             "FROM frame WHERE trial_id IN (SELECT trial_id FROM trial WHERE session_id = ?1)",
-             session_id);
+  const auto counts = impl_->rows(
+      counts_from, "frame",
+      "SELECT 0, count(*), coalesce(sum(tracked), 0), coalesce(sum(jump), 0), avg(quality) "
+      "FROM frame WHERE trial_id IN (SELECT trial_id FROM trial WHERE session_id = ?1)",
+      session_id);
   return counts.empty() ? FrameCounts{} : counts.front();
 }
 

@@ -1,9 +1,11 @@
 // Logs of versions 1 to 3: their tables are made anew and their rows copied over as they are, so
-// that one program text serves all versions from there on.
+// that one program text serves all versions from there on. Of version 4 only the views are made
+// anew.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "base/Error.h"
@@ -20,6 +22,7 @@ namespace heft::schema {
 namespace {
 
 constexpr int without_setups = 2;  // version 1 differs in columns that may be NULL alone
+constexpr int with_todays_tables = 4;
 
 std::vector<std::string> tables_of(int version) {
   std::vector<std::string> tables{"session", "participant_info", "trial",    "event", "cube",
@@ -121,8 +124,21 @@ void copy_rows_without_setups(SQLite::Database& database) {
        "'cubes_reset' AND (e.slot IS NULL OR e.slot = o.slot))");
 }
 
+void renew_views(SQLite::Database& database) {
+  for (const char* view : {"v_frame", "v_sorting", "v_trial", "v_jnd"})
+    database.exec(fmt::format("DROP VIEW IF EXISTS {}", view));
+  database.exec(views);
+  database.exec(fmt::format("PRAGMA user_version = {}", current_version));
+  if (const auto foreign = foreign_objects(database); !foreign.empty())
+    throw Error(fmt::format("the log holds what is none of heft's, or lacks what is: {}. Put that "
+                            "right, or go on with a copy from before",
+                            foreign.front()),
+                ExitCode::diverged);
+}
+
 void rebuild(SQLite::Database& database, const std::string& path) {
   const int version = database.execAndGet("PRAGMA user_version").getInt();
+  if (version == with_todays_tables) return renew_views(database);
   const std::vector<std::string> older_tables = tables_of(version);
   refuse_foreign(database, older_tables);
   set_aside(database, older_tables);

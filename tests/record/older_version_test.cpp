@@ -42,7 +42,7 @@ class older_version : public testing::TestWithParam<int> {
 TEST_P(older_version, is_brought_up_to_date_with_the_older_file_beside_it) {
   const int n_events = number(log_, "SELECT count(*) FROM event");
   const LogReader reader(log_);
-  EXPECT_EQ(number(log_, "PRAGMA user_version"), 4);
+  EXPECT_EQ(number(log_, "PRAGMA user_version"), schema::current_version);
   EXPECT_EQ(number(log_, "SELECT count(*) FROM event"), n_events);
   EXPECT_THAT(reader.foreign_objects(), testing::IsEmpty());
   EXPECT_EQ(number(older_file(), "PRAGMA user_version"), GetParam());
@@ -160,6 +160,32 @@ TEST_F(version_3, goes_on_with_its_own_digests) {
 TEST_F(version_3, with_something_foreign_in_it_is_refused) {
   SQLite::Database(log_, SQLite::OPEN_READWRITE).exec("CREATE TABLE loot (text TEXT)");
   EXPECT_THROW(LogReader{log_}, Error);
+}
+
+class version_4 : public version_3 {
+ protected:
+  void SetUp() override {
+    fs::copy_file(fs::path(HEFT_SOURCE_DIR) / "tests/golden/logs/version_4.db", log_);
+    fs::permissions(log_, fs::perms::owner_write, fs::perm_options::add);
+  }
+};
+
+TEST_F(version_4, gets_the_views_of_today) {
+  const LogReader reader(log_);
+  EXPECT_TRUE(fs::exists(log_ + ".v4"));
+  EXPECT_THAT(reader.foreign_objects(), testing::IsEmpty());
+  for (const std::int64_t session_id : {1, 2})
+    EXPECT_FALSE(reader.first_broken_digest(session_id)) << session_id;
+  SQLite::Database log(log_, SQLite::OPEN_READONLY);
+  EXPECT_GT(log.execAndGet("SELECT count(peak_clone_offset_deg) >= 0 FROM v_trial").getInt(), 0);
+}
+
+TEST_F(version_4, with_something_foreign_in_it_is_refused_and_left_as_it_is) {
+  SQLite::Database(log_, SQLite::OPEN_READWRITE)
+      .exec("CREATE TRIGGER bad AFTER INSERT ON event BEGIN DELETE FROM answer; END");
+  EXPECT_THROW(LogReader{log_}, Error);
+  SQLite::Database log(log_, SQLite::OPEN_READONLY);
+  EXPECT_EQ(log.execAndGet("PRAGMA user_version").getInt(), 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(versions, older_version, testing::Values(1, 2));
