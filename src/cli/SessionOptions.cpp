@@ -263,6 +263,24 @@ void add_questionnaires(Setup& setup, const Protocol& protocol, const std::strin
     }
 }
 
+namespace {
+// Not to take part is everybody's right, and no error.
+void say_declined(const SessionResult& result, const std::string& db) {
+  say("the participant declined to take part: session {} is ended as aborted, before its first "
+      "trial; that is saved in {}\n",
+      result.session_id, db);
+}
+}  // namespace
+
+void say_finished(const SessionResult& result, const std::string& db) {
+  if (result.end == RunEnd::declined) return say_declined(result, db);
+  say("session {} is finished: {} trials, {:.0f} minutes of session time, all saved in {}\n"
+      "what was found: heft analyse --db {}\n"
+      "check the log: heft replay --db {} --session {}\n",
+      result.session_id, result.n_completed, result.duration_s / 60, db, shell_quoted(db),
+      shell_quoted(db), result.session_id);
+}
+
 SessionResult run_session(const CommandedSession& session,
                           const std::function<SessionResult(const RunnerOptions&)>& run) {
   std::optional<EventOutlet> events;

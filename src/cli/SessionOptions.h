@@ -71,6 +71,9 @@ void back_up_and_tell(const std::string& db, const std::string& folder, std::int
 /// @throws Error naming what is not there, InvalidFile where it has mistakes
 void add_questionnaires(Setup& setup, const Protocol& protocol, const std::string& protocol_file);
 
+/// How a session ended, and what comes next.
+void say_finished(const SessionResult& result, const std::string& db);
+
 struct CommandedSession {
   const Protocol& protocol;
   const Setup& setup;

@@ -1,5 +1,6 @@
 // Which files are opened, which are refused, and whether the message helps.
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -12,6 +13,7 @@
 #include "base/TextFile.h"
 #include "record/Integrity.h"
 #include "record/LogReader.h"
+#include "record/Schema.h"
 #include "record/SessionArchive.h"
 #include "record/SessionLog.h"
 #include "record/child.h"
@@ -85,7 +87,8 @@ TEST_F(opening, another_programs_database_is_refused) {
 
 TEST_F(opening, a_newer_log_is_refused) {
   write_log();
-  SQLite::Database(file_, SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 5");
+  SQLite::Database(file_, SQLite::OPEN_READWRITE)
+      .exec(fmt::format("PRAGMA user_version = {}", schema::current_version + 1));
   EXPECT_THAT(failure_to_start(file_), AllOf(HasSubstr("newer heft"), HasSubstr("Update heft")));
   EXPECT_THAT(failure([&] { SessionLog::reopen(file_, 1); }), HasSubstr("newer heft"));
   EXPECT_THAT(failure([&] { LogReader reader(file_); }), HasSubstr("newer heft"));

@@ -69,7 +69,7 @@ class schema_rules : public testing::Test {
 
 TEST_F(schema_rules, the_file_is_marked_as_ours) {
   EXPECT_EQ(database_->execAndGet("PRAGMA application_id").getInt(), 0x48656674);
-  EXPECT_EQ(database_->execAndGet("PRAGMA user_version").getInt(), 4);
+  EXPECT_EQ(database_->execAndGet("PRAGMA user_version").getInt(), todays_log_version);
   EXPECT_EQ(database_->execAndGet("PRAGMA journal_mode").getString(), "wal");
 }
 
