@@ -29,7 +29,8 @@ enum Own { dark, contrast, along, down, log_blur };
 // an edge of the box, must not blur into them.
 constexpr double most_beyond_cells = 0.45, far_in_blurs = 3;
 constexpr double most_blur_cells = 0.45;
-constexpr double blur_sd = 0.05;  // relative; what the borders' fits left open
+constexpr double least_blur_px = 0.29;  // a pixel's own extent: 1 / sqrt(12)
+constexpr double blur_sd = 0.05;        // relative; what the borders' fits left open
 constexpr double least_noise = 0.5;
 constexpr int rounds = 2;
 constexpr double most_pixels = 1800;  // of a tag, about
@@ -102,6 +103,8 @@ class TagFit {
       : seen_(*tag.seen),
         pattern_(*tag.pattern),
         curve_(curve),
+        blur_px_(std::max(least_blur_px, tag.seen->blur_px[0]),
+                 std::max(least_blur_px, tag.seen->blur_px[1])),
         picture_noise_(noise),
         noise_(std::max(6.0, noise)) {
     own_ << curve.light(seen_.dark), curve.light(seen_.bright) - curve.light(seen_.dark), 0, 0, 0;
@@ -112,7 +115,7 @@ class TagFit {
   bool usable() const {
     const double cell_px = std::sqrt(seen_.area_px2) / pattern_.border_cells;
     return pixels_.size() > 100 && own_(contrast) > 0.002 && seen_.saturated == 0 &&
-           std::max(seen_.blur_px[0], seen_.blur_px[1]) < most_blur_cells * cell_px;
+           blur_px_.maxCoeff() < most_blur_cells * cell_px;
   }
 
   // What this tag's pixels say about what tags share, its own unknowns taken out.
@@ -200,10 +203,9 @@ class TagFit {
     const double pixel_m = middle_m.z() / seen_.px_per_ray;
     Eigen::Vector2d beyond;
     for (int i = 0; i < 2; ++i)
-      beyond(i) = std::clamp(
-          pattern_.margin_cells() - far_in_blurs * seen_.blur_px[static_cast<std::size_t>(i)] *
-                                        pixel_m * hit.cell_by_slant.row(i).norm(),
-          0.0, most_beyond_cells);
+      beyond(i) = std::clamp(pattern_.margin_cells() - far_in_blurs * blur_px_(i) * pixel_m *
+                                                           hit.cell_by_slant.row(i).norm(),
+                             0.0, most_beyond_cells);
     return beyond;
   }
 
@@ -224,8 +226,7 @@ class TagFit {
     // A pixel's size on the tag.
     const double pixel_m = hit.point_m.z() / seen_.px_per_ray, wider = std::exp(own_(log_blur));
     const Eigen::Vector2d cell_by_px = pixel_m * hit.cell_by_slant.rowwise().norm();
-    const Eigen::Vector2d blur =
-        wider * cell_by_px.cwiseProduct(Eigen::Vector2d(seen_.blur_px[0], seen_.blur_px[1]));
+    const Eigen::Vector2d blur = wider * cell_by_px.cwiseProduct(blur_px_);
     const Weights across = weights_at(hit.cell.x(), blur.x());
     const Weights below = weights_at(hit.cell.y(), blur.y());
     // Seen at a slant, the blur lies at a slant on the tag: two terms of Mehler's series.
@@ -273,6 +274,7 @@ class TagFit {
   const TagObservation& seen_;
   const TagPattern& pattern_;
   const ToneCurve& curve_;
+  const Eigen::Vector2d blur_px_;
   double picture_noise_, noise_;
   std::vector<Pixel> pixels_;
   std::vector<std::uint8_t> white_;

@@ -57,6 +57,28 @@ void take_edge(FittedEdge& edge, const FittedEdge& fitted) {
   if (fitted.quality >= least_edge_quality) edge = fitted;
 }
 
+// An edge that was not found is as dark, as bright and as blurred as those that were; opposite
+// edges are blurred alike.
+void describe_missing(std::array<FittedEdge, 4>& edges) {
+  const auto is_missing = [](const FittedEdge& edge) { return edge.blur_px == 0; };
+  const auto n = static_cast<double>(4 - std::ranges::count_if(edges, is_missing));
+  if (n == 0 || n == 4) return;
+  FittedEdge mean;
+  for (const FittedEdge& edge : edges) {
+    mean.dark += edge.dark / n;
+    mean.bright += edge.bright / n;
+    mean.blur_px += edge.blur_px / n;
+  }
+  const std::array<FittedEdge, 4> found = edges;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!is_missing(found[i])) continue;
+    const FittedEdge& opposite = found[(i + 2) % 4];
+    edges[i].dark = mean.dark;
+    edges[i].bright = mean.bright;
+    edges[i].blur_px = is_missing(opposite) ? mean.blur_px : opposite.blur_px;
+  }
+}
+
 // The guess with what the first fits told: opposite edges are blurred alike, by motion, too.
 EdgeGuess informed(EdgeGuess guess, const std::array<FittedEdge, 4>& edges, std::size_t edge) {
   guess.start_px = edges[edge].start_px;
@@ -121,6 +143,7 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPa
       guesses[i].tells_curve = how.tells_curve;
       take_edge(tag.edges[i], fit_edge(gray, informed(guesses[i], tag.edges, i), how.most_pixels));
     }
+  describe_missing(tag.edges);
   tag.quality = 0;
   for (const FittedEdge& edge : tag.edges) {
     tag.quality += edge.quality / 4;

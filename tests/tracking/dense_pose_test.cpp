@@ -57,6 +57,13 @@ TEST(DensePose, InnerEdgesHalveTheErrorOfNoise) {
   EXPECT_LT(inner.worst_mm, 0.8);
 }
 
+// Edges along the pixels' rows may look sharper than a pixel is wide.
+TEST(DensePose, APictureWithoutBlurIsNoTrouble) {
+  CameraFaults sharp;
+  sharp.blur_px = sharp.noise = 0;
+  EXPECT_LT(tip_errors(sharp, true).worst_mm, 0.5);
+}
+
 TEST(DensePose, ATagAtASlantIsWhereItIs) {
   EXPECT_LT(tip_errors({}, true).worst_mm, 0.3);
 }
