@@ -141,6 +141,16 @@ ParticipantInfo info_of(const StudyPlan& plan, const StudyPlace& place) {
           {"study_order", described(plan.orders[static_cast<std::size_t>(place.order)])}};
 }
 
+std::optional<std::string> near_planned_id(const std::string& id, const StudyPlan& plan) {
+  std::optional<std::string> near;
+  for (int number = 1; number <= plan.participants; ++number) {
+    const std::string planned = planned_id(plan, number);
+    if (planned == id) return std::nullopt;
+    if (!near && folded(planned) == folded(id)) near = planned;
+  }
+  return near;
+}
+
 std::optional<std::string> near_id(const std::string& id, const std::vector<SessionRow>& sessions) {
   if (is_in(sessions, id)) return std::nullopt;
   for (const SessionRow& session : sessions)

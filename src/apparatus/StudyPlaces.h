@@ -48,4 +48,7 @@ ParticipantInfo info_of(const StudyPlan& plan, const StudyPlace& place);
 /// the id itself is there already, or no such one.
 std::optional<std::string> near_id(const std::string& id, const std::vector<SessionRow>& sessions);
 
+/// The same among the ids that the plan gives.
+std::optional<std::string> near_planned_id(const std::string& id, const StudyPlan& plan);
+
 }  // namespace heft

@@ -136,11 +136,35 @@ void give_place(const StudyPlan& plan, const PlannedParticipant& planned, Option
   options.protocol = group.protocol;
   if (!options.language) options.language = group.language;
   const auto& order = plan.orders[static_cast<std::size_t>(planned.place.order)];
-  if (!order.empty()) options.given.settings.push_back(order_setting(order));
+  if (!order.empty()) {
+    for (const std::string& setting : options.given.settings)
+      if (setting.starts_with("block_order"))
+        throw Error(fmt::format("the plan {} gives the order of blocks, expected no --set {}",
+                                options.plan, setting),
+                    ExitCode::usage);
+    options.given.settings.push_back(order_setting(order));
+  }
   options.participant_info = info_of(plan, planned.place);
   if (!options.elsewhere.backup.empty())  // for whoever goes on with it
     options.participant_info["study_backup"] =
         std::filesystem::absolute(options.elsewhere.backup).string();
+}
+
+bool is_unfinished(const SessionRow& session) {
+  return session.state == SessionState::running || session.state == SessionState::paused;
+}
+
+// P2 for P02 would take another one's place.
+void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
+                               const Options& options) {
+  if (!options.participant || options.again) return;
+  for (const SessionRow& session : sessions)
+    if (session.header.participant == *options.participant) return;
+  if (const auto near = near_planned_id(*options.participant, plan))
+    throw Error(fmt::format("the plan {} has no participant \"{}\", but there is \"{}\": give "
+                            "that id if it is the same person; if it is another one, add --again",
+                            options.plan, *options.participant, *near),
+                ExitCode::usage);
 }
 
 void take_from_plan(Options& options) {
@@ -153,9 +177,16 @@ void take_from_plan(Options& options) {
   if (!options.db) options.db = usual_db;
   const Setup setup = with_defaults(options.given);
   const Purpose purpose = has_person(setup) ? purpose_of(options, setup) : Purpose::simulated;
+  const std::vector<SessionRow> sessions = sessions_in(*options.db);
   const PlannedParticipant planned =
-      planned_participant(plan, sessions_in(*options.db), purpose, options.participant);
+      planned_participant(plan, sessions, purpose, options.participant);
+  refuse_id_near_to_planned(plan, sessions, options);
   give_place(plan, planned, options);
+  for (const SessionRow& session : sessions)
+    if (is_unfinished(session) && place_of(session.header.participant_info))
+      say("session {} of participant {} is unfinished: heft resume --db {} --session {}\n",
+          session.session_id, session.header.participant, shell_quoted(*options.db),
+          session.session_id);
   say("participant {} of the study {}: {} of {}\n", planned.id, plan.name, planned.place.number,
       plan.participants);
 }

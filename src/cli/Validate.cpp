@@ -150,10 +150,36 @@ std::string caution_of(const StudyPlan& plan) {
       below > 0 ? fmt::format("{} or ", below) : "", below + n_cells);
 }
 
+// Whether what people are to read is there, in the language that they read.
+void check_words(const Protocol& protocol, const std::string& protocol_file,
+                 const std::string& language, const std::string& path) {
+  try {
+    Setup setup;
+    setup.texts_file = texts_file(language);
+    setup.texts_text = read_text_file(setup.texts_file);
+    add_questionnaires(setup, protocol, protocol_file);
+    parse_texts(setup.texts_text, setup.texts_file);
+  } catch (const InvalidFile&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", path, error.what()), ExitCode::invalid_file);
+  }
+}
+
+void check_words(const StudyPlan& plan, const std::string& path) {
+  for (const StudyGroup& group : plan.groups) {
+    const Protocol protocol = load_protocol(group.protocol);
+    check_words(protocol, group.protocol, group.language.value_or(protocol.screens.language), path);
+  }
+}
+
 std::string checked(FileKind kind, const std::string& text, const std::string& path) {
   switch (kind) {
-    case FileKind::protocol:
-      return described(parse_protocol(text, path));
+    case FileKind::protocol: {
+      const Protocol protocol = parse_protocol(text, path);
+      check_words(protocol, path, protocol.screens.language, path);
+      return described(protocol);
+    }
     case FileKind::procedure:
       return fmt::format("{} staircase(s)", parse_procedure(text, path).staircases.size());
     case FileKind::scene:
@@ -179,8 +205,11 @@ std::string checked(FileKind kind, const std::string& text, const std::string& p
     }
     case FileKind::display:
       return described(parse_display(text, path));
-    case FileKind::study:
-      return described(parse_study(text, path));
+    case FileKind::study: {
+      const StudyPlan plan = parse_study(text, path);
+      check_words(plan, path);
+      return described(plan);
+    }
   }
   return {};
 }

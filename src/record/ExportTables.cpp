@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -111,15 +112,25 @@ std::string of_trial(const std::string& table) {
       table);
 }
 
+// Who knows a plan knows by the place who it is. Groups and orders are the plan's own words.
+Privacy privacy_of_info(const std::string& key) {
+  static const std::set<std::string> open{"study_group", "study_order", "study_sha256"};
+  if (open.contains(key)) return Privacy::open;
+  return key.starts_with("study") ? Privacy::free_text : Privacy::number;
+}
+
 std::vector<ExportColumn> about_participants(const ParticipantColumns& participants) {
   std::vector<ExportColumn> columns{
       {"state", "", "how far the session came", levels<SessionState>(), "r.state"}};
-  for (const std::string& key : participants.infos)
-    columns.push_back({"info_" + key, "", "what the participant told", "",
+  for (const std::string& key : participants.infos) {
+    const bool is_planned = key.starts_with("study");
+    columns.push_back({"info_" + key, "",
+                       is_planned ? "what the study's plan gave" : "what the participant told", "",
                        fmt::format("(SELECT value FROM participant_info i WHERE i.session_id = "
                                    "r.session_id AND i.key = {})",
                                    sql_text(key)),
-                       Privacy::number});
+                       privacy_of_info(key)});
+  }
   for (const std::string& name : participants.parameters)
     columns.push_back(
         {"parameter_" + name, "",

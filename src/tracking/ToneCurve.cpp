@@ -30,7 +30,7 @@ const StoredTable srgb_table = [] {
 Stored stored_by(const StoredTable& table, double light) {
   if (light >= 1) return {white, 0};
   const double slope_in_dark = table.front().by_light;
-  if (light <= 0) return {slope_in_dark * light, slope_in_dark};
+  if (!(light > 0)) return {slope_in_dark * light, slope_in_dark};  // what is no number stays none
   const double place = light * steps;
   const int nearest = static_cast<int>(place + 0.5);
   const Stored& there = table[static_cast<std::size_t>(nearest)];

@@ -3,6 +3,7 @@ events that others hear of.
 
 Run: python3 tests/cli/study_test.py path/to/heft
 """
+import csv
 import json
 import os
 import pty
@@ -128,6 +129,34 @@ class Plans(StudyTest):
         self.assertIn("comparison, sorting", said)
         self.plan.write_text(STUDY.replace("participants = 4", "participants = 5"))
         self.assertIn("expected 4 or 8", self.run_heft("validate", self.plan).stderr)
+
+    def test_validate_sees_what_people_would_miss(self):
+        asked = (PROTOCOLS / "quick.toml").read_text()
+        (self.folder / "again.toml").write_text(
+            asked + '\n[[screens.questionnaire]]\nname = "nasa_tlx"\n')
+        said = self.run_heft("validate", self.plan, expect=3).stderr
+        self.assertIn("nasa_tlx.fr.toml", said)  # there is no French one
+        self.run_heft("validate", self.folder / "again.toml")
+        self.plan.write_text(STUDY.replace('"fr"', '"xx"'))
+        self.assertIn('"xx"', self.run_heft("validate", self.plan, expect=3).stderr)
+
+    def test_nobody_takes_anothers_place_by_a_slip(self):
+        said = self.next("--participant", "P2", expect=2).stderr
+        self.assertIn('"P02"', said)
+        self.assertFalse(self.db.exists())
+        self.next("--participant", "P2", "--again")
+        said = self.next("--set", 'block_order=["sorting", "comparison"]', expect=2).stderr
+        self.assertIn("block_order", said)
+
+    def test_pseudonyms_keep_the_group_and_not_the_place(self):
+        self.next()
+        out = self.folder / "out"
+        self.run_heft("export", self.db, "--pseudonymise", "--out", out)
+        with open(out / "participants.csv", encoding="utf-8-sig") as file:
+            row = next(csv.DictReader(file))
+        self.assertIn(row["info_study_group"], ("first", "second"))
+        self.assertIn("sorting", row["info_study_order"])
+        self.assertFalse({"info_study_place", "info_study", "info_study_backup"} & row.keys())
 
     def test_mistakes_are_told_at_their_places(self):
         self.plan.write_text(STUDY.replace('"comparison"]', '"comparisons"]'))

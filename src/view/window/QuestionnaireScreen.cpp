@@ -31,7 +31,16 @@ class Asked {
     }
   }
 
-  /// Rows of buttons that the answer takes, and lines above them.
+  /// Room that words take above the buttons, px.
+  float above_px() const {
+    const Measures& m = builder.measures;
+    if (question.kind == QuestionKind::number) return Typeface::line_height_px(m.title);
+    const bool has_ends =
+        question.kind == QuestionKind::likert || question.kind == QuestionKind::slider;
+    return has_ends ? ends_lines * m.body + m.gap : 0;
+  }
+
+  /// Rows of buttons that the answer takes.
   int n_rows() const {
     if (question.kind == QuestionKind::choice) return rows_of(n_choices(), n_columns());
     if (question.kind == QuestionKind::likert) return rows_of(n_points(), points_beside());
@@ -39,6 +48,7 @@ class Asked {
   }
 
  private:
+  static constexpr float ends_lines = 2.6f;
   static int rows_of(int n, int n_columns) { return (n + n_columns - 1) / n_columns; }
   int n_choices() const { return static_cast<int>(question.choices.size()); }
   int n_columns() const { return n_choices() <= 6 ? 2 : 4; }
@@ -80,7 +90,7 @@ class Asked {
     const bool leftward = builder.typeface.reads_right_to_left();
     const Rect half{room.x, room.y, room.width / 2 - m.gap, 0};
     const auto fitted = [&](const std::string& words) {
-      return builder.typeface.fitted(words, m.body, half.width, 2.6f * m.body);
+      return builder.typeface.fitted(words, m.body, half.width, ends_lines * m.body);
     };
     const FittedText first = fitted(question.low), last = fitted(question.high);
     const auto add = [&](const FittedText& words, bool left) {
@@ -177,8 +187,8 @@ void questionnaire_screen(PageBuilder& builder) {
   float y = builder.add_lines({fmt::format("{}   {}/{}", form.title, i + 1, n)}, area, area.y,
                               m.body, Tone::soft);
   const auto rows = static_cast<float>(asked.n_rows());
-  const float ends_px = question.kind == QuestionKind::choice ? 0 : 1.3f * 1.5f * m.title;
-  const float room_px = area.bottom() - y - rows * (m.target + m.gap) - ends_px - m.gap;
+  const float room_px =
+      area.bottom() - y - rows * (m.target + m.gap) - asked.above_px() - 2 * m.gap;
   const FittedText words =
       builder.typeface.fitted(question.text, 0.7f * m.title, area.width, room_px);
   y = builder.add_lines(words.lines, area, y + m.gap, words.size_px) + m.gap;
