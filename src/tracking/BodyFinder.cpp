@@ -79,6 +79,13 @@ std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<Det
   return timed(times.pose_s, [&] { return solve_body(tags, fit->camera_from_body, bias); });
 }
 
+Eigen::Array2d BodyFinder::blur_px() const {
+  Eigen::Array2d sum = Eigen::Array2d::Zero();
+  for (const TagObservation& tag : last_tags_)
+    sum += Eigen::Array2d(tag.blur_px[0], tag.blur_px[1]);
+  return sum / static_cast<double>(std::max<std::size_t>(1, last_tags_.size()));
+}
+
 BodyFit BodyFinder::aligned(const Image& gray, const BodyFit& found, const BiasPrior& prior,
                             TrackerTimes& times) const {
   if (!settings_.refine_edges || !settings_.inner_edges) return found;

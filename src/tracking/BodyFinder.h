@@ -55,6 +55,10 @@ class BodyFinder {
   std::optional<BodyFit> find_again(const Image& gray, const Pose& expected, int least_tags,
                                     const BiasPrior& prior, TrackerTimes& times);
 
+  /// Of what find saw last, the mean blur of its upright edges and of its level ones, px; zero
+  /// where nothing was.
+  Eigen::Array2d blur_px() const;
+
   /// What find saw last, cell by cell; `found` where that does not help.
   BodyFit aligned(const Image& gray, const BodyFit& found, const BiasPrior& prior,
                   TrackerTimes& times) const;

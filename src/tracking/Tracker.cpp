@@ -15,6 +15,8 @@ namespace heft {
 
 namespace {
 constexpr double usual_blur_px = 0.65;
+constexpr double still_m_s = 0.1, still_rad_s = 1;
+constexpr double smeared = 1.15;  // times the board's blur
 constexpr int board_edge_pixels = 120, effector_edge_pixels = 500;
 constexpr BiasPrior unknown_bias{0, 0.1};
 // A board tells the bias no better than to this: its print and the lens' blur are not quite what
@@ -200,12 +202,25 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
   return unrolled(*fit, seen_board, prior, t_s);
 }
 
+// A moving hand's cells are smeared along its way, which their alignment knows nothing of; borders
+// bear it better. The board in the same picture tells how blurred things are that stand still.
+bool Tracker::is_smeared(const Pose& board_from_effector, double t_s) const {
+  if (!seen_ || !(t_s > seen_->t_s)) return false;
+  const Velocity mean =
+      mean_velocity(seen_->board_from_effector, board_from_effector, t_s - seen_->t_s);
+  const bool moves = mean.linear_m_s.norm() > still_m_s || mean.angular_rad_s.norm() > still_rad_s;
+  return moves && effector_.blur_px().maxCoeff() > smeared * board_.blur_px().mean();
+}
+
 // Rows that were read at different times, by the velocity since the last picture, carried on to
 // this one. Where there is none, the pose is a mean over the rows.
-// What is seen at one moment is aligned cell by cell.
+// What is seen at one moment, and not smeared, is aligned cell by cell.
 BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior,
                           double t_s) {
-  if (!(camera_.readout_s > 0)) return effector_.aligned(gray_, fit, prior, result_.times);
+  if (!(camera_.readout_s > 0)) {
+    const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
+    return is_smeared(pose, t_s) ? fit : effector_.aligned(gray_, fit, prior, result_.times);
+  }
   if (!seen_) return fit;
   constexpr int rounds = 2;
   for (int round = 0; round < rounds; ++round) {
