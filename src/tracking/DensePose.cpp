@@ -147,9 +147,9 @@ class TagFit {
     noise_ = std::max(least_noise, 1.2533 * sum / std::max(1, n));
     used_ = n;
     const auto own_part = all.bottomRightCorner<n_own, n_own>();
-    solver_.compute(own_part);
-    own_by_shared_ = solver_.solve(all.bottomLeftCorner<n_own, n_shared>());
-    own_step_ = solver_.solve(all_pull.tail<n_own>());
+    const Eigen::LDLT<Eigen::Matrix<double, n_own, n_own>> solver(own_part);
+    own_by_shared_ = solver.solve(all.bottomLeftCorner<n_own, n_shared>());
+    own_step_ = solver.solve(all_pull.tail<n_own>());
     matrix += all.topLeftCorner<n_shared, n_shared>() -
               all.topRightCorner<n_shared, n_own>() * own_by_shared_;
     pull += all_pull.head<n_shared>() - all.topRightCorner<n_shared, n_own>() * own_step_;
@@ -281,7 +281,6 @@ class TagFit {
   int n_painted_ = 0;
   VectorOwn own_, own_step_ = VectorOwn::Zero();
   Eigen::Matrix<double, n_own, n_shared> own_by_shared_;
-  Eigen::LDLT<Eigen::Matrix<double, n_own, n_own>> solver_;
   int used_ = 0;
 };
 }  // namespace
