@@ -1,4 +1,5 @@
-// heft-letters.so: all that calls Pango by name.
+// heft-letters.so: all that calls Pango and FriBidi by name.
+#include <fribidi.h>
 #include <pango/pangocairo.h>
 
 #include <algorithm>
@@ -114,12 +115,10 @@ class PangoLetters final : public Letters {
 
   Runs runs(const std::string& text) const override {
     Runs runs;
-    const char* end = text.c_str() + text.size();
-    for (const char* at = text.c_str(); at < end; at = g_utf8_next_char(at)) {
-      const PangoDirection direction =
-          pango_find_base_dir(at, static_cast<int>(g_utf8_next_char(at) - at));
-      if (direction == PANGO_DIRECTION_NEUTRAL) continue;
-      const bool right_to_left = direction == PANGO_DIRECTION_RTL;
+    for (const gunichar c : characters_of(text)) {
+      const FriBidiCharType type = fribidi_get_bidi_type(c);
+      if (!FRIBIDI_IS_STRONG(type)) continue;
+      const bool right_to_left = FRIBIDI_IS_RTL(type);
       if (right_to_left && !runs.left_to_right) runs.first = Direction::right_to_left;
       (right_to_left ? runs.right_to_left : runs.left_to_right) = true;
     }
