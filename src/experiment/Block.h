@@ -107,6 +107,10 @@ struct BreakBlock {
 using Block =
     std::variant<DemonstrationBlock, IntroductionBlock, SortingBlock, ComparisonBlock, BreakBlock>;
 
+inline const std::string& block_name(const Block& block) {
+  return std::visit([](const auto& of_kind) -> const std::string& { return of_kind.name; }, block);
+}
+
 /// When a trial may begin and be answered: the second tap of two must meet nothing that it could
 /// answer. What is in force is told in the session's setup.
 struct Onset {

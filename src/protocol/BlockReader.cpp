@@ -267,16 +267,12 @@ void check_breaks(std::vector<TableReader>& tables,
   }
 }
 
-const std::string& name_of_block(const Block& block) {
-  return std::visit([](const auto& any) -> const std::string& { return any.name; }, block);
-}
-
 // The place of each named block in the file; a break stays between the blocks that it parts.
 std::vector<std::size_t> places_of(TableReader& protocol, const std::vector<Block>& blocks,
                                    const std::vector<std::string>& order) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto found = std::ranges::find(blocks, order[i], name_of_block);
+    const auto found = std::ranges::find(blocks, order[i], block_name);
     const auto place = static_cast<std::size_t>(found - blocks.begin());
     if (found == blocks.end())
       protocol.mistake("block_order", i, fmt::format("there is no block \"{}\"", order[i]));

@@ -55,8 +55,7 @@ void read_asked(TableReader& table, ScreensChosen& screens) {
 // A misspelled block would mean a questionnaire that nobody is asked.
 void check_asked(TableReader& reader, const Protocol& protocol) {
   std::set<std::string> blocks{""};
-  for (const Block& block : protocol.blocks)
-    blocks.insert(std::visit([](const auto& of_kind) { return of_kind.name; }, block));
+  for (const Block& block : protocol.blocks) blocks.insert(block_name(block));
   for (const auto& [after, names] : protocol.screens.questionnaires)
     if (!blocks.contains(after) && reader.good({"screens", "block"}))
       reader.mistake("screens",

@@ -122,8 +122,7 @@ std::string in_a_line(const InvalidFile& error) {
 std::vector<std::string> block_names(const Protocol& protocol) {
   std::vector<std::string> names;
   for (const Block& block : protocol.blocks)
-    if (!std::holds_alternative<BreakBlock>(block))
-      names.push_back(std::visit([](const auto& any) { return any.name; }, block));
+    if (!std::holds_alternative<BreakBlock>(block)) names.push_back(block_name(block));
   return names;
 }
 

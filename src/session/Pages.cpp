@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <variant>
 
 #include "base/Sha256.h"
 #include "protocol/Files.h"
@@ -91,7 +90,7 @@ void Pages::questionnaires(const std::string& before_block) {
       for (const std::string& name : found->second) ask(name, block);
   };
   for (const Block& block : protocol_.blocks) {
-    const std::string name = std::visit([](const auto& kind) { return kind.name; }, block);
+    const std::string& name = block_name(block);
     if (!before_block.empty() && name == before_block) return;
     ask_after(name);
   }
