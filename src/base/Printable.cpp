@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace heft {
@@ -20,6 +21,16 @@ Letter first_letter(std::string_view text) {
   const bool is_too_long = (n == 3 && code < 0x800) || (n == 4 && code < 0x10000);
   const bool is_half_a_pair = code >= 0xD800 && code < 0xE000;
   return is_too_long || is_half_a_pair || code > 0x10FFFF ? Letter{} : Letter{code, n};
+}
+
+std::vector<std::string_view> letters_of(std::string_view text) {
+  std::vector<std::string_view> letters;
+  while (!text.empty()) {
+    const std::size_t n = std::max<std::size_t>(1, first_letter(text).n_bytes);
+    letters.push_back(text.substr(0, n));
+    text.remove_prefix(n);
+  }
+  return letters;
 }
 
 bool is_control(char32_t code) {

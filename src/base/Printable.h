@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace heft {
 
@@ -14,6 +15,9 @@ struct Letter {
 
 /// The one that a text begins with, which must not be empty.
 Letter first_letter(std::string_view text);
+
+/// The bytes of each; of what is no UTF-8 each byte stands for itself.
+std::vector<std::string_view> letters_of(std::string_view text);
 
 bool is_control(char32_t code);
 

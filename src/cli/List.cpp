@@ -43,28 +43,20 @@ Line line_of(const SessionFacts& facts) {
   return line;
 }
 
-// Letters, not bytes, so that names in any alphabet stand below each other.
-std::size_t width_of(const std::string& text) {
-  std::size_t n = 0;
-  for (std::string_view rest = text; !rest.empty(); ++n)
-    rest.remove_prefix(std::max<std::size_t>(1, first_letter(rest).n_bytes));
-  return n;
-}
-
 std::string in_columns(std::vector<Line> lines) {
   for (Line& line : lines)
     for (std::string& cell : line) cell = escaped_line(cell);
-  std::vector<std::size_t> widths(lines.front().size());
+  std::vector<int> widths(lines.front().size());
   for (std::size_t i = 1; i < lines.size(); ++i)
     for (std::size_t k = 0; k < widths.size(); ++k)
-      widths[k] = std::max(widths[k], width_of(lines[i][k]));
+      widths[k] = std::max(widths[k], columns_of(lines[i][k]));
   std::string text;
   for (const Line& line : lines) {
     std::string row;
     for (std::size_t k = 0; k < widths.size(); ++k) {
       if (widths[k] == 0) continue;  // nothing in that column
-      const std::size_t width = std::max(widths[k], headings[k].size());
-      row += line[k] + std::string(width - width_of(line[k]) + 2, ' ');
+      const int width = std::max(widths[k], columns_of(headings[k])) + 2;
+      row += line[k] + std::string(static_cast<std::size_t>(width - columns_of(line[k])), ' ');
     }
     text += row.substr(0, row.find_last_not_of(' ') + 1) + '\n';
   }

@@ -29,6 +29,14 @@ void flush_output() {
   throw output_error(errno != 0 ? std::strerror(errno) : "an earlier write failed");
 }
 
+int columns_of(std::string_view line) {
+  constexpr char32_t first_wide = 0x1100;
+  int columns = 0;
+  for (const std::string_view letter : letters_of(line))
+    columns += first_letter(letter).code >= first_wide ? 2 : 1;
+  return columns;
+}
+
 Error output_error(const std::string& reason) {
   return Error(fmt::format("can't write to the standard output: {}. What it holds is not complete.",
                            reason));

@@ -47,6 +47,9 @@ void print(fmt::format_string<Args...> format, Args&&... args) {
 /// @throws Error when it can't be written
 void flush_output();
 
+/// Columns of the terminal that a line takes: most of what lies beyond the alphabets takes two.
+int columns_of(std::string_view line);
+
 /// What is said when stdout can't be written.
 Error output_error(const std::string& reason);
 

@@ -40,29 +40,6 @@ void swallow_sequence() {
   for (auto key = next_key(); key && (*key < '@' || *key > '~');) key = next_key();
 }
 
-// In columns of the terminal: most of what lies beyond the alphabets takes two.
-int columns_of(char32_t letter) {
-  constexpr char32_t first_wide = 0x1100;
-  return letter >= first_wide ? 2 : 1;
-}
-
-std::vector<std::string_view> letters_of(std::string_view text) {
-  std::vector<std::string_view> letters;
-  while (!text.empty()) {
-    const std::size_t n = std::max<std::size_t>(1, first_letter(text).n_bytes);
-    letters.push_back(text.substr(0, n));
-    text.remove_prefix(n);
-  }
-  return letters;
-}
-
-int width_of(std::string_view text) {
-  int width = 0;
-  for (const std::string_view letter : letters_of(text))
-    width += columns_of(first_letter(letter).code);
-  return width;
-}
-
 std::string tracking_words(const ConsoleStatus& status, bool brief) {
   std::string words;
   const auto& tracking = status.tracking;
@@ -94,13 +71,13 @@ std::string status_words(const ConsoleStatus& status, double expected_trials, bo
 }  // namespace
 
 std::string cut_to(const std::string& text, int width, bool keep_end) {
-  if (width_of(text) <= width) return text;
+  if (columns_of(text) <= width) return text;
   std::vector<std::string_view> letters = letters_of(text);
   if (keep_end) std::ranges::reverse(letters);
   std::vector<std::string_view> kept;
   int used = 1;  // for the mark
   for (const std::string_view letter : letters) {
-    used += columns_of(first_letter(letter).code);
+    used += columns_of(letter);
     if (used > width) break;
     kept.push_back(letter);
   }
@@ -113,7 +90,7 @@ std::string status_line(const ConsoleStatus& status, double expected_trials, int
                         const std::string& place) {
   const std::string who = place.empty() ? "" : place + "  ";
   const std::string line = escaped_line(who + status_words(status, expected_trials, false));
-  if (width_of(line) <= width) return line;
+  if (columns_of(line) <= width) return line;
   return cut_to(escaped_line(who + status_words(status, expected_trials, true)), width);
 }
 
@@ -232,7 +209,7 @@ namespace {
 std::string text_prompt(const std::string& what, const std::string& typed, const std::string& keys,
                         int width) {
   const std::string before = what + ": ", after = "_  (" + keys + ")";
-  const int room = std::max(8, width - width_of(before) - width_of(after));
+  const int room = std::max(8, width - columns_of(before) - columns_of(after));
   return before + cut_to(escaped_line(typed), room, true) + after;
 }
 

@@ -11,11 +11,9 @@ namespace {
 // At most so many bytes, and no half letter.
 std::string begun(const std::string& text, std::size_t most) {
   std::string kept;
-  for (std::string_view rest = text; !rest.empty();) {
-    const std::size_t n = std::max<std::size_t>(1, first_letter(rest).n_bytes);
-    if (kept.size() + n > most) break;
-    kept += rest.substr(0, n);
-    rest.remove_prefix(n);
+  for (const std::string_view letter : letters_of(text)) {
+    if (kept.size() + letter.size() > most) break;
+    kept += letter;
   }
   return kept;
 }
