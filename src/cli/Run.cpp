@@ -150,10 +150,6 @@ void give_place(const StudyPlan& plan, const PlannedParticipant& planned, Option
         std::filesystem::absolute(options.elsewhere.backup).string();
 }
 
-bool is_unfinished(const SessionRow& session) {
-  return session.state == SessionState::running || session.state == SessionState::paused;
-}
-
 // P2 for P02 would take another one's place.
 void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
                                const Options& options) {
@@ -183,7 +179,7 @@ void take_from_plan(Options& options) {
   refuse_id_near_to_planned(plan, sessions, options);
   give_place(plan, planned, options);
   for (const SessionRow& session : sessions)
-    if (is_unfinished(session) && place_of(session.header.participant_info))
+    if (is_unfinished(session.state) && place_of(session.header.participant_info))
       say("session {} of participant {} is unfinished: heft resume --db {} --session {}\n",
           session.session_id, session.header.participant, shell_quoted(*options.db),
           session.session_id);

@@ -259,9 +259,8 @@ void add_questionnaires(Setup& setup, const Protocol& protocol, const std::strin
       if (!parse_questionnaires(text, file).questionnaires.contains(name))
         throw Error(fmt::format("{} has no [questionnaire.{}]", file, name),
                     ExitCode::invalid_file);
-      constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-      setup.texts_text +=
-          '\n' + text.substr(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+      setup.texts_text += '\n';
+      setup.texts_text += without_byte_order_mark(text);
     }
 }
 

@@ -98,11 +98,19 @@ std::string described(const Protocol& protocol) {
   return text;
 }
 
+// What is in a file that is valid, and what should be known of it.
+struct Checked {
+  std::string summary;
+  std::vector<std::string> cautions = {};
+};
+
 // What of the texts would not be read well on the smallest screen, a sentence each.
-void say_what_does_not_fit(const ScreenTexts& texts, double text_size, const std::string& path) {
+std::vector<std::string> what_does_not_fit(const ScreenTexts& texts, double text_size) {
   const Measures smallest = smallest_screen(text_size);
-  for (const std::string& sentence : texts_that_do_not_fit(texts, smallest))
-    say("{}: on a screen of {} x {}: {}\n", path, smallest.width, smallest.height, sentence);
+  std::vector<std::string> sentences = texts_that_do_not_fit(texts, smallest);
+  for (std::string& sentence : sentences)
+    sentence = fmt::format("on a screen of {} x {}: {}", smallest.width, smallest.height, sentence);
+  return sentences;
 }
 
 std::string described(const ScreenTexts& texts) {
@@ -139,15 +147,15 @@ std::string described(const StudyPlan& plan) {
   return text;
 }
 
-std::string caution_of(const StudyPlan& plan) {
+std::vector<std::string> cautions_of(const StudyPlan& plan) {
   const int n_cells = static_cast<int>(plan.groups.size() * plan.orders.size());
-  if (plan.participants % n_cells == 0) return "";
+  if (plan.participants % n_cells == 0) return {};
   const int below = plan.participants / n_cells * n_cells;
-  return fmt::format(
+  return {fmt::format(
       "{} participants can't be as many in each of {} group(s) with each of {} order(s), expected "
       "{}{}",
       plan.participants, plan.groups.size(), plan.orders.size(),
-      below > 0 ? fmt::format("{} or ", below) : "", below + n_cells);
+      below > 0 ? fmt::format("{} or ", below) : "", below + n_cells)};
 }
 
 // Whether what people are to read is there, in the language that they read.
@@ -173,52 +181,55 @@ void check_words(const StudyPlan& plan, const std::string& path) {
   }
 }
 
-std::string checked(FileKind kind, const std::string& text, const std::string& path) {
+Checked checked(const Protocol& protocol, const std::string& path) {
+  const auto& [language, text_size] =
+      std::tie(protocol.screens.language, protocol.screens.text_size);
+  check_words(protocol, path, language, path);
+  Checked file{described(protocol), cautions(protocol)};
+  if (text_size != 1)
+    for (std::string& sentence : what_does_not_fit(load_texts(texts_file(language)), text_size))
+      file.cautions.push_back(std::move(sentence));
+  return file;
+}
+
+// Beside the English words, which every questionnaire is shown with.
+Checked checked_questionnaires(const ScreenTexts& read) {
+  ScreenTexts texts = load_texts(texts_file("en"));
+  texts.questionnaires = read.questionnaires;
+  for (const auto& [page, words] : read.pages) texts.pages[page] = words;
+  return {fmt::format("{} questionnaire(s)", read.questionnaires.size()),
+          what_does_not_fit(texts, 1)};
+}
+
+Checked checked(FileKind kind, const std::string& text, const std::string& path) {
   switch (kind) {
-    case FileKind::protocol: {
-      const Protocol protocol = parse_protocol(text, path);
-      check_words(protocol, path, protocol.screens.language, path);
-      return described(protocol);
-    }
+    case FileKind::protocol:
+      return checked(parse_protocol(text, path), path);
     case FileKind::procedure:
-      return fmt::format("{} staircase(s)", parse_procedure(text, path).staircases.size());
+      return {fmt::format("{} staircase(s)", parse_procedure(text, path).staircases.size())};
     case FileKind::scene:
-      return fmt::format("{} cube(s)", parse_scene(text, path).cubes.size());
+      return {fmt::format("{} cube(s)", parse_scene(text, path).cubes.size())};
     case FileKind::board:
-      return described(parse_board(text, path));
+      return {described(parse_board(text, path))};
     case FileKind::effector:
-      return described(parse_effector(text, path));
+      return {described(parse_effector(text, path))};
     case FileKind::synthetic_camera:
-      return described(parse_synthetic_camera(text, path).optics);
-    case FileKind::questionnaires: {
-      ScreenTexts texts = load_texts(texts_file("en"));
-      const ScreenTexts read = parse_questionnaires(text, path);
-      texts.questionnaires = read.questionnaires;
-      for (const auto& [page, words] : read.pages) texts.pages[page] = words;
-      say_what_does_not_fit(texts, 1, path);
-      return fmt::format("{} questionnaire(s)", read.questionnaires.size());
-    }
+      return {described(parse_synthetic_camera(text, path).optics)};
+    case FileKind::questionnaires:
+      return checked_questionnaires(parse_questionnaires(text, path));
     case FileKind::texts: {
       const ScreenTexts texts = parse_texts(text, path);
-      say_what_does_not_fit(texts, 1, path);
-      return described(texts);
+      return {described(texts), what_does_not_fit(texts, 1)};
     }
     case FileKind::display:
-      return described(parse_display(text, path));
+      return {described(parse_display(text, path))};
     case FileKind::study: {
       const StudyPlan plan = parse_study(text, path);
       check_words(plan, path);
-      return described(plan);
+      return {described(plan), cautions_of(plan)};
     }
   }
   return {};
-}
-
-void say_cautions(const Protocol& protocol, const std::string& path) {
-  for (const std::string& caution : cautions(protocol)) say("{}: {}\n", path, caution);
-  const auto& [language, text_size] =
-      std::tie(protocol.screens.language, protocol.screens.text_size);
-  if (text_size != 1) say_what_does_not_fit(load_texts(texts_file(language)), text_size, path);
 }
 
 std::string with_article(FileKind kind) {
@@ -231,12 +242,9 @@ ExitCode validate(const std::string& path) {
     const std::string text = read_text_file(path);
     const FileKind kind = recognized_kind(text, path);
     try {
-      const std::string summary = checked(kind, text, path);
-      print("{}: ok, {}: {}\n", path, with_article(kind), summary);
-      if (kind == FileKind::protocol) say_cautions(parse_protocol(text, path), path);
-      if (kind == FileKind::study)
-        if (const std::string caution = caution_of(parse_study(text, path)); !caution.empty())
-          say("{}: {}\n", path, caution);
+      const Checked file = checked(kind, text, path);
+      print("{}: ok, {}: {}\n", path, with_article(kind), file.summary);
+      for (const std::string& caution : file.cautions) say("{}: {}\n", path, caution);
     } catch (const InvalidFile& error) {
       say("{}\n{}: not valid as {}: {} mistake(s)\n", error.what(), path, with_article(kind),
           error.mistakes().size());
