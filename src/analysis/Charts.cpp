@@ -2,10 +2,21 @@
 
 #include <fmt/format.h>
 
+#include "analysis/Gnuplot.h"
+
 namespace heft {
 
 std::string caption_of(const Summary& summary) {
   return fmt::format("Made by: {} (heft {})", summary.command, HEFT_VERSION);
+}
+
+std::string framed(const Chart& chart, const Summary& summary, int height_px,
+                   std::string_view axes) {
+  return gnuplot_header({chart.name + ".svg", 720, height_px, chart.title, caption_of(summary)}) +
+         fmt::format(
+             "set key at screen 0.5, screen 1-40*pixel center top horizontal\n"
+             "set tmargin at screen 1-86*pixel\nset bmargin at screen caption_top + 66*pixel\n{}",
+             axes);
 }
 
 std::vector<Chart> charts_of(const Summary& summary) {

@@ -34,6 +34,11 @@ std::vector<Chart> people_charts(const Summary& summary);
 Chart participant_flow_chart(const Summary& summary);
 std::vector<Chart> person_charts(const Summary& summary);  ///< thresholds, tracking
 
+/// The beginning of a chart's script: 720 pixels wide, its key between title and axes.
+/// @param axes gnuplot's lines about them
+std::string framed(const Chart& chart, const Summary& summary, int height_px,
+                   std::string_view axes);
+
 /// "Made by: heft analyse --db heft.db --out report (heft 0.1.0)"
 std::string caption_of(const Summary& summary);
 

@@ -88,14 +88,6 @@ Chart flow_chart(const Summary& summary) {
   return chart;
 }
 
-std::string frame(const Chart& chart, const Summary& summary, std::string_view axes) {
-  return gnuplot_header({chart.name + ".svg", 720, 440, chart.title, caption_of(summary)}) +
-         fmt::format(
-             "set key at screen 0.5, screen 1-40*pixel center top horizontal\n"
-             "set tmargin at screen 1-86*pixel\nset bmargin at screen caption_top + 66*pixel\n{}",
-             axes);
-}
-
 Chart tracking_chart(const Summary& summary) {
   Chart chart{"tracking_quality",
               titled("How well each participant's effector was tracked", summary), ""};
@@ -122,8 +114,8 @@ Chart tracking_chart(const Summary& summary) {
   const double least = std::max(0.0, std::floor(points.front().percent / 5) * 5 - 5);
   const double most_lost = 1.1 * std::max(5.0, std::ranges::max(points, {}, &Point::n_lost).n_lost);
   chart.script =
-      frame(
-          chart, summary,
+      framed(
+          chart, summary, 440,
           fmt::format("set xrange [0:{}]\nset yrange [{}:101]\nset y2range [0:{}]\nset y2tics\nset "
                       "border 11\nset xlabel 'participant, worst first'\nset ylabel '% "
                       "tracked'\nset y2label 'times out of sight'\n",
@@ -214,10 +206,10 @@ Chart thresholds_chart(const Summary& summary) {
       "'threshold'");
   add("jnds", jnds, "with points pointtype 6 pointsize 0.7 linecolor '#c0561f' title 'JND'");
   add("starts", starts, "with points pointtype 1 pointsize 0.5 linecolor '#777777' title 'start'");
-  chart.script = frame(chart, summary,
-                       fmt::format("set logscale y\nset ylabel 'difference (g)'\nset xrange "
-                                   "[0:{}]\nset xtics ({}) scale 0\n",
-                                   end + 1, tics)) +
+  chart.script = framed(chart, summary, 440,
+                        fmt::format("set logscale y\nset ylabel 'difference (g)'\nset xrange "
+                                    "[0:{}]\nset xtics ({}) scale 0\n",
+                                    end + 1, tics)) +
                  blocks + "plot " + plots + "\n";
   return chart;
 }

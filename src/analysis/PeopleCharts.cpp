@@ -17,14 +17,6 @@ constexpr std::array<int, 6> signs{7, 4, 9, 2, 6, 11};
 constexpr std::array<std::string_view, 6> colors{"#2f6fb0", "#c0561f", "#3c8d5a",
                                                  "#7a5aa6", "#555555", "#222222"};
 
-std::string frame(const Chart& chart, const Summary& summary, std::string_view axes) {
-  return gnuplot_header({chart.name + ".svg", 720, 460, chart.title, caption_of(summary)}) +
-         fmt::format(
-             "set key at screen 0.5, screen 1-40*pixel center top horizontal\n"
-             "set tmargin at screen 1-86*pixel\nset bmargin at screen caption_top + 66*pixel\n{}",
-             axes);
-}
-
 Chart start_chart(const Summary& summary) {
   Chart chart{"jnd_against_start", titled("JND against the start of its staircase", summary), ""};
   chart.caption =
@@ -49,9 +41,9 @@ Chart start_chart(const Summary& summary) {
   }
   if (plots.empty()) return chart;
   chart.script =
-      frame(chart, summary,
-            "set xlabel 'start (g)'\nset ylabel 'JND (g)'\nset xrange [0:*]\n"
-            "set yrange [0:*]\n") +
+      framed(chart, summary, 460,
+             "set xlabel 'start (g)'\nset ylabel 'JND (g)'\nset xrange [0:*]\n"
+             "set yrange [0:*]\n") +
       blocks +
       fmt::format("plot {}x with lines dashtype 2 linecolor '#777777' title 'start'\n", plots);
   return chart;
@@ -73,9 +65,9 @@ Chart sorting_people_chart(const Summary& summary) {
     chart.n += 1;
   }
   if (rows.empty()) return chart;
-  chart.script = frame(chart, summary,
-                       "set xrange [0.6:2.4]\nset yrange [-3:103]\nset xtics ('C1 (coupled)' 1, "
-                       "'C2 (decoupled)' 2)\nset ylabel '% of trials sorted rightly'\n") +
+  chart.script = framed(chart, summary, 460,
+                        "set xrange [0.6:2.4]\nset yrange [-3:103]\nset xtics ('C1 (coupled)' 1, "
+                        "'C2 (decoupled)' 2)\nset ylabel '% of trials sorted rightly'\n") +
                  "$people << END\n" + rows +
                  "END\n"
                  "plot $people with lines linecolor '#9bb8d6' notitle, $people with points "
@@ -97,10 +89,10 @@ Chart detection_chart(const Summary& summary) {
   std::string rows;
   for (const PersonDetection& person : summary.points.detection)
     rows += fmt::format("{} {}\n", person.false_alarms_percent, person.hits_percent);
-  chart.script = frame(chart, summary,
-                       "set xrange [-3:103]\nset yrange [-3:103]\n"
-                       "set xlabel '% \"different\" without a difference'\n"
-                       "set ylabel '% \"different\" with one'\n") +
+  chart.script = framed(chart, summary, 460,
+                        "set xrange [-3:103]\nset yrange [-3:103]\n"
+                        "set xlabel '% \"different\" without a difference'\n"
+                        "set ylabel '% \"different\" with one'\n") +
                  "$people << END\n" + rows +
                  "END\nplot $people with points pointtype 6 pointsize 0.9 linecolor '#2f6fb0' "
                  "title 'participant', x with lines dashtype 2 linecolor '#777777' notitle\n";
@@ -129,7 +121,7 @@ void put_series(Chart& chart, const Summary& summary, const std::vector<Quartile
         gnuplot_quoted(groups[g]));
   }
   chart.n = summary.n_participants;
-  chart.script = frame(chart, summary, axes) + blocks + "plot " + plots + "\n";
+  chart.script = framed(chart, summary, 460, axes) + blocks + "plot " + plots + "\n";
 }
 
 Chart lag_chart(const Summary& summary) {
