@@ -37,7 +37,7 @@ ExportCell cell_of(const SQLite::Column& cell) {
   }
 }
 
-// "simulated:/home/jane/model.toml" is simulated.
+// "simulated:MODEL.toml" is simulated.
 std::string kind_of(const std::string& text) {
   const std::string kind = text.substr(0, text.find(':'));
   return kind.find('/') == std::string::npos ? kind : "file";

@@ -143,6 +143,8 @@ std::vector<ExportColumn> about_participants(const ParticipantColumns& participa
   return columns;
 }
 
+constexpr auto response_time_meaning =
+    "from all cubes shown to the answer that ended it, without pauses and losses of the effector";
 constexpr auto response_time_sql = "r.validated_s - r.shown_s - r.paused_s - r.lost_s";
 
 void add_cube_masses(std::vector<ExportColumn>& columns) {
@@ -179,10 +181,7 @@ ExportTable wide_table() {
                      "1 right, 0 wrong; empty: don't know, no difference, or neither", "0|1",
                      "CASE r.outcome WHEN 'correct' THEN 1 WHEN 'incorrect' THEN 0 WHEN "
                      "'difference' THEN r.choice_correct END"});
-  columns.push_back({"response.rt", "s",
-                     "from all cubes shown to the answer that ended it, without "
-                     "pauses and losses of the effector",
-                     "", response_time_sql});
+  columns.push_back({"response.rt", "s", response_time_meaning, "", response_time_sql});
   columns.push_back({"first_choice.rt", "s", "from all cubes shown to the first action", "",
                      "r.first_choice_s - r.shown_s"});
   columns.push_back({"trial.started", "s", "session time of its start", "", "r.started_s"});
@@ -270,10 +269,7 @@ std::vector<ExportTable> export_tables(const ParticipantColumns& participants) {
 ExportTable behavior_table() {
   std::vector<ExportColumn> columns = columns_of_rows<TrialRow>();
   columns.insert(columns.begin(), trial_id());
-  columns.push_back({"response_time", "s",
-                     "from all cubes shown to the answer that ended it, "
-                     "without pauses and losses of the effector",
-                     "", response_time_sql});
+  columns.push_back({"response_time", "s", response_time_meaning, "", response_time_sql});
   add_cube_masses(columns);
   return {"beh", "an attempt at a planned trial", of_session("trial"), "r.trial_id",
           std::move(columns)};

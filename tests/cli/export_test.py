@@ -266,8 +266,8 @@ class Export(SessionTest):
                                       "water' where trial_id = 2",
                    "I live in Lyon": "insert into participant_info values (1, 'where', 'I live in "
                                      "Lyon')",
-                   "/home/ann": "update setup set board_file = '/home/ann/board.toml', responder = "
-                                "'simulated:/home/ann/model.toml'"}
+                   "/lab/ann": "update setup set board_file = '/lab/ann/board.toml', responder = "
+                                "'simulated:/lab/ann/model.toml'"}
         for sql in secrets.values():
             self.assertEqual(change(db, sql) > 0, True, sql)
         change(db, "insert into participant_info values (1, 'age', '31')")
