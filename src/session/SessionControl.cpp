@@ -69,8 +69,8 @@ std::vector<Touch> SessionControl::poll(double seconds) {
 // How it stood at first is in the setup; F11 changes it.
 void SessionControl::note_window() {
   const std::optional<bool> full = screen_.is_full_screen();
-  const bool is_over = journal_.engine().next().kind == Next::Kind::over;
-  if (full && full_screen_ && *full != *full_screen_ && !is_over)
+  const bool is_new = full && full_screen_ && *full != *full_screen_;
+  if (is_new && journal_.engine().next().kind != Next::Kind::over)
     journal_.emit_now(
         Note{*full ? "the window is full screen now" : "the window is not full screen any more"});
   if (full) full_screen_ = full;
