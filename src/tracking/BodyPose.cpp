@@ -211,11 +211,12 @@ TagObservation observe(const Intrinsics& camera, const Tag& tag, const MeasuredT
   seen.quality = measured.quality;
   seen.saturated = measured.saturated;
   seen.area_px2 = area_of(measured.corners_px);
+  seen.dark = seen.bright = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     seen.rays[i] = undistort(camera, measured.corners_px[i]);
     seen.edges[i] = observe_edge(camera, measured.edges[i]);
-    seen.dark += (i == 0 ? -seen.dark : 0) + measured.edges[i].dark / 4;
-    seen.bright += (i == 0 ? -seen.bright : 0) + measured.edges[i].bright / 4;
+    seen.dark += measured.edges[i].dark / 4;
+    seen.bright += measured.edges[i].bright / 4;
     seen.edges[i].start_m = tag.corners_m[i];
     seen.edges[i].end_m = tag.corners_m[(i + 1) % 4];
   }

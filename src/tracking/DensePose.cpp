@@ -108,15 +108,12 @@ class TagFit {
         picture_noise_(noise),
         noise_(std::max(6.0, noise)) {
     own_ << curve.light(seen_.dark), curve.light(seen_.bright) - curve.light(seen_.dark), 0, 0, 0;
+    if (!is_clear()) return;
     paint();
     collect(gray, camera, start);
   }
 
-  bool usable() const {
-    const double cell_px = std::sqrt(seen_.area_px2) / pattern_.border_cells;
-    return pixels_.size() > 100 && own_(contrast) > 0.002 && seen_.saturated == 0 &&
-           blur_px_.maxCoeff() < most_blur_cells * cell_px;
-  }
+  bool usable() const { return pixels_.size() > 100; }
 
   // What this tag's pixels say about what tags share, its own unknowns taken out.
   void add_to(MatrixShared& matrix, VectorShared& pull, const Pose& pose, double bias_px,
@@ -166,6 +163,12 @@ class TagFit {
   }
 
  private:
+  bool is_clear() const {
+    const double cell_px = std::sqrt(seen_.area_px2) / pattern_.border_cells;
+    return own_(contrast) > 0.002 && seen_.saturated == 0 &&
+           blur_px_.maxCoeff() < most_blur_cells * cell_px;
+  }
+
   void collect(const Image& gray, const Intrinsics& camera, const Pose& pose) {
     const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
     const Eigen::Vector2d beyond = beyond_cells(plane);
