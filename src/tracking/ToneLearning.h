@@ -29,6 +29,7 @@ class ToneLearner {
 
  private:
   ToneCurve curve_;
+  ToneBend bend_ = ToneBend::Zero();  ///< likeliest; the curve's is nearer to sRGB
   // Of the pictures before, and of this one.
   ToneBend mean_ = ToneBend::Zero();
   Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero(), seen_ = Eigen::Matrix3d::Zero();

@@ -81,5 +81,29 @@ TEST(ToneLearning, FindsNothingWhereNothingIsBent) {
   EXPECT_LT(tip_errors_mm({}, true).back(), 0.4);
 }
 
+// Hundredths of a pixel that are wrong in every picture alike do not average out.
+TEST(ToneLearning, ManyPicturesOfAnSrgbCameraBendNothing) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticCamera camera(apparatus, {}, 7);
+  TrackerSettings settings;
+  settings.inner_edges = false;
+  Tracker learns(apparatus, settings);
+  settings.remove_bias = false;
+  Tracker takes_srgb(apparatus, settings);
+  const Pose grip{{0.02, -0.02, 0.045},
+                  Eigen::AngleAxisd(1.4, Eigen::Vector3d::UnitZ()) *
+                      Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX())};
+  double sum_mm = 0;
+  constexpr int n = 40, learning = 10;
+  for (int i = 0; i < n; ++i) {
+    const Image image = camera.picture([&](double) { return grip; }, i / 30.0, i);
+    const auto with = learns.track(image, i / 30.0).board_from_effector;
+    const auto without = takes_srgb.track(image, i / 30.0).board_from_effector;
+    ASSERT_TRUE(with && without);
+    if (i >= learning) sum_mm += 1e3 * (with->position_m - without->position_m).norm();
+  }
+  EXPECT_LT(sum_mm / (n - learning), 0.02);
+}
+
 }  // namespace
 }  // namespace heft
