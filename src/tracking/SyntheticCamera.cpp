@@ -54,8 +54,14 @@ struct SyntheticCamera::Impl {
   std::vector<std::optional<Pose>> poses_while_open(const EffectorPath& path, double t_s) const;
   int motion_samples(const EffectorPath& path, double t_s) const;
   PixelBox extent(const Pose& pose) const;
-  void draw_hand_and_effector(const Pose& pose);
-  void draw_effector(const SeenBody& body, const PixelBox& extent);
+  bool draw_instant(const Pose& pose, const PixelBox& box);
+  Light effector_at(int x, int y) const {
+    return instant.box.holds(x, y) ? instant.row(y)[x - instant.box.x0] : Light::Zero();
+  }
+  const Light& hand_at(const LightPicture& part, int x, int y) const {
+    return part.row(y / fineness)[x / fineness - part.box.x0];
+  }
+  void add_instant(float weight, const PixelBox& box);
   PixelBox reached(const EffectorPath& path, double t_s) const;
   void draw_moving(const std::vector<std::optional<Pose>>& poses, const PixelBox& box);
   void draw_moving(const EffectorPath& path, double t_s);
@@ -63,27 +69,31 @@ struct SyntheticCamera::Impl {
   void forget(const RowSpans& changed);
 
   SyntheticSettings settings;
-  Lens lens;
+  Lens coarse_lens;  ///< of the picture's pixels
+  Lens lens;         ///< of fine ones, as all light is but the hand's
   std::vector<PrintedFace> effector;
   FilmedHand hand;
   Sensor sensor;
-  LightPicture still;   ///< table and board, sharp
+  LightPicture still;   ///< table and board, not blurred
   Levels still_levels;  ///< the same, as the sensor has it
   Levels levels;        ///< the same, between pictures
   AreaRaster raster;
-  LightPicture instant;  ///< hand and effector at one moment
-  LightPicture moving;   ///< their mean over the exposure, then before the still scene
+  LightPicture instant;  ///< the effector at one moment
+  /// Before it and behind it, in the picture's pixels: nobody measures a hand's edges.
+  LightPicture hand_before, hand_behind;
+  LightPicture moving;  ///< their mean over the exposure, then before the still scene
 };
 
 SyntheticCamera::Impl::Impl(const Apparatus& apparatus, const SyntheticSettings& with,
                             std::uint64_t seed)
     : settings(with),
-      lens(apparatus.camera),
+      coarse_lens(apparatus.camera),
+      lens(coarse_lens.fine()),
       effector(printed_effector(apparatus.effector)),
       hand(apparatus.effector.size_m, with.left_hand),
       sensor(with.optics, apparatus.camera.width_px, apparatus.camera.height_px, seed),
       still(still_scene(apparatus.board, with.camera_from_board, lens)) {
-  sensor.expose(still, RowSpans::whole(still.box), still_levels);
+  sensor.expose(still, RowSpans::whole(coarse_of(still.box)), still_levels);
   levels = still_levels;
 }
 
@@ -92,7 +102,7 @@ int SyntheticCamera::Impl::motion_samples(const EffectorPath& path, double t_s) 
   const double half_s = settings.optics.exposure_s / 2;
   const auto opens = path(t_s - half_s), closes = path(t_s + half_s);
   if (!opens || !closes) return settings.motion_samples;
-  const double move_px = largest_move_px(effector, seen(*opens), seen(*closes), lens);
+  const double move_px = largest_move_px(effector, seen(*opens), seen(*closes), lens) / fineness;
   if (move_px < still_px) return 1;
   return std::clamp(static_cast<int>(std::ceil(move_px / smear_step_px)), settings.motion_samples,
                     std::max(settings.motion_samples, most_motion_samples));
@@ -114,20 +124,36 @@ PixelBox SyntheticCamera::Impl::extent(const Pose& pose) const {
   return settings.hand ? box->around(hand.extent(seen(pose), lens)) : *box;
 }
 
-void SyntheticCamera::Impl::draw_hand_and_effector(const Pose& pose) {
+// Within a box of fine pixels. False: nothing is there.
+bool SyntheticCamera::Impl::draw_instant(const Pose& pose, const PixelBox& box) {
   const SeenBody body = seen(pose);
   const auto extent = extent_of(effector, body, lens);
-  if (!extent) return;
-  if (settings.hand) hand.draw(FilmedHand::Side::before_box, body, lens, instant);
-  draw_effector(body, *extent);
-  if (settings.hand) hand.draw(FilmedHand::Side::behind_box, body, lens, instant);
-}
-
-void SyntheticCamera::Impl::draw_effector(const SeenBody& body, const PixelBox& extent) {
-  raster.begin(extent.within(instant.box));
+  if (!extent) return false;
+  instant.reset(extent->within(box));
+  raster.begin(instant.box);
   for (const PrintedFace& face : effector)
     if (is_seen(face, body)) draw_face(face, body, lens, raster);
   raster.draw_behind(instant);
+  hand_before.reset(coarse_of(box));
+  hand_behind.reset(coarse_of(box));
+  if (!settings.hand) return true;
+  hand.draw(FilmedHand::Side::before_box, body, coarse_lens, hand_before);
+  hand.draw(FilmedHand::Side::behind_box, body, coarse_lens, hand_behind);
+  return true;
+}
+
+void SyntheticCamera::Impl::add_instant(float weight, const PixelBox& box) {
+  const RowSpans before = RowSpans::covered(hand_before), behind = RowSpans::covered(hand_behind);
+  for (int y = box.y0; y < box.y1; ++y) {
+    const Span coarse = before.at(y / fineness).around(behind.at(y / fineness));
+    Span span{coarse.begin * fineness, coarse.end * fineness};
+    if (y >= instant.box.y0 && y < instant.box.y1)
+      span = span.around({instant.box.x0, instant.box.x1});
+    Light* row = moving.row(y) - moving.box.x0;
+    for (int x = span.begin; x < span.end; ++x)
+      row[x] += weight * over(hand_at(hand_before, x, y),
+                              over(effector_at(x, y), hand_at(hand_behind, x, y)));
+  }
 }
 
 // Of every row's exposure, from the first one's to the last one's.
@@ -140,30 +166,24 @@ PixelBox SyntheticCamera::Impl::reached(const EffectorPath& path, double t_s) co
       if (pose) box = box.around(extent(*pose));
   }
   const int between_px = n_times > 1 ? 4 : 0;
-  return box.empty() ? box : box.grown(2 * sensor.blur_reach_px() + between_px).within(still.box);
+  if (box.empty()) return box;
+  return fine_of(coarse_of(box).grown(2 * sensor.reach_px() + between_px)).within(still.box);
 }
 
 void SyntheticCamera::Impl::draw_moving(const std::vector<std::optional<Pose>>& poses,
                                         const PixelBox& box) {
   const float weight = 1 / static_cast<float>(poses.size());
-  for (const std::optional<Pose>& pose : poses) {
-    if (!pose) continue;
-    instant.reset(box);
-    draw_hand_and_effector(*pose);
-    const RowSpans drawn = RowSpans::covered(instant);
-    for (int y = box.y0; y < box.y1; ++y)
-      for (int x = drawn.at(y).begin; x < drawn.at(y).end; ++x)
-        moving.row(y)[x - box.x0] += weight * instant.row(y)[x - box.x0];
-  }
+  for (const std::optional<Pose>& pose : poses)
+    if (pose && draw_instant(*pose, box)) add_instant(weight, box);
 }
 
-// A rolling shutter's rows two by two: at 0.5 m/s, over 25 ms, their edges have steps of a
-// twentieth of a pixel.
+// A rolling shutter's rows two by two of the picture's: at 0.5 m/s, over 25 ms, their edges have
+// steps of a twentieth of a pixel.
 void SyntheticCamera::Impl::draw_moving(const EffectorPath& path, double t_s) {
-  constexpr int rows_at_once = 2;
+  constexpr int rows_at_once = 2 * fineness;
   const PixelBox all = moving.box;
   if (!(optics().readout_s > 0)) return draw_moving(poses_while_open(path, t_s), all);
-  const double row_s = optics().readout_s / lens.camera().height_px;
+  const double row_s = optics().readout_s / lens.camera().height_px;  // of fine rows
   for (int y = all.y0; y < all.y1; y += rows_at_once) {
     const double middle = y + (rows_at_once - 1) / 2.0;
     draw_moving(poses_while_open(path, t_s + row_s * middle),
@@ -202,38 +222,34 @@ Image SyntheticCamera::picture(const EffectorPath& board_from_effector, double t
   Impl& p = *impl_;
   const PixelBox reached = p.reached(board_from_effector, t_s);
   if (reached.empty()) return p.sensor.develop(p.levels, number);
-  const int blur_px = p.sensor.blur_reach_px();
   p.moving.reset(reached);
   p.draw_moving(board_from_effector, t_s);
-  const RowSpans drawn = RowSpans::covered(p.moving), changed = drawn.grown(blur_px, blur_px);
-  p.put_before_still(drawn.grown(2 * blur_px, 2 * blur_px));
+  const int reach_px = p.sensor.reach_px(), needed_px = (2 * reach_px + 1) * fineness;
+  const RowSpans drawn = RowSpans::covered(p.moving);
+  const RowSpans changed = drawn.coarse().grown(reach_px, reach_px);
+  p.put_before_still(drawn.grown(needed_px, needed_px));
   p.sensor.expose(p.moving, changed, p.levels);
   Image picture = p.sensor.develop(p.levels, number);
   p.forget(changed);
   return picture;
 }
 
-// What of a pixel is covered after the hand's parts are drawn and was not before.
 Image SyntheticCamera::hand_in_picture(const Pose& board_from_effector) {
   Impl& p = *impl_;
-  Image hand(p.lens.camera().width_px, p.lens.camera().height_px, 1);
-  const SeenBody body = p.seen(board_from_effector);
-  const auto extent = extent_of(p.effector, body, p.lens);
-  const PixelBox box = p.extent(board_from_effector).within(p.still.box);
-  if (!p.settings.hand || !extent || box.empty()) return hand;
-  p.instant.reset(box);
-  p.hand.draw(FilmedHand::Side::before_box, body, p.lens, p.instant);
-  const std::vector<Light> before = p.instant.light;
-  p.draw_effector(body, *extent);
-  const std::vector<Light> both = p.instant.light;
-  p.hand.draw(FilmedHand::Side::behind_box, body, p.lens, p.instant);
-  std::size_t i = 0;
-  for (int y = box.y0; y < box.y1; ++y)
-    for (int x = box.x0; x < box.x1; ++x, ++i) {
-      const float covered = before[i][3] + p.instant.light[i][3] - both[i][3];
-      hand.pixels[static_cast<std::size_t>(y * hand.width + x)] =
-          static_cast<std::uint8_t>(std::lround(255 * std::clamp(covered, 0.0F, 1.0F)));
+  const PixelBox all = coarse_of(p.still.box);
+  Image hand(all.width(), all.height(), 1);
+  if (!p.settings.hand || !p.draw_instant(board_from_effector, p.still.box)) return hand;
+  std::vector<float> seen(hand.pixels.size());
+  for (int y = 0; y < p.still.box.y1; ++y)
+    for (int x = 0; x < p.still.box.x1; ++x) {
+      const float before = p.hand_at(p.hand_before, x, y)[3];
+      const float behind = p.hand_at(p.hand_behind, x, y)[3] * (1 - p.effector_at(x, y)[3]);
+      seen[static_cast<std::size_t>(y / fineness * hand.width + x / fineness)] +=
+          (before + (1 - before) * behind) / (fineness * fineness);
     }
+  std::ranges::transform(seen, hand.pixels.begin(), [](float share) {
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0F, 1.0F)));
+  });
   return hand;
 }
 

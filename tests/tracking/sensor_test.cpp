@@ -13,11 +13,12 @@
 namespace heft {
 namespace {
 
-// Light from 0 to 1 in 16384 steps, one a pixel.
+// Light from 0 to 1 in 16384 steps, one a pixel of the picture.
 LightPicture ramp() {
-  LightPicture picture(PixelBox{0, 0, 128, 128});
-  for (std::size_t i = 0; i < picture.light.size(); ++i)
-    picture.light[i].setConstant(static_cast<float>(i) / 16383);
+  LightPicture picture(fine_of({0, 0, 128, 128}));
+  for (int y = 0; y < picture.box.y1; ++y)
+    for (int x = 0; x < picture.box.x1; ++x)
+      picture.row(y)[x].setConstant(static_cast<float>(y / fineness * 128 + x / fineness) / 16383);
   return picture;
 }
 
@@ -30,10 +31,10 @@ TEST(Sensor, StoresLightAsTheToneCurveSays) {
     Sensor sensor({.blur_px = 0, .gamma = gamma, .vignetting = 0, .noise = 0}, 128, 128, 1);
     const LightPicture picture = ramp();
     Levels levels;
-    sensor.expose(picture, RowSpans::whole(picture.box), levels);
+    sensor.expose(picture, RowSpans::whole({0, 0, 128, 128}), levels);
     double worst = 0;
-    for (std::size_t i = 0; i < picture.light.size(); ++i) {
-      const double light = picture.light[i][1];
+    for (std::size_t i = 0; i < 128 * 128; ++i) {
+      const double light = static_cast<double>(i) / 16383;
       const double expected = gamma ? 255 * std::pow(light, 1 / *gamma) : srgb(light);
       worst = std::max(worst, std::abs(levels[3 * i + 1] / 64.0 - expected));
     }
@@ -51,7 +52,7 @@ LightPicture random_picture(RandomStream& random, const PixelBox& box) {
 RC_GTEST_PROP(Sensor, ExposesAPartLikeTheWhole, ()) {
   RandomStream random(*rc::gen::arbitrary<std::uint64_t>(), "sensor");
   const PixelBox box{0, 0, 23, 17};
-  const LightPicture picture = random_picture(random, box);
+  const LightPicture picture = random_picture(random, fine_of(box));
   Sensor sensor({.noise = 0}, box.width(), box.height(), 1);
   Levels whole, part(23 * 17 * 3, -1);
   sensor.expose(picture, RowSpans::whole(box), whole);
@@ -110,14 +111,44 @@ TEST(Sensor, NoiseLargerThanAllLevelsSaturates) {
 TEST(Sensor, OverexposedWhiteHasNoNoise) {
   const auto whites = [](double exposure) {
     Sensor sensor({.blur_px = 0, .vignetting = 0, .exposure = exposure, .noise = 3}, 32, 32, 1);
-    LightPicture picture(PixelBox{0, 0, 32, 32});
+    LightPicture picture(fine_of({0, 0, 32, 32}));
     for (Light& light : picture.light) light.setConstant(1);
     Levels levels;
-    sensor.expose(picture, RowSpans::whole(picture.box), levels);
+    sensor.expose(picture, RowSpans::whole({0, 0, 32, 32}), levels);
     return std::ranges::count(sensor.develop(levels, 0).pixels, 255);
   };
   EXPECT_EQ(whites(1.5), 32 * 32 * 3);
   EXPECT_NEAR(static_cast<double>(whites(1)), 0.56 * 32 * 32 * 3, 200);  // P(noise > -.5 level)
+}
+
+// What a straight edge upright in the picture looks like, wherever in a pixel it is: the normal
+// distribution that was asked, seen through a pixel's extent.
+TEST(Sensor, AnEdgesProfileIsNormal) {
+  constexpr double blur_px = 0.6, light = 1 / 1.05;
+  Sensor sensor({.blur_px = blur_px, .gamma = 1, .vignetting = 0, .noise = 0}, 24, 1, 1);
+  const auto below = [&](double x) { return 0.5 * std::erfc(-x / blur_px / std::sqrt(2)); };
+  const auto integral = [&](double x) {
+    return x * below(x) +
+           blur_px * std::exp(-x * x / (2 * blur_px * blur_px)) / std::sqrt(2 * M_PI);
+  };
+  double worst = 0;
+  for (double edge = 10; edge < 11; edge += 0.07) {
+    AreaRaster raster;
+    const double side = fineness * (edge + 0.5) - 0.5;  // of fine pixels
+    raster.begin(fine_of({0, 0, 24, 1}));
+    const std::vector<Eigen::Vector2d> bright{{side, -9}, {99, -9}, {99, 9}, {side, 9}};
+    raster.add(bright, Light::Constant(static_cast<float>(light)));
+    LightPicture picture(raster.box());
+    raster.draw_behind(picture);
+    Levels levels;
+    sensor.expose(picture, RowSpans::whole({0, 0, 24, 1}), levels);
+    for (int x = 0; x < 20; ++x) {
+      const double expected = light * (integral(x + 0.5 - edge) - integral(x - 0.5 - edge));
+      const double seen = levels[static_cast<std::size_t>(sensor.place_of(x, 0))] / 64.0 / 255;
+      worst = std::max(worst, std::abs(seen - expected));
+    }
+  }
+  EXPECT_LT(worst, 0.012);  // 0.04 of light drawn in whole pixels
 }
 
 struct Distances {

@@ -9,6 +9,7 @@
 #include "tracking/SyntheticCamera.h"
 #include "tracking/TagDetector.h"
 #include "tracking/TagFamily.h"
+#include "tracking/synthetic/AreaRaster.h"
 
 namespace heft {
 namespace {
@@ -84,8 +85,10 @@ TEST(SyntheticOptics, BlurHasTheSpreadThatWasAsked) {
       second += step * place * place;
     }
     EXPECT_NEAR(first / mass, 0, 0.02);  // bytes alone leave that much, and as much of the spread
-    const double covered = edge + 0.5 - std::floor(edge + 0.5);  // of the pixel on the edge
-    const double sharp_variance = covered * (1 - covered);
+    // A pixel's extent, twice, less what light is drawn in, more what there is of it on the edge.
+    const double fine_px = 1.0 / fineness, place = (edge + 0.5) / fine_px;
+    const double covered = place - std::floor(place);
+    const double sharp_variance = 1.0 / 6 + fine_px * fine_px * (covered * (1 - covered) - 1.0 / 6);
     EXPECT_NEAR(std::sqrt(second / mass - std::pow(first / mass, 2) - sharp_variance), blur_px,
                 0.02);
   }

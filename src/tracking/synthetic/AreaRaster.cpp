@@ -23,6 +23,15 @@ PixelBox pixels_around(std::span<const Eigen::Vector2d> points_px) {
   return {pixel(low.x()), pixel(low.y()), pixel(high.x()) + 1, pixel(high.y()) + 1};
 }
 
+PixelBox coarse_of(const PixelBox& fine) {
+  const auto up = [](int place) { return (place + fineness - 1) / fineness; };
+  return {fine.x0 / fineness, fine.y0 / fineness, up(fine.x1), up(fine.y1)};
+}
+
+PixelBox fine_of(const PixelBox& coarse) {
+  return {coarse.x0 * fineness, coarse.y0 * fineness, coarse.x1 * fineness, coarse.y1 * fineness};
+}
+
 void AreaRaster::begin(const PixelBox& box) {
   box_ = box;
   const auto rows = static_cast<std::size_t>(std::max(0, box.height()));
@@ -66,6 +75,17 @@ RowSpans RowSpans::covered(const LightPicture& picture) {
     while (!span.empty() && row[span.end - 1][3] <= 0) --span.end;
   }
   return spans;
+}
+
+RowSpans RowSpans::coarse() const {
+  RowSpans all(coarse_of(box_));
+  for (int y = box_.y0; y < box_.y1; ++y) {
+    const Span& fine = at(y);
+    if (fine.empty()) continue;
+    const PixelBox box = coarse_of({fine.begin, y, fine.end, y + 1});
+    all.at(box.y0) = all.at(box.y0).around({box.x0, box.x1});
+  }
+  return all;
 }
 
 RowSpans RowSpans::grown(int columns, int rows) const {

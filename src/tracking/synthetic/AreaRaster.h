@@ -26,6 +26,7 @@ struct PixelBox {
   std::size_t area() const {
     return empty() ? 0 : static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
   }
+  bool holds(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
   PixelBox grown(int by) const { return {x0 - by, y0 - by, x1 + by, y1 + by}; }
   PixelBox within(const PixelBox& other) const {
     return {std::max(x0, other.x0), std::max(y0, other.y0), std::min(x1, other.x1),
@@ -34,6 +35,15 @@ struct PixelBox {
   /// The smallest box around both.
   PixelBox around(const PixelBox& other) const;
 };
+
+/// Light is drawn in pixels finer than the picture's, so many each way: blurred at whole pixels, an
+/// edge's profile would be a staircase, by up to a tenth off the normal distribution that was
+/// asked.
+inline constexpr int fineness = 2;
+
+/// The picture's pixels that hold any of these fine ones, and the fine ones of a picture's.
+PixelBox coarse_of(const PixelBox& fine);
+PixelBox fine_of(const PixelBox& coarse);
 
 /// The pixels that hold any part of these points' bounding box.
 PixelBox pixels_around(std::span<const Eigen::Vector2d> points_px);
@@ -97,6 +107,8 @@ class RowSpans {
   Span& at(int y) { return spans_[static_cast<std::size_t>(y - box_.y0)]; }
   const Span& at(int y) const { return spans_[static_cast<std::size_t>(y - box_.y0)]; }
 
+  /// The picture's pixels that hold any of these fine ones.
+  RowSpans coarse() const;
   /// All that is at most so many columns and rows away, within the box.
   RowSpans grown(int columns, int rows) const;
 

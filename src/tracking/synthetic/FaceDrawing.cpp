@@ -1,6 +1,7 @@
 #include "tracking/synthetic/FaceDrawing.h"
 
 #include <cmath>
+#include <vector>
 
 #include "base/Polygon.h"
 
@@ -11,6 +12,18 @@ Lens::Lens(const Intrinsics& camera) : camera_(camera) {
     for (const double y : {0, camera.height_px - 1})
       widest_ray_ = std::max(widest_ray_, undistort(camera, {x, y}).norm());
   widest_ray_ *= 1.05;
+}
+
+Lens Lens::fine() const {
+  Intrinsics fine = camera_;
+  fine.width_px *= fineness;
+  fine.height_px *= fineness;
+  fine.fx_px *= fineness;
+  fine.fy_px *= fineness;
+  // Centers are whole numbers, so a picture's pixel's is between its middle ones.
+  fine.cx_px = fineness * (fine.cx_px + 0.5) - 0.5;
+  fine.cy_px = fineness * (fine.cy_px + 0.5) - 0.5;
+  return Lens(fine);
 }
 
 Eigen::Vector2d Lens::pixel(const Eigen::Vector3d& point_m) const {
@@ -115,20 +128,28 @@ Eigen::Array3f behind_the_board(const Vector3d& eye_m, const Vector3d& ray) {
   return material::table * grain(point_m.x(), point_m.y());
 }
 
+// Wood has nothing finer than a picture's pixel.
 void put_before_table(LightPicture& picture, const Pose& camera_from_board, const Lens& lens) {
   const Eigen::Quaterniond board_from_camera = camera_from_board.orientation.conjugate();
   const Vector3d eye_m = -(board_from_camera * camera_from_board.position_m);
-  for (int y = picture.box.y0; y < picture.box.y1; ++y) {
-    Light* row = picture.row(y);
-    Eigen::Vector2d ray(0, 0), step(0, 0);
-    for (int x = picture.box.x0; x < picture.box.x1; ++x) {
-      if (x % undistorted_px == 0) {
-        ray = undistort(lens.camera(), {x, y});
-        step = (undistort(lens.camera(), {x + undistorted_px, y}) - ray) / undistorted_px;
+  const PixelBox& box = picture.box;
+  std::vector<Light> wood(static_cast<std::size_t>(coarse_of(box).width()));
+  for (int y = box.y0; y < box.y1; ++y) {
+    if (y % fineness == 0) {
+      Eigen::Vector2d ray(0, 0), step(0, 0);
+      for (int x = box.x0; x < box.x1; x += fineness) {
+        if (x % undistorted_px == 0) {
+          ray = undistort(lens.camera(), {x, y});
+          step = (undistort(lens.camera(), {x + undistorted_px, y}) - ray) / undistorted_px;
+        }
+        wood[static_cast<std::size_t>(x / fineness)] =
+            solid(behind_the_board(eye_m, board_from_camera * ray.homogeneous()));
+        ray += fineness * step;
       }
-      row[x] = over(row[x], solid(behind_the_board(eye_m, board_from_camera * ray.homogeneous())));
-      ray += step;
     }
+    Light* row = picture.row(y);
+    for (int x = box.x0; x < box.x1; ++x)
+      row[x] = over(row[x], wood[static_cast<std::size_t>(x / fineness)]);
   }
 }
 }  // namespace

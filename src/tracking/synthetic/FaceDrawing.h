@@ -16,6 +16,8 @@ namespace heft {
 class Lens {
  public:
   explicit Lens(const Intrinsics& camera);
+  /// The same lens over fine pixels.
+  Lens fine() const;
 
   /// Pixel of a point in the camera frame, z >= nearest_m. Exact within the picture; outside, on
   /// the right side of it.

@@ -18,18 +18,25 @@ constexpr int curve_intervals = 65535;
 constexpr double most_light = 1.4, most_level = 300;
 constexpr std::size_t noise_length = 1 << 20;
 
-// The Gaussian at whole pixels, of sum 1.
+// From the middle of a pixel outwards: what a fine pixel's light counts, of both halves' sum 1. The
+// Gaussian, spread over the fine pixels that one of the picture's consists of.
 std::vector<float> half_kernel(double sd_px) {
-  if (sd_px <= 0) return {1};
-  std::vector<double> weights;
-  for (int i = 0; i <= static_cast<int>(std::ceil(4 * sd_px)); ++i)
-    weights.push_back(std::exp(-0.5 * i * i / (sd_px * sd_px)));
-  double sum = -weights[0];
-  for (const double weight : weights) sum += 2 * weight;
+  const double sd = fineness * sd_px;
+  const int reach = static_cast<int>(std::ceil(4 * sd));
+  const auto gaussian = [&](int place) {
+    return sd > 0 ? std::exp(-0.5 * place * place / (sd * sd)) : static_cast<double>(place == 0);
+  };
+  double sum = 0;
+  for (int i = -reach; i <= reach; ++i) sum += fineness * gaussian(i);
   std::vector<float> kernel;
-  for (const double weight : weights) kernel.push_back(static_cast<float>(weight / sum));
+  for (int i = 0; i < reach + fineness / 2; ++i) {
+    double weight = 0;
+    for (int part = -fineness / 2; part < fineness / 2; ++part) weight += gaussian(i - part);
+    kernel.push_back(static_cast<float>(weight / sum));
+  }
   return kernel;
 }
+static_assert(fineness % 2 == 0, "the kernel has no middle of its own");
 
 int place_in_curve(float light) {
   constexpr float per_most = static_cast<float>(1 / most_light);
@@ -75,15 +82,17 @@ std::vector<std::int16_t> noise_row(double sd, std::uint64_t seed) {
   return row;
 }
 
-// A row of light, blurred: row_at(n) is the same row n steps away.
-template <typename RowAt>
+// A row of light, blurred: row_at(n) is the same row n fine steps away, of which 0 and 1 are at the
+// picture's middle; each place of the sums is `stride` of theirs.
+template <int stride, typename RowAt>
 void blur_row(std::span<const float> kernel, std::span<Light> sums, RowAt row_at) {
-  const Light* middle = row_at(0);
-  for (std::size_t x = 0; x < sums.size(); ++x) sums[x] = kernel[0] * middle[x];
-  for (std::size_t i = 1; i < kernel.size(); ++i) {
+  std::ranges::fill(sums, Light::Zero());
+  for (std::size_t i = 0; i < kernel.size(); ++i) {
     const float weight = kernel[i];
-    const Light *before = row_at(-static_cast<int>(i)), *after = row_at(static_cast<int>(i));
-    for (std::size_t x = 0; x < sums.size(); ++x) sums[x] += weight * (before[x] + after[x]);
+    const Light* before = row_at(fineness / 2 - 1 - static_cast<int>(i));
+    const Light* after = row_at(fineness / 2 + static_cast<int>(i));
+    for (std::size_t x = 0; x < sums.size(); ++x)
+      sums[x] += weight * (before[stride * x] + after[stride * x]);
   }
 }
 
@@ -118,26 +127,27 @@ float Sensor::lost_light(int place, int n_places) const {
 }
 
 void Sensor::blur_along_rows(const LightPicture& sharp, const RowSpans& spans) {
-  const int reach = blur_reach_px();
-  const PixelBox& all = sharp.box;
-  along_rows_.reset(all);
+  const int reach = fine_reach();
+  const PixelBox &all = sharp.box, coarse = coarse_of(all);
+  along_rows_.reset({coarse.x0, all.y0, coarse.x1, all.y1});
   for (int y = all.y0; y < all.y1; ++y) {
-    const Span& span = spans.at(y);
+    const Span& span = spans.at(y / fineness);
     if (span.empty()) continue;
     const Light* in = sharp.row(y) - all.x0;
     padded_row_.clear();
-    for (int x = span.begin - reach; x < span.end + reach; ++x)
+    for (int x = fineness * span.begin - reach; x < fineness * span.end + reach; ++x)
       padded_row_.push_back(in[std::clamp(x, all.x0, all.x1 - 1)]);
     const Light* middle = padded_row_.data() + reach;
-    blur_row(kernel_, along_rows_.part(y, span), [&](int steps) { return middle + steps; });
+    blur_row<fineness>(kernel_, along_rows_.part(y, span),
+                       [&](int steps) { return middle + steps; });
   }
 }
 
 void Sensor::blur_across_rows(int y, const Span& span) {
   const PixelBox& all = along_rows_.box;
   row_.resize(static_cast<std::size_t>(span.width()));
-  blur_row(kernel_, row_, [&](int steps) {
-    return along_rows_.part(std::clamp(y + steps, all.y0, all.y1 - 1), span).data();
+  blur_row<1>(kernel_, row_, [&](int steps) {
+    return along_rows_.part(std::clamp(fineness * y + steps, all.y0, all.y1 - 1), span).data();
   });
 }
 
@@ -158,8 +168,8 @@ void Sensor::expose_row(int y, const Span& span, std::int16_t* levels) {
 
 void Sensor::expose(const LightPicture& sharp, const RowSpans& spans, Levels& levels) {
   levels.resize(static_cast<std::size_t>(place_of(0, height_)));
-  blur_along_rows(sharp, spans.grown(0, blur_reach_px()));
-  for (int y = sharp.box.y0; y < sharp.box.y1; ++y) {
+  blur_along_rows(sharp, spans.grown(0, reach_px()));
+  for (int y = spans.box().y0; y < spans.box().y1; ++y) {
     const Span& span = spans.at(y);
     if (span.empty()) continue;
     blur_across_rows(y, span);

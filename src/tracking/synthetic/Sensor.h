@@ -19,12 +19,13 @@ class Sensor {
  public:
   Sensor(const Optics& optics, int width_px, int height_px, std::uint64_t seed);
 
-  /// How far the blur reaches.
-  int blur_reach_px() const { return static_cast<int>(kernel_.size()) - 1; }
+  /// How far the blur reaches, in fine pixels, and in the picture's.
+  int fine_reach() const { return static_cast<int>(kernel_.size()); }
+  int reach_px() const { return (fine_reach() + fineness - 1) / fineness; }
 
   /// Writes these parts of a picture, blurred, into the levels of the whole picture. They need the
   /// light around them as far as the blur reaches; beyond the picture's edges it is like there.
-  /// @param spans of the picture's box
+  /// @param sharp in fine pixels  @param spans of the picture's pixels
   void expose(const LightPicture& sharp, const RowSpans& spans, Levels& levels);
 
   /// Where a pixel's first channel is in the levels.
@@ -46,10 +47,12 @@ class Sensor {
   std::uint64_t seed_;
   double lost_per_px2_;  ///< light, with the square of the distance from the middle
   std::vector<float> lost_by_column_;
-  std::vector<float> kernel_;        ///< half of a symmetric one: from its middle outwards
+  /// Half of a symmetric one, of fine pixels, from a pixel's middle outwards: its own extent and
+  /// the blur.
+  std::vector<float> kernel_;
   std::vector<std::int16_t> curve_;  ///< levels at equally spaced roots of light
   std::vector<std::int16_t> noise_;  ///< a long row of independent draws for three channels each
-  LightPicture along_rows_;          ///< blurred that way
+  LightPicture along_rows_;          ///< blurred that way: fine rows of the picture's columns
   std::vector<Light> row_, padded_row_;
   std::vector<int> places_;  ///< of a row's light in the curve
 };
