@@ -28,8 +28,9 @@ TEST(TrackingStudy, QuickRunMakesEveryFile) {
   const auto filters = folder.csv("filters.csv");
   EXPECT_EQ(filters.rows.size(), smoothers().size());
   for (const double jitter : filters.numbers("jitter_mm")) EXPECT_GT(jitter, 0);
-  EXPECT_EQ(folder.csv("goals.csv").rows.size(), 22U);
+  EXPECT_EQ(folder.csv("goals.csv").rows.size(), 26U);
   EXPECT_NE(folder.text("goals.csv").find("camera calibration from 6 views"), std::string::npos);
+  for (const double bound : folder.csv("bound.csv").numbers("bound_mm")) EXPECT_GT(bound, 0);
   for (const char* chart : {"accuracy.svg", "limits.svg", "filters.svg"})
     EXPECT_TRUE(folder.has_chart(chart)) << chart;
   const std::string readme = folder.text("README.md");

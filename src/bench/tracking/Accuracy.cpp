@@ -15,8 +15,9 @@ struct Series {
   bool numbers_above;  ///< decimations stand over the points, or under them
 };
 constexpr std::array series{
-    Series{"heft", "#1f5fa8", "heft", "edges + bias removed", true, true},
-    Series{"heft, edge bias left in", "#3c8d5a", "heft", "edges", true, false},
+    Series{"heft", "#1f5fa8", "heft", "cells + bias removed", true, true},
+    Series{"heft, edge bias left in", "#3c8d5a", "heft", "cells", true, false},
+    Series{"heft, borders of tags alone", "#4fa3c7", "heft", "edges + bias removed", true, false},
     Series{"heft on AprilTag's corners", "#7a5aa6", "heft", "corners + bias removed", true, true},
     Series{"heft on AprilTag's corners, bias left in", "#8a94a0", "heft", "corners", true, false},
     Series{"AprilTag + solvePnP", "#c0561f", "apriltag + solvePnP", "corners", false, true},
@@ -95,7 +96,7 @@ std::string accuracy_chart(const std::vector<MethodResult>& results, const Study
       "set xtics (1,2,5,10,20,50,100,200)\nset ytics (0.05,0.1,0.2,0.5,1,2,5,10,20,50,100)\n"
       "set xlabel 'processor time per picture (ms)'\n"
       "set ylabel 'error of the tip, 95 % of pictures below (mm)' offset 1.5,0\n"
-      "set key at screen 0.5, caption_top + 40*pixel center maxrows 3 width 2 font ',11' samplen "
+      "set key at screen 0.5, caption_top + 40*pixel center maxrows 3 width 1 font ',11' samplen "
       "2\n";
   script += panel(results, 640, 0.07, 0.5, true) + panel(results, 1280, 0.55, 0.98, false);
   return script + "unset multiplot\n";

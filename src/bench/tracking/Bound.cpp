@@ -13,8 +13,8 @@
 namespace heft {
 
 namespace {
-constexpr double step_m = 0.0002;      // a quarter of a pixel: its levels are many, and edges even
-constexpr double rounding = 1.0 / 12;  // variance of levels
+constexpr double step_m = 0.0001;        // an eighth of a pixel at 640 across
+constexpr double rounding = 1.0 / 12;    // variance of levels
 constexpr double margin_share = 0.0625;  // half a cell of most families' tags, beyond the border
 
 SyntheticSettings without_noise(SyntheticSettings settings) {
@@ -76,8 +76,8 @@ Image TipBound::shifted(const Pose& board_from_effector, const Eigen::Vector3d& 
   return gray_of(camera_.picture([&](double) { return pose; }, 0, 0));
 }
 
-// Of a turn about the camera's axes through the effector's origin, then a shift. How levels change
-// over the picture comes from four renderings, how the picture moves with the pose from geometry.
+// How levels change over the picture comes from four renderings, how the picture moves with the
+// pose from geometry.
 TipBound::Matrix6 TipBound::information(const Pose& board_from_effector) {
   const Eigen::Vector3d right(step_m, 0, 0), down(0, step_m, 0);
   const std::array images{shifted(board_from_effector, right), shifted(board_from_effector, -right),

@@ -12,16 +12,20 @@ namespace heft {
 
 class TipBound {
  public:
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
   TipBound(const Apparatus& apparatus, const SyntheticSettings& settings);
 
   /// Variance of the tip's place, m^2, all three axes together; none where no tag is seen.
   /// @param board_from_effector standing still
   std::optional<double> tip_variance_m2(const Pose& board_from_effector);
 
- private:
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  Image shifted(const Pose& board_from_effector, const Eigen::Vector3d& by_m);
+  /// Fisher information of a turn about the camera's axes through the effector's origin (rad), then
+  /// of a shift (m).
   Matrix6 information(const Pose& board_from_effector);
+
+ private:
+  Image shifted(const Pose& board_from_effector, const Eigen::Vector3d& by_m);
 
   Apparatus apparatus_;
   SyntheticSettings settings_;

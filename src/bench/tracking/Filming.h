@@ -24,7 +24,7 @@ struct MethodPoses {
 /// What a method is, in the words of the charts and tables.
 struct MethodName {
   std::string detector;    ///< "heft", "apriltag + solvePnP"...
-  std::string refinement;  ///< "corners", "corners + bias removed", "edges", "edges + bias removed"
+  std::string refinement;  ///< "corners", "edges" or "cells", or one of them "+ bias removed"
   double decimate = 1;
   bool region_of_interest = false;
 

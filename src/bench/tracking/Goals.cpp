@@ -90,7 +90,7 @@ void add_size(std::vector<Goal>& goals, const GoalFilms& goal_films) {
   };
   add("board in camera, p95", 0.05, "mm", or_nan(ours.board_mm.p95));
   add("board in camera, p95", 0.03, "deg", or_nan(ours.board_deg.p95));
-  add("effector's tip in board, p95", small ? 0.6 : 0.45, "mm", or_nan(ours.tip_mm.p95));
+  add("effector's tip in board, p95", small ? 0.42 : 0.17, "mm", or_nan(ours.tip_mm.p95));
   add("effector in board, p95", small ? 0.5 : 0.3, "deg", or_nan(ours.effector_deg.p95));
   const auto swiping = while_swiping(goal_films.swipes.ours);
   if (!swiping.empty())
@@ -106,7 +106,7 @@ void add_size(std::vector<Goal>& goals, const GoalFilms& goal_films) {
   const ErrorSummary our = summary_of(both.ours), plain = summary_of(both.plain);
   add("tip p95 of apriltag + solvePnP over ours", 8, "times",
       ratio(plain.tip_mm.p95, our.tip_mm.p95), true);
-  add("our time over that of apriltag + solvePnP", 1.5, "times",
+  add("our time over that of apriltag + solvePnP", small ? 0.55 : 0.3, "times",
       ratio(our.time_ms.median, plain.time_ms.median));
 }
 
@@ -147,9 +147,15 @@ std::string figure_text(double value, const std::string& unit) {
 }
 
 std::vector<Goal> study_goals(const std::vector<GoalFilms>& films_by_size,
-                              const StudyOptions& options, StudyProgress& progress) {
+                              const std::vector<BoundResult>& bounds, const StudyOptions& options,
+                              StudyProgress& progress) {
   std::vector<Goal> goals;
   for (const GoalFilms& goal_films : films_by_size) add_size(goals, goal_films);
+  for (const BoundResult& bound : bounds)
+    goals.push_back(
+        {fmt::format("tip's RMS over what noise allows, {} at {}",
+                     bound.tags == 1 ? "one tag" : "two tags", size_name(bound.width_px)),
+         bound.tags == 1 ? 2.5 : 2, "times", false, bound.ratio()});
   progress.next("looking for flips");
   goals.push_back(count_flips(options.quick));
   progress.next("calibrating cameras");

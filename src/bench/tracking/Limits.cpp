@@ -84,7 +84,7 @@ constexpr std::uint64_t seed = 4;
 
 MethodName bias_left_in() {
   MethodName name = our_method(width_px);
-  name.refinement = "edges";
+  name.refinement = "cells";
   return name;
 }
 

@@ -12,11 +12,14 @@ constexpr std::array decimations{1.0, 1.5, 2.0, 3.0};
 
 struct Refinement {
   std::string_view name;
-  bool edges, bias;
+  bool cells, edges, bias;
 };
-constexpr std::array refinements{
-    Refinement{"edges + bias removed", true, true}, Refinement{"edges", true, false},
-    Refinement{"corners + bias removed", false, true}, Refinement{"corners", false, false}};
+constexpr std::array refinements{Refinement{"cells + bias removed", true, true, true},
+                                 Refinement{"cells", true, true, false},
+                                 Refinement{"edges + bias removed", false, true, true},
+                                 Refinement{"edges", false, true, false},
+                                 Refinement{"corners + bias removed", false, false, true},
+                                 Refinement{"corners", false, false, false}};
 
 TrackerSettings settings_of(const MethodName& name) {
   TrackerSettings settings;
@@ -24,6 +27,7 @@ TrackerSettings settings_of(const MethodName& name) {
   settings.region_of_interest = name.region_of_interest;
   for (const Refinement& refinement : refinements)
     if (refinement.name == name.refinement) {
+      settings.inner_edges = refinement.cells;
       settings.refine_edges = refinement.edges;
       settings.remove_bias = refinement.bias;
     }

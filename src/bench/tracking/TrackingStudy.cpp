@@ -36,13 +36,15 @@ std::string method_table(const std::vector<MethodResult>& accuracy) {
       "| | picture | tip, median / p95 mm | board, median / p95 mm | effector found | ms a picture "
       "|\n|---|---|---|---|---|---|\n";
   for (const int width_px : picture_widths_px) {
-    MethodName edges = our_method(width_px), corners = our_method(width_px);
-    edges.refinement = "edges";
+    MethodName cells = our_method(width_px), edges = cells, corners = cells;
+    cells.refinement = "cells";
+    edges.refinement = "edges + bias removed";
     corners.refinement = "corners";
     MethodName aruco{"aruco + solvePnP", "corners", 1, false};
     text +=
         method_row(result_of(accuracy, width_px, our_method(width_px)), "**heft**") +
-        method_row(result_of(accuracy, width_px, edges), "heft, edge bias left in") +
+        method_row(result_of(accuracy, width_px, cells), "heft, edge bias left in") +
+        method_row(result_of(accuracy, width_px, edges), "heft, borders of tags alone") +
         method_row(result_of(accuracy, width_px, corners), "heft on AprilTag's corners") +
         method_row(result_of(accuracy, width_px, plain_method(width_px)), "AprilTag + solvePnP") +
         method_row(result_of(accuracy, width_px, aruco), "OpenCV's aruco + solvePnP");
@@ -112,13 +114,14 @@ std::string goal_table(const std::vector<Goal>& goals) {
 
 std::string tracking_readme(const std::vector<MethodResult>& accuracy,
                             const std::vector<LimitPoint>& limit_points,
+                            const std::vector<BoundResult>& bounds,
                             const std::vector<FilterResult>& filters,
                             const std::vector<Goal>& goals, const StudyOptions& options) {
   return fmt::format(
       "# Tracking: what to choose when\n\n"
       "Written by the study itself ({}). Everything is filmed by the synthetic camera, so the "
-      "truth "
-      "is known; times are one thread's processor time, and differ between machines, while their "
+      "truth is known; times are one thread's processor time, and differ between machines, while "
+      "their "
       "ratios hardly do.{}\n\n"
       "## Which tracker\n\n{}\n"
       "![error against time](accuracy.svg)\n\n"
@@ -128,10 +131,15 @@ std::string tracking_readme(const std::vector<MethodResult>& accuracy,
       "keeps up. `accuracy.csv` has every combination.\n\n"
       "What is left of the bias is removed unless told otherwise; leave it so. On a camera whose "
       "tone curve is exactly sRGB, as above, there is none, and looking for it costs what the "
-      "first "
-      "two rows of each size differ by: hundredths of a millimeter. Few cameras are that exact, "
-      "and "
-      "elsewhere it is what keeps the tip in place (640x480, each picture on its own):\n\n{}\n"
+      "first two rows of each size differ by. Few cameras are that exact, and elsewhere it is what "
+      "keeps the tip in place (640x480, each picture on its own):\n\n{}\n"
+      "## How far from what is possible\n\n"
+      "No tracker's error is smaller, on average, than what the noise of the pixels leaves open: "
+      "the "
+      "Cramér–Rao bound, here of the tip by all pixels of the tags in view, with light, blur and "
+      "the "
+      "board's place known. Held grips, each picture on its own, RMS:\n\n{}\n"
+      "`bound.csv` has every picture.\n\n"
       "## How far it goes\n\n"
       "The last value at which the effector is still found in nine of ten pictures, each on its "
       "own:\n\n{}\n"
@@ -147,8 +155,8 @@ std::string tracking_readme(const std::vector<MethodResult>& accuracy,
       provenance(options),
       options.quick ? " **This was a quick run to see that it works: its figures mean nothing.**"
                     : "",
-      method_table(accuracy), tone_table(limit_points), limit_table(limit_points),
-      filter_table(filters), goal_table(goals));
+      method_table(accuracy), tone_table(limit_points), bound_table(bounds),
+      limit_table(limit_points), filter_table(filters), goal_table(goals));
 }
 
 void run_tracking_study(const StudyOptions& options) {
@@ -156,16 +164,18 @@ void run_tracking_study(const StudyOptions& options) {
   const int n_sizes = static_cast<int>(picture_widths_px.size());
   std::vector<Goal> goals;
   {
-    StudyProgress progress(n_sizes * (1 + goal_film_parts) + limit_parts + goal_parts);
+    StudyProgress progress(n_sizes * (1 + goal_film_parts) + limit_parts + bound_parts +
+                           goal_parts);
     const auto accuracy = study_accuracy(options, progress);
     std::vector<GoalFilms> films_by_size;
     for (const int width_px : picture_widths_px)
       films_by_size.push_back(film_for_goals(width_px, options.quick, progress));
     const auto filters = study_filters(films_by_size.front(), options);
     const auto limits = study_limits(options, progress);
-    goals = study_goals(films_by_size, options, progress);
+    const auto bounds = study_bound(options, progress);
+    goals = study_goals(films_by_size, bounds, options, progress);
     std::ofstream(options.out + "/README.md")
-        << tracking_readme(accuracy, limits, filters, goals, options);
+        << tracking_readme(accuracy, limits, bounds, filters, goals, options);
   }
   fmt::print("{}", as_text(goals));
 }

@@ -69,6 +69,25 @@ std::vector<LimitPoint> study_limits(const StudyOptions& options, StudyProgress&
 
 inline constexpr int limit_parts = 9;  ///< of progress
 
+// How far from what noise allows: BoundStudy.cpp.
+
+/// Held grips at one picture size with so many tags in view; RMS distances of the tip.
+struct BoundResult {
+  int width_px = 0, tags = 1, pictures = 0;        ///< tags: 2 stands for more, too
+  double bound_mm = 0, ours_mm = 0, plain_mm = 0;  ///< of the pictures in which ours found it
+  double plain_found = 0;                          ///< of them; its errors are of those
+
+  double ratio() const { return ours_mm / bound_mm; }
+};
+
+/// Writes bound.csv.
+std::vector<BoundResult> study_bound(const StudyOptions& options, StudyProgress& progress);
+
+inline constexpr int bound_parts = 2;  ///< of progress
+
+/// For people.
+std::string bound_table(const std::vector<BoundResult>& bounds);
+
 // Jitter at rest against lag in motion, filter by filter, on the poses that our tracker measured:
 // Filters.cpp.
 
@@ -133,7 +152,8 @@ struct Goal {
 /// Films for flips and calibrates cameras, too. Writes goals.csv.
 /// @param films_by_size of 640x480 and 1280x720
 std::vector<Goal> study_goals(const std::vector<GoalFilms>& films_by_size,
-                              const StudyOptions& options, StudyProgress& progress);
+                              const std::vector<BoundResult>& bounds, const StudyOptions& options,
+                              StudyProgress& progress);
 
 inline constexpr int goal_parts = 2;  ///< of progress
 
