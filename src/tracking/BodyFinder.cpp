@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/Clock.h"
-#include "tracking/DensePose.h"
 #include "tracking/RollingShutter.h"
 
 namespace heft {
@@ -87,7 +86,7 @@ Eigen::Array2d BodyFinder::blur_px() const {
 }
 
 BodyFit BodyFinder::aligned(const Image& gray, const BodyFit& found, const BiasPrior& prior,
-                            TrackerTimes& times) const {
+                            const std::optional<Smear>& smear, TrackerTimes& times) const {
   if (!settings_.refine_edges || !settings_.inner_edges) return found;
   std::vector<TagObservation> used;
   std::vector<DenseTag> tags;
@@ -96,7 +95,7 @@ BodyFit BodyFinder::aligned(const Image& gray, const BodyFit& found, const BiasP
   for (const TagObservation& tag : used) tags.push_back({&tag, &patterns_[tag.tag]});
   return timed(times.pose_s, [&] {
     auto fit = align_densely(gray, camera_, tags, found, prior_for(settings_, prior), how_.curve,
-                             how_.noise);
+                             how_.noise, smear);
     if (!fit) return found;
     // Where cells and borders tell different poses, one of them is wrong.
     for (const TagObservation& tag : used)

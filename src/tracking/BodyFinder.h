@@ -9,6 +9,7 @@
 
 #include "base/Image.h"
 #include "tracking/BodyPose.h"
+#include "tracking/DensePose.h"
 #include "tracking/TagDetector.h"
 #include "tracking/ToneLearning.h"
 
@@ -61,7 +62,7 @@ class BodyFinder {
 
   /// What find saw last, cell by cell; `found` where that does not help.
   BodyFit aligned(const Image& gray, const BodyFit& found, const BiasPrior& prior,
-                  TrackerTimes& times) const;
+                  const std::optional<Smear>& smear, TrackerTimes& times) const;
 
   /// What find saw last, once more: its rows as a rolling shutter read them while the body moved.
   /// @param found what came of it so far  @param velocity of the body's origin, in the camera's

@@ -99,7 +99,7 @@ struct Hit {
 class TagFit {
  public:
   TagFit(const Image& gray, const Intrinsics& camera, const DenseTag& tag, const Pose& start,
-         const ToneCurve& curve, double noise)
+         const ToneCurve& curve, double noise, const std::optional<Smear>& smear)
       : seen_(*tag.seen),
         pattern_(*tag.pattern),
         curve_(curve),
@@ -111,6 +111,7 @@ class TagFit {
     if (!is_clear()) return;
     paint();
     collect(gray, camera, start);
+    if (smear) smear_along(*smear, start);
   }
 
   bool usable() const { return pixels_.size() > 100; }
@@ -199,11 +200,30 @@ class TagFit {
       }
   }
 
-  Eigen::Vector2d beyond_cells(const Plane& plane) const {
+  Hit middle(const Plane& plane) const {
     const Eigen::Vector3d middle_m =
         plane.corner_m + pattern_.border_cells / 2.0 * (plane.right_m + plane.down_m);
-    const Hit hit(plane, middle_m.hnormalized());
-    const double pixel_m = middle_m.z() / seen_.px_per_ray;
+    return Hit(plane, middle_m.hnormalized());
+  }
+
+  // The variance that motion adds along its way, from what it adds across the borders.
+  void smear_along(const Smear& smear, const Pose& pose) {
+    const Hit hit = middle(Plane(pose, seen_.corners_m, pattern_.border_cells));
+    const Eigen::Vector3d v = smear.velocity.linear_m_s +
+                              smear.velocity.angular_rad_s.cross(hit.point_m - pose.position_m);
+    const Eigen::Vector2d along = v.head<2>() - v.z() * hit.point_m.hnormalized();
+    if (!(along.norm() > 0)) return;
+    const Eigen::Vector2d across = (hit.cell_by_slant.rowwise().normalized() * along.normalized())
+                                       .cwiseAbs2();  // of the way, across each kind of border
+    const double still = smear.still_blur_px * smear.still_blur_px;
+    const Eigen::Vector2d added = blur_px_.cwiseAbs2().array() - still;
+    const double variance = std::max(0.0, across.dot(added) / across.squaredNorm());
+    blur_shape_ += variance / still * along.normalized() * along.normalized().transpose();
+  }
+
+  Eigen::Vector2d beyond_cells(const Plane& plane) const {
+    const Hit hit = middle(plane);
+    const double pixel_m = hit.point_m.z() / seen_.px_per_ray;
     Eigen::Vector2d beyond;
     for (int i = 0; i < 2; ++i)
       beyond(i) = std::clamp(pattern_.margin_cells() - far_in_blurs * blur_px_(i) * pixel_m *
@@ -232,10 +252,10 @@ class TagFit {
     const Eigen::Vector2d blur = wider * cell_by_px.cwiseProduct(blur_px_);
     const Weights across = weights_at(hit.cell.x(), blur.x());
     const Weights below = weights_at(hit.cell.y(), blur.y());
-    // Seen at a slant, the blur lies at a slant on the tag: two terms of Mehler's series.
-    const double correlation = pixel_m * pixel_m *
-                               hit.cell_by_slant.row(0).dot(hit.cell_by_slant.row(1)) /
-                               cell_by_px.prod();
+    // Seen at a slant, or smeared, the blur lies at a slant on the tag: two terms of Mehler's
+    // series.
+    const Eigen::Matrix2d shape = hit.cell_by_slant * blur_shape_ * hit.cell_by_slant.transpose();
+    const double correlation = shape(0, 1) / std::sqrt(shape(0, 0) * shape(1, 1));
     const double slanted = correlation * blur.prod(), twice = correlation * correlation / 2;
     double b = 0, by_blur = 0;
     Eigen::Vector2d by_cell(0, 0);
@@ -278,6 +298,7 @@ class TagFit {
   const TagPattern& pattern_;
   const ToneCurve& curve_;
   const Eigen::Vector2d blur_px_;
+  Eigen::Matrix2d blur_shape_ = Eigen::Matrix2d::Identity();  ///< covariance, times what it may be
   double picture_noise_, noise_;
   std::vector<Pixel> pixels_;
   std::vector<std::uint8_t> white_;
@@ -290,10 +311,11 @@ class TagFit {
 
 std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera,
                                      std::span<const DenseTag> tags, const BodyFit& start,
-                                     const BiasPrior& prior, const ToneCurve& curve, double noise) {
+                                     const BiasPrior& prior, const ToneCurve& curve, double noise,
+                                     const std::optional<Smear>& smear) {
   std::vector<TagFit> fits;
   for (const DenseTag& tag : tags) {
-    fits.emplace_back(gray, camera, tag, start.camera_from_body, curve, noise);
+    fits.emplace_back(gray, camera, tag, start.camera_from_body, curve, noise, smear);
     if (!fits.back().usable()) return std::nullopt;
   }
   BodyFit fit = start;

@@ -25,11 +25,18 @@ struct DenseTag {
   const TagPattern* pattern;
 };
 
-/// @param noise sd of the picture's, gray levels
+/// A body that moves while the shutter is open: its cells are smeared along its way.
+struct Smear {
+  Velocity velocity;         ///< of the body's origin, in the camera's frame
+  double still_blur_px = 0;  ///< of what stands still
+};
+
+/// @param noise sd of the picture's, gray levels  @param smear none: it stands still
 /// @return the start with another pose, bias and covariance; none where pixels don't bear it:
 /// blurred over cells, clipped, or leading far from the start
 std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera,
                                      std::span<const DenseTag> tags, const BodyFit& start,
-                                     const BiasPrior& prior, const ToneCurve& curve, double noise);
+                                     const BiasPrior& prior, const ToneCurve& curve, double noise,
+                                     const std::optional<Smear>& smear = {});
 
 }  // namespace heft

@@ -202,24 +202,29 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
   return unrolled(*fit, seen_board, prior, t_s);
 }
 
-// A moving hand's cells are smeared along its way, which their alignment knows nothing of; borders
-// bear it better. The board in the same picture tells how blurred things are that stand still.
-bool Tracker::is_smeared(const Pose& board_from_effector, double t_s) const {
-  if (!seen_ || !(t_s > seen_->t_s)) return false;
+// A moving hand's cells are smeared along its way. The board in the same picture tells how blurred
+// things are that stand still.
+std::optional<Smear> Tracker::smear(const Pose& board_from_effector, const BodyFit& seen_board,
+                                    double t_s) const {
+  if (!seen_ || !(t_s > seen_->t_s)) return std::nullopt;
   const Velocity mean =
       mean_velocity(seen_->board_from_effector, board_from_effector, t_s - seen_->t_s);
+  const double still_px = board_.blur_px().mean();
   const bool moves = mean.linear_m_s.norm() > still_m_s || mean.angular_rad_s.norm() > still_rad_s;
-  return moves && effector_.blur_px().maxCoeff() > smeared * board_.blur_px().mean();
+  if (!moves || !(still_px > 0) || effector_.blur_px().maxCoeff() < smeared * still_px)
+    return std::nullopt;
+  const Eigen::Quaterniond& turn = seen_board.camera_from_body.orientation;
+  return Smear{{turn * mean.linear_m_s, turn * mean.angular_rad_s}, still_px};
 }
 
 // Rows that were read at different times, by the velocity since the last picture, carried on to
 // this one. Where there is none, the pose is a mean over the rows.
-// What is seen at one moment, and not smeared, is aligned cell by cell.
+// What is seen at one moment is aligned cell by cell.
 BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior,
                           double t_s) {
   if (!(camera_.readout_s > 0)) {
     const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
-    return is_smeared(pose, t_s) ? fit : effector_.aligned(gray_, fit, prior, result_.times);
+    return effector_.aligned(gray_, fit, prior, smear(pose, seen_board, t_s), result_.times);
   }
   if (!seen_) return fit;
   constexpr int rounds = 2;

@@ -77,7 +77,8 @@ class Tracker {
   std::optional<BodyFit> learn_tone(std::optional<BodyFit> board);
   void expect_picture();
   std::optional<BodyFit> find_effector(const BodyFit& seen_board, double t_s);
-  bool is_smeared(const Pose& board_from_effector, double t_s) const;
+  std::optional<Smear> smear(const Pose& board_from_effector, const BodyFit& seen_board,
+                             double t_s) const;
   BodyFit unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior, double t_s);
   void take_board(const std::optional<BodyFit>& fit);
   void take_effector(const BodyFit& fit, double t_s);
