@@ -120,16 +120,6 @@ void complete_apparatus(Setup& options) {
   read_file(options.effector_file, options.effector_text);
 }
 
-// A file that was named must be sound, whoever takes part; where no screen is, nobody reads it.
-void complete_texts(Setup& options) {
-  if (!options.texts_file.empty()) {
-    read_file(options.texts_file, options.texts_text);
-    parse_texts(options.texts_text, options.texts_file);
-  }
-  const bool has_screen = view_named(split_name(options.view).name).has_screen;
-  if (!has_person(options) && !has_screen) options.texts_file = options.texts_text = "";
-}
-
 // What the display's window tells is told anew by each window.
 void forget_display(Setup& options) {
   options.window = options.display = options.display_file = "";
@@ -204,6 +194,16 @@ Apparatus apparatus_of(const Setup& options) {
                       parse_effector(options.effector_text, options.effector_file)};
   require_different_tags(apparatus.board, apparatus.effector);
   return apparatus;
+}
+
+// A file that was named must be sound, whoever takes part; where no screen is, nobody reads it.
+void complete_texts(Setup& options) {
+  if (!options.texts_file.empty()) {
+    if (options.texts_text.empty()) read_file(options.texts_file, options.texts_text);
+    parse_texts(options.texts_text, options.texts_file);
+  }
+  const bool has_screen = view_named(split_name(options.view).name).has_screen;
+  if (!has_person(options) && !has_screen) options.texts_file = options.texts_text = "";
 }
 
 void complete(Setup& options) {

@@ -5,6 +5,7 @@
 
 #include "apparatus/StudyPlaces.h"
 #include "cli/Commands.h"
+#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "session/Session.h"
@@ -37,6 +38,13 @@ GivenOptions with_missing_files(const LoggedSession& session, GivenOptions again
   return again;
 }
 
+// What people are asked is planned with the protocol, and comes in whatever they read.
+void change(LoggedSession& session, const GivenOptions& again) {
+  change_setup(session, again);
+  add_questionnaires(session.setup, *session.protocol);
+  session.setup = in_force(std::move(session.setup), *session.protocol);
+}
+
 // The folder that was given, or the one that the study's plan gave the session.
 Elsewhere with_planned_backup(Elsewhere elsewhere, const LoggedSession& session) {
   const auto place = place_of(session.row.header.participant_info);
@@ -49,7 +57,7 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
             bool keys) {
   LoggedSession session = session_to_resume(db, session_id);
   const Setup before = session.setup;
-  change_setup(session, with_missing_files(session, again));
+  change(session, with_missing_files(session, again));
   if (keys) session.setup.keys = "yes";
   say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
       session.row.header.participant, session.protocol->name);
@@ -78,6 +86,7 @@ void add_resume(Command& app) {
   struct ResumeOptions {
     std::string db = "heft.db";
     std::optional<std::int64_t> session;
+    std::optional<std::string> language;
     GivenOptions again;
     Elsewhere elsewhere;
     bool end = false, unblind = false, go_on = false, keys = false;
@@ -94,6 +103,8 @@ void add_resume(Command& app) {
   add_session_options(command, options->again, true);
   command.add_option("--simulator", &options->again.simulator,
                      "from here on; each trial is replayed with the one that it ran with");
+  command.add_option("--language", &options->language,
+                     "of the participant's screens: en, fr, or a text FILE.toml");
   add_elsewhere_options(command, options->elsewhere);
   command.group("Options");
   command.add_flag("--unblind", options->unblind,
@@ -105,6 +116,7 @@ void add_resume(Command& app) {
                    "don't go on: end the session as it is, for somebody who will not come back");
   command.does([options] {
     if (options->end) return end(options->db, options->session, options->elsewhere);
+    if (options->language) options->again.texts_file = texts_file(*options->language);
     resume(options->db, options->session, options->again, options->elsewhere, options->unblind,
            options->go_on, options->keys);
   });

@@ -11,6 +11,7 @@
 #include "base/Error.h"
 #include "base/Printable.h"
 #include "cli/Commands.h"
+#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "session/Session.h"
@@ -98,7 +99,8 @@ SessionRequest request_of(const Options& options) {
   if (has_person(setup))
     setup.keys = options.keys || purpose_of(options, setup) == Purpose::test ? "yes" : "no";
   complete_and_tell(setup);
-  add_questionnaires(setup, request.protocol, options.protocol);
+  setup.protocol_file = std::filesystem::absolute(options.protocol).lexically_normal().string();
+  add_questionnaires(setup, request.protocol);
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant.value();
   request.participant_info = options.participant_info;

@@ -65,12 +65,6 @@ void add_elsewhere_options(Command& command, Elsewhere& elsewhere);
 /// @param folder empty: none is wanted
 void back_up_and_tell(const std::string& db, const std::string& folder, std::int64_t session_id);
 
-/// Puts the protocol's questionnaires below the texts that the session's person reads, from
-/// NAME.LANGUAGE.toml in the protocol's folder or in protocols/questionnaires.
-/// @param protocol_file where it was read
-/// @throws Error naming what is not there, InvalidFile where it has mistakes
-void add_questionnaires(Setup& setup, const Protocol& protocol, const std::string& protocol_file);
-
 /// How a session ended, and what comes next.
 void say_finished(const SessionResult& result, const std::string& db);
 

@@ -15,6 +15,7 @@
 #include "base/PlugTable.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
+#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "experiment/DisplayFacts.h"
@@ -165,7 +166,8 @@ void check_words(const Protocol& protocol, const std::string& protocol_file,
     Setup setup;
     setup.texts_file = texts_file(language);
     setup.texts_text = read_text_file(setup.texts_file);
-    add_questionnaires(setup, protocol, protocol_file);
+    setup.protocol_file = protocol_file;
+    add_questionnaires(setup, protocol);
     parse_texts(setup.texts_text, setup.texts_file);
   } catch (const InvalidFile&) {
     throw;

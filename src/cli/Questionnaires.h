@@ -1,0 +1,17 @@
+// Questionnaires' files: where they are found, and how they come below the texts of a session.
+#pragma once
+
+namespace heft {
+struct Protocol;
+struct Setup;
+}  // namespace heft
+
+namespace heft::cli {
+
+/// Puts the protocol's questionnaires below the texts that the session's person reads, from
+/// NAME.LANGUAGE.toml beside the protocol (Setup::protocol_file) or in protocols/questionnaires.
+/// Those that the texts have already stay as they are.
+/// @throws Error naming what is not there, InvalidFile where it has mistakes
+void add_questionnaires(Setup& setup, const Protocol& protocol);
+
+}  // namespace heft::cli
