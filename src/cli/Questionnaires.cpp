@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
 
 #include "base/Error.h"
 #include "base/TextFile.h"
@@ -15,38 +18,81 @@
 namespace heft::cli {
 
 namespace {
-std::string questionnaire_file(const std::string& file, const std::string& protocol_file) {
-  namespace fs = std::filesystem;
-  const fs::path beside = fs::path(protocol_file).parent_path() / file;
-  const fs::path shipped =
-      fs::path(installed_file("protocols/texts/en.toml")).parent_path().parent_path() /
-      "questionnaires" / file;
-  std::error_code unknown;
-  for (const fs::path& path : {beside, shipped})
-    if (fs::exists(path, unknown)) return path.string();
-  throw Error(
-      fmt::format("the protocol asks a questionnaire, and there is neither {} nor {}; write "
-                  "it, or put its [questionnaire] into the text file",
-                  beside.string(), shipped.string()),
-      ExitCode::usage);
+namespace fs = std::filesystem;
+
+struct Places {
+  fs::path beside, shipped;
+};
+
+Places places_of(const std::string& file, const std::string& protocol_file) {
+  const fs::path texts = installed_file("protocols/texts/en.toml");
+  return {fs::path(protocol_file).parent_path() / file,
+          texts.parent_path().parent_path() / "questionnaires" / file};
 }
+
+std::optional<std::string> found_at(const Places& places) {
+  std::error_code unknown;
+  for (const fs::path& path : {places.beside, places.shipped})
+    if (fs::exists(path, unknown)) return path.string();
+  return std::nullopt;
+}
+
+// The texts of a session with the questionnaires below them, and which file each came from.
+class Gathered {
+ public:
+  explicit Gathered(Setup& setup) : setup_(setup) {
+    const ScreenTexts texts = parse_texts(setup.texts_text, setup.texts_file);
+    language_ = texts.language;
+    for (const auto& [name, questionnaire] : texts.questionnaires)
+      file_of_[name] = setup.texts_file;
+  }
+
+  void add(const std::string& name) {
+    const auto held = file_of_.find(name);
+    if (held != file_of_.end() && held->second == setup_.texts_file) return;
+    const Places places =
+        places_of(fmt::format("{}.{}.toml", name, language_), setup_.protocol_file);
+    const auto file = found_at(places);
+    if (held != file_of_.end() && (!file || *file == held->second)) return;
+    if (!file) refuse_missing(places);
+    add(name, *file);
+  }
+
+ private:
+  void add(const std::string& name, const std::string& file) {
+    const std::string text = read_text_file(file);
+    const ScreenTexts read = parse_questionnaires(text, file);
+    if (!read.questionnaires.contains(name))
+      throw Error(fmt::format("{} has no [questionnaire.{}]", file, name), ExitCode::invalid_file);
+    for (const auto& [held, questionnaire] : read.questionnaires)
+      if (const auto [other, is_new] = file_of_.emplace(held, file); !is_new)
+        throw Error(fmt::format("{} and {} both have a [questionnaire.{}], expected one: give one "
+                                "of them another name",
+                                other->second, file, held),
+                    ExitCode::invalid_file);
+    setup_.texts_text += '\n';
+    setup_.texts_text += without_byte_order_mark(text);
+  }
+
+  [[noreturn]] static void refuse_missing(const Places& places) {
+    throw Error(
+        fmt::format("the protocol asks a questionnaire, and there is neither {} nor {}; write "
+                    "it, or put its [questionnaire] into the text file",
+                    places.beside.string(), places.shipped.string()),
+        ExitCode::usage);
+  }
+
+  Setup& setup_;
+  std::string language_;
+  std::map<std::string, std::string> file_of_;
+};
 }  // namespace
 
 void add_questionnaires(Setup& setup, const Protocol& protocol) {
   if (setup.texts_text.empty()) return;
+  Gathered gathered(setup);
   for (const auto& [after, names] : protocol.screens.questionnaires)
-    for (const std::string& name : names) {
-      const ScreenTexts texts = parse_texts(setup.texts_text, setup.texts_file);
-      if (texts.questionnaires.contains(name)) continue;
-      const std::string file =
-          questionnaire_file(fmt::format("{}.{}.toml", name, texts.language), setup.protocol_file);
-      const std::string text = read_text_file(file);
-      if (!parse_questionnaires(text, file).questionnaires.contains(name))
-        throw Error(fmt::format("{} has no [questionnaire.{}]", file, name),
-                    ExitCode::invalid_file);
-      setup.texts_text += '\n';
-      setup.texts_text += without_byte_order_mark(text);
-    }
+    for (const std::string& name : names) gathered.add(name);
 }
 
 }  // namespace heft::cli

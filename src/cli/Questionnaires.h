@@ -11,7 +11,8 @@ namespace heft::cli {
 /// Puts the protocol's questionnaires below the texts that the session's person reads, from
 /// NAME.LANGUAGE.toml beside the protocol (Setup::protocol_file) or in protocols/questionnaires.
 /// Those that the texts have already stay as they are.
-/// @throws Error naming what is not there, InvalidFile where it has mistakes
+/// @throws Error naming what is not there, or two files that have one of a name; InvalidFile where
+///   a file has mistakes
 void add_questionnaires(Setup& setup, const Protocol& protocol);
 
 }  // namespace heft::cli

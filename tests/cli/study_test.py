@@ -140,6 +140,22 @@ class Plans(StudyTest):
         self.plan.write_text(STUDY.replace('"fr"', '"xx"'))
         self.assertIn('"xx"', self.run_heft("validate", self.plan, expect=3).stderr)
 
+    def test_two_questionnaires_of_one_name_are_refused(self):
+        question = '[[questionnaire.{}.question]]\nkey = "a"\nkind = "text"\ntext = "A?"\n'
+        for file, names in (("one", ("one", "two")), ("two", ("two",))):
+            (self.folder / f"{file}.en.toml").write_text("".join(
+                f'[questionnaire.{name}]\ntitle = "T"\n' + question.format(name)
+                for name in names))
+        protocol = self.folder / "again.toml"
+        for order in (("one", "two"), ("two", "one")):
+            protocol.write_text((PROTOCOLS / "quick.toml").read_text() + "".join(
+                f'\n[[screens.questionnaire]]\nname = "{name}"\n' for name in order))
+            for words in (["validate", protocol],
+                          ["run", protocol, "--participant", "1", "--tracker", "mouse"]):
+                said = self.run_heft(*words, expect=3).stderr
+                self.assertIn("one.en.toml and ", said.replace("two.en.toml and", "one.en.toml and"))
+                self.assertIn("both have a [questionnaire.two]", said)
+
     def test_nobody_takes_anothers_place_by_a_slip(self):
         said = self.next("--participant", "P2", expect=2).stderr
         self.assertIn('"P02"', said)
