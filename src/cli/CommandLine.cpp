@@ -12,6 +12,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
+#include "base/TextFile.h"
 #include "cli/Help.h"
 
 namespace heft::cli {
@@ -160,6 +161,16 @@ Option& Option::whole_number(std::uint64_t least, std::uint64_t most) {
     if (is_whole_number(text, least, most)) return std::string();
     return fmt::format("expected a whole number {}...{} in decimal digits, got \"{}\"", least, most,
                        text);
+  };
+  option_.check(CLI::Validator([refusal](std::string& text) { return refusal(text); }, ""));
+  return *this;
+}
+
+Option& Option::between(double least, double most) {
+  const auto refusal = [least, most](const std::string& text) {
+    if (const auto number = number_in(text); number && *number >= least && *number <= most)
+      return std::string();
+    return fmt::format("expected a number {}...{}, got \"{}\"", least, most, text);
   };
   option_.check(CLI::Validator([refusal](std::string& text) { return refusal(text); }, ""));
   return *this;

@@ -297,9 +297,12 @@ void add_run(Command& app) {
                   "cubes stay where they are (default: right)")
       .one_of({"left", "right"});
   command.add_flag("--left-handed", options->left_handed, "the same as --controls left");
-  command.add_option("--text-size", &options->text_size,
-                     "how large the participant's texts are, 0.75 to 2 times the usual, as "
-                     "--set screens.text_size=... does (default: the protocol's)");
+  command
+      .add_option("--text-size", &options->text_size,
+                  fmt::format("how large the participant's texts are, {} to {} times the usual, as "
+                              "--set screens.text_size=... does (default: the protocol's)",
+                              least_text_size, most_text_size))
+      .between(least_text_size, most_text_size);
   command
       .add_option(
           "--purpose", &options->purpose,

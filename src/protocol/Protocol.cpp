@@ -21,7 +21,7 @@ constexpr Range display_rates_hz{1, 1000};
 constexpr Range physics_rates_hz{1, 100000};
 constexpr Range predictions_s{0, 0.2};  // beyond it no hand goes on as it did
 constexpr Range onsets_s{0, 60};
-constexpr Range text_sizes{0.75, 2};
+constexpr Range text_sizes{least_text_size, most_text_size};
 
 void read_physics(TableReader& reader, Protocol& protocol) {
   reader.in_table("physics", [&](TableReader& table) {
