@@ -29,6 +29,12 @@ bool is_whole_number(const std::string& text, std::uint64_t least, std::uint64_t
   return result.ec == std::errc() && value >= least && value <= most;
 }
 
+// A shell's variable that is not set, mostly: nothing goes on as if the option had not been given.
+std::string refused_if_blank(const std::string& text) {
+  if (text.find_first_not_of(" \t") != std::string::npos) return "";
+  return "its value is empty; give it one, or leave it out";
+}
+
 std::string nearest_hint(const std::string& wanted, const std::vector<std::string>& names) {
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   const auto nearest = nearest_name(wanted, candidates);
@@ -194,7 +200,9 @@ Command Command::add_command(const std::string& name, const std::string& summary
 Option Command::add_option(const std::string& name, Destination destination,
                            const std::string& help) {
   const auto add = [&](auto* value) { return app_.add_option(name, *value, help); };
-  return Option(*std::visit(add, destination)->group(group_));
+  CLI::Option& option = *std::visit(add, destination)->group(group_);
+  option.check(CLI::Validator([](std::string& text) { return refused_if_blank(text); }, ""));
+  return Option(option);
 }
 
 void Command::add_flag(const std::string& name, bool& flag, const std::string& help) {

@@ -70,6 +70,18 @@ class Mistakes(CommandLine):
         for size in ("0.75", "2"):
             self.run_heft(*self.run_words("--participant", size, "--text-size", size))
 
+    def test_an_empty_value_is_no_value(self):
+        for option in ("--participant", "--db", "--backup", "--events", "--language", "--simulator",
+                       "--plan", "--set", "--display", "--board", "--record-camera", "--seed"):
+            for words in ((option, ""), (option, " "), (f"{option}=  ",)):
+                said = self.says(2, *self.run_words("--participant", "1"), *words)
+                self.assertIn(f"{option}: its value is empty", said)
+        self.assertIn("PROTOCOL: its value is empty", self.says(2, "run", "", "--participant", "1"))
+        for words in (["resume", "--db", ""], ["replay", "--db", ""], ["analyse", "--out", ""],
+                      ["validate", ""], ["simulate", QUICK, "--responder", ""],
+                      ["export", "--out", ""], ["sheet", "board", "--out", ""]):
+            self.assertIn("is empty", self.says(2, *words))
+
     def test_a_participant_is_text_that_people_can_read(self):
         too_long = "x" * 201
         for participant in ("", " ", "\u00a0\u3000", "a\nb", "a\tb", "a\x7f", "a\u0085", b"\xff",
