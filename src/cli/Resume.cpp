@@ -45,11 +45,12 @@ void change(LoggedSession& session, const GivenOptions& again) {
   session.setup = in_force(std::move(session.setup), *session.protocol);
 }
 
-// The folder that was given, or the one that the study's plan gave the session.
-Elsewhere with_planned_backup(Elsewhere elsewhere, const LoggedSession& session) {
+// The folder that was given, or the session's; older logs have a plan's elsewhere.
+std::string backup_of(const LoggedSession& session, const Elsewhere& elsewhere) {
+  if (!elsewhere.backup.empty()) return backup_folder(elsewhere);
+  if (!session.setup.backup.empty()) return session.setup.backup;
   const auto place = place_of(session.row.header.participant_info);
-  if (place && elsewhere.backup.empty()) elsewhere.backup = place->backup;
-  return elsewhere;
+  return place ? place->backup : "";
 }
 
 void resume(const std::string& db, std::optional<std::int64_t> session_id,
@@ -59,14 +60,14 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
   const Setup before = session.setup;
   change(session, with_missing_files(session, again));
   if (keys) session.setup.keys = "yes";
+  session.setup.backup = backup_of(session, elsewhere);
   say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
       session.row.header.participant, session.protocol->name);
   for (const auto& [column, from, to] : changes_between(before, session.setup))
     if (!from.empty()) say("from here on with {} {} instead of {}\n", column, to, from);
   say_next_parts(session.setup);
   say_finished(
-      run_session({*session.protocol, session.setup, db, unblind, go_on,
-                   with_planned_backup(elsewhere, session),
+      run_session({*session.protocol, session.setup, db, unblind, go_on, elsewhere.events,
                    place_words(session.row.header.participant_info)},
                   [&](const RunnerOptions& runner) { return resume_session(session, runner); }),
       db);
@@ -76,7 +77,7 @@ void end(const std::string& db, std::optional<std::int64_t> session_id,
          const Elsewhere& elsewhere) {
   const LoggedSession session = session_to_resume(db, session_id);
   abort_session(session);
-  back_up_and_tell(db, with_planned_backup(elsewhere, session).backup, session.row.session_id);
+  back_up_and_tell(db, backup_of(session, elsewhere), session.row.session_id);
   say("session {} of participant {} is ended as it is; what was answered is kept\n",
       session.row.session_id, session.row.header.participant);
 }

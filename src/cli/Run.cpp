@@ -100,6 +100,7 @@ SessionRequest request_of(const Options& options) {
     setup.keys = options.keys || purpose_of(options, setup) == Purpose::test ? "yes" : "no";
   complete_and_tell(setup);
   setup.protocol_file = std::filesystem::absolute(options.protocol).lexically_normal().string();
+  setup.backup = backup_folder(options.elsewhere);
   add_questionnaires(setup, request.protocol);
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant.value();
@@ -147,9 +148,6 @@ void give_place(const StudyPlan& plan, const PlannedParticipant& planned, Option
     options.given.settings.push_back(order_setting(order));
   }
   options.participant_info = info_of(plan, planned.place);
-  if (!options.elsewhere.backup.empty())  // for whoever goes on with it
-    options.participant_info["study_backup"] =
-        std::filesystem::absolute(options.elsewhere.backup).string();
 }
 
 // P2 for P02 would take another one's place.
@@ -241,7 +239,7 @@ void run(Options options) {
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
   say_finished(
       run_session({request.protocol, request.setup, request.db, options.unblind, options.go_on,
-                   options.elsewhere, place_words(options.participant_info)},
+                   options.elsewhere.events, place_words(options.participant_info)},
                   start),
       request.db);
 }

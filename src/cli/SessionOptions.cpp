@@ -99,9 +99,10 @@ void add_go_on(Command& command, bool& go_on) {
 
 void add_elsewhere_options(Command& command, Elsewhere& elsewhere) {
   command.group("Backups and other recorders");
-  command.add_option("--backup", &elsewhere.backup,
-                     "a folder, best on another disk: after the session a copy of the log is put "
-                     "there and checked (default: the study plan's, if it has one)");
+  command.add_option(
+      "--backup", &elsewhere.backup,
+      "a folder, best on another disk: after the session a copy of the log is put "
+      "there and checked (default: the study plan's; of a session that goes on, the one it had)");
   command.add_option("--events", &elsewhere.events,
                      "udp:HOST:PORT, fifo:PATH or serial:DEVICE: a line of JSON for each event, "
                      "once it is in the log, with its t_s and UTC; the session never waits for it");
@@ -219,7 +220,24 @@ void back_up_and_tell(const std::string& db, const std::string& folder, std::int
   }
 }
 
+std::string backup_folder(const Elsewhere& elsewhere) {
+  if (elsewhere.backup.empty()) return "";
+  return std::filesystem::absolute(elsewhere.backup).lexically_normal().string();
+}
+
 namespace {
+// Known before the session, not after it.
+void check_backup(const std::string& folder) try {
+  if (folder.empty()) return;
+  require_backup_folder(folder);
+  say("a copy of the log will be put into {}\n", folder);
+} catch (const Error& error) {
+  throw Error(
+      fmt::format("{}. The session has not begun. See to that folder, or give another with "
+                  "--backup FOLDER",
+                  error.what()));
+}
+
 void tell_dropped(const EventOutlet& events, const std::string& where) {
   if (events.n_dropped() == 0) return;
   say("heft: WARNING: {} of {} events could not be handed on to {}: nobody took them in time. All "
@@ -247,7 +265,8 @@ void say_finished(const SessionResult& result, const std::string& db) {
 SessionResult run_session(const CommandedSession& session,
                           const std::function<SessionResult(const RunnerOptions&)>& run) {
   std::optional<EventOutlet> events;
-  if (!session.elsewhere.events.empty()) events.emplace(session.elsewhere.events);
+  if (!session.events.empty()) events.emplace(session.events);
+  check_backup(session.setup.backup);
   const StopOnSignal stop_on_signal;
   ProgressBar bar("session");
   std::optional<TerminalConsole> console;
@@ -267,8 +286,8 @@ SessionResult run_session(const CommandedSession& session,
     };
   const SessionResult result = run(options);
   console.reset();
-  if (events) tell_dropped(*events, session.elsewhere.events);
-  back_up_and_tell(session.db, session.elsewhere.backup, result.session_id);
+  if (events) tell_dropped(*events, session.events);
+  back_up_and_tell(session.db, session.setup.backup, result.session_id);
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
   if (result.end == RunEnd::stopped)

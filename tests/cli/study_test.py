@@ -291,12 +291,47 @@ class Backups(StudyTest):
             said = self.run_heft("replay", "--db", second, "--session", session)
             self.assertIn("verified", said.stdout + said.stderr)
 
-    def test_that_fail_harm_nothing_and_are_told(self):
+    def test_that_can_not_be_made_are_known_before_the_session(self):
         (self.folder / "file").write_text("mine")
-        said = self.session(self.folder / "a.db", "--backup", self.folder / "file").stderr
+        for folder in (self.folder / "file", self.folder / "file" / "in", "/proc/none"):
+            said = self.session(self.folder / "a.db", "--backup", folder, expect=1).stderr
+            self.assertIn("The session has not begun", said)
+            self.assertIn(str(folder), said)
+            self.assertFalse((self.folder / "a.db").exists())
+        said = self.session(self.folder / "a.db", "--backup", self.folder / "new").stderr
+        self.assertIn(f"a copy of the log will be put into {self.folder / 'new'}\n", said)
+        self.assertEqual([copy.suffix for copy in self.copies("new")], [".db"])
+
+    def under_way(self, db):
+        process = subprocess.Popen(
+            [self.heft, "run", PROTOCOLS / "jnd.toml", "--participant", "01", "--responder",
+             "simulated", "--db", db, "--backup", "copies"],
+            cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not self.is_under_way(db):
+            time.sleep(0.01)
+        self.assertIsNone(process.poll(), "it was over before it could be stopped")
+        return process
+
+    def test_that_fail_harm_nothing_and_are_told(self):
+        db, copies = self.folder / "a.db", self.folder / "copies"
+        process = self.under_way(db)
+        copies.rmdir()  # the stick is pulled out
+        copies.write_text("")
+        said = process.communicate()[1]
+        self.assertEqual(process.returncode, 0, said)
         self.assertIn("WARNING: there is NO BACKUP of session 1", said)
         self.assertIn("is finished", said)
-        self.assertEqual(query(self.folder / "a.db", "select state from session"), [("finished",)])
+        self.assertEqual(query(db, "select state from session"), [("finished",)])
+
+    def test_go_on_with_the_session_without_a_plan_too(self):
+        db = self.folder / "a.db"
+        process = self.under_way(db)
+        process.kill()
+        process.communicate()
+        self.run_heft("resume", "--db", db)  # from another folder
+        self.assertEqual(len(self.copies()), 1)
+        said = self.run_heft("replay", "--db", db)
+        self.assertIn("verified", said.stdout + said.stderr)
 
     def test_come_when_a_session_is_ended_for_good(self):
         db = self.folder / "a.db"
