@@ -34,12 +34,17 @@ struct PlannedParticipant {
 
 /// The first place that nobody has, or the participant's own. A place is free again when its
 /// session was ended for good (state "aborted"). Sessions of other studies and purposes don't
-/// count, but their ids are not given again: P07 comes as P07b.
+/// count, but their ids are not given again: P07 comes as P07b. Each purpose but main has places
+/// and ids of its own, as id_for() makes them.
 /// @param sessions of the log  @param id none: as the plan calls them
 /// @throws Error when all places are taken, or a place was given otherwise than the plan gives it
 PlannedParticipant planned_participant(const StudyPlan& plan,
                                        const std::vector<SessionRow>& sessions, Purpose purpose,
                                        const std::optional<std::string>& id);
+
+/// The id itself for what is to be data; "pilot-P07", "test-P07" or "simulated-P07" for what is
+/// not, so that nobody's id is taken by whoever tried the study before them.
+std::string id_for(Purpose purpose, const std::string& id);
 
 /// The keys of participant_info that place_of() reads.
 ParticipantInfo info_of(const StudyPlan& plan, const StudyPlace& place);

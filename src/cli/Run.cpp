@@ -9,11 +9,11 @@
 #include "apparatus/PictureSource.h"
 #include "apparatus/StudyPlaces.h"
 #include "base/Error.h"
-#include "base/Printable.h"
 #include "cli/Commands.h"
 #include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
+#include "experiment/ParticipantId.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -36,34 +36,9 @@ struct Options {
   bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
 };
 
-[[noreturn]] void refuse_id(const std::string& why) {
-  throw Error(fmt::format("--participant: the id {}", why), ExitCode::usage);
-}
-
-bool is_blank(char32_t c) {
-  return c == ' ' || c == 0xA0 || c == 0x1680 || (c >= 0x2000 && c <= 0x200B) || c == 0x202F ||
-         c == 0x205F || c == 0x3000 || c == 0xFEFF;
-}
-
-// An id is text that people can read and tables can hold: UTF-8, one line, not blank. Leading
-// zeros, blanks inside and any script are kept as they are.
 void check_participant(const std::string& id) {
-  constexpr std::size_t most_bytes = 200;
-  if (id.size() > most_bytes)
-    refuse_id(fmt::format("has {} bytes, expected at most {}", id.size(), most_bytes));
-  bool blank = true;
-  for (std::string_view rest = id; !rest.empty();) {
-    const auto [code, n] = first_letter(rest);
-    if (n == 0) refuse_id("is not valid UTF-8; is the terminal set to another encoding?");
-    if (is_control(code) || code == 0x2028 || code == 0x2029)  // with line separators
-      refuse_id(
-          fmt::format("holds the control character U+{:04X}; give it on one line, without "
-                      "tabs or line ends",
-                      static_cast<unsigned>(code)));
-    blank = blank && is_blank(code);
-    rest.remove_prefix(n);
-  }
-  if (blank) refuse_id("is empty or blank; give one that names the participant, such as 07");
+  if (const auto wrong = wrong_with_id(id))
+    throw Error(fmt::format("--participant: the id {}", *wrong), ExitCode::usage);
 }
 
 bool is_dragged(const Setup& setup) {
@@ -183,8 +158,12 @@ void take_from_plan(Options& options) {
       say("session {} of participant {} is unfinished: heft resume --db {} --session {}\n",
           session.session_id, session.header.participant, shell_quoted(*options.db),
           session.session_id);
-  say("participant {} of the study {}: {} of {}\n", planned.id, plan.name, planned.place.number,
-      plan.participants);
+  const std::string rehearsal =
+      purpose == Purpose::main
+          ? ""
+          : fmt::format("; purpose {}, which takes nobody's place or id", name_of(purpose));
+  say("participant {} of the study {}: {} of {}{}\n", planned.id, plan.name, planned.place.number,
+      plan.participants, rehearsal);
 }
 
 // Who is asked at a terminal types y or n; any other word is asked again, the end of input is no.

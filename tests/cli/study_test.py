@@ -61,7 +61,7 @@ class Plans(StudyTest):
     def test_each_participant_gets_the_next_place(self):
         for number in range(1, 5):
             said = self.next().stderr
-            self.assertIn(f"participant P0{number} of the study mass: {number} of 4", said)
+            self.assertIn(f"participant simulated-P0{number} of the study mass: {number} of 4", said)
         cells = {(self.info(i)["study_group"], self.info(i)["study_order"]) for i in range(1, 5)}
         self.assertEqual(len(cells), 4, cells)
         for session, protocol in query(self.db, "select session_id, protocol_name from session"):
@@ -117,7 +117,7 @@ class Plans(StudyTest):
     def test_a_plan_that_was_changed_on_the_way_is_refused(self):
         self.next()
         self.plan.write_text(STUDY.replace('"first"', '"other"').replace('"second"', '"more"'))
-        self.assertIn("session 1 of participant P01 has place 1", self.next(expect=1).stderr)
+        self.assertIn("session 1 of participant simulated-P01 has place 1", self.next(expect=1).stderr)
         self.plan.write_text(STUDY.replace("participants = 4", "participants = 8"))
         self.assertIn("2 of 8", self.next().stderr)
 
@@ -239,7 +239,7 @@ class ListAndShow(StudyTest):
         self.assertIn("X 9", lines[3])
         self.assertIn(f"heft analyse --db {self.db}", said.stderr)
         rows = json.loads(self.run_heft("list", "--db", self.db, "--json").stdout)
-        self.assertEqual([row["participant"] for row in rows], ["P01", "P02", "X 9"])
+        self.assertEqual([row["participant"] for row in rows], ["simulated-P01", "simulated-P02", "X 9"])
         self.assertEqual(rows[1]["study"]["place"], 2)
         self.assertIsNone(rows[2]["study"])
         self.assertEqual(rows[0]["n_completed"], query(
@@ -283,7 +283,7 @@ class Backups(StudyTest):
         self.next()
         first, second = self.copies()
         self.assertIn(str(first), said)
-        self.assertRegex(second.name, r"^P02_session2_\d{8}T\d{6}Z\.db$")
+        self.assertRegex(second.name, r"^simulated-P02_session2_\d{8}T\d{6}Z\.db$")
         self.assertEqual(second.stat().st_mode & 0o777, 0o600)
         everything = "select * from event order by event_id"
         self.assertEqual(query(second, everything), query(self.db, everything))
