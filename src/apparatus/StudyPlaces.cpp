@@ -135,6 +135,21 @@ PlannedParticipant planned_participant(const StudyPlan& plan,
                   plan.participants, plan.name));
 }
 
+OtherVersions had_another_protocol(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
+                                   Purpose purpose, const std::string& group,
+                                   const std::string& protocol_sha256) {
+  OtherVersions found;
+  for (const SessionRow& session : sessions) {
+    const SessionHeader& header = session.header;
+    if (!counts(session, plan, purpose) || session.state == SessionState::aborted ||
+        value_of(header.participant_info, "study_group") != group)
+      continue;
+    found.newest_too = header.protocol_sha256 != protocol_sha256;
+    if (found.newest_too) found.participants.push_back(header.participant);
+  }
+  return found;
+}
+
 std::string id_for(Purpose purpose, const std::string& id) {
   if (purpose == Purpose::main) return id;
   const std::string rehearsal = std::string(name_of(purpose)) + '-';

@@ -46,6 +46,17 @@ PlannedParticipant planned_participant(const StudyPlan& plan,
 /// not, so that nobody's id is taken by whoever tried the study before them.
 std::string id_for(Purpose purpose, const std::string& id);
 
+/// Participants of a group who had another version of its protocol than there is now.
+struct OtherVersions {
+  std::vector<std::string> participants;
+  bool newest_too = false;  ///< the last one of the group: it has changed since then
+};
+
+/// @param protocol_sha256 of the protocol as it is now
+OtherVersions had_another_protocol(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
+                                   Purpose purpose, const std::string& group,
+                                   const std::string& protocol_sha256);
+
 /// The keys of participant_info that place_of() reads.
 ParticipantInfo info_of(const StudyPlan& plan, const StudyPlace& place);
 

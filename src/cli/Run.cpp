@@ -34,6 +34,7 @@ struct Options {
   Elsewhere elsewhere;
   std::map<std::string, std::string> participant_info;  // what the plan gave
   bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
+  bool changed_protocol = false;
 };
 
 void check_participant(const std::string& id) {
@@ -138,6 +139,41 @@ void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionR
                 ExitCode::usage);
 }
 
+// Who is asked at a terminal types y or n; any other word is asked again, the end of input is no.
+bool answers_yes(const std::string& question) {
+  for (std::string answer; say("{} y/n: ", question), std::getline(std::cin, answer);) {
+    if (answer == "y" || answer == "yes") return true;
+    if (answer == "n" || answer == "no") return false;
+  }
+  return false;
+}
+
+// Without a terminal it is no.
+bool is_asked_and_answered_yes(const std::string& question) {
+  const bool has_terminal = isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
+  return has_terminal && answers_yes(question);
+}
+
+// People of one group who did different things are no group.
+void refuse_changed_protocol(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
+                             Purpose purpose, const StudyGroup& group, const Options& options) {
+  const auto [participants, since_the_last] = had_another_protocol(
+      plan, sessions, purpose, group.name, load_protocol(group.protocol).sha256);
+  if (participants.empty()) return;
+  const std::string found = fmt::format(
+      "{} is not what participant(s) {} {}had", group.protocol, fmt::join(participants, ", "),
+      group.name.empty() ? "" : fmt::format("of the group \"{}\" ", group.name));
+  if (!since_the_last || options.changed_protocol) return say("heft: WARNING: {}\n", found);
+  if (is_asked_and_answered_yes(found + ": it was changed since then. Go on with it as it is now?"))
+    return;
+  throw Error(
+      fmt::format("{}: it was changed since then. Undo that, give the changed study another "
+                  "name, or add --changed-protocol to go on with it as it is now; the log "
+                  "keeps what each of them had",
+                  found),
+      ExitCode::usage);
+}
+
 void take_from_plan(Options& options) {
   if (!options.protocol.empty())
     throw Error(fmt::format("the plan {} says which protocol is next, expected no other one ({})",
@@ -152,6 +188,8 @@ void take_from_plan(Options& options) {
   const PlannedParticipant planned =
       planned_participant(plan, sessions, purpose, options.participant);
   refuse_id_near_to_planned(plan, sessions, options);
+  refuse_changed_protocol(plan, sessions, purpose,
+                          plan.groups[static_cast<std::size_t>(planned.place.group)], options);
   give_place(plan, planned, options);
   for (const SessionRow& session : sessions)
     if (is_unfinished(session.state) && place_of(session.header.participant_info))
@@ -166,23 +204,13 @@ void take_from_plan(Options& options) {
       plan.participants, rehearsal);
 }
 
-// Who is asked at a terminal types y or n; any other word is asked again, the end of input is no.
-bool answers_yes(const std::string& question) {
-  for (std::string answer; say("{} y/n: ", question), std::getline(std::cin, answer);) {
-    if (answer == "y" || answer == "yes") return true;
-    if (answer == "n" || answer == "no") return false;
-  }
-  return false;
-}
-
 // 1 for 01 would part one person's sessions.
 void refuse_near_id(const Options& options) {
   const auto near = near_id(*options.participant, sessions_in(*options.db));
   if (!near || options.again) return;
   const std::string found = fmt::format("participant \"{}\" is new in {}, but there is \"{}\"",
                                         *options.participant, *options.db, *near);
-  const bool has_terminal = isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
-  if (has_terminal && answers_yes(found + ". Are these two people?")) return;
+  if (is_asked_and_answered_yes(found + ". Are these two people?")) return;
   throw Error(fmt::format("{}: give that id if it is the same person; if it is another one, add "
                           "--again",
                           found),
@@ -293,6 +321,9 @@ void add_run(Command& app) {
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
   add_go_on(command, options->go_on);
+  command.add_flag("--changed-protocol", options->changed_protocol,
+                   "go on with a plan's protocol that was changed since earlier participants of "
+                   "the group had it");
   command.add_flag("--again", options->again,
                    "run once more a protocol that the participant has finished; or take an id "
                    "that is nearly another's, as 1 and 01 are");

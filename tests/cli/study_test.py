@@ -121,6 +121,32 @@ class Plans(StudyTest):
         self.plan.write_text(STUDY.replace("participants = 4", "participants = 8"))
         self.assertIn("2 of 8", self.next().stderr)
 
+    def test_a_protocol_that_was_changed_on_the_way_is_told(self):
+        for _ in range(4):
+            self.next()
+        self.plan.write_text(STUDY.replace("participants = 4", "participants = 12"))
+        had = [participant for participant, in query(
+            self.db, "select participant from session where protocol_name = 'again'")]
+        changed = self.folder / "again.toml"
+        changed.write_text(changed.read_text() + "# more words\n")
+        said = ""
+        for number in range(5, 9):  # of the two groups
+            done = self.next("--participant", f"P{number:02}", expect=None)
+            if done.returncode:
+                self.assertEqual(done.returncode, 2, done.stderr)
+                said = done.stderr
+                for word in (changed, *had, '"second"', "--changed-protocol"):
+                    self.assertIn(str(word), said)
+                done = self.next("--participant", f"P{number:02}", "--changed-protocol")
+                self.assertIn(f"WARNING: {changed} is not what", done.stderr)
+                break
+        self.assertTrue(said, "nothing was told")
+        n = 0
+        for number in range(9, 13):  # asked once, but told again
+            done = self.next("--participant", f"P{number:02}")
+            n += "WARNING" in done.stderr
+        self.assertEqual(n, 2)
+
     def test_validate_shows_the_orders(self):
         said = self.run_heft("validate", self.plan).stdout
         self.assertIn("ok, a study plan", said)
