@@ -158,10 +158,13 @@ class Plans(StudyTest):
 
     def test_validate_sees_what_people_would_miss(self):
         asked = (PROTOCOLS / "quick.toml").read_text()
+        (self.folder / "mine.en.toml").write_text(
+            '[questionnaire.mine]\ntitle = "T"\n[[questionnaire.mine.question]]\nkey = "a"\n'
+            'kind = "text"\ntext = "A?"\n')
         (self.folder / "again.toml").write_text(
-            asked + '\n[[screens.questionnaire]]\nname = "nasa_tlx"\n')
+            asked + '\n[[screens.questionnaire]]\nname = "mine"\n')
         said = self.run_heft("validate", self.plan, expect=3).stderr
-        self.assertIn("nasa_tlx.fr.toml", said)  # there is no French one
+        self.assertIn("mine.fr.toml", said)  # there is no French one
         self.run_heft("validate", self.folder / "again.toml")
         self.plan.write_text(STUDY.replace('"fr"', '"xx"'))
         self.assertIn('"xx"', self.run_heft("validate", self.plan, expect=3).stderr)

@@ -1,4 +1,5 @@
 // Questionnaire files: the shipped ones, every mistake at its place, and how protocols ask them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,8 +14,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string file_of(const std::string& name) {
-  return HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + ".en.toml";
+std::string file_of(const std::string& name, const std::string& language = "en") {
+  return HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + '.' + language + ".toml";
 }
 
 const std::string every_kind = R"([questionnaire.q]
@@ -61,6 +62,29 @@ TEST(QuestionnaireFile, ShippedOnesAreSoundAndNameTheirSource) {
   }
   const auto tlx = parse_questionnaires(content_of(file_of("nasa_tlx")), "f");
   EXPECT_EQ(tlx.questionnaires.at("nasa_tlx").questions.size(), 6U);
+}
+
+// What is logged of a question does not depend on the language that it was asked in.
+std::string logged_of(const FormQuestion& question) {
+  std::string all = question.key + ' ' + std::string(name_of(question.kind));
+  for (const AnswerChoice& choice : question.choices) all += ' ' + choice.value;
+  return all +
+         fmt::format(" {} {} {} {}", question.from, question.to, question.least, question.most);
+}
+
+TEST(QuestionnaireFile, ShippedOnesAreTheSameInFrenchAndSayThatTheyAreNotValidated) {
+  for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
+    const std::string text = content_of(file_of(name, "fr"));
+    const ScreenTexts english = parse_questionnaires(content_of(file_of(name)), name),
+                      french = parse_questionnaires(text, name);
+    EXPECT_THAT(french.questionnaires.at(name).source, HasSubstr("non validée")) << name;
+    std::vector<std::string> asked, in_french;
+    for (const FormQuestion& question : english.questionnaires.at(name).questions)
+      asked.push_back(logged_of(question));
+    for (const FormQuestion& question : french.questionnaires.at(name).questions)
+      in_french.push_back(logged_of(question));
+    EXPECT_EQ(asked, in_french);
+  }
 }
 
 TEST(QuestionnaireFile, MayStandBelowATextFile) {

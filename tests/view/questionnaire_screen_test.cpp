@@ -16,7 +16,8 @@ using ::testing::SizeIs;
 ScreenTexts texts_with_questionnaires(const std::string& language = "en") {
   ScreenTexts texts = texts_in(language);
   for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
-    const std::string file = HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + ".en.toml";
+    const std::string file = HEFT_SOURCE_DIR "/protocols/questionnaires/" + name +
+                             (language == "fr" ? ".fr.toml" : ".en.toml");
     const ScreenTexts read = parse_questionnaires(read_text_file(file), file);
     texts.questionnaires.insert(read.questionnaires.begin(), read.questionnaires.end());
     texts.pages.insert(read.pages.begin(), read.pages.end());
@@ -117,7 +118,9 @@ TEST(QuestionnaireScreen, EveryQuestionFitsEveryScreen) {
 }
 
 TEST(QuestionnaireScreen, OfTheShippedOnesNothingIsTooLargeForTheSmallestScreen) {
-  EXPECT_THAT(texts_that_do_not_fit(texts_with_questionnaires(), smallest_screen()), IsEmpty());
+  for (const char* language : {"en", "fr"})
+    EXPECT_THAT(texts_that_do_not_fit(texts_with_questionnaires(language), smallest_screen()),
+                IsEmpty());
 }
 
 TEST(QuestionnaireScreen, ASliderIsSetWhereItIsTappedAndMovedByOne) {
