@@ -223,7 +223,8 @@ void check(const Setup& options) {
   check_view(options);
   apparatus_of(options);
   const bool has_screen = view_named(split_name(options.view).name).has_screen;
-  if (has_person(options) || has_screen) parse_texts(options.texts_text, options.texts_file);
+  if (has_person(options) || has_screen || !options.texts_text.empty())
+    parse_texts(options.texts_text, options.texts_file);
   if (!options.simulator.empty()) simulator_named(options.simulator);
   make_responder(options, 0);  // says what is wrong with its parameters before anything is logged
 }

@@ -88,8 +88,12 @@ class Gathered {
 };
 }  // namespace
 
-void add_questionnaires(Setup& setup, const Protocol& protocol) {
-  if (setup.texts_text.empty()) return;
+void add_questionnaires(Setup& setup, const Protocol& protocol, const std::string& texts_file) {
+  if (protocol.screens.questionnaires.empty()) return;
+  if (setup.texts_text.empty()) {
+    setup.texts_file = fs::absolute(texts_file).lexically_normal().string();
+    setup.texts_text = read_text_file(setup.texts_file);
+  }
   Gathered gathered(setup);
   for (const auto& [after, names] : protocol.screens.questionnaires)
     for (const std::string& name : names) gathered.add(name);

@@ -68,7 +68,9 @@ SessionRequest request_of(const Options& options) {
   const GivenOptions given = with_text_size(options.given, options.text_size);
   request.protocol = load_protocol(options.protocol, given.settings);
   Setup setup = with_defaults(given);
-  setup.texts_file = texts_file(options.language.value_or(request.protocol.screens.language));
+  const std::string texts =
+      texts_file(options.language.value_or(request.protocol.screens.language));
+  setup.texts_file = texts;
   setup.handed = side_of_controls(options);
   setup.hand = options.hand.value_or("right");
   setup.record_camera = options.record_camera;
@@ -77,7 +79,7 @@ SessionRequest request_of(const Options& options) {
   complete_and_tell(setup);
   setup.protocol_file = std::filesystem::absolute(options.protocol).lexically_normal().string();
   setup.backup = backup_folder(options.elsewhere);
-  add_questionnaires(setup, request.protocol);
+  add_questionnaires(setup, request.protocol, texts);
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant.value();
   request.participant_info = options.participant_info;

@@ -167,7 +167,7 @@ void check_words(const Protocol& protocol, const std::string& protocol_file,
     setup.texts_file = texts_file(language);
     setup.texts_text = read_text_file(setup.texts_file);
     setup.protocol_file = protocol_file;
-    add_questionnaires(setup, protocol);
+    add_questionnaires(setup, protocol, setup.texts_file);
     parse_texts(setup.texts_text, setup.texts_file);
   } catch (const InvalidFile&) {
     throw;

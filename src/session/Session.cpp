@@ -238,6 +238,11 @@ void change_setup(LoggedSession& session, const GivenOptions& again) {
   } else {
     complete(setup);
   }
+  if (!again.texts_file && setup.texts_text.empty() &&
+      !session.protocol->screens.questionnaires.empty()) {
+    setup.texts_file = session.setup.texts_file;  // a model is asked by them
+    setup.texts_text = session.setup.texts_text;
+  }
   session.setup = in_force(std::move(setup), *session.protocol);
   session.protocol = protocol_for(*session.protocol, session.setup);
 }
