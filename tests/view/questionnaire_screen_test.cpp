@@ -118,9 +118,12 @@ TEST(QuestionnaireScreen, EveryQuestionFitsEveryScreen) {
 }
 
 TEST(QuestionnaireScreen, OfTheShippedOnesNothingIsTooLargeForTheSmallestScreen) {
-  for (const char* language : {"en", "fr"})
-    EXPECT_THAT(texts_that_do_not_fit(texts_with_questionnaires(language), smallest_screen()),
-                IsEmpty());
+  for (const char* language : {"en", "fr"}) {
+    const ScreenTexts texts = texts_with_questionnaires(language);
+    EXPECT_THAT(texts_that_do_not_fit(texts, smallest_screen()), IsEmpty());
+    EXPECT_THAT(texts_that_do_not_fit(texts, smallest_screen(2)),
+                ::testing::Each(::testing::HasSubstr("only in small letters")));
+  }
 }
 
 TEST(QuestionnaireScreen, ASliderIsSetWhereItIsTappedAndMovedByOne) {

@@ -90,7 +90,8 @@ class Asked {
     const bool leftward = builder.typeface.reads_right_to_left();
     const Rect half{room.x, room.y, room.width / 2 - m.gap, 0};
     const auto fitted = [&](const std::string& words) {
-      return builder.typeface.fitted(words, m.body, half.width, ends_lines * m.body);
+      return builder.typeface.fitted(words, m.body, half.width, ends_lines * m.body,
+                                     m.least_px(m.body));
     };
     const FittedText first = fitted(question.low), last = fitted(question.high);
     const auto add = [&](const FittedText& words, bool left) {
@@ -189,8 +190,8 @@ void questionnaire_screen(PageBuilder& builder) {
   const auto rows = static_cast<float>(asked.n_rows());
   const float room_px =
       area.bottom() - y - rows * (m.target + m.gap) - asked.above_px() - 2 * m.gap;
-  const FittedText words =
-      builder.typeface.fitted(question.text, 0.7f * m.title, area.width, room_px);
+  const FittedText words = builder.typeface.fitted(question.text, 0.7f * m.title, area.width,
+                                                   room_px, m.least_px(0.7f * m.title));
   y = builder.add_lines(words.lines, area, y + m.gap, words.size_px) + m.gap;
   asked.add_answers({area.x, y, area.width, area.bottom() - y});
   const bool answered = question.kind == QuestionKind::text || takes_answer(question, given);
