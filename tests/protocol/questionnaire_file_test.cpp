@@ -148,6 +148,21 @@ TEST(AskedQuestionnaires, ComeAfterABlockOrAtTheEnd) {
   EXPECT_EQ(protocol.screens.text_size, 1.25);
 }
 
+TEST(AskedQuestionnaires, AskedTwiceOrByNoNameAreRefused) {
+  const auto mistake_in = [](const std::string& names) -> std::string {
+    const auto mistakes = mistakes_of([&] { parse_protocol(protocol_asking(names), "p.toml"); });
+    return mistakes.size() == 1 ? mistakes[0].message : "";
+  };
+  const std::string table = "[[screens.questionnaire]]\n";
+  EXPECT_THAT(mistake_in(table + "name = \"q\"\n" + table + "name = \"q\"\n"),
+              HasSubstr("\"q\" is asked at the end already"));
+  EXPECT_EQ(mistake_in(table + "name = \"q\"\n" + table + "name = \"q\"\nafter = \"s\"\n"), "");
+  for (const char* name : {"../q", "a.b", "q r"})
+    EXPECT_THAT(mistake_in(table + "name = \"" + name + "\"\n"),
+                HasSubstr("expected letters, digits"))
+        << name;
+}
+
 TEST(AskedQuestionnaires, AfterABlockThatIsNotThereAreRefused) {
   const auto mistakes = mistakes_of([] {
     parse_protocol(
