@@ -20,7 +20,8 @@ AskedModel::AskedModel(const Responder& mind, const Questionnaire& form,
   };
   for (const FormQuestion& question : form.questions) {
     const std::string key = screen.form_prefix + question.key;
-    if (screen.entries.contains(key)) continue;
+    const auto given = screen.entries.find(key);
+    if (given != screen.entries.end() && takes_answer(question, given->second)) continue;
     at_s += reading_s;
     if (const auto value = mind.answer(question, key); value && takes_answer(question, *value))
       add(TouchKind::entry, key, *value);

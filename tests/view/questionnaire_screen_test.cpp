@@ -4,6 +4,7 @@
 
 #include "EveryScreen.h"
 #include "base/TextFile.h"
+#include "view/window/ScreenPages.h"
 #include "view/window/TextFit.h"
 #include "view/window/TouchScreen.h"
 
@@ -124,6 +125,20 @@ TEST(QuestionnaireScreen, OfTheShippedOnesNothingIsTooLargeForTheSmallestScreen)
     EXPECT_THAT(texts_that_do_not_fit(texts, smallest_screen(2)),
                 ::testing::Each(::testing::HasSubstr("only in small letters")));
   }
+}
+
+TEST(QuestionnaireScreen, ComesBackToANumberThatWasBeingTyped) {
+  FormQuestion number, likert;
+  number.key = "n";
+  number.kind = QuestionKind::number;
+  number.least = 10;
+  number.most = 20;
+  likert.key = "l";
+  likert.kind = QuestionKind::likert;
+  const Questionnaire form{"T", "", {number, likert}};
+  for (const char* typed : {"", ".", "1", "123"})
+    EXPECT_EQ(first_open_question(form, "q.", {{"q.n", typed}}), 0) << typed;
+  EXPECT_EQ(first_open_question(form, "q.", {{"q.n", "12"}}), 1);
 }
 
 TEST(QuestionnaireScreen, ASliderIsSetWhereItIsTappedAndMovedByOne) {

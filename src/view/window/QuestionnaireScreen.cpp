@@ -169,7 +169,9 @@ int first_open_question(const Questionnaire& form, const std::string& prefix,
                         const std::map<std::string, std::string>& entries) {
   int i = 0;
   for (const FormQuestion& question : form.questions) {
-    if (!entries.contains(prefix + question.key)) return i;
+    const auto given = entries.find(prefix + question.key);
+    const bool answered = given != entries.end() && takes_answer(question, given->second);
+    if (!answered) return i;  // or a number was being typed
     ++i;
   }
   return std::max(0, i - 1);
