@@ -9,11 +9,13 @@
 #include "apparatus/PictureSource.h"
 #include "apparatus/StudyPlaces.h"
 #include "base/Error.h"
+#include "base/TextFile.h"
 #include "cli/Commands.h"
 #include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "experiment/ParticipantId.h"
+#include "protocol/Files.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -219,6 +221,24 @@ void refuse_near_id(const Options& options) {
               ExitCode::usage);
 }
 
+// A plan is easily given as a protocol, and the other way round; what else is wrong with a file is
+// told by who reads it.
+void refuse_other_kind(const std::string& path, FileKind expected) {
+  std::optional<FileKind> kind;
+  try {
+    kind = recognized_kind(read_text_file(path), path);
+  } catch (const Error&) {
+  }
+  const std::string file = shell_quoted(path);
+  if (kind == FileKind::study && expected == FileKind::protocol)
+    throw Error(fmt::format("{} is a study's plan: heft run --plan {}", path, file),
+                ExitCode::usage);
+  if (kind == FileKind::protocol && expected == FileKind::study)
+    throw Error(
+        fmt::format("{} is a protocol, no study's plan: heft run {} --participant ID", path, file),
+        ExitCode::usage);
+}
+
 [[noreturn]] void refuse_missing(const char* option) {
   throw Error(
       fmt::format("{} is required, or --plan STUDY.toml, which says it; see heft run --help",
@@ -228,7 +248,12 @@ void refuse_near_id(const Options& options) {
 
 void complete(Options& options) {
   if (options.participant) check_participant(*options.participant);
-  if (!options.plan.empty()) take_from_plan(options);
+  if (!options.plan.empty()) {
+    refuse_other_kind(options.plan, FileKind::study);
+    take_from_plan(options);
+  } else if (!options.protocol.empty()) {
+    refuse_other_kind(options.protocol, FileKind::protocol);
+  }
   if (options.protocol.empty()) refuse_missing("PROTOCOL");
   if (!options.participant) refuse_missing("--participant");
   check_participant(*options.participant);

@@ -214,6 +214,14 @@ class Plans(StudyTest):
                       self.run_heft("run", PROTOCOLS / "quick.toml", "--plan", self.plan,
                                     expect=2).stderr)
 
+    def test_a_plan_is_no_protocol_and_says_what_it_is(self):
+        said = self.run_heft("run", self.plan, "--participant", "1", expect=2).stderr
+        self.assertIn(f"{self.plan} is a study's plan: heft run --plan {self.plan}", said)
+        protocol = self.folder / "again.toml"
+        said = self.run_heft("run", "--plan", protocol, expect=2).stderr
+        self.assertIn(f"heft run {protocol} --participant ID", said)
+        self.assertEqual(len(said.splitlines()), 1)
+
     def test_analyse_takes_orders_for_one_protocol(self):
         self.next()
         self.next()
