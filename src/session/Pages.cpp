@@ -80,6 +80,7 @@ void Pages::ask(const std::string& name, const std::string& after) {
   ScreenState screen{.screen = Screen::questionnaire, .entries = gone_.entries};
   screen.form = name;
   screen.form_prefix = asked + '.';
+  if (!texts_) journal_.add_info(asked + ".answered_by", "model");
   const TouchKind end = texts_ ? show(screen) : ask_model(form->second, screen);
   if (end != TouchKind::next) return;
   gone_.entries[done] = fmt::format("{:.3f}", journal_.now_s());

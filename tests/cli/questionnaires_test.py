@@ -54,8 +54,10 @@ class Questionnaires(SessionTest):
         self.run_heft("run", self.protocol("quick"), "--participant", "01", "--responder",
                       "simulated", "--seed", 5, "--db", self.db)
         info = self.info()
-        self.assertEqual(info.keys(), {"mine.a", "mine.done_s", "borg_cr10.exertion",
-                                       "borg_cr10.done_s"})
+        self.assertEqual(info.keys(), {"mine.a", "mine.done_s", "mine.answered_by",
+                                       "borg_cr10.exertion", "borg_cr10.done_s",
+                                       "borg_cr10.answered_by"})
+        self.assertEqual(info["mine.answered_by"], "model")
         self.assertIn(info["mine.a"], "1234567")
         self.assertEqual(self.shown(), [("questionnaire_mine", "en"),
                                         ("questionnaire_borg_cr10", "en")])
@@ -73,7 +75,7 @@ class Questionnaires(SessionTest):
             answers.append(query(self.db, "select session_id, key, value from participant_info "
                                           "order by 1, 2"))
         self.assertEqual(answers[0], answers[1])
-        self.assertEqual(len(answers[0]), 3 * 4)
+        self.assertEqual(len(answers[0]), 3 * 6)
         self.assertGreater(len({value for _, _, value in answers[0]}), 4)
 
     def stopped_early(self):

@@ -118,6 +118,7 @@ TEST_P(BrokenQuestionnaire, IsOneMistakeAtItsPlace) {
 const std::vector<Broken> broken{
     {"kind", {"\"slider\"", "^\"slidder\""}, {"kind", "\"slider\"?"}},
     {"unknown_key", {"least = 0", "least = 0\n^step = 2"}, {"unknown key \"step\""}},
+    {"kept_key_too", {"\"b\"", "^\"answered_by\""}, {"keeps for itself"}},
     {"kept_key", {"\"a\"", "^\"done_s\""}, {"keeps for itself"}},
     {"key_with_a_blank", {"\"a\"", "^\"a b\""}, {"small letters"}},
     {"two_of_a_key", {"\"b\"", "^\"a\""}, {"two questions are \"a\""}},

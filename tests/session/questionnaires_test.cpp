@@ -170,7 +170,7 @@ SessionRequest asked_model() {
 TEST(Questionnaires, ModelsAreAskedAsPeopleAre) {
   const RecordedSession session = compute_session(asked_model(), {});
   const std::map<std::string, std::string> logged = session.header().participant_info;
-  EXPECT_EQ(logged.size(), 6U + 6 + 1 + 3 + 5 + 5) << "five that were gone through";
+  EXPECT_EQ(logged.size(), 6U + 6 + 1 + 3 + 5 + 2 * 5) << "five that were gone through, by a model";
   const ScreenTexts texts = texts_with(all);
   double last_s = 0;
   const std::vector<std::pair<std::string, std::string>> asked{{"sorting.", "nasa_tlx"},
@@ -184,6 +184,7 @@ TEST(Questionnaires, ModelsAreAskedAsPeopleAre) {
       if (question.kind == QuestionKind::text) continue;
       EXPECT_TRUE(takes_answer(question, logged.at(prefix + question.key))) << prefix;
     }
+    EXPECT_EQ(logged.at(prefix + "answered_by"), "model");
     const double at_s = std::stod(logged.at(prefix + "done_s"));
     EXPECT_GT(at_s, last_s + 2) << "it takes its time";
     last_s = at_s;
