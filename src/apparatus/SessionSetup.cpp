@@ -120,16 +120,6 @@ void complete_apparatus(Setup& options) {
   read_file(options.effector_file, options.effector_text);
 }
 
-// A file that was named must be sound, whoever takes part; where no screen is, nobody reads it.
-void complete_texts(Setup& options) {
-  if (!options.texts_file.empty()) {
-    read_file(options.texts_file, options.texts_text);
-    parse_texts(options.texts_text, options.texts_file);
-  }
-  const bool has_screen = view_named(split_name(options.view).name).has_screen;
-  if (!has_person(options) && !has_screen) options.texts_file = options.texts_text = "";
-}
-
 // What the display's window tells is told anew by each window.
 void forget_display(Setup& options) {
   options.window = options.display = options.display_file = "";
@@ -206,6 +196,16 @@ Apparatus apparatus_of(const Setup& options) {
   return apparatus;
 }
 
+// A file that was named must be sound, whoever takes part; where no screen is, nobody reads it.
+void complete_texts(Setup& options) {
+  if (!options.texts_file.empty()) {
+    if (options.texts_text.empty()) read_file(options.texts_file, options.texts_text);
+    parse_texts(options.texts_text, options.texts_file);
+  }
+  const bool has_screen = view_named(split_name(options.view).name).has_screen;
+  if (!has_person(options) && !has_screen) options.texts_file = options.texts_text = "";
+}
+
 void complete(Setup& options) {
   complete_responder(options);
   complete_tracker(options);
@@ -223,7 +223,8 @@ void check(const Setup& options) {
   check_view(options);
   apparatus_of(options);
   const bool has_screen = view_named(split_name(options.view).name).has_screen;
-  if (has_person(options) || has_screen) parse_texts(options.texts_text, options.texts_file);
+  if (has_person(options) || has_screen || !options.texts_text.empty())
+    parse_texts(options.texts_text, options.texts_file);
   if (!options.simulator.empty()) simulator_named(options.simulator);
   make_responder(options, 0);  // says what is wrong with its parameters before anything is logged
 }

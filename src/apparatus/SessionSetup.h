@@ -54,6 +54,9 @@ inline constexpr const char* default_display_file = "display.toml";
 /// @throws Error (usage) for unknown names and combinations that can't work
 void complete(Setup& options);
 
+/// The same of the participant's texts alone: what was read before stays as it is.
+void complete_texts(Setup& options);
+
 /// As complete(), for options from a log: the parameters stay those that were read then.
 void check(const Setup& options);
 

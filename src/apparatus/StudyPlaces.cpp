@@ -64,8 +64,9 @@ bool is_in(const std::vector<SessionRow>& sessions, const std::string& id) {
 }
 
 // As the plan calls them; P07b where a P07 began and was ended.
-std::string fresh_id(const StudyPlan& plan, int number, const std::vector<SessionRow>& sessions) {
-  const std::string planned = planned_id(plan, number);
+std::string fresh_id(const StudyPlan& plan, int number, const std::vector<SessionRow>& sessions,
+                     Purpose purpose) {
+  const std::string planned = id_for(purpose, planned_id(plan, number));
   std::string id = planned;
   for (char letter = 'b'; is_in(sessions, id) && letter <= 'z'; ++letter) id = planned + letter;
   return id;
@@ -118,17 +119,41 @@ PlannedParticipant planned_participant(const StudyPlan& plan,
     return PlannedParticipant{place_in(plan, number), participant};
   };
   if (id) {
+    const std::string own = id_for(purpose, *id);
     for (const auto& [number, session] : taken)
-      if (session->header.participant == *id) return given(number, *id);
+      if (session->header.participant == own) return given(number, own);
     for (int number = 1; number <= plan.participants; ++number)
-      if (is_free(number) && planned_id(plan, number) == *id) return given(number, *id);
+      if (is_free(number) && id_for(purpose, planned_id(plan, number)) == own)
+        return given(number, own);
   }
   for (int number = 1; number <= plan.participants; ++number)
-    if (is_free(number)) return given(number, id.value_or(fresh_id(plan, number, sessions)));
+    if (is_free(number))
+      return given(number, id ? id_for(purpose, *id) : fresh_id(plan, number, sessions, purpose));
   throw Error(
       fmt::format("all {} participants of the study \"{}\" have their sessions; to go on, "
                   "plan more: a larger `participants` leaves the places before as they are",
                   plan.participants, plan.name));
+}
+
+OtherVersions had_another_protocol(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
+                                   Purpose purpose, const std::string& group,
+                                   const std::string& protocol_sha256) {
+  OtherVersions found;
+  for (const SessionRow& session : sessions) {
+    const SessionHeader& header = session.header;
+    if (!counts(session, plan, purpose) || session.state == SessionState::aborted ||
+        value_of(header.participant_info, "study_group") != group)
+      continue;
+    found.newest_too = header.protocol_sha256 != protocol_sha256;
+    if (found.newest_too) found.participants.push_back(header.participant);
+  }
+  return found;
+}
+
+std::string id_for(Purpose purpose, const std::string& id) {
+  if (purpose == Purpose::main) return id;
+  const std::string rehearsal = std::string(name_of(purpose)) + '-';
+  return id.starts_with(rehearsal) ? id : rehearsal + id;
 }
 
 ParticipantInfo info_of(const StudyPlan& plan, const StudyPlace& place) {

@@ -34,12 +34,28 @@ struct PlannedParticipant {
 
 /// The first place that nobody has, or the participant's own. A place is free again when its
 /// session was ended for good (state "aborted"). Sessions of other studies and purposes don't
-/// count, but their ids are not given again: P07 comes as P07b.
+/// count, but their ids are not given again: P07 comes as P07b. Each purpose but main has places
+/// and ids of its own, as id_for() makes them.
 /// @param sessions of the log  @param id none: as the plan calls them
 /// @throws Error when all places are taken, or a place was given otherwise than the plan gives it
 PlannedParticipant planned_participant(const StudyPlan& plan,
                                        const std::vector<SessionRow>& sessions, Purpose purpose,
                                        const std::optional<std::string>& id);
+
+/// The id itself for what is to be data; "pilot-P07", "test-P07" or "simulated-P07" for what is
+/// not, so that nobody's id is taken by whoever tried the study before them.
+std::string id_for(Purpose purpose, const std::string& id);
+
+/// Participants of a group who had another version of its protocol than there is now.
+struct OtherVersions {
+  std::vector<std::string> participants;
+  bool newest_too = false;  ///< the last one of the group: it has changed since then
+};
+
+/// @param protocol_sha256 of the protocol as it is now
+OtherVersions had_another_protocol(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
+                                   Purpose purpose, const std::string& group,
+                                   const std::string& protocol_sha256);
 
 /// The keys of participant_info that place_of() reads.
 ParticipantInfo info_of(const StudyPlan& plan, const StudyPlace& place);

@@ -12,6 +12,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
+#include "base/TextFile.h"
 #include "cli/Help.h"
 
 namespace heft::cli {
@@ -26,6 +27,12 @@ bool is_whole_number(const std::string& text, std::uint64_t least, std::uint64_t
   std::uint64_t value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   return result.ec == std::errc() && value >= least && value <= most;
+}
+
+// A shell's variable that is not set, mostly: nothing goes on as if the option had not been given.
+std::string refused_if_blank(const std::string& text) {
+  if (text.find_first_not_of(" \t") != std::string::npos) return "";
+  return "its value is empty; give it one, or leave it out";
 }
 
 std::string nearest_hint(const std::string& wanted, const std::vector<std::string>& names) {
@@ -165,6 +172,16 @@ Option& Option::whole_number(std::uint64_t least, std::uint64_t most) {
   return *this;
 }
 
+Option& Option::between(double least, double most) {
+  const auto refusal = [least, most](const std::string& text) {
+    if (const auto number = number_in(text); number && *number >= least && *number <= most)
+      return std::string();
+    return fmt::format("expected a number {}...{}, got \"{}\"", least, most, text);
+  };
+  option_.check(CLI::Validator([refusal](std::string& text) { return refusal(text); }, ""));
+  return *this;
+}
+
 Option& Option::one_of(const std::vector<std::string>& names) {
   option_.check(CLI::IsMember(names).description(""));
   option_.type_name(fmt::format("{}", fmt::join(names, "|")));
@@ -183,7 +200,9 @@ Command Command::add_command(const std::string& name, const std::string& summary
 Option Command::add_option(const std::string& name, Destination destination,
                            const std::string& help) {
   const auto add = [&](auto* value) { return app_.add_option(name, *value, help); };
-  return Option(*std::visit(add, destination)->group(group_));
+  CLI::Option& option = *std::visit(add, destination)->group(group_);
+  option.check(CLI::Validator([](std::string& text) { return refused_if_blank(text); }, ""));
+  return Option(option);
 }
 
 void Command::add_flag(const std::string& name, bool& flag, const std::string& help) {

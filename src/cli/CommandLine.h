@@ -33,6 +33,8 @@ class Option {
   Option& shows_default();
   /// Decimal digits and nothing else, so that 010 is not read as octal 8, nor 1e3 as 1.
   Option& whole_number(std::uint64_t least, std::uint64_t most);
+  /// A number from one to the other, both of them too.
+  Option& between(double least, double most);
   Option& one_of(const std::vector<std::string>& names);
 
  private:

@@ -11,6 +11,7 @@
 #include "analysis/Tables.h"
 #include "cli/Commands.h"
 #include "cli/Installation.h"
+#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "session/Session.h"
@@ -34,6 +35,7 @@ SessionRequest demo_session(const Options& options) {
   given.tracker = "synthetic";
   Setup setup = with_defaults(given);
   complete(setup);
+  add_questionnaires(setup, request.protocol, texts_file(request.protocol.screens.language));
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = "demo";
   request.db = options.out + "/demo.db";

@@ -32,6 +32,7 @@
 #include "tracking/VideoDevices.h"
 #include "view/ArView.h"
 #include "view/window/Displays.h"
+#include "view/window/TouchDelay.h"
 
 namespace heft::cli {
 
@@ -110,25 +111,45 @@ void check_file_system(Report& report, const std::string& folder) {
                      : "local");
 }
 
+// A file that is written as the log is, a page at a time until it is safe on disk.
+class WrittenForTrial {
+ public:
+  explicit WrittenForTrial(const std::string& folder) : path_(folder + "/heft-doctor-XXXXXX") {
+    file_ = mkstemp(path_.data());
+  }
+  ~WrittenForTrial() {
+    if (file_ < 0) return;
+    close(file_);
+    unlink(path_.c_str());
+  }
+  WrittenForTrial(const WrittenForTrial&) = delete;
+
+  bool is_there() const { return file_ >= 0; }
+  bool write_page() const {
+    return write(file_, page_.data(), page_.size()) > 0 && fsync(file_) == 0;
+  }
+
+ private:
+  const std::string page_ = std::string(4096, 'x');
+  std::string path_;
+  int file_ = -1;
+};
+
 // How long an answer takes to be safe on disk.
 void check_commit(Report& report, const std::string& folder) {
-  std::string path = folder + "/heft-doctor-XXXXXX";
-  const int file = mkstemp(path.data());
-  if (file < 0)
+  const WrittenForTrial file(folder);
+  if (!file.is_there())
     return report.line(
         CheckVerdict::failed, "writing",
         fmt::format("no file can be made in {}; choose another folder with --db", folder));
   std::vector<double> times_ms;
-  const std::string page(4096, 'x');
   for (int i = 0; i < 20; ++i) {
     const auto started = std::chrono::steady_clock::now();
-    const bool written = write(file, page.data(), page.size()) > 0 && fsync(file) == 0;
+    const bool written = file.write_page();
     const std::chrono::duration<double, std::milli> took =
         std::chrono::steady_clock::now() - started;
     if (written) times_ms.push_back(took.count());
   }
-  close(file);
-  unlink(path.c_str());
   if (times_ms.empty())
     return report.line(CheckVerdict::failed, "writing",
                        "nothing can be written; is the disk full?");
@@ -137,6 +158,34 @@ void check_commit(Report& report, const std::string& folder) {
   report.line(worst_ms > 100 ? CheckVerdict::warning : CheckVerdict::ok, "writing",
               fmt::format("an answer is safe on disk in {:.1f} ms (worst of 20: {:.1f} ms)",
                           median_ms, worst_ms));
+}
+
+// From a touch to the disk and the display. Of fifty, one may be late.
+void check_touch_delay(Report& report, const std::string& folder, const ScreenTexts& texts) try {
+  constexpr int n_taps = 50;
+  constexpr double usual_refresh_hz = 60, beside_a_frame_s = 0.020;
+  const auto found = displays();
+  if (found.empty())
+    return report.line(CheckVerdict::ok, "touch delay", "not measured: there is no display");
+  const WrittenForTrial file(folder);
+  std::vector<double> times_s = touch_delays_s(
+      texts, [&] { file.is_there() && file.write_page(); }, n_taps);
+  if (times_s.size() < n_taps / 2)
+    return report.line(
+        CheckVerdict::warning, "touch delay",
+        fmt::format("not measured: the window took {} of {} taps", times_s.size(), n_taps));
+  std::ranges::sort(times_s);
+  const double frame_s = 1 / found.front().refresh_hz.value_or(usual_refresh_hz);
+  const bool is_late = times_s[times_s.size() - 2] > frame_s + beside_a_frame_s;
+  report.line(is_late ? CheckVerdict::warning : CheckVerdict::ok, "touch delay",
+              fmt::format("{:.1f} ms from the touch's event until it is on disk and its answer "
+                          "presented (worst two of {}: {:.1f} and {:.1f} ms; a frame and 20 ms are "
+                          "{:.1f} ms); what the touch screen and the panel take is not in it",
+                          1e3 * times_s[times_s.size() / 2], times_s.size(),
+                          1e3 * times_s[times_s.size() - 2], 1e3 * times_s.back(),
+                          1e3 * (frame_s + beside_a_frame_s)));
+} catch (const Error& error) {
+  report.line(CheckVerdict::warning, "touch delay", fmt::format("not measured: {}", error.what()));
 }
 
 void check_log(Report& report, const std::string& db) {
@@ -211,8 +260,10 @@ void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) 
   check_file_system(report, folder);
   check_commit(report, folder);
   check_log(report, db);
-  for (const CheckResult& result : check_displays(load_texts(texts_file("en"))))
+  const ScreenTexts texts = load_texts(texts_file("en"));
+  for (const CheckResult& result : check_displays(texts))
     report.line(result.verdict, result.name, result.finding);
+  check_touch_delay(report, folder, texts);
   if (given.tracker) check_tracker(report, given, rate_hz);
   list_cameras();
   list_plugs();

@@ -5,6 +5,7 @@
 
 #include "apparatus/StudyPlaces.h"
 #include "cli/Commands.h"
+#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "session/Session.h"
@@ -37,11 +38,20 @@ GivenOptions with_missing_files(const LoggedSession& session, GivenOptions again
   return again;
 }
 
-// The folder that was given, or the one that the study's plan gave the session.
-Elsewhere with_planned_backup(Elsewhere elsewhere, const LoggedSession& session) {
+// What people are asked is planned with the protocol, and comes in whatever they read.
+void change(LoggedSession& session, const GivenOptions& again) {
+  change_setup(session, again);
+  add_questionnaires(session.setup, *session.protocol,
+                     again.texts_file.value_or(texts_file(session.protocol->screens.language)));
+  session.setup = in_force(std::move(session.setup), *session.protocol);
+}
+
+// The folder that was given, or the session's; older logs have a plan's elsewhere.
+std::string backup_of(const LoggedSession& session, const Elsewhere& elsewhere) {
+  if (!elsewhere.backup.empty()) return backup_folder(elsewhere);
+  if (!session.setup.backup.empty()) return session.setup.backup;
   const auto place = place_of(session.row.header.participant_info);
-  if (place && elsewhere.backup.empty()) elsewhere.backup = place->backup;
-  return elsewhere;
+  return place ? place->backup : "";
 }
 
 void resume(const std::string& db, std::optional<std::int64_t> session_id,
@@ -49,16 +59,16 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
             bool keys) {
   LoggedSession session = session_to_resume(db, session_id);
   const Setup before = session.setup;
-  change_setup(session, with_missing_files(session, again));
+  change(session, with_missing_files(session, again));
   if (keys) session.setup.keys = "yes";
+  session.setup.backup = backup_of(session, elsewhere);
   say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
       session.row.header.participant, session.protocol->name);
   for (const auto& [column, from, to] : changes_between(before, session.setup))
     if (!from.empty()) say("from here on with {} {} instead of {}\n", column, to, from);
   say_next_parts(session.setup);
   say_finished(
-      run_session({*session.protocol, session.setup, db, unblind, go_on,
-                   with_planned_backup(elsewhere, session),
+      run_session({*session.protocol, session.setup, db, unblind, go_on, elsewhere.events,
                    place_words(session.row.header.participant_info)},
                   [&](const RunnerOptions& runner) { return resume_session(session, runner); }),
       db);
@@ -68,7 +78,7 @@ void end(const std::string& db, std::optional<std::int64_t> session_id,
          const Elsewhere& elsewhere) {
   const LoggedSession session = session_to_resume(db, session_id);
   abort_session(session);
-  back_up_and_tell(db, with_planned_backup(elsewhere, session).backup, session.row.session_id);
+  back_up_and_tell(db, backup_of(session, elsewhere), session.row.session_id);
   say("session {} of participant {} is ended as it is; what was answered is kept\n",
       session.row.session_id, session.row.header.participant);
 }
@@ -78,6 +88,7 @@ void add_resume(Command& app) {
   struct ResumeOptions {
     std::string db = "heft.db";
     std::optional<std::int64_t> session;
+    std::optional<std::string> language;
     GivenOptions again;
     Elsewhere elsewhere;
     bool end = false, unblind = false, go_on = false, keys = false;
@@ -94,6 +105,8 @@ void add_resume(Command& app) {
   add_session_options(command, options->again, true);
   command.add_option("--simulator", &options->again.simulator,
                      "from here on; each trial is replayed with the one that it ran with");
+  command.add_option("--language", &options->language,
+                     "of the participant's screens: en, fr, or a text FILE.toml");
   add_elsewhere_options(command, options->elsewhere);
   command.group("Options");
   command.add_flag("--unblind", options->unblind,
@@ -105,6 +118,7 @@ void add_resume(Command& app) {
                    "don't go on: end the session as it is, for somebody who will not come back");
   command.does([options] {
     if (options->end) return end(options->db, options->session, options->elsewhere);
+    if (options->language) options->again.texts_file = texts_file(*options->language);
     resume(options->db, options->session, options->again, options->elsewhere, options->unblind,
            options->go_on, options->keys);
   });

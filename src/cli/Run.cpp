@@ -9,10 +9,13 @@
 #include "apparatus/PictureSource.h"
 #include "apparatus/StudyPlaces.h"
 #include "base/Error.h"
-#include "base/Printable.h"
+#include "base/TextFile.h"
 #include "cli/Commands.h"
+#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
+#include "experiment/ParticipantId.h"
+#include "protocol/Files.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -33,36 +36,12 @@ struct Options {
   Elsewhere elsewhere;
   std::map<std::string, std::string> participant_info;  // what the plan gave
   bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
+  bool changed_protocol = false;
 };
 
-[[noreturn]] void refuse_id(const std::string& why) {
-  throw Error(fmt::format("--participant: the id {}", why), ExitCode::usage);
-}
-
-bool is_blank(char32_t c) {
-  return c == ' ' || c == 0xA0 || c == 0x1680 || (c >= 0x2000 && c <= 0x200B) || c == 0x202F ||
-         c == 0x205F || c == 0x3000 || c == 0xFEFF;
-}
-
-// An id is text that people can read and tables can hold: UTF-8, one line, not blank. Leading
-// zeros, blanks inside and any script are kept as they are.
 void check_participant(const std::string& id) {
-  constexpr std::size_t most_bytes = 200;
-  if (id.size() > most_bytes)
-    refuse_id(fmt::format("has {} bytes, expected at most {}", id.size(), most_bytes));
-  bool blank = true;
-  for (std::string_view rest = id; !rest.empty();) {
-    const auto [code, n] = first_letter(rest);
-    if (n == 0) refuse_id("is not valid UTF-8; is the terminal set to another encoding?");
-    if (is_control(code) || code == 0x2028 || code == 0x2029)  // with line separators
-      refuse_id(
-          fmt::format("holds the control character U+{:04X}; give it on one line, without "
-                      "tabs or line ends",
-                      static_cast<unsigned>(code)));
-    blank = blank && is_blank(code);
-    rest.remove_prefix(n);
-  }
-  if (blank) refuse_id("is empty or blank; give one that names the participant, such as 07");
+  if (const auto wrong = wrong_with_id(id))
+    throw Error(fmt::format("--participant: the id {}", *wrong), ExitCode::usage);
 }
 
 bool is_dragged(const Setup& setup) {
@@ -91,14 +70,18 @@ SessionRequest request_of(const Options& options) {
   const GivenOptions given = with_text_size(options.given, options.text_size);
   request.protocol = load_protocol(options.protocol, given.settings);
   Setup setup = with_defaults(given);
-  setup.texts_file = texts_file(options.language.value_or(request.protocol.screens.language));
+  const std::string texts =
+      texts_file(options.language.value_or(request.protocol.screens.language));
+  setup.texts_file = texts;
   setup.handed = side_of_controls(options);
   setup.hand = options.hand.value_or("right");
   setup.record_camera = options.record_camera;
   if (has_person(setup))
     setup.keys = options.keys || purpose_of(options, setup) == Purpose::test ? "yes" : "no";
   complete_and_tell(setup);
-  add_questionnaires(setup, request.protocol, options.protocol);
+  setup.protocol_file = std::filesystem::absolute(options.protocol).lexically_normal().string();
+  setup.backup = backup_folder(options.elsewhere);
+  add_questionnaires(setup, request.protocol, texts);
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant.value();
   request.participant_info = options.participant_info;
@@ -145,9 +128,6 @@ void give_place(const StudyPlan& plan, const PlannedParticipant& planned, Option
     options.given.settings.push_back(order_setting(order));
   }
   options.participant_info = info_of(plan, planned.place);
-  if (!options.elsewhere.backup.empty())  // for whoever goes on with it
-    options.participant_info["study_backup"] =
-        std::filesystem::absolute(options.elsewhere.backup).string();
 }
 
 // P2 for P02 would take another one's place.
@@ -161,6 +141,41 @@ void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionR
                             "that id if it is the same person; if it is another one, add --again",
                             options.plan, *options.participant, *near),
                 ExitCode::usage);
+}
+
+// Who is asked at a terminal types y or n; any other word is asked again, the end of input is no.
+bool answers_yes(const std::string& question) {
+  for (std::string answer; say("{} y/n: ", question), std::getline(std::cin, answer);) {
+    if (answer == "y" || answer == "yes") return true;
+    if (answer == "n" || answer == "no") return false;
+  }
+  return false;
+}
+
+// Without a terminal it is no.
+bool is_asked_and_answered_yes(const std::string& question) {
+  const bool has_terminal = isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
+  return has_terminal && answers_yes(question);
+}
+
+// People of one group who did different things are no group.
+void refuse_changed_protocol(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
+                             Purpose purpose, const StudyGroup& group, const Options& options) {
+  const auto [participants, since_the_last] = had_another_protocol(
+      plan, sessions, purpose, group.name, load_protocol(group.protocol).sha256);
+  if (participants.empty()) return;
+  const std::string found = fmt::format(
+      "{} is not what participant(s) {} {}had", group.protocol, fmt::join(participants, ", "),
+      group.name.empty() ? "" : fmt::format("of the group \"{}\" ", group.name));
+  if (!since_the_last || options.changed_protocol) return say("heft: WARNING: {}\n", found);
+  if (is_asked_and_answered_yes(found + ": it was changed since then. Go on with it as it is now?"))
+    return;
+  throw Error(
+      fmt::format("{}: it was changed since then. Undo that, give the changed study another "
+                  "name, or add --changed-protocol to go on with it as it is now; the log "
+                  "keeps what each of them had",
+                  found),
+      ExitCode::usage);
 }
 
 void take_from_plan(Options& options) {
@@ -177,23 +192,20 @@ void take_from_plan(Options& options) {
   const PlannedParticipant planned =
       planned_participant(plan, sessions, purpose, options.participant);
   refuse_id_near_to_planned(plan, sessions, options);
+  refuse_changed_protocol(plan, sessions, purpose,
+                          plan.groups[static_cast<std::size_t>(planned.place.group)], options);
   give_place(plan, planned, options);
   for (const SessionRow& session : sessions)
     if (is_unfinished(session.state) && place_of(session.header.participant_info))
       say("session {} of participant {} is unfinished: heft resume --db {} --session {}\n",
           session.session_id, session.header.participant, shell_quoted(*options.db),
           session.session_id);
-  say("participant {} of the study {}: {} of {}\n", planned.id, plan.name, planned.place.number,
-      plan.participants);
-}
-
-// Who is asked at a terminal types y or n; any other word is asked again, the end of input is no.
-bool answers_yes(const std::string& question) {
-  for (std::string answer; say("{} y/n: ", question), std::getline(std::cin, answer);) {
-    if (answer == "y" || answer == "yes") return true;
-    if (answer == "n" || answer == "no") return false;
-  }
-  return false;
+  const std::string rehearsal =
+      purpose == Purpose::main
+          ? ""
+          : fmt::format("; purpose {}, which takes nobody's place or id", name_of(purpose));
+  say("participant {} of the study {}: {} of {}{}\n", planned.id, plan.name, planned.place.number,
+      plan.participants, rehearsal);
 }
 
 // 1 for 01 would part one person's sessions.
@@ -202,12 +214,29 @@ void refuse_near_id(const Options& options) {
   if (!near || options.again) return;
   const std::string found = fmt::format("participant \"{}\" is new in {}, but there is \"{}\"",
                                         *options.participant, *options.db, *near);
-  const bool has_terminal = isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
-  if (has_terminal && answers_yes(found + ". Are these two people?")) return;
+  if (is_asked_and_answered_yes(found + ". Are these two people?")) return;
   throw Error(fmt::format("{}: give that id if it is the same person; if it is another one, add "
                           "--again",
                           found),
               ExitCode::usage);
+}
+
+// A plan is easily given as a protocol, and the other way round; what else is wrong with a file is
+// told by who reads it.
+void refuse_other_kind(const std::string& path, FileKind expected) {
+  std::optional<FileKind> kind;
+  try {
+    kind = recognized_kind(read_text_file(path), path);
+  } catch (const Error&) {
+  }
+  const std::string file = shell_quoted(path);
+  if (kind == FileKind::study && expected == FileKind::protocol)
+    throw Error(fmt::format("{} is a study's plan: heft run --plan {}", path, file),
+                ExitCode::usage);
+  if (kind == FileKind::protocol && expected == FileKind::study)
+    throw Error(
+        fmt::format("{} is a protocol, no study's plan: heft run {} --participant ID", path, file),
+        ExitCode::usage);
 }
 
 [[noreturn]] void refuse_missing(const char* option) {
@@ -219,7 +248,12 @@ void refuse_near_id(const Options& options) {
 
 void complete(Options& options) {
   if (options.participant) check_participant(*options.participant);
-  if (!options.plan.empty()) take_from_plan(options);
+  if (!options.plan.empty()) {
+    refuse_other_kind(options.plan, FileKind::study);
+    take_from_plan(options);
+  } else if (!options.protocol.empty()) {
+    refuse_other_kind(options.protocol, FileKind::protocol);
+  }
   if (options.protocol.empty()) refuse_missing("PROTOCOL");
   if (!options.participant) refuse_missing("--participant");
   check_participant(*options.participant);
@@ -239,7 +273,7 @@ void run(Options options) {
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
   say_finished(
       run_session({request.protocol, request.setup, request.db, options.unblind, options.go_on,
-                   options.elsewhere, place_words(options.participant_info)},
+                   options.elsewhere.events, place_words(options.participant_info)},
                   start),
       request.db);
 }
@@ -295,9 +329,12 @@ void add_run(Command& app) {
                   "cubes stay where they are (default: right)")
       .one_of({"left", "right"});
   command.add_flag("--left-handed", options->left_handed, "the same as --controls left");
-  command.add_option("--text-size", &options->text_size,
-                     "how large the participant's texts are, 0.75 to 2 times the usual, as "
-                     "--set screens.text_size=... does (default: the protocol's)");
+  command
+      .add_option("--text-size", &options->text_size,
+                  fmt::format("how large the participant's texts are, {} to {} times the usual, as "
+                              "--set screens.text_size=... does (default: the protocol's)",
+                              least_text_size, most_text_size))
+      .between(least_text_size, most_text_size);
   command
       .add_option(
           "--purpose", &options->purpose,
@@ -311,6 +348,9 @@ void add_run(Command& app) {
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
   add_go_on(command, options->go_on);
+  command.add_flag("--changed-protocol", options->changed_protocol,
+                   "go on with a plan's protocol that was changed since earlier participants of "
+                   "the group had it");
   command.add_flag("--again", options->again,
                    "run once more a protocol that the participant has finished; or take an id "
                    "that is nearly another's, as 1 and 01 are");

@@ -10,16 +10,13 @@
 #include "apparatus/EventOutlet.h"
 #include "base/Error.h"
 #include "base/PlugTable.h"
-#include "base/TextFile.h"
 #include "cli/Installation.h"
 #include "cli/Terminal.h"
 #include "cli/TerminalConsole.h"
-#include "experiment/ScreenTexts.h"
 #include "physics/DecouplingSimulator.h"
 #include "physics/Oracles.h"
 #include "physics/auto/Choice.h"
 #include "protocol/ExpectedLength.h"
-#include "protocol/Files.h"
 #include "record/Backup.h"
 #include "session/Session.h"
 
@@ -102,9 +99,10 @@ void add_go_on(Command& command, bool& go_on) {
 
 void add_elsewhere_options(Command& command, Elsewhere& elsewhere) {
   command.group("Backups and other recorders");
-  command.add_option("--backup", &elsewhere.backup,
-                     "a folder, best on another disk: after the session a copy of the log is put "
-                     "there and checked (default: the study plan's, if it has one)");
+  command.add_option(
+      "--backup", &elsewhere.backup,
+      "a folder, best on another disk: after the session a copy of the log is put "
+      "there and checked (default: the study plan's; of a session that goes on, the one it had)");
   command.add_option("--events", &elsewhere.events,
                      "udp:HOST:PORT, fifo:PATH or serial:DEVICE: a line of JSON for each event, "
                      "once it is in the log, with its t_s and UTC; the session never waits for it");
@@ -222,7 +220,24 @@ void back_up_and_tell(const std::string& db, const std::string& folder, std::int
   }
 }
 
+std::string backup_folder(const Elsewhere& elsewhere) {
+  if (elsewhere.backup.empty()) return "";
+  return std::filesystem::absolute(elsewhere.backup).lexically_normal().string();
+}
+
 namespace {
+// Known before the session, not after it.
+void check_backup(const std::string& folder) try {
+  if (folder.empty()) return;
+  require_backup_folder(folder);
+  say("a copy of the log will be put into {}\n", folder);
+} catch (const Error& error) {
+  throw Error(
+      fmt::format("{}. The session has not begun. See to that folder, or give another with "
+                  "--backup FOLDER",
+                  error.what()));
+}
+
 void tell_dropped(const EventOutlet& events, const std::string& where) {
   if (events.n_dropped() == 0) return;
   say("heft: WARNING: {} of {} events could not be handed on to {}: nobody took them in time. All "
@@ -230,41 +245,6 @@ void tell_dropped(const EventOutlet& events, const std::string& where) {
       events.n_dropped(), events.n_dropped() + events.n_sent(), where);
 }
 
-std::string questionnaire_file(const std::string& file, const std::string& protocol_file) {
-  namespace fs = std::filesystem;
-  const fs::path beside = fs::path(protocol_file).parent_path() / file;
-  const fs::path shipped =
-      fs::path(installed_file("protocols/texts/en.toml")).parent_path().parent_path() /
-      "questionnaires" / file;
-  std::error_code unknown;
-  for (const fs::path& path : {beside, shipped})
-    if (fs::exists(path, unknown)) return path.string();
-  throw Error(
-      fmt::format("the protocol asks a questionnaire, and there is neither {} nor {}; write "
-                  "it, or put its [questionnaire] into the text file",
-                  beside.string(), shipped.string()),
-      ExitCode::usage);
-}
-}  // namespace
-
-void add_questionnaires(Setup& setup, const Protocol& protocol, const std::string& protocol_file) {
-  if (setup.texts_text.empty()) return;
-  for (const auto& [after, names] : protocol.screens.questionnaires)
-    for (const std::string& name : names) {
-      const ScreenTexts texts = parse_texts(setup.texts_text, setup.texts_file);
-      if (texts.questionnaires.contains(name)) continue;
-      const std::string file =
-          questionnaire_file(fmt::format("{}.{}.toml", name, texts.language), protocol_file);
-      const std::string text = read_text_file(file);
-      if (!parse_questionnaires(text, file).questionnaires.contains(name))
-        throw Error(fmt::format("{} has no [questionnaire.{}]", file, name),
-                    ExitCode::invalid_file);
-      setup.texts_text += '\n';
-      setup.texts_text += without_byte_order_mark(text);
-    }
-}
-
-namespace {
 // Not to take part is everybody's right, and no error.
 void say_declined(const SessionResult& result, const std::string& db) {
   say("the participant declined to take part: session {} is ended as aborted, before its first "
@@ -285,7 +265,8 @@ void say_finished(const SessionResult& result, const std::string& db) {
 SessionResult run_session(const CommandedSession& session,
                           const std::function<SessionResult(const RunnerOptions&)>& run) {
   std::optional<EventOutlet> events;
-  if (!session.elsewhere.events.empty()) events.emplace(session.elsewhere.events);
+  if (!session.events.empty()) events.emplace(session.events);
+  check_backup(session.setup.backup);
   const StopOnSignal stop_on_signal;
   ProgressBar bar("session");
   std::optional<TerminalConsole> console;
@@ -305,8 +286,8 @@ SessionResult run_session(const CommandedSession& session,
     };
   const SessionResult result = run(options);
   console.reset();
-  if (events) tell_dropped(*events, session.elsewhere.events);
-  back_up_and_tell(session.db, session.elsewhere.backup, result.session_id);
+  if (events) tell_dropped(*events, session.events);
+  back_up_and_tell(session.db, session.setup.backup, result.session_id);
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
   if (result.end == RunEnd::stopped)

@@ -57,6 +57,9 @@ struct Elsewhere {
   std::string events;  ///< as EventOutlet takes it
 };
 
+/// The folder of a session's copies as its setup keeps it; empty stays that.
+std::string backup_folder(const Elsewhere& elsewhere);
+
 /// --backup, --events
 void add_elsewhere_options(Command& command, Elsewhere& elsewhere);
 
@@ -64,12 +67,6 @@ void add_elsewhere_options(Command& command, Elsewhere& elsewhere);
 /// session, but somebody has to know it.
 /// @param folder empty: none is wanted
 void back_up_and_tell(const std::string& db, const std::string& folder, std::int64_t session_id);
-
-/// Puts the protocol's questionnaires below the texts that the session's person reads, from
-/// NAME.LANGUAGE.toml in the protocol's folder or in protocols/questionnaires.
-/// @param protocol_file where it was read
-/// @throws Error naming what is not there, InvalidFile where it has mistakes
-void add_questionnaires(Setup& setup, const Protocol& protocol, const std::string& protocol_file);
 
 /// How a session ended, and what comes next.
 void say_finished(const SessionResult& result, const std::string& db);
@@ -80,17 +77,18 @@ struct CommandedSession {
   std::string db;
   bool unblind = false;
   bool go_on_unchecked = false;
-  Elsewhere elsewhere = {};
-  std::string place = {};  ///< in a study, "7 of 24"
+  std::string events = {};  ///< as Elsewhere has it
+  std::string place = {};   ///< in a study, "7 of 24"
 };
 
 /// --go-on
 void add_go_on(Command& command, bool& go_on);
 
 /// Runs `run` with Ctrl-C turned into a clean stop, and with a progress bar, or the experimenter's
-/// console where the session keeps the time of day. Who declines to take part ends it as well.
-/// @throws Error (interrupted) when stopped, with how to go on; Error when the session paused
-/// itself
+/// console where the session keeps the time of day. Who declines to take part ends it as well. A
+/// copy of the log is put to the setup's folder afterwards.
+/// @throws Error before anything else when no copy could be put there; Error (interrupted) when
+/// stopped, with how to go on; Error when the session paused itself
 SessionResult run_session(const CommandedSession& session,
                           const std::function<SessionResult(const RunnerOptions&)>& run);
 

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "base/Error.h"
 #include "cli/Commands.h"
+#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "session/Simulation.h"
@@ -32,6 +34,8 @@ void simulate_participants(const Options& options) {
   setup.simulator = options.simulator;
   setup.settings = fmt::format("{}", fmt::join(options.settings, "\n"));
   complete(setup);
+  setup.protocol_file = std::filesystem::absolute(options.protocol).lexically_normal().string();
+  add_questionnaires(setup, request.protocol, texts_file(request.protocol.screens.language));
   request.setup = in_force(std::move(setup), request.protocol);
   request.db = options.db;
   request.seed = options.seed.value_or(fresh_seed());

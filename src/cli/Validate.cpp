@@ -15,6 +15,7 @@
 #include "base/PlugTable.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
+#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "experiment/DisplayFacts.h"
@@ -113,6 +114,26 @@ std::vector<std::string> what_does_not_fit(const ScreenTexts& texts, double text
   return sentences;
 }
 
+// The same with the largest letters that somebody may ask for: there what fits in small ones will
+// do.
+std::vector<std::string> what_does_not_fit_enlarged(const ScreenTexts& texts) {
+  std::vector<std::string> sentences = what_does_not_fit(texts, most_text_size);
+  std::erase_if(sentences, [](const std::string& sentence) {
+    return sentence.find("only in small letters") != std::string::npos;
+  });
+  for (std::string& sentence : sentences)
+    sentence = fmt::format("with --text-size {}, {}", most_text_size, sentence);
+  return sentences;
+}
+
+// As people read them, and as those do who ask for large letters.
+std::vector<std::string> what_does_not_fit(const ScreenTexts& texts) {
+  std::vector<std::string> sentences = what_does_not_fit(texts, 1);
+  for (std::string& sentence : what_does_not_fit_enlarged(texts))
+    sentences.push_back(std::move(sentence));
+  return sentences;
+}
+
 std::string described(const ScreenTexts& texts) {
   return fmt::format("{} page(s) in the language \"{}\"", texts.pages.size(), texts.language);
 }
@@ -165,7 +186,8 @@ void check_words(const Protocol& protocol, const std::string& protocol_file,
     Setup setup;
     setup.texts_file = texts_file(language);
     setup.texts_text = read_text_file(setup.texts_file);
-    add_questionnaires(setup, protocol, protocol_file);
+    setup.protocol_file = protocol_file;
+    add_questionnaires(setup, protocol, setup.texts_file);
     parse_texts(setup.texts_text, setup.texts_file);
   } catch (const InvalidFile&) {
     throw;
@@ -197,8 +219,7 @@ Checked checked_questionnaires(const ScreenTexts& read) {
   ScreenTexts texts = load_texts(texts_file("en"));
   texts.questionnaires = read.questionnaires;
   for (const auto& [page, words] : read.pages) texts.pages[page] = words;
-  return {fmt::format("{} questionnaire(s)", read.questionnaires.size()),
-          what_does_not_fit(texts, 1)};
+  return {fmt::format("{} questionnaire(s)", read.questionnaires.size()), what_does_not_fit(texts)};
 }
 
 Checked checked(FileKind kind, const std::string& text, const std::string& path) {
@@ -219,7 +240,7 @@ Checked checked(FileKind kind, const std::string& text, const std::string& path)
       return checked_questionnaires(parse_questionnaires(text, path));
     case FileKind::texts: {
       const ScreenTexts texts = parse_texts(text, path);
-      return {described(texts), what_does_not_fit(texts, 1)};
+      return {described(texts), what_does_not_fit(texts)};
     }
     case FileKind::display:
       return {described(parse_display(text, path))};

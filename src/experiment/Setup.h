@@ -43,8 +43,10 @@ struct Setup {
   std::string heft_version, build;
   /// What a simulated participant was drawn as, by name; in a table of its own.
   std::map<std::string, double> participant_parameters;
-  // The files' contents, so that a session goes on and is replayed without them. In the event, not
-  // in the table.
+  // In the event, not in the table: where the protocol was read, so that what stands beside it is
+  // found; the folder that copies of the log are put to; and the files' contents, so that a session
+  // goes on and is replayed without them.
+  std::string protocol_file, backup;
   std::string responder_text, tracker_text, camera_text, board_text, effector_text, texts_text;
 
   bool operator==(const Setup&) const = default;
@@ -123,11 +125,13 @@ void visit_columns(Row& row, Visit&& visit) {
         NullIfEmpty{row.display_file});
 }
 
-/// What only the event keeps: the contents of its files, and the drawn participant.
+/// What only the event keeps: places, the contents of its files, and the drawn participant.
 template <typename Row, typename Visit>
 requires std::same_as<std::remove_const_t<Row>, Setup>
 void visit_contents(Row& row, Visit&& visit) {
   visit("participant_parameters", row.participant_parameters);
+  visit("protocol_file", row.protocol_file);
+  visit("backup", row.backup);
   visit("responder_text", row.responder_text);
   visit("tracker_text", row.tracker_text);
   visit("camera_text", row.camera_text);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -21,7 +22,7 @@ constexpr Range display_rates_hz{1, 1000};
 constexpr Range physics_rates_hz{1, 100000};
 constexpr Range predictions_s{0, 0.2};  // beyond it no hand goes on as it did
 constexpr Range onsets_s{0, 60};
-constexpr Range text_sizes{0.75, 2};
+constexpr Range text_sizes{least_text_size, most_text_size};
 
 void read_physics(TableReader& reader, Protocol& protocol) {
   reader.in_table("physics", [&](TableReader& table) {
@@ -43,13 +44,29 @@ void read_onset(TableReader& reader, Onset& onset) {
   });
 }
 
+// It is part of a file's name and of the log's keys, where a point parts it from what it asks.
+bool is_plain_name(const std::string& name) {
+  return !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+}
+
+// Asked twice of one block it would come once: its answers have one place in the log.
 void read_asked(TableReader& table, ScreensChosen& screens) {
   std::string name, after;
   table.require({"name"});
   table.read("name", name);
   table.read("after", after);
   table.close();
-  screens.questionnaires[after].push_back(name);
+  std::vector<std::string>& there = screens.questionnaires[after];
+  if (table.has("name") && table.good({"name"}) && !is_plain_name(name))
+    table.mistake("name", fmt::format("name is \"{}\", expected letters, digits, _ and - only",
+                                      printable(name)));
+  else if (std::ranges::count(there, name) > 0)
+    table.mistake("name",
+                  fmt::format("\"{}\" is asked {} already, expected each questionnaire once there",
+                              printable(name), after.empty() ? "at the end" : "after that block"));
+  there.push_back(name);
 }
 
 // A misspelled block would mean a questionnaire that nobody is asked.

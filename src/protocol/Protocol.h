@@ -31,6 +31,9 @@ struct EnumNames<FrictionIs> {
   static constexpr std::array<std::string_view, 2> names{"between_surfaces", "per_body"};
 };
 
+/// Of ScreensChosen::text_size.
+inline constexpr double least_text_size = 0.75, most_text_size = 2;
+
 /// What a person's screens show besides the tasks.
 struct ScreensChosen {
   std::string language = "en";  ///< of protocols/texts/, unless the session's options say another

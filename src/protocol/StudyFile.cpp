@@ -8,6 +8,7 @@
 #include "base/Printable.h"
 #include "base/Sha256.h"
 #include "base/TextFile.h"
+#include "experiment/ParticipantId.h"
 #include "protocol/Protocol.h"
 #include "protocol/StudyPlan.h"
 #include "protocol/TableReader.h"
@@ -163,7 +164,7 @@ class StudyReader {
     reader_.read("participants", plan_.participants, {1, most_participants});
     reader_.read("seed", plan_.seed, {0, std::numeric_limits<std::int64_t>::max()});
     reader_.read("id_prefix", plan_.id_prefix);
-    check_line(reader_, "id_prefix", plan_.id_prefix);
+    check_id_prefix();
     read_path(reader_, "protocol", file_, protocol);
     read_language(reader_, file_, study_.language);
     int display = -1;
@@ -173,6 +174,18 @@ class StudyReader {
     read_path(reader_, "db", file_, plan_.db);
     read_path(reader_, "backup", file_, plan_.backup);
     study_.protocol = protocol.value_or("");
+  }
+
+  // What nobody's id may begin with is told before the first of them comes.
+  void check_id_prefix() {
+    const std::string& prefix = plan_.id_prefix;
+    if (!reader_.good({"id_prefix"})) return;
+    const auto mistake = [&](const std::string& what) {
+      reader_.mistake("id_prefix", fmt::format("id_prefix \"{}\" {}", printable(prefix), what));
+    };
+    if (const auto wrong = wrong_with_id(planned_id(plan_, plan_.participants)))
+      return mistake(fmt::format("can't be: the id {}", *wrong));
+    if (prefix.starts_with(' ')) mistake("begins with a blank, which nobody sees");
   }
 
   void read_groups() {

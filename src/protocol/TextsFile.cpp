@@ -85,8 +85,8 @@ constexpr std::size_t most_choices = 12;
 void check_key(TableReader& table, std::string_view key, const std::string& value) {
   const bool plain = std::ranges::all_of(
       value, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
-  if (value == "done_s")  // is when the questionnaire was gone through
-    table.mistake(key, fmt::format("{} is \"done_s\", which the log keeps for itself", key));
+  if (value == "done_s" || value == "answered_by")  // when it was gone through, and not by a person
+    table.mistake(key, fmt::format("{} is \"{}\", which the log keeps for itself", key, value));
   if (!plain && table.good({key}))
     table.mistake(key, fmt::format("{} is \"{}\", expected small letters, digits and _ only", key,
                                    printable(value)));

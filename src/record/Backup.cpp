@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "base/Build.h"
 #include "base/Error.h"
@@ -112,6 +113,18 @@ std::string backup_name(const std::string& participant, std::int64_t session_id,
   for (const char c : utc.substr(0, utc.find('.')))
     if (c != '-' && c != ':' && c != 'Z') when += c;
   return fmt::format("{}_session{}_{}Z", who, session_id, when);
+}
+
+void require_backup_folder(const std::string& folder) try {
+  make_folder(folder);
+  const std::string path = make_part(folder, "written-to-try") + ".part";
+  const Part part(path);
+  std::ofstream file(path);
+  file << "heft\n" << std::flush;
+  if (!file) fail(folder, "nothing can be written there: " + system_reason());
+  sync(path);
+} catch (const fs::filesystem_error& error) {
+  fail(folder, error.code().message());
 }
 
 std::string back_up(const std::string& db, const std::string& folder, std::int64_t session_id) try {

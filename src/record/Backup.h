@@ -11,6 +11,11 @@ namespace heft {
 std::string backup_name(const std::string& participant, std::int64_t session_id,
                         const std::string& utc);
 
+/// Makes the folder where it is not there, and writes a file to it and takes that away again: so
+/// that before a session it is known that a copy can be put there.
+/// @throws Error when it can't be made or written
+void require_backup_folder(const std::string& folder);
+
 /// Copies the log, as it is committed, to a file of its own in `folder` (made where it is not
 /// there), for its owner alone (0600). The copy is opened for reading and checked: its pages, rules
 /// and references, and the session's digests. Only then does it get its name, which is never one

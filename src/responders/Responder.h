@@ -18,6 +18,7 @@
 #include "experiment/Action.h"
 #include "experiment/DisplayedFrame.h"
 #include "experiment/Parameter.h"
+#include "experiment/Questionnaire.h"
 #include "experiment/ScreenState.h"
 #include "experiment/Stage.h"
 #include "experiment/Task.h"
@@ -70,6 +71,14 @@ class Responder {
   virtual std::optional<Answer> judge(const TrialView& trial [[maybe_unused]],
                                       std::span<const DisplayedFrame> frames
                                       [[maybe_unused]]) const {
+    return std::nullopt;
+  }
+
+  /// What it says to a question of a questionnaire.
+  /// @param key of the log, another for each time that the question is asked
+  /// @return none: it leaves it out
+  virtual std::optional<std::string> answer(const FormQuestion& question [[maybe_unused]],
+                                            const std::string& key [[maybe_unused]]) const {
     return std::nullopt;
   }
 };

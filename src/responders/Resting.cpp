@@ -6,6 +6,7 @@
 #include "responders/Answering.h"
 #include "responders/Decision.h"
 #include "responders/Hand.h"
+#include "responders/Questions.h"
 #include "responders/Responder.h"
 #include "responders/ResponderParameters.h"
 
@@ -46,6 +47,11 @@ class Resting : public Responder {
   std::optional<Answer> judge(const TrialView& trial,
                               std::span<const DisplayedFrame>) const override {
     return make_mind_(trial)({});
+  }
+
+  std::optional<std::string> answer(const FormQuestion& question,
+                                    const std::string& key) const override {
+    return any_answer_to(question, seed_, key);
   }
 
  private:

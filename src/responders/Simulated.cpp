@@ -6,6 +6,7 @@
 #include "responders/Decision.h"
 #include "responders/Hand.h"
 #include "responders/Perception.h"
+#include "responders/Questions.h"
 #include "responders/Responder.h"
 #include "responders/ResponderParameters.h"
 
@@ -60,6 +61,11 @@ class Simulated : public Responder {
     Perception perception(parameters_, seed_, trial);
     for (const DisplayedFrame& frame : frames) perception.see(frame);
     return Decision(parameters_, seed_, trial).decide(perception.percepts_mm(), {});
+  }
+
+  std::optional<std::string> answer(const FormQuestion& question,
+                                    const std::string& key) const override {
+    return any_answer_to(question, seed_, key);
   }
 
  private:

@@ -127,10 +127,11 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const Setup& opti
 }
 
 SessionParts Equipment::parts(Engine& engine, EventSink& sink) {
-  return {*protocol_,    engine,      sink,
-          *pictures_,    *responder_, *view_,
-          clock,         has_screen_, has_person_ ? &setup_.texts : nullptr,
-          demonstrated_, left_hand_};
+  SessionParts parts{*protocol_, engine, sink, *pictures_, *responder_, *view_, clock, has_screen_};
+  (has_person_ ? parts.texts : parts.asked) = setup_.texts.pages.empty() ? nullptr : &setup_.texts;
+  parts.apparatus = demonstrated_;
+  parts.left_hand = left_hand_;
+  return parts;
 }
 
 }  // namespace heft

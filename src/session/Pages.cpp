@@ -6,6 +6,7 @@
 
 #include "base/Sha256.h"
 #include "protocol/Files.h"
+#include "session/AskedModel.h"
 #include "session/Demonstration.h"
 
 namespace heft {
@@ -69,7 +70,9 @@ void Pages::ask(const std::string& name, const std::string& after) {
   const std::string asked = (after.empty() ? "" : after + '.') + name;
   const std::string done = asked + ".done_s";
   if (gone_.entries.contains(done) || control_.leaving()) return;
-  if (!texts_->questionnaires.contains(name)) {
+  const ScreenTexts& texts = texts_ ? *texts_ : *asked_.texts;
+  const auto form = texts.questionnaires.find(name);
+  if (form == texts.questionnaires.end()) {
     gone_.entries[done] = "";
     return journal_.emit_now(
         Note{fmt::format("the texts have no questionnaire \"{}\": not asked", name)});
@@ -77,14 +80,36 @@ void Pages::ask(const std::string& name, const std::string& after) {
   ScreenState screen{.screen = Screen::questionnaire, .entries = gone_.entries};
   screen.form = name;
   screen.form_prefix = asked + '.';
-  if (show(screen) != TouchKind::next) return;
+  if (!texts_) journal_.add_info(asked + ".answered_by", "model");
+  const TouchKind end = texts_ ? show(screen) : ask_model(form->second, screen);
+  if (end != TouchKind::next) return;
   gone_.entries[done] = fmt::format("{:.3f}", journal_.now_s());
   journal_.add_info(done, gone_.entries[done]);
 }
 
+// As show(), with the model's touches in place of a person's.
+TouchKind Pages::ask_model(const Questionnaire& form, const ScreenState& screen) {
+  AskedModel model(*asked_.mind, form, screen);
+  SessionClock& clock = journal_.clock();
+  const double since_s = clock.now_s();
+  while (!control_.leaving()) {
+    if (control_.has_screen())
+      screen_.present({}, screen);
+    else
+      screen_.tell(screen);
+    control_.wait(still_page_step_s);
+    clock.advance_to(clock.now_s() + still_page_step_s);
+    for (const Touch& touch : model.touch(clock.now_s() - since_s)) {
+      if (touch.kind == TouchKind::next) return touch.kind;
+      journal_.add_info(touch.key, touch.value);
+    }
+  }
+  return TouchKind::close;
+}
+
 void Pages::questionnaires(const std::string& before_block) {
   const auto& asked = protocol_.screens.questionnaires;
-  if (asked.empty()) return;
+  if (asked.empty() || (!texts_ && !asked_.texts)) return;
   const auto ask_after = [&](const std::string& block) {
     if (const auto found = asked.find(block); found != asked.end())
       for (const std::string& name : found->second) ask(name, block);

@@ -4,11 +4,18 @@
 #include <functional>
 
 #include "protocol/Protocol.h"
+#include "responders/Responder.h"
 #include "session/GoneThrough.h"
 #include "session/SessionControl.h"
 #include "tracking/MarkerBody.h"
 
 namespace heft {
+
+/// Who is asked questionnaires where no person is.
+struct AskedMind {
+  const Responder* mind = nullptr;
+  const ScreenTexts* texts = nullptr;  ///< null: it is asked none
+};
 
 class Pages {
  public:
@@ -16,13 +23,15 @@ class Pages {
   ///   demonstration and breaks, which go on by themselves
   /// @param before the session went on
   Pages(const Protocol& protocol, Journal& journal, SessionControl& control,
-        ParticipantScreen& screen, const ScreenTexts* texts, GoneThrough before)
+        ParticipantScreen& screen, const ScreenTexts* texts, GoneThrough before,
+        AskedMind asked = {})
       : protocol_(protocol),
         journal_(journal),
         control_(control),
         screen_(screen),
         texts_(texts),
-        gone_(std::move(before)) {}
+        gone_(std::move(before)),
+        asked_(asked) {}
 
   bool has_reader() const { return texts_ != nullptr; }
 
@@ -40,7 +49,7 @@ class Pages {
   void rest(double least_s);
 
   /// The questionnaires after the blocks before this one that were not asked yet; before none: all,
-  /// and those at the end.
+  /// and those at the end. A model is asked, too.
   void questionnaires(const std::string& before_block = {});
 
   /// The pages after the last trial.
@@ -55,6 +64,7 @@ class Pages {
   TouchKind show(Screen screen) { return show(ScreenState{.screen = screen}); }
   void show_once(Screen screen);
   void ask(const std::string& name, const std::string& after);
+  TouchKind ask_model(const Questionnaire& form, const ScreenState& screen);
   void show_form(Screen screen);
   bool agrees();
 
@@ -64,6 +74,7 @@ class Pages {
   ParticipantScreen& screen_;
   const ScreenTexts* texts_;
   GoneThrough gone_;
+  AskedMind asked_;
 };
 
 }  // namespace heft

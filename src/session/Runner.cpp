@@ -17,9 +17,10 @@ Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
     : parts_(parts),
       options_(options),
       journal_(parts.engine, parts.sink, parts.clock, options.progress),
-      screen_(journal_, parts.view, parts.texts),
+      screen_(journal_, parts.view, parts.texts, parts.asked),
       control_(journal_, screen_, options.console, options.stop, parts.has_screen),
-      pages_(parts.protocol, journal_, control_, screen_, parts.texts, parts.before) {
+      pages_(parts.protocol, journal_, control_, screen_, parts.texts, parts.before,
+             {&parts.responder, parts.asked}) {
   control_.on_check([this] { check_apparatus(); });
   journal_.while_locked([this](double waited_s) { return wait_for_log(waited_s); });
 }
@@ -131,10 +132,8 @@ RunEnd Runner::run_blocks() {
 
 // None: the last answer was vetoed meanwhile, and there is more to do.
 std::optional<RunEnd> Runner::finish() {
-  if (pages_.has_reader()) {
-    pages_.questionnaires();
-    pages_.how_decided();
-  }
+  pages_.questionnaires();
+  if (pages_.has_reader()) pages_.how_decided();
   if (control_.leaving()) return RunEnd::stopped;
   if (parts_.engine.next().kind != Next::Kind::finish) return std::nullopt;
   journal_.emit_now(SessionEnded{});
@@ -168,10 +167,10 @@ void Runner::run_trial(const TrialPlan& plan) {
         Note{fmt::format("staircase \"{}\" is the last one and runs alone from trial {}", *survivor,
                          plan.trial_number)});
   }
-  if (pages_.has_reader() && instructed_block_ != plan.block) {
+  if (instructed_block_ != plan.block) {
     pages_.questionnaires(plan.block);
     if (control_.leaving()) return;
-    pages_.instructions(plan.task);
+    if (pages_.has_reader()) pages_.instructions(plan.task);
     if (control_.leaving()) return;
     instructed_block_ = plan.block;
   }

@@ -31,6 +31,8 @@ struct SessionParts {
   Apparatus apparatus = {};  ///< what the demonstration shows; without a board a plain table
   GoneThrough before = {};   ///< of a session that goes on
   bool left_hand = false;    ///< holds the effector in it
+  const ScreenTexts* asked =
+      nullptr;  ///< of questionnaires that the responder is asked; null: none
 };
 
 struct RunnerOptions {

@@ -220,7 +220,6 @@ void change_setup(LoggedSession& session, const GivenOptions& again) {
                                     {&setup.camera_file, &again.camera_file},
                                     {&setup.board_file, &again.board_file},
                                     {&setup.effector_file, &again.effector_file},
-                                    {&setup.texts_file, &again.texts_file},
                                     {&setup.display, &again.display},
                                     {&setup.display_file, &again.display_file},
                                     {&setup.responder, &again.responder}}) {
@@ -228,8 +227,22 @@ void change_setup(LoggedSession& session, const GivenOptions& again) {
     *held = **given;
     files_stay = false;
   }
+  if (again.texts_file) {
+    setup.texts_file = *again.texts_file;
+    setup.texts_text.clear();  // otherwise it stays, with the questionnaires that stand below it
+  }
   if (again.windowed) setup.window = "window";
-  files_stay ? check(setup) : complete(setup);
+  if (files_stay) {
+    complete_texts(setup);
+    check(setup);
+  } else {
+    complete(setup);
+  }
+  if (!again.texts_file && setup.texts_text.empty() &&
+      !session.protocol->screens.questionnaires.empty()) {
+    setup.texts_file = session.setup.texts_file;  // a model is asked by them
+    setup.texts_text = session.setup.texts_text;
+  }
   session.setup = in_force(std::move(setup), *session.protocol);
   session.protocol = protocol_for(*session.protocol, session.setup);
 }

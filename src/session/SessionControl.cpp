@@ -12,15 +12,23 @@ namespace heft {
 
 std::optional<double> ParticipantScreen::present(const ViewFrame& frame,
                                                  const ScreenState& screen) {
-  if (texts_) log_text(text_page(screen));
-  shown_ = screen;
+  tell(screen);
   return view_.present(frame, screen);
 }
 
-void ParticipantScreen::log_text(const std::string& page) {
+void ParticipantScreen::tell(const ScreenState& screen) {
+  const ScreenTexts* read = screen.screen == Screen::questionnaire && asked_ ? asked_ : texts_;
+  if (read)
+    log_text(*read, text_page(screen));
+  else
+    page_.clear();  // nobody reads what stands there now
+  shown_ = screen;
+}
+
+void ParticipantScreen::log_text(const ScreenTexts& texts, const std::string& page) {
   if (page == page_) return;
   page_ = page;
-  journal_.emit_now(TextShown{page, texts_->language, sha256(page_text(*texts_, page))});
+  journal_.emit_now(TextShown{page, texts.language, sha256(page_text(texts, page))});
 }
 
 namespace {

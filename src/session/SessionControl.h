@@ -20,11 +20,16 @@ namespace heft {
 class ParticipantScreen {
  public:
   /// @param texts what the person reads; null: nobody reads
-  ParticipantScreen(Journal& journal, ArView& view, const ScreenTexts* texts)
-      : journal_(journal), view_(view), texts_(texts) {}
+  /// @param asked of questionnaires that a model is asked; null: it is asked none
+  ParticipantScreen(Journal& journal, ArView& view, const ScreenTexts* texts,
+                    const ScreenTexts* asked)
+      : journal_(journal), view_(view), texts_(texts), asked_(asked) {}
 
   /// As ArView::present; logs the screen's text unless it is the one that stands there already.
   std::optional<double> present(const ViewFrame& frame, const ScreenState& screen);
+
+  /// The same of a page that stands before a model, where there is no screen.
+  void tell(const ScreenState& screen);
 
   std::vector<Touch> wait(double seconds) { return view_.wait(seconds); }
   /// As ArView::is_full_screen.
@@ -36,11 +41,11 @@ class ParticipantScreen {
   const std::optional<ScreenState>& shown() const { return shown_; }
 
  private:
-  void log_text(const std::string& page);
+  void log_text(const ScreenTexts& texts, const std::string& page);
 
   Journal& journal_;
   ArView& view_;
-  const ScreenTexts* texts_;
+  const ScreenTexts *texts_, *asked_;
   std::optional<ScreenState> shown_;
   std::string page_;  // of texts, that stands there
 };
@@ -87,6 +92,9 @@ class SessionControl {
 
   /// Whether the experimenter asked for a break since the last time.
   bool take_rest_wish();
+
+  /// Whether there is a screen that can be looked at and touched.
+  bool has_screen() const { return has_screen_; }
 
   /// What the experimenter is shown with the next wait(); a trial fills in how its frames come.
   ConsoleStatus status;

@@ -1,4 +1,5 @@
 // Who is next in a study, from what its log says.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -101,11 +102,26 @@ TEST(StudyPlaces, AreOnesOwn) {
 
 TEST(StudyPlaces, OfPilotsAndOtherStudiesDontCount) {
   Log log(six_people());
-  log.add(SessionState::finished, Purpose::pilot);
+  log.add_row("P01", SessionState::finished, Purpose::pilot, {});  // of an older version
   log.add_row("P09", SessionState::finished, Purpose::main, {{"study", "another"}});
   log.add_row("P10", SessionState::finished, Purpose::main, {});
   EXPECT_EQ(log.next().place.number, 1);
   EXPECT_EQ(log.next().id, "P01b");
+}
+
+TEST(StudyPlaces, AndIdsOfRehearsalsAreNobodyElses) {
+  Log log(six_people());
+  for (const Purpose purpose : {Purpose::pilot, Purpose::test, Purpose::simulated})
+    for (const char* number : {"01", "02"}) {
+      const PlannedParticipant next =
+          planned_participant(six_people(), log.sessions, purpose, std::nullopt);
+      EXPECT_EQ(next.id, fmt::format("{}-P{}", name_of(purpose), number));
+      log.add(SessionState::finished, purpose, next.id);
+      EXPECT_EQ(log.sessions.back().header.participant, next.id);
+    }
+  EXPECT_EQ(planned_participant(six_people(), log.sessions, Purpose::test, "P05").id, "test-P05");
+  EXPECT_EQ(log.next().id, "P01");
+  EXPECT_EQ(log.next().place.number, 1);
 }
 
 TEST(StudyPlaces, GivenOtherwiseThanThePlanSaysAreRefused) {

@@ -63,6 +63,25 @@ class Mistakes(CommandLine):
         self.assertLess(len(said), 200)
         self.says(2, "replay", "--session", "010")
 
+    def test_a_text_size_out_of_range_is_a_wrong_command_line(self):
+        for size in ("5", "0.5", "-1", "nan", "inf", "1,5", "large"):
+            said = self.says(2, *self.run_words("--participant", "1", f"--text-size={size}"))
+            self.assertIn(f'--text-size: expected a number 0.75...2, got "{size}"', said)
+        for size in ("0.75", "2"):
+            self.run_heft(*self.run_words("--participant", size, "--text-size", size))
+
+    def test_an_empty_value_is_no_value(self):
+        for option in ("--participant", "--db", "--backup", "--events", "--language", "--simulator",
+                       "--plan", "--set", "--display", "--board", "--record-camera", "--seed"):
+            for words in ((option, ""), (option, " "), (f"{option}=  ",)):
+                said = self.says(2, *self.run_words("--participant", "1"), *words)
+                self.assertIn(f"{option}: its value is empty", said)
+        self.assertIn("PROTOCOL: its value is empty", self.says(2, "run", "", "--participant", "1"))
+        for words in (["resume", "--db", ""], ["replay", "--db", ""], ["analyse", "--out", ""],
+                      ["validate", ""], ["simulate", QUICK, "--responder", ""],
+                      ["export", "--out", ""], ["sheet", "board", "--out", ""]):
+            self.assertIn("is empty", self.says(2, *words))
+
     def test_a_participant_is_text_that_people_can_read(self):
         too_long = "x" * 201
         for participant in ("", " ", "\u00a0\u3000", "a\nb", "a\tb", "a\x7f", "a\u0085", b"\xff",

@@ -61,7 +61,7 @@ class Plans(StudyTest):
     def test_each_participant_gets_the_next_place(self):
         for number in range(1, 5):
             said = self.next().stderr
-            self.assertIn(f"participant P0{number} of the study mass: {number} of 4", said)
+            self.assertIn(f"participant simulated-P0{number} of the study mass: {number} of 4", said)
         cells = {(self.info(i)["study_group"], self.info(i)["study_order"]) for i in range(1, 5)}
         self.assertEqual(len(cells), 4, cells)
         for session, protocol in query(self.db, "select session_id, protocol_name from session"):
@@ -117,9 +117,35 @@ class Plans(StudyTest):
     def test_a_plan_that_was_changed_on_the_way_is_refused(self):
         self.next()
         self.plan.write_text(STUDY.replace('"first"', '"other"').replace('"second"', '"more"'))
-        self.assertIn("session 1 of participant P01 has place 1", self.next(expect=1).stderr)
+        self.assertIn("session 1 of participant simulated-P01 has place 1", self.next(expect=1).stderr)
         self.plan.write_text(STUDY.replace("participants = 4", "participants = 8"))
         self.assertIn("2 of 8", self.next().stderr)
+
+    def test_a_protocol_that_was_changed_on_the_way_is_told(self):
+        for _ in range(4):
+            self.next()
+        self.plan.write_text(STUDY.replace("participants = 4", "participants = 12"))
+        had = [participant for participant, in query(
+            self.db, "select participant from session where protocol_name = 'again'")]
+        changed = self.folder / "again.toml"
+        changed.write_text(changed.read_text() + "# more words\n")
+        said = ""
+        for number in range(5, 9):  # of the two groups
+            done = self.next("--participant", f"P{number:02}", expect=None)
+            if done.returncode:
+                self.assertEqual(done.returncode, 2, done.stderr)
+                said = done.stderr
+                for word in (changed, *had, '"second"', "--changed-protocol"):
+                    self.assertIn(str(word), said)
+                done = self.next("--participant", f"P{number:02}", "--changed-protocol")
+                self.assertIn(f"WARNING: {changed} is not what", done.stderr)
+                break
+        self.assertTrue(said, "nothing was told")
+        n = 0
+        for number in range(9, 13):  # asked once, but told again
+            done = self.next("--participant", f"P{number:02}")
+            n += "WARNING" in done.stderr
+        self.assertEqual(n, 2)
 
     def test_validate_shows_the_orders(self):
         said = self.run_heft("validate", self.plan).stdout
@@ -132,13 +158,32 @@ class Plans(StudyTest):
 
     def test_validate_sees_what_people_would_miss(self):
         asked = (PROTOCOLS / "quick.toml").read_text()
+        (self.folder / "mine.en.toml").write_text(
+            '[questionnaire.mine]\ntitle = "T"\n[[questionnaire.mine.question]]\nkey = "a"\n'
+            'kind = "text"\ntext = "A?"\n')
         (self.folder / "again.toml").write_text(
-            asked + '\n[[screens.questionnaire]]\nname = "nasa_tlx"\n')
+            asked + '\n[[screens.questionnaire]]\nname = "mine"\n')
         said = self.run_heft("validate", self.plan, expect=3).stderr
-        self.assertIn("nasa_tlx.fr.toml", said)  # there is no French one
+        self.assertIn("mine.fr.toml", said)  # there is no French one
         self.run_heft("validate", self.folder / "again.toml")
         self.plan.write_text(STUDY.replace('"fr"', '"xx"'))
         self.assertIn('"xx"', self.run_heft("validate", self.plan, expect=3).stderr)
+
+    def test_two_questionnaires_of_one_name_are_refused(self):
+        question = '[[questionnaire.{}.question]]\nkey = "a"\nkind = "text"\ntext = "A?"\n'
+        for file, names in (("one", ("one", "two")), ("two", ("two",))):
+            (self.folder / f"{file}.en.toml").write_text("".join(
+                f'[questionnaire.{name}]\ntitle = "T"\n' + question.format(name)
+                for name in names))
+        protocol = self.folder / "again.toml"
+        for order in (("one", "two"), ("two", "one")):
+            protocol.write_text((PROTOCOLS / "quick.toml").read_text() + "".join(
+                f'\n[[screens.questionnaire]]\nname = "{name}"\n' for name in order))
+            for words in (["validate", protocol],
+                          ["run", protocol, "--participant", "1", "--tracker", "mouse"]):
+                said = self.run_heft(*words, expect=3).stderr
+                self.assertIn("one.en.toml and ", said.replace("two.en.toml and", "one.en.toml and"))
+                self.assertIn("both have a [questionnaire.two]", said)
 
     def test_nobody_takes_anothers_place_by_a_slip(self):
         said = self.next("--participant", "P2", expect=2).stderr
@@ -168,6 +213,14 @@ class Plans(StudyTest):
         self.assertIn("expected no other one",
                       self.run_heft("run", PROTOCOLS / "quick.toml", "--plan", self.plan,
                                     expect=2).stderr)
+
+    def test_a_plan_is_no_protocol_and_says_what_it_is(self):
+        said = self.run_heft("run", self.plan, "--participant", "1", expect=2).stderr
+        self.assertIn(f"{self.plan} is a study's plan: heft run --plan {self.plan}", said)
+        protocol = self.folder / "again.toml"
+        said = self.run_heft("run", "--plan", protocol, expect=2).stderr
+        self.assertIn(f"heft run {protocol} --participant ID", said)
+        self.assertEqual(len(said.splitlines()), 1)
 
     def test_analyse_takes_orders_for_one_protocol(self):
         self.next()
@@ -223,7 +276,7 @@ class ListAndShow(StudyTest):
         self.assertIn("X 9", lines[3])
         self.assertIn(f"heft analyse --db {self.db}", said.stderr)
         rows = json.loads(self.run_heft("list", "--db", self.db, "--json").stdout)
-        self.assertEqual([row["participant"] for row in rows], ["P01", "P02", "X 9"])
+        self.assertEqual([row["participant"] for row in rows], ["simulated-P01", "simulated-P02", "X 9"])
         self.assertEqual(rows[1]["study"]["place"], 2)
         self.assertIsNone(rows[2]["study"])
         self.assertEqual(rows[0]["n_completed"], query(
@@ -267,7 +320,7 @@ class Backups(StudyTest):
         self.next()
         first, second = self.copies()
         self.assertIn(str(first), said)
-        self.assertRegex(second.name, r"^P02_session2_\d{8}T\d{6}Z\.db$")
+        self.assertRegex(second.name, r"^simulated-P02_session2_\d{8}T\d{6}Z\.db$")
         self.assertEqual(second.stat().st_mode & 0o777, 0o600)
         everything = "select * from event order by event_id"
         self.assertEqual(query(second, everything), query(self.db, everything))
@@ -275,12 +328,47 @@ class Backups(StudyTest):
             said = self.run_heft("replay", "--db", second, "--session", session)
             self.assertIn("verified", said.stdout + said.stderr)
 
-    def test_that_fail_harm_nothing_and_are_told(self):
+    def test_that_can_not_be_made_are_known_before_the_session(self):
         (self.folder / "file").write_text("mine")
-        said = self.session(self.folder / "a.db", "--backup", self.folder / "file").stderr
+        for folder in (self.folder / "file", self.folder / "file" / "in", "/proc/none"):
+            said = self.session(self.folder / "a.db", "--backup", folder, expect=1).stderr
+            self.assertIn("The session has not begun", said)
+            self.assertIn(str(folder), said)
+            self.assertFalse((self.folder / "a.db").exists())
+        said = self.session(self.folder / "a.db", "--backup", self.folder / "new").stderr
+        self.assertIn(f"a copy of the log will be put into {self.folder / 'new'}\n", said)
+        self.assertEqual([copy.suffix for copy in self.copies("new")], [".db"])
+
+    def under_way(self, db):
+        process = subprocess.Popen(
+            [self.heft, "run", PROTOCOLS / "jnd.toml", "--participant", "01", "--responder",
+             "simulated", "--db", db, "--backup", "copies"],
+            cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not self.is_under_way(db):
+            time.sleep(0.01)
+        self.assertIsNone(process.poll(), "it was over before it could be stopped")
+        return process
+
+    def test_that_fail_harm_nothing_and_are_told(self):
+        db, copies = self.folder / "a.db", self.folder / "copies"
+        process = self.under_way(db)
+        copies.rmdir()  # the stick is pulled out
+        copies.write_text("")
+        said = process.communicate()[1]
+        self.assertEqual(process.returncode, 0, said)
         self.assertIn("WARNING: there is NO BACKUP of session 1", said)
         self.assertIn("is finished", said)
-        self.assertEqual(query(self.folder / "a.db", "select state from session"), [("finished",)])
+        self.assertEqual(query(db, "select state from session"), [("finished",)])
+
+    def test_go_on_with_the_session_without_a_plan_too(self):
+        db = self.folder / "a.db"
+        process = self.under_way(db)
+        process.kill()
+        process.communicate()
+        self.run_heft("resume", "--db", db)  # from another folder
+        self.assertEqual(len(self.copies()), 1)
+        said = self.run_heft("replay", "--db", db)
+        self.assertIn("verified", said.stdout + said.stderr)
 
     def test_come_when_a_session_is_ended_for_good(self):
         db = self.folder / "a.db"

@@ -43,6 +43,18 @@ class Validate(unittest.TestCase):
             [HEFT, "validate", *map(str, paths)], capture_output=True, text=True, timeout=60
         )
 
+    def test_what_only_large_letters_do_not_fit_is_told_of_texts(self):
+        english = (PROTOCOLS / "texts" / "en.toml").read_text(encoding="utf-8")
+        self.assertIn('title = "Welcome"', english)
+        path = self.file("de.toml", english.replace(
+            'title = "Welcome"', 'title = "Donaudampfschifffahrtsgesellschaft"'))
+        said = self.validate(path).stderr
+        self.assertIn("with --text-size 2, on a screen of 1024 x 600: welcome: "
+                      '"Donaudampfschifffahrtsgesellschaft" does not fit', said)
+        self.assertEqual(len(said.splitlines()), 1, said)
+        for language in ("en", "fr"):
+            self.assertEqual("", self.validate(PROTOCOLS / "texts" / f"{language}.toml").stderr)
+
     def test_every_shipped_protocol_is_ok(self):
         paths = sorted(PROTOCOLS.glob("*.toml"))
         self.assertGreaterEqual(len(paths), 5)

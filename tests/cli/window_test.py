@@ -288,8 +288,13 @@ class Window(unittest.TestCase):
         run = subprocess.run([HEFT, "doctor", "--db", self.db], env=self.screen.environment(),
                              text=True, capture_output=True, timeout=120)
         for line in (r"ok       display +0 \(.*\), 1024 x 600 pixels", r"graphics +\S",
-                     r"ok       typeface", r"ok       touch"):
+                     r"ok       typeface", r"ok       touch",
+                     r"(ok|warning) +touch delay +\d+\.\d ms from the touch's event.*of (4\d|50):"):
             self.assertRegex(run.stdout, line)
+        nothing = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        run = subprocess.run([HEFT, "doctor", "--db", self.db], env=nothing, text=True,
+                             capture_output=True, timeout=120)
+        self.assertRegex(run.stdout, r"ok +touch delay +not measured: there is no display")
 
     def test_without_a_display_nothing_is_begun(self):
         environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}

@@ -105,6 +105,11 @@ class Combinations(unittest.TestCase):
         told = json.loads(self.heft("analyse", "--db", db, "--mix", "--json").stdout)
         self.assertIs(told["simulated"], True)
 
+    def asked_once(self, db):
+        """The questionnaire came, and was answered or left out."""
+        self.assertEqual(query(db, "select count(*) from participant_info where key = "
+                                   "'fours.borg_cr10.done_s'"), [(1,)])
+
     def new(self, *parts):
         return self.folder / ("-".join(parts) + ".db")
 
@@ -124,6 +129,8 @@ class Combinations(unittest.TestCase):
                                "view like ? || '%' from setup".replace("?", "'{}'").format(
                                    responder, tracker, view)), [(1, 1, 1)])
         self.check_pace(db, tracker, view)
+        if which == "all":
+            self.asked_once(db)
         if not ended:
             self.assertEqual(query(db, "select count(*) from trial where status = 'completed'"),
                              [(N_ALL if which == "all" else 1,)])
@@ -178,6 +185,8 @@ class Combinations(unittest.TestCase):
         self.assertEqual(query(db, "select setup_id from trial where trial_number = 1"),
                          [setups[0][:1]])
         self.assertIn(responder, setups[1][1])
+        if not filmed:
+            self.asked_once(db)
         self.said_to_be_simulated(db)
 
     def test_sessions_that_go_on_with_something_else(self):
@@ -220,6 +229,7 @@ class Combinations(unittest.TestCase):
         self.answered(db, "resume", "--db", db, "--responder", "human", "--view", "window",
                       "--keys")
         self.verified(db)
+        self.asked_once(db)
         self.said_to_be_simulated(db)
 
     @unittest.skipUnless(HAS_SCREEN, "needs Xvfb and xdotool")

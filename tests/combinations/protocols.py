@@ -15,6 +15,12 @@ kind = "speed_limit"
 limit_m_s_of_mass = [[15, 0.5], [200, 0.15], [800, 0.05]]
 """
 
+ASKED = """
+[[screens.questionnaire]]
+name = "borg_cr10"
+after = "fours"
+"""
+
 PAIRS = """
 [[block]]
 kind = "sorting"
@@ -77,10 +83,10 @@ def protocol(*blocks, display_rate_hz=15, contact=True):
 
 
 # One trial, two, and one of everything with every technique: three sorting trials, then four
-# comparisons.
+# comparisons, with a questionnaire between the two.
 ONE = protocol(PAIRS, contact=False)
 TWO = protocol(PAIRS, FOURS, contact=False)
-ALL = protocol(PAIRS, FOURS, UP_DOWN, CONSTANT, contact=False)
+ALL = protocol(ASKED, PAIRS, FOURS, UP_DOWN, CONSTANT, contact=False)
 N_SORTING, N_ALL = 3, 7
 
 

@@ -1,4 +1,5 @@
 // Questionnaire files: the shipped ones, every mistake at its place, and how protocols ask them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,8 +14,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string file_of(const std::string& name) {
-  return HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + ".en.toml";
+std::string file_of(const std::string& name, const std::string& language = "en") {
+  return HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + '.' + language + ".toml";
 }
 
 const std::string every_kind = R"([questionnaire.q]
@@ -63,6 +64,29 @@ TEST(QuestionnaireFile, ShippedOnesAreSoundAndNameTheirSource) {
   EXPECT_EQ(tlx.questionnaires.at("nasa_tlx").questions.size(), 6U);
 }
 
+// What is logged of a question does not depend on the language that it was asked in.
+std::string logged_of(const FormQuestion& question) {
+  std::string all = question.key + ' ' + std::string(name_of(question.kind));
+  for (const AnswerChoice& choice : question.choices) all += ' ' + choice.value;
+  return all +
+         fmt::format(" {} {} {} {}", question.from, question.to, question.least, question.most);
+}
+
+TEST(QuestionnaireFile, ShippedOnesAreTheSameInFrenchAndSayThatTheyAreNotValidated) {
+  for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
+    const std::string text = content_of(file_of(name, "fr"));
+    const ScreenTexts english = parse_questionnaires(content_of(file_of(name)), name),
+                      french = parse_questionnaires(text, name);
+    EXPECT_THAT(french.questionnaires.at(name).source, HasSubstr("non validée")) << name;
+    std::vector<std::string> asked, in_french;
+    for (const FormQuestion& question : english.questionnaires.at(name).questions)
+      asked.push_back(logged_of(question));
+    for (const FormQuestion& question : french.questionnaires.at(name).questions)
+      in_french.push_back(logged_of(question));
+    EXPECT_EQ(asked, in_french);
+  }
+}
+
 TEST(QuestionnaireFile, MayStandBelowATextFile) {
   const std::string texts = content_of(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
   const ScreenTexts both = parse_texts(texts + '\n' + every_kind, "f");
@@ -94,6 +118,7 @@ TEST_P(BrokenQuestionnaire, IsOneMistakeAtItsPlace) {
 const std::vector<Broken> broken{
     {"kind", {"\"slider\"", "^\"slidder\""}, {"kind", "\"slider\"?"}},
     {"unknown_key", {"least = 0", "least = 0\n^step = 2"}, {"unknown key \"step\""}},
+    {"kept_key_too", {"\"b\"", "^\"answered_by\""}, {"keeps for itself"}},
     {"kept_key", {"\"a\"", "^\"done_s\""}, {"keeps for itself"}},
     {"key_with_a_blank", {"\"a\"", "^\"a b\""}, {"small letters"}},
     {"two_of_a_key", {"\"b\"", "^\"a\""}, {"two questions are \"a\""}},
@@ -122,6 +147,21 @@ TEST(AskedQuestionnaires, ComeAfterABlockOrAtTheEnd) {
   EXPECT_THAT(protocol.screens.questionnaires.at("s"), ElementsAre("borg_cr10"));
   EXPECT_THAT(protocol.screens.questionnaires.at(""), ElementsAre("nasa_tlx", "presence"));
   EXPECT_EQ(protocol.screens.text_size, 1.25);
+}
+
+TEST(AskedQuestionnaires, AskedTwiceOrByNoNameAreRefused) {
+  const auto mistake_in = [](const std::string& names) -> std::string {
+    const auto mistakes = mistakes_of([&] { parse_protocol(protocol_asking(names), "p.toml"); });
+    return mistakes.size() == 1 ? mistakes[0].message : "";
+  };
+  const std::string table = "[[screens.questionnaire]]\n";
+  EXPECT_THAT(mistake_in(table + "name = \"q\"\n" + table + "name = \"q\"\n"),
+              HasSubstr("\"q\" is asked at the end already"));
+  EXPECT_EQ(mistake_in(table + "name = \"q\"\n" + table + "name = \"q\"\nafter = \"s\"\n"), "");
+  for (const char* name : {"../q", "a.b", "q r"})
+    EXPECT_THAT(mistake_in(table + "name = \"" + name + "\"\n"),
+                HasSubstr("expected letters, digits"))
+        << name;
 }
 
 TEST(AskedQuestionnaires, AfterABlockThatIsNotThereAreRefused) {

@@ -175,6 +175,15 @@ TEST(BrokenStudy, IsRefusedAtItsPlace) {
               HasSubstr("STUDY.toml:8:8: there is a group \"a\" already"));
 }
 
+TEST(BrokenStudy, IdsThatNobodyCanHaveAreRefused) {
+  EXPECT_THAT(mistakes_in(study("id_prefix = \"P\\u0007\"\n")),
+              HasSubstr("lab/STUDY.toml:5:13: id_prefix \"P \" can't be: the id holds"));
+  EXPECT_THAT(mistakes_in(study("id_prefix = \"" + std::string(199, 'x') + "\"\n")),
+              HasSubstr("has 201 bytes"));
+  EXPECT_THAT(mistakes_in(study("id_prefix = \" P\"\n")), HasSubstr("begins with a blank"));
+  EXPECT_EQ(mistakes_in(study("id_prefix = \"Gruppe Ä \"\n")), "");
+}
+
 TEST(BrokenStudy, BlocksThatItsProtocolLacksAreNamed) {
   EXPECT_THAT(mistakes_in(study("[order]\nblocks = [\"sorting\", \"comparisn\"]\n")),
               HasSubstr("STUDY.toml:6:22: "));

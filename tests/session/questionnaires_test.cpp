@@ -5,6 +5,7 @@
 #include "base/Random.h"
 #include "base/TextFile.h"
 #include "protocol/Files.h"
+#include "session/Session.h"
 #include "session/TappedSession.h"
 
 namespace heft {
@@ -20,11 +21,15 @@ using testing::Tap;
 using testing::TappedScreen;
 using testing::TappedSession;
 
-ScreenTexts texts_with(const std::vector<std::string>& names) {
+std::string text_with(const std::vector<std::string>& names) {
   std::string text = read_text_file(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
   for (const std::string& name : names)
     text += '\n' + read_text_file(HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + ".en.toml");
-  return parse_texts(text, "texts");
+  return text;
+}
+
+ScreenTexts texts_with(const std::vector<std::string>& names) {
+  return parse_texts(text_with(names), "texts");
 }
 
 // Answers each question once with any of its buttons, and goes on.
@@ -147,6 +152,61 @@ TEST(Questionnaires, ThatTheTextsLackAreNotedAndPassedOver) {
   for (const Event& event : testing::events_of(session.sink, EventKind::note))
     notes.push_back(event.as<Note>()->text);
   EXPECT_THAT(notes, Contains(::testing::HasSubstr("\"presence\"")));
+}
+
+SessionRequest asked_model() {
+  SessionRequest request;
+  request.protocol = asking();
+  Setup setup;
+  setup.responder = "coin";
+  setup.texts_file = "texts.toml";
+  setup.texts_text = text_with(all);
+  request.setup = in_force(setup, request.protocol);
+  request.participant = "sim";
+  request.seed = 5;
+  return request;
+}
+
+TEST(Questionnaires, ModelsAreAskedAsPeopleAre) {
+  const RecordedSession session = compute_session(asked_model(), {});
+  const std::map<std::string, std::string> logged = session.header().participant_info;
+  EXPECT_EQ(logged.size(), 6U + 6 + 1 + 3 + 5 + 2 * 5) << "five that were gone through, by a model";
+  const ScreenTexts texts = texts_with(all);
+  double last_s = 0;
+  const std::vector<std::pair<std::string, std::string>> asked{{"sorting.", "nasa_tlx"},
+                                                               {"again.", "nasa_tlx"},
+                                                               {"again.", "borg_cr10"},
+                                                               {"", "presence"},
+                                                               {"", "ownership"}};
+  for (const auto& [after, name] : asked) {
+    const std::string prefix = after + name + '.';
+    for (const FormQuestion& question : texts.questionnaires.at(name).questions) {
+      if (question.kind == QuestionKind::text) continue;
+      EXPECT_TRUE(takes_answer(question, logged.at(prefix + question.key))) << prefix;
+    }
+    EXPECT_EQ(logged.at(prefix + "answered_by"), "model");
+    const double at_s = std::stod(logged.at(prefix + "done_s"));
+    EXPECT_GT(at_s, last_s + 2) << "it takes its time";
+    last_s = at_s;
+  }
+  EXPECT_THAT(testing::pages_of(session),
+              ::testing::ElementsAre("questionnaire_nasa_tlx", "questionnaire_nasa_tlx",
+                                     "questionnaire_borg_cr10", "questionnaire_presence",
+                                     "questionnaire_ownership"));
+  EXPECT_EQ(compute_session(asked_model(), {}).header().participant_info, logged);
+}
+
+TEST(Questionnaires, DoNotChangeWhatAModelAnswersInTrials) {
+  SessionRequest unasked = asked_model();
+  unasked.protocol.screens.questionnaires.clear();
+  const auto actions_of = [](const RecordedSession& session) {
+    std::vector<Action> actions;
+    for (const Event& event : testing::events_of(session, EventKind::action))
+      actions.push_back(*event.as<Action>());
+    return actions;
+  };
+  EXPECT_EQ(actions_of(compute_session(unasked, {})),
+            actions_of(compute_session(asked_model(), {})));
 }
 
 }  // namespace

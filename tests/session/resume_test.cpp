@@ -42,11 +42,12 @@ class Resumed : public ::testing::Test {
   void start() { ASSERT_EQ(start_session(request, until(2)).end, RunEnd::stopped); }
 
   // A person at a made-up window, who leaves after two trials.
-  void start_as_a_person() {
+  void start_as_a_person(const std::string& asked = "") {
     request.setup.responder = "human";
     request.setup.view = "window";
     request.setup.texts_file = HEFT_SOURCE_DIR "/protocols/texts/en.toml";
     complete(request.setup);
+    request.setup.texts_text += asked;
     request.setup = in_force(request.setup, request.protocol);
     SessionHeader header;
     header.participant = request.participant;
@@ -104,6 +105,17 @@ class Resumed : public ::testing::Test {
   std::atomic<bool> stop = false;
 };
 
+// As it was read below another text file when the session began.
+constexpr const char* questionnaire = R"([questionnaire.effort]
+title = "Effort"
+[[questionnaire.effort.question]]
+key = "effort"
+kind = "slider"
+text = "How hard was it?"
+low = "Easy"
+high = "Hard"
+)";
+
 GivenOptions a_model(const std::string& name) {
   GivenOptions given;
   given.responder = name;
@@ -119,6 +131,23 @@ TEST_F(Resumed, after_a_person_a_model_goes_on_and_nobody_takes_it_for_a_persons
   EXPECT_THAT(responders(), ::testing::ElementsAre("human", "simulated"));
   EXPECT_TRUE(analysed().simulated());
   EXPECT_EQ(analysed().participant(), "1 (simulated)");
+}
+
+TEST_F(Resumed, what_people_read_stays_with_its_questionnaires_whatever_else_changes) {
+  start_as_a_person(questionnaire);
+  GivenOptions display, board, words;
+  display.display = "1";
+  board.board_file = HEFT_SOURCE_DIR "/protocols/apparatus/board_letter.toml";
+  words.texts_file = HEFT_SOURCE_DIR "/protocols/texts/fr.toml";
+  for (const GivenOptions& given : {display, board}) {
+    LoggedSession session = session_to_resume(request.db, std::nullopt);
+    change_setup(session, given);
+    EXPECT_EQ(session.setup.texts_sha256, request.setup.texts_sha256);
+    EXPECT_THAT(session.setup.texts_text, HasSubstr("[questionnaire.effort]"));
+  }
+  LoggedSession session = session_to_resume(request.db, std::nullopt);
+  change_setup(session, words);
+  EXPECT_EQ(session.setup.language, "fr") << "but for words that are given";
 }
 
 TEST_F(Resumed, one_model_follows_the_other) {

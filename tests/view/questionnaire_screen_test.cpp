@@ -4,6 +4,7 @@
 
 #include "EveryScreen.h"
 #include "base/TextFile.h"
+#include "view/window/ScreenPages.h"
 #include "view/window/TextFit.h"
 #include "view/window/TouchScreen.h"
 
@@ -16,7 +17,8 @@ using ::testing::SizeIs;
 ScreenTexts texts_with_questionnaires(const std::string& language = "en") {
   ScreenTexts texts = texts_in(language);
   for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
-    const std::string file = HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + ".en.toml";
+    const std::string file = HEFT_SOURCE_DIR "/protocols/questionnaires/" + name +
+                             (language == "fr" ? ".fr.toml" : ".en.toml");
     const ScreenTexts read = parse_questionnaires(read_text_file(file), file);
     texts.questionnaires.insert(read.questionnaires.begin(), read.questionnaires.end());
     texts.pages.insert(read.pages.begin(), read.pages.end());
@@ -117,7 +119,26 @@ TEST(QuestionnaireScreen, EveryQuestionFitsEveryScreen) {
 }
 
 TEST(QuestionnaireScreen, OfTheShippedOnesNothingIsTooLargeForTheSmallestScreen) {
-  EXPECT_THAT(texts_that_do_not_fit(texts_with_questionnaires(), smallest_screen()), IsEmpty());
+  for (const char* language : {"en", "fr"}) {
+    const ScreenTexts texts = texts_with_questionnaires(language);
+    EXPECT_THAT(texts_that_do_not_fit(texts, smallest_screen()), IsEmpty());
+    EXPECT_THAT(texts_that_do_not_fit(texts, smallest_screen(2)),
+                ::testing::Each(::testing::HasSubstr("only in small letters")));
+  }
+}
+
+TEST(QuestionnaireScreen, ComesBackToANumberThatWasBeingTyped) {
+  FormQuestion number, likert;
+  number.key = "n";
+  number.kind = QuestionKind::number;
+  number.least = 10;
+  number.most = 20;
+  likert.key = "l";
+  likert.kind = QuestionKind::likert;
+  const Questionnaire form{"T", "", {number, likert}};
+  for (const char* typed : {"", ".", "1", "123"})
+    EXPECT_EQ(first_open_question(form, "q.", {{"q.n", typed}}), 0) << typed;
+  EXPECT_EQ(first_open_question(form, "q.", {{"q.n", "12"}}), 1);
 }
 
 TEST(QuestionnaireScreen, ASliderIsSetWhereItIsTappedAndMovedByOne) {

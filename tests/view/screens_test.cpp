@@ -594,6 +594,12 @@ TEST(TextFit, OfTheTextsNothingIsTooLargeForTheSmallestScreen) {
     EXPECT_THAT(texts_that_do_not_fit(texts_in(language), smallest_screen()), testing::IsEmpty());
 }
 
+TEST(TextFit, LargeLettersAreSmallerWhereThereIsNoRoomForThem) {
+  for (const char* language : {"en", "fr", "ar", "ja"})
+    EXPECT_THAT(texts_that_do_not_fit(texts_in(language), smallest_screen(2)),
+                testing::Each(testing::HasSubstr("only in small letters")));
+}
+
 TEST(TextFit, NamesWhatIsTooLongForItsButtonOrItsPlace) {
   ScreenTexts texts = shipped_texts("en");
   texts.pages["trial_sorting"]["dont_know"] = "Rindfleischetikettierungsüberwachungsaufgabe";

@@ -101,10 +101,11 @@ struct Measures {
   float target;              ///< least width and height of what can be tapped
   float gap, margin;         ///< between controls; around them
   float small, body, title;  ///< text
+  float text_size;           ///< times as large as usual
 
-  /// @param text_size times as large as usual; targets and their places stay
-  Measures(float width_px, float height_px, float text_size = 1)
-      : width(width_px), height(height_px) {
+  /// @param size of text, times as large as usual; targets and their places stay
+  Measures(float width_px, float height_px, float size = 1)
+      : width(width_px), height(height_px), text_size(size) {
     const float unit = std::min(height_px, 0.6f * width_px);
     target = 0.14f * unit;
     gap = 0.016f * unit;
@@ -113,6 +114,10 @@ struct Measures {
     body = 0.042f * unit * text_size;
     title = 0.065f * unit * text_size;
   }
+
+  /// The least that a text of that size may become where there is little room: half of what is
+  /// usual, however large texts are asked for.
+  float least_px(float size_px) const { return 0.5f * size_px / std::max(1.0f, text_size); }
 };
 
 class Taps {

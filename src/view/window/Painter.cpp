@@ -147,19 +147,21 @@ ControlWords words_on(const Control& control, const Typeface& typeface, const Me
   if (!control.note.empty()) {
     inside.height /= 2;
     words.note_area = {inside.x, inside.bottom(), inside.width, inside.height};
-    words.note =
-        typeface.fitted(control.note, measures.body, words.note_area.width, words.note_area.height);
+    words.note = typeface.fitted(control.note, measures.body, words.note_area.width,
+                                 words.note_area.height, measures.least_px(measures.body));
   }
   words.text_area = inside;
-  words.text = typeface.fitted(control.text, measures.body, inside.width, inside.height);
+  words.text = typeface.fitted(control.text, measures.body, inside.width, inside.height,
+                               measures.least_px(measures.body));
   return words;
 }
 
 NoticeWords words_of_notice(const std::string& notice, const Rect& scene, const Typeface& typeface,
                             const Measures& measures) {
   const float margin = measures.margin;
-  NoticeWords words{
-      typeface.fitted(notice, measures.body, scene.width - 4 * margin, 0.25f * scene.height), {}};
+  NoticeWords words{typeface.fitted(notice, measures.body, scene.width - 4 * margin,
+                                    0.25f * scene.height, measures.least_px(measures.body)),
+                    {}};
   const auto& [size_px, lines] = words.text;
   float width = 0;
   for (const std::string& line : lines) width = std::max(width, typeface.width_px(line, size_px));

@@ -90,7 +90,8 @@ class Asked {
     const bool leftward = builder.typeface.reads_right_to_left();
     const Rect half{room.x, room.y, room.width / 2 - m.gap, 0};
     const auto fitted = [&](const std::string& words) {
-      return builder.typeface.fitted(words, m.body, half.width, ends_lines * m.body);
+      return builder.typeface.fitted(words, m.body, half.width, ends_lines * m.body,
+                                     m.least_px(m.body));
     };
     const FittedText first = fitted(question.low), last = fitted(question.high);
     const auto add = [&](const FittedText& words, bool left) {
@@ -168,7 +169,9 @@ int first_open_question(const Questionnaire& form, const std::string& prefix,
                         const std::map<std::string, std::string>& entries) {
   int i = 0;
   for (const FormQuestion& question : form.questions) {
-    if (!entries.contains(prefix + question.key)) return i;
+    const auto given = entries.find(prefix + question.key);
+    const bool answered = given != entries.end() && takes_answer(question, given->second);
+    if (!answered) return i;  // or a number was being typed
     ++i;
   }
   return std::max(0, i - 1);
@@ -189,8 +192,8 @@ void questionnaire_screen(PageBuilder& builder) {
   const auto rows = static_cast<float>(asked.n_rows());
   const float room_px =
       area.bottom() - y - rows * (m.target + m.gap) - asked.above_px() - 2 * m.gap;
-  const FittedText words =
-      builder.typeface.fitted(question.text, 0.7f * m.title, area.width, room_px);
+  const FittedText words = builder.typeface.fitted(question.text, 0.7f * m.title, area.width,
+                                                   room_px, m.least_px(0.7f * m.title));
   y = builder.add_lines(words.lines, area, y + m.gap, words.size_px) + m.gap;
   asked.add_answers({area.x, y, area.width, area.bottom() - y});
   const bool answered = question.kind == QuestionKind::text || takes_answer(question, given);

@@ -21,7 +21,8 @@ void add_scene(PageBuilder& builder, const std::string& above) {
   const Rect column = column_of(builder);
   const float x = builder.left_handed ? column.right() + m.margin : m.margin;
   const float width = m.width - column.width - 3 * m.margin;
-  const FittedText words = builder.typeface.fitted(above, m.body, width, 3 * m.body);
+  const FittedText words =
+      builder.typeface.fitted(above, m.body, width, 3 * m.body, m.least_px(m.body));
   const float bottom = builder.add_lines(words.lines, {x, 0, width, 0}, m.margin, words.size_px);
   const float y = bottom + m.gap;
   builder.page.scene = Rect{x, y, width, m.height - m.margin - y};
@@ -194,10 +195,12 @@ void demonstration_screen(PageBuilder& builder) {
   add_scene(builder, builder.text("demonstration", "title"));
   const Rect column = column_of(builder);
   const Rect button = bottom_row(builder);
+  const Measures& m = builder.measures;
+  const float y = builder.page.scene->y;
   const auto words =
-      builder.typeface.fitted(builder.text("demonstration", "text"), builder.measures.body,
-                              column.width, button.y - column.y - builder.measures.gap);
-  builder.add_lines(words.lines, column, builder.page.scene->y, words.size_px, Tone::soft);
+      builder.typeface.fitted(builder.text("demonstration", "text"), m.body, column.width,
+                              button.y - y - m.gap, m.least_px(m.body));
+  builder.add_lines(words.lines, column, y, words.size_px, Tone::soft);
   if (builder.state.wait_s > 0) return;
   builder.add_primary("next", button, builder.text("buttons", "next"), touch_of(TouchKind::next));
 }

@@ -102,9 +102,9 @@ float add_question(PageBuilder& builder, const std::string& page, const Question
                                     area, area.y, m.body, Tone::soft);
   const auto n_rows = static_cast<float>((question.values.size() + 1) / 2);
   const float choices_px = n_rows * (m.target + m.gap) + 2 * m.gap;
-  const auto words =
-      builder.typeface.fitted(builder.text(page, std::string(question.key)), 0.7f * m.title,
-                              area.width, std::min(2 * m.title, area.bottom() - choices_px - y));
+  const auto words = builder.typeface.fitted(
+      builder.text(page, std::string(question.key)), 0.7f * m.title, area.width,
+      std::min(2 * m.title, area.bottom() - choices_px - y), m.least_px(0.7f * m.title));
   return builder.add_lines(words.lines, area, y + m.gap, words.size_px);
 }
 

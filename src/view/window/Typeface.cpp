@@ -106,11 +106,10 @@ std::vector<std::string> Typeface::wrapped(const std::string& text, float size_p
   return remembered(wrapped_, std::pair(WrittenLine{text, size_px, direction_}, width), wrap);
 }
 
-FittedText Typeface::fitted(const std::string& text, float size_px, float width,
-                            float height) const {
-  constexpr float smallest = 0.5f;
+FittedText Typeface::fitted(const std::string& text, float size_px, float width, float height,
+                            float least_px) const {
   FittedText fit;
-  for (float scale = 1; scale >= smallest; scale -= 0.05f) {
+  for (float scale = 1; scale * size_px >= least_px; scale -= 0.05f) {
     fit = {scale * size_px, wrapped(text, scale * size_px, width)};
     const float lines_px = static_cast<float>(fit.lines.size()) * line_height_px(fit.size_px);
     const bool narrow = std::ranges::all_of(

@@ -38,8 +38,11 @@ class Typeface {
   /// empty.
   std::vector<std::string> wrapped(const std::string& text, float size_px, float width_px) const;
 
-  /// The text wrapped at the largest of a few sizes from size_px down at which it fits.
-  FittedText fitted(const std::string& text, float size_px, float width_px, float height_px) const;
+  /// The text wrapped at the largest of a few sizes from size_px down at which it fits, or else at
+  /// the least.
+  /// @param least_px at most size_px
+  FittedText fitted(const std::string& text, float size_px, float width_px, float height_px,
+                    float least_px) const;
 
   /// The texts' language does.
   bool reads_right_to_left() const { return direction_ == Direction::right_to_left; }

@@ -1,0 +1,22 @@
+// Questionnaires' files: where they are found, and how they come below the texts of a session.
+#pragma once
+
+#include <string>
+
+namespace heft {
+struct Protocol;
+struct Setup;
+}  // namespace heft
+
+namespace heft::cli {
+
+/// Puts the protocol's questionnaires below the texts that the session's person reads, from
+/// NAME.LANGUAGE.toml beside the protocol (Setup::protocol_file) or in protocols/questionnaires.
+/// Those that the texts have already stay as they are. A model, which reads no other page, gets the
+/// texts for them.
+/// @param texts_file of who has no texts yet
+/// @throws Error naming what is not there, or two files that have one of a name; InvalidFile where
+///   a file has mistakes
+void add_questionnaires(Setup& setup, const Protocol& protocol, const std::string& texts_file);
+
+}  // namespace heft::cli
