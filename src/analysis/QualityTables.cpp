@@ -70,7 +70,8 @@ Table sensitivity_table(const Summary& summary) {
       "indecision model (left, none, right; lapse rate .02) with criteria and side bias of each "
       "participant's own; the median participant's threshold of a forced choice, free of the "
       "criterion. Interval: bootstrap over participants. Indecision: half the width between the "
-      "criteria in SDs of what is felt. What the data can't bear is not printed."};
+      "median participant's criteria in SDs of what is felt. What the data can't bear is not "
+      "printed."};
   for (const ReferenceSensitivity& row : summary.sensitivity) {
     const PooledSensitivity& pooled = row.pooled;
     table.rows.push_back({mass(row.compared.reference_g), word(row.compared.condition),
