@@ -17,8 +17,8 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
-from statistics import NormalDist
 from pathlib import Path
+from statistics import NormalDist
 
 PROTOCOL = Path(__file__).resolve().parents[2] / "protocols" / "recommended.toml"
 ALPHA = 0.01
