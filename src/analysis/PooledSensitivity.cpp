@@ -281,9 +281,10 @@ void put_indecision(PooledSensitivity& found, const Profiles& people) {
 }
 }  // namespace
 
-Interval expanded_percentiles(const std::vector<double>& samples, std::size_t n_people) {
+Interval expanded_percentiles(const std::vector<double>& samples, std::size_t n_people,
+                              double confidence) {
   const double n = static_cast<double>(n_people);
-  const double t = student_t_quantile(n - 1);
+  const double t = student_t_quantile(n - 1, confidence);
   const double tail = normal_cdf(-t * std::sqrt(n / (n - 1)));
   return {*heft::quantile(samples, tail), *heft::quantile(samples, 1 - tail)};
 }

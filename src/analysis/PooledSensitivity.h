@@ -55,7 +55,8 @@ struct PooledSensitivity {
 };
 
 /// Percentiles of bootstrap samples, farther out where people are few. n_people > 1.
-Interval expanded_percentiles(const std::vector<double>& samples, std::size_t n_people);
+Interval expanded_percentiles(const std::vector<double>& samples, std::size_t n_people,
+                              double confidence = confidence_level);
 
 /// @param people  answers (left, none, right) by signed level in g. Identifiable: the interval of
 ///   the sensitivity lies above 0 and that of the threshold ends at most at twice the largest

@@ -44,7 +44,8 @@ Table resets_table(const Summary& summary) {
       titled("Cubes that were put back to their start, by mass", summary),
       {{"mass", "mass"}, {"n_cubes", "cubes shown"}, {"n_reset", "put back"}, {"percent", "%"}},
       {},
-      "where the percentages differ, a cube that jumps home tells its mass"};
+      "where cubes go back each by itself and the percentages differ, one that jumps home tells "
+      "its mass; where all of a trial go back together (out_of_area), it does not"};
   for (const ResetRow& row : summary.quality.resets)
     table.rows.push_back({word(row.mass), count(row.n_cubes), count(row.n_reset),
                           number(100.0 * row.n_reset / row.n_cubes)});

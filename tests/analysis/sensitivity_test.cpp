@@ -8,6 +8,7 @@
 
 #include "Coverage.h"
 #include "MadeUpChoosers.h"
+#include "analysis/Notes.h"
 #include "analysis/Summary.h"
 
 namespace heft {
@@ -114,6 +115,32 @@ TEST(Sensitivity, HasAboveAndBelowApart) {
   EXPECT_EQ(effect.from_below_g.mean, 100);
   EXPECT_EQ(effect.difference_g.mean, 210);
   EXPECT_NEAR(effect.difference_g.interval->high, 210 + 12.7062047362 * 10, 1e-6);  // t, 1 df
+}
+
+// Of two ratios one may be off by chance twice as often as the only one.
+TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
+  PooledSensitivity light, heavy, heaviest;
+  light.n = heavy.n = heaviest.n = 13;
+  light.sensitivity = heavy.sensitivity = heaviest.sensitivity = 1;
+  light.threshold_75_g = heavy.threshold_75_g = heaviest.threshold_75_g = z_75;
+  for (int i = 0; i < 2000; ++i) {
+    light.sensitivity_samples.push_back(std::exp(2.0 * i / 2000));
+    heavy.sensitivity_samples.push_back(1);
+    heaviest.sensitivity_samples.push_back(1);
+  }
+  const auto verdict = [&](double ratio) {
+    Summary summary = summarize({"x.db", {}}, "");
+    const auto row = [](double reference_g, const PooledSensitivity& pooled) {
+      return ReferenceSensitivity{{reference_g, "C2"}, pooled, std::nullopt};
+    };
+    summary.sensitivity = {row(100, light), row(100 * ratio, heavy), row(100 * ratio, heaviest)};
+    return hypotheses_of(summary).at(4).verdict;
+  };
+  const Interval one = threshold_ratio_interval(light, heavy);
+  const Interval of_two = threshold_ratio_interval(light, heavy, 0.975);
+  ASSERT_LT(one.high, of_two.high);
+  EXPECT_EQ(verdict((one.high + of_two.high) / 2), HypothesisVerdict::not_judged);
+  EXPECT_EQ(verdict(1.1 * of_two.high), HypothesisVerdict::not_supported);
 }
 
 TEST(CoverageOf, ThresholdsAndIndecisions) {
