@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/CriteriaFit.h"
+#include "analysis/MaximumLikelihood.h"
 #include "base/Quantile.h"
 #include "base/Random.h"
 #include "psychophysics/Normal.h"
@@ -269,6 +270,28 @@ void put_pooled(PooledSensitivity& found, std::span<const OnGrid> people, double
       Interval{z_75 / found.sensitivity_interval->high, z_75 / found.sensitivity_interval->low};
 }
 
+// Where a likelihood has fallen far enough, a place on the grid; none: nowhere on this side.
+std::optional<double> end_of(const OnGrid& log_likelihood, std::ptrdiff_t direction) {
+  const auto best = std::ranges::max_element(log_likelihood);
+  const double least = *best - interval_drop;
+  const auto last = direction < 0 ? log_likelihood.begin() : log_likelihood.end() - 1;
+  for (auto inner = best; inner != last; inner += direction) {
+    const double here = *inner, next = *(inner + direction);
+    if (next <= least)
+      return static_cast<double>(inner - log_likelihood.begin()) +
+             static_cast<double>(direction) * (here - least) / (here - next);
+  }
+  return std::nullopt;
+}
+
+OwnSensitivity own_sensitivity(const OnGrid& log_likelihood, double largest_g) {
+  const auto at = [largest_g](double place) { return sensitivity_at(place) / largest_g; };
+  OwnSensitivity own{at(top_of(log_likelihood))};
+  if (const auto place = end_of(log_likelihood, -1)) own.low = at(*place);
+  if (const auto place = end_of(log_likelihood, 1)) own.high = at(*place);
+  return own;
+}
+
 void put_indecision(PooledSensitivity& found, const Profiles& people) {
   const std::size_t n = people.log_indecision.size();
   found.indecision = std::exp(log_indecision_of(people, std::vector<double>(n, 1)));
@@ -308,6 +331,9 @@ PooledSensitivity pooled_sensitivity(std::span<const AnswersByLevel> all) {
   const std::vector<double> once(people.size(), 1);
   found.sensitivity = sensitivity_at(top_of(sum_of(by_person.log_likelihood, once))) / largest_g;
   put_indecision(found, by_person);
+  if (found.n >= least_people)
+    for (const OnGrid& one : by_person.log_likelihood)
+      found.people.push_back(own_sensitivity(one, largest_g));
   if (found.n == 1)
     put_own_interval(found, with_trials[0]);
   else if (found.n >= least_people)

@@ -18,11 +18,13 @@ using namespace made_up;
 using testing::HasSubstr;
 
 std::vector<SessionData> study(int n_people, const Population& population,
-                               const std::vector<ComparisonDesign>& designs, RandomStream& stream) {
+                               const std::vector<ComparisonDesign>& designs, RandomStream& stream,
+                               std::vector<Chooser>* people = nullptr) {
   std::vector<SessionData> sessions;
   for (int i = 0; i < n_people; ++i) {
     sessions.push_back(session(i + 1, std::to_string(100 + i)));
     const Chooser chooser = population.draw(stream);
+    if (people) people->push_back(chooser);
     for (const ComparisonDesign& design : designs)
       compare(sessions.back(), chooser, design, stream);
   }
@@ -30,7 +32,7 @@ std::vector<SessionData> study(int n_people, const Population& population,
 }
 
 struct PooledCoverage {
-  Coverage threshold, indecision;
+  Coverage threshold, indecision, own;  ///< own: each person's sensitivity
 };
 
 PooledCoverage pooled_coverage(int n_people, const Population& population,
@@ -38,7 +40,13 @@ PooledCoverage pooled_coverage(int n_people, const Population& population,
   RandomStream stream(17, "thresholds", static_cast<std::uint64_t>(n_people));
   PooledCoverage found;
   for (int i = 0; i < studies; ++i) {
-    const auto rows = sensitivities_of(study(n_people, population, {design}, stream));
+    std::vector<Chooser> people;
+    const auto rows = sensitivities_of(study(n_people, population, {design}, stream, &people));
+    for (std::size_t k = 0; k < people.size(); ++k) {
+      const OwnSensitivity& own = rows.at(0).pooled.people.at(k);
+      found.own.add(Interval{own.low.value_or(-1e9), own.high.value_or(1e9)},
+                    people[k].sensitivity_per_g);
+    }
     found.threshold.add(rows.at(0).pooled.threshold_interval_g, population.threshold_75_g);
     found.indecision.add(rows.at(0).pooled.indecision_interval, population.indecision);
   }
@@ -143,22 +151,24 @@ TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
   EXPECT_EQ(verdict(1.1 * of_two.high), HypothesisVerdict::not_supported);
 }
 
-TEST(CoverageOf, ThresholdsAndIndecisions) {
+TEST(CoverageOf, Sensitivities) {
   const int studies = n_studies(40);
   for (const auto& [n_people, population, reference_g] :
        {std::tuple{13, Population{150, 0}, 200.0}, std::tuple{13, Population{150}, 200.0},
         std::tuple{13, Population{150, 0.3, 0.4}, 200.0}, std::tuple{13, Population{50}, 15.0},
         std::tuple{13, Population{600}, 800.0}, std::tuple{40, Population{150}, 200.0}}) {
-    const auto [threshold, indecision] =
+    const auto [threshold, indecision, own] =
         pooled_coverage(n_people, population, recommended_at(reference_g), studies);
     std::cout << n_people << " people, threshold " << population.threshold_75_g << " g, spread "
               << population.spread << ": " << threshold.percent() << " % of "
               << threshold.given_percent() << " % given; indecision " << population.indecision
-              << ": " << indecision.percent() << " %\n";
+              << ": " << indecision.percent() << " %; of each person " << own.percent() << " %\n";
     expect_95(threshold, studies);
     expect_95(indecision, studies);
     EXPECT_GE(threshold.given_percent(), 95);
     EXPECT_EQ(indecision.given_percent(), 100);
+    EXPECT_GE(own.percent(), 92 - by_chance_percent(own.n_given()));
+    EXPECT_LE(own.percent(), 98 + by_chance_percent(own.n_given()));
   }
 }
 
