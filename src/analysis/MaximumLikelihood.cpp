@@ -44,6 +44,8 @@ class Likelihood {
   Maximum climb(Parameters from, Eigen::Index held = -1);
   /// With one parameter held. @param from where to start for the others
   Maximum profile(Eigen::Index held, double held_value, Parameters from);
+  /// The same from the likelier of two starts.
+  Maximum profile(Eigen::Index held, double held_value, Parameters from, Parameters or_from);
   Maximum profile_from_anywhere(Eigen::Index held, double held_value);
   Parameters standard_errors(const Parameters& at);
 
@@ -188,6 +190,14 @@ Maximum Likelihood::profile(Eigen::Index held, double held_value, Parameters fro
   return climb(std::move(from), held);
 }
 
+Maximum Likelihood::profile(Eigen::Index held, double held_value, Parameters from,
+                            Parameters or_from) {
+  from[held] = or_from[held] = held_value;
+  from = within_bounds(std::move(from));
+  or_from = within_bounds(std::move(or_from));
+  return climb(value(from) > value(or_from) ? from : or_from, held);
+}
+
 Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value) {
   Maximum best = nothing();
   if (starts_.size() == 1) return best;  // one hill, and that is known
@@ -244,11 +254,12 @@ class IntervalEnd {
     Maximum before = best_;
     for (int i = 0; i < most_doublings && !end_; ++i, distance *= 2) {
       const double to = distance >= beyond ? limit_ : center + direction_ * distance;
-      // Where the others go on as they went.
+      // Where the others go on as they went, or stay: going on may lead to a bound where nothing is
+      // likely, and from where no way leads back.
       const double went = last_.at[parameter_] - before.at[parameter_];
       const double share = went == 0 ? 0 : (to - last_.at[parameter_]) / went;
       const Parameters ahead = last_.at + share * (last_.at - before.at);
-      const Maximum outer = likelier(likelihood_.profile(parameter_, to, ahead),
+      const Maximum outer = likelier(likelihood_.profile(parameter_, to, ahead, last_.at),
                                      likelihood_.profile_from_anywhere(parameter_, to));
       likeliest_ = likelier(likeliest_, outer);
       if (excess(outer) > 0)
