@@ -96,22 +96,31 @@ Likelihood maximize(std::span<const SidedAnswers> answers, double sensitivity, c
 std::vector<double> fit_criteria(std::vector<PersonAnswers>& people, double sensitivity,
                                  Spread& spread) {
   constexpr int n_steps = 4;
+  constexpr double least_told = 0.05;
   std::vector<double> values(people.size());
   for (int step = 0; step < n_steps; ++step) {
-    double sum = 0, square = 0, bias_square = 0;
+    double sum = 0, square = 0, bias_square = 0, told = 0;
+    const double variance_between = spread.sd_log_indecision * spread.sd_log_indecision;
     for (std::size_t i = 0; i < people.size(); ++i) {
       const Likelihood best = maximize(people[i].answers, sensitivity, spread, people[i].criteria);
       const double det = determinant(best);
       values[i] =
           best.value - std::log(det) / 2 - std::log(spread.sd_log_indecision * spread.sd_bias);
       const Criteria& at = people[i].criteria;
+      const double variance = best.information[1] / det;
+      people[i].told = std::max(1 - variance / variance_between, 0.0);
+      told += people[i].told;
       sum += at.log_indecision;
-      square += at.log_indecision * at.log_indecision + best.information[1] / det;
+      square += at.log_indecision * at.log_indecision + variance;
       bias_square += at.bias * at.bias + best.information[0] / det;
     }
     if (step + 1 == n_steps) break;
     const double n = static_cast<double>(people.size());
-    spread.mean_log_indecision = std::clamp(sum / n, -3.0, 6.0);
+    // Each person's was drawn towards the last mean, and all of it by what is told: undone, so that
+    // the mean gets there in a step or two where EM's own would take dozens.
+    const double moved = (sum / n - spread.mean_log_indecision) / std::max(told / n, least_told);
+    spread.mean_log_indecision =
+        std::clamp(spread.mean_log_indecision + std::clamp(moved, -1.0, 1.0), -3.0, 6.0);
     const double variance = square / n - sum / n * sum / n;
     spread.sd_log_indecision = std::clamp(std::sqrt(std::max(variance, 0.0)), 0.1, 1.5);
     spread.sd_bias = std::clamp(std::sqrt(bias_square / n), 0.05, 2.0);

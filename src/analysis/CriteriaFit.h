@@ -26,6 +26,8 @@ struct Spread {
 struct PersonAnswers {
   std::vector<SidedAnswers> answers;
   Criteria criteria;
+  /// How much of the log indecision these answers tell, where the rest comes from the spread.
+  double told = 0;
 };
 
 /// People's criteria and their spread for a sensitivity, by the EM algorithm. @return each one's

@@ -77,9 +77,9 @@ double log_likelihood_of_steps(const AnswersByLevel& answers, std::span<const do
 }
 
 LogShare log_share(double n, double p) {
-  if (n == 0) return {0, 0};
+  if (n == 0) return {0, 0, 0};
   const double share = std::max(p, 1e-300);
-  return {n * std::log(share), n / share};
+  return {n * std::log(share), n / share, -n / share / share};
 }
 
 std::string why_no_threshold(bool separated, const std::optional<double>& low,

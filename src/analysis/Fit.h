@@ -78,9 +78,9 @@ std::string too_little(const AnswersByLevel& answers);
 /// answers is a step between two levels, or at one, and there any share is within reach.
 /// @param least of each answer at any level, by guesses and lapses; as many as there are answers
 double log_likelihood_of_steps(const AnswersByLevel& answers, std::span<const double> least);
-/// n log p, and its derivative by p; where p is 0 by the digits, almost.
+/// n log p, and its derivatives by p; where p is 0 by the digits, almost.
 struct LogShare {
-  double value, slope;
+  double value, slope, bend;
 };
 LogShare log_share(double n, double p);
 

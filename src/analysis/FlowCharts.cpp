@@ -179,7 +179,7 @@ Chart thresholds_chart(const Summary& summary) {
               titled("Each participant's threshold, the paper's JND and its start", summary), ""};
   chart.caption =
       "A column for each participant and reference, ordered by threshold: the difference told "
-      "rightly in 75 % with its profile interval, where their trials bear one; the paper's JND "
+      "rightly in 75 % with its likelihood interval, where their trials bear one; the paper's JND "
       "(censored ones at what they lie beyond); the mean start of their staircases.";
   chart.csv = "thresholds_by_participant.csv";
   const std::vector<ThresholdGroup> groups = groups_of(summary);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 
@@ -91,8 +92,12 @@ std::vector<std::string> ratio_figures(const Summary& summary) {
     if (!counts(jnd) || reference_g == 0) continue;
     const std::string published =
         jnd.published_g ? fmt::format("; published {:.2f}", *jnd.published_g / reference_g) : "";
-    figures.push_back(fmt::format("JND / reference at {:g} g: {:.2f}{}", reference_g,
-                                  *jnd.mean_g / reference_g, published));
+    const std::string interval =
+        jnd.interval_g ? fmt::format(" [{:.2f}, {:.2f}]", jnd.interval_g->low / reference_g,
+                                     jnd.interval_g->high / reference_g)
+                       : "";
+    figures.push_back(fmt::format("JND / reference at {:g} g: {:.2f}{}{}", reference_g,
+                                  *jnd.mean_g / reference_g, interval, published));
   }
   if (figures.empty()) figures.push_back("no finished staircase in C2");
   return figures;
@@ -186,19 +191,31 @@ std::string threshold_figures(const std::vector<const ReferenceSensitivity*>& ro
   return text;
 }
 
+// Of each threshold to the one before.
+std::vector<Interval> ratios_of(const std::vector<const ReferenceSensitivity*>& rows,
+                                double confidence = confidence_level) {
+  std::vector<Interval> ratios;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    ratios.push_back(threshold_ratio_interval(rows[i - 1]->pooled, rows[i]->pooled, confidence));
+  return ratios;
+}
+
+// What one ratio of several is to show has more chances to come about by chance (Bonferroni).
+std::vector<Interval> ratios_together(const std::vector<const ReferenceSensitivity*>& rows) {
+  const double n = static_cast<double>(rows.size() - 1);
+  return ratios_of(rows, 1 - (1 - confidence_level) / n);
+}
+
 Judgment judge_rising(const Summary& summary) {
   const auto rows = c2_sensitivities(summary);
   if (const std::string why = why_not_comparable(rows); !why.empty())
     return {HypothesisVerdict::not_judged, why};
   const std::string figures = threshold_figures(rows);
-  bool rises = true, falls = false;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const Interval ratio = threshold_ratio_interval(rows[i - 1]->pooled, rows[i]->pooled);
-    rises = rises && ratio.low > 1;
-    falls = falls || ratio.high < 1;
-  }
-  if (rises) return {HypothesisVerdict::supported, figures + ": each larger than the one before"};
-  if (falls)
+  const auto rises = [](const Interval& ratio) { return ratio.low > 1; };
+  const auto falls = [](const Interval& ratio) { return ratio.high < 1; };
+  if (std::ranges::all_of(ratios_of(rows), rises))
+    return {HypothesisVerdict::supported, figures + ": each larger than the one before"};
+  if (std::ranges::any_of(ratios_together(rows), falls))
     return {HypothesisVerdict::not_supported, figures + ": one is smaller than the one before"};
   return {HypothesisVerdict::not_judged, figures + ": their intervals don't tell which is larger"};
 }
@@ -211,12 +228,13 @@ Judgment judge_proportional(const Summary& summary) {
     return {HypothesisVerdict::not_judged, why};
   constexpr double near = 1.5;
   const std::string figures = threshold_figures(rows);
+  const std::vector<Interval> ratios = ratios_of(rows), together = ratios_together(rows);
   bool all_near = true, any_off = false;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const Interval ratio = threshold_ratio_interval(rows[i - 1]->pooled, rows[i]->pooled);
     const double expected = rows[i]->compared.reference_g / rows[i - 1]->compared.reference_g;
-    all_near = all_near && ratio.low >= expected / near && ratio.high <= expected * near;
-    any_off = any_off || ratio.low > expected || ratio.high < expected;
+    const Interval &one = ratios[i - 1], &strict = together[i - 1];
+    all_near = all_near && one.low >= expected / near && one.high <= expected * near;
+    any_off = any_off || strict.low > expected || strict.high < expected;
   }
   if (all_near)
     return {HypothesisVerdict::supported, figures + ": in proportion within a factor of 1.5"};
@@ -232,18 +250,21 @@ Hypothesis judged(std::string name, std::string statement, Judgment judgment,
 }
 }  // namespace
 
+double equivalence_margin_percent(const Summary& summary) {
+  return summary.plan ? summary.plan->equivalence_margin : usual_margin_percent;
+}
+
 std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
   const ConditionSorting &c1 = summary.sorting.at(0), &c2 = summary.sorting.at(1);
   std::vector<std::string> rising = jnd_figures(summary);
   rising.push_back(rising_figure(summary));
   std::vector<Hypothesis> all{
-      judged(
-          "E1-H1", "C1 does not allow to perceive a mass difference among virtual objects",
-          judge_blind(c1, summary.plan ? summary.plan->equivalence_margin : usual_margin_percent),
-          {proportion_figure("C1 correct", c1.correct),
-           proportion_figure("C1 correct, of answered trials", c1.answered_correct),
-           proportion_figure("C1 \"I don't know\", an outcome of its own", c1.none),
-           chance_figure(c1)}),
+      judged("E1-H1", "C1 does not allow to perceive a mass difference among virtual objects",
+             judge_blind(c1, equivalence_margin_percent(summary)),
+             {proportion_figure("C1 correct", c1.correct),
+              proportion_figure("C1 correct, of answered trials", c1.answered_correct),
+              proportion_figure("C1 \"I don't know\", an outcome of its own", c1.none),
+              chance_figure(c1)}),
       judged("E1-H2", "C2 allows to recognize which objects are lighter and heavier",
              judge_above_chance(c2),
              {proportion_figure("C2 correct", c2.correct),

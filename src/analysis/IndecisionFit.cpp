@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "analysis/Fit.h"
 #include "analysis/MaximumLikelihood.h"
@@ -11,8 +13,6 @@
 namespace heft {
 
 namespace {
-using Eigen::VectorXd;
-
 enum Answer : std::size_t { reference, none, comparison };
 enum Unknown : Eigen::Index { sensitivity, indecision, bias, lapse };
 constexpr std::array<const char*, 4> names{"sensitivity", "indecision", "bias", "lapse"};
@@ -39,54 +39,90 @@ IndecisionShares shares_of_given(const IndecisionParameters& parameters, double 
           n[comparison] > 0 ? share(felt - parameters.indecision) : 0};
 }
 
+// What is felt beyond the upper and beyond the lower criterion, and the lapse rate: on these alone
+// the shares of a level depend.
+struct ByCriteria {
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+};
+
+ByCriteria by_criteria(const std::array<LogShare, 3>& shares, const IndecisionShares& p, double up,
+                       double down, double lapse_rate) {
+  const double attentive = 1 - lapse_rate;
+  const double up_density = normal_density(up), down_density = normal_density(down);
+  // How the shares of reference, none and comparison change with up, down and the lapse rate.
+  const double to_up = attentive * up_density, to_down = attentive * down_density;
+  const auto by_lapse = [&](double share) { return (1.0 / 3 - share) / attentive; };
+  const std::array<Eigen::Vector3d, 3> slopes{Eigen::Vector3d(0, -to_down, by_lapse(p.reference)),
+                                              Eigen::Vector3d(-to_up, to_down, by_lapse(p.none)),
+                                              Eigen::Vector3d(to_up, 0, by_lapse(p.comparison))};
+  ByCriteria found;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    if (shares[k].slope == 0) continue;  // not given
+    found.first += shares[k].slope * slopes[k];
+    found.second += shares[k].bend * slopes[k] * slopes[k].transpose();
+  }
+  const double at_up = shares[comparison].slope - shares[none].slope;
+  const double at_down = shares[none].slope - shares[reference].slope;
+  found.second(0, 0) -= at_up * up * to_up;
+  found.second(1, 1) -= at_down * down * to_down;
+  found.second(0, 2) = found.second(2, 0) -= at_up * up_density;
+  found.second(1, 2) = found.second(2, 1) -= at_down * down_density;
+  return found;
+}
+
+struct Level {
+  double level = 0;  // of the largest
+  std::array<double, 3> n{};
+};
+
+std::vector<Level> levels_of(const AnswersByLevel& answers, double unit) {
+  std::vector<Level> levels;
+  for (const auto& [level_g, n] : answers) levels.push_back({level_g / unit, n});
+  return levels;
+}
+
 // Sensitivity is per largest level here.
-double log_likelihood(const AnswersByLevel& answers, double unit, const VectorXd& at,
-                      VectorXd& gradient) {
+double log_likelihood(std::span<const Level> levels, const Parameters& at,
+                      Derivatives* derivatives) {
   const IndecisionParameters parameters{at[sensitivity], at[indecision], at[bias], at[lapse]};
   double sum = 0;
-  gradient.setZero();
-  for (const auto& [level_g, n] : answers) {
-    const double level = level_g / unit;
+  Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
+  for (const auto& [level, n] : levels) {
     const IndecisionShares p = shares_of_given(parameters, level, n);
     const std::array<LogShare, 3> shares{log_share(n[reference], p.reference),
                                          log_share(n[none], p.none),
                                          log_share(n[comparison], p.comparison)};
     for (const LogShare& share : shares) sum += share.value;
+    if (!derivatives) continue;
     const double felt = at[sensitivity] * level + at[bias];
-    const double at_up = shares[comparison].slope - shares[none].slope;
-    const double at_down = shares[reference].slope - shares[none].slope;
-    const double up =
-        at_up == 0 ? 0 : at_up * (1 - at[lapse]) * normal_density(felt - at[indecision]);
-    const double down =
-        at_down == 0 ? 0 : at_down * (1 - at[lapse]) * normal_density(felt + at[indecision]);
-    gradient[sensitivity] += (up - down) * level;
-    gradient[bias] += up - down;
-    gradient[indecision] -= up + down;
-    // p = lapse/3 + (1 - lapse) q
-    const double third = 1.0 / 3;
-    gradient[lapse] +=
-        (shares[reference].slope * (third - p.reference) + shares[none].slope * (third - p.none) +
-         shares[comparison].slope * (third - p.comparison)) /
-        (1 - at[lapse]);
+    const ByCriteria by =
+        by_criteria(shares, p, felt - at[indecision], felt + at[indecision], at[lapse]);
+    Eigen::Matrix<double, 4, 3> change;  // of up, down and the lapse rate with each parameter
+    change << level, level, 0, -1, 1, 0, 1, 1, 0, 0, 0, 1;
+    gradient += change.lazyProduct(by.first);
+    hessian += change.lazyProduct(by.second).eval().lazyProduct(change.transpose());
   }
+  if (derivatives) *derivatives = {gradient, hessian};
   return sum;
 }
 
-std::vector<std::vector<VectorXd>> starts(const AnswersByLevel& answers,
-                                          const ParameterBounds& lapses) {
+std::vector<std::vector<Parameters>> starts(const AnswersByLevel& answers,
+                                            const ParameterBounds& lapses) {
   const auto n = totals(answers);
   const double undecided = std::clamp(n[none] / trials_in(answers), 0.02, 0.98);
   const double half_width = normal_quantile((1 + undecided) / 2);
   if (lapses.high == 0)  // log-concave (Pratt 1981)
-    return {{Eigen::Vector4d(0, half_width, 0, 0)}};
-  std::vector<std::vector<VectorXd>> all;
+    return {{Parameters(Eigen::Vector4d(0, half_width, 0, 0))}};
+  std::vector<std::vector<Parameters>> all;
   std::vector<double> some_lapses{lapses.low};
   if (!lapses.fixed()) some_lapses = {0.02, 0.2};
   for (const double at_sensitivity : {-4.0, 0.0, 1.0, 4.0, 16.0}) {
     all.emplace_back();
     for (const double wider : {1.0, 3.0})
       for (const double at_lapse : some_lapses)
-        all.back().push_back(Eigen::Vector4d(at_sensitivity, half_width * wider, 0, at_lapse));
+        all.back().emplace_back(Eigen::Vector4d(at_sensitivity, half_width * wider, 0, at_lapse));
   }
   return all;
 }
@@ -134,9 +170,10 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
   found.parameters[lapse].value = lapses.low;
   const double unit = fit.n_trials > 0 ? largest_level(answers) : 1;
   if (fit.n_trials > 0) {
+    const std::vector<Level> levels = levels_of(answers, unit);
     found = maximize_likelihood(
-        [&](const VectorXd& at, VectorXd& gradient) {
-          return log_likelihood(answers, unit, at, gradient);
+        [&](const Parameters& at, Derivatives* derivatives) {
+          return log_likelihood(levels, at, derivatives);
         },
         bounds, starts(answers, lapses));
     const double steps = log_likelihood_of_steps(answers, found);

@@ -2,6 +2,7 @@
 
 #include <nlopt.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,10 @@
 namespace heft {
 
 namespace {
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-using Starts = std::vector<std::vector<VectorXd>>;
+using Starts = std::vector<std::vector<Parameters>>;
 
 struct Maximum {
-  VectorXd at;
+  Parameters at;
   double log_likelihood = 0;
 };
 
@@ -32,22 +31,31 @@ class Likelihood {
       : function_(function),
         bounds_(bounds),
         starts_(starts),
-        gradient_(static_cast<Eigen::Index>(bounds.size())) {}
+        n_(static_cast<Eigen::Index>(bounds.size())),
+        derivatives_{Parameters(n_), Curvature(n_, n_)} {}
 
-  double value(const VectorXd& at) { return function_(at, gradient_); }
+  double value(const Parameters& at) const { return function_(at, nullptr); }
   const ParameterBounds& bounds(Eigen::Index i) const {
     return bounds_[static_cast<std::size_t>(i)];
   }
 
   Maximum maximum();
   /// To the nearest maximum; one parameter may be held.
-  Maximum climb(VectorXd from, Eigen::Index held = -1);
+  Maximum climb(Parameters from, Eigen::Index held = -1);
   /// With one parameter held. @param from where to start for the others
-  Maximum profile(Eigen::Index held, double held_value, VectorXd from);
+  Maximum profile(Eigen::Index held, double held_value, Parameters from);
+  /// The same from the likelier of two starts.
+  Maximum profile(Eigen::Index held, double held_value, Parameters from, Parameters or_from);
   Maximum profile_from_anywhere(Eigen::Index held, double held_value);
-  VectorXd standard_errors(const VectorXd& at);
+  Parameters standard_errors(const Parameters& at);
 
  private:
+  /// @return whether it got there
+  bool climb_by_newton(Maximum& from, Eigen::Index held);
+  Maximum climb_by_nlopt(Maximum from, Eigen::Index held);
+  Parameters newtons_step(const Parameters& at, Eigen::Index held) const;
+  bool can_climb_along(Eigen::Index i, const Parameters& at) const;
+  Parameters within_bounds(Parameters at) const;
   Maximum nothing() const { return {starts_[0][0], -std::numeric_limits<double>::infinity()}; }
   std::vector<Eigen::Index> free(Eigen::Index held) const;
   static double objective(unsigned n, const double* free_values, double* free_gradient, void* self);
@@ -55,15 +63,17 @@ class Likelihood {
   const LogLikelihood& function_;
   const std::vector<ParameterBounds>& bounds_;
   const Starts& starts_;
-  // What the search is at; NLopt's objective only sees what is free.
-  VectorXd gradient_, at_;
+  Eigen::Index n_;
+  Derivatives derivatives_;
+  // What NLopt's search is at; its objective only sees what is free.
+  Parameters at_;
   Maximum best_;
   std::vector<Eigen::Index> free_;
 };
 
 std::vector<Eigen::Index> Likelihood::free(Eigen::Index held) const {
   std::vector<Eigen::Index> all;
-  for (Eigen::Index i = 0; i < gradient_.size(); ++i)
+  for (Eigen::Index i = 0; i < n_; ++i)
     if (i != held && !bounds(i).fixed()) all.push_back(i);
   return all;
 }
@@ -72,27 +82,87 @@ double Likelihood::objective(unsigned n, const double* free_values, double* free
                              void* self) {
   auto& likelihood = *static_cast<Likelihood*>(self);
   for (unsigned k = 0; k < n; ++k) likelihood.at_[likelihood.free_[k]] = free_values[k];
-  const double value = likelihood.value(likelihood.at_);
+  const double value = likelihood.function_(likelihood.at_, &likelihood.derivatives_);
   if (value > likelihood.best_.log_likelihood) likelihood.best_ = {likelihood.at_, value};
   for (unsigned k = 0; free_gradient != nullptr && k < n; ++k)
-    free_gradient[k] = likelihood.gradient_[likelihood.free_[k]];
+    free_gradient[k] = likelihood.derivatives_.gradient[likelihood.free_[k]];
   return value;
 }
 
-// Sequential quadratic programming (Kraft 1994) by NLopt. It may stop for lack of digits, even at
-// no number: what counts is the best that it tried.
-Maximum Likelihood::climb(VectorXd from, Eigen::Index held) {
-  at_ = std::move(from);
+Parameters Likelihood::within_bounds(Parameters at) const {
+  for (Eigen::Index i = 0; i < n_; ++i) at[i] = std::clamp(at[i], bounds(i).low, bounds(i).high);
+  return at;
+}
+
+// Whether no bound stops a parameter.
+bool Likelihood::can_climb_along(Eigen::Index i, const Parameters& at) const {
+  const double slope = derivatives_.gradient[i];
+  return (at[i] > bounds(i).low || slope > 0) && (at[i] < bounds(i).high || slope < 0);
+}
+
+// Where the likelihood bends upwards the step goes as far as if it bent down as much, so that it
+// always leads uphill. What can't move is taken out of the equations.
+Parameters Likelihood::newtons_step(const Parameters& at, Eigen::Index held) const {
+  Parameters step = derivatives_.gradient;
+  Curvature bend = -derivatives_.hessian;
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    if (i != held && can_climb_along(i, at)) continue;
+    step[i] = 0;
+    bend.row(i).setZero();
+    bend.col(i).setZero();
+    bend(i, i) = 1;
+  }
+  if (!bend.allFinite()) return step;
+  if (const Eigen::LLT<Curvature> factor(bend); factor.info() == Eigen::Success) {
+    factor.solveInPlace(step);
+    return step;
+  }
+  const Eigen::SelfAdjointEigenSolver<Curvature> solver(bend);
+  const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
+  Parameters along = solver.eigenvectors().transpose() * step;
+  for (Eigen::Index i = 0; i < n_; ++i)
+    along[i] /= std::max(std::abs(solver.eigenvalues()[i]), 1e-8 * largest);
+  return solver.eigenvectors() * along;
+}
+
+bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held) {
+  const double good_enough = held < 0 ? 1e-13 : 1e-10;  // what is still to be gained
+  best.log_likelihood = function_(best.at, &derivatives_);
+  for (int i = 0; i < 100; ++i) {
+    const Parameters step = newtons_step(best.at, held);
+    const double to_gain = step.dot(derivatives_.gradient);
+    if (!std::isfinite(to_gain)) return false;
+    if (to_gain <= good_enough) return true;
+    Maximum there = nothing();
+    for (double length = 1; length > 1e-9 && !(there.log_likelihood > best.log_likelihood);
+         length /= 2) {
+      there.at = within_bounds(best.at + length * step);
+      there.log_likelihood = function_(there.at, &derivatives_);
+    }
+    if (!(there.log_likelihood > best.log_likelihood)) return to_gain < 1e-9;  // no digits left
+    best = there;
+  }
+  return false;
+}
+
+Maximum Likelihood::climb(Parameters from, Eigen::Index held) {
+  Maximum best{within_bounds(std::move(from)), 0};
+  return climb_by_newton(best, held) ? best : climb_by_nlopt(best, held);
+}
+
+// Sequential quadratic programming (Kraft 1994). It may stop for lack of digits, even at no number:
+// what counts is the best that it tried.
+Maximum Likelihood::climb_by_nlopt(Maximum from, Eigen::Index held) {
+  at_ = from.at;
+  best_ = from;
   free_ = free(held);
+  if (free_.empty()) return best_;
   std::vector<double> values, low, high;
   for (const Eigen::Index i : free_) {
-    at_[i] = std::clamp(at_[i], bounds(i).low, bounds(i).high);
     values.push_back(at_[i]);
     low.push_back(bounds(i).low);
     high.push_back(bounds(i).high);
   }
-  best_ = {at_, value(at_)};
-  if (free_.empty()) return best_;
   const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> search(
       nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(free_.size())), nlopt_destroy);
   nlopt_set_lower_bounds(search.get(), low.data());
@@ -107,63 +177,60 @@ Maximum Likelihood::climb(VectorXd from, Eigen::Index held) {
 
 Maximum Likelihood::maximum() {
   Maximum best = nothing();
-  for (const std::vector<VectorXd>& group : starts_) {
+  for (const std::vector<Parameters>& group : starts_) {
     Maximum start = nothing();
-    for (const VectorXd& at : group) start = likelier(start, {at, value(at)});
+    for (const Parameters& at : group) start = likelier(start, {at, value(at)});
     best = likelier(best, climb(start.at));
   }
   return best;
 }
 
-Maximum Likelihood::profile(Eigen::Index held, double held_value, VectorXd from) {
+Maximum Likelihood::profile(Eigen::Index held, double held_value, Parameters from) {
   from[held] = held_value;
   return climb(std::move(from), held);
+}
+
+Maximum Likelihood::profile(Eigen::Index held, double held_value, Parameters from,
+                            Parameters or_from) {
+  from[held] = or_from[held] = held_value;
+  from = within_bounds(std::move(from));
+  or_from = within_bounds(std::move(or_from));
+  return climb(value(from) > value(or_from) ? from : or_from, held);
 }
 
 Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value) {
   Maximum best = nothing();
   if (starts_.size() == 1) return best;  // one hill, and that is known
-  for (const std::vector<VectorXd>& group : starts_)
-    for (VectorXd start : group) {
+  for (const std::vector<Parameters>& group : starts_)
+    for (Parameters start : group) {
       start[held] = held_value;
       best = likelier(best, {start, value(start)});
     }
   return climb(best.at, held);
 }
 
-// The information by central differences of the gradient. 0 where there is none.
+// From the observed information. 0 where there is none.
 constexpr double singular = 1e-7;  // of its eigenvalues, where each parameter has the same scale
 
-VectorXd Likelihood::standard_errors(const VectorXd& at) {
+Parameters Likelihood::standard_errors(const Parameters& at) {
   std::vector<Eigen::Index> inside;
-  std::vector<double> steps;
   for (const Eigen::Index i : free(-1)) {
-    const double step = 1e-5 * std::max(1.0, std::abs(at[i]));
-    if (at[i] - step < bounds(i).low || at[i] + step > bounds(i).high) continue;
-    inside.push_back(i);
-    steps.push_back(step);
+    const double at_bound = 1e-5 * std::max(1.0, std::abs(at[i]));
+    if (at[i] - at_bound >= bounds(i).low && at[i] + at_bound <= bounds(i).high)
+      inside.push_back(i);
   }
   const auto n = static_cast<Eigen::Index>(inside.size());
-  MatrixXd information(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const auto column = static_cast<std::size_t>(j);
-    VectorXd change = VectorXd::Zero(n), there = at;
-    for (const double side : {-1.0, 1.0}) {
-      there[inside[column]] = at[inside[column]] + side * steps[column];
-      value(there);
-      change -= side * gradient_(inside);
-    }
-    information.col(j) = change / (2 * steps[column]);
-  }
-  VectorXd errors = VectorXd::Zero(at.size());
-  if (n == 0 || !(information.diagonal().minCoeff() > 0)) return errors;
-  const VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scale.asDiagonal() * information *
-                                                       scale.asDiagonal());
-  const VectorXd& values = solver.eigenvalues();
+  function_(at, &derivatives_);
+  const Curvature information = -derivatives_.hessian(inside, inside);
+  Parameters errors = Parameters::Zero(at.size());
+  if (n == 0 || !information.allFinite() || !(information.diagonal().minCoeff() > 0)) return errors;
+  const Parameters scale = information.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Curvature> solver(scale.asDiagonal() * information *
+                                                        scale.asDiagonal());
+  const Parameters& values = solver.eigenvalues();
   if (!(values[0] > singular * values[n - 1])) return errors;
-  const MatrixXd inverse = solver.eigenvectors() * values.cwiseInverse().asDiagonal() *
-                           solver.eigenvectors().transpose();
+  const Curvature inverse = solver.eigenvectors() * values.cwiseInverse().asDiagonal() *
+                            solver.eigenvectors().transpose();
   errors(inside) = inverse.diagonal().cwiseSqrt().cwiseProduct(scale);
   return errors;
 }
@@ -187,11 +254,12 @@ class IntervalEnd {
     Maximum before = best_;
     for (int i = 0; i < most_doublings && !end_; ++i, distance *= 2) {
       const double to = distance >= beyond ? limit_ : center + direction_ * distance;
-      // Where the others go on as they went.
+      // Where the others go on as they went, or stay: going on may lead to a bound where nothing is
+      // likely, and from where no way leads back.
       const double went = last_.at[parameter_] - before.at[parameter_];
       const double share = went == 0 ? 0 : (to - last_.at[parameter_]) / went;
-      const VectorXd ahead = last_.at + share * (last_.at - before.at);
-      const Maximum outer = likelier(likelihood_.profile(parameter_, to, ahead),
+      const Parameters ahead = last_.at + share * (last_.at - before.at);
+      const Maximum outer = likelier(likelihood_.profile(parameter_, to, ahead, last_.at),
                                      likelihood_.profile_from_anywhere(parameter_, to));
       likeliest_ = likelier(likeliest_, outer);
       if (excess(outer) > 0)
@@ -251,7 +319,7 @@ class IntervalEnd {
 // @return whether no value is likelier than the estimate; otherwise that is put in its place
 bool fit_parameters(Likelihood& likelihood, Maximum& best,
                     std::vector<LikelihoodParameter>& parameters) {
-  const VectorXd errors = likelihood.standard_errors(best.at);
+  const Parameters errors = likelihood.standard_errors(best.at);
   parameters.assign(static_cast<std::size_t>(best.at.size()), {});
   for (Eigen::Index i = 0; i < best.at.size(); ++i) {
     LikelihoodParameter& parameter = parameters[static_cast<std::size_t>(i)];

@@ -1,5 +1,5 @@
 // Parameters at which data are most likely, with standard errors and profile intervals, for any
-// model of a few parameters that knows its log likelihood and gradient.
+// model of at most four parameters that knows its log likelihood and derivatives.
 //
 // Standard errors are from the observed information, over the parameters that lie at no bound. A
 // profile interval holds the values v with 2 (max log L - max log L given v) <= the 95 % quantile
@@ -20,8 +20,18 @@ inline constexpr double interval_drop = 3.841458820694124 / 2;
 /// What falls less than this is as likely: finer than any figure is read.
 inline constexpr double same_log_likelihood = 1e-6;
 
-/// @param gradient to be filled, of the same size
-using LogLikelihood = std::function<double(const Eigen::VectorXd& at, Eigen::VectorXd& gradient)>;
+/// A point among the parameters, or a slope there; at most four, so that nothing is allocated.
+using Parameters = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
+using Curvature = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+
+/// The first and second derivatives of a log likelihood.
+struct Derivatives {
+  Parameters gradient;
+  Curvature hessian;
+};
+
+/// @param derivatives to be filled, of the right size; null: not asked for
+using LogLikelihood = std::function<double(const Parameters& at, Derivatives* derivatives)>;
 
 struct ParameterBounds {
   double low = 0, high = 0;  ///< equal: the parameter is fixed; may be infinite
@@ -41,11 +51,11 @@ struct LikelihoodFit {
   double log_likelihood = 0;
 };
 
+/// By Newton's method within the bounds; where the likelihood is not finite, by NLopt's SLSQP.
 /// @param starts within the bounds, in groups; the search goes on from the likeliest of each. A
-/// single
-///   group says that there is one maximum
+///   single group says that there is one maximum
 LikelihoodFit maximize_likelihood(const LogLikelihood& log_likelihood,
                                   const std::vector<ParameterBounds>& bounds,
-                                  const std::vector<std::vector<Eigen::VectorXd>>& starts);
+                                  const std::vector<std::vector<Parameters>>& starts);
 
 }  // namespace heft

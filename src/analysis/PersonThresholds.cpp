@@ -1,21 +1,29 @@
 #include "analysis/PersonThresholds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace heft {
 
 namespace {
-PersonThreshold fitted(const Compared& compared, const std::string& participant,
-                       std::span<const Attempt* const> attempts) {
-  PersonThreshold one{compared, participant, static_cast<int>(attempts.size()), {}, {}, {}, {}, {}};
-  const Fit fit = fit_indecision(answers_by_side(attempts), {.lapse = fixed_lapse});
+void put_fitted(PersonThreshold& one, const AnswersByLevel& answers) {
+  const Fit fit = fit_indecision(answers, {.lapse = fixed_lapse});
   one.why = fit.why;
-  if (!fit.identifiable()) return one;
+  if (!fit.identifiable()) return;
   const FittedParameter& threshold = fit.parameter("threshold_75_g");
   one.threshold_75_g = threshold.value;
   one.interval_g = Interval{threshold.low.value_or(0), *threshold.high};
-  return one;
+}
+
+void put_own(PersonThreshold& one, const AnswersByLevel& answers, const OwnSensitivity& own) {
+  const double largest_g =
+      std::max(std::abs(answers.begin()->first), std::abs(answers.rbegin()->first));
+  one.why = too_little(answers);
+  if (one.why.empty()) one.why = why_no_threshold(!own.high, own.low, own.high, largest_g);
+  if (!one.identifiable()) return;
+  one.threshold_75_g = z_75 / own.value;
+  one.interval_g = Interval{z_75 / *own.high, z_75 / *own.low};
 }
 
 using Key = std::pair<Compared, std::string>;
@@ -37,12 +45,22 @@ std::map<Key, ParticipantJnd> jnds_by_person(std::span<const SessionData> sessio
 }
 }  // namespace
 
-std::vector<PersonThreshold> thresholds_of(std::span<const SessionData> sessions) {
+std::vector<PersonThreshold> thresholds_of(std::span<const SessionData> sessions,
+                                           std::span<const ReferenceSensitivity> pooled) {
   const auto jnds = jnds_by_person(sessions);
   const auto starts_g = starts_by_person(sessions);
   std::vector<PersonThreshold> rows;
+  std::map<Compared, std::size_t> n_before;  // people are pooled in this order
   for (const auto& [key, attempts] : usable_comparisons(sessions)) {
-    PersonThreshold& row = rows.emplace_back(fitted(key.first, key.second, attempts));
+    PersonThreshold& row = rows.emplace_back(PersonThreshold{
+        key.first, key.second, static_cast<int>(attempts.size()), {}, {}, {}, {}, {}});
+    const AnswersByLevel answers = answers_by_side(attempts);
+    const auto found_pooled = std::ranges::find(pooled, key.first, &ReferenceSensitivity::compared);
+    const std::size_t index = n_before[key.first]++;
+    if (found_pooled != pooled.end() && index < found_pooled->pooled.people.size())
+      put_own(row, answers, found_pooled->pooled.people[index]);
+    else
+      put_fitted(row, answers);
     if (const auto found = jnds.find(key); found != jnds.end()) row.jnd = found->second;
     if (const auto found = starts_g.find(key); found != starts_g.end()) row.start_g = found->second;
   }

@@ -17,7 +17,7 @@ struct PersonThreshold {
   std::string participant;
   int n_trials = 0;
   std::optional<double> threshold_75_g;  ///< none: not identifiable
-  std::optional<Interval> interval_g;    ///< profile likelihood
+  std::optional<Interval> interval_g;    ///< see OwnSensitivity; of fewer people profile likelihood
   std::string why;                       ///< not identifiable; empty: it is
   std::optional<ParticipantJnd> jnd;     ///< the paper's, beside
   std::optional<double> start_g;         ///< mean first level of their finished staircases
@@ -26,6 +26,8 @@ struct PersonThreshold {
 };
 
 /// By reference and condition, then participant.
-std::vector<PersonThreshold> thresholds_of(std::span<const SessionData> sessions);
+/// @param pooled  of the same sessions
+std::vector<PersonThreshold> thresholds_of(std::span<const SessionData> sessions,
+                                           std::span<const ReferenceSensitivity> pooled);
 
 }  // namespace heft

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/CriteriaFit.h"
+#include "analysis/MaximumLikelihood.h"
 #include "base/Quantile.h"
 #include "base/Random.h"
 #include "psychophysics/Normal.h"
@@ -25,14 +26,35 @@ double sensitivity_at(double place) {
 
 using OnGrid = std::array<double, n_grid>;
 
-// By person: log likelihoods of the sensitivities on the grid.
-std::vector<OnGrid> likelihoods(std::vector<PersonAnswers>& people) {
-  std::vector<OnGrid> all(people.size());
+// By person, for each sensitivity on the grid.
+struct Profiles {
+  std::vector<OnGrid> log_likelihood, log_indecision;
+};
+
+// A person's log indecision as their answers alone have it: what was drawn towards the others' by
+// the spread goes back, for all by the same factor.
+void put_log_indecisions(std::vector<OnGrid>& all, std::size_t place,
+                         const std::vector<PersonAnswers>& people) {
+  double sum = 0, told = 0;
+  for (const PersonAnswers& person : people) {
+    sum += person.criteria.log_indecision;
+    told += person.told;
+  }
+  const double n = static_cast<double>(people.size());
+  constexpr double least_told = 0.02;
+  const double factor = 1 / std::max(told / n, least_told);
+  for (std::size_t i = 0; i < people.size(); ++i)
+    all[i][place] = sum / n + factor * (people[i].criteria.log_indecision - sum / n);
+}
+
+Profiles profiles(std::vector<PersonAnswers>& people) {
+  Profiles all{std::vector<OnGrid>(people.size()), std::vector<OnGrid>(people.size())};
   Spread spread;
   const auto put = [&](std::size_t place) {
     const double sensitivity = sensitivity_at(static_cast<double>(place));
     const std::vector<double> values = fit_criteria(people, sensitivity, spread);
-    for (std::size_t i = 0; i < people.size(); ++i) all[i][place] = values[i];
+    for (std::size_t i = 0; i < people.size(); ++i) all.log_likelihood[i][place] = values[i];
+    put_log_indecisions(all.log_indecision, place, people);
   };
   // From no sensitivity outwards, each place from where its neighbor found the criteria: where all
   // choices pass for lapses is another hill, far from the right one.
@@ -61,6 +83,19 @@ double top_of(const OnGrid& sum) {
 
 void add(OnGrid& sum, const OnGrid& more, double times) {
   for (std::size_t i = 0; i < n_grid; ++i) sum[i] += times * more[i];
+}
+
+// Each person as often as `times` says.
+OnGrid sum_of(std::span<const OnGrid> people, std::span<const double> times) {
+  OnGrid sum{};
+  for (std::size_t i = 0; i < people.size(); ++i)
+    if (times[i] > 0) add(sum, people[i], times[i]);
+  return sum;
+}
+
+double between_places(const OnGrid& values, double place) {
+  const auto before = std::min(static_cast<std::size_t>(place), n_grid - 2);
+  return std::lerp(values[before], values[before + 1], place - static_cast<double>(before));
 }
 
 /// How sensitivities are spread between people: their logarithm is normal.
@@ -150,19 +185,30 @@ class PositiveSensitivities {
 
 constexpr int n_samples = 2000;
 
-// Sensitivities of samples of people.
-std::vector<double> bootstrap(std::span<const OnGrid> people) {
+// A figure of samples of people, always of the same. @param figure_of how often each was drawn
+template <typename Figure>
+std::vector<double> bootstrap(std::size_t n_people, Figure figure_of) {
   RandomStream stream(1, "sample of people");
-  std::vector<double> tops, times(people.size());
+  std::vector<double> figures, times(n_people);
   for (int sample = 0; sample < n_samples; ++sample) {
     std::ranges::fill(times, 0.0);
-    for (std::size_t i = 0; i < people.size(); ++i) times[stream.below(people.size())] += 1;
-    OnGrid sum{};
-    for (std::size_t i = 0; i < people.size(); ++i)
-      if (times[i] > 0) add(sum, people[i], times[i]);
-    tops.push_back(sensitivity_at(top_of(sum)));
+    for (std::size_t i = 0; i < n_people; ++i) times[stream.below(n_people)] += 1;
+    figures.push_back(figure_of(times));
   }
-  return tops;
+  return figures;
+}
+
+std::vector<double> sensitivities_of_samples(std::span<const OnGrid> people) {
+  return bootstrap(people.size(), [&](const std::vector<double>& times) {
+    return sensitivity_at(top_of(sum_of(people, times)));
+  });
+}
+
+// Of the median person, at the sensitivity that these have in common.
+double log_indecision_of(const Profiles& people, std::span<const double> times) {
+  const double place = top_of(sum_of(people.log_likelihood, times));
+  return between_places(sum_of(people.log_indecision, times), place) /
+         static_cast<double>(times.size());
 }
 
 double largest_level(std::span<const AnswersByLevel> people) {
@@ -201,17 +247,16 @@ void put_own_interval(PooledSensitivity& found, const AnswersByLevel& answers) {
 // First what all have in common, which says whether there is any. Then the median of people who
 // differ.
 void put_pooled(PooledSensitivity& found, std::span<const OnGrid> people, double largest_g) {
-  std::vector<double> samples = bootstrap(people);
+  std::vector<double> samples = sensitivities_of_samples(people);
   Interval interval = expanded_percentiles(samples, people.size());
   if (interval.low > 0) {
     const PositiveSensitivities positive(people);
     const Spectrum all = positive.fit({std::log(*found.sensitivity * largest_g), 0.3}, 60);
     found.sd_log_sensitivity = all.sd_log;
     const std::vector<OnGrid> of_medians = positive.of_medians(all.sd_log);
-    OnGrid sum{};
-    for (const OnGrid& one : of_medians) add(sum, one, 1);
-    found.sensitivity = sensitivity_at(top_of(sum)) / largest_g;
-    samples = bootstrap(of_medians);
+    const std::vector<double> once(people.size(), 1);
+    found.sensitivity = sensitivity_at(top_of(sum_of(of_medians, once))) / largest_g;
+    samples = sensitivities_of_samples(of_medians);
     interval = expanded_percentiles(samples, people.size());
   }
   for (double& sample : samples) sample /= largest_g;
@@ -225,22 +270,44 @@ void put_pooled(PooledSensitivity& found, std::span<const OnGrid> people, double
       Interval{z_75 / found.sensitivity_interval->high, z_75 / found.sensitivity_interval->low};
 }
 
-// Half the widths between people's criteria, for the sensitivity that they have in common.
-void put_indecision(PooledSensitivity& found, std::vector<PersonAnswers>& people,
-                    double sensitivity) {
-  Spread spread;
-  for (int i = 0; i < 5; ++i) fit_criteria(people, sensitivity, spread);
-  std::vector<double> indecisions;
-  for (const PersonAnswers& person : people)
-    indecisions.push_back(std::exp(person.criteria.log_indecision));
-  found.indecision = mean(indecisions);
-  if (found.n > 1) found.indecision_interval = student_t_interval(indecisions);
+// Where a likelihood has fallen far enough, a place on the grid; none: nowhere on this side.
+std::optional<double> end_of(const OnGrid& log_likelihood, std::ptrdiff_t direction) {
+  const auto best = std::ranges::max_element(log_likelihood);
+  const double least = *best - interval_drop;
+  const auto last = direction < 0 ? log_likelihood.begin() : log_likelihood.end() - 1;
+  for (auto inner = best; inner != last; inner += direction) {
+    const double here = *inner, next = *(inner + direction);
+    if (next <= least)
+      return static_cast<double>(inner - log_likelihood.begin()) +
+             static_cast<double>(direction) * (here - least) / (here - next);
+  }
+  return std::nullopt;
+}
+
+OwnSensitivity own_sensitivity(const OnGrid& log_likelihood, double largest_g) {
+  const auto at = [largest_g](double place) { return sensitivity_at(place) / largest_g; };
+  OwnSensitivity own{at(top_of(log_likelihood))};
+  if (const auto place = end_of(log_likelihood, -1)) own.low = at(*place);
+  if (const auto place = end_of(log_likelihood, 1)) own.high = at(*place);
+  return own;
+}
+
+void put_indecision(PooledSensitivity& found, const Profiles& people) {
+  const std::size_t n = people.log_indecision.size();
+  found.indecision = std::exp(log_indecision_of(people, std::vector<double>(n, 1)));
+  if (found.n < least_people) return;
+  const Interval logs = expanded_percentiles(
+      bootstrap(n,
+                [&](const std::vector<double>& times) { return log_indecision_of(people, times); }),
+      n);
+  found.indecision_interval = Interval{std::exp(logs.low), std::exp(logs.high)};
 }
 }  // namespace
 
-Interval expanded_percentiles(const std::vector<double>& samples, std::size_t n_people) {
+Interval expanded_percentiles(const std::vector<double>& samples, std::size_t n_people,
+                              double confidence) {
   const double n = static_cast<double>(n_people);
-  const double t = student_t_quantile(n - 1);
+  const double t = student_t_quantile(n - 1, confidence);
   const double tail = normal_cdf(-t * std::sqrt(n / (n - 1)));
   return {*heft::quantile(samples, tail), *heft::quantile(samples, 1 - tail)};
 }
@@ -260,16 +327,17 @@ PooledSensitivity pooled_sensitivity(std::span<const AnswersByLevel> all) {
   std::vector<PersonAnswers> people;
   for (const AnswersByLevel& answers : with_trials)
     people.push_back({answers_on_scale(answers, largest_g), {}});
-  const std::vector<OnGrid> by_person = likelihoods(people);
-  OnGrid sum{};
-  for (const OnGrid& one : by_person) add(sum, one, 1);
-  const double top = sensitivity_at(top_of(sum));
-  found.sensitivity = top / largest_g;
-  put_indecision(found, people, top);
+  const Profiles by_person = profiles(people);
+  const std::vector<double> once(people.size(), 1);
+  found.sensitivity = sensitivity_at(top_of(sum_of(by_person.log_likelihood, once))) / largest_g;
+  put_indecision(found, by_person);
+  if (found.n >= least_people)
+    for (const OnGrid& one : by_person.log_likelihood)
+      found.people.push_back(own_sensitivity(one, largest_g));
   if (found.n == 1)
     put_own_interval(found, with_trials[0]);
   else if (found.n >= least_people)
-    put_pooled(found, by_person, largest_g);
+    put_pooled(found, by_person.log_likelihood, largest_g);
   else
     found.why =
         fmt::format("{} participants are too few to tell how people differ, expected {} or more",

@@ -11,8 +11,6 @@
 namespace heft {
 
 namespace {
-using Eigen::VectorXd;
-
 enum Answer : std::size_t { negative, positive };
 enum Unknown : Eigen::Index { place, steepness, guess, lapse };
 constexpr std::array<const char*, 4> names{"threshold", "slope", "guess", "lapse"};
@@ -58,24 +56,46 @@ class Levels {
   double middle_ = 0, range_ = 1;
 };
 
-double log_likelihood(const Levels& levels, PsychometricShape shape, const VectorXd& at,
-                      VectorXd& gradient) {
+// How the share of positive answers at one level changes with the parameters.
+struct ShareSlopes {
+  Eigen::Vector4d first;
+  Eigen::Matrix4d second = Eigen::Matrix4d::Zero();  // the lower half
+};
+
+ShareSlopes share_slopes(const StandardCurve& curve, double distance, const Parameters& at) {
+  const double between = 1 - at[guess] - at[lapse];
+  ShareSlopes slopes;
+  slopes.first << 0, 0, curve.above, -curve.below;
+  if (curve.density == 0) return slopes;                 // far away, or at no finite place
+  const Eigen::Vector2d by_u(-at[steepness], distance);  // of place and steepness
+  slopes.first.head<2>() = between * curve.density * by_u;
+  slopes.second.topLeftCorner<2, 2>() = between * curve.density_slope * by_u * by_u.transpose();
+  slopes.second(steepness, place) -= between * curve.density;
+  for (const Unknown share : {guess, lapse})
+    slopes.second.row(share).head<2>() = -curve.density * by_u.transpose();
+  return slopes;
+}
+
+double log_likelihood(const Levels& levels, PsychometricShape shape, const Parameters& at,
+                      Derivatives* derivatives) {
   const double between = 1 - at[guess] - at[lapse];
   double sum = 0;
-  gradient.setZero();
+  Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const double distance = levels.place(i) - at[place];
     const StandardCurve curve = standard_curve(shape, at[steepness] * distance);
     const LogShare yes = log_share(levels.n(i)[positive], at[guess] + between * curve.below);
     const LogShare no = log_share(levels.n(i)[negative], at[lapse] + between * curve.above);
     sum += yes.value + no.value;
-    gradient[guess] += (yes.slope - no.slope) * curve.above;
-    gradient[lapse] += (no.slope - yes.slope) * curve.below;
-    if (curve.density == 0) continue;  // far away, or at no finite place
-    const double by_u = (yes.slope - no.slope) * between * curve.density;
-    gradient[steepness] += by_u * distance;
-    gradient[place] -= by_u * at[steepness];
+    if (!derivatives) continue;
+    const ShareSlopes slopes = share_slopes(curve, distance, at);
+    gradient += (yes.slope - no.slope) * slopes.first;
+    hessian += (yes.bend + no.bend) * slopes.first * slopes.first.transpose() +
+               (yes.slope - no.slope) * slopes.second;
   }
+  if (derivatives)
+    *derivatives = {gradient, hessian.selfadjointView<Eigen::Lower>().toDenseMatrix()};
   return sum;
 }
 
@@ -111,19 +131,19 @@ std::vector<double> starting_places(const Levels& levels) {
   return places;
 }
 
-std::vector<std::vector<VectorXd>> starts(const Levels& levels,
-                                          const std::vector<ParameterBounds>& bounds) {
+std::vector<std::vector<Parameters>> starts(const Levels& levels,
+                                            const std::vector<ParameterBounds>& bounds) {
   const auto shares = [](const ParameterBounds& share) {
     if (share.fixed()) return std::vector<double>{share.low};
     return std::vector<double>{0.04 * share.high, 0.4 * share.high, 0.9 * share.high};
   };
-  std::vector<std::vector<VectorXd>> all;
+  std::vector<std::vector<Parameters>> all;
   for (const double at_place : starting_places(levels)) {
     all.emplace_back();
     for (const double at_steepness : {1.0, 3.0, 8.0, 20.0, 60.0, 400.0})
       for (const double at_guess : shares(bounds[guess]))
         for (const double at_lapse : shares(bounds[lapse]))
-          all.back().push_back(Eigen::Vector4d(at_place, at_steepness, at_guess, at_lapse));
+          all.back().emplace_back(Eigen::Vector4d(at_place, at_steepness, at_guess, at_lapse));
   }
   return all;
 }
@@ -214,8 +234,8 @@ Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options) {
   }
   const Levels levels(answers, options.function);
   LikelihoodFit found = maximize_likelihood(
-      [&](const VectorXd& at, VectorXd& gradient) {
-        return log_likelihood(levels, options.function.shape, at, gradient);
+      [&](const Parameters& at, Derivatives* derivatives) {
+        return log_likelihood(levels, options.function.shape, at, derivatives);
       },
       bounds, starts(levels, bounds));
   const double flat = log_likelihood_of_flat(answers, bounds);

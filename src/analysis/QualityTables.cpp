@@ -44,7 +44,8 @@ Table resets_table(const Summary& summary) {
       titled("Cubes that were put back to their start, by mass", summary),
       {{"mass", "mass"}, {"n_cubes", "cubes shown"}, {"n_reset", "put back"}, {"percent", "%"}},
       {},
-      "where the percentages differ, a cube that jumps home tells its mass"};
+      "where cubes go back each by itself and the percentages differ, one that jumps home tells "
+      "its mass; where all of a trial go back together (out_of_area), it does not"};
   for (const ResetRow& row : summary.quality.resets)
     table.rows.push_back({word(row.mass), count(row.n_cubes), count(row.n_reset),
                           number(100.0 * row.n_reset / row.n_cubes)});
@@ -70,7 +71,8 @@ Table sensitivity_table(const Summary& summary) {
       "indecision model (left, none, right; lapse rate .02) with criteria and side bias of each "
       "participant's own; the median participant's threshold of a forced choice, free of the "
       "criterion. Interval: bootstrap over participants. Indecision: half the width between the "
-      "criteria in SDs of what is felt. What the data can't bear is not printed."};
+      "median participant's criteria in SDs of what is felt. What the data can't bear is not "
+      "printed."};
   for (const ReferenceSensitivity& row : summary.sensitivity) {
     const PooledSensitivity& pooled = row.pooled;
     table.rows.push_back({mass(row.compared.reference_g), word(row.compared.condition),

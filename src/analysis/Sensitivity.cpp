@@ -65,13 +65,15 @@ std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> 
   return all;
 }
 
-Interval threshold_ratio_interval(const PooledSensitivity& first, const PooledSensitivity& second) {
+Interval threshold_ratio_interval(const PooledSensitivity& first, const PooledSensitivity& second,
+                                  double confidence) {
   std::vector<double> ratios;
   const std::size_t n =
       std::min(first.sensitivity_samples.size(), second.sensitivity_samples.size());
   for (std::size_t i = 0; i < n; ++i)
     ratios.push_back(first.sensitivity_samples[i] / second.sensitivity_samples[i]);
-  return expanded_percentiles(ratios, static_cast<std::size_t>(std::min(first.n, second.n)));
+  return expanded_percentiles(ratios, static_cast<std::size_t>(std::min(first.n, second.n)),
+                              confidence);
 }
 
 }  // namespace heft

@@ -34,6 +34,7 @@ std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> 
 
 /// The interval of the second threshold divided by the first, over samples of the same people.
 /// Both identifiable.
-Interval threshold_ratio_interval(const PooledSensitivity& first, const PooledSensitivity& second);
+Interval threshold_ratio_interval(const PooledSensitivity& first, const PooledSensitivity& second,
+                                  double confidence = confidence_level);
 
 }  // namespace heft

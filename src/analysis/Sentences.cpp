@@ -36,13 +36,14 @@ std::string sorting_sentence(const Summary& summary) {
   std::string blind = ", and whether C1 tells masses apart can't be judged";
   const HypothesisVerdict verdict = named(summary, "E1-H1").verdict;
   if (verdict == HypothesisVerdict::supported)
-    blind = ", and answers in C1 are equivalent to chance";
+    blind = fmt::format(", and answers in C1 are equivalent to chance (within {:g} points)",
+                        equivalence_margin_percent(summary));
   if (verdict == HypothesisVerdict::not_supported) blind = ", and answers in C1 are not chance";
   std::string worked = "whether C2 tells masses apart can't be judged";
   if (named(summary, "E1-H2").verdict == HypothesisVerdict::supported)
     worked = "C2 tells masses apart";
   if (named(summary, "E1-H2").verdict == HypothesisVerdict::not_supported)
-    worked = "C2 does not tell masses apart";
+    worked = "C2 tells masses apart hardly or not at all (at most 10 points above chance)";
   return fmt::format(
       "Sorting: {}; of {}, {} of trials were right in C2 and {} in C1, where chance is {:.0f} %{}.",
       worked, who(summary), percent(c2.correct), percent(c1.correct),
@@ -63,7 +64,10 @@ std::string comparison_sentence(const Summary& summary) {
   }
   std::string text = "Comparisons: ";
   if (!known.empty())
-    text += fmt::format("a difference that is named rightly three times in four is {}", known);
+    text += fmt::format(
+        "by the model, people who had to choose would be right three times in four at a difference "
+        "of {}",
+        known);
   if (!unknown.empty())
     text += fmt::format("{}the data bear no threshold at {}", known.empty() ? "" : "; ", unknown);
   return text + ".";

@@ -76,7 +76,9 @@ void add_export(Command& app) {
        "key, so that the same person has the same one in each export with it), leaves out what was",
        "typed (reasons, texts that participants wrote) and files' names, keeps of what "
        "participants",
-       "told what is a number, and of dates the year."});
+       "told what is a number, and of dates the year.", "",
+       "The key is a line of 64 hexadecimal digits, made where its file is not there yet; your own",
+       "comes from: (umask 077; openssl rand -hex 32 > study.key)"});
   command.add_option("LOG", &options->logs, "logs, together in one folder (default: heft.db)");
   command.add_option("--db", &options->databases, "the same");
   command
@@ -88,7 +90,8 @@ void add_export(Command& app) {
   command.add_flag("--pseudonymise", options->pseudonymise,
                    "nobody's name, nothing that was typed; the key is OUT.key, made if it is not "
                    "there");
-  command.add_option("--key", &options->key_file, "another key for --pseudonymise");
+  command.add_option("--key", &options->key_file,
+                     "another file for --pseudonymise: its key, or a new one if it is not there");
   command.does([options] { export_to(*options); });
 }
 

@@ -16,12 +16,13 @@ double exponent_factor(LevelScale scale) {
 
 StandardCurve logistic_curve(double u) {
   const double below = 1 / (1 + std::exp(-u)), above = 1 / (1 + std::exp(u));
-  return {below, above, below * above};
+  return {below, above, below * above, below * above * (above - below)};
 }
 
 StandardCurve gumbel_curve(double u) {
   const double hazard = std::exp(u), above = std::exp(-hazard);
-  return {-std::expm1(-hazard), above, above > 0 ? hazard * above : 0};
+  const double density = above > 0 ? hazard * above : 0;
+  return {-std::expm1(-hazard), above, density, density > 0 ? density * (1 - hazard) : 0};
 }
 
 // Phi(to) - Phi(from), from <= to, on the side where neither is near 1.
@@ -32,8 +33,10 @@ double normal_between(double from, double to) {
 
 StandardCurve standard_curve(PsychometricShape shape, double u) {
   switch (shape) {
-    case PsychometricShape::cumulative_normal:
-      return {normal_cdf(u), normal_cdf(-u), normal_density(u)};
+    case PsychometricShape::cumulative_normal: {
+      const double density = normal_density(u);
+      return {normal_cdf(u), normal_cdf(-u), density, density > 0 ? -u * density : 0};
+    }
     case PsychometricShape::logistic:
       return logistic_curve(u);
     case PsychometricShape::weibull:

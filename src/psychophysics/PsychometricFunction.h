@@ -23,10 +23,10 @@ struct EnumNames<LevelScale> {
   static constexpr std::array<std::string_view, 3> names{"linear", "log10", "db"};
 };
 
-/// F(u) of a shape at threshold 0 and steepness 1, 1 - F(u) without cancellation, and F'(u).
+/// F(u) of a shape at threshold 0 and steepness 1, 1 - F(u) without cancellation, F'(u) and F''(u).
 /// Weibull's and Gumbel's are the same: 1 - exp(-e^u).
 struct StandardCurve {
-  double below = 0, above = 0, density = 0;
+  double below = 0, above = 0, density = 0, density_slope = 0;
 };
 StandardCurve standard_curve(PsychometricShape shape, double u);
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "base/Error.h"
 #include "base/Sha256.h"
@@ -35,16 +36,24 @@ std::string random_key() {
   return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
+// Digits that were drawn repeat themselves, but not so: fewer than nine different ones come once in
+// 10^14 keys.
 std::string key_in(const std::string& file) {
-  constexpr std::size_t least = 32;
-  std::string key;
-  const std::string text = read_text_file(file);
-  for (const std::string_view line : lines_of(text)) key += line;
-  if (key.size() < least)
-    throw Error(fmt::format("{}: a key of {} characters can be guessed, expected {} or more. A "
-                            "file that is not there yet is made.",
-                            file, key.size(), least),
-                ExitCode::invalid_file);
+  constexpr std::size_t n_digits = 64, least_different = 9;
+  std::string key = read_text_file(file);
+  if (key.ends_with('\n')) key.pop_back();
+  const std::string format = fmt::format(
+      "expected one line of {} hexadecimal digits (0-9, a-f) that nobody chose: openssl rand -hex "
+      "32, or name a file that is not there yet, and the key is made",
+      n_digits);
+  const auto refuse = [&](std::string_view what) {
+    throw Error(fmt::format("{}: {}, {}.", file, what, format), ExitCode::invalid_file);
+  };
+  const std::set<char> different(key.begin(), key.end());
+  if (key.find_first_not_of("0123456789abcdef") != std::string::npos) refuse("this is no key");
+  if (key.size() != n_digits) refuse(fmt::format("a key of {} digits", key.size()));
+  if (different.size() < least_different)
+    refuse(fmt::format("a key of {} different digits can be guessed", different.size()));
   return key;
 }
 }  // namespace

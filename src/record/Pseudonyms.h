@@ -20,7 +20,8 @@ struct PseudonymKey {
 
 /// The key that is in a file; if there is no such file, a new one of 256 random bits in a file that
 /// only its owner can read.
-/// @throws Error when the file can't be read or made, or holds fewer than 32 characters
+/// @throws Error when the file can't be read or made, or is no line of 64 lowercase hexadecimal
+///   digits, or one of digits that nobody drew
 PseudonymKey pseudonym_key(const std::string& file);
 
 }  // namespace heft

@@ -190,6 +190,21 @@ TEST(IndecisionFit, SaysWhyThereIsNoThreshold) {
   EXPECT_THAT(why_no_choice({{0, {40, 40, 40}}, {100, {25, 40, 55}}}), HasSubstr("beyond twice"));
 }
 
+// R's ordinal::clm and SciPy find 0.003653: on the way there the indecision seems to go below 0.
+TEST(IndecisionFit, AnEndIsFoundWhereTheOthersTurnBack) {
+  const Fit fit = fit_indecision({{-199.3, {1, 1, 0}},
+                                  {-150.3, {2, 0, 0}},
+                                  {-147.8, {0, 2, 0}},
+                                  {-90.3, {0, 1, 0}},
+                                  {36.8, {0, 2, 0}},
+                                  {133.5, {0, 1, 0}},
+                                  {271.5, {0, 0, 2}},
+                                  {292.5, {0, 2, 2}}},
+                                 {});
+  EXPECT_NEAR(*fit.parameter("sensitivity").value, 0.01263953, 1e-7);
+  EXPECT_NEAR(*fit.parameter("sensitivity").low, 0.003653, 3e-6);
+}
+
 TEST(IndecisionFit, WhatDoesNotExistIsNotGivenWhileSensitivityIs) {
   // Nobody ever chose the reference: where its criterion lies can't be told.
   const Fit fit = fit_indecision({{50, {0, 30, 10}}, {100, {0, 20, 20}}, {200, {0, 5, 35}}}, {});

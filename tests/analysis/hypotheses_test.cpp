@@ -3,6 +3,7 @@
 
 #include "MadeUpSessions.h"
 #include "analysis/Json.h"
+#include "analysis/Notes.h"
 #include "analysis/Summary.h"
 #include "nlohmann/json.hpp"
 
@@ -32,7 +33,9 @@ Hypothesis e1_h1(const std::vector<SessionData>& sessions) {
 TEST(HypothesisOfC1, IsSupportedByEquivalenceToChance) {
   std::vector<int> n_right;
   for (int i = 0; i < 40; ++i) n_right.push_back(i % 3);  // 16.7 % of 6
-  EXPECT_EQ(e1_h1(c1_study(n_right, 6, 8)).verdict, HypothesisVerdict::supported);
+  const Summary summary = summarize({"x.db", c1_study(n_right, 6, 8)}, "");
+  EXPECT_EQ(summary.hypotheses.at(0).verdict, HypothesisVerdict::supported);
+  EXPECT_THAT(three_sentences(summary).at(0), HasSubstr("equivalent to chance (within 10 points)"));
 }
 
 TEST(HypothesisOfC1, IsLeftOpenByFewData) {

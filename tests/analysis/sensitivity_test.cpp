@@ -8,6 +8,7 @@
 
 #include "Coverage.h"
 #include "MadeUpChoosers.h"
+#include "analysis/Notes.h"
 #include "analysis/Summary.h"
 
 namespace heft {
@@ -17,26 +18,45 @@ using namespace made_up;
 using testing::HasSubstr;
 
 std::vector<SessionData> study(int n_people, const Population& population,
-                               const std::vector<ComparisonDesign>& designs, RandomStream& stream) {
+                               const std::vector<ComparisonDesign>& designs, RandomStream& stream,
+                               std::vector<Chooser>* people = nullptr) {
   std::vector<SessionData> sessions;
   for (int i = 0; i < n_people; ++i) {
     sessions.push_back(session(i + 1, std::to_string(100 + i)));
     const Chooser chooser = population.draw(stream);
+    if (people) people->push_back(chooser);
     for (const ComparisonDesign& design : designs)
       compare(sessions.back(), chooser, design, stream);
   }
   return sessions;
 }
 
-Coverage threshold_coverage(int n_people, const Population& population,
-                            const ComparisonDesign& design, int studies) {
+struct PooledCoverage {
+  Coverage threshold, indecision, own;  ///< own: each person's sensitivity
+};
+
+PooledCoverage pooled_coverage(int n_people, const Population& population,
+                               const ComparisonDesign& design, int studies) {
   RandomStream stream(17, "thresholds", static_cast<std::uint64_t>(n_people));
-  Coverage found;
+  PooledCoverage found;
   for (int i = 0; i < studies; ++i) {
-    const auto rows = sensitivities_of(study(n_people, population, {design}, stream));
-    found.add(rows.at(0).pooled.threshold_interval_g, population.threshold_75_g);
+    std::vector<Chooser> people;
+    const auto rows = sensitivities_of(study(n_people, population, {design}, stream, &people));
+    for (std::size_t k = 0; k < people.size(); ++k) {
+      const OwnSensitivity& own = rows.at(0).pooled.people.at(k);
+      found.own.add(Interval{own.low.value_or(-1e9), own.high.value_or(1e9)},
+                    people[k].sensitivity_per_g);
+    }
+    found.threshold.add(rows.at(0).pooled.threshold_interval_g, population.threshold_75_g);
+    found.indecision.add(rows.at(0).pooled.indecision_interval, population.indecision);
   }
   return found;
+}
+
+void expect_95(const Coverage& found, int studies) {
+  const double chance = by_chance_percent(studies);
+  EXPECT_GE(found.percent(), 93 - chance);
+  EXPECT_LE(found.percent(), 98 + chance);
 }
 
 TEST(AnswersBySide, SignTheLevelByWhereTheHeavierStood) {
@@ -64,7 +84,7 @@ TEST(Sensitivity, IsFoundWhateverTheCriterion) {
     ASSERT_TRUE(rows.at(0).pooled.identifiable()) << rows.at(0).pooled.why;
     // 4 SE, and 5 % of bias where the criterion is far out
     EXPECT_NEAR(*rows[0].pooled.threshold_75_g, 150, indecision > 2 ? 20 : 12);
-    EXPECT_NEAR(*rows[0].pooled.indecision, indecision * std::exp(0.08), 0.2 * indecision);
+    EXPECT_NEAR(*rows[0].pooled.indecision, indecision, 0.12 * indecision);
   }
 }
 
@@ -105,21 +125,50 @@ TEST(Sensitivity, HasAboveAndBelowApart) {
   EXPECT_NEAR(effect.difference_g.interval->high, 210 + 12.7062047362 * 10, 1e-6);  // t, 1 df
 }
 
-TEST(CoverageOf, Thresholds) {
+// Of two ratios one may be off by chance twice as often as the only one.
+TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
+  PooledSensitivity light, heavy, heaviest;
+  light.n = heavy.n = heaviest.n = 13;
+  light.sensitivity = heavy.sensitivity = heaviest.sensitivity = 1;
+  light.threshold_75_g = heavy.threshold_75_g = heaviest.threshold_75_g = z_75;
+  for (int i = 0; i < 2000; ++i) {
+    light.sensitivity_samples.push_back(std::exp(2.0 * i / 2000));
+    heavy.sensitivity_samples.push_back(1);
+    heaviest.sensitivity_samples.push_back(1);
+  }
+  const auto verdict = [&](double ratio) {
+    Summary summary = summarize({"x.db", {}}, "");
+    const auto row = [](double reference_g, const PooledSensitivity& pooled) {
+      return ReferenceSensitivity{{reference_g, "C2"}, pooled, std::nullopt};
+    };
+    summary.sensitivity = {row(100, light), row(100 * ratio, heavy), row(100 * ratio, heaviest)};
+    return hypotheses_of(summary).at(4).verdict;
+  };
+  const Interval one = threshold_ratio_interval(light, heavy);
+  const Interval of_two = threshold_ratio_interval(light, heavy, 0.975);
+  ASSERT_LT(one.high, of_two.high);
+  EXPECT_EQ(verdict((one.high + of_two.high) / 2), HypothesisVerdict::not_judged);
+  EXPECT_EQ(verdict(1.1 * of_two.high), HypothesisVerdict::not_supported);
+}
+
+TEST(CoverageOf, Sensitivities) {
   const int studies = n_studies(40);
-  const double chance = by_chance_percent(studies);
   for (const auto& [n_people, population, reference_g] :
        {std::tuple{13, Population{150, 0}, 200.0}, std::tuple{13, Population{150}, 200.0},
-        std::tuple{13, Population{50}, 15.0}, std::tuple{13, Population{600}, 800.0},
-        std::tuple{40, Population{150}, 200.0}}) {
-    const Coverage found =
-        threshold_coverage(n_people, population, recommended_at(reference_g), studies);
+        std::tuple{13, Population{150, 0.3, 0.4}, 200.0}, std::tuple{13, Population{50}, 15.0},
+        std::tuple{13, Population{600}, 800.0}, std::tuple{40, Population{150}, 200.0}}) {
+    const auto [threshold, indecision, own] =
+        pooled_coverage(n_people, population, recommended_at(reference_g), studies);
     std::cout << n_people << " people, threshold " << population.threshold_75_g << " g, spread "
-              << population.spread << ": " << found.percent() << " % of " << found.given_percent()
-              << " % given\n";
-    EXPECT_GE(found.percent(), 93 - chance);
-    EXPECT_LE(found.percent(), 98 + chance);
-    EXPECT_GE(found.given_percent(), 95);
+              << population.spread << ": " << threshold.percent() << " % of "
+              << threshold.given_percent() << " % given; indecision " << population.indecision
+              << ": " << indecision.percent() << " %; of each person " << own.percent() << " %\n";
+    expect_95(threshold, studies);
+    expect_95(indecision, studies);
+    EXPECT_GE(threshold.given_percent(), 95);
+    EXPECT_EQ(indecision.given_percent(), 100);
+    EXPECT_GE(own.percent(), 92 - by_chance_percent(own.n_given()));
+    EXPECT_LE(own.percent(), 98 + by_chance_percent(own.n_given()));
   }
 }
 
@@ -133,7 +182,6 @@ double true_start_effect(const Population& population, const ComparisonDesign& d
 
 TEST(CoverageOf, AboveMinusBelow) {
   const int studies = n_studies(60);
-  const double chance = by_chance_percent(studies);
   for (const auto& [n_people, population, reference_g] :
        {std::tuple{13, Population{150}, 200.0}, std::tuple{40, Population{150}, 200.0},
         std::tuple{13, Population{50}, 15.0}}) {
@@ -148,8 +196,7 @@ TEST(CoverageOf, AboveMinusBelow) {
     std::cout << n_people << " people, threshold " << population.threshold_75_g
               << " g, above - below " << truth << " g: " << found.percent() << " % of "
               << found.given_percent() << " % given\n";
-    EXPECT_GE(found.percent(), 93 - chance);
-    EXPECT_LE(found.percent(), 98 + chance);
+    expect_95(found, studies);
   }
 }
 

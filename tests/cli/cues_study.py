@@ -1,12 +1,13 @@
 """Is mass told by anything but the technique? A study of simulated sessions of recommended.toml: for
 each cue that a participant could have before the answer (side, order, time until the cubes are
-there, cubes put back, jumps of the clone), how well it alone tells the mass, against chance.
+there, cubes put back, jumps of clone and cubes from one displayed frame to the next), how well it
+alone tells the mass, against chance.
 
 A cue of a cube tells which of the cubes of a trial is heavier: the percentage of pairs in which the
 heavier has more of it, ties counting half. A cue of a trial tells whether its difference is large
 (above the median of its reference in this session) or none at all (catch trials): the area under
-the ROC curve. A figure a session, then Student's t over sessions against 50 %, at 1 % divided by the
-number of cues.
+the ROC curve. A figure a session, then their mean against 50 % by the normal approximation, at 1 %
+divided by the number of cues (Bonferroni); the interval printed is that of all cues together.
 
 Run: python3 tests/cli/cues_study.py PATH_TO_HEFT [SESSIONS [LOG]]
 """
@@ -17,9 +18,11 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from statistics import NormalDist
 
 PROTOCOL = Path(__file__).resolve().parents[2] / "protocols" / "recommended.toml"
 ALPHA = 0.01
+JUMP_M = 0.05  # from one frame to the next; a hand at 0.5 m/s gets 33 mm far in a fifteenth of a second
 
 
 def area(values, targets):
@@ -97,6 +100,8 @@ def cues_of(trials):
         return sum(cube["n_resets"] for cube in trial["cubes"])
     def jumps(trial):
         return trial["n_jumps"]
+    def clone_jumps(trial):
+        return trial["clone_jumps"]
     figures = {
         "side, sorting": pairs_told(sorting, lambda cube: cube["slot"]),
         "side, comparison": pairs_told(compared, lambda cube: cube["slot"]),
@@ -112,17 +117,60 @@ def cues_of(trials):
             of_trials(compared, lambda t: t["since_s"], catches),
     }
     if any(trial["n_frames"] for trial in trials):
-        figures["jumps, large difference"] = of_trials(compared, jumps, large)
-        figures["jumps, catch trial"] = of_trials(compared, jumps, catches)
-    # What follows from pushing, as the technique has it: printed beside, not judged.
-    return figures, {"any cube put back, large difference": of_trials(compared, resets, large)}
+        figures["tracking jumps, large difference"] = of_trials(compared, jumps, large)
+        figures["tracking jumps, catch trial"] = of_trials(compared, jumps, catches)
+        figures["clone jumps, large difference"] = of_trials(compared, clone_jumps, large)
+        figures["clone jumps, catch trial"] = of_trials(compared, clone_jumps, catches)
+        figures["cube jumps, sorting"] = pairs_told(sorting, lambda cube: cube["n_jumps"])
+        figures["cube jumps, comparison"] = pairs_told(compared, lambda cube: cube["n_jumps"])
+        figures["cube jumps as it is put back, sorting in C1"] = pairs_told(c1, jumps_back)
+    # What follows from pushing, as the technique has it: printed beside, not judged. A cube that is
+    # put back jumps as far as it was seen to be pushed.
+    beside = {"any cube put back, large difference": of_trials(compared, resets, large)}
+    if any(trial["n_frames"] for trial in trials):
+        c2 = [t for t in sorting if t["condition"] == "C2"]
+        beside["cube jumps as it is put back, sorting in C2"] = pairs_told(c2, jumps_back)
+        beside["cube jumps as it is put back, comparison"] = pairs_told(compared, jumps_back)
+    return figures, beside
+
+
+def jumps_back(cube):
+    return cube["n_jumps_back"]
+
+
+def distance(one, other):
+    return 0 if None in (*one, *other) else math.dist(one, other)
+
+
+def count_jumps(connection, session, by_id):
+    """Of the clone without the effector, and of each cube: to where its trial began, or elsewhere."""
+    cubes = [f"cube{slot}" for slot in range(1, 4)]
+    bodies = ["effector", "clone", *cubes]
+    columns = ", ".join(f"{body}_{axis}_m" for body in bodies for axis in "xyz")
+    before_trial, before, start = None, {}, {}
+    for trial, *values in connection.execute(
+            f"select trial_id, {columns} from frame where session_id = ? order by frame_id", (session,)):
+        places = {body: values[3 * i:3 * i + 3] for i, body in enumerate(bodies)}
+        if trial != before_trial:
+            start = {}
+        elif trial in by_id:
+            jumps = {body: distance(before[body], places[body]) > JUMP_M for body in bodies}
+            by_id[trial]["clone_jumps"] += jumps["clone"] and not jumps["effector"]
+            for cube in by_id[trial]["cubes"]:
+                body = cubes[cube["slot"] - 1]
+                is_back = distance(places[body], start.get(body, places[body])) < 0.001
+                cube["n_jumps_back" if is_back else "n_jumps"] += jumps[body]
+        for body in bodies:
+            if None not in places[body]:
+                start.setdefault(body, places[body])
+        before_trial, before = trial, places
 
 
 def sessions_of(log):
     connection = sqlite3.connect(f"file:{log}?mode=ro", uri=True)
     connection.row_factory = sqlite3.Row
     for (session,) in connection.execute("select session_id from session where state = 'finished'"):
-        trials = [dict(row, cubes=[], n_frames=0, n_jumps=0) for row in connection.execute(
+        trials = [dict(row, cubes=[], n_frames=0, n_jumps=0, clone_jumps=0) for row in connection.execute(
             "select trial_id, task, condition, reference_g, level_g, is_catch, started_s, shown_s, "
             "ended_s from trial where session_id = ? and status = 'completed' order by trial_id",
             (session,))]
@@ -131,12 +179,13 @@ def sessions_of(log):
                 "select c.* from cube c join trial t using (trial_id) where t.session_id = ? order by "
                 "trial_id, slot", (session,)):
             if cube["trial_id"] in by_id:
-                by_id[cube["trial_id"]]["cubes"].append(dict(cube))
+                by_id[cube["trial_id"]]["cubes"].append(dict(cube, n_jumps=0, n_jumps_back=0))
         for trial, n, jumps in connection.execute(
                 "select trial_id, count(*), sum(jump) from frame where session_id = ? group by "
                 "trial_id", (session,)):
             if trial in by_id:
                 by_id[trial].update(n_frames=n, n_jumps=jumps)
+        count_jumps(connection, session, by_id)
         for before, trial in zip([None] + trials, trials):
             same = before and before["task"] == trial["task"]  # a break tells that blocks change
             trial["since_s"] = trial["shown_s"] - before["ended_s"] if same else None
@@ -150,7 +199,7 @@ def judged(figures):
     if len(figures) < 2:
         return mean, 0, 1
     se = math.sqrt(sum((f - mean) ** 2 for f in figures) / (len(figures) - 1) / len(figures))
-    p = 1 if mean == 0.5 else 0 if se == 0 else math.erfc(abs(mean - 0.5) / se / math.sqrt(2))
+    p = 1 if abs(mean - 0.5) < 1e-12 else 0 if se == 0 else math.erfc(abs(mean - 0.5) / se / math.sqrt(2))
     return mean, se, p
 
 
@@ -164,13 +213,14 @@ def study(log):
                 if figure is not None:
                     all_figures.setdefault(cue, []).append(figure)
     n_told = 0
+    reach = NormalDist().inv_cdf(1 - ALPHA / len(found) / 2)
     print(f"{n} sessions; chance is 50 %, and a cue tells where p < {ALPHA} / {len(found)}")
     for cue, figures in found.items():
         mean, se, p = judged(figures)
         tells = p < ALPHA / len(found)  # one that is turned round tells as much
         n_told += tells
-        print(f"  {cue:48} {100 * mean:6.2f} % (SE {100 * se:.2f}), p {p:.3g}"
-              f"{'  TELLS' if tells else ''}")
+        print(f"  {cue:48} {100 * mean:6.2f} % [{100 * (mean - reach * se):.2f}, "
+              f"{100 * (mean + reach * se):.2f}], p {p:.3g}{'  TELLS' if tells else ''}")
     for cue, figures in beside.items():
         mean, se, p = judged(figures)
         print(f"  beside: {cue:40} {100 * mean:6.2f} % (SE {100 * se:.2f}), p {p:.3g}")

@@ -40,9 +40,34 @@ TEST(Pseudonyms, AKeyIsMadeForItsOwnerAndFoundAgain) {
   const PseudonymKey again = pseudonym_key(file);
   EXPECT_FALSE(again.is_new);
   EXPECT_EQ(again.key, made.key);
-  std::ofstream(file) << "short\n";
-  EXPECT_THROW(pseudonym_key(file), Error);
   fs::remove(file);
+}
+
+std::string why_refused(const std::string& text) {
+  const fs::path file = fs::path(testing::TempDir()) / "heft_given.key";
+  std::ofstream(file, std::ios::binary) << text;
+  std::string why;
+  try {
+    pseudonym_key(file);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::invalid_file);
+    why = error.what();
+  }
+  fs::remove(file);
+  return why;
+}
+
+TEST(Pseudonyms, WhatNobodyDrewIsNoKey) {
+  const std::string drawn = "6c1f0b94d2e87a35f01b9c64de27538a4f6e1d0b92c8a7356be40f18d2937c5a";
+  EXPECT_EQ(why_refused(drawn), "");
+  EXPECT_EQ(why_refused(drawn + "\n"), "");
+  EXPECT_THAT(why_refused("short\n"), testing::HasSubstr("no key"));
+  EXPECT_THAT(why_refused(""), testing::HasSubstr("a key of 0 digits"));
+  EXPECT_THAT(why_refused(std::string(32, '\0')), testing::HasSubstr("openssl rand -hex 32"));
+  EXPECT_THAT(why_refused(std::string(64, '0')), testing::HasSubstr("1 different digits"));
+  EXPECT_THAT(why_refused(drawn.substr(1)), testing::HasSubstr("63 digits"));
+  EXPECT_THAT(why_refused(drawn + "\n" + drawn), testing::HasSubstr("no key"));
+  EXPECT_THAT(why_refused("participant,age\n01,30\n02,31\n03,29\n"), testing::HasSubstr("no key"));
 }
 
 }  // namespace

@@ -169,12 +169,12 @@ for (name in unique(all$dataset)) {
   data$answer <- factor(data$answer, levels = c("reference", "none", "comparison"), ordered = TRUE)
   unit <- max(abs(data$level_g))
   data$x <- data$level_g / unit
-  seconds <- system.time({
+  seconds <- sum(system.time({
     fit <- clm(answer ~ x, data = data, link = "probit",
                control = clm.control(gradTol = 1e-10, maxIter = 1000))
     interval <- tryCatch(suppressMessages(confint(fit, type = "profile")["x", ]),
                          error = function(e) c(NA, NA))
-  })[["elapsed"]]
+  })[c("user.self", "sys.self")])
   cuts <- fit$alpha
   cat(sprintf("%s,%.15g,%.15g,%.15g,%.15g,%.15g,%.15g,%.15g,%.6g\n", name, as.numeric(logLik(fit)),
               fit$beta[["x"]] / unit, (cuts[[2]] - cuts[[1]]) / 2, -(cuts[[1]] + cuts[[2]]) / 2,
