@@ -54,10 +54,24 @@ void read_ruler(TableReader& reader, MarkerBody& body, bool may_be_two) {
   body.measured_across_m = both_m.y();
 }
 
+// The upper long edges may be cut off; something of the top and of the sides is left.
+void read_chamfer(TableReader& reader, MarkerBody& body) {
+  reader.read("chamfer_m", body.chamfer_m, zero_or_more);
+  if (!reader.good({"size_m", "chamfer_m"})) return;
+  const double most_m = std::min(body.size_m.y() / 2, body.size_m.z());
+  if (body.chamfer_m < most_m) return;
+  reader.mistake("chamfer_m",
+                 fmt::format("chamfer_m is {:.6g}, expected less than {:.6g}: half the "
+                             "width, and the height, in size_m",
+                             body.chamfer_m, most_m));
+  body.chamfer_m = 0;
+}
+
 // Everything that the printer printed came out larger or smaller alike, at least in a direction.
 void scale(MarkerBody& body) {
   const Eigen::Vector3d factors = print_scale(body);
   body.size_m = body.size_m.cwiseProduct(factors);
+  body.chamfer_m *= factors.x();
   for (Tag& tag : body.tags)
     for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m = corner_m.cwiseProduct(factors);
 }
@@ -92,10 +106,11 @@ MarkerBody parse_effector(const std::string& text, const std::string& file) {
   read_ruler(reader, effector, false);
   reader.require({"size_m"});
   reader.read("size_m", effector.size_m, above_zero);
+  read_chamfer(reader, effector);
   std::vector<PlacedTag> tags = read_tags(reader);
   std::ranges::for_each(tags, check_outwards);
   if (auto box = reader.table("box"))
-    std::ranges::move(read_box(*box, effector.family, effector.size_m), std::back_inserter(tags));
+    std::ranges::move(read_box(*box, effector.family, effector.box()), std::back_inserter(tags));
   reader.close();
   check_placed_once(reader, "box");
   check_ids(tags, effector.family);

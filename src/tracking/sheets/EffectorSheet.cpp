@@ -29,7 +29,7 @@ void draw_lines(PdfSheet& sheet, const EffectorNet& net, const OnPaper& on_paper
 void draw_tags(PdfSheet& sheet, const MarkerBody& effector, const EffectorNet& net,
                const OnPaper& on_paper) {
   for (const Tag& tag : effector.tags) {
-    const NetFace& face = net.at(face_of(effector.size_m, tag));
+    const NetFace& face = net.at(face_of(effector.box(), tag));
     std::array<PointMm, 4> corners_mm;
     std::ranges::transform(tag.corners_m, corners_mm.begin(),
                            [&](const Eigen::Vector3d& c) { return on_paper(face.on_net(c)); });
@@ -41,13 +41,19 @@ void draw_tags(PdfSheet& sheet, const MarkerBody& effector, const EffectorNet& n
 double lowest_tag_m(const MarkerBody& effector, const NetFace& face) {
   double lowest_m = face.frame.size_m.y() / 2;
   for (const Tag& tag : effector.tags) {
-    if (face_of(effector.size_m, tag) != face.face) continue;
+    if (face_of(effector.box(), tag) != face.face) continue;
     const double side_m = (tag.corners_m[1] - tag.corners_m[0]).norm();
     const double margin_m = tag_pattern(effector.family, tag.id).margin_m(side_m);
     for (const Eigen::Vector3d& corner_m : tag.corners_m)
       lowest_m = std::min(lowest_m, face.frame.flat(corner_m).y() - margin_m);
   }
   return lowest_m;
+}
+
+std::string name_in_words(BoxFace face) {
+  std::string name(name_of(face));
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
 
 // The face's name and an arrow to the tip, where there is room below its tags.
@@ -57,15 +63,21 @@ void label(PdfSheet& sheet, const MarkerBody& effector, const NetFace& face,
   const double bottom_m = -face.frame.size_m.y() / 2;
   if (lowest_tag_m(effector, face) - bottom_m < needed_m) return;
   const PointMm foot = on_paper(face.center_m + NetPoint(0, bottom_m)) - PointMm(0, 2);
-  sheet.text(foot, std::string(name_of(face.face)), {3.5, 0.3, false, true});
+  sheet.text(foot, name_in_words(face.face), {3.5, 0.3, false, true});
   if (face.face == BoxFace::back) return;
   sheet.arrow(foot - PointMm(0, 4), foot - PointMm(0, 10), pointer);
 }
 
-void refuse_what_is_too_large(const PointMm& net_mm, Paper paper) {
-  const PointMm room =
-      paper_mm(paper) - PointMm::Constant(2 * unprintable_mm) - PointMm(0, ruler_strip_mm);
-  if ((net_mm.array() <= room.array()).all()) return;
+PointMm room_mm(const PointMm& sheet_mm) {
+  return sheet_mm - PointMm::Constant(2 * unprintable_mm) - PointMm(0, ruler_strip_mm);
+}
+
+// The paper upright, or across where the net fits only so.
+PointMm chosen_paper(const PointMm& net_mm, Paper paper) {
+  const PointMm upright = paper_mm(paper), across(upright.y(), upright.x());
+  for (const PointMm& sheet_mm : {upright, across})
+    if ((net_mm.array() <= room_mm(sheet_mm).array()).all()) return sheet_mm;
+  const PointMm room = room_mm(upright);
   throw Error(
       fmt::format("the effector's net is {:.4g} x {:.4g} mm, but a sheet of {} has room for "
                   "{:.4g} x {:.4g}; make the box smaller, or take other paper (--paper)",
@@ -80,8 +92,8 @@ const std::array<std::string, 6> steps{
     "    ruler_measured_m = 0.1496",
     "Cut along the full lines. Score the dashed lines with the back of a knife and fold\n"
     "them away from you: the tags come outside.",
-    "Glue the long side first, then the tip with its three flaps inside. A block of\n"
-    "wood or foam inside keeps the box square. Close the back.",
+    "Glue the long side first, then the tip with its flaps inside. A block of wood or\n"
+    "foam inside keeps the box in shape. Close the back.",
     "Arrows point to the tip. It is held at the back, so that no finger covers a tag, with\n"
     "the face \"top\" up.",
     "Measure where the tags really are (folded boxes are a millimeter off):\n"
@@ -91,12 +103,11 @@ const std::array<std::string, 6> steps{
 
 void write_effector_sheet(const MarkerBody& effector, Paper paper, const std::string& path) {
   const MarkerBody designed = as_designed(effector);
-  const EffectorNet net = effector_net(designed.size_m);
-  const PointMm sheet_mm = paper_mm(paper), net_mm = net.size_m * 1000;
-  refuse_what_is_too_large(net_mm, paper);
+  const EffectorNet net = effector_net(designed.box());
+  const PointMm net_mm = net.size_m * 1000, sheet_mm = chosen_paper(net_mm, paper);
   const double free_mm = sheet_mm.y() - ruler_strip_mm - net_mm.y();
   const OnPaper on_paper{{(sheet_mm.x() - net_mm.x()) / 2, free_mm / 2 + net_mm.y()}};
-  for (const Tag& tag : designed.tags) face_of(designed.size_m, tag);  // refuses before a file is
+  for (const Tag& tag : designed.tags) face_of(designed.box(), tag);  // refuses before a file is
   PdfSheet sheet(path, sheet_mm, "Effector for Heft");
   draw_lines(sheet, net, on_paper);
   draw_tags(sheet, designed, net, on_paper);

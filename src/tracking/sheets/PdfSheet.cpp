@@ -181,6 +181,7 @@ MarkerBody as_designed(const MarkerBody& body) {
   MarkerBody designed = body;
   const Eigen::Vector3d scale = print_scale(body);
   designed.size_m = designed.size_m.cwiseQuotient(scale);
+  designed.chamfer_m /= scale.x();
   for (Tag& tag : designed.tags)
     for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m = corner_m.cwiseQuotient(scale);
   return designed;
