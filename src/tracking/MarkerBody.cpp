@@ -5,9 +5,35 @@
 
 namespace heft {
 
-Eigen::Vector3d print_scale(const MarkerBody& body) {
-  const double along_m = body.measured_ruler_m.value_or(ruler_m);
-  return Eigen::Vector3d(along_m, body.measured_across_m.value_or(along_m), along_m) / ruler_m;
+Eigen::Vector2d print_scale(const MarkerBody& body) {
+  const double across_m = body.measured_ruler_m.value_or(ruler_m);
+  return Eigen::Vector2d(across_m, body.measured_across_m.value_or(across_m)) / ruler_m;
+}
+
+namespace {
+MarkerBody scaled(MarkerBody body, double across, double down) {
+  const bool is_board = body.size_m.isZero();
+  body.size_m = body.size_m.cwiseProduct(Eigen::Vector3d(down, across, across));
+  body.chamfer_m *= across;
+  for (Tag& tag : body.tags) {
+    const bool on_end = std::abs(tag_normal(tag).x()) > 0.9;
+    const Eigen::Vector3d along_axes = is_board ? Eigen::Vector3d(across, down, across)
+                                       : on_end ? Eigen::Vector3d(down, across, down)
+                                                : Eigen::Vector3d(down, across, across);
+    for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m = corner_m.cwiseProduct(along_axes);
+  }
+  return body;
+}
+}  // namespace
+
+MarkerBody as_printed(const MarkerBody& designed) {
+  const Eigen::Vector2d scale = print_scale(designed);
+  return scaled(designed, scale.x(), scale.y());
+}
+
+MarkerBody as_designed(const MarkerBody& printed) {
+  const Eigen::Vector2d scale = print_scale(printed);
+  return scaled(printed, 1 / scale.x(), 1 / scale.y());
 }
 
 std::span<const BoxFace> faces_of(const BoxShape& box) {

@@ -41,14 +41,22 @@ struct MarkerBody {
   double chamfer_m = 0;  ///< of the box's upper long edges
   /// How long the sheet's 150 mm ruler came out of the printer; corners are already scaled by it.
   std::optional<double> measured_ruler_m;
-  /// Of a board: how long it would have come out down the sheet (y), where that was measured, too.
+  /// How long the sheet's other ruler came out, down it, where that was measured, too.
   std::optional<double> measured_across_m;
 
   BoxShape box() const { return {size_m, chamfer_m}; }
 };
 
-/// How much larger than it was designed a body's print came out, along each axis.
-Eigen::Vector3d print_scale(const MarkerBody& body);
+/// How much larger than it was designed a body's print came out, across the sheet and down it.
+Eigen::Vector2d print_scale(const MarkerBody& body);
+
+/// A body as its print came out, from how it was designed; both have the measured rulers. A board's
+/// x lies across its sheet. An effector's length lies down it, and what goes round it across; its
+/// ends, which close it, are as wide and as high as their neighbors, and what is on them is as it
+/// was printed.
+MarkerBody as_printed(const MarkerBody& designed);
+/// The other way round.
+MarkerBody as_designed(const MarkerBody& printed);
 
 /// Length of the ruler line that every sheet has.
 inline constexpr double ruler_m = 0.150;

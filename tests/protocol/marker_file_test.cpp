@@ -119,6 +119,24 @@ TEST(EffectorFile, BoxHasItsTagsAtTheTip) {
   expect_near(corner(34, 0), 0.040, -0.012, -0.018);
 }
 
+// Long faces stand upright on the sheet: what is along the effector was printed down it.
+TEST(EffectorFile, IsScaledInBothDirectionsByTwoLengths) {
+  const MarkerBody plain = parse_effector(effector_box, "x.toml");
+  const std::string text = "ruler_measured_m = [0.153, 0.147]\n" + effector_box;
+  const MarkerBody scaled = parse_effector(text, "x.toml");
+  expect_near(scaled.size_m, 0.98 * 0.090, 1.02 * 0.040, 1.02 * 0.036);
+  for (std::size_t i = 0; i < plain.tags.size(); ++i)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double up = plain.tags[i].id == 30 ? 0.98 : 1.02;  // the tip's tag is upright, too
+      const Eigen::Vector3d expected =
+          plain.tags[i].corners_m[c].cwiseProduct(Eigen::Vector3d(0.98, 1.02, up));
+      EXPECT_LT((scaled.tags[i].corners_m[c] - expected).norm(), 1e-12);
+    }
+  const MarkerBody again = parse_effector(effector_to_toml(scaled, ""), "y.toml");
+  EXPECT_EQ(again.measured_across_m, 0.147);
+  EXPECT_LT((again.tags[1].corners_m[2] - scaled.tags[1].corners_m[2]).norm(), 1e-8);
+}
+
 const std::string effector_chamfered = R"(size_m = [0.090, 0.085, 0.040]
 chamfer_m = 0.025
 [box]

@@ -46,6 +46,23 @@ class Sheets : public testing::Test {
   std::filesystem::path folder_;
 };
 
+constexpr double chamfer_m = 0.025;
+const Eigen::Vector3d chamfered_size_m(0.090, 0.085, 0.040);
+
+// The shipped effector that shows two faces.
+MarkerBody chamfered_effector() {
+  MarkerBody effector;
+  effector.size_m = chamfered_size_m;
+  effector.chamfer_m = chamfer_m;
+  int id = 40;
+  for (const BoxFace face : faces_of(effector.box())) {
+    if (face == BoxFace::left || face == BoxFace::right || face == BoxFace::back) continue;
+    const Eigen::Vector2d center_m(0, face == BoxFace::tip ? 0 : 0.027);
+    effector.tags.push_back(tag_on(face_frame(effector.box(), face), id++, center_m, 0.028));
+  }
+  return effector;
+}
+
 using TagCorners = std::map<int, std::array<Eigen::Vector2d, 4>>;
 
 // Millimeters from the page's upper left corner.
@@ -127,6 +144,24 @@ std::vector<double> marks_mm(const Image& page, int row) {
   return marks;
 }
 
+Image transposed(const Image& page) {
+  Image turned(page.height, page.width, 1);
+  for (int y = 0; y < page.height; ++y)
+    for (int x = 0; x < page.width; ++x)
+      turned
+          .pixels[static_cast<std::size_t>(x) * turned.row_bytes() + static_cast<std::size_t>(y)] =
+          page.pixels[static_cast<std::size_t>(y) * page.row_bytes() + static_cast<std::size_t>(x)];
+  return turned;
+}
+
+// Only the outermost ticks of the ruler down the sheet reach so far from its left edge.
+void expect_ruler_down(const Image& page, double from_left_mm) {
+  const std::vector<double> marks =
+      marks_mm(transposed(page), static_cast<int>(from_left_mm * px_per_mm));
+  ASSERT_GE(marks.size(), 2u);
+  EXPECT_NEAR(marks[1] - marks[0], 150.0, 0.03);
+}
+
 // Only the outermost ticks of the ruler reach this high.
 void expect_ruler(const Image& page) {
   const int row = page.height - static_cast<int>((5 + 4 + 3.5) * px_per_mm);
@@ -140,6 +175,31 @@ TEST_F(Sheets, RulersAre150MillimetersLong) {
   expect_ruler(first_page(path("b.pdf")));
   write_effector_sheet(box_effector(0.032), Paper::a4, path("e.pdf"));
   expect_ruler(first_page(path("e.pdf")));
+}
+
+constexpr double board_ruler_mm = 5 + 0.4 + 1.2, effector_ruler_mm = 5 + 5.5 + 3.5;
+
+TEST_F(Sheets, HaveARulerEachWay) {
+  write_board_sheet(grid_board(6, 4, 0.040, 0.048), Paper::a4, path("b.pdf"));
+  expect_ruler_down(first_page(path("b.pdf")), board_ruler_mm);
+  for (const Paper paper : {Paper::a4, Paper::letter}) {
+    const std::string box = path(std::string(name_of(paper)) + "box.pdf");
+    write_effector_sheet(box_effector(0.032), paper, box);
+    expect_ruler_down(first_page(box), effector_ruler_mm);
+    const std::string chamfered = path(std::string(name_of(paper)) + "chamfered.pdf");
+    write_effector_sheet(chamfered_effector(), paper, chamfered);
+    expect_ruler_down(first_page(chamfered), effector_ruler_mm);
+  }
+}
+
+// The ruler takes nothing of the white that the tags need.
+TEST_F(Sheets, RulerLeavesTheTagsTheirWhite) {
+  write_board_sheet(grid_board(6, 4, 0.040, 0.048), Paper::a4, path("b.pdf"));
+  const TagCorners found_mm = tags_on(first_page(path("b.pdf")), "tag36h11");
+  for (const auto& [id, corners] : found_mm) {
+    EXPECT_GE(corners[0].x(), 6.8 + 5 - 0.02) << id;
+    EXPECT_LE(corners[1].x(), 297 - 5 + 0.02) << id;
+  }
 }
 
 bool is_on(const NetFace& face, const NetPoint& p) {
@@ -184,9 +244,6 @@ void expect_closes(const BoxShape& box) {
   }
 }
 
-constexpr double chamfer_m = 0.025;
-const Eigen::Vector3d chamfered_size_m(0.090, 0.085, 0.040);
-
 TEST_F(Sheets, NetFoldsIntoTheBox) {
   expect_folds(Eigen::Vector3d(0.090, 0.040, 0.036));
   expect_closes(Eigen::Vector3d(0.090, 0.040, 0.036));
@@ -210,20 +267,6 @@ TEST_F(Sheets, FacesLieBesideEachOther) {
         EXPECT_LE(std::ranges::count_if(net.faces, holds), 1) << x << " " << y;
       }
   }
-}
-
-// The shipped effector that shows two faces.
-MarkerBody chamfered_effector() {
-  MarkerBody effector;
-  effector.size_m = chamfered_size_m;
-  effector.chamfer_m = chamfer_m;
-  int id = 40;
-  for (const BoxFace face : faces_of(effector.box())) {
-    if (face == BoxFace::left || face == BoxFace::right || face == BoxFace::back) continue;
-    const Eigen::Vector2d center_m(0, face == BoxFace::tip ? 0 : 0.027);
-    effector.tags.push_back(tag_on(face_frame(effector.box(), face), id++, center_m, 0.028));
-  }
-  return effector;
 }
 
 void expect_folded_tags(const MarkerBody& effector, const TagCorners& found_mm) {

@@ -68,8 +68,9 @@ void label(PdfSheet& sheet, const MarkerBody& effector, const NetFace& face,
   sheet.arrow(foot - PointMm(0, 4), foot - PointMm(0, 10), pointer);
 }
 
+// Beside the two rulers.
 PointMm room_mm(const PointMm& sheet_mm) {
-  return sheet_mm - PointMm::Constant(2 * unprintable_mm) - PointMm(0, ruler_strip_mm);
+  return sheet_mm - PointMm::Constant(2 * unprintable_mm + ruler_strip_mm);
 }
 
 // The paper upright, or across where the net fits only so.
@@ -87,9 +88,10 @@ PointMm chosen_paper(const PointMm& net_mm, Paper paper) {
 const std::array<std::string, 6> steps{
     "Print page 1 at 100 % (\"actual size\"), not \"fit to page\", on matte white card\n"
     "(160 g or more).",
-    "Measure the ruler line at the bottom of page 1 between its first and its last tick.\n"
-    "Write what you measured into the effector file, in meters, for example:\n"
-    "    ruler_measured_m = 0.1496",
+    "Measure both ruler lines of page 1, at the bottom and at the left, between their first\n"
+    "and last ticks: printers stretch paper in one direction more. Write what you measured\n"
+    "into the effector file, in meters, the bottom one first, for example:\n"
+    "    ruler_measured_m = [0.1496, 0.1499]",
     "Cut along the full lines. Score the dashed lines with the back of a knife and fold\n"
     "them away from you: the tags come outside.",
     "Glue the long side first, then the tip with its flaps inside. A block of wood or\n"
@@ -106,13 +108,15 @@ void write_effector_sheet(const MarkerBody& effector, Paper paper, const std::st
   const EffectorNet net = effector_net(designed.box());
   const PointMm net_mm = net.size_m * 1000, sheet_mm = chosen_paper(net_mm, paper);
   const double free_mm = sheet_mm.y() - ruler_strip_mm - net_mm.y();
-  const OnPaper on_paper{{(sheet_mm.x() - net_mm.x()) / 2, free_mm / 2 + net_mm.y()}};
+  const double middle_mm = (sheet_mm.x() + ruler_strip_mm) / 2;
+  const OnPaper on_paper{{middle_mm - net_mm.x() / 2, free_mm / 2 + net_mm.y()}};
   for (const Tag& tag : designed.tags) face_of(designed.box(), tag);  // refuses before a file is
   PdfSheet sheet(path, sheet_mm, "Effector for Heft");
   draw_lines(sheet, net, on_paper);
   draw_tags(sheet, designed, net, on_paper);
   for (const NetFace& face : net.faces) label(sheet, designed, face, on_paper);
-  draw_ruler_strip(sheet, sheet_mm, "");
+  draw_ruler_strip(sheet, sheet_mm, true, "");
+  sheet.ruler_down({unprintable_mm + 5.5, unprintable_mm + 4}, 4, true);
   sheet.next_page();
   write_steps(sheet, "The effector: print, measure, cut, fold", steps);
   sheet.finish();
