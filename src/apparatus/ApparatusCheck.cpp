@@ -101,7 +101,6 @@ std::vector<CheckResult> ApparatusCheck::results(const CameraMode& mode, double 
   };
   all.push_back(
       board_verdict(pictures_, apparatus_.board, why(no_board, apparatus_.board, "board")));
-  all.push_back(shutter_verdict(apparatus_.camera));
   if (!no_board) all.push_back(tone_verdict(apparatus_.camera, tracker_.tone()));
   all.push_back(jitter_verdict(pictures_));
   if (!apparatus_.effector.tags.empty()) {

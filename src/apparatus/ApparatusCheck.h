@@ -63,9 +63,6 @@ CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz);
 CheckResult light_verdict(const Pictures& pictures);
 /// @param name of the result  @param what the body is called in messages
 CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const char* what);
-/// What is known of the camera's rolling shutter, and the speed at which it would cost half a
-/// millimeter.
-CheckResult shutter_verdict(const Intrinsics& camera);
 /// @param seen the tone curve that the tracker has come to, of a camera whose file may have another
 CheckResult tone_verdict(const Intrinsics& camera, const ToneCurve& seen);
 /// @param why it may be that no picture shows the board

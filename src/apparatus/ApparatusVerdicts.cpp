@@ -147,19 +147,6 @@ CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const 
                       figure, 100 * plausible_scale)};
 }
 
-CheckResult shutter_verdict(const Intrinsics& camera) {
-  constexpr double half_millimeter = 0.005;  // m/s times s: measured where nothing corrects it
-  if (camera.readout_s > 0)
-    return {
-        CheckVerdict::ok, "shutter",
-        fmt::format("rolling, read out in {:.1f} ms, which is allowed for; it would cost half a "
-                    "millimeter from {:.2f} m/s on",
-                    1000 * camera.readout_s, half_millimeter / camera.readout_s)};
-  return {CheckVerdict::ok, "shutter",
-          "no read-out in the camera's file: of a rolling shutter (most cameras) measure it with "
-          "heft calibrate camera --shutter; 25 ms cost half a millimeter from 0.2 m/s on"};
-}
-
 CheckResult tone_verdict(const Intrinsics& camera, const ToneCurve& seen) {
   const double bent = brighter_levels(seen, ToneCurve());
   const std::string figure =

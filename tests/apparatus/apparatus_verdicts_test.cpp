@@ -65,14 +65,6 @@ TEST(ToneVerdict, NamesACameraThatBends) {
   EXPECT_THAT(tone_verdict(camera, srgb).finding, HasSubstr("not as when it was calibrated"));
 }
 
-TEST(ShutterVerdict, TellsWhatAReadOutCosts) {
-  Intrinsics camera;
-  EXPECT_THAT(shutter_verdict(camera).finding, HasSubstr("calibrate camera --shutter"));
-  camera.readout_s = 0.02;
-  EXPECT_THAT(shutter_verdict(camera).finding, HasSubstr("read out in 20.0 ms"));
-  EXPECT_THAT(shutter_verdict(camera).finding, HasSubstr("from 0.25 m/s on"));
-}
-
 TEST(BoardVerdict, SaysWhyItMayBeInNoPicture) {
   const CheckResult result = board_verdict(Pictures(7), {}, "the picture is mirrored");
   EXPECT_EQ(result.verdict, CheckVerdict::failed);
