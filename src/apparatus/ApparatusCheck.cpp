@@ -96,17 +96,19 @@ std::vector<CheckResult> ApparatusCheck::results(const CameraMode& mode, double 
         pictures_, [&](const LookedAt& seen) { return (seen.tracked.*pose).has_value(); });
   };
   const bool no_board = never(&TrackedPicture::camera_from_board);
-  const auto why = [&](bool is_asked, const MarkerBody& body, const char* what) {
-    return is_asked ? why_unseen(last_, body, what) : "";
+  const auto why = [&](bool is_asked, const MarkerBody& body, const char* what,
+                       const MarkerBody& beside) {
+    return is_asked ? why_unseen(last_, body, what, beside) : "";
   };
-  all.push_back(
-      board_verdict(pictures_, apparatus_.board, why(no_board, apparatus_.board, "board")));
+  all.push_back(board_verdict(pictures_, apparatus_.board,
+                              why(no_board, apparatus_.board, "board", apparatus_.effector)));
   if (!no_board) all.push_back(tone_verdict(apparatus_.camera, tracker_.tone()));
   all.push_back(jitter_verdict(pictures_));
   if (!apparatus_.effector.tags.empty()) {
     all.push_back(print_scale_verdict(apparatus_.effector, "effector scale", "effector"));
     const bool no_effector = !no_board && never(&TrackedPicture::board_from_effector);
-    all.push_back(effector_verdict(pictures_, why(no_effector, apparatus_.effector, "effector")));
+    all.push_back(effector_verdict(
+        pictures_, why(no_effector, apparatus_.effector, "effector", apparatus_.board)));
   }
   all.push_back(latency_verdict(pictures_));
   all.push_back(speed_verdict(pictures_, apparatus_.camera, wanted_rate_hz));

@@ -130,7 +130,7 @@ class Sightings {
           why_unseen(last_, apparatus.board, "board"));
     else if (n_effectors_ == 0 && !apparatus.effector.tags.empty())
       say("the effector was found in 0 of {} picture(s): {}\n", n_pictures_,
-          why_unseen(last_, apparatus.effector, "effector"));
+          why_unseen(last_, apparatus.effector, "effector", apparatus.board));
   }
 
  private:

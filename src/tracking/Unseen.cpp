@@ -53,11 +53,13 @@ std::string listed(std::vector<int> ids) {
 }
 }  // namespace
 
-std::string why_unseen(const Image& picture, const MarkerBody& body, const std::string& what) {
+std::string why_unseen(const Image& picture, const MarkerBody& body, const std::string& what,
+                       const MarkerBody& beside) {
   constexpr int dark = 40, white = 250;
   if (picture.empty() || body.tags.empty()) return "there is nothing to look at";
   const Image gray = gray_of(picture);
-  const std::vector<int> ids = ids_in(gray, body.family);
+  std::vector<int> ids = ids_in(gray, body.family);
+  if (beside.family == body.family) std::erase_if(ids, [&](int id) { return is_on(beside, id); });
   const auto n_own = std::ranges::count_if(ids, [&](int id) { return is_on(body, id); });
   if (n_own > 0)
     return fmt::format(
@@ -78,10 +80,9 @@ std::string why_unseen(const Image& picture, const MarkerBody& body, const std::
         "the picture shows other tags of {} ({}), none of the {}'s: is this its file?", body.family,
         listed(ids), what);
   return fmt::format(
-      "the picture shows no tag of {}: is the {} in view, not covered, sharp, not too far away, "
-      "and "
-      "printed with tags of that family?",
-      body.family, what);
+      "the picture shows none of the {0}'s tags: is it in view, not covered, sharp, not too far "
+      "away, and printed with tags of {1}?",
+      what, body.family);
 }
 
 }  // namespace heft

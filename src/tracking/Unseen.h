@@ -10,7 +10,8 @@ namespace heft {
 
 /// A picture in which the body was not found, in words: dark, white, mirrored, with other tags,
 /// without any. Takes as long as several detections.
-/// @param what the body is called
-std::string why_unseen(const Image& picture, const MarkerBody& body, const std::string& what);
+/// @param what the body is called  @param beside may be in the picture, too: the other body
+std::string why_unseen(const Image& picture, const MarkerBody& body, const std::string& what,
+                       const MarkerBody& beside = {});
 
 }  // namespace heft

@@ -44,7 +44,11 @@ TEST(WhyUnseen, NamesWhatThePictureShowsInstead) {
   std::ranges::fill(gray.pixels, 255);
   EXPECT_THAT(why_unseen(gray, board, "board"), HasSubstr("is overexposed"));
   std::ranges::fill(gray.pixels, 128);
-  EXPECT_THAT(why_unseen(gray, board, "board"), HasSubstr("shows no tag of tag36h11"));
+  EXPECT_THAT(why_unseen(gray, board, "board"), HasSubstr("shows none of the board's tags"));
+  // Whoever looks for the effector is not told of the board.
+  const MarkerBody effector = default_apparatus(640).effector;
+  EXPECT_THAT(why_unseen(picture, effector, "effector", board),
+              HasSubstr("shows none of the effector's tags"));
 }
 
 }  // namespace
