@@ -7,6 +7,7 @@
 
 #include "base/Clock.h"
 #include "protocol/Protocol.h"
+#include "tracking/Unseen.h"
 
 namespace heft {
 
@@ -77,6 +78,7 @@ void ApparatusCheck::see(const CameraPicture& picture, double waited_s) {
   drawing_.draw(shown);
   seen.drawn_in_s = monotonic_s() - draw_s;
   pictures_.push_back(std::move(seen));
+  last_ = picture.image;
 }
 
 std::vector<CheckResult> ApparatusCheck::results(const CameraMode& mode, double wanted_rate_hz,
@@ -89,11 +91,24 @@ std::vector<CheckResult> ApparatusCheck::results(const CameraMode& mode, double 
   }
   all.push_back(light_verdict(pictures_));
   all.push_back(print_scale_verdict(apparatus_.board, "print scale", "board"));
-  all.push_back(board_verdict(pictures_, apparatus_.board));
+  const auto never = [&](std::optional<Pose> TrackedPicture::*pose) {
+    return std::ranges::none_of(
+        pictures_, [&](const LookedAt& seen) { return (seen.tracked.*pose).has_value(); });
+  };
+  const bool no_board = never(&TrackedPicture::camera_from_board);
+  const auto why = [&](bool is_asked, const MarkerBody& body, const char* what,
+                       const MarkerBody& beside) {
+    return is_asked ? why_unseen(last_, body, what, beside) : "";
+  };
+  all.push_back(board_verdict(pictures_, apparatus_.board,
+                              why(no_board, apparatus_.board, "board", apparatus_.effector)));
+  if (!no_board) all.push_back(tone_verdict(apparatus_.camera, tracker_.tone()));
   all.push_back(jitter_verdict(pictures_));
   if (!apparatus_.effector.tags.empty()) {
     all.push_back(print_scale_verdict(apparatus_.effector, "effector scale", "effector"));
-    all.push_back(effector_verdict(pictures_));
+    const bool no_effector = !no_board && never(&TrackedPicture::board_from_effector);
+    all.push_back(effector_verdict(
+        pictures_, why(no_effector, apparatus_.effector, "effector", apparatus_.board)));
   }
   all.push_back(latency_verdict(pictures_));
   all.push_back(speed_verdict(pictures_, apparatus_.camera, wanted_rate_hz));

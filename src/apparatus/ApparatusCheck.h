@@ -46,6 +46,7 @@ class ApparatusCheck {
   Tracker tracker_;
   SceneDrawing drawing_;
   std::vector<LookedAt> pictures_;
+  Image last_;  ///< picture
 };
 
 /// Takes pictures from a camera until there are enough, or it gives no more.
@@ -62,9 +63,13 @@ CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz);
 CheckResult light_verdict(const Pictures& pictures);
 /// @param name of the result  @param what the body is called in messages
 CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const char* what);
-CheckResult board_verdict(const Pictures& pictures, const MarkerBody& board);
+/// @param seen the tone curve that the tracker has come to, of a camera whose file may have another
+CheckResult tone_verdict(const Intrinsics& camera, const ToneCurve& seen);
+/// @param why it may be that no picture shows the board
+CheckResult board_verdict(const Pictures& pictures, const MarkerBody& board,
+                          const std::string& why = "");
 CheckResult jitter_verdict(const Pictures& pictures);
-CheckResult effector_verdict(const Pictures& pictures);
+CheckResult effector_verdict(const Pictures& pictures, const std::string& why = "");
 /// Of every stage from the camera to the drawn picture.
 CheckResult latency_verdict(const Pictures& pictures);
 CheckResult speed_verdict(const Pictures& pictures, const Intrinsics& camera,

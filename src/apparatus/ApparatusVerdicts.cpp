@@ -6,6 +6,7 @@
 
 #include "apparatus/ApparatusCheck.h"
 #include "base/Quantile.h"
+#include "tracking/Response.h"
 
 namespace heft {
 
@@ -146,11 +147,35 @@ CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const 
                       figure, 100 * plausible_scale)};
 }
 
-CheckResult board_verdict(const Pictures& pictures, const MarkerBody& board) {
+CheckResult tone_verdict(const Intrinsics& camera, const ToneCurve& seen) {
+  const double bent = brighter_levels(seen, ToneCurve());
+  const std::string figure =
+      fmt::format("{}: middle grays are {:.0f} of 255 levels {} than sRGB's",
+                  std::abs(bent) >= bending_levels ? "the camera bends tones" : "close to sRGB",
+                  std::abs(bent), bent < 0 ? "darker" : "brighter");
+  if (camera.response && std::abs(brighter_levels(seen, response_of(camera))) >= bending_levels)
+    return {CheckVerdict::warning, "tones",
+            figure +
+                "; not as when it was calibrated: set its contrast, gamma and picture mode as "
+                "they were, or calibrate it once more"};
+  if (std::abs(bent) < bending_levels) return {CheckVerdict::ok, "tones", figure};
+  if (camera.response)
+    return {CheckVerdict::ok, "tones",
+            figure + "; its file says so, and the tracker allows for it"};
+  return {CheckVerdict::warning, "tones",
+          figure +
+              "; the tracker learns that from the board, but the camera's file lacks it: set a "
+              "plain picture mode (no HDR, no added contrast), or calibrate it once more, so "
+              "that the first picture is right, too"};
+}
+
+CheckResult board_verdict(const Pictures& pictures, const MarkerBody& board,
+                          const std::string& why) {
   const double fraction = fraction_of(pictures, has_board);
   if (fraction == 0)
     return {CheckVerdict::failed, "board",
-            "not seen in any picture: is it in view, and is this its file?"};
+            fmt::format("found in 0 of {} pictures: {}", pictures.size(),
+                        why.empty() ? "is it in view, and is this its file?" : why)};
   const Pictures seen = with_board(pictures);
   const double off_px =
       median(seen, [](const LookedAt& l) { return l.tracked.board_reprojection_px; });
@@ -188,11 +213,16 @@ CheckResult jitter_verdict(const Pictures& pictures) {
 }
 
 // Out of view it is no failure: people put it down.
-CheckResult effector_verdict(const Pictures& pictures) {
+CheckResult effector_verdict(const Pictures& pictures, const std::string& why) {
   const double fraction = fraction_of(pictures, has_effector);
   if (fraction == 0)
     return {CheckVerdict::warning, "effector",
-            "not seen: hold it in view as in a trial and look again; if it was, is this its file?"};
+            why.empty()
+                ? "not seen: hold it in view as in a trial and look again; if it was, is "
+                  "this its file?"
+                : fmt::format("found in 0 of {} pictures: hold it in view as in a trial and "
+                              "look again; {}",
+                              pictures.size(), why)};
   const double firm = fraction_of(pictures, shows_two_faces);
   const std::string figure = fmt::format(
       "seen in {:.0f} % of pictures, two faces or more in {:.0f} %", 100 * fraction, 100 * firm);

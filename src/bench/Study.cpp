@@ -15,6 +15,8 @@ constexpr auto table = std::to_array<StudyEntry>({
      run_physics_study},
     {"tracking", "trackers: error against time, where they fail, filters' jitter against lag",
      run_tracking_study},
+    {"effectors", "the shipped effectors over random grips: how many faces they show, how exactly",
+     run_effector_study},
     {"pipeline", "what each stage of a picture costs, and memory over an hour", run_pipeline_study},
 });
 }  // namespace

@@ -20,7 +20,9 @@
 #include "protocol/Files.h"
 #include "tracking/Camera.h"
 #include "tracking/EffectorCalibration.h"
+#include "tracking/Response.h"
 #include "tracking/ShutterCalibration.h"
+#include "tracking/Unseen.h"
 #include "tracking/ViewCollector.h"
 #include "view/window/CardWindow.h"
 #include "view/window/Displays.h"
@@ -132,15 +134,13 @@ ViewCollector board_views(Camera& camera, const MarkerBody& board, const Options
 }
 
 // What can't become a camera file, and what to film to make it one.
-void require_views(const ViewCollector& views) {
+void require_views(const ViewCollector& views, const MarkerBody& board) {
   if (views.size() >= least_views) return;
   std::string missing;
   for (const std::string& what : views.missing()) missing += "\n  " + what;
   if (views.size() == 0)
-    throw Error(
-        fmt::format("no picture shows the board: {}. Is it the right board file, is the "
-                    "board in view, sharp and evenly lit?",
-                    views.tally()));
+    throw Error(fmt::format("no picture shows the board: {}. Of the last one: {}", views.tally(),
+                            why_unseen(views.last_offered(), board, "board")));
   throw Error(
       fmt::format("too few views of the board that differ: {}; expected at least {} and "
                   "better {}. What is missing:{}",
@@ -160,12 +160,13 @@ void calibrate_the_camera(const Options& options) {
   const MarkerBody board = load_board(options.board);
   const auto camera = open_camera(options.source, request);
   const ViewCollector views = board_views(*camera, board, options, request);
-  require_views(views);
+  require_views(views, board);
   say("{}; computing...\n", views.tally());
   CameraCalibration result = calibrate_camera(board, views.pictures(), views.names());
   result.camera.calibrated_at = camera->mode().held;
+  result.camera.response = learned_response(result.camera, board, views.pictures());
   say_views(result);
-  const std::string text = summary(result);
+  const std::string text = summary(result) + response_in_words(result.camera);
   write_result(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));
   print("{}", text);
   if (!doubts(result).empty())

@@ -26,8 +26,8 @@ void draw(const Options& options, const char* what, LoadBody load, WriteSheet wr
   const auto paper = named<Paper>(options.paper);
   if (!paper) throw unknown_name("paper", options.paper, EnumNames<Paper>::names);
   write(load(options.body), *paper, options.out);
-  say("{}: print page 1 at 100 %, measure the ruler line, and write its length into {} as\n"
-      "ruler_measured_m = 0.150 (in meters). Page 2 says what to do with the {}.\n",
+  say("{}: print page 1 at 100 %, measure its ruler lines, and write their lengths into {} as\n"
+      "ruler_measured_m = [0.150, 0.150] (in meters). Page 2 says what to do with the {}.\n",
       options.out, options.body, what);
 }
 

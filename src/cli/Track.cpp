@@ -17,6 +17,7 @@
 #include "tracking/MarkerBody.h"
 #include "tracking/PoseColumns.h"
 #include "tracking/Tracker.h"
+#include "tracking/Unseen.h"
 
 namespace heft::cli {
 
@@ -113,6 +114,30 @@ TrackedPicture track_named(Tracker& tracker, const TakenPicture& picture) {
   }
 }
 
+// Whether a body was in no picture at all, and what the last one shows instead.
+class Sightings {
+ public:
+  void add(const Image& picture, const TrackedPicture& tracked) {
+    ++n_pictures_;
+    if (tracked.camera_from_board) ++n_boards_;
+    if (tracked.board_from_effector) ++n_effectors_;
+    if (!picture.empty() && (n_boards_ == 0 || n_effectors_ == 0)) last_ = picture;
+  }
+  void say_what_was_never_seen(const Apparatus& apparatus) const {
+    if (last_.empty()) return;
+    if (n_boards_ == 0)
+      say("the board was found in 0 of {} picture(s): {}\n", n_pictures_,
+          why_unseen(last_, apparatus.board, "board"));
+    else if (n_effectors_ == 0 && !apparatus.effector.tags.empty())
+      say("the effector was found in 0 of {} picture(s): {}\n", n_pictures_,
+          why_unseen(last_, apparatus.effector, "effector", apparatus.board));
+  }
+
+ private:
+  long n_pictures_ = 0, n_boards_ = 0, n_effectors_ = 0;
+  Image last_;
+};
+
 void run_track(const Options& options) {
   if (!(options.rate_hz > 0 && options.rate_hz <= 1e6))
     throw Error(fmt::format("--rate {}: expected more than 0 and at most 1000000 pictures a second",
@@ -129,13 +154,17 @@ void run_track(const Options& options) {
       "frame,t_s,board_found,effector_found,{},n_tags,reprojection_px,quality,effector_t_s\n",
       pose_columns);
   long frame = 0, n_damaged = 0;
+  Sightings sightings;
   each_picture(options, apparatus.camera, [&](const TakenPicture& picture) {
     if (!picture.damage.empty()) {
       ++n_damaged;
       say("frame {}: {}\n", frame, picture.damage);
     }
-    fmt::print("{}\n", row(frame++, picture.t_s, track_named(tracker, picture), with_effector));
+    const TrackedPicture tracked = track_named(tracker, picture);
+    sightings.add(picture.image, tracked);
+    fmt::print("{}\n", row(frame++, picture.t_s, tracked, with_effector));
   });
+  sightings.say_what_was_never_seen(apparatus);
   if (n_damaged > 0)
     throw Error(fmt::format("{} of {} picture(s) can't be read; in their rows nothing is found",
                             n_damaged, frame));

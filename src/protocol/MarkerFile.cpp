@@ -44,9 +44,9 @@ void read_common(TableReader& reader, MarkerBody& body) {
   if (const auto family = reader.read_name("family", tag_family_names())) body.family = *family;
 }
 
-// One length of the ruler, or of a board's two directions each.
-void read_ruler(TableReader& reader, MarkerBody& body, bool may_be_two) {
-  if (!may_be_two || !reader.is_list("ruler_measured_m"))
+// One length of the rulers, or of each its own: the one across the sheet, and the one down it.
+void read_ruler(TableReader& reader, MarkerBody& body) {
+  if (!reader.is_list("ruler_measured_m"))
     return reader.read("ruler_measured_m", body.measured_ruler_m, plausible_ruler_m);
   Eigen::Vector2d both_m(ruler_m, ruler_m);
   reader.read("ruler_measured_m", both_m, plausible_ruler_m);
@@ -54,13 +54,19 @@ void read_ruler(TableReader& reader, MarkerBody& body, bool may_be_two) {
   body.measured_across_m = both_m.y();
 }
 
-// Everything that the printer printed came out larger or smaller alike, at least in a direction.
-void scale(MarkerBody& body) {
-  const Eigen::Vector3d factors = print_scale(body);
-  body.size_m = body.size_m.cwiseProduct(factors);
-  for (Tag& tag : body.tags)
-    for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m = corner_m.cwiseProduct(factors);
+// The upper long edges may be cut off; something of the top and of the sides is left.
+void read_chamfer(TableReader& reader, MarkerBody& body) {
+  reader.read("chamfer_m", body.chamfer_m, zero_or_more);
+  if (!reader.good({"size_m", "chamfer_m"})) return;
+  const double most_m = std::min(body.size_m.y() / 2, body.size_m.z());
+  if (body.chamfer_m < most_m) return;
+  reader.mistake("chamfer_m",
+                 fmt::format("chamfer_m is {:.6g}, expected less than {:.6g}: half the "
+                             "width, and the height, in size_m",
+                             body.chamfer_m, most_m));
+  body.chamfer_m = 0;
 }
+
 }  // namespace
 
 MarkerBody parse_board(const std::string& text, const std::string& file) {
@@ -69,7 +75,7 @@ MarkerBody parse_board(const std::string& text, const std::string& file) {
   TableReader reader(root, mistakes);
   MarkerBody board;
   read_common(reader, board);
-  read_ruler(reader, board, true);
+  read_ruler(reader, board);
   if (auto grid = reader.table("grid")) board.tags = read_grid(*grid, board.family);
   std::vector<PlacedTag> tags = read_tags(reader);
   std::ranges::for_each(tags, check_upwards);
@@ -78,8 +84,7 @@ MarkerBody parse_board(const std::string& text, const std::string& file) {
   check_ids(tags, board.family);
   mistakes.throw_if_any();
   append(board.tags, tags);
-  scale(board);
-  return board;
+  return as_printed(board);
 }
 
 MarkerBody parse_effector(const std::string& text, const std::string& file) {
@@ -89,20 +94,20 @@ MarkerBody parse_effector(const std::string& text, const std::string& file) {
   MarkerBody effector;
   effector.size_m.setConstant(1);  // where it is wrong, nothing else is blamed for it
   read_common(reader, effector);
-  read_ruler(reader, effector, false);
+  read_ruler(reader, effector);
   reader.require({"size_m"});
   reader.read("size_m", effector.size_m, above_zero);
+  read_chamfer(reader, effector);
   std::vector<PlacedTag> tags = read_tags(reader);
   std::ranges::for_each(tags, check_outwards);
   if (auto box = reader.table("box"))
-    std::ranges::move(read_box(*box, effector.family, effector.size_m), std::back_inserter(tags));
+    std::ranges::move(read_box(*box, effector.family, effector.box()), std::back_inserter(tags));
   reader.close();
   check_placed_once(reader, "box");
   check_ids(tags, effector.family);
   mistakes.throw_if_any();
   append(effector.tags, tags);
-  scale(effector);
-  return effector;
+  return as_printed(effector);
 }
 
 MarkerBody load_board(const std::string& path) {

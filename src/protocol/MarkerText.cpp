@@ -46,7 +46,9 @@ std::string extent_in_words(const MarkerBody& body) {
     for (const Eigen::Vector3d& corner_m : tag.corners_m) box.extend(corner_m);
   if (!body.size_m.isZero()) {
     const Eigen::Vector3d mm = body.size_m * 1e3;
-    return fmt::format("a box of {:.4g} x {:.4g} x {:.4g} mm", mm.x(), mm.y(), mm.z());
+    const std::string size = fmt::format("{:.4g} x {:.4g} x {:.4g} mm", mm.x(), mm.y(), mm.z());
+    if (body.chamfer_m <= 0) return "a box of " + size;
+    return fmt::format("a box of {}, its upper edges cut by {:.4g} mm", size, body.chamfer_m * 1e3);
   }
   const Eigen::Vector3d mm = box.sizes() * 1e3;
   return fmt::format("over {:.4g} x {:.4g} mm", mm.x(), mm.y());
@@ -85,18 +87,22 @@ void require_different_tags(const MarkerBody& board, const MarkerBody& effector)
 }
 
 std::string effector_to_toml(const MarkerBody& effector, const std::string& comment) {
+  const MarkerBody designed = as_designed(effector);
   std::string text;
   for (const std::string_view line : lines_of(comment))
     text += line.empty() ? "#\n" : fmt::format("# {}\n", line);
   text += fmt::format("family = \"{}\"\n", effector.family);
-  const double as_printed = ruler_m / effector.measured_ruler_m.value_or(ruler_m);
-  text += fmt::format("size_m = {}\n", as_row(effector.size_m * as_printed));
-  if (effector.measured_ruler_m)
+  text += fmt::format("size_m = {}\n", as_row(designed.size_m));
+  if (designed.chamfer_m > 0) text += fmt::format("chamfer_m = {:.9f}\n", designed.chamfer_m);
+  if (effector.measured_across_m)
+    text += fmt::format("ruler_measured_m = [{}, {}]\n", *effector.measured_ruler_m,
+                        *effector.measured_across_m);
+  else if (effector.measured_ruler_m)
     text += fmt::format("ruler_measured_m = {}\n", *effector.measured_ruler_m);
-  for (const Tag& tag : effector.tags) {
+  for (const Tag& tag : designed.tags) {
     text += fmt::format("\n[[tag]]\nid = {}\ncorners_m = [\n", tag.id);
     for (const Eigen::Vector3d& corner_m : tag.corners_m)
-      text += fmt::format("  {},\n", as_row(corner_m * as_printed));
+      text += fmt::format("  {},\n", as_row(corner_m));
     text += "]\n";
   }
   return text;

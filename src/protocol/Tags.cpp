@@ -92,10 +92,13 @@ Tag tag_of(const Box& box, BoxFace face, const FaceFrame& frame, int id) {
   return tag_on(frame, id, {0, up_m}, box.tag_m);
 }
 
+// The corners of the white around it lie on the face, too.
 bool fits(const Tag& tag, const FaceFrame& face, double white_m) {
+  const Eigen::Vector2d center_m = face.flat(tag_center_m(tag));
   for (const Eigen::Vector3d& corner_m : tag.corners_m) {
-    const Eigen::Vector2d room_m = face.size_m / 2 - face.flat(corner_m).cwiseAbs();
-    if (room_m.minCoeff() < white_m - tolerance_m) return false;
+    const Eigen::Vector2d out_m = face.flat(corner_m) - center_m;
+    const Eigen::Vector2d white_corner_m = center_m + out_m + white_m * out_m.cwiseSign();
+    if (face.inside_m(white_corner_m) < -tolerance_m) return false;
   }
   return true;
 }
@@ -171,7 +174,7 @@ std::vector<Tag> read_grid(TableReader& table, const std::string& family) {
 }
 
 std::vector<PlacedTag> read_box(TableReader& table, const std::string& family,
-                                const Eigen::Vector3d& size_m) {
+                                const BoxShape& shape) {
   Box box;
   table.require({"tag_m"});
   table.read("tag_m", box.tag_m, tag_side_m);
@@ -179,9 +182,9 @@ std::vector<PlacedTag> read_box(TableReader& table, const std::string& family,
   box.tip_margin_m = white_m;
   table.read("tip_margin_m", box.tip_margin_m, zero_or_more);
   std::vector<PlacedTag> tags;
-  for (const BoxFace face : box_faces) {
+  for (const BoxFace face : faces_of(shape)) {
     const std::string key(name_of(face));
-    const FaceFrame frame = face_frame(size_m, face);
+    const FaceFrame frame = face_frame(shape, face);
     int id = 0;
     table.read(key, id, WholeRange{});
     if (!table.has(key) || !table.good({key})) continue;
@@ -190,7 +193,8 @@ std::vector<PlacedTag> read_box(TableReader& table, const std::string& family,
     tags.push_back({tag, table, key});
   }
   table.close();
-  if (tags.empty() && table.good({"tip", "top", "left", "right", "bottom", "back"}))
+  if (tags.empty() &&
+      table.good({"tip", "top", "left", "right", "bottom", "back", "upper_left", "upper_right"}))
     table.mistake("tip",
                   "[box] names no face, expected at least one with its tag's id, such as "
                   "tip = 30");

@@ -40,6 +40,6 @@ std::vector<Tag> read_grid(TableReader& table, const std::string& family);
 /// Tags at the tip's end of a box, in the middle of its faces' width: tag_m, tip_margin_m (from
 /// the tip's edge; as little as the family allows), and an id for each face that has a tag.
 std::vector<PlacedTag> read_box(TableReader& table, const std::string& family,
-                                const Eigen::Vector3d& size_m);
+                                const BoxShape& shape);
 
 }  // namespace heft

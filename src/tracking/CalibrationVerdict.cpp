@@ -83,11 +83,28 @@ double CameraCalibration::distance_ratio() const {
   return nearest_m > 0 ? farthest_m / nearest_m : 1;
 }
 
+namespace {
+void doubt_print(const PrintShape& print, std::vector<std::string>& list) {
+  if (print.is_stretched())
+    list.push_back(fmt::format(
+        "the board's print is {:.2f} % ({:.2f} either way) longer {} than its file says: measure "
+        "both rulers of its sheet and write ruler_measured_m = [across, down] into the file",
+        100 * std::abs(print.stretch), 200 * print.stretch_sd,
+        print.stretch > 0 ? "across than down" : "down than across"));
+  if (print.is_sheared())
+    list.push_back(fmt::format(
+        "the board's print is sheared: its right angles are off by {:.2f} degrees ({:.2f} either "
+        "way), as of paper that was fed askew; print it once more, or by another printer",
+        std::abs(print.shear_rad) * degrees, 2 * print.shear_sd_rad * degrees));
+}
+}  // namespace
+
 std::vector<std::string> doubts(const CameraCalibration& calibration) {
   std::vector<std::string> list;
   const auto doubt = [&](bool when, const std::string& text) {
     if (when) list.push_back(text);
   };
+  doubt_print(calibration.print, list);
   const double relative_focal_sd = calibration.focal_sd_px / calibration.camera.fx_px;
   doubt(calibration.n_used() < enough_views,
         fmt::format("{} views are few; take {} or more", calibration.n_used(), enough_views));

@@ -8,6 +8,7 @@
 
 #include "base/Error.h"
 #include "tracking/ImageConversion.h"
+#include "tracking/PrintFit.h"
 
 namespace heft {
 
@@ -174,6 +175,17 @@ std::vector<View> views_of(const MarkerBody& board, const std::vector<Image>& pi
   return views;
 }
 
+PrintShape print_of(std::vector<View>& views, const MarkerBody& board, const Solution& solution) {
+  std::vector<FittedView> fitted;
+  const std::vector<View*> used = used_of(views);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    Points points = points_of(*used[i], board);
+    fitted.push_back({std::move(points.on_board), std::move(points.in_picture), solution.turns[i],
+                      solution.shifts[i]});
+  }
+  return shape_of_print(fitted, solution.matrix, solution.distortion);
+}
+
 double rms_px(std::vector<View>& views) {
   double sum = 0, n = 0;
   for (const View* view : used_of(views)) {
@@ -218,6 +230,7 @@ CameraCalibration calibrate_camera(const MarkerBody& board, const std::vector<Im
   result.focal_sd_px = solution.focal_sd_px;
   result.center_sd_px = solution.center_sd_px;
   result.rms_px = rms_px(views);
+  if (is_flat(board)) result.print = print_of(views, board, solution);
   for (const View& view : views) {
     result.views.push_back(view.result);
     if (view.result.used)

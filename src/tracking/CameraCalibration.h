@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/PoseTypes.h"
+#include "tracking/PrintShape.h"
 #include "tracking/TagViews.h"
 
 namespace heft {
@@ -46,6 +47,7 @@ struct CameraCalibration {
   double center_sd_px = 0;  ///< and of the principal point
   std::vector<CalibratedView> views;
   Coverage coverage;  ///< of used views
+  PrintShape print;   ///< of a flat board
 
   std::size_t n_used() const;
   /// How far used views are tilted against each other: the widest angle between two board normals.

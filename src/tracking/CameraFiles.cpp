@@ -132,11 +132,21 @@ class PictureFolder : public Camera {
 
  private:
   Image read(std::size_t i, double t_s) const {
+    refuse_another_size(i);
     try {
       return read_image(path_of(i));
     } catch (const Error& error) {
       throw DamagedPicture(error.what(), names_[i], t_s);
     }
+  }
+  // A camera's pictures are all alike: one that says that it is not is not decoded.
+  void refuse_another_size(std::size_t i) const {
+    const auto size = size_in_header(path_of(i));
+    if (!size || (size->width == first_.width && size->height == first_.height)) return;
+    throw Error(fmt::format(
+        "{} is {} x {} pixels, but the first picture of its folder, {}, has {} x {}; a camera's "
+        "pictures are of one size",
+        path_of(i), size->width, size->height, names_[0], first_.width, first_.height));
   }
   std::string path_of(std::size_t i) const { return (fs::path(folder_) / names_[i]).string(); }
 
@@ -164,6 +174,7 @@ class VideoFile : public Camera {
   bool is_live() const override { return false; }
 
  private:
+  void refuse_absurd_size(const std::string& path) const;
   std::optional<CameraPicture> read();
   double time_of(std::int64_t number);
 
@@ -181,6 +192,7 @@ VideoFile::VideoFile(const std::string& path) {
   for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG})
     if (!video_->isOpened()) video_->open(path, backend);
   if (video_->isOpened()) {
+    refuse_absurd_size(path);
     mode_.rate_hz = video_->get(cv::CAP_PROP_FPS);
     ahead_ = read();
   }
@@ -192,6 +204,16 @@ VideoFile::VideoFile(const std::string& path) {
                     path));
   mode_.width_px = ahead_->image.width;
   mode_.height_px = ahead_->image.height;
+}
+
+void VideoFile::refuse_absurd_size(const std::string& path) const {
+  const double width = video_->get(cv::CAP_PROP_FRAME_WIDTH);
+  const double height = video_->get(cv::CAP_PROP_FRAME_HEIGHT);
+  if (width * height <= most_picture_pixels) return;
+  throw Error(fmt::format(
+      "{} says that its pictures have {:g} x {:g} pixels, and no camera's has more than "
+      "{:g}: it is not read",
+      path, width, height, most_picture_pixels));
 }
 
 // The file's own times where they go on; a picture at least, by the rate, where they don't.
@@ -215,6 +237,7 @@ std::optional<CameraPicture> VideoFile::read() {
 }
 
 std::optional<CameraPicture> VideoFile::next(double) {
+  const QuietCodecs quiet;
   std::optional<CameraPicture> given = std::move(ahead_);
   ahead_ = given ? read() : std::nullopt;
   return given;

@@ -125,6 +125,36 @@ std::optional<PictureSize> pnm_size(const Bytes& bytes) {
   }
   return size;
 }
+// Numbers of 16 or 32 bits in either byte order. The first directory may be anywhere in the file:
+// how many entries there are, and each one's 12 bytes: what it is, its kind, how many, the number.
+std::optional<PictureSize> tiff_size(const Bytes& header, std::istream& file) {
+  const bool little = header[0] == 'I';
+  const auto number = [&](const Bytes& bytes, std::size_t at, std::size_t n) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      value |= std::uint32_t{bytes.at(at + i)} << 8 * (little ? i : n - 1 - i);
+    return value;
+  };
+  constexpr std::uint32_t width = 256, height = 257, short_kind = 3;
+  constexpr std::size_t most_entries = 200;
+  Bytes directory(2 + 12 * most_entries);
+  file.clear();
+  file.seekg(number(header, 4, 4));
+  file.read(reinterpret_cast<char*>(directory.data()),
+            static_cast<std::streamsize>(directory.size()));
+  directory.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+  PictureSize size;
+  for (std::size_t at = 2; at + 12 <= directory.size(); at += 12) {
+    if ((at - 2) / 12 >= number(directory, 0, 2)) break;
+    const bool is_short = number(directory, at + 2, 2) == short_kind;
+    const std::uint32_t value = number(directory, at + 8, is_short ? 2 : 4);
+    const int side = static_cast<int>(std::min<std::uint32_t>(value, INT_MAX));
+    if (number(directory, at, 2) == width) size.width = side;
+    if (number(directory, at, 2) == height) size.height = side;
+  }
+  if (size.width == 0 || size.height == 0) return std::nullopt;
+  return size;
+}
 }  // namespace
 
 std::optional<PictureSize> size_in_header(const std::string& path) {
@@ -141,6 +171,7 @@ std::optional<PictureSize> size_in_header(const std::string& path) {
   if (starts_with(bytes, "BM"))
     return PictureSize{little_endian(bytes, 18), little_endian(bytes, 22)};
   if (starts_with(bytes, "\xFF\xD8")) return jpeg_size(bytes);
+  if (starts_with(bytes, "II*") || starts_with(bytes, {"MM\0*", 4})) return tiff_size(bytes, file);
   if (bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') return pnm_size(bytes);
   return std::nullopt;
 }

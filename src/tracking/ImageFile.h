@@ -12,8 +12,8 @@ struct PictureSize {
   int width = 0, height = 0;
 };
 
-/// What a PNG, JPEG, BMP, PGM or PPM says of itself before it is decoded; none for others, and
-/// where it says nothing.
+/// What a PNG, JPEG, BMP, PGM, PPM or TIFF says of itself before it is decoded; none for others,
+/// and where it says nothing.
 std::optional<PictureSize> size_in_header(const std::string& path);
 
 /// A picture of more pixels is refused before it is decoded.

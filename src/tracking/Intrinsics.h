@@ -24,6 +24,8 @@ struct Intrinsics {
   std::array<double, 8> distortion{};  ///< k1 k2 p1 p2 k3 k4 k5 k6, as OpenCV orders them
   CameraLocks calibrated_at{};         ///< what it was set to then; nothing of a file of pictures
   double readout_s = 0;  ///< how much later the last row is seen than the first: rolling shutter
+  /// How its tone curve bends away from sRGB's, as ToneCurve.h counts it; none: not looked at yet.
+  std::optional<std::array<double, 3>> response = std::nullopt;
 };
 
 /// A pixel and how it moves with what was projected onto it.
@@ -47,8 +49,8 @@ Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel
 Pose camera_above_board(double distance_m, double below_horizon_rad);
 
 /// Reads OpenCV's YAML: image_width, image_height, camera_matrix, distortion_coefficients (4, 5 or
-/// 8 of them); and three keys that other programs pass over and other programs' files lack:
-/// exposure_s and focus, what the camera was set to, and readout_s.
+/// 8 of them); and four keys that other programs pass over and other programs' files lack:
+/// exposure_s and focus, what the camera was set to, readout_s, and response.
 /// @param text contents  @param file its name, for messages
 /// @throws InvalidFile naming what is missing or impossible, at its line where that is known
 Intrinsics parse_intrinsics(const std::string& text, const std::string& file);

@@ -77,6 +77,18 @@ class Reader {
     return std::nullopt;
   }
 
+  // The tone curve, where the file has it.
+  std::optional<std::array<double, 3>> response() {
+    constexpr const char* expected = "3 numbers from -2 to 2, as heft calibrate camera writes them";
+    if (!values_.contains("response")) return std::nullopt;
+    const std::vector<double> bend = numbers("response", expected);
+    if (bend.size() == 3 && std::ranges::all_of(bend, [](double b) { return std::abs(b) <= 2; }))
+      return std::array{bend[0], bend[1], bend[2]};
+    if (!bend.empty())
+      mistake(fmt::format("response is {}, expected {}", fmt::join(bend, ", "), expected));
+    return std::nullopt;
+  }
+
   // Its message begins with the key.
   void mistake(std::string message) {
     const auto key = values_.find(message.substr(0, message.find(' ')));
@@ -124,6 +136,7 @@ std::string extra_text(const Intrinsics& camera) {
   if (locks.exposure_s) text += fmt::format("exposure_s: {}\n", *locks.exposure_s);
   if (locks.focus) text += fmt::format("focus: {}\n", *locks.focus);
   if (camera.readout_s > 0) text += fmt::format("readout_s: {}\n", camera.readout_s);
+  if (camera.response) text += fmt::format("response: [ {} ]\n", fmt::join(*camera.response, ", "));
   return text;
 }
 
@@ -148,6 +161,7 @@ Intrinsics parse_intrinsics(const std::string& text, const std::string& file) {
   camera.readout_s =
       reader.extra("readout_s", 0, 0.2, "the seconds from the first row to the last, up to 0.2")
           .value_or(0);
+  camera.response = reader.response();
   reader.finish();
   return camera;
 }

@@ -1,25 +1,98 @@
 #include "tracking/MarkerBody.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace heft {
 
-Eigen::Vector3d print_scale(const MarkerBody& body) {
-  const double along_m = body.measured_ruler_m.value_or(ruler_m);
-  return Eigen::Vector3d(along_m, body.measured_across_m.value_or(along_m), along_m) / ruler_m;
+Eigen::Vector2d print_scale(const MarkerBody& body) {
+  const double across_m = body.measured_ruler_m.value_or(ruler_m);
+  return Eigen::Vector2d(across_m, body.measured_across_m.value_or(across_m)) / ruler_m;
 }
 
-FaceFrame face_frame(const Eigen::Vector3d& size_m, BoxFace face) {
-  static const std::array<Eigen::Vector3d, 6> outwards{
-      {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {-1, 0, 0}}};  // as box_faces
-  const Eigen::Vector3d& normal = outwards[static_cast<std::size_t>(face)];
-  const bool is_end = face == BoxFace::tip || face == BoxFace::back;
-  const Eigen::Vector3d up = is_end ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
-  const Eigen::Vector3d right = up.cross(normal);
-  return {normal.cwiseProduct(size_m) / 2,
-          right,
-          up,
-          {right.cwiseAbs().dot(size_m), up.cwiseAbs().dot(size_m)}};
+namespace {
+MarkerBody scaled(MarkerBody body, double across, double down) {
+  const bool is_board = body.size_m.isZero();
+  body.size_m = body.size_m.cwiseProduct(Eigen::Vector3d(down, across, across));
+  body.chamfer_m *= across;
+  for (Tag& tag : body.tags) {
+    const bool on_end = std::abs(tag_normal(tag).x()) > 0.9;
+    const Eigen::Vector3d along_axes = is_board ? Eigen::Vector3d(across, down, across)
+                                       : on_end ? Eigen::Vector3d(down, across, down)
+                                                : Eigen::Vector3d(down, across, across);
+    for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m = corner_m.cwiseProduct(along_axes);
+  }
+  return body;
+}
+}  // namespace
+
+MarkerBody as_printed(const MarkerBody& designed) {
+  const Eigen::Vector2d scale = print_scale(designed);
+  return scaled(designed, scale.x(), scale.y());
+}
+
+MarkerBody as_designed(const MarkerBody& printed) {
+  const Eigen::Vector2d scale = print_scale(printed);
+  return scaled(printed, 1 / scale.x(), 1 / scale.y());
+}
+
+std::span<const BoxFace> faces_of(const BoxShape& box) {
+  return std::span(box_faces).first(box.chamfer_m > 0 ? 8 : 6);
+}
+
+namespace {
+// Outwards, where the chamfers leave what is around the middle of a box's side, and how wide it is.
+struct LongFace {
+  Eigen::Vector3d outwards, center_m;
+  double width_m;
+};
+
+LongFace long_face(const BoxShape& box, BoxFace face) {
+  const double width = box.size_m.y(), height = box.size_m.z(), cut = box.chamfer_m;
+  const double slant = std::sqrt(0.5), side_z = -cut / 2;
+  const double upper_y = (width - cut) / 2, upper_z = (height - cut) / 2;
+  switch (face) {
+    case BoxFace::top:
+      return {{0, 0, 1}, {0, 0, height / 2}, width - 2 * cut};
+    case BoxFace::left:
+      return {{0, 1, 0}, {0, width / 2, side_z}, height - cut};
+    case BoxFace::right:
+      return {{0, -1, 0}, {0, -width / 2, side_z}, height - cut};
+    case BoxFace::upper_left:
+      return {{0, slant, slant}, {0, upper_y, upper_z}, cut / slant};
+    case BoxFace::upper_right:
+      return {{0, -slant, slant}, {0, -upper_y, upper_z}, cut / slant};
+    default:
+      return {{0, 0, -1}, {0, 0, -height / 2}, width};
+  }
+}
+}  // namespace
+
+FaceFrame face_frame(const BoxShape& box, BoxFace face) {
+  const double length = box.size_m.x();
+  if (face == BoxFace::tip || face == BoxFace::back) {
+    const double sign = face == BoxFace::tip ? 1 : -1;
+    return {{sign * length / 2, 0, 0},
+            {0, sign, 0},
+            {0, 0, 1},
+            {box.size_m.y(), box.size_m.z()},
+            box.chamfer_m};
+  }
+  const auto [outwards, center_m, width_m] = long_face(box, face);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitX();
+  return {center_m, up.cross(outwards), up, {width_m, length}};
+}
+
+std::vector<Eigen::Vector2d> FaceFrame::outline_m() const {
+  const double x = size_m.x() / 2, y = size_m.y() / 2;
+  if (cut_m <= 0) return {{-x, y}, {x, y}, {x, -y}, {-x, -y}};
+  return {{-x + cut_m, y}, {x - cut_m, y}, {x, y - cut_m}, {x, -y}, {-x, -y}, {-x, y - cut_m}};
+}
+
+double FaceFrame::inside_m(const Eigen::Vector2d& point_m) const {
+  const Eigen::Vector2d half_m = size_m / 2, in_m = half_m - point_m.cwiseAbs();
+  const double below_cut_m = in_m.x() + half_m.y() - point_m.y() - cut_m;
+  return std::min(in_m.minCoeff(), cut_m > 0 ? below_cut_m * std::sqrt(0.5) : in_m.x());
 }
 
 Tag tag_on(const FaceFrame& face, int id, const Eigen::Vector2d& center_m, double side_m) {

@@ -18,6 +18,10 @@ struct PictureTone {
 
 class ToneLearner {
  public:
+  /// @param start what was learned at another time, or zero: sRGB
+  explicit ToneLearner(const ToneBend& start = ToneBend::Zero())
+      : start_(start), curve_(start), mean_(start) {}
+
   const ToneCurve& curve() const { return curve_; }
 
   /// Once more for the same picture while its edges still move, each time measured with the last
@@ -28,10 +32,11 @@ class ToneLearner {
   void next_picture();
 
  private:
+  ToneBend start_;
   ToneCurve curve_;
   ToneBend bend_ = ToneBend::Zero();  ///< likeliest; the curve's is nearer to sRGB
   // Of the pictures before, and of this one.
-  ToneBend mean_ = ToneBend::Zero();
+  ToneBend mean_;
   Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero(), seen_ = Eigen::Matrix3d::Zero();
 };
 

@@ -9,6 +9,7 @@
 #include "base/Error.h"
 #include "base/Pose.h"
 #include "tracking/ImageConversion.h"
+#include "tracking/Response.h"
 #include "tracking/RollingShutter.h"
 
 namespace heft {
@@ -105,7 +106,8 @@ Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings)
       settings_(settings),
       board_(camera_, apparatus.board, settings,
              {usual_blur_px, board_edge_pixels, 0, ToneCurve(), settings.remove_bias}),
-      effector_(camera_, apparatus.effector, settings, {usual_blur_px, effector_edge_pixels}) {
+      effector_(camera_, apparatus.effector, settings, {usual_blur_px, effector_edge_pixels}),
+      tone_(response_of(camera_).bend()) {
   require_own_tags(apparatus.board, apparatus.effector);
   const double decimate = settings.decimate > 0     ? settings.decimate
                           : camera_.width_px <= 800 ? 1

@@ -54,6 +54,10 @@ class Tracker {
   /// @throws Error when the picture is not of the size that the camera was calibrated for
   TrackedPicture track(const Image& image, double t_s);
 
+  /// What it takes the camera's tone curve to be: the camera file's response, and what the pictures
+  /// since have told.
+  const ToneCurve& tone() const { return tone_.curve(); }
+
   /// Forgets the last poses: what comes next is no continuation. The camera stays the same.
   void reset();
 

@@ -32,6 +32,7 @@ bool ViewCollector::offer(const Image& image, const std::string& name) {
                     "from pictures of one size",
                     name, image.width, image.height, guess_.width_px, guess_.height_px));
   ++n_offered_;
+  last_image_ = image;
   const TagView before = std::move(last_);
   last_ = viewer_.view(image, guess_);
   const TagView& view = last_;

@@ -35,6 +35,7 @@ class ViewCollector {
   std::string tally() const;
 
   std::size_t size() const { return names_.size(); }
+  const Image& last_offered() const { return last_image_; }
   const Coverage& coverage() const { return coverage_; }
   const std::vector<Image>& pictures() const { return pictures_; }
   const std::vector<std::string>& names() const { return names_; }
@@ -49,6 +50,7 @@ class ViewCollector {
   bool live_;
   double least_difference_px_;
   TagView last_;
+  Image last_image_;
   std::vector<TagView> views_;
   std::vector<Image> pictures_;
   std::vector<std::string> names_;

@@ -48,6 +48,29 @@ TEST(EffectorVerdict, WarnsOfAnEffectorThatIsOftenLost) {
   EXPECT_EQ(effector_verdict(seen_with_faces(5, 0, 0)).verdict, CheckVerdict::warning);
 }
 
+TEST(ToneVerdict, NamesACameraThatBends) {
+  const ToneCurve srgb, bent(ToneBend(0.6, 0, 0));
+  Intrinsics camera;
+  EXPECT_EQ(tone_verdict(camera, srgb).verdict, CheckVerdict::ok);
+  EXPECT_THAT(tone_verdict(camera, srgb).finding, HasSubstr("close to sRGB"));
+  const CheckResult untold = tone_verdict(camera, bent);
+  EXPECT_EQ(untold.verdict, CheckVerdict::warning);
+  EXPECT_THAT(untold.finding, HasSubstr("the camera bends tones"));
+  EXPECT_THAT(untold.finding, HasSubstr("calibrate it once more"));
+  camera.response = std::array{0.6, 0.0, 0.0};
+  const CheckResult told = tone_verdict(camera, bent);
+  EXPECT_EQ(told.verdict, CheckVerdict::ok);
+  EXPECT_THAT(told.finding, HasSubstr("the camera bends tones"));
+  EXPECT_EQ(tone_verdict(camera, srgb).verdict, CheckVerdict::warning);
+  EXPECT_THAT(tone_verdict(camera, srgb).finding, HasSubstr("not as when it was calibrated"));
+}
+
+TEST(BoardVerdict, SaysWhyItMayBeInNoPicture) {
+  const CheckResult result = board_verdict(Pictures(7), {}, "the picture is mirrored");
+  EXPECT_EQ(result.verdict, CheckVerdict::failed);
+  EXPECT_EQ(result.finding, "found in 0 of 7 pictures: the picture is mirrored");
+}
+
 TEST(LockVerdicts, WarnOfALensThatIsNotWhereItWasCalibrated) {
   CameraMode mode;
   mode.not_locked = {

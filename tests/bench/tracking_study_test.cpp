@@ -8,6 +8,7 @@
 #include "base/Random.h"
 #include "bench/comparison/ComparisonTracker.h"
 #include "bench/tracking/TrackingStudy.h"
+#include "protocol/Files.h"
 
 namespace heft {
 namespace {
@@ -37,6 +38,56 @@ TEST(TrackingStudy, QuickRunMakesEveryFile) {
   EXPECT_NE(readme.find("quick run"), std::string::npos);
   EXPECT_NE(readme.find("| gamma 2.2 | "), std::string::npos);
   EXPECT_EQ(readme.find("nan"), std::string::npos);
+}
+
+TEST(EffectorStudy, QuickRunMakesEveryFile) {
+  const StudyFolder folder("effectors");
+  testing::internal::CaptureStdout();
+  run_effector_study(folder.options());
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("effector_two_faces.toml"),
+            std::string::npos);
+  EXPECT_EQ(folder.csv("effectors.csv").rows.size(), 4U);
+  EXPECT_NE(folder.text("README.md").find("quick run"), std::string::npos);
+}
+
+// By geometry alone, over the grips and from the places that studies film.
+double share_with_two_tags(EffectorBody body) {
+  EffectorPrint print;
+  print.body = body;
+  const Apparatus apparatus = bench_apparatus(640, print);
+  constexpr int n_grips = 500;
+  int n = 0, n_two = 0;
+  for (const auto& [distance_m, pitch_deg] :
+       {std::pair(0.42, 46.0), {0.45, 52.0}, {0.48, 58.0}, {0.44, 60.0}})
+    for (std::uint64_t i = 0; i < n_grips; ++i, ++n)
+      if (tags_in_view(apparatus, camera_above_board(distance_m, pitch_deg * M_PI / 180),
+                       random_grip(7, i)) >= 2)
+        ++n_two;
+  return static_cast<double>(n_two) / n;
+}
+
+TEST(EffectorStudy, SlantedFacesShowTwoTagsFromMostGrips) {
+  EXPECT_LT(share_with_two_tags(EffectorBody::box), 0.5);
+  EXPECT_GT(share_with_two_tags(EffectorBody::two_faces), 0.95);
+}
+
+TEST(EffectorStudy, FilmsWhatIsShipped) {
+  for (const auto& [body, file] : {std::pair(EffectorBody::box, "effector.toml"),
+                                   {EffectorBody::two_faces, "effector_two_faces.toml"}}) {
+    EffectorPrint print;
+    print.body = body;
+    const MarkerBody filmed = bench_apparatus(640, print).effector;
+    const MarkerBody shipped =
+        load_effector(std::string(HEFT_SOURCE_DIR "/protocols/apparatus/") + file);
+    EXPECT_EQ(filmed.size_m, shipped.size_m);
+    EXPECT_EQ(filmed.chamfer_m, shipped.chamfer_m);
+    ASSERT_EQ(filmed.tags.size(), shipped.tags.size());
+    for (std::size_t i = 0; i < filmed.tags.size(); ++i) {
+      EXPECT_EQ(filmed.tags[i].id, shipped.tags[i].id);
+      for (std::size_t c = 0; c < 4; ++c)
+        EXPECT_LT((filmed.tags[i].corners_m[c] - shipped.tags[i].corners_m[c]).norm(), 1e-9);
+    }
+  }
 }
 
 Apparatus without_effector_tags() {

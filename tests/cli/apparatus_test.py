@@ -221,7 +221,7 @@ class Apparatus(unittest.TestCase):
         (frames / "a.pgm").write_bytes(b"P5 64 48 255\n" + bytes(64 * 48))
         run = self.calibrate_camera(f"frames:{frames}")
         self.assertEqual((run.returncode, run.stdout), (1, ""))
-        self.assertIn("right board file", run.stderr)
+        self.assertIn("the picture is dark (median 0 of 255)", run.stderr)
 
     def test_calibrating_the_effector_needs_its_tags_and_the_cameras_size(self):
         frames = self.folder / "frames"

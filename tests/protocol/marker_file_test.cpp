@@ -119,6 +119,53 @@ TEST(EffectorFile, BoxHasItsTagsAtTheTip) {
   expect_near(corner(34, 0), 0.040, -0.012, -0.018);
 }
 
+// Long faces stand upright on the sheet: what is along the effector was printed down it.
+TEST(EffectorFile, IsScaledInBothDirectionsByTwoLengths) {
+  const MarkerBody plain = parse_effector(effector_box, "x.toml");
+  const std::string text = "ruler_measured_m = [0.153, 0.147]\n" + effector_box;
+  const MarkerBody scaled = parse_effector(text, "x.toml");
+  expect_near(scaled.size_m, 0.98 * 0.090, 1.02 * 0.040, 1.02 * 0.036);
+  for (std::size_t i = 0; i < plain.tags.size(); ++i)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double up = plain.tags[i].id == 30 ? 0.98 : 1.02;  // the tip's tag is upright, too
+      const Eigen::Vector3d expected =
+          plain.tags[i].corners_m[c].cwiseProduct(Eigen::Vector3d(0.98, 1.02, up));
+      EXPECT_LT((scaled.tags[i].corners_m[c] - expected).norm(), 1e-12);
+    }
+  const MarkerBody again = parse_effector(effector_to_toml(scaled, ""), "y.toml");
+  EXPECT_EQ(again.measured_across_m, 0.147);
+  EXPECT_LT((again.tags[1].corners_m[2] - scaled.tags[1].corners_m[2]).norm(), 1e-8);
+}
+
+const std::string effector_chamfered = R"(size_m = [0.090, 0.085, 0.040]
+chamfer_m = 0.025
+[box]
+tag_m = 0.028
+tip_margin_m = 0.004
+tip = 40
+top = 41
+upper_left = 42
+upper_right = 43
+)";
+
+// The faces between top and sides look up to the left and to the right, at 45 degrees.
+TEST(EffectorFile, ChamferedBoxHasSlantedFaces) {
+  const MarkerBody effector = parse_effector(effector_chamfered, "x.toml");
+  ASSERT_EQ(effector.tags.size(), 4u);
+  const Tag &left = effector.tags[2], &right = effector.tags[3];
+  EXPECT_EQ(left.id, 42);
+  const double slant = std::sqrt(0.5);
+  expect_near(tag_normal(left), 0, slant, slant);
+  expect_near(tag_normal(right), 0, -slant, slant);
+  expect_near(tag_center_m(left), 0.027, 0.030, 0.0075);
+  expect_near(tag_center_m(right), 0.027, -0.030, 0.0075);
+  // Upright towards the tip; the left one's own left is down.
+  expect_near(left.corners_m[0], 0.041, 0.030 + 0.014 * slant, 0.0075 - 0.014 * slant);
+  EXPECT_NE(described(effector).find("its upper edges cut by 25 mm"), std::string::npos);
+  const MarkerBody again = parse_effector(effector_to_toml(effector, ""), "y.toml");
+  EXPECT_NEAR(again.chamfer_m, 0.025, 1e-9);
+}
+
 TEST(EffectorFile, FamilyIsUsuallyTag36h11) {
   const MarkerBody effector = parse_effector(effector_tags, "x.toml");
   EXPECT_EQ(effector.family, "tag36h11");
@@ -240,6 +287,15 @@ const Broken of_box[] = {
      {"family = \"tag36h11\"\nsize_m = [0.090, 0.040, 0.036]\n", "^family = \"tag36h11\"\n"},
      {"lacks \"size_m\""}},
     {"size_zero", {"0.036]", "^0]"}, {"size_m is 0", "above 0"}},
+    {"chamfer_of_half_the_width",
+     {"0.036]", "0.036]\nchamfer_m = ^0.02"},
+     {"chamfer_m is 0.02", "less than 0.02"}},
+    {"no_room_beside_the_chamfer",
+     {"0.036]\n[box]\ntag_m = 0.024\ntip_margin_m = 0.005\ntip = 30\ntop = 31\n",
+      "0.036]\nchamfer_m = 0.004\n[box]\ntag_m = 0.024\ntip_margin_m = 0.005\ntip = 30\n"
+      "upper_left = ^31\n"},
+     {"the upper_left face of 0.00565685 x 0.09 m has no room"}},
+    {"slanted_face_of_a_plain_box", {"top = 31", "^upper_left = 31"}, {"unknown key"}},
     {"negative_id", {"= 30", "= ^-1"}, {"tip is -1"}},
     {"same_id", {"= 34", "= ^30"}, {"tag 30 is there twice"}},
     {"not_in_family", {"= 34", "= ^587"}, {"bottom is 587", "0 to 586"}},

@@ -31,11 +31,33 @@ TEST(CameraCalibration, FindsTheCameraAndLeavesOutWhatDoesNotFit) {
   EXPECT_LT(median_px, 0.1);
   EXPECT_LT(found.rms_px, 0.06);
   EXPECT_EQ(joined(doubts(found)), "");
+  EXPECT_LT(std::abs(found.print.stretch), 0.0004);
+  EXPECT_LT(std::abs(found.print.shear_rad), 0.0004);
   ASSERT_EQ(found.views.size(), 21u);
   EXPECT_EQ(found.n_used(), 20u);
   EXPECT_EQ(found.views.back().name, "the odd one");
   EXPECT_FALSE(found.views.back().used);
   EXPECT_NE(summary(found).find("20 views used of 21"), std::string::npos);
+}
+
+// Stretched by 0.2 % and sheared by 0.15 degrees, as printers do that feed paper unevenly.
+TEST(CameraCalibration, NamesAPrintThatIsNotTrueToShape) {
+  const Apparatus apparatus = default_apparatus(640);
+  Apparatus printed = apparatus;
+  constexpr double stretch = 0.002, shear_rad = 0.0026;
+  for (Tag& tag : printed.board.tags)
+    for (Eigen::Vector3d& c : tag.corners_m)
+      c = {c.x() * (1 + stretch / 2) + c.y() * shear_rad / 2,
+           c.y() * (1 - stretch / 2) + c.x() * shear_rad / 2, 0};
+  const BoardViews pictures = board_views(printed, 16, 1, 2);
+  const auto found = calibrate_camera(apparatus.board, pictures.images, pictures.names);
+  EXPECT_NEAR(found.print.stretch, stretch, 0.0004);
+  EXPECT_NEAR(found.print.shear_rad, shear_rad, 0.0004);
+  const std::string why = joined(doubts(found));
+  EXPECT_NE(why.find("% (0.0"), std::string::npos) << why;
+  EXPECT_NE(why.find("longer across than down"), std::string::npos) << why;
+  EXPECT_NE(why.find("ruler_measured_m = [across, down]"), std::string::npos) << why;
+  EXPECT_NE(why.find("the board's print is sheared"), std::string::npos) << why;
 }
 
 TEST(CameraCalibration, DoubtsViewsFromOneSide) {

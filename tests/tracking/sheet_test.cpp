@@ -46,6 +46,23 @@ class Sheets : public testing::Test {
   std::filesystem::path folder_;
 };
 
+constexpr double chamfer_m = 0.025;
+const Eigen::Vector3d chamfered_size_m(0.090, 0.085, 0.040);
+
+// The shipped effector that shows two faces.
+MarkerBody chamfered_effector() {
+  MarkerBody effector;
+  effector.size_m = chamfered_size_m;
+  effector.chamfer_m = chamfer_m;
+  int id = 40;
+  for (const BoxFace face : faces_of(effector.box())) {
+    if (face == BoxFace::left || face == BoxFace::right || face == BoxFace::back) continue;
+    const Eigen::Vector2d center_m(0, face == BoxFace::tip ? 0 : 0.027);
+    effector.tags.push_back(tag_on(face_frame(effector.box(), face), id++, center_m, 0.028));
+  }
+  return effector;
+}
+
 using TagCorners = std::map<int, std::array<Eigen::Vector2d, 4>>;
 
 // Millimeters from the page's upper left corner.
@@ -127,6 +144,24 @@ std::vector<double> marks_mm(const Image& page, int row) {
   return marks;
 }
 
+Image transposed(const Image& page) {
+  Image turned(page.height, page.width, 1);
+  for (int y = 0; y < page.height; ++y)
+    for (int x = 0; x < page.width; ++x)
+      turned
+          .pixels[static_cast<std::size_t>(x) * turned.row_bytes() + static_cast<std::size_t>(y)] =
+          page.pixels[static_cast<std::size_t>(y) * page.row_bytes() + static_cast<std::size_t>(x)];
+  return turned;
+}
+
+// Only the outermost ticks of the ruler down the sheet reach so far from its left edge.
+void expect_ruler_down(const Image& page, double from_left_mm) {
+  const std::vector<double> marks =
+      marks_mm(transposed(page), static_cast<int>(from_left_mm * px_per_mm));
+  ASSERT_GE(marks.size(), 2u);
+  EXPECT_NEAR(marks[1] - marks[0], 150.0, 0.03);
+}
+
 // Only the outermost ticks of the ruler reach this high.
 void expect_ruler(const Image& page) {
   const int row = page.height - static_cast<int>((5 + 4 + 3.5) * px_per_mm);
@@ -142,38 +177,102 @@ TEST_F(Sheets, RulersAre150MillimetersLong) {
   expect_ruler(first_page(path("e.pdf")));
 }
 
+constexpr double board_ruler_mm = 5 + 0.4 + 1.2, effector_ruler_mm = 5 + 5.5 + 3.5;
+
+TEST_F(Sheets, HaveARulerEachWay) {
+  write_board_sheet(grid_board(6, 4, 0.040, 0.048), Paper::a4, path("b.pdf"));
+  expect_ruler_down(first_page(path("b.pdf")), board_ruler_mm);
+  for (const Paper paper : {Paper::a4, Paper::letter}) {
+    const std::string box = path(std::string(name_of(paper)) + "box.pdf");
+    write_effector_sheet(box_effector(0.032), paper, box);
+    expect_ruler_down(first_page(box), effector_ruler_mm);
+    const std::string chamfered = path(std::string(name_of(paper)) + "chamfered.pdf");
+    write_effector_sheet(chamfered_effector(), paper, chamfered);
+    expect_ruler_down(first_page(chamfered), effector_ruler_mm);
+  }
+}
+
+// The ruler takes nothing of the white that the tags need.
+TEST_F(Sheets, RulerLeavesTheTagsTheirWhite) {
+  write_board_sheet(grid_board(6, 4, 0.040, 0.048), Paper::a4, path("b.pdf"));
+  const TagCorners found_mm = tags_on(first_page(path("b.pdf")), "tag36h11");
+  for (const auto& [id, corners] : found_mm) {
+    EXPECT_GE(corners[0].x(), 6.8 + 5 - 0.02) << id;
+    EXPECT_LE(corners[1].x(), 297 - 5 + 0.02) << id;
+  }
+}
+
+bool is_on(const NetFace& face, const NetPoint& p) {
+  return face.frame.inside_m(face.frame.flat(face.on_box(p))) > -1e-9;
+}
+
 // Where two faces meet on the net they meet on the box, and paper's printed side is outside.
-TEST_F(Sheets, NetFoldsIntoTheBox) {
-  const EffectorNet net = effector_net({0.090, 0.040, 0.036});
-  int n_hinges = 0;
+void expect_folds(const BoxShape& box) {
+  const EffectorNet net = effector_net(box);
+  ASSERT_EQ(net.faces.size(), faces_of(box).size());
+  std::size_t n_hinges = 0;
   for (const auto& fold : net.folds_m) {
     std::vector<const NetFace*> meeting;
-    for (const NetFace& face : net.faces) {
-      const auto on_it = [&](const NetPoint& p) {
-        const NetPoint off = (p - face.center_m).cwiseAbs() - face.frame.size_m / 2;
-        return off.maxCoeff() < 1e-9;
-      };
-      if (on_it(fold[0]) && on_it(fold[1])) meeting.push_back(&face);
-    }
+    for (const NetFace& face : net.faces)
+      if (is_on(face, fold[0]) && is_on(face, fold[1])) meeting.push_back(&face);
     if (meeting.size() < 2) continue;  // a flap
     ++n_hinges;
     for (const NetPoint& p : fold)
       EXPECT_LT((meeting[0]->on_box(p) - meeting[1]->on_box(p)).norm(), 1e-12);
   }
-  EXPECT_EQ(n_hinges, 5);  // of six faces in one piece
+  EXPECT_EQ(n_hinges, net.faces.size() - 1);  // all in one piece
   for (const NetFace& face : net.faces) {
     EXPECT_GT(face.frame.normal().dot(face.frame.center_m), 0);
     EXPECT_NEAR(face.frame.normal().norm(), 1, 1e-12);
   }
 }
 
-TEST_F(Sheets, FoldedTagsAreWhereTheFileSays) {
-  const MarkerBody effector = box_effector(0.032);
-  write_effector_sheet(effector, Paper::a4, path("effector.pdf"));
-  const TagCorners found_mm = tags_on(first_page(path("effector.pdf")), effector.family);
+// Edges that are not folded between two faces are glued: each has one flap for two edges that meet.
+void expect_closes(const BoxShape& box) {
+  const EffectorNet net = effector_net(box);
+  std::vector<std::array<Eigen::Vector3d, 2>> edges;
+  for (const NetFace& face : net.faces) {
+    const auto corners = face.corners_m();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      edges.push_back({face.on_box(corners[i]), face.on_box(corners[(i + 1) % corners.size()])});
+  }
+  for (const auto& [from, to] : edges) {  // clockwise on one face, the other way on its neighbor
+    const auto is_its_neighbor = [&, a = from, b = to](const auto& other) {
+      return (other[0] - b).norm() < 1e-9 && (other[1] - a).norm() < 1e-9;
+    };
+    EXPECT_EQ(std::ranges::count_if(edges, is_its_neighbor), 1) << from.transpose();
+  }
+}
+
+TEST_F(Sheets, NetFoldsIntoTheBox) {
+  expect_folds(Eigen::Vector3d(0.090, 0.040, 0.036));
+  expect_closes(Eigen::Vector3d(0.090, 0.040, 0.036));
+}
+
+TEST_F(Sheets, NetFoldsIntoTheChamferedBox) {
+  expect_folds({chamfered_size_m, chamfer_m});
+  expect_closes({chamfered_size_m, chamfer_m});
+}
+
+// Whether two pieces of paper overlap: a point well inside of one in the other.
+TEST_F(Sheets, FacesLieBesideEachOther) {
+  for (const BoxShape& box :
+       {BoxShape(Eigen::Vector3d(0.090, 0.040, 0.036)), BoxShape(chamfered_size_m, chamfer_m)}) {
+    const EffectorNet net = effector_net(box);
+    for (double x = 0.0005; x < net.size_m.x(); x += 0.003)
+      for (double y = 0.0005; y < net.size_m.y(); y += 0.003) {
+        const auto holds = [&](const NetFace& face) {
+          return face.frame.inside_m(face.frame.flat(face.on_box({x, y}))) > 1e-9;
+        };
+        EXPECT_LE(std::ranges::count_if(net.faces, holds), 1) << x << " " << y;
+      }
+  }
+}
+
+void expect_folded_tags(const MarkerBody& effector, const TagCorners& found_mm) {
   ASSERT_EQ(found_mm.size(), effector.tags.size());
-  const EffectorNet net = effector_net(effector.size_m);
-  const auto face_with = [&](const Tag& tag) { return net.at(face_of(effector.size_m, tag)); };
+  const EffectorNet net = effector_net(effector.box());
+  const auto face_with = [&](const Tag& tag) { return net.at(face_of(effector.box(), tag)); };
   // Where the net's origin is on the page: from one corner of one tag.
   const Tag& first = effector.tags.front();
   const NetPoint start = face_with(first).on_net(first.corners_m[0]) * 1000;
@@ -186,6 +285,14 @@ TEST_F(Sheets, FoldedTagsAreWhereTheFileSays) {
       EXPECT_LT((face_with(tag).on_box(on_net) - tag.corners_m[c]).norm(), 0.00008)
           << "tag " << tag.id << " corner " << c;
     }
+}
+
+TEST_F(Sheets, FoldedTagsAreWhereTheFileSays) {
+  for (const MarkerBody& effector : {box_effector(0.032), chamfered_effector()}) {
+    const std::string pdf = path(std::to_string(effector.tags.front().id) + ".pdf");
+    write_effector_sheet(effector, Paper::a4, pdf);
+    expect_folded_tags(effector, tags_on(first_page(pdf), effector.family));
+  }
 }
 
 std::string refusal(const std::function<void()>& draw) {

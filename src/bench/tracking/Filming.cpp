@@ -127,7 +127,7 @@ TrackedError error_of(const MethodPoses& poses, const Pose& camera_from_board,
 }
 
 std::vector<MethodFilm> film(const FilmPlan& plan, const std::vector<MethodName>& names) {
-  const Apparatus apparatus = bench_apparatus(plan.width_px);
+  const Apparatus apparatus = bench_apparatus(plan.width_px, plan.print);
   std::vector<TrackingMethod> methods;
   for (const MethodName& name : names) methods.push_back(make_method(name, apparatus));
   std::vector<MethodFilm> films(methods.size());
@@ -169,7 +169,7 @@ ErrorSummary summary_of(const std::vector<TrackedError>& errors) {
 
 namespace {
 FilmPlan plan_for(int width_px, Motion motion, bool quick) {
-  FilmPlan plan{width_px, motion, 1, 12, 2, Grip::any};
+  FilmPlan plan{width_px, motion, 1, 12, 2, Grip::any, {}};
   if (quick) return plan;
   const int times = width_px == 640 ? 2 : 1;
   plan.n_takes = motion == Motion::hold ? 10 * times : 20 * times;

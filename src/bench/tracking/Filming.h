@@ -19,6 +19,7 @@ namespace heft {
 struct MethodPoses {
   std::optional<Pose> camera_from_board, board_from_effector;
   double quality = 1;
+  int n_faces = 0;  ///< of the effector, that its pose was measured on; 0 where a method tells none
 };
 
 /// What a method is, in the words of the charts and tables.
@@ -72,6 +73,7 @@ struct FilmPlan {
   int n_takes = 1, n_pictures = 10;  ///< of each take
   std::uint64_t seed = 1;
   Grip grip = Grip::any;
+  EffectorPrint print{};
 };
 
 /// What one method made of each take's pictures.

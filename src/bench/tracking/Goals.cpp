@@ -112,7 +112,7 @@ void add_size(std::vector<Goal>& goals, const GoalFilms& goal_films) {
 
 // Strokes with two faces in view, in which the effector came out turned round.
 Goal count_flips(bool quick) {
-  FilmPlan plan{640, Motion::stroke, quick ? 2 : 520, quick ? 4 : 30, 3, Grip::two_faces};
+  FilmPlan plan{640, Motion::stroke, quick ? 2 : 520, quick ? 4 : 30, 3, Grip::two_faces, {}};
   const auto films = film(plan, {our_method(plan.width_px)});
   int n = 0, flips = 0;
   for (const auto& take : films[0].pictures)

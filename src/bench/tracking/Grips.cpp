@@ -16,7 +16,12 @@ namespace {
 constexpr std::string_view board_toml =
     "family = \"tag36h11\"\n[grid]\ncolumns = 6\nrows = 4\ntag_m = 0.040\npitch_m = 0.048\n";
 
+constexpr std::string_view two_faces_toml =
+    "size_m = [0.090, 0.085, 0.040]\nchamfer_m = 0.025\n[box]\ntag_m = 0.028\n"
+    "tip_margin_m = 0.004\ntip = 40\ntop = 41\nupper_left = 42\nupper_right = 43\nbottom = 44\n";
+
 std::string effector_toml(const EffectorPrint& print) {
+  if (print.body == EffectorBody::two_faces) return std::string(two_faces_toml);
   return fmt::format(
       "family = \"tag36h11\"\nsize_m = [0.090, 0.040, 0.040]\n[box]\n"
       "tag_m = {}\ntip_margin_m = {}\ntop = 31\n{}",

@@ -10,11 +10,14 @@
 
 namespace heft {
 
-/// The shipped apparatus: A4 board of 6 x 4 tags, box effector with a tag on five faces.
+/// The shipped apparatus: A4 board of 6 x 4 tags, box effector with a tag on five faces, or the
+/// wider one with slanted faces (effector_two_faces.toml).
+enum class EffectorBody { box, two_faces };
 struct EffectorPrint {
   double tag_m = 0.032;
-  double tip_margin_m = 0.004;  ///< white between the tags and the tip's edge
-  bool only_top = false;        ///< a single tag, on the top face
+  double tip_margin_m = 0.004;            ///< white between the tags and the tip's edge
+  bool only_top = false;                  ///< a single tag, on the top face
+  EffectorBody body = EffectorBody::box;  ///< the other one's tags are as its file has them
 };
 Apparatus bench_apparatus(int width_px, const EffectorPrint& print = {});
 

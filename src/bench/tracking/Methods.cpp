@@ -46,7 +46,8 @@ TrackingMethod make_method(const MethodName& name, const Apparatus& apparatus) {
     const auto tracker = std::make_shared<Tracker>(apparatus, settings_of(name));
     return {[tracker](const Image& image, double t_s) -> MethodPoses {
               const TrackedPicture seen = tracker->track(image, t_s);
-              return {seen.camera_from_board, seen.board_from_effector, seen.quality};
+              return {seen.camera_from_board, seen.board_from_effector, seen.quality,
+                      seen.n_effector_faces};
             },
             [tracker] { tracker->reset(); }};
   }

@@ -137,6 +137,22 @@ std::optional<double> jitter_mm(const std::vector<FilteredTake>& holds,
 
 std::vector<FilterResult> study_filters(const GoalFilms& goal_films, const StudyOptions& options);
 
+// The effectors that are shipped, over random grips: Effectors.cpp.
+
+struct EffectorResult {
+  EffectorBody body;
+  int width_px = 0;
+  double two_in_view = 0;  ///< fraction of grips that show two tags or more, by geometry
+  double two_faces = 0;    ///< fraction of pictures whose pose came of two faces or more
+  ErrorSummary summary;
+};
+
+/// heft bench effectors: writes effectors.csv and README.md.
+void run_effector_study(const StudyOptions& options);
+
+/// Grips that are held still, each filmed once and on its own.
+EffectorResult compare_effector(EffectorBody body, int width_px, int n_grips, std::uint64_t seed);
+
 // The project's goals for tracking and what the study reached: Goals.cpp.
 
 struct Goal {

@@ -52,6 +52,21 @@ PointMm room_mm(const PointMm& paper, double margin) {
   return {paper.x() - 2 * margin, paper.y() - 2 * margin - ruler_strip_mm};
 }
 
+// Where the tags begin on the sheet: in the middle, or beside a ruler down the sheet where there is
+// room for one and for their white.
+struct LeftEdge {
+  double tags_mm = 0;
+  bool has_ruler = false;
+};
+
+LeftEdge left_edge(const PointMm& size_mm, const PointMm& sheet_mm, double margin) {
+  constexpr double narrow_ruler_mm = 2;
+  const double free_mm = sheet_mm.x() - size_mm.x();
+  const double beside_ruler_mm = unprintable_mm + narrow_ruler_mm + margin;
+  if (free_mm - margin < beside_ruler_mm) return {free_mm / 2, false};
+  return {std::max(beside_ruler_mm, free_mm / 2), true};
+}
+
 // The paper upright or across; none where neither holds the board.
 std::optional<PointMm> fitting(const PointMm& upright, const PointMm& size_mm, double margin) {
   for (const PointMm& paper : {PointMm(upright.y(), upright.x()), upright})
@@ -70,8 +85,21 @@ PointMm chosen_paper(const MarkerBody& board, Paper paper) {
       size.x(), size.y(), name_of(paper), std::floor(room.x()), std::floor(room.y())));
 }
 
-// @param height_mm between the outermost detected corners, down the sheet
-std::array<std::string, 6> steps_for(double height_mm) {
+// What to measure down the sheet. @param height_mm between the outermost detected corners
+std::string measured_down(bool has_ruler_down, double height_mm) {
+  if (has_ruler_down)
+    return "Printers stretch paper in one direction more, so measure the line at the left, too. "
+           "If\n"
+           "they differ, write both, the one at the bottom first:\n"
+           "    ruler_measured_m = [0.1496, 0.1503]";
+  return fmt::format(
+      "Printers stretch paper in one direction more: from the top of the first row's black\n"
+      "to the bottom of the last one's it should be {:.1f} mm. If it is 0.2 % more, write\n"
+      "    ruler_measured_m = [0.1496, 0.1503]",
+      height_mm);
+}
+
+std::array<std::string, 6> steps_for(const std::string& down) {
   return {
       "Print page 1 at 100 % (\"actual size\"), not \"fit to page\", on matte white paper.\n"
       "Gloss reflects lamps, and tags under a reflection are not seen.",
@@ -80,12 +108,7 @@ std::array<std::string, 6> steps_for(double height_mm) {
       "Write what you measured into the board file, in meters, for example:\n"
       "    ruler_measured_m = 0.1496\n"
       "Half a percent that is not written down moves the effector by about 2 mm.\n" +
-          fmt::format(
-              "Printers stretch paper in one direction more: from the top of the first row's "
-              "black\n"
-              "to the bottom of the last one's it should be {:.1f} mm. If it is 0.2 % more, write\n"
-              "    ruler_measured_m = [0.1496, 0.1503]",
-              height_mm),
+          down,
       "Glue the sheet, without bubbles, to something flat and stiff: glass, an aluminum\n"
       "plate, a thick board. Keep the white around the tags; do not cut into it.",
       "Check the file, then calibrate the camera with the board in your hands:\n"
@@ -102,8 +125,10 @@ void write_board_sheet(const MarkerBody& board, Paper paper, const std::string& 
   const PointMm sheet_mm = chosen_paper(designed, paper);
   const Eigen::AlignedBox2d extent = extent_mm(designed);
   const double free_mm = room_mm(sheet_mm, margin_mm(designed)).y() - extent.sizes().y();
-  const PointMm middle(sheet_mm.x() / 2,
-                       margin_mm(designed) + free_mm / 2 + extent.sizes().y() / 2);
+  const PointMm size_mm = extent.sizes();
+  const auto [left_mm, ruler_down] = left_edge(size_mm, sheet_mm, margin_mm(designed));
+  const PointMm middle(left_mm + size_mm.x() / 2,
+                       margin_mm(designed) + free_mm / 2 + size_mm.y() / 2);
   const auto on_paper = [&](const Eigen::Vector3d& point_m) -> PointMm {
     const PointMm from_middle = point_m.head<2>() * 1000 - extent.center();
     return middle + PointMm(from_middle.x(), -from_middle.y());  // y is down on paper
@@ -114,9 +139,11 @@ void write_board_sheet(const MarkerBody& board, Paper paper, const std::string& 
     std::ranges::transform(tag.corners_m, corners_mm.begin(), on_paper);
     draw_tag(sheet, designed.family, tag.id, corners_mm);
   }
-  draw_ruler_strip(sheet, sheet_mm, "This edge: towards the participant.");
+  draw_ruler_strip(sheet, sheet_mm, ruler_down, "This edge: towards the participant.");
+  if (ruler_down) sheet.ruler_down({unprintable_mm + 0.4, unprintable_mm + 4}, 1.4, false);
   sheet.next_page();
-  write_steps(sheet, "The board: print, measure, glue", steps_for(extent.sizes().y()));
+  write_steps(sheet, "The board: print, measure, glue",
+              steps_for(measured_down(ruler_down, size_mm.y())));
   sheet.finish();
 }
 

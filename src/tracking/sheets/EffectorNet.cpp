@@ -12,21 +12,22 @@ namespace heft {
 namespace {
 constexpr double flap_m = 0.008, flap_slant_m = 0.004;
 
-enum Side { above, to_the_right, below, to_the_left };
-
-// A side's ends, clockwise: from the corner where the one before ends.
-std::array<NetPoint, 2> ends(const NetFace& face, Side side) {
-  const auto corners = face.corners_m();
-  return {corners[side], corners[(static_cast<std::size_t>(side) + 1) % 4]};
+// Of a face's outline: its i-th edge, clockwise, and how many there are.
+using Edge = std::array<NetPoint, 2>;
+std::vector<Edge> edges(const NetFace& face) {
+  const std::vector<NetPoint> corners = face.corners_m();
+  std::vector<Edge> all;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    all.push_back({corners[i], corners[(i + 1) % corners.size()]});
+  return all;
 }
 
-void add_cut(EffectorNet& net, BoxFace face, Side side) {
-  net.cuts_m.push_back(ends(net.at(face), side));
-}
+// A long face's edges, as they come.
+enum Side : std::uint8_t { above, to_the_right, below, to_the_left };
 
 // A flap to put glue on: folded at the face, cut around.
-void add_flap(EffectorNet& net, BoxFace face, Side side) {
-  const auto [from, to] = ends(net.at(face), side);
+void add_flap(EffectorNet& net, const Edge& edge) {
+  const auto [from, to] = edge;
   const NetPoint along = (to - from).normalized();
   const NetPoint outwards(-along.y(), along.x());
   const NetPoint near = from + flap_m * outwards + flap_slant_m * along;
@@ -37,52 +38,89 @@ void add_flap(EffectorNet& net, BoxFace face, Side side) {
   net.cuts_m.push_back({far, to});
 }
 
-void add_flaps_and_lines(EffectorNet& net) {
+bool is_same(const Edge& a, const Edge& b) {
+  constexpr double tolerance_m = 1e-9;
+  return ((a[0] - b[1]).norm() < tolerance_m && (a[1] - b[0]).norm() < tolerance_m);
+}
+
+// An end hangs on one long face, and has flaps all around else.
+void add_end(EffectorNet& net, BoxFace end, BoxFace hangs_on, Side side) {
+  const Edge hinge = edges(net.at(hangs_on))[side];
+  net.folds_m.push_back(hinge);
+  for (const Edge& edge : edges(net.at(end)))
+    if (!is_same(edge, hinge)) add_flap(net, edge);
+}
+
+// The long faces side by side, as one goes round the box.
+std::vector<BoxFace> strip(const BoxShape& box) {
   using enum BoxFace;
-  for (const Side side : {above, to_the_left, to_the_right}) add_flap(net, tip, side);
-  for (const Side side : {below, to_the_left, to_the_right}) add_flap(net, back, side);
-  add_flap(net, left, to_the_right);
-  for (const BoxFace face : {top, right, left}) add_cut(net, face, above);
-  for (const BoxFace face : {right, bottom, left}) add_cut(net, face, below);
-  add_cut(net, top, to_the_left);
-  for (const BoxFace face : {top, right, bottom})
-    net.folds_m.push_back(ends(net.at(face), to_the_right));
-  net.folds_m.push_back(ends(net.at(tip), below));
-  net.folds_m.push_back(ends(net.at(back), above));
+  if (box.chamfer_m > 0) return {top, upper_right, right, bottom, left, upper_left};
+  return {top, right, bottom, left};
+}
+
+void add_lines(EffectorNet& net, const std::vector<BoxFace>& faces, BoxFace back_hangs_on) {
+  add_end(net, BoxFace::tip, BoxFace::bottom, above);
+  add_end(net, BoxFace::back, back_hangs_on, below);
+  for (const BoxFace face : faces) {
+    const std::vector<Edge> around = edges(net.at(face));
+    if (face != BoxFace::bottom) net.cuts_m.push_back(around[above]);
+    if (face != back_hangs_on) net.cuts_m.push_back(around[below]);
+    if (face != faces.back()) net.folds_m.push_back(around[to_the_right]);
+  }
+  net.cuts_m.push_back(edges(net.at(faces.front()))[to_the_left]);
+  add_flap(net, edges(net.at(faces.back()))[to_the_right]);
 }
 }  // namespace
 
-std::array<NetPoint, 4> NetFace::corners_m() const {
-  const NetPoint half = frame.size_m / 2;
-  return {center_m + NetPoint(-half.x(), half.y()), center_m + half,
-          center_m + NetPoint(half.x(), -half.y()), center_m - half};
+NetPoint NetFace::on_net(const Eigen::Vector3d& point_m) const {
+  return center_m + (upside_down ? -1 : 1) * frame.flat(point_m);
 }
 
-EffectorNet effector_net(const Eigen::Vector3d& size_m) {
-  const double length = size_m.x(), width = size_m.y(), height = size_m.z();
-  // Lower left of the strip of long faces; the back's left flap may reach beyond it.
-  const double left_m = flap_m, low_m = flap_m + height;
-  const double middle_m = low_m + length / 2;
+Eigen::Vector3d NetFace::on_box(const NetPoint& point_m) const {
+  return frame.at((upside_down ? -1 : 1) * (point_m - center_m));
+}
+
+std::vector<NetPoint> NetFace::corners_m() const {
+  std::vector<NetPoint> corners;
+  for (const NetPoint& corner : frame.outline_m())
+    corners.push_back(center_m + (upside_down ? -1 : 1) * corner);
+  return corners;
+}
+
+const NetFace& EffectorNet::at(BoxFace face) const {
+  return *std::ranges::find(faces, face, &NetFace::face);
+}
+
+EffectorNet effector_net(const BoxShape& box) {
+  const double length = box.size_m.x(), height = box.size_m.z();
+  const double low_m = flap_m + height, middle_m = low_m + length / 2;
+  const std::vector<BoxFace> long_faces = strip(box);
   EffectorNet net;
-  const auto add = [&](BoxFace face, double x, double y) {
-    net.faces.push_back({face, face_frame(size_m, face), {left_m + x, y}});
-  };
-  add(BoxFace::tip, width * 1.5 + height, low_m + length + height / 2);
-  add(BoxFace::top, width / 2, middle_m);
-  add(BoxFace::left, 2 * width + height * 1.5, middle_m);
-  add(BoxFace::right, width + height / 2, middle_m);
-  add(BoxFace::bottom, width * 1.5 + height, middle_m);
-  add(BoxFace::back, width / 2, flap_m + height / 2);
-  add_flaps_and_lines(net);
-  net.size_m = {2 * (width + height) + 2 * flap_m, length + 2 * height + 2 * flap_m};
+  double right_m = flap_m;  // the back's left flap may reach beyond the strip
+  for (const BoxFace face : long_faces) {
+    const FaceFrame frame = face_frame(box, face);
+    net.faces.push_back({face, frame, {right_m + frame.size_m.x() / 2, middle_m}});
+    right_m += frame.size_m.x();
+  }
+  // A chamfered box's top is narrower than its ends.
+  const bool chamfered = box.chamfer_m > 0;
+  const BoxFace back_hangs_on = chamfered ? BoxFace::bottom : BoxFace::top;
+  const double tip_x = net.at(BoxFace::bottom).center_m.x();
+  const double back_x = net.at(back_hangs_on).center_m.x();
+  net.faces.push_back(
+      {BoxFace::tip, face_frame(box, BoxFace::tip), {tip_x, low_m + length + height / 2}});
+  net.faces.push_back(
+      {BoxFace::back, face_frame(box, BoxFace::back), {back_x, flap_m + height / 2}, chamfered});
+  add_lines(net, long_faces, back_hangs_on);
+  net.size_m = {right_m + flap_m, length + 2 * height + 2 * flap_m};
   return net;
 }
 
-BoxFace face_of(const Eigen::Vector3d& size_m, const Tag& tag) {
+BoxFace face_of(const BoxShape& box, const Tag& tag) {
   constexpr double tilt_cosine = 0.98, distance_m = 0.003;  // of one put on by hand
   const Eigen::Vector3d normal = tag_normal(tag), center_m = tag_center_m(tag);
-  for (const BoxFace face : box_faces) {
-    const FaceFrame frame = face_frame(size_m, face);
+  for (const BoxFace face : faces_of(box)) {
+    const FaceFrame frame = face_frame(box, face);
     const double above_m = (center_m - frame.center_m).dot(frame.normal());
     if (normal.dot(frame.normal()) > tilt_cosine && std::abs(above_m) < distance_m) return face;
   }

@@ -1,5 +1,6 @@
-// The effector's box cut open and laid flat, seen from outside, tip upwards: the four long faces
-// side by side, the tip above the bottom face, the back below the top face.
+// The effector's box cut open and laid flat, seen from outside, tip upwards: the long faces side by
+// side, the tip above the bottom face, the back below the top face or, of a chamfered box, below
+// the bottom.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,30 +15,31 @@ namespace heft {
 /// included.
 using NetPoint = Eigen::Vector2d;
 
-/// A face on the net. None is turned: right and up of the face are right and up of the net.
+/// A face on the net: its right and up are the net's, or both the other way round.
 struct NetFace {
   BoxFace face;
   FaceFrame frame;
   NetPoint center_m;
+  bool upside_down = false;
 
-  NetPoint on_net(const Eigen::Vector3d& point_m) const { return center_m + frame.flat(point_m); }
-  Eigen::Vector3d on_box(const NetPoint& point_m) const { return frame.at(point_m - center_m); }
-  /// Upper left, upper right, lower right, lower left.
-  std::array<NetPoint, 4> corners_m() const;
+  NetPoint on_net(const Eigen::Vector3d& point_m) const;
+  Eigen::Vector3d on_box(const NetPoint& point_m) const;
+  /// Clockwise; of a face that is not upside down from its upper left one.
+  std::vector<NetPoint> corners_m() const;
 };
 
 struct EffectorNet {
-  std::vector<NetFace> faces;                            ///< in the order of box_faces
+  std::vector<NetFace> faces;                            ///< each of faces_of once
   std::vector<std::array<NetPoint, 2>> folds_m, cuts_m;  ///< lines
   Eigen::Vector2d size_m;
 
-  const NetFace& at(BoxFace face) const { return faces.at(static_cast<std::size_t>(face)); }
+  const NetFace& at(BoxFace face) const;
 };
 
-EffectorNet effector_net(const Eigen::Vector3d& size_m);
+EffectorNet effector_net(const BoxShape& box);
 
 /// The face that a tag is printed on.
 /// @throws Error for one that lies on none
-BoxFace face_of(const Eigen::Vector3d& size_m, const Tag& tag);
+BoxFace face_of(const BoxShape& box, const Tag& tag);
 
 }  // namespace heft

@@ -29,7 +29,7 @@ void draw_lines(PdfSheet& sheet, const EffectorNet& net, const OnPaper& on_paper
 void draw_tags(PdfSheet& sheet, const MarkerBody& effector, const EffectorNet& net,
                const OnPaper& on_paper) {
   for (const Tag& tag : effector.tags) {
-    const NetFace& face = net.at(face_of(effector.size_m, tag));
+    const NetFace& face = net.at(face_of(effector.box(), tag));
     std::array<PointMm, 4> corners_mm;
     std::ranges::transform(tag.corners_m, corners_mm.begin(),
                            [&](const Eigen::Vector3d& c) { return on_paper(face.on_net(c)); });
@@ -41,13 +41,19 @@ void draw_tags(PdfSheet& sheet, const MarkerBody& effector, const EffectorNet& n
 double lowest_tag_m(const MarkerBody& effector, const NetFace& face) {
   double lowest_m = face.frame.size_m.y() / 2;
   for (const Tag& tag : effector.tags) {
-    if (face_of(effector.size_m, tag) != face.face) continue;
+    if (face_of(effector.box(), tag) != face.face) continue;
     const double side_m = (tag.corners_m[1] - tag.corners_m[0]).norm();
     const double margin_m = tag_pattern(effector.family, tag.id).margin_m(side_m);
     for (const Eigen::Vector3d& corner_m : tag.corners_m)
       lowest_m = std::min(lowest_m, face.frame.flat(corner_m).y() - margin_m);
   }
   return lowest_m;
+}
+
+std::string name_in_words(BoxFace face) {
+  std::string name(name_of(face));
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
 
 // The face's name and an arrow to the tip, where there is room below its tags.
@@ -57,15 +63,22 @@ void label(PdfSheet& sheet, const MarkerBody& effector, const NetFace& face,
   const double bottom_m = -face.frame.size_m.y() / 2;
   if (lowest_tag_m(effector, face) - bottom_m < needed_m) return;
   const PointMm foot = on_paper(face.center_m + NetPoint(0, bottom_m)) - PointMm(0, 2);
-  sheet.text(foot, std::string(name_of(face.face)), {3.5, 0.3, false, true});
+  sheet.text(foot, name_in_words(face.face), {3.5, 0.3, false, true});
   if (face.face == BoxFace::back) return;
   sheet.arrow(foot - PointMm(0, 4), foot - PointMm(0, 10), pointer);
 }
 
-void refuse_what_is_too_large(const PointMm& net_mm, Paper paper) {
-  const PointMm room =
-      paper_mm(paper) - PointMm::Constant(2 * unprintable_mm) - PointMm(0, ruler_strip_mm);
-  if ((net_mm.array() <= room.array()).all()) return;
+// Beside the two rulers.
+PointMm room_mm(const PointMm& sheet_mm) {
+  return sheet_mm - PointMm::Constant(2 * unprintable_mm + ruler_strip_mm);
+}
+
+// The paper upright, or across where the net fits only so.
+PointMm chosen_paper(const PointMm& net_mm, Paper paper) {
+  const PointMm upright = paper_mm(paper), across(upright.y(), upright.x());
+  for (const PointMm& sheet_mm : {upright, across})
+    if ((net_mm.array() <= room_mm(sheet_mm).array()).all()) return sheet_mm;
+  const PointMm room = room_mm(upright);
   throw Error(
       fmt::format("the effector's net is {:.4g} x {:.4g} mm, but a sheet of {} has room for "
                   "{:.4g} x {:.4g}; make the box smaller, or take other paper (--paper)",
@@ -75,13 +88,14 @@ void refuse_what_is_too_large(const PointMm& net_mm, Paper paper) {
 const std::array<std::string, 6> steps{
     "Print page 1 at 100 % (\"actual size\"), not \"fit to page\", on matte white card\n"
     "(160 g or more).",
-    "Measure the ruler line at the bottom of page 1 between its first and its last tick.\n"
-    "Write what you measured into the effector file, in meters, for example:\n"
-    "    ruler_measured_m = 0.1496",
+    "Measure both ruler lines of page 1, at the bottom and at the left, between their first\n"
+    "and last ticks: printers stretch paper in one direction more. Write what you measured\n"
+    "into the effector file, in meters, the bottom one first, for example:\n"
+    "    ruler_measured_m = [0.1496, 0.1499]",
     "Cut along the full lines. Score the dashed lines with the back of a knife and fold\n"
     "them away from you: the tags come outside.",
-    "Glue the long side first, then the tip with its three flaps inside. A block of\n"
-    "wood or foam inside keeps the box square. Close the back.",
+    "Glue the long side first, then the tip with its flaps inside. A block of wood or\n"
+    "foam inside keeps the box in shape. Close the back.",
     "Arrows point to the tip. It is held at the back, so that no finger covers a tag, with\n"
     "the face \"top\" up.",
     "Measure where the tags really are (folded boxes are a millimeter off):\n"
@@ -91,17 +105,18 @@ const std::array<std::string, 6> steps{
 
 void write_effector_sheet(const MarkerBody& effector, Paper paper, const std::string& path) {
   const MarkerBody designed = as_designed(effector);
-  const EffectorNet net = effector_net(designed.size_m);
-  const PointMm sheet_mm = paper_mm(paper), net_mm = net.size_m * 1000;
-  refuse_what_is_too_large(net_mm, paper);
+  const EffectorNet net = effector_net(designed.box());
+  const PointMm net_mm = net.size_m * 1000, sheet_mm = chosen_paper(net_mm, paper);
   const double free_mm = sheet_mm.y() - ruler_strip_mm - net_mm.y();
-  const OnPaper on_paper{{(sheet_mm.x() - net_mm.x()) / 2, free_mm / 2 + net_mm.y()}};
-  for (const Tag& tag : designed.tags) face_of(designed.size_m, tag);  // refuses before a file is
+  const double middle_mm = (sheet_mm.x() + ruler_strip_mm) / 2;
+  const OnPaper on_paper{{middle_mm - net_mm.x() / 2, free_mm / 2 + net_mm.y()}};
+  for (const Tag& tag : designed.tags) face_of(designed.box(), tag);  // refuses before a file is
   PdfSheet sheet(path, sheet_mm, "Effector for Heft");
   draw_lines(sheet, net, on_paper);
   draw_tags(sheet, designed, net, on_paper);
   for (const NetFace& face : net.faces) label(sheet, designed, face, on_paper);
-  draw_ruler_strip(sheet, sheet_mm, "");
+  draw_ruler_strip(sheet, sheet_mm, true, "");
+  sheet.ruler_down({unprintable_mm + 5.5, unprintable_mm + 4}, 4, true);
   sheet.next_page();
   write_steps(sheet, "The effector: print, measure, cut, fold", steps);
   sheet.finish();

@@ -106,14 +106,33 @@ void PdfSheet::arrow(const PointMm& from_mm, const PointMm& to_mm, const Stroke&
   lines(head, stroke);
 }
 
+namespace {
+constexpr int ruler_mm = static_cast<int>(ruler_m * 1000);
+
+// Of the outermost ticks' length.
+double tick_share(int mm) {
+  return mm % ruler_mm == 0 ? 1 : mm % 50 == 0 ? 0.6 : 0.4;
+}
+constexpr Stroke thin{0.15};
+}  // namespace
+
 void PdfSheet::ruler(const PointMm& from_mm) {
-  constexpr int length_mm = static_cast<int>(ruler_m * 1000);
-  const Stroke thin{0.15};
-  line(from_mm, from_mm + PointMm(length_mm, 0), thin);
-  for (int mm = 0; mm <= length_mm; mm += 10) {
+  constexpr double tick_mm = 4;
+  line(from_mm, from_mm + PointMm(ruler_mm, 0), thin);
+  for (int mm = 0; mm <= ruler_mm; mm += 10) {
     const PointMm tick = from_mm + PointMm(mm, 0);
-    line(tick, tick - PointMm(0, mm % length_mm == 0 ? 4 : mm % 50 == 0 ? 2.5 : 1.5), thin);
+    line(tick, tick - PointMm(0, tick_mm * tick_share(mm)), thin);
     if (mm % 50 == 0) text(tick + PointMm(0, 2.8), fmt::format("{}", mm), {2.2, 0, false, true});
+  }
+}
+
+void PdfSheet::ruler_down(const PointMm& from_mm, double tick_mm, bool numbers) {
+  line(from_mm, from_mm + PointMm(0, ruler_mm), thin);
+  for (int mm = 0; mm <= ruler_mm; mm += 10) {
+    const PointMm tick = from_mm + PointMm(0, mm);
+    line(tick, tick + PointMm(tick_mm * tick_share(mm), 0), thin);
+    if (numbers && mm % 50 == 0)
+      text(tick + PointMm(-2.6, 0.8), fmt::format("{}", mm), {2.2, 0, false, true});
   }
 }
 
@@ -147,18 +166,20 @@ PointMm paper_mm(Paper paper) {
   return paper == Paper::a4 ? PointMm(210, 297) : PointMm(215.9, 279.4);
 }
 
-void draw_ruler_strip(PdfSheet& sheet, const PointMm& paper_mm, const std::string& note) {
+void draw_ruler_strip(PdfSheet& sheet, const PointMm& paper_mm, bool both,
+                      const std::string& note) {
   const double base_mm = paper_mm.y() - unprintable_mm - 4;
   sheet.ruler({unprintable_mm + 4, base_mm});
   const double beside_mm = unprintable_mm + 4 + ruler_m * 1000 + 4;
   const bool room_beside = paper_mm.x() - beside_mm > 100;
+  const char* lines = both ? "Are both lines 150.0 mm long? " : "Is this line 150.0 mm long? ";
   if (room_beside) {
-    sheet.text({beside_mm, base_mm - 1.5}, "Print at 100 %. Is this line 150.0 mm long? " + note,
-               {2.6});
-    sheet.text({beside_mm, base_mm + 2}, "Write down its length: page 2.", {2.6});
+    sheet.text({beside_mm, base_mm - 1.5}, "Print at 100 %. " + (lines + note), {2.6});
+    sheet.text({beside_mm, base_mm + 2}, "Write down what you measure: page 2.", {2.6});
   } else {
     sheet.text({beside_mm, base_mm - 1.5}, "Print at 100 %. Measure", {2.6});
-    sheet.text({beside_mm, base_mm + 2}, "this line; see page 2.", {2.6});
+    sheet.text({beside_mm, base_mm + 2},
+               both ? "both lines; see page 2." : "this line; see page 2.", {2.6});
   }
 }
 
@@ -175,15 +196,6 @@ void draw_tag(PdfSheet& sheet, const std::string& family, int id,
   const PointMm middle = (corners_mm[2] + corners_mm[3]) / 2;
   sheet.text(middle + down * (away_mm + 0.75 * font_mm), fmt::format("{}", id),
              {font_mm, 0.6, false, true});
-}
-
-MarkerBody as_designed(const MarkerBody& body) {
-  MarkerBody designed = body;
-  const Eigen::Vector3d scale = print_scale(body);
-  designed.size_m = designed.size_m.cwiseQuotient(scale);
-  for (Tag& tag : designed.tags)
-    for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m = corner_m.cwiseQuotient(scale);
-  return designed;
 }
 
 }  // namespace heft

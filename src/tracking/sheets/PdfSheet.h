@@ -45,8 +45,12 @@ class PdfSheet {
   void text(const PointMm& at_mm, const std::string& text, const Lettering& lettering);
   /// A line to `to_mm` with a head there.
   void arrow(const PointMm& from_mm, const PointMm& to_mm, const Stroke& stroke);
-  /// The line that a person measures: heft::ruler_m long between its outermost ticks.
+  /// The line that a person measures: heft::ruler_m long between its outermost ticks. One across
+  /// the sheet has them above it and numbers below.
   void ruler(const PointMm& from_mm);
+  /// The same down the sheet: ticks to its right, numbers to its left where they are wanted.
+  /// @param tick_mm length of the outermost
+  void ruler_down(const PointMm& from_mm, double tick_mm, bool numbers);
 
   void next_page();
   /// @throws Error when the file can't be written
@@ -68,13 +72,11 @@ inline constexpr double ruler_strip_mm = 10;  ///< height, above the unprintable
 PointMm paper_mm(Paper paper);
 
 /// The length of the strip's ruler starts at the left; beside it, how to print.
-void draw_ruler_strip(PdfSheet& sheet, const PointMm& paper_mm, const std::string& note);
+/// @param both whether the sheet has a ruler down it, too
+void draw_ruler_strip(PdfSheet& sheet, const PointMm& paper_mm, bool both, const std::string& note);
 
 /// A tag with its id in small gray print below it, away from where the detector looks.
 void draw_tag(PdfSheet& sheet, const std::string& family, int id,
               const std::array<PointMm, 4>& corners_mm);
-
-/// Lengths as they were before the print was measured.
-MarkerBody as_designed(const MarkerBody& body);
 
 }  // namespace heft

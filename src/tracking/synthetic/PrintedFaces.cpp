@@ -48,14 +48,21 @@ void add_black_cells(PrintedFace& face, const CellGrid& grid, const TagPattern& 
                               change(material::paper, material::ink)});
 }
 
+// Quadrilaterals side by side; of three corners left over the last counts twice.
+std::vector<std::array<Vector3d, 4>> in_quads(const std::vector<Vector3d>& corners_m) {
+  std::vector<std::array<Vector3d, 4>> quads;
+  for (std::size_t i = 1; i + 1 < corners_m.size(); i += 2)
+    quads.push_back({corners_m[0], corners_m[i], corners_m[i + 1],
+                     corners_m[std::min(i + 2, corners_m.size() - 1)]});
+  return quads;
+}
+
 PrintedFace bare_face(const FaceFrame& frame, const Eigen::Array3f& color) {
-  const Vector2d half_m = frame.size_m / 2;
-  const auto corner = [&](double x, double y) {
-    return frame.at(half_m.cwiseProduct(Vector2d(x, y)));
-  };
-  return {frame.center_m,
-          frame.normal(),
-          {{{corner(-1, 1), corner(1, 1), corner(1, -1), corner(-1, -1)}, solid(color)}}};
+  std::vector<Vector3d> corners_m;
+  for (const Vector2d& corner_m : frame.outline_m()) corners_m.push_back(frame.at(corner_m));
+  PrintedFace face{frame.center_m, frame.normal(), {}};
+  for (const auto& quad_m : in_quads(corners_m)) face.quads.push_back({quad_m, solid(color)});
+  return face;
 }
 
 bool lies_on(const FaceFrame& frame, const Tag& tag) {
@@ -143,7 +150,8 @@ PrintedFace printed_board(const MarkerBody& board) {
 std::vector<PrintedFace> printed_effector(const MarkerBody& effector) {
   if (effector.tags.empty() && effector.size_m.isZero()) return {};
   std::vector<FaceFrame> frames;
-  for (const BoxFace face : box_faces) frames.push_back(face_frame(effector.size_m, face));
+  for (const BoxFace face : faces_of(effector.box()))
+    frames.push_back(face_frame(effector.box(), face));
   for (const Tag& tag : effector.tags) check_on_box(frames, tag);
   std::vector<PrintedFace> faces;
   for (const FaceFrame& frame : frames) faces.push_back(effector_face(frame, effector));

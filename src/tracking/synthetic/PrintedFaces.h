@@ -27,7 +27,7 @@ struct PrintedFace {
 /// @throws Error for an unknown family, and for tags that don't lie on the table
 PrintedFace printed_board(const MarkerBody& board);
 
-/// The six faces of the box, labels around the tags.
+/// The faces of the box, labels around the tags.
 /// @throws Error for an unknown family, and for tags that don't lie on a face
 std::vector<PrintedFace> printed_effector(const MarkerBody& effector);
 
