@@ -43,11 +43,10 @@ bool ToneLearner::learn(const PictureTone& seen, double bias_px, double bias_sd_
   const ToneBend outward = seen.sum.outward / seen.n_edges, at = curve_.bend();
   const double bias_variance = bias_sd_px * bias_sd_px + least_bias_sd_px * least_bias_sd_px;
   seen_ = shape_weight * seen.sum.information + outward * outward.transpose() / bias_variance;
-  const ToneBend usual = usual_bend_sd.cwiseAbs2().cwiseInverse();
   Eigen::Matrix3d before = information_;
-  before.diagonal() += usual;
+  before.diagonal() += usual_bend_sd.cwiseAbs2().cwiseInverse();
   const ToneBend pull = shape_weight * seen.sum.pull - outward * bias_px / bias_variance +
-                        information_ * mean_ + usual.cwiseProduct(start_) - before * at;
+                        information_ * mean_ - before * at;
   const ToneBend change = (before + seen_).ldlt().solve(pull);
   if (!change.allFinite()) return false;
   bend_ = (at + change).cwiseMax(-most_bend).cwiseMin(most_bend);

@@ -18,9 +18,9 @@ struct PictureTone {
 
 class ToneLearner {
  public:
-  /// @param start what was learned at another time, or zero: sRGB
-  explicit ToneLearner(const ToneBend& start = ToneBend::Zero())
-      : start_(start), curve_(start), mean_(start) {}
+  /// @param start where looking for it begins: learned at another time, or zero, sRGB. It weighs
+  /// nothing against what pictures tell, and is all there is while they tell nothing.
+  explicit ToneLearner(const ToneBend& start = ToneBend::Zero()) : curve_(start) {}
 
   const ToneCurve& curve() const { return curve_; }
 
@@ -32,11 +32,10 @@ class ToneLearner {
   void next_picture();
 
  private:
-  ToneBend start_;
   ToneCurve curve_;
   ToneBend bend_ = ToneBend::Zero();  ///< likeliest; the curve's is nearer to sRGB
   // Of the pictures before, and of this one.
-  ToneBend mean_;
+  ToneBend mean_ = ToneBend::Zero();
   Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero(), seen_ = Eigen::Matrix3d::Zero();
 };
 
