@@ -49,6 +49,10 @@ std::optional<Corners> projected(const Intrinsics& camera, const Tag& tag, const
   return corners;
 }
 
+double place_variance_m2(const BodyFit& fit) {
+  return fit.covariance.bottomRightCorner<3, 3>().trace();
+}
+
 BiasPrior prior_for(const TrackerSettings& settings, BiasPrior prior) {
   if (!settings.remove_bias) return {0, 0};
   // The detector's own corners are off by about half a pixel where ours are by a tenth.
@@ -92,11 +96,13 @@ BodyFit BodyFinder::aligned(const Image& gray, const BodyFit& found, const BiasP
   std::vector<DenseTag> tags;
   for (const TagObservation& tag : last_tags_)
     if (tag_rms_px(tag, found) < most_dense_rms_px) used.push_back(tag);
+  if (used.empty()) return found;
   for (const TagObservation& tag : used) tags.push_back({&tag, &patterns_[tag.tag]});
   return timed(times.pose_s, [&] {
     auto fit = align_densely(gray, camera_, tags, found, prior_for(settings_, prior), how_.curve,
                              how_.noise, smear);
-    if (!fit) return found;
+    // Cells that are half hidden, or strangely lit, may leave more open than their borders.
+    if (!fit || place_variance_m2(*fit) > place_variance_m2(found)) return found;
     // Where cells and borders tell different poses, one of them is wrong.
     for (const TagObservation& tag : used)
       for (const Eigen::Vector3d& corner_m : tag.corners_m)
