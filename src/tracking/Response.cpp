@@ -16,8 +16,8 @@ std::optional<std::array<double, 3>> learned_response(const Intrinsics& camera,
     tracker.reset();  // each view is from elsewhere
     tracker.track(pictures[i], static_cast<double>(i));
   }
+  if (!tracker.tone_is_told()) return std::nullopt;
   const ToneBend& bend = tracker.tone().bend();
-  if (bend.isZero()) return std::nullopt;
   return std::array{bend[0], bend[1], bend[2]};
 }
 

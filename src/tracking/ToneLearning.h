@@ -24,6 +24,8 @@ class ToneLearner {
 
   const ToneCurve& curve() const { return curve_; }
 
+  bool is_told() const { return !information_.isZero(); }
+
   /// Once more for the same picture while its edges still move, each time measured with the last
   /// curve. @param bias_px how much larger black tags look than they are, an edge, on average
   /// @return whether edges move by so much that measuring anew is worth the time

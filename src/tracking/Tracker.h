@@ -57,6 +57,8 @@ class Tracker {
   /// What it takes the camera's tone curve to be: the camera file's response, and what the pictures
   /// since have told.
   const ToneCurve& tone() const { return tone_.curve(); }
+  /// Whether pictures have told anything of it: sRGB may be what they told.
+  bool tone_is_told() const { return tone_.is_told(); }
 
   /// Forgets the last poses: what comes next is no continuation. The camera stays the same.
   void reset();
