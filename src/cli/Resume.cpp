@@ -65,7 +65,10 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
   say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
       session.row.header.participant, session.protocol->name);
   for (const auto& [column, from, to] : changes_between(before, session.setup))
-    if (!from.empty()) say("from here on with {} {} instead of {}\n", column, to, from);
+    if (to.empty())
+      say("from here on without {} ({})\n", column, from);
+    else if (!from.empty())
+      say("from here on with {} {} instead of {}\n", column, to, from);
   say_next_parts(session.setup);
   say_finished(
       run_session({*session.protocol, session.setup, db, unblind, go_on, elsewhere.events,
@@ -74,8 +77,14 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
       db);
 }
 
+// There is no way back, so it is never somebody's because they happened to come last.
 void end(const std::string& db, std::optional<std::int64_t> session_id,
          const Elsewhere& elsewhere) {
+  if (!session_id)
+    throw Error(fmt::format("--end needs --session N: which one to end for good; heft list --db {} "
+                            "shows them",
+                            shell_quoted(db)),
+                ExitCode::usage);
   const LoggedSession session = session_to_resume(db, session_id);
   abort_session(session);
   back_up_and_tell(db, backup_of(session, elsewhere), session.row.session_id);
@@ -115,7 +124,7 @@ void add_resume(Command& app) {
                    "let the participant's window take keys as answers from here on");
   add_go_on(command, options->go_on);
   command.add_flag("--end", options->end,
-                   "don't go on: end the session as it is, for somebody who will not come back");
+                   "don't go on: end that --session as it is, for somebody who will not come back");
   command.does([options] {
     if (options->end) return end(options->db, options->session, options->elsewhere);
     if (options->language) options->again.texts_file = texts_file(*options->language);

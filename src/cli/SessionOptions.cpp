@@ -284,7 +284,16 @@ SessionResult run_session(const CommandedSession& session,
                  fmt::format("{} of about {:.0f} trials, {:.0f} min", engine.n_completed(),
                              expected, engine.last_s() / 60));
     };
-  const SessionResult result = run(options);
+  std::int64_t begun = 0;
+  options.begun = &begun;
+  SessionResult result;
+  try {
+    result = run(options);
+  } catch (...) {  // what went wrong is told below the backup, where it stays in sight
+    console.reset();
+    if (begun > 0) back_up_and_tell(session.db, session.setup.backup, begun);
+    throw;
+  }
   console.reset();
   if (events) tell_dropped(*events, session.events);
   back_up_and_tell(session.db, session.setup.backup, result.session_id);

@@ -128,7 +128,10 @@ void SessionLog::Impl::add_frame(const FrameRow& frame) {
 void SessionLog::Impl::add_info(const std::string& key, const std::string& value) {
   flush();
   try {
+    // With its digest, or not at all.
+    SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
     writer_.write_info(session_id_, key, value);
+    transaction.commit();
     file_.check_in_place();
   } catch (const std::exception& error) {
     fail(fmt::format("what the participant told ({})", key), error);

@@ -46,6 +46,8 @@ struct RunnerOptions {
   Console* console = nullptr;  ///< the experimenter's; only on a wall clock
   /// Other recorders, told of each event that is on disk; null: there are none.
   EventOutlet* events = nullptr;
+  /// Where the session's number is put once it is in the log; null: nobody asks.
+  std::int64_t* begun = nullptr;
   /// Go on although the check failed, where nobody can be asked.
   bool go_on_unchecked = false;
 };

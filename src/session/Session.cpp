@@ -174,6 +174,7 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   const Event told{0, setup};
   const RecordedEvent first{told, engine.apply(told)};
   SessionLog log = SessionLog::start(request.db, header_of(request, setup), first);
+  if (runner.begun) *runner.begun = log.session_id();
   std::optional<AnnouncingSink> announcing;
   EventSink& sink = heard_by_others(announcing, log, runner, request.participant);
   if (announcing) announcing->announce(first.event, first.changes);
@@ -232,6 +233,7 @@ void change_setup(LoggedSession& session, const GivenOptions& again) {
     setup.texts_text.clear();  // otherwise it stays, with the questionnaires that stand below it
   }
   if (again.windowed) setup.window = "window";
+  if (!tracker_named(setup.tracker).has_camera) setup.record_camera.clear();
   if (files_stay) {
     complete_texts(setup);
     check(setup);
@@ -250,6 +252,7 @@ void change_setup(LoggedSession& session, const GivenOptions& again) {
 SessionResult resume_session(const LoggedSession& session, const RunnerOptions& runner) {
   Equipment equipment(session.protocol, with_next_parts(session.setup), session.row.header.seed);
   Reopened reopened(session);
+  if (runner.begun) *runner.begun = session.row.session_id;
   std::optional<AnnouncingSink> announcing;
   EventSink& sink =
       heard_by_others(announcing, reopened.log, runner, session.row.header.participant);

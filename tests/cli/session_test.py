@@ -83,7 +83,9 @@ class Running(SessionTest):
     def test_a_session_can_be_ended_for_somebody_who_will_not_come_back(self):
         db = self.folder / "s.db"
         self.kill_under_way(db)
-        self.run_heft("resume", "--db", db, "--end")
+        said = self.run_heft("resume", "--db", db, "--end", expect=2).stderr
+        self.assertIn("--session", said)
+        self.run_heft("resume", "--db", db, "--end", "--session", 1)
         self.assertEqual(query(db, "select state from session"), [("aborted",)])
         self.assertEqual(query(db, "select count(*) from trial where status = 'open'"), [(0,)])
         self.run_heft("replay", "--db", db)

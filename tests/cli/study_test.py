@@ -373,7 +373,8 @@ class Backups(StudyTest):
     def test_come_when_a_session_is_ended_for_good(self):
         db = self.folder / "a.db"
         self.kill_under_way(db)
-        said = self.run_heft("resume", "--db", db, "--end", "--backup", self.folder / "copies")
+        said = self.run_heft("resume", "--db", db, "--end", "--session", 1, "--backup",
+                             self.folder / "copies")
         self.assertIn("backup, checked: ", said.stderr)
         self.assertEqual(query(self.copies()[0], "select state from session"), [("aborted",)])
 

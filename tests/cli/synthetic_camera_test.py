@@ -6,6 +6,9 @@ Run: python3 tests/cli/synthetic_camera_test.py path/to/heft
 import csv
 import json
 import math
+import signal
+import subprocess
+import time
 import unittest
 
 from session_harness import PROTOCOLS, SessionTest, main, query
@@ -59,6 +62,21 @@ class SyntheticCamera(SessionTest):
                             "--board", APPARATUS / "board.toml", "--effector",
                             APPARATUS / "effector.toml", self.folder / name)
         return list(csv.DictReader(run.stdout.splitlines()))
+
+    def test_a_session_without_its_camera_goes_on_and_keeps_no_more_pictures(self):
+        db = self.folder / "on.db"
+        process = subprocess.Popen(
+            [self.heft, "run", PROTOCOLS / "quick.toml", "--participant", "1", "--responder",
+             "simulated", "--tracker", "synthetic", "--record-camera", "kept", "--db", db],
+            stderr=subprocess.DEVNULL, cwd=self.folder)
+        while process.poll() is None and not list(self.folder.glob("kept/picture_000040.png")):
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), 130)
+        said = self.run_heft("resume", "--db", db, "--tracker", "hand", cwd=self.folder)
+        self.assertIn("from here on without record_camera", said.stderr)
+        self.assertNotIn("  instead of", said.stderr)
+        self.assertEqual(query(db, "select state from session"), [("finished",)])
 
     def test_tracking_finds_the_poses_that_were_rendered(self):
         self.record("01")

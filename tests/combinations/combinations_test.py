@@ -169,7 +169,9 @@ class Combinations(unittest.TestCase):
         """A log whose session has come to its second trial."""
         db = self.new("resumed", name)
         self.heft("run", self.folder / f"{which}.toml", "--participant", "1", "--responder",
-                  self.responder("scripted", "half"), "--db", db, "--seed", SEED, expect=1)
+                  self.responder("scripted", "half"), "--db", db, "--seed", SEED, "--backup",
+                  self.folder / f"copies-{name}", expect=1)
+        self.assertEqual(len(list((self.folder / f"copies-{name}").glob("*.db"))), 1)
         self.verified(db, unfinished=True)
         return db
 

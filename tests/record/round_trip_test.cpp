@@ -1,4 +1,5 @@
 // What is written is what is read, bit for bit, whatever the values.
+#include <SQLiteCpp/Database.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -140,6 +141,18 @@ RC_GTEST_PROP(archive, a_stored_session_has_the_rows_of_a_live_one, ()) {
   const LogReader live(folder.file("live.db")), stored(folder.file("stored.db"));
   RC_ASSERT(whole_session(stored, first) == whole_session(live, 1));
   RC_ASSERT(whole_session(stored, second) == whole_session(live, 1));
+}
+
+// Between the two a session could never go on: its log would not be as it was written.
+TEST(participant_info, is_there_with_its_digest_or_not_at_all) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("log.db");
+  SessionLog log = SessionLog::start(path, header_of("P01"));
+  log.add_info("age", "31");
+  SQLite::Database other(path, SQLite::OPEN_READWRITE);
+  other.exec("ALTER TABLE session RENAME COLUMN info_digest TO out_of_reach");
+  EXPECT_THROW(log.add_info("hand", "left"), Error);
+  EXPECT_EQ(other.execAndGet("SELECT group_concat(key) FROM participant_info").getString(), "age");
 }
 
 }  // namespace
