@@ -337,6 +337,7 @@ bool fit_parameters(Likelihood& likelihood, Maximum& best,
     parameter.value = best.at[i];
     if (likelihood.bounds(i).fixed()) continue;
     if (errors[i] > 0) parameter.se = errors[i];
+    if (!likelihood.bounds(i).with_interval) continue;
     for (const double direction : {-1.0, 1.0}) {
       IntervalEnd end(likelihood, best, i, direction);
       end.search(errors[i] > 0 ? 2 * errors[i] : 0.1 * (1 + std::abs(best.at[i])));

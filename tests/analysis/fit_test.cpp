@@ -302,6 +302,41 @@ TEST(PsychometricFit, AFreeLapseNeverMakesNarrower) {
   EXPECT_GT(n_compared, 12);
 }
 
+void expect_same(const std::optional<double>& there, const std::optional<double>& here,
+                 double within) {
+  ASSERT_EQ(there.has_value(), here.has_value());
+  if (here) {
+    EXPECT_NEAR(*there, *here, within);
+  }
+}
+
+// Absolute masses instead of differences: only the bias is another, that at level 0.
+TEST(IndecisionFit, TheOriginOfTheLevelsOnlyMattersToTheBias) {
+  for_some_people(100, "origin", [&](const AnswersByLevel& answers) {
+    const Fit here = fit_indecision(answers, {{}, 0, 0});
+    for (const double off : {1e3, 1e5}) {
+      AnswersByLevel moved;
+      for (const auto& [level, n] : answers) moved[level + off] = n;
+      const Fit there = fit_indecision(moved, {{}, 0, 0});
+      SCOPED_TRACE(testing::PrintToString(moved));
+      for (const char* name : {"sensitivity", "indecision"}) {
+        const FittedParameter &a = here.parameter(name), &b = there.parameter(name);
+        const double width = std::min(high_end(a) - low_end(a), 1 + std::abs(a.value.value_or(0)));
+        expect_same(b.value, a.value, 1e-4 * width);
+        expect_same(b.se, a.se, 1e-4 * width);
+        expect_same(b.low, a.low, 1e-4 * width);
+        expect_same(b.high, a.high, 1e-4 * width);
+      }
+      // Far from all levels bias is sensitivity's, with the other sign.
+      const FittedParameter &bias = there.parameter("bias"), &s = here.parameter("sensitivity");
+      if (off < 1e5 || !bias.value || !s.value || !bias.low || !bias.high || !s.low || !s.high)
+        continue;
+      EXPECT_NEAR(-*bias.high / off, *s.low, 0.02 * (*s.high - *s.low));
+      EXPECT_NEAR(-*bias.low / off, *s.high, 0.02 * (*s.high - *s.low));
+    }
+  });
+}
+
 // Whatever the answers are: the figures are finite, in order, and there or not as `why` says.
 RC_GTEST_PROP(Fit, OfAnyAnswersIsConsistent, ()) {
   AnswersByLevel answers;
