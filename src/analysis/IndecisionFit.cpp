@@ -20,11 +20,24 @@ constexpr std::array<const char*, 4> names{"sensitivity", "indecision", "bias", 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_free_lapse = 0.5;
 
-double largest_level(const AnswersByLevel& answers) {
-  const double largest =
-      std::max(std::abs(answers.begin()->first), std::abs(answers.rbegin()->first));
-  return largest > 0 ? largest : 1;
+double furthest_from(double middle, const AnswersByLevel& answers) {
+  const double furthest = std::max(std::abs(answers.begin()->first - middle),
+                                   std::abs(answers.rbegin()->first - middle));
+  return furthest > 0 ? furthest : 1;
 }
+
+/// From grams to where the search counts levels: from their mean, so that levels far from 0 don't
+/// make sensitivity and bias as good as one, and in units of the furthest.
+struct LevelAxis {
+  explicit LevelAxis(const AnswersByLevel& answers) {
+    for (const auto& [level, n] : answers)
+      mean_g += level * ((n[reference] + n[none] + n[comparison]) / trials_in(answers));
+    unit_g = furthest_from(mean_g, answers);
+  }
+  double operator()(double level_g) const { return (level_g - mean_g) / unit_g; }
+
+  double mean_g = 0, unit_g = 1;
+};
 
 // Only those that were given: most levels of a staircase have one answer alone, and the others'
 // shares would cost as much.
@@ -72,17 +85,17 @@ ByCriteria by_criteria(const std::array<LogShare, 3>& shares, const IndecisionSh
 }
 
 struct Level {
-  double level = 0;  // of the largest
+  double level = 0;  // on the axis
   std::array<double, 3> n{};
 };
 
-std::vector<Level> levels_of(const AnswersByLevel& answers, double unit) {
+std::vector<Level> levels_of(const AnswersByLevel& answers, const LevelAxis& axis) {
   std::vector<Level> levels;
-  for (const auto& [level_g, n] : answers) levels.push_back({level_g / unit, n});
+  for (const auto& [level_g, n] : answers) levels.push_back({axis(level_g), n});
   return levels;
 }
 
-// Sensitivity is per largest level here.
+// Sensitivity and bias are on the axis here: bias is what is felt at the mean level.
 double log_likelihood(std::span<const Level> levels, const Parameters& at,
                       Derivatives* derivatives) {
   const IndecisionParameters parameters{at[sensitivity], at[indecision], at[bias], at[lapse]};
@@ -127,6 +140,66 @@ std::vector<std::vector<Parameters>> starts(const AnswersByLevel& answers,
   return all;
 }
 
+LikelihoodFit maximize_turned(const std::vector<Level>& levels, const Eigen::Matrix4d& turn,
+                              const std::vector<ParameterBounds>& bounds,
+                              std::vector<std::vector<Parameters>> starts) {
+  for (std::vector<Parameters>& group : starts)
+    for (Parameters& start : group) start = turn * start;
+  return maximize_likelihood(
+      [&](const Parameters& at, Derivatives* derivatives) {
+        const double value = log_likelihood(levels, turn.transpose() * at, derivatives);
+        if (derivatives)
+          *derivatives = {turn * derivatives->gradient,
+                          turn * derivatives->hessian * turn.transpose()};
+        return value;
+      },
+      bounds, starts);
+}
+
+// To where bias at level 0, which is sensitivity * zero + bias on the axis, is an axis of its own.
+Eigen::Matrix4d turn_to(double zero) {
+  const double length = std::hypot(1, zero);
+  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
+  turn(sensitivity, sensitivity) = turn(bias, bias) = 1 / length;
+  turn(bias, sensitivity) = zero / length;
+  turn(sensitivity, bias) = -zero / length;
+  return turn;
+}
+
+Parameters values(const LikelihoodFit& fit) {
+  Parameters all(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i)
+    all[static_cast<Eigen::Index>(i)] = fit.parameters[i].value;
+  return all;
+}
+
+// All but the bias are searched on the axis, and the bias where that is at level 0.
+LikelihoodFit maximize(const AnswersByLevel& answers, const LevelAxis& axis,
+                       const std::vector<ParameterBounds>& bounds) {
+  const std::vector<Level> levels = levels_of(answers, axis);
+  const Eigen::Matrix4d turn = turn_to(axis(0));
+  std::vector<ParameterBounds> for_bias = bounds, for_others = bounds;
+  for (std::size_t i = 0; i < bounds.size(); ++i)
+    (i == bias ? for_others : for_bias)[i].with_interval = false;
+  std::vector<std::vector<Parameters>> from = starts(answers, bounds[lapse]);
+  LikelihoodFit found, turned;
+  for (int i = 0; i < 3; ++i) {
+    found = maximize_turned(levels, Eigen::Matrix4d::Identity(), for_others, from);
+    std::vector<std::vector<Parameters>> or_from = from;
+    if (from.size() == 1) or_from.clear();  // one hill, and its top is known
+    or_from.push_back({values(found)});
+    turned = maximize_turned(levels, turn, for_bias, or_from);
+    if (turned.log_likelihood <= found.log_likelihood + same_log_likelihood) break;
+    from.push_back({turn.transpose() * values(turned)});
+  }
+  LikelihoodParameter& at_zero = found.parameters[bias] = turned.parameters[bias];
+  const double length = std::hypot(1, axis(0));
+  at_zero.value *= length;
+  for (std::optional<double>* figure : {&at_zero.se, &at_zero.low, &at_zero.high})
+    if (*figure) **figure *= length;
+  return found;
+}
+
 // Upwards or downwards.
 double log_likelihood_of_steps(const AnswersByLevel& answers, const LikelihoodFit& fit) {
   const double astray = fit.parameters[lapse].value / 3;
@@ -168,14 +241,12 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
   LikelihoodFit found{std::vector<LikelihoodParameter>(names.size()), 0};
   for (auto& unknown : found.parameters) unknown.exists = false;
   found.parameters[lapse].value = lapses.low;
-  const double unit = fit.n_trials > 0 ? largest_level(answers) : 1;
+  double unit = 1, largest_level = 1;
   if (fit.n_trials > 0) {
-    const std::vector<Level> levels = levels_of(answers, unit);
-    found = maximize_likelihood(
-        [&](const Parameters& at, Derivatives* derivatives) {
-          return log_likelihood(levels, at, derivatives);
-        },
-        bounds, starts(answers, lapses));
+    const LevelAxis axis(answers);
+    unit = axis.unit_g;
+    largest_level = furthest_from(0, answers);
+    found = maximize(answers, axis, bounds);
     const double steps = log_likelihood_of_steps(answers, found);
     if (steps > found.log_likelihood - interval_drop)
       (found.parameters[sensitivity].value > 0 ? found.parameters[sensitivity].high
@@ -189,7 +260,7 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
     fit.parameters.push_back(
         parameter(names[i], found.parameters[i], i == sensitivity ? unit : 1, bounds[i].fixed()));
   const FittedParameter& s = fit.parameters[sensitivity];
-  if (fit.why.empty()) fit.why = why_no_threshold(!s.value, s.low, s.high, unit);
+  if (fit.why.empty()) fit.why = why_no_threshold(!s.value, s.low, s.high, largest_level);
   fit.parameters.push_back(fit.identifiable() ? threshold(fit.parameters[sensitivity])
                                               : FittedParameter{"threshold_75_g"});
   return fit;

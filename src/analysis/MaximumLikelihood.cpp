@@ -44,16 +44,18 @@ class Likelihood {
   Maximum climb(Parameters from, Eigen::Index held = -1);
   /// With one parameter held. @param from where to start for the others
   Maximum profile(Eigen::Index held, double held_value, Parameters from);
-  /// The same from the likelier of two starts.
+  /// The likelier of where two starts lead.
   Maximum profile(Eigen::Index held, double held_value, Parameters from, Parameters or_from);
   Maximum profile_from_anywhere(Eigen::Index held, double held_value);
   Parameters standard_errors(const Parameters& at);
+  /// How the likeliest others move with one parameter, next to a maximum.
+  Parameters tangent(const Parameters& maximum, Eigen::Index along);
 
  private:
   /// @return whether it got there
   bool climb_by_newton(Maximum& from, Eigen::Index held);
   Maximum climb_by_nlopt(Maximum from, Eigen::Index held);
-  Parameters newtons_step(const Parameters& at, Eigen::Index held) const;
+  Parameters step_against(const Parameters& slope, const Parameters& at, Eigen::Index held) const;
   bool can_climb_along(Eigen::Index i, const Parameters& at) const;
   Parameters within_bounds(Parameters at) const;
   Maximum nothing() const { return {starts_[0][0], -std::numeric_limits<double>::infinity()}; }
@@ -100,10 +102,11 @@ bool Likelihood::can_climb_along(Eigen::Index i, const Parameters& at) const {
   return (at[i] > bounds(i).low || slope > 0) && (at[i] < bounds(i).high || slope < 0);
 }
 
-// Where the likelihood bends upwards the step goes as far as if it bent down as much, so that it
-// always leads uphill. What can't move is taken out of the equations.
-Parameters Likelihood::newtons_step(const Parameters& at, Eigen::Index held) const {
-  Parameters step = derivatives_.gradient;
+// Newton's. Where the likelihood bends upwards it goes as far as if it bent down as much, so that
+// it always leads uphill. What can't move is taken out of the equations.
+Parameters Likelihood::step_against(const Parameters& slope, const Parameters& at,
+                                    Eigen::Index held) const {
+  Parameters step = slope;
   Curvature bend = -derivatives_.hessian;
   for (Eigen::Index i = 0; i < n_; ++i) {
     if (i != held && can_climb_along(i, at)) continue;
@@ -129,7 +132,7 @@ bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held) {
   const double good_enough = held < 0 ? 1e-13 : 1e-10;  // what is still to be gained
   best.log_likelihood = function_(best.at, &derivatives_);
   for (int i = 0; i < 100; ++i) {
-    const Parameters step = newtons_step(best.at, held);
+    const Parameters step = step_against(derivatives_.gradient, best.at, held);
     const double to_gain = step.dot(derivatives_.gradient);
     if (!std::isfinite(to_gain)) return false;
     if (to_gain <= good_enough) return true;
@@ -192,10 +195,8 @@ Maximum Likelihood::profile(Eigen::Index held, double held_value, Parameters fro
 
 Maximum Likelihood::profile(Eigen::Index held, double held_value, Parameters from,
                             Parameters or_from) {
-  from[held] = or_from[held] = held_value;
-  from = within_bounds(std::move(from));
-  or_from = within_bounds(std::move(or_from));
-  return climb(value(from) > value(or_from) ? from : or_from, held);
+  const Maximum first = profile(held, held_value, std::move(from));
+  return likelier(first, profile(held, held_value, std::move(or_from)));
 }
 
 Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value) {
@@ -204,6 +205,7 @@ Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value) 
   for (const std::vector<Parameters>& group : starts_)
     for (Parameters start : group) {
       start[held] = held_value;
+      start = within_bounds(std::move(start));
       best = likelier(best, {start, value(start)});
     }
   return climb(best.at, held);
@@ -235,6 +237,14 @@ Parameters Likelihood::standard_errors(const Parameters& at) {
   return errors;
 }
 
+Parameters Likelihood::tangent(const Parameters& maximum, Eigen::Index along) {
+  function_(maximum, &derivatives_);
+  Parameters change = step_against(derivatives_.hessian.col(along), maximum, along);
+  if (!change.allFinite()) change.setZero();
+  change[along] = 1;
+  return change;
+}
+
 /// One side of a profile interval: walks out from the estimate until the likelihood has fallen far
 /// enough, and back to where it just has.
 class IntervalEnd {
@@ -251,14 +261,12 @@ class IntervalEnd {
     const double center = best_.at[parameter_], beyond = std::abs(limit_ - center);
     // Doubled each time, and never beyond twice the last place: the others have to follow.
     double distance = std::min(first_step, (1 + std::abs(center)) / 2);
-    Maximum before = best_;
+    Parameters change = likelihood_.tangent(best_.at, parameter_);
     for (int i = 0; i < most_doublings && !end_; ++i, distance *= 2) {
       const double to = distance >= beyond ? limit_ : center + direction_ * distance;
       // Where the others go on as they went, or stay: going on may lead to a bound where nothing is
       // likely, and from where no way leads back.
-      const double went = last_.at[parameter_] - before.at[parameter_];
-      const double share = went == 0 ? 0 : (to - last_.at[parameter_]) / went;
-      const Parameters ahead = last_.at + share * (last_.at - before.at);
+      const Parameters ahead = last_.at + (to - last_.at[parameter_]) * change;
       const Maximum outer = likelier(likelihood_.profile(parameter_, to, ahead, last_.at),
                                      likelihood_.profile_from_anywhere(parameter_, to));
       likeliest_ = likelier(likeliest_, outer);
@@ -266,7 +274,8 @@ class IntervalEnd {
         end_ = between(last_, outer);
       else if (to == limit_)
         end_ = limit_;
-      before = std::exchange(last_, outer);
+      if (to != last_.at[parameter_]) change = (outer.at - last_.at) / (to - last_.at[parameter_]);
+      last_ = outer;
     }
   }
 
@@ -293,8 +302,10 @@ class IntervalEnd {
       const double from = inner.at[parameter_], to = outer.at[parameter_];
       const double here = to - at_outer * (to - from) / (at_outer - at_inner);
       const double part = (here - from) / (to - from);
-      const Maximum middle =
+      Maximum middle =
           likelihood_.profile(parameter_, here, inner.at + part * (outer.at - inner.at));
+      if (middle.log_likelihood < outer.log_likelihood)  // got stuck
+        middle = likelier(middle, likelihood_.profile(parameter_, here, inner.at));
       const double at_middle = excess(middle);
       if (std::abs(at_middle) < 1e-6) return here;
       const bool is_inner = at_middle < 0;
@@ -326,6 +337,7 @@ bool fit_parameters(Likelihood& likelihood, Maximum& best,
     parameter.value = best.at[i];
     if (likelihood.bounds(i).fixed()) continue;
     if (errors[i] > 0) parameter.se = errors[i];
+    if (!likelihood.bounds(i).with_interval) continue;
     for (const double direction : {-1.0, 1.0}) {
       IntervalEnd end(likelihood, best, i, direction);
       end.search(errors[i] > 0 ? 2 * errors[i] : 0.1 * (1 + std::abs(best.at[i])));
@@ -339,6 +351,36 @@ bool fit_parameters(Likelihood& likelihood, Maximum& best,
   }
   return true;
 }
+
+void widen(LikelihoodParameter& parameter, const LikelihoodParameter& by) {
+  if (parameter.low && (!by.low || *by.low < *parameter.low)) parameter.low = by.low;
+  if (parameter.high && (!by.high || *by.high > *parameter.high)) parameter.high = by.high;
+  parameter.exists = parameter.exists && by.exists;
+}
+
+// What is likely enough with a parameter held at its bound is so where it is free. Among several
+// hills the search may miss that, as what leaves the bound doesn't always find back.
+// @return as fit_parameters()
+bool widen_by_held(const LogLikelihood& log_likelihood, const std::vector<ParameterBounds>& bounds,
+                   const Starts& starts, Maximum& best,
+                   std::vector<LikelihoodParameter>& parameters) {
+  if (starts.size() == 1) return true;
+  for (std::size_t held = 0; held < bounds.size(); ++held) {
+    if (bounds[held].fixed() || parameters[held].value > bounds[held].low + 1e-9) continue;
+    std::vector<ParameterBounds> fewer = bounds;
+    fewer[held].high = fewer[held].low;
+    Likelihood likelihood(log_likelihood, fewer, starts);
+    Maximum at_bound = likelihood.climb(best.at);
+    std::vector<LikelihoodParameter> by;
+    if (!fit_parameters(likelihood, at_bound, by)) {
+      best = at_bound;
+      return false;
+    }
+    for (std::size_t i = 0; i < by.size(); ++i)
+      if (i != held) widen(parameters[i], by[i]);
+  }
+  return true;
+}
 }  // namespace
 
 LikelihoodFit maximize_likelihood(const LogLikelihood& log_likelihood,
@@ -347,8 +389,10 @@ LikelihoodFit maximize_likelihood(const LogLikelihood& log_likelihood,
   Likelihood likelihood(log_likelihood, bounds, starts);
   LikelihoodFit fit;
   Maximum best = likelihood.maximum();
-  for (int i = 0; i < 10 && !fit_parameters(likelihood, best, fit.parameters); ++i)
-    best = likelihood.climb(best.at);
+  for (int i = 0; i < 10; ++i, best = likelihood.climb(best.at))
+    if (fit_parameters(likelihood, best, fit.parameters) &&
+        widen_by_held(log_likelihood, bounds, starts, best, fit.parameters))
+      break;
   fit.log_likelihood = best.log_likelihood;
   return fit;
 }

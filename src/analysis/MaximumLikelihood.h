@@ -34,7 +34,8 @@ struct Derivatives {
 using LogLikelihood = std::function<double(const Parameters& at, Derivatives* derivatives)>;
 
 struct ParameterBounds {
-  double low = 0, high = 0;  ///< equal: the parameter is fixed; may be infinite
+  double low = 0, high = 0;   ///< equal: the parameter is fixed; may be infinite
+  bool with_interval = true;  ///< otherwise none is searched for
   bool fixed() const { return low == high; }
 };
 

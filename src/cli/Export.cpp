@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "base/Error.h"
 #include "base/Printable.h"
 #include "cli/Commands.h"
 #include "cli/Terminal.h"
@@ -24,12 +26,25 @@ struct Options {
 };
 
 // Beside the folder, never in it: the folder is given away.
-std::optional<std::string> key_of(const Options& options) {
-  if (!options.pseudonymise && options.key_file.empty()) return std::nullopt;
+std::string key_file_of(const Options& options) {
+  namespace fs = std::filesystem;
   std::string folder = options.out;
   while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
-  const PseudonymKey key =
-      pseudonym_key(options.key_file.empty() ? folder + ".key" : options.key_file);
+  const std::string file = options.key_file.empty() ? folder + ".key" : options.key_file;
+  const fs::path given_away = fs::weakly_canonical(fs::absolute(folder)),
+                 key = fs::weakly_canonical(fs::absolute(file));
+  if (std::ranges::mismatch(given_away, key).in1 == given_away.end())
+    throw Error(fmt::format("--key {}: it would be given away with the folder {}. Name a place "
+                            "outside of it",
+                            file, options.out),
+                ExitCode::usage);
+  if (options.key_file.empty()) fs::create_directories(key.parent_path());
+  return file;
+}
+
+std::optional<std::string> key_of(const Options& options) {
+  if (!options.pseudonymise && options.key_file.empty()) return std::nullopt;
+  const PseudonymKey key = pseudonym_key(key_file_of(options));
   say("{} {}: whoever has it can tell a pseudonym's person. Keep it to yourself.\n",
       key.is_new ? "made the key" : "the key is that of", key.file);
   return key.key;

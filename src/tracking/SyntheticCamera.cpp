@@ -54,14 +54,15 @@ struct SyntheticCamera::Impl {
   std::vector<std::optional<Pose>> poses_while_open(const EffectorPath& path, double t_s) const;
   int motion_samples(const EffectorPath& path, double t_s) const;
   PixelBox extent(const Pose& pose) const;
-  bool draw_instant(const Pose& pose, const PixelBox& box);
+  bool draw_effector(const Pose& pose, const PixelBox& box);
+  void draw_hand(const Pose& pose, const PixelBox& box);
   Light effector_at(int x, int y) const {
     return instant.box.holds(x, y) ? instant.row(y)[x - instant.box.x0] : Light::Zero();
   }
   const Light& hand_at(const LightPicture& part, int x, int y) const {
     return part.row(y / fineness)[x / fineness - part.box.x0];
   }
-  void add_instant(float weight, const PixelBox& box);
+  void put_into_hand(const PixelBox& box);
   PixelBox reached(const EffectorPath& path, double t_s) const;
   void draw_moving(const std::vector<std::optional<Pose>>& poses, const PixelBox& box);
   void draw_moving(const EffectorPath& path, double t_s);
@@ -124,8 +125,8 @@ PixelBox SyntheticCamera::Impl::extent(const Pose& pose) const {
   return settings.hand ? box->around(hand.extent(seen(pose), lens)) : *box;
 }
 
-// Within a box of fine pixels. False: nothing is there.
-bool SyntheticCamera::Impl::draw_instant(const Pose& pose, const PixelBox& box) {
+// Within a box of fine pixels, as it is at one moment. False: it is not there.
+bool SyntheticCamera::Impl::draw_effector(const Pose& pose, const PixelBox& box) {
   const SeenBody body = seen(pose);
   const auto extent = extent_of(effector, body, lens);
   if (!extent) return false;
@@ -134,25 +135,25 @@ bool SyntheticCamera::Impl::draw_instant(const Pose& pose, const PixelBox& box) 
   for (const PrintedFace& face : effector)
     if (is_seen(face, body)) draw_face(face, body, lens, raster);
   raster.draw_behind(instant);
-  hand_before.reset(coarse_of(box));
-  hand_behind.reset(coarse_of(box));
-  if (!settings.hand) return true;
-  hand.draw(FilmedHand::Side::before_box, body, coarse_lens, hand_before);
-  hand.draw(FilmedHand::Side::behind_box, body, coarse_lens, hand_behind);
   return true;
 }
 
-void SyntheticCamera::Impl::add_instant(float weight, const PixelBox& box) {
+void SyntheticCamera::Impl::draw_hand(const Pose& pose, const PixelBox& box) {
+  const SeenBody body = seen(pose);
+  hand_before.reset(coarse_of(box));
+  hand_behind.reset(coarse_of(box));
+  hand.draw(FilmedHand::Side::before_box, body, coarse_lens, hand_before);
+  hand.draw(FilmedHand::Side::behind_box, body, coarse_lens, hand_behind);
+}
+
+// What has been drawn of the effector.
+void SyntheticCamera::Impl::put_into_hand(const PixelBox& box) {
   const RowSpans before = RowSpans::covered(hand_before), behind = RowSpans::covered(hand_behind);
   for (int y = box.y0; y < box.y1; ++y) {
     const Span coarse = before.at(y / fineness).around(behind.at(y / fineness));
-    Span span{coarse.begin * fineness, coarse.end * fineness};
-    if (y >= instant.box.y0 && y < instant.box.y1)
-      span = span.around({instant.box.x0, instant.box.x1});
     Light* row = moving.row(y) - moving.box.x0;
-    for (int x = span.begin; x < span.end; ++x)
-      row[x] += weight * over(hand_at(hand_before, x, y),
-                              over(effector_at(x, y), hand_at(hand_behind, x, y)));
+    for (int x = coarse.begin * fineness; x < coarse.end * fineness; ++x)
+      row[x] = over(hand_at(hand_before, x, y), over(row[x], hand_at(hand_behind, x, y)));
   }
 }
 
@@ -170,11 +171,21 @@ PixelBox SyntheticCamera::Impl::reached(const EffectorPath& path, double t_s) co
   return fine_of(coarse_of(box).grown(2 * sensor.reach_px() + between_px)).within(still.box);
 }
 
+// The effector is smeared over the exposure; the hand around it is as in the middle.
 void SyntheticCamera::Impl::draw_moving(const std::vector<std::optional<Pose>>& poses,
                                         const PixelBox& box) {
   const float weight = 1 / static_cast<float>(poses.size());
-  for (const std::optional<Pose>& pose : poses)
-    if (pose && draw_instant(*pose, box)) add_instant(weight, box);
+  for (const std::optional<Pose>& pose : poses) {
+    if (!pose || !draw_effector(*pose, box)) continue;
+    const PixelBox& drawn = instant.box;
+    for (int y = drawn.y0; y < drawn.y1; ++y)
+      for (int x = drawn.x0; x < drawn.x1; ++x)
+        moving.row(y)[x - moving.box.x0] += weight * instant.row(y)[x - drawn.x0];
+  }
+  const std::optional<Pose>& middle = poses[poses.size() / 2];
+  if (!settings.hand || !middle || !extent_of(effector, seen(*middle), lens)) return;
+  draw_hand(*middle, box);
+  put_into_hand(box);
 }
 
 // A rolling shutter's rows two by two of the picture's: at 0.5 m/s, over 25 ms, their edges have
@@ -238,7 +249,8 @@ Image SyntheticCamera::hand_in_picture(const Pose& board_from_effector) {
   Impl& p = *impl_;
   const PixelBox all = coarse_of(p.still.box);
   Image hand(all.width(), all.height(), 1);
-  if (!p.settings.hand || !p.draw_instant(board_from_effector, p.still.box)) return hand;
+  if (!p.settings.hand || !p.draw_effector(board_from_effector, p.still.box)) return hand;
+  p.draw_hand(board_from_effector, p.still.box);
   std::vector<float> seen(hand.pixels.size());
   for (int y = 0; y < p.still.box.y1; ++y)
     for (int x = 0; x < p.still.box.x1; ++x) {

@@ -7,6 +7,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <string_view>
 
 #include "base/Random.h"
 
@@ -228,6 +230,111 @@ RC_GTEST_PROP(PsychometricFit, UnitsAndOriginDoNotMatter, ()) {
   if (!here.identifiable()) return;
   const double threshold = 1000 * *here.parameter("threshold").value - 300;
   RC_ASSERT(std::abs(threshold - *there.parameter("threshold").value) < 0.1);
+}
+
+// Answers of a few people to levels that are one-sided, around 0, or close together: collinear,
+// separated and flat likelihoods among them. @param each is called with the answers
+template <typename Each>
+void for_some_people(int n, std::string_view stream, const Each& each) {
+  const std::vector<std::vector<double>> sets{
+      {10, 20, 40, 80}, {-40, -20, 0, 20, 40}, {-80, -10, 5, 70, 150}, {20, 25, 30}};
+  RandomStream random(1, stream);
+  const auto one_of = [&](std::initializer_list<double> all) {
+    return all
+        .begin()[static_cast<std::size_t>(random.uniform() * static_cast<double>(all.size()))];
+  };
+  for (int i = 0; i < n; ++i) {
+    const IndecisionParameters person{one_of({0.01, 0.03, 0.06}), one_of({0, 0.2, 0.5, 1, 2}),
+                                      one_of({0, 0.2, 1, -0.5}), one_of({0, 0, 0.02, 0.1})};
+    const int n_per_level = static_cast<int>(one_of({3, 4, 5, 10, 20}));
+    each(choices_of(person, sets[static_cast<std::size_t>(i) % sets.size()], n_per_level, random));
+  }
+}
+
+double low_end(const FittedParameter& parameter) {
+  return parameter.low.value_or(-std::numeric_limits<double>::infinity());
+}
+double high_end(const FittedParameter& parameter) {
+  return parameter.high.value_or(std::numeric_limits<double>::infinity());
+}
+
+// @return by how much of itself, or of the value if that is more
+double narrower_by(const FittedParameter& free, const FittedParameter& fixed) {
+  const double width = high_end(fixed) - low_end(fixed);
+  const double scale =
+      std::max(std::isfinite(width) ? width : 0, std::abs(fixed.value.value_or(1)));
+  const double low = low_end(free) > low_end(fixed) ? low_end(free) - low_end(fixed) : 0;
+  const double high = high_end(free) < high_end(fixed) ? high_end(fixed) - high_end(free) : 0;
+  return std::max(low, high) / scale;
+}
+
+// Where the likeliest lapse rate is the one that was fixed, every other lapse rate that is likely
+// can only make the others less sure.
+TEST(IndecisionFit, AFreeLapseNeverMakesNarrower) {
+  int n_compared = 0;
+  for_some_people(150, "free lapse", [&](const AnswersByLevel& answers) {
+    const Fit fixed = fit_indecision(answers, {{}, 0, 0}),
+              free = fit_indecision(answers, {{}, 0, {}});
+    if (free.parameter("lapse").value > 1e-9) return;
+    ++n_compared;
+    for (const char* name : {"sensitivity", "indecision", "bias"})
+      EXPECT_LT(narrower_by(free.parameter(name), fixed.parameter(name)), 1e-3)
+          << name << " of " << testing::PrintToString(answers);
+  });
+  EXPECT_GT(n_compared, 60);
+}
+
+TEST(PsychometricFit, AFreeLapseNeverMakesNarrower) {
+  const std::vector<double> mostly_above{5, 17, 29, 41, 53, 65, 77, 89};
+  RandomStream random(1, "free lapse");
+  int n_compared = 0;
+  for (int i = 0; i < 60; ++i) {
+    const AnswersByLevel answers = answers_of({{}, {22, 4, 0.5, 0}}, mostly_above, 40, random);
+    const Fit fixed = fit_psychometric(answers, {{}, 0.5, 0});
+    const Fit free = fit_psychometric(answers, {{}, 0.5, {}});
+    if (!fixed.identifiable() || !free.identifiable() || free.parameter("lapse").value > 1e-9)
+      continue;
+    ++n_compared;
+    for (const char* name : {"threshold", "slope"})
+      EXPECT_LT(narrower_by(free.parameter(name), fixed.parameter(name)), 1e-3)
+          << name << " of " << testing::PrintToString(answers);
+  }
+  EXPECT_GT(n_compared, 12);
+}
+
+void expect_same(const std::optional<double>& there, const std::optional<double>& here,
+                 double within) {
+  ASSERT_EQ(there.has_value(), here.has_value());
+  if (here) {
+    EXPECT_NEAR(*there, *here, within);
+  }
+}
+
+// Absolute masses instead of differences: only the bias is another, that at level 0.
+TEST(IndecisionFit, TheOriginOfTheLevelsOnlyMattersToTheBias) {
+  for_some_people(100, "origin", [&](const AnswersByLevel& answers) {
+    const Fit here = fit_indecision(answers, {{}, 0, 0});
+    for (const double off : {1e3, 1e5}) {
+      AnswersByLevel moved;
+      for (const auto& [level, n] : answers) moved[level + off] = n;
+      const Fit there = fit_indecision(moved, {{}, 0, 0});
+      SCOPED_TRACE(testing::PrintToString(moved));
+      for (const char* name : {"sensitivity", "indecision"}) {
+        const FittedParameter &a = here.parameter(name), &b = there.parameter(name);
+        const double width = std::min(high_end(a) - low_end(a), 1 + std::abs(a.value.value_or(0)));
+        expect_same(b.value, a.value, 1e-4 * width);
+        expect_same(b.se, a.se, 1e-4 * width);
+        expect_same(b.low, a.low, 1e-4 * width);
+        expect_same(b.high, a.high, 1e-4 * width);
+      }
+      // Far from all levels bias is sensitivity's, with the other sign.
+      const FittedParameter &bias = there.parameter("bias"), &s = here.parameter("sensitivity");
+      if (off < 1e5 || !bias.value || !s.value || !bias.low || !bias.high || !s.low || !s.high)
+        continue;
+      EXPECT_NEAR(-*bias.high / off, *s.low, 0.02 * (*s.high - *s.low));
+      EXPECT_NEAR(-*bias.low / off, *s.high, 0.02 * (*s.high - *s.low));
+    }
+  });
 }
 
 // Whatever the answers are: the figures are finite, in order, and there or not as `why` says.

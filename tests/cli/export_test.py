@@ -259,6 +259,18 @@ class Export(SessionTest):
         with open(file, newline="", encoding="utf-8") as lines:
             return list(csv.DictReader(lines, delimiter="\t", quoting=csv.QUOTE_NONE))
 
+    def test_the_key_of_pseudonyms_is_not_given_away(self):
+        db = self.folder / "a.db"
+        self.session(db)
+        shared = self.folder / "deep" / "shared"
+        for key in (shared / "k.key", shared / ".." / "shared" / "k.key"):
+            said = self.run_heft("export", db, "--pseudonymise", "--key", key, "--out", shared,
+                                 expect=2).stderr
+            self.assertIn("given away", said)
+            self.assertFalse(shared.exists())
+        self.run_heft("export", db, "--pseudonymise", "--out", f"{shared}/")
+        self.assertTrue((self.folder / "deep" / "shared.key").exists())
+
     def test_pseudonyms_leave_nobody_and_nothing_typed(self):
         db = self.simulate("lab.db")
         secrets = {"Ann Person": "update session set participant = 'Ann Person' where session_id = 1",
