@@ -82,7 +82,7 @@ struct SyntheticCamera::Impl {
   LightPicture instant;  ///< the effector at one moment
   /// Before it and behind it, in the picture's pixels: nobody measures a hand's edges.
   LightPicture hand_before, hand_behind;
-  LightPicture moving;  ///< their mean over the exposure, then before the still scene
+  LightPicture moving;  ///< its mean over the exposure, in the hand, before the still scene
 };
 
 SyntheticCamera::Impl::Impl(const Apparatus& apparatus, const SyntheticSettings& with,
@@ -146,7 +146,7 @@ void SyntheticCamera::Impl::draw_hand(const Pose& pose, const PixelBox& box) {
   hand.draw(FilmedHand::Side::behind_box, body, coarse_lens, hand_behind);
 }
 
-// What has been drawn of the effector.
+// What has been drawn of the effector, between the parts before it and behind it.
 void SyntheticCamera::Impl::put_into_hand(const PixelBox& box) {
   const RowSpans before = RowSpans::covered(hand_before), behind = RowSpans::covered(hand_behind);
   for (int y = box.y0; y < box.y1; ++y) {
