@@ -61,8 +61,9 @@ class Display {
     dup2(nowhere, STDERR_FILENO);
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // it must not outlive a test that is cut short
     const std::string descriptor = std::to_string(number_to);
-    execlp("Xvfb", "Xvfb", "-displayfd", descriptor.c_str(), "-screen", "0", "1280x800x24",
-           "-nolisten", "tcp", nullptr);
+    // A server that starts afresh when its last client leaves refuses who comes meanwhile.
+    execlp("Xvfb", "Xvfb", "-noreset", "-displayfd", descriptor.c_str(), "-screen", "0",
+           "1280x800x24", "-nolisten", "tcp", nullptr);
     _exit(127);
   }
 
