@@ -24,6 +24,11 @@ double trials_in(const AnswersByLevel& answers) {
   return first + second + third;
 }
 
+double largest_level_of(const AnswersByLevel& answers) {
+  if (answers.empty()) return 0;
+  return std::max(std::abs(answers.begin()->first), std::abs(answers.rbegin()->first));
+}
+
 std::string too_little(const AnswersByLevel& answers) {
   const double n = trials_in(answers);
   if (n == 0) return "there are no trials";

@@ -72,6 +72,8 @@ std::string why_no_threshold(bool separated, const std::optional<double>& low,
 /// How often each answer was given, at any level.
 std::array<double, 3> totals(const AnswersByLevel& answers);
 double trials_in(const AnswersByLevel& answers);
+/// How far from 0 levels in grams go; 0 of none.
+double largest_level_of(const AnswersByLevel& answers);
 /// What no model could do with: "there are no trials", "there is one level"... Empty: nothing.
 std::string too_little(const AnswersByLevel& answers);
 /// What the likelihood comes to where the curves are ever steeper: a cut between two neighboring

@@ -20,19 +20,15 @@ constexpr std::array<const char*, 4> names{"sensitivity", "indecision", "bias", 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_free_lapse = 0.5;
 
-double furthest_from(double middle, const AnswersByLevel& answers) {
-  const double furthest = std::max(std::abs(answers.begin()->first - middle),
-                                   std::abs(answers.rbegin()->first - middle));
-  return furthest > 0 ? furthest : 1;
-}
-
 /// From grams to where the search counts levels: from their mean, so that levels far from 0 don't
 /// make sensitivity and bias as good as one, and in units of the furthest.
 struct LevelAxis {
   explicit LevelAxis(const AnswersByLevel& answers) {
     for (const auto& [level, n] : answers)
       mean_g += level * ((n[reference] + n[none] + n[comparison]) / trials_in(answers));
-    unit_g = furthest_from(mean_g, answers);
+    const double furthest_g = std::max(std::abs(answers.begin()->first - mean_g),
+                                       std::abs(answers.rbegin()->first - mean_g));
+    if (furthest_g > 0) unit_g = furthest_g;
   }
   double operator()(double level_g) const { return (level_g - mean_g) / unit_g; }
 
@@ -241,11 +237,10 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
   LikelihoodFit found{std::vector<LikelihoodParameter>(names.size()), 0};
   for (auto& unknown : found.parameters) unknown.exists = false;
   found.parameters[lapse].value = lapses.low;
-  double unit = 1, largest_level = 1;
+  double unit = 1;
   if (fit.n_trials > 0) {
     const LevelAxis axis(answers);
     unit = axis.unit_g;
-    largest_level = furthest_from(0, answers);
     found = maximize(answers, axis, bounds);
     const double steps = log_likelihood_of_steps(answers, found);
     if (steps > found.log_likelihood - interval_drop)
@@ -260,7 +255,8 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
     fit.parameters.push_back(
         parameter(names[i], found.parameters[i], i == sensitivity ? unit : 1, bounds[i].fixed()));
   const FittedParameter& s = fit.parameters[sensitivity];
-  if (fit.why.empty()) fit.why = why_no_threshold(!s.value, s.low, s.high, largest_level);
+  if (fit.why.empty())
+    fit.why = why_no_threshold(!s.value, s.low, s.high, largest_level_of(answers));
   fit.parameters.push_back(fit.identifiable() ? threshold(fit.parameters[sensitivity])
                                               : FittedParameter{"threshold_75_g"});
   return fit;

@@ -17,10 +17,9 @@ void put_fitted(PersonThreshold& one, const AnswersByLevel& answers) {
 }
 
 void put_own(PersonThreshold& one, const AnswersByLevel& answers, const OwnSensitivity& own) {
-  const double largest_g =
-      std::max(std::abs(answers.begin()->first), std::abs(answers.rbegin()->first));
   one.why = too_little(answers);
-  if (one.why.empty()) one.why = why_no_threshold(!own.high, own.low, own.high, largest_g);
+  if (one.why.empty())
+    one.why = why_no_threshold(!own.high, own.low, own.high, largest_level_of(answers));
   if (!one.identifiable()) return;
   one.threshold_75_g = z_75 / own.value;
   one.interval_g = Interval{z_75 / *own.high, z_75 / *own.low};

@@ -214,7 +214,7 @@ double log_indecision_of(const Profiles& people, std::span<const double> times) 
 double largest_level(std::span<const AnswersByLevel> people) {
   double largest_g = 0;
   for (const AnswersByLevel& answers : people)
-    for (const auto& [level_g, n] : answers) largest_g = std::max(largest_g, std::abs(level_g));
+    largest_g = std::max(largest_g, largest_level_of(answers));
   return largest_g;
 }
 

@@ -150,9 +150,9 @@ CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const 
 CheckResult tone_verdict(const Intrinsics& camera, const ToneCurve& seen) {
   const double bent = brighter_levels(seen, ToneCurve());
   const std::string figure =
-      fmt::format("{}: middle grays are {:.0f} of 255 levels {} than sRGB's",
+      fmt::format("{}: middle grays are {}",
                   std::abs(bent) >= bending_levels ? "the camera bends tones" : "close to sRGB",
-                  std::abs(bent), bent < 0 ? "darker" : "brighter");
+                  beside_srgb(bent));
   if (camera.response && std::abs(brighter_levels(seen, response_of(camera))) >= bending_levels)
     return {CheckVerdict::warning, "tones",
             figure +

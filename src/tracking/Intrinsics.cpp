@@ -25,6 +25,14 @@ Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_m
   return distort(camera, point_m.head<2>() / point_m.z());
 }
 
+ProjectedPoint project_with_derivative(const Intrinsics& camera, const Eigen::Vector3d& point_m) {
+  const Eigen::Vector2d ray = point_m.head<2>() / point_m.z();
+  const DistortedRay seen = distort_with_derivative(camera, ray);
+  Eigen::Matrix<double, 2, 3> ray_by_point;
+  ray_by_point << Eigen::Matrix2d::Identity(), -ray;
+  return {seen.pixel, seen.pixel_by_ray * ray_by_point / point_m.z()};
+}
+
 Eigen::Vector2d distort(const Intrinsics& camera, const Eigen::Vector2d& ray) {
   return distort_with_derivative(camera, ray).pixel;
 }

@@ -37,6 +37,13 @@ struct DistortedRay {
 /// Pixel of a point in the camera frame (z > 0), with distortion.
 Eigen::Vector2d project(const Intrinsics& camera, const Eigen::Vector3d& point_m);
 
+/// A pixel and how it moves with the point that was projected onto it.
+struct ProjectedPoint {
+  Eigen::Vector2d pixel;
+  Eigen::Matrix<double, 2, 3> pixel_by_point;
+};
+ProjectedPoint project_with_derivative(const Intrinsics& camera, const Eigen::Vector3d& point_m);
+
 /// Pixel of a ray (x/z, y/z), with distortion.
 Eigen::Vector2d distort(const Intrinsics& camera, const Eigen::Vector2d& ray);
 DistortedRay distort_with_derivative(const Intrinsics& camera, const Eigen::Vector2d& ray);

@@ -39,13 +39,18 @@ double brighter_levels(const ToneCurve& curve, const ToneCurve& than) {
   return most;
 }
 
+std::string beside_srgb(double brighter_levels) {
+  return fmt::format("{:.0f} of 255 levels {} than sRGB's", std::abs(brighter_levels),
+                     brighter_levels < 0 ? "darker" : "brighter");
+}
+
 std::string response_in_words(const Intrinsics& camera) {
   if (!camera.response)
     return "tone curve: the board's edges told nothing; is its paper clipped (white)?\n";
   const double levels = brighter_levels(response_of(camera), ToneCurve());
-  return fmt::format("tone curve: {}, middle grays {:.0f} of 255 levels {} than sRGB's\n",
-                     std::abs(levels) < bending_levels ? "close to sRGB" : "bent", std::abs(levels),
-                     levels < 0 ? "darker" : "brighter");
+  return fmt::format("tone curve: {}, middle grays {}\n",
+                     std::abs(levels) < bending_levels ? "close to sRGB" : "bent",
+                     beside_srgb(levels));
 }
 
 }  // namespace heft

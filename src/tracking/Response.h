@@ -30,6 +30,9 @@ double brighter_levels(const ToneCurve& curve, const ToneCurve& than);
 /// From so many levels on a camera is said to bend tones.
 inline constexpr double bending_levels = 10;
 
+/// "12 of 255 levels darker than sRGB's"
+std::string beside_srgb(double brighter_levels);
+
 /// A line for the top of a camera's file.
 std::string response_in_words(const Intrinsics& camera);
 

@@ -43,16 +43,10 @@ void add_corner(Equations& equations, const Placed& at, const Intrinsics& camera
   const Eigen::Vector3d moves = velocity.linear_m_s + velocity.angular_rad_s.cross(arm);
   const Eigen::Vector3d p = at.pose.position_m + arm + readout_s * fraction * moves;
   if (!(p.z() > 0.01)) return;
-  const DistortedRay seen = distort_with_derivative(camera, p.hnormalized());
-  Eigen::Matrix<double, 2, 3> by_point;
-  by_point << 1 / p.z(), 0, -p.x() / (p.z() * p.z()), 0, 1 / p.z(), -p.y() / (p.z() * p.z());
-  by_point = seen.pixel_by_ray * by_point;
+  const auto [projected, by_point] = project_with_derivative(camera, p);
   Eigen::Matrix<double, 2, 7> by;
-  for (int axis = 0; axis < 3; ++axis)
-    by.col(axis) = by_point * Eigen::Vector3d::Unit(axis).cross(arm);
-  by.middleCols<3>(3) = by_point;
-  by.col(6) = fraction * by_point * moves;
-  const Eigen::Vector2d residual = pixel - seen.pixel;
+  by << -by_point * cross_matrix(arm), by_point, fraction * by_point * moves;
+  const Eigen::Vector2d residual = pixel - projected;
   const double weight =
       huber(residual.norm() / corner_sd_px).weight / (corner_sd_px * corner_sd_px);
   equations.matrix.noalias() += weight * by.transpose() * by;

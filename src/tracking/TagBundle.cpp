@@ -45,12 +45,6 @@ TagBundle moved(const TagBundle& bundle, const Eigen::VectorXd& step) {
   return next;
 }
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 // One corner's two equations, by its tag, its view and the bias.
 struct CornerEquation {
   Eigen::Vector2d residual;
@@ -65,14 +59,10 @@ CornerEquation corner_equation(const TagBundle& bundle, const Intrinsics& camera
   const Pose& body = bundle.camera_from_body[view];
   const Eigen::Vector3d in_tag = corner_in_tag(bundle.side_m[seen.tag], corner);
   const Eigen::Vector3d in_body = tag * in_tag, in_camera = body * in_body;
-  const Eigen::Vector2d ray = in_camera.head<2>() / in_camera.z();
-  const DistortedRay seen_at = distort_with_derivative(camera, ray);
-  Eigen::Matrix<double, 2, 3> ray_by_point;
-  ray_by_point << Eigen::Matrix2d::Identity(), -ray;
-  const Eigen::Matrix<double, 2, 3> by_point = seen_at.pixel_by_ray * ray_by_point / in_camera.z();
+  const auto [pixel, by_point] = project_with_derivative(camera, in_camera);
   const Eigen::Matrix3d turn = body.orientation.toRotationMatrix();
   CornerEquation equation;
-  equation.residual = seen_at.pixel + bundle.bias_px * outward - seen.corners_px[corner];
+  equation.residual = pixel + bundle.bias_px * outward - seen.corners_px[corner];
   equation.by_view << -by_point * cross_matrix(body.orientation * in_body), by_point;
   equation.by_tag << -by_point * turn * cross_matrix(tag.orientation * in_tag), by_point * turn;
   equation.by_bias = outward;

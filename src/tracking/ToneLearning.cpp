@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/Shrinkage.h"
+
 namespace heft {
 
 namespace {
@@ -18,14 +20,6 @@ constexpr double shape_weight = 0.5;
 constexpr double memory = 0.97;
 constexpr double worth_measuring_px = 0.01;
 constexpr double most_bend = 2, most_saturated = 0.1;
-
-// Most cameras' curve is sRGB, and what then seems bent is what the model of edges, the print and
-// rounding to levels do to them: no more of a bend than exceeds that, the more the further it does
-// (the positive-part estimator of James & Stein, 1961).
-double believed(double in_sds) {
-  const double size = std::max(1.0, std::abs(in_sds));
-  return 1 - 1 / (size * size);
-}
 }  // namespace
 
 void PictureTone::add(const FittedEdge& edge, double outward) {
@@ -50,7 +44,9 @@ bool ToneLearner::learn(const PictureTone& seen, double bias_px, double bias_sd_
   const ToneBend change = (before + seen_).ldlt().solve(pull);
   if (!change.allFinite()) return false;
   bend_ = (at + change).cwiseMax(-most_bend).cwiseMin(most_bend);
-  curve_ = ToneCurve(believed(outward.dot(bend_) / least_bias_sd_px) * bend_);
+  // Most cameras' curve is sRGB, and what then seems bent is what the model of edges, the print and
+  // rounding to levels do to them.
+  curve_ = ToneCurve(believed_fraction(outward.dot(bend_) / least_bias_sd_px) * bend_);
   return std::abs(outward.dot(curve_.bend() - at)) > worth_measuring_px;
 }
 

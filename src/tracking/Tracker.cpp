@@ -8,6 +8,7 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "base/Pose.h"
+#include "base/Shrinkage.h"
 #include "tracking/ImageConversion.h"
 #include "tracking/Response.h"
 #include "tracking/RollingShutter.h"
@@ -41,14 +42,11 @@ constexpr double jitter_m = 0.01, jitter_rad = 0.2;
 
 // What the board's bias tells about the effector's. A bias is there where the camera's tone curve
 // is not sRGB; most cameras' is, and then what the board seems to have is noise, which would push a
-// single tag away or closer by tenths of a millimeter. So what exceeds a standard deviation counts,
-// the more the further it does (empirical Bayes: the positive-part estimator of James & Stein,
-// 1961).
+// single tag away or closer by tenths of a millimeter.
 BiasPrior bias_of_effector(const BodyFit& board) {
   if (board.n_tags < tags_that_tell_bias) return unknown_bias;
   const double sd_px = std::hypot(board.bias_sd_px, least_bias_sd_px);
-  const double size = std::max(std::abs(board.bias_px) / sd_px, 1.0);
-  const double mean_px = board.bias_px * (1 - 1 / (size * size));
+  const double mean_px = board.bias_px * believed_fraction(board.bias_px / sd_px);
   return {mean_px, bias_differs_px + bias_differs_relative * std::abs(mean_px)};
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/Pose.h"
 #include "bench/tracking/Filming.h"
 #include "tracking/ImageConversion.h"
 #include "tracking/Intrinsics.h"
@@ -49,19 +50,6 @@ double level(const Image& gray, int x, int y) {
   return gray.pixels[static_cast<std::size_t>(y) * gray.row_bytes() + static_cast<std::size_t>(x)];
 }
 
-// The pixel of a point and how it moves with the point.
-Eigen::Matrix<double, 2, 3> pixel_by_point(const Intrinsics& camera, const Eigen::Vector3d& p) {
-  const double w = 1 / p.z();
-  Eigen::Matrix<double, 2, 3> ray_by_point;
-  ray_by_point << w, 0, -p.x() * w * w, 0, w, -p.y() * w * w;
-  return distort_with_derivative(camera, p.hnormalized()).pixel_by_ray * ray_by_point;
-}
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 }  // namespace
 
 TipBound::TipBound(const Apparatus& apparatus, const SyntheticSettings& settings)
@@ -95,7 +83,8 @@ TipBound::Matrix6 TipBound::information(const Pose& board_from_effector) {
         if (change.isZero()) continue;
         const auto point_m = seen.hit(undistort(camera, Eigen::Vector2d(x, y)));
         if (!point_m) continue;
-        const Eigen::Matrix<double, 2, 3> moves = pixel_by_point(camera, *point_m);
+        const Eigen::Matrix<double, 2, 3> moves =
+            project_with_derivative(camera, *point_m).pixel_by_point;
         const Eigen::RowVector2d slope = change / (2 * step_m) * moves.leftCols<2>().inverse();
         Eigen::Matrix<double, 1, 6> by;
         by << -slope * moves * cross_matrix(*point_m - pose.position_m), slope * moves;

@@ -17,12 +17,6 @@ Eigen::Quaterniond small_rotation(const Vector3d& turn_rad) {
   return {1, half_rad.x(), half_rad.y(), half_rad.z()};
 }
 
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 bool alike(const Vector3d& inertia_kg_m2) {
   return inertia_kg_m2.maxCoeff() - inertia_kg_m2.minCoeff() <= 1e-9 * inertia_kg_m2.maxCoeff();
 }

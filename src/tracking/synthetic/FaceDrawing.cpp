@@ -1,6 +1,7 @@
 #include "tracking/synthetic/FaceDrawing.h"
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "base/Polygon.h"
@@ -128,27 +129,28 @@ Eigen::Array3f behind_the_board(const Vector3d& eye_m, const Vector3d& ray) {
   return material::table * grain(point_m.x(), point_m.y());
 }
 
-// Wood has nothing finer than a picture's pixel.
+// Of one of every so many fine pixels of a row: wood has nothing finer than a picture's pixel.
+void draw_wood(int y, const Vector3d& eye_m, const Eigen::Quaterniond& board_from_camera,
+               const Lens& lens, std::span<Light> wood) {
+  Eigen::Vector2d ray(0, 0), step(0, 0);
+  for (std::size_t i = 0; i < wood.size(); ++i, ray += fineness * step) {
+    const int x = static_cast<int>(i) * fineness;
+    if (x % undistorted_px == 0) {
+      ray = undistort(lens.camera(), {x, y});
+      step = (undistort(lens.camera(), {x + undistorted_px, y}) - ray) / undistorted_px;
+    }
+    wood[i] = solid(behind_the_board(eye_m, board_from_camera * ray.homogeneous()));
+  }
+}
+
 void put_before_table(LightPicture& picture, const Pose& camera_from_board, const Lens& lens) {
   const Eigen::Quaterniond board_from_camera = camera_from_board.orientation.conjugate();
   const Vector3d eye_m = -(board_from_camera * camera_from_board.position_m);
-  const PixelBox& box = picture.box;
-  std::vector<Light> wood(static_cast<std::size_t>(coarse_of(box).width()));
-  for (int y = box.y0; y < box.y1; ++y) {
-    if (y % fineness == 0) {
-      Eigen::Vector2d ray(0, 0), step(0, 0);
-      for (int x = box.x0; x < box.x1; x += fineness) {
-        if (x % undistorted_px == 0) {
-          ray = undistort(lens.camera(), {x, y});
-          step = (undistort(lens.camera(), {x + undistorted_px, y}) - ray) / undistorted_px;
-        }
-        wood[static_cast<std::size_t>(x / fineness)] =
-            solid(behind_the_board(eye_m, board_from_camera * ray.homogeneous()));
-        ray += fineness * step;
-      }
-    }
+  std::vector<Light> wood(static_cast<std::size_t>(coarse_of(picture.box).width()));
+  for (int y = 0; y < picture.box.height(); ++y) {
+    if (y % fineness == 0) draw_wood(y, eye_m, board_from_camera, lens, wood);
     Light* row = picture.row(y);
-    for (int x = box.x0; x < box.x1; ++x)
+    for (int x = 0; x < picture.box.width(); ++x)
       row[x] = over(row[x], wood[static_cast<std::size_t>(x / fineness)]);
   }
 }
