@@ -96,12 +96,14 @@ std::string name_now(int descriptor) {
 }  // namespace
 
 FileLock::FileLock(const std::string& path, const std::string& file)
-    : path_(path), descriptor_(opened_and_locked(path, file)) {
+    : path_(path), file_(file), descriptor_(opened_and_locked(path, file)) {
   locked_here().add(descriptor_);
 }
 
 FileLock::FileLock(FileLock&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : path_(std::move(other.path_)),
+      file_(std::move(other.file_)),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 FileLock::~FileLock() {
   if (descriptor_ < 0) return;
@@ -116,11 +118,13 @@ bool FileLock::has_name() const {
 
 std::string FileLock::misfortune() const {
   struct stat mine {
-  }, there{};
+  }, there{}, named{};
   if (::fstat(descriptor_, &mine) != 0)
     return fmt::format("can't be looked at any more ({})", std::strerror(errno));
-  const bool is_there = ::stat(path_.c_str(), &there) == 0;
-  const bool is_mine = is_there && inode_of(there) == inode_of(mine);
+  // A link left in the file's place leads to it, but SQLite's newest rows stay beside the link.
+  const bool is_there = ::lstat(file_.c_str(), &there) == 0;
+  const bool is_mine = is_there && inode_of(there) == inode_of(mine) &&
+                       ::stat(path_.c_str(), &named) == 0 && inode_of(named) == inode_of(mine);
   if (mine.st_nlink == 0) return is_there ? "was replaced by another file" : "was deleted";
   if (!is_mine)
     return fmt::format("was {}moved to {}", is_there ? "replaced by another file, and " : "",

@@ -27,7 +27,8 @@ class FileLock {
   bool has_name() const;
 
  private:
-  std::string path_;
+  std::string path_;  ///< as the user wrote it
+  std::string file_;  ///< what that led to at the start, links resolved
   int descriptor_;
 };
 

@@ -6,7 +6,10 @@
 #include <sqlite3.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "base/Error.h"
 #include "base/Printable.h"
@@ -38,6 +41,12 @@ std::unique_ptr<SQLite::Database> opened(const std::string& path, const std::str
     throw Error(
         fmt::format("can't open {} for writing: {}. {}.", path, failure.reason, failure.advice));
   }
+}
+
+bool are_alike(const std::string& file, const std::string& other) {
+  using Bytes = std::istreambuf_iterator<char>;
+  std::ifstream one(file, std::ios::binary), two(other, std::ios::binary);
+  return std::equal(Bytes(one), Bytes(), Bytes(two), Bytes());
 }
 
 std::uint64_t inode_of(const std::string& file) {
@@ -89,14 +98,21 @@ void LogFile::prepare() {
   wal_inode_ = inode_of(file_ + "-wal");
 }
 
-// The older file stays beside the new one: what was measured can be looked at as it was.
+// The older file stays beside the new one: what was measured can be looked at as it was. It gets
+// its name when it is whole, and once, however often an upgrade is cut short.
 void LogFile::bring_up_to_date() {
   const int version = database_->execAndGet("PRAGMA user_version").getInt();
-  const std::string stem = fmt::format("{}.v{}", file_, version);
+  const std::string stem = fmt::format("{}.v{}", file_, version), part = stem + ".part";
+  std::filesystem::remove(part);
+  create_file(part, 0600);
+  {
+    SQLite::Database copy(part, SQLite::OPEN_READWRITE);
+    SQLite::Backup(copy, *database_).executeStep();
+  }
   std::string name = stem;
-  for (int i = 2; !create_file(name, 0600); ++i) name = fmt::format("{}-{}", stem, i);
-  SQLite::Database copy(name, SQLite::OPEN_READWRITE);
-  SQLite::Backup(copy, *database_).executeStep();
+  for (int i = 2; std::filesystem::exists(name) && !are_alike(part, name); ++i)
+    name = fmt::format("{}-{}", stem, i);
+  std::filesystem::rename(part, name);
   schema::upgrade(*database_);
   database_->exec("PRAGMA foreign_keys = ON");
 }

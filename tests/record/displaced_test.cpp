@@ -129,6 +129,13 @@ TEST_F(displaced, a_link_that_leads_elsewhere_is_noticed) {
   EXPECT_THAT(failure_of_note(), AllOf(HasSubstr("moved to " + file_)));
 }
 
+TEST_F(displaced, a_link_left_in_its_place_is_noticed) {
+  const LogReader analyst(file_);  // whoever reads keeps the newest rows beside the name
+  fs::rename(file_, other_);
+  fs::create_symlink(other_, file_);
+  EXPECT_THAT(failure_of_flush(), HasSubstr("moved to " + other_));
+}
+
 TEST_F(displaced, one_that_was_moved_back_can_be_resumed) {
   fs::rename(file_, other_);
   ASSERT_NE(failure_of_note(), "");

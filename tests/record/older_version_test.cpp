@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "base/TextFile.h"
 #include "record/Schema.h"
@@ -109,6 +110,15 @@ TEST_P(older_version, with_something_foreign_in_it_is_refused_and_left_as_it_is)
     EXPECT_EQ(error.exit_code(), ExitCode::diverged);
   }
   EXPECT_EQ(number(log_, "PRAGMA user_version"), GetParam());
+}
+
+TEST_P(older_version, keeps_one_older_file_however_often_it_is_tried) {
+  std::ofstream(older_file() + ".part") << "cut short";
+  sql("CREATE TRIGGER bad AFTER INSERT ON event BEGIN DELETE FROM answer; END");
+  for (int i = 0; i < 2; ++i) EXPECT_THROW(LogReader{log_}, Error);
+  EXPECT_EQ(number(older_file(), "PRAGMA user_version"), GetParam());
+  EXPECT_FALSE(fs::exists(older_file() + ".part"));
+  EXPECT_FALSE(fs::exists(older_file() + "-2"));
 }
 
 TEST_P(older_version, is_read_from_memory_while_somebody_else_holds_it) {
