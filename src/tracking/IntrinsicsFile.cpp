@@ -16,6 +16,19 @@ namespace heft {
 
 namespace {
 constexpr int largest_side_px = 20000;
+// Of the picture's longer side: from a fisheye's 150 degrees and more to a telescope's 1.
+constexpr double shortest_focal = 0.05, longest_focal = 50;
+constexpr double strongest_distortion = 1000;
+
+// Whether pixels within half the picture's sides have rays. Towards corners even good fits fold.
+bool can_be_looked_back(const Intrinsics& camera) {
+  for (const double x : {.25, .5, .75})
+    for (const double y : {.25, .5, .75}) {
+      const Eigen::Vector2d pixel(x * camera.width_px, y * camera.height_px);
+      if (!((distort(camera, undistort(camera, pixel)) - pixel).norm() < 1)) return false;
+    }
+  return true;
+}
 
 class Reader {
  public:
@@ -45,9 +58,14 @@ class Reader {
     if (m.empty()) return;
     if (m.size() != 9)
       return mistake(fmt::format("camera_matrix has {} numbers, expected 3 x 3", m.size()));
-    if (!(m[0] > 0 && m[4] > 0))
-      mistake(fmt::format("camera_matrix has focal lengths {} and {}, expected more than 0 pixels",
-                          m[0], m[4]));
+    const double side = std::max(camera.width_px, camera.height_px);
+    const double least = shortest_focal * side, most = longest_focal * side;
+    if (!(std::min(m[0], m[4]) >= least && std::max(m[0], m[4]) <= most))
+      mistake(fmt::format("camera_matrix has focal lengths {} and {}, expected {} to {} pixels",
+                          m[0], m[4], least, most));
+    if (!(std::abs(m[2]) <= most && std::abs(m[5]) <= most))
+      mistake(fmt::format("camera_matrix has its center at {}, {}, expected within {} pixels", m[2],
+                          m[5], most));
     if (m[1] != 0 || m[3] != 0 || m[6] != 0 || m[7] != 0 || m[8] != 1)
       mistake("camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]; skew is not supported");
     camera.fx_px = m[0];
@@ -64,7 +82,14 @@ class Reader {
           "distortion_coefficients has {} numbers, expected 4, 5 or 8 (k1 k2 p1 p2 k3 k4 k5 k6); "
           "calibrate with OpenCV's standard or rational model",
           d.size()));
+    if (std::ranges::any_of(d, [](double k) { return !(std::abs(k) <= strongest_distortion); }))
+      return mistake(fmt::format("distortion_coefficients has {}, expected {:g} at most",
+                                 fmt::join(d, ", "), strongest_distortion));
     std::ranges::copy(d, camera.distortion.begin());
+    if (!can_be_looked_back(camera))
+      mistake(
+          "distortion_coefficients fold the middle of the picture: no direction leads to some of "
+          "its pixels; calibrate again");
   }
 
   // A number that a file may lack.
@@ -112,10 +137,30 @@ class Reader {
         numbers.push_back(number_in(scalar).value_or(NAN));
     const bool usable =
         !numbers.empty() && std::ranges::none_of(numbers, [](double n) { return std::isnan(n); });
-    if (usable) return numbers;
+    if (usable) {
+      require_shape(key, numbers.size());
+      return numbers;
+    }
     mistake(fmt::format("{} {}, expected {}", key,
                         value == values_.end() ? "is missing" : "is unusable", expected));
     return {};
+  }
+
+  // What a matrix says of itself.
+  void require_shape(const std::string& key, std::size_t n) {
+    const auto told = [&](const char* what, const std::string& otherwise) {
+      const auto value = values_.find(fmt::format("{}.{}", key, what));
+      return value == values_.end() ? otherwise
+                                    : fmt::format("{}", fmt::join(value->second.scalars, ", "));
+    };
+    const std::string rows = told("rows", "1"), columns = told("cols", fmt::format("{}", n)),
+                      type = told("dt", "d");
+    const auto n_rows = number_in(rows), n_columns = number_in(columns);
+    if (!n_rows || !n_columns || *n_rows < 1 || *n_rows * *n_columns != static_cast<double>(n))
+      mistake(
+          fmt::format("{} says {} rows and {} cols, but has {} numbers", key, rows, columns, n));
+    if (type != "d" && type != "f")
+      mistake(fmt::format("{} says dt: {}, expected d or f", key, type));
   }
 
   std::string file_;
