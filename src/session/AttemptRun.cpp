@@ -11,6 +11,7 @@ namespace heft {
 namespace {
 constexpr double look_up_s = 0.004;  // a live camera is asked for its next picture this often
 constexpr double longest_wait_s = 0.02;
+constexpr double longest_unseen_s = 120;  // without anybody who could see to it
 constexpr double late_periods = 2;  // of the display; a frame that is shown later is late
 
 // What a frame's row of the log takes over from its picture's effector sample.
@@ -36,7 +37,7 @@ AttemptRun::AttemptRun(const SessionParts& parts, const RunnerOptions& options, 
 void AttemptRun::run(const TrialPlan& plan) {
   const Protocol& protocol = parts_.protocol;
   journal_.emit_now(TrialStarted{});
-  start_s_ = engine().last_s();
+  seen_s_ = start_s_ = engine().last_s();
   parts_.responder.begin_trial(
       {plan.trial_number, plan.attempt, plan.task, stage_of(protocol, plan.n_slots())});
   parts_.pictures.begin_attempt({start_s_, plan.trial_number, plan.attempt});
@@ -64,6 +65,7 @@ bool AttemptRun::run_picture() {
   FrameRow row = row_of(*picture, start_s_);
   if (parts_.clock.is_wall()) row.detected_s = journal_.now_s();
   parts_.clock.advance_to(row.t_s);
+  require_sight(row);
   if (!picture->trouble.empty() || trouble_since_s_) {
     if (!wait_for_camera(*picture)) return false;
     if (!picture->trouble.empty()) return true;
@@ -119,6 +121,18 @@ bool AttemptRun::wait_until(double t_s) {
     if (is_over() || control_.leaving()) return false;
   } while (parts_.clock.now_s() < t_s);
   return true;
+}
+
+// A model would wait for ever for an effector that its camera never shows.
+void AttemptRun::require_sight(const FrameRow& row) {
+  if (row.tracked || parts_.clock.is_wall()) seen_s_ = row.t_s;
+  if (row.t_s - seen_s_ <= longest_unseen_s) return;
+  journal_.leave("the effector was not seen");
+  throw Error(
+      fmt::format("the effector was in no picture for {:g} s, and nobody is here to see to it; "
+                  "everything so far is saved. Look at the camera's file, its pictures and the "
+                  "effector's file: heft doctor, heft track",
+                  longest_unseen_s));
 }
 
 // A dead camera or lost board pauses the trial at once and voids it after void_after_s; the session

@@ -30,6 +30,7 @@ class AttemptRun {
   std::optional<Picture> next_picture();
   void listen();
   bool wait_until(double t_s);
+  void require_sight(const FrameRow& row);
   bool wait_for_camera(const Picture& picture);
   void show(const ShownFrame& shown, const Picture& picture, FrameRow& row);
   void log_events(const std::vector<Event>& events);
@@ -51,6 +52,7 @@ class AttemptRun {
 
   double start_s_ = 0;  // session time
   std::optional<TrialWorld> world_;
+  double seen_s_ = 0;  // when the effector was seen last
   std::optional<double> trouble_since_s_;
   ViewFrame shown_;
   std::optional<double> presented_s_;  // session time of the last frame

@@ -186,19 +186,21 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
 LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_t> session_id) {
   refuse_special_file(db);
   const LogReader reader(db);
-  if (session_id) {
-    const SessionState state = reader.session(*session_id).state;
-    if (!is_unfinished(state))
-      throw Error(fmt::format("session {} in {} is {}; there is nothing to go on with", *session_id,
-                              db, name_of(state)));
-    return load_session(reader, db, *session_id);
+  if (!session_id) {
+    const auto row = reader.newest_unfinished_session();
+    if (!row)
+      throw Error(
+          fmt::format("{} holds no unfinished session; start one: heft run PROTOCOL "
+                      "--participant ID --db {}",
+                      db, shell_quoted(db)));
+    session_id = row->session_id;
+  } else if (const SessionState state = reader.session(*session_id).state; !is_unfinished(state)) {
+    throw Error(fmt::format("session {} in {} is {}; there is nothing to go on with", *session_id,
+                            db, name_of(state)));
   }
-  if (const auto row = reader.newest_unfinished_session())
-    return load_session(reader, db, row->session_id);
-  throw Error(
-      fmt::format("{} holds no unfinished session; start one: heft run PROTOCOL "
-                  "--participant ID --db {}",
-                  db, shell_quoted(db)));
+  LoggedSession session = load_session(reader, db, *session_id);
+  refuse_changed_log(reader, session);  // before any path that it holds is opened
+  return session;
 }
 
 void change_setup(LoggedSession& session, const GivenOptions& again) {

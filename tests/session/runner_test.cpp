@@ -164,6 +164,22 @@ TEST(Runner, an_effector_out_of_view_voids_nothing_and_hides_the_clone) {
   for (const TrialRow& row : bench.trials()) EXPECT_NEAR(row.lost_s, 0.4, 0.07);
 }
 
+TEST(Runner, a_model_does_not_wait_for_ever_for_an_effector_that_is_never_seen) {
+  for (const bool is_board_lost : {false, true}) {
+    Bench bench(two_trials(), [is_board_lost](int, double, Picture& picture) {
+      picture.sample.tracked = false;
+      if (is_board_lost) picture.trouble = "board_lost";
+    });
+    try {
+      bench.run();
+      FAIL() << "it went on";
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("in no picture for 120 s"));
+    }
+    EXPECT_EQ(bench.engine.state(), SessionState::paused);
+  }
+}
+
 TEST(Runner, a_short_camera_loss_pauses_the_trial_and_it_goes_on) {
   Bench bench(two_trials(), [](int attempt, double t_s, Picture& picture) {
     if (attempt == 1 && t_s > 0.3 && t_s < 3) picture.trouble = "camera_lost";
