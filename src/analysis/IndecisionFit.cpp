@@ -255,8 +255,7 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
     fit.parameters.push_back(
         parameter(names[i], found.parameters[i], i == sensitivity ? unit : 1, bounds[i].fixed()));
   const FittedParameter& s = fit.parameters[sensitivity];
-  if (fit.why.empty())
-    fit.why = why_no_threshold(!s.value, s.low, s.high, largest_level_of(answers));
+  if (fit.why.empty()) fit.why = why_no_threshold(!s.value, s.low, s.high, reach_of(answers));
   fit.parameters.push_back(fit.identifiable() ? threshold(fit.parameters[sensitivity])
                                               : FittedParameter{"threshold_75_g"});
   return fit;
