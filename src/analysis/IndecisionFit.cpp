@@ -24,8 +24,9 @@ constexpr double most_free_lapse = 0.5;
 /// make sensitivity and bias as good as one, and in units of the furthest.
 struct LevelAxis {
   explicit LevelAxis(const AnswersByLevel& answers) {
+    const double n_trials = trials_in(answers);
     for (const auto& [level, n] : answers)
-      mean_g += level * ((n[reference] + n[none] + n[comparison]) / trials_in(answers));
+      mean_g += level * ((n[reference] + n[none] + n[comparison]) / n_trials);
     const double furthest_g = std::max(std::abs(answers.begin()->first - mean_g),
                                        std::abs(answers.rbegin()->first - mean_g));
     if (furthest_g > 0) unit_g = furthest_g;

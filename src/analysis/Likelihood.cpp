@@ -66,8 +66,10 @@ Parameters Likelihood::step_against(const Parameters& slope, const Parameters& a
 }
 
 bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held) {
-  const double good_enough = held < 0 ? 1e-13 : 1e-10;  // what is still to be gained
   best.log_likelihood = function_(best.at, &derivatives_);
+  // What is still to be gained, and where there are very many trials, what its digits can tell.
+  const double of_digits = std::abs(best.log_likelihood) * std::numeric_limits<double>::epsilon();
+  const double good_enough = std::max(held < 0 ? 1e-13 : 1e-10, of_digits);
   for (int i = 0; i < 100; ++i) {
     const Parameters step = step_against(derivatives_.gradient, best.at, held);
     const double to_gain = step.dot(derivatives_.gradient);
@@ -79,7 +81,8 @@ bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held) {
       there.at = within_bounds(best.at + length * step);
       there.log_likelihood = function_(there.at, &derivatives_);
     }
-    if (!(there.log_likelihood > best.log_likelihood)) return to_gain < 1e-9;  // no digits left
+    if (!(there.log_likelihood > best.log_likelihood))
+      return to_gain < std::max(1e-9, 500 * of_digits);  // no digits left
     best = there;
   }
   return false;
