@@ -93,37 +93,57 @@ Likelihood maximize(std::span<const SidedAnswers> answers, double sensitivity, c
 
 }  // namespace
 
+LikelyCriteria likely_criteria(PersonAnswers& person, double sensitivity, const Spread& spread) {
+  const Likelihood best = maximize(person.answers, sensitivity, spread, person.criteria);
+  const double det = determinant(best);
+  LikelyCriteria likely;
+  likely.log_likelihood =
+      best.value - std::log(det) / 2 - std::log(spread.sd_log_indecision * spread.sd_bias);
+  likely.log_indecision = person.criteria.log_indecision;
+  likely.variance = best.information[1] / det;
+  likely.bias_square = person.criteria.bias * person.criteria.bias + best.information[0] / det;
+  const double variance_between = spread.sd_log_indecision * spread.sd_log_indecision;
+  likely.told = person.told = std::max(1 - likely.variance / variance_between, 0.0);
+  return likely;
+}
+
+void SpreadSums::add(const LikelyCriteria& person, double weight) {
+  n_ += weight;
+  sum_ += weight * person.log_indecision;
+  square_ += weight * (person.log_indecision * person.log_indecision + person.variance);
+  bias_square_ += weight * person.bias_square;
+  told_ += weight * person.told;
+}
+
+Spread SpreadSums::after(const Spread& last) const {
+  if (!(n_ > 0)) return last;
+  constexpr double least_told = 0.05;
+  Spread next = last;
+  // Each person's was drawn towards the last mean, and all of it by what is told: undone, so that
+  // the mean gets there in a step or two where EM's own would take dozens.
+  const double moved = (sum_ / n_ - last.mean_log_indecision) / std::max(told_ / n_, least_told);
+  next.mean_log_indecision =
+      std::clamp(last.mean_log_indecision + std::clamp(moved, -1.0, 1.0), -3.0, 6.0);
+  const double variance = square_ / n_ - sum_ / n_ * sum_ / n_;
+  next.sd_log_indecision = std::clamp(std::sqrt(std::max(variance, 0.0)), 0.1, 1.5);
+  next.sd_bias = std::clamp(std::sqrt(bias_square_ / n_), 0.05, 2.0);
+  return next;
+}
+
 std::vector<double> fit_criteria(std::vector<PersonAnswers>& people, double sensitivity,
                                  Spread& spread) {
   constexpr int n_steps = 4;
-  constexpr double least_told = 0.05;
-  std::vector<double> values(people.size());
+  std::vector<double> values;
+  SpreadSums sums;
   for (int step = 0; step < n_steps; ++step) {
-    double sum = 0, square = 0, bias_square = 0, told = 0;
-    const double variance_between = spread.sd_log_indecision * spread.sd_log_indecision;
-    for (std::size_t i = 0; i < people.size(); ++i) {
-      const Likelihood best = maximize(people[i].answers, sensitivity, spread, people[i].criteria);
-      const double det = determinant(best);
-      values[i] =
-          best.value - std::log(det) / 2 - std::log(spread.sd_log_indecision * spread.sd_bias);
-      const Criteria& at = people[i].criteria;
-      const double variance = best.information[1] / det;
-      people[i].told = std::max(1 - variance / variance_between, 0.0);
-      told += people[i].told;
-      sum += at.log_indecision;
-      square += at.log_indecision * at.log_indecision + variance;
-      bias_square += at.bias * at.bias + best.information[0] / det;
+    if (step > 0) spread = sums.after(spread);
+    sums = {};
+    values.clear();
+    for (PersonAnswers& person : people) {
+      const LikelyCriteria likely = likely_criteria(person, sensitivity, spread);
+      values.push_back(likely.log_likelihood);
+      sums.add(likely);
     }
-    if (step + 1 == n_steps) break;
-    const double n = static_cast<double>(people.size());
-    // Each person's was drawn towards the last mean, and all of it by what is told: undone, so that
-    // the mean gets there in a step or two where EM's own would take dozens.
-    const double moved = (sum / n - spread.mean_log_indecision) / std::max(told / n, least_told);
-    spread.mean_log_indecision =
-        std::clamp(spread.mean_log_indecision + std::clamp(moved, -1.0, 1.0), -3.0, 6.0);
-    const double variance = square / n - sum / n * sum / n;
-    spread.sd_log_indecision = std::clamp(std::sqrt(std::max(variance, 0.0)), 0.1, 1.5);
-    spread.sd_bias = std::clamp(std::sqrt(bias_square / n), 0.05, 2.0);
   }
   return values;
 }

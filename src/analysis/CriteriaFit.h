@@ -35,6 +35,26 @@ struct PersonAnswers {
 std::vector<double> fit_criteria(std::vector<PersonAnswers>& people, double sensitivity,
                                  Spread& spread);
 
+/// What is likely of one person's criteria.
+struct LikelyCriteria {
+  double log_likelihood = 0;  ///< with the criteria integrated out (Laplace's method)
+  double log_indecision = 0, variance = 0, bias_square = 0;
+  double told = 0;  ///< as PersonAnswers has it
+};
+
+/// Where the spread is known. @param person their criteria are where to begin, then the likeliest
+LikelyCriteria likely_criteria(PersonAnswers& person, double sensitivity, const Spread& spread);
+
+/// What people's criteria say of their spread: a step of the EM algorithm.
+class SpreadSums {
+ public:
+  void add(const LikelyCriteria& person, double weight = 1);
+  Spread after(const Spread& last) const;
+
+ private:
+  double n_ = 0, sum_ = 0, square_ = 0, bias_square_ = 0, told_ = 0;
+};
+
 /// A start for a sensitivity that is so much larger.
 void move_criteria(std::vector<PersonAnswers>& people, Spread& spread, double growth);
 

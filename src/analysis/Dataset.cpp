@@ -57,7 +57,8 @@ SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
   SessionData data;
   data.session = session;
   data.estimates = rows.estimates;
-  std::map<int, std::size_t> place;  // attempt index -> its place in data.attempts
+  data.attempts.reserve(rows.trials.size());  // of a thousand sessions, what is spare is much
+  std::map<int, std::size_t> place;           // attempt index -> its place in data.attempts
   for (const TrialRow& trial : rows.trials) {
     place[trial.attempt_index] = data.attempts.size();
     data.attempts.push_back({trial, {}, {}, false});
@@ -72,7 +73,11 @@ SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
     with_attempt(answer.attempt_index, [&](Attempt& a) { a.answers.push_back(answer); });
   for (const ReversalRow& reversal : rows.reversals)
     with_attempt(reversal.attempt_index, [&](Attempt& a) { a.is_reversal = true; });
-  for (Attempt& attempt : data.attempts) std::ranges::sort(attempt.cubes, {}, &CubeRow::slot);
+  for (Attempt& attempt : data.attempts) {
+    std::ranges::sort(attempt.cubes, {}, &CubeRow::slot);
+    attempt.cubes.shrink_to_fit();
+    attempt.answers.shrink_to_fit();
+  }
   return data;
 }
 

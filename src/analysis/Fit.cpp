@@ -19,6 +19,13 @@ std::array<double, 3> totals(const AnswersByLevel& answers) {
   return sum;
 }
 
+LevelReach reach_of(const AnswersByLevel& answers) {
+  const double largest_g = largest_level_of(answers);
+  if (answers.empty()) return {largest_g};
+  const double range_g = answers.rbegin()->first - answers.begin()->first;
+  return {std::min(largest_g, range_g), range_g < largest_g};
+}
+
 double trials_in(const AnswersByLevel& answers) {
   const auto [first, second, third] = totals(answers);
   return first + second + third;
@@ -88,7 +95,7 @@ LogShare log_share(double n, double p) {
 }
 
 std::string why_no_threshold(bool separated, const std::optional<double>& low,
-                             const std::optional<double>& high, double largest_level_g) {
+                             const std::optional<double>& high, const LevelReach& reach) {
   if (separated)
     return "there is separation: the levels part the answers without overlap, so that any "
            "sensitivity that is large enough fits as well; levels between are missing";
@@ -96,10 +103,10 @@ std::string why_no_threshold(bool separated, const std::optional<double>& low,
   if (!low || *low <= 0)
     return "no sensitivity: its 95 % interval holds 0, so the answers don't surely follow the "
            "level";
-  if (z_75 / *low > 2 * largest_level_g)
+  if (z_75 / *low > 2 * reach.level_g)
     return fmt::format(
-        "the threshold's 95 % interval reaches to {:.4g} g, beyond twice the largest level shown",
-        z_75 / *low);
+        "the threshold's 95 % interval reaches to {:.4g} g, beyond twice the {} shown", z_75 / *low,
+        reach.is_range ? "range of levels" : "largest level");
   return "";
 }
 

@@ -58,17 +58,25 @@ Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options);
 /// sensitivity, indecision, bias, lapse, and threshold_75_g: the level that makes 75 % correct in a
 /// forced choice without bias.
 /// Identifiable: sensitivity's interval holds no 0, and the threshold's ends at most at twice the
-/// largest level. Otherwise there is no threshold; the others stay where they exist.
+/// largest level or, where this is less, the range of levels. Otherwise there is no threshold; the
+/// others stay where they exist.
 Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options);
 
 /// Fewer trials than this bear nothing: chi-square intervals don't hold for so few.
 inline constexpr double least_trials_to_fit = 10;
 
 // What the two have in common.
+/// How far from the reference levels go. As absolute masses, where 0 is no reference, they can't go
+/// farther than from the lightest to the heaviest.
+struct LevelReach {
+  double level_g = 0;
+  bool is_range = false;  ///< otherwise the largest level
+};
+LevelReach reach_of(const AnswersByLevel& answers);
 /// Why a sensitivity gives no threshold, in the words that heft fit and the report share; empty: it
 /// does. Ends of the interval at infinity are none.
 std::string why_no_threshold(bool separated, const std::optional<double>& low,
-                             const std::optional<double>& high, double largest_level_g);
+                             const std::optional<double>& high, const LevelReach& reach);
 /// How often each answer was given, at any level.
 std::array<double, 3> totals(const AnswersByLevel& answers);
 double trials_in(const AnswersByLevel& answers);

@@ -24,8 +24,9 @@ constexpr double most_free_lapse = 0.5;
 /// make sensitivity and bias as good as one, and in units of the furthest.
 struct LevelAxis {
   explicit LevelAxis(const AnswersByLevel& answers) {
+    const double n_trials = trials_in(answers);
     for (const auto& [level, n] : answers)
-      mean_g += level * ((n[reference] + n[none] + n[comparison]) / trials_in(answers));
+      mean_g += level * ((n[reference] + n[none] + n[comparison]) / n_trials);
     const double furthest_g = std::max(std::abs(answers.begin()->first - mean_g),
                                        std::abs(answers.rbegin()->first - mean_g));
     if (furthest_g > 0) unit_g = furthest_g;
@@ -255,8 +256,7 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
     fit.parameters.push_back(
         parameter(names[i], found.parameters[i], i == sensitivity ? unit : 1, bounds[i].fixed()));
   const FittedParameter& s = fit.parameters[sensitivity];
-  if (fit.why.empty())
-    fit.why = why_no_threshold(!s.value, s.low, s.high, largest_level_of(answers));
+  if (fit.why.empty()) fit.why = why_no_threshold(!s.value, s.low, s.high, reach_of(answers));
   fit.parameters.push_back(fit.identifiable() ? threshold(fit.parameters[sensitivity])
                                               : FittedParameter{"threshold_75_g"});
   return fit;

@@ -19,13 +19,21 @@ void put_fitted(PersonThreshold& one, const AnswersByLevel& answers) {
 void put_own(PersonThreshold& one, const AnswersByLevel& answers, const OwnSensitivity& own) {
   one.why = too_little(answers);
   if (one.why.empty())
-    one.why = why_no_threshold(!own.high, own.low, own.high, largest_level_of(answers));
+    one.why = why_no_threshold(!own.high, own.low, own.high, {largest_level_of(answers)});
   if (!one.identifiable()) return;
   one.threshold_75_g = z_75 / own.value;
   one.interval_g = Interval{z_75 / *own.high, z_75 / *own.low};
 }
 
 using Key = std::pair<Compared, std::string>;
+
+// Null: too few people to draw on.
+const OwnSensitivity* own_of(const Key& key, std::span<const ReferenceSensitivity> all) {
+  const auto reference = std::ranges::find(all, key.first, &ReferenceSensitivity::compared);
+  if (reference == all.end()) return nullptr;
+  const auto own = reference->pooled.people.find(key.second);
+  return own == reference->pooled.people.end() ? nullptr : &own->second;
+}
 
 std::map<Key, double> starts_by_person(std::span<const SessionData> sessions) {
   std::map<Key, std::vector<double>> starts_g;
@@ -49,15 +57,12 @@ std::vector<PersonThreshold> thresholds_of(std::span<const SessionData> sessions
   const auto jnds = jnds_by_person(sessions);
   const auto starts_g = starts_by_person(sessions);
   std::vector<PersonThreshold> rows;
-  std::map<Compared, std::size_t> n_before;  // people are pooled in this order
   for (const auto& [key, attempts] : usable_comparisons(sessions)) {
     PersonThreshold& row = rows.emplace_back(PersonThreshold{
         key.first, key.second, static_cast<int>(attempts.size()), {}, {}, {}, {}, {}});
     const AnswersByLevel answers = answers_by_side(attempts);
-    const auto found_pooled = std::ranges::find(pooled, key.first, &ReferenceSensitivity::compared);
-    const std::size_t index = n_before[key.first]++;
-    if (found_pooled != pooled.end() && index < found_pooled->pooled.people.size())
-      put_own(row, answers, found_pooled->pooled.people[index]);
+    if (const OwnSensitivity* own = own_of(key, pooled))
+      put_own(row, answers, *own);
     else
       put_fitted(row, answers);
     if (const auto found = jnds.find(key); found != jnds.end()) row.jnd = found->second;

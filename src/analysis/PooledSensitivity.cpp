@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
 #include "analysis/CriteriaFit.h"
 #include "analysis/MaximumLikelihood.h"
+#include "analysis/SensitivityGrid.h"
+#include "analysis/SensitivitySpread.h"
 #include "base/Quantile.h"
 #include "base/Random.h"
 #include "psychophysics/Normal.h"
@@ -15,16 +19,6 @@
 namespace heft {
 
 namespace {
-
-// Sensitivities per largest level: dense around 0, and up to thresholds of a four-hundredth of it.
-constexpr std::size_t n_grid = 56;
-constexpr double first_place = -4, place_step = 0.2;
-constexpr std::size_t no_sensitivity = 20;
-double sensitivity_at(double place) {
-  return 0.5 * std::sinh(first_place + place_step * place);
-}
-
-using OnGrid = std::array<double, n_grid>;
 
 // By person, for each sensitivity on the grid.
 struct Profiles {
@@ -72,148 +66,63 @@ Profiles profiles(std::vector<PersonAnswers>& people) {
   return all;
 }
 
-/// The place on the grid where a sum is highest, by the parabola through the three highest.
-double top_of(const OnGrid& sum) {
-  const auto best = static_cast<std::size_t>(std::ranges::max_element(sum) - sum.begin());
-  if (best == 0 || best + 1 == n_grid) return static_cast<double>(best);
-  const double before = sum[best - 1], here = sum[best], after = sum[best + 1];
-  const double bend = before - 2 * here + after;
-  return static_cast<double>(best) + (bend < 0 ? (before - after) / (2 * bend) : 0);
-}
+constexpr std::size_t n_samples = 2000;
 
-void add(OnGrid& sum, const OnGrid& more, double times) {
-  for (std::size_t i = 0; i < n_grid; ++i) sum[i] += times * more[i];
-}
-
-// Each person as often as `times` says.
-OnGrid sum_of(std::span<const OnGrid> people, std::span<const double> times) {
-  OnGrid sum{};
-  for (std::size_t i = 0; i < people.size(); ++i)
-    if (times[i] > 0) add(sum, people[i], times[i]);
-  return sum;
-}
-
-double between_places(const OnGrid& values, double place) {
-  const auto before = std::min(static_cast<std::size_t>(place), n_grid - 2);
-  return std::lerp(values[before], values[before + 1], place - static_cast<double>(before));
-}
-
-/// How sensitivities are spread between people: their logarithm is normal.
-struct Spectrum {
-  double mean_log = 0, sd_log = 0.3;
-};
-
-// The likelihood of each person's sensitivities above none, as a density over their logarithm.
-class PositiveSensitivities {
+/// Draws people of a whole study: who was not at this reference counts for nothing here.
+class Samples {
  public:
-  explicit PositiveSensitivities(std::span<const OnGrid> people) {
-    for (std::size_t i = 0; i < n_places; ++i) logs_[i] = std::log(sensitivity_at(place(i)));
-    for (const OnGrid& person : people) {
-      const double best = *std::ranges::max_element(person);
-      OnPlaces density{};
-      for (std::size_t i = 0; i < n_places; ++i)
-        density[i] = std::exp(person[no_sensitivity + 1 + i] - best) * width(i);
-      densities_.push_back(density);
-    }
+  /// @param study who was in the study, all of `people` among them
+  Samples(const std::map<std::string, AnswersByLevel>& people, const std::set<std::string>& study)
+      : n_in_study_(study.size()) {
+    for (const auto& [participant, answers] : people)
+      places_.push_back(
+          static_cast<std::size_t>(std::distance(study.begin(), study.find(participant))));
   }
 
-  /// By person: log likelihoods of medians on the grid, where people are spread so much. What is
-  /// not above none can't be.
-  std::vector<OnGrid> of_medians(double sd_log) const {
-    constexpr double impossible = -1e6;
-    std::vector<OnGrid> all(densities_.size());
-    for (OnGrid& one : all) one.fill(impossible);
-    for (std::size_t i = 0; i < n_places; ++i) {
-      const OnPlaces prior = density_of({logs_[i], sd_log});
-      for (std::size_t person = 0; person < all.size(); ++person) {
-        double weight = 0;
-        for (std::size_t k = 0; k < n_places; ++k) weight += densities_[person][k] * prior[k];
-        all[person][no_sensitivity + 1 + i] = std::log(std::max(weight, 1e-300));
-      }
+  std::size_t n_people() const { return places_.size(); }
+
+  /// A figure of each sample, always of the same. @param figure_of how often each was drawn
+  template <typename Figure>
+  std::vector<double> figures(Figure figure_of) const {
+    RandomStream stream(1, "sample of people");
+    std::vector<double> all, drawn(n_in_study_), times(n_people());
+    while (all.size() < n_samples) {
+      std::ranges::fill(drawn, 0.0);
+      for (std::size_t i = 0; i < n_in_study_; ++i) drawn[stream.below(n_in_study_)] += 1;
+      double n = 0;
+      for (std::size_t i = 0; i < n_people(); ++i) n += times[i] = drawn[places_[i]];
+      all.push_back(n > 0 ? figure_of(times) : all.empty() ? figure_of(once()) : all.back());
     }
     return all;
   }
 
-  /// By the EM algorithm.
-  Spectrum fit(Spectrum from, int n_steps) const {
-    constexpr double least_sd = 0.1, most_sd = 1.5;  // finer than the grid tells nothing
-    for (int step = 0; step < n_steps; ++step) {
-      const OnPlaces prior = density_of(from);
-      double n = 0, sum = 0, square = 0;
-      for (const OnPlaces& density : densities_) {
-        double weight = 0, first = 0, second = 0;
-        for (std::size_t i = 0; i < n_places; ++i) {
-          const double w = density[i] * prior[i];
-          weight += w;
-          first += w * logs_[i];
-          second += w * logs_[i] * logs_[i];
-        }
-        if (!(weight > 0)) continue;
-        n += 1;
-        sum += first / weight;
-        square += second / weight;
-      }
-      if (n == 0) break;
-      from.mean_log = sum / n;
-      const double variance = std::max(square / n - from.mean_log * from.mean_log, 0.0);
-      from.sd_log = std::clamp(std::sqrt(variance), least_sd, most_sd);
-    }
-    return from;
-  }
+  std::vector<double> once() const { return std::vector<double>(n_people(), 1); }
 
  private:
-  static constexpr std::size_t n_places = n_grid - no_sensitivity - 1;
-  using OnPlaces = std::array<double, n_places>;
-
-  static double place(std::size_t i) { return static_cast<double>(no_sensitivity + 1 + i); }
-  double width(std::size_t i) const {
-    const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, n_places - 1);
-    return (logs_[after] - logs_[before]) / static_cast<double>(after - before);
-  }
-  OnPlaces density_of(const Spectrum& spectrum) const {
-    OnPlaces density{};
-    for (std::size_t i = 0; i < n_places; ++i) {
-      const double z = (logs_[i] - spectrum.mean_log) / spectrum.sd_log;
-      density[i] = std::exp(-z * z / 2);
-    }
-    return density;
-  }
-
-  OnPlaces logs_{};
-  std::vector<OnPlaces> densities_;
+  std::size_t n_in_study_;
+  std::vector<std::size_t> places_;  // by person: among those of the study
 };
 
-constexpr int n_samples = 2000;
-
-// A figure of samples of people, always of the same. @param figure_of how often each was drawn
-template <typename Figure>
-std::vector<double> bootstrap(std::size_t n_people, Figure figure_of) {
-  RandomStream stream(1, "sample of people");
-  std::vector<double> figures, times(n_people);
-  for (int sample = 0; sample < n_samples; ++sample) {
-    std::ranges::fill(times, 0.0);
-    for (std::size_t i = 0; i < n_people; ++i) times[stream.below(n_people)] += 1;
-    figures.push_back(figure_of(times));
-  }
-  return figures;
+// Of people who are drawn so often, what is likeliest together.
+double sensitivity_of(std::span<const OnGrid> people, std::span<const double> times) {
+  return sensitivity_at(top_of(sum_of(people, times)));
 }
 
-std::vector<double> sensitivities_of_samples(std::span<const OnGrid> people) {
-  return bootstrap(people.size(), [&](const std::vector<double>& times) {
-    return sensitivity_at(top_of(sum_of(people, times)));
-  });
+std::vector<double> sensitivities_of(std::span<const OnGrid> people, const Samples& samples) {
+  return samples.figures(
+      [&](const std::vector<double>& times) { return sensitivity_of(people, times); });
 }
 
 // Of the median person, at the sensitivity that these have in common.
 double log_indecision_of(const Profiles& people, std::span<const double> times) {
   const double place = top_of(sum_of(people.log_likelihood, times));
   return between_places(sum_of(people.log_indecision, times), place) /
-         static_cast<double>(times.size());
+         std::accumulate(times.begin(), times.end(), 0.0);
 }
 
-double largest_level(std::span<const AnswersByLevel> people) {
+double largest_level(const std::map<std::string, AnswersByLevel>& people) {
   double largest_g = 0;
-  for (const AnswersByLevel& answers : people)
+  for (const auto& [participant, answers] : people)
     largest_g = std::max(largest_g, largest_level_of(answers));
   return largest_g;
 }
@@ -244,26 +153,43 @@ void put_own_interval(PooledSensitivity& found, const AnswersByLevel& answers) {
   found.threshold_interval_g = Interval{threshold.low.value_or(0), *threshold.high};
 }
 
-// First what all have in common, which says whether there is any. Then the median of people who
-// differ.
-void put_pooled(PooledSensitivity& found, std::span<const OnGrid> people, double largest_g) {
-  std::vector<double> samples = sensitivities_of_samples(people);
-  Interval interval = expanded_percentiles(samples, people.size());
-  if (interval.low > 0) {
-    const PositiveSensitivities positive(people);
-    const Spectrum all = positive.fit({std::log(*found.sensitivity * largest_g), 0.3}, 60);
-    found.sd_log_sensitivity = all.sd_log;
-    const std::vector<OnGrid> of_medians = positive.of_medians(all.sd_log);
-    const std::vector<double> once(people.size(), 1);
-    found.sensitivity = sensitivity_at(top_of(sum_of(of_medians, once))) / largest_g;
-    samples = sensitivities_of_samples(of_medians);
-    interval = expanded_percentiles(samples, people.size());
+// The median of people who differ, and samples of it: of these the spread of sensitivities and that
+// of criteria aren't told apart anew, which would take minutes, but their center is put where it
+// is.
+std::vector<double> put_median(PooledSensitivity& found, std::span<const OnGrid> in_common,
+                               const std::vector<PersonAnswers>& people, const Samples& samples) {
+  const std::vector<double> once = samples.once();
+  const SpreadSensitivities apart = spread_sensitivities(people, top_of(sum_of(in_common, once)));
+  const double sd_log = apart.spectrum.sd_log;
+  const std::vector<OnGrid> of_medians =
+      PositiveSensitivities(apart.log_likelihood).of_medians(sd_log);
+  const std::vector<OnGrid> together = PositiveSensitivities(in_common).of_medians(sd_log);
+  found.sd_log_sensitivity = sd_log;
+  found.sensitivity = sensitivity_of(of_medians, once);
+  const double shift = *found.sensitivity / sensitivity_of(together, once);
+  std::vector<double> figures = sensitivities_of(together, samples);
+  for (double& figure : figures) figure *= shift;
+  return figures;
+}
+
+// First what all have in common, which says whether there is any.
+void put_pooled(PooledSensitivity& found, std::span<const OnGrid> in_common,
+                const std::vector<PersonAnswers>& people, const Samples& drawn, double largest_g) {
+  std::vector<double> samples = sensitivities_of(in_common, drawn);
+  found.sensitivity = sensitivity_of(in_common, drawn.once());
+  found.sensitivity_interval = expanded_percentiles(samples, people.size());
+  if (found.sensitivity_interval->low > 0) {
+    samples = put_median(found, in_common, people, drawn);
+    found.sensitivity_interval =
+        symmetric_interval(*found.sensitivity, samples, people.size(), confidence_level);
   }
+  for (double* figure :
+       {&*found.sensitivity, &found.sensitivity_interval->low, &found.sensitivity_interval->high})
+    *figure /= largest_g;
   for (double& sample : samples) sample /= largest_g;
   found.sensitivity_samples = std::move(samples);
-  found.sensitivity_interval = Interval{interval.low / largest_g, interval.high / largest_g};
   found.why = why_no_threshold(is_separated(found, largest_g), found.sensitivity_interval->low,
-                               found.sensitivity_interval->high, largest_g);
+                               found.sensitivity_interval->high, {largest_g});
   if (!found.identifiable()) return;
   found.threshold_75_g = z_75 / *found.sensitivity;
   found.threshold_interval_g =
@@ -292,52 +218,62 @@ OwnSensitivity own_sensitivity(const OnGrid& log_likelihood, double largest_g) {
   return own;
 }
 
-void put_indecision(PooledSensitivity& found, const Profiles& people) {
-  const std::size_t n = people.log_indecision.size();
-  found.indecision = std::exp(log_indecision_of(people, std::vector<double>(n, 1)));
+// Beyond which percentiles lie, farther out where people are few.
+double expanded_tail(std::size_t n_people, double confidence) {
+  const double n = static_cast<double>(n_people);
+  return normal_cdf(-student_t_quantile(n - 1, confidence) * std::sqrt(n / (n - 1)));
+}
+
+void put_indecision(PooledSensitivity& found, const Profiles& people, const Samples& samples) {
+  found.indecision = std::exp(log_indecision_of(people, samples.once()));
   if (found.n < least_people) return;
-  const Interval logs = expanded_percentiles(
-      bootstrap(n,
-                [&](const std::vector<double>& times) { return log_indecision_of(people, times); }),
-      n);
+  const Interval logs = expanded_percentiles(samples.figures([&](const std::vector<double>& times) {
+    return log_indecision_of(people, times);
+  }),
+                                             samples.n_people());
   found.indecision_interval = Interval{std::exp(logs.low), std::exp(logs.high)};
 }
 }  // namespace
 
 Interval expanded_percentiles(const std::vector<double>& samples, std::size_t n_people,
                               double confidence) {
-  const double n = static_cast<double>(n_people);
-  const double t = student_t_quantile(n - 1, confidence);
-  const double tail = normal_cdf(-t * std::sqrt(n / (n - 1)));
+  const double tail = expanded_tail(n_people, confidence);
   return {*heft::quantile(samples, tail), *heft::quantile(samples, 1 - tail)};
 }
 
-PooledSensitivity pooled_sensitivity(std::span<const AnswersByLevel> all) {
+Interval symmetric_interval(double estimate, const std::vector<double>& samples,
+                            std::size_t n_people, double confidence) {
+  std::vector<double> distances;
+  for (const double sample : samples) distances.push_back(std::abs(std::log(sample / estimate)));
+  const double half = *heft::quantile(distances, 1 - 2 * expanded_tail(n_people, confidence));
+  return {estimate * std::exp(-half), estimate * std::exp(half)};
+}
+
+PooledSensitivity pooled_sensitivity(std::map<std::string, AnswersByLevel> all,
+                                     const std::set<std::string>& study) {
   PooledSensitivity found;
-  std::vector<AnswersByLevel> with_trials;
-  for (const AnswersByLevel& answers : all)
-    if (trials_in(answers) > 0) with_trials.push_back(answers);
-  for (const AnswersByLevel& answers : with_trials) found.n_trials += trials_in(answers);
-  found.n = static_cast<int>(with_trials.size());
-  const double largest_g = largest_level(with_trials);
+  std::erase_if(all, [](const auto& person) { return trials_in(person.second) == 0; });
+  for (const auto& [participant, answers] : all) found.n_trials += trials_in(answers);
+  found.n = static_cast<int>(all.size());
+  const double largest_g = largest_level(all);
   if (largest_g == 0) {
     found.why = found.n == 0 ? "there are no trials" : "no trial had a difference";
     return found;
   }
+  const Samples samples(all, study);
   std::vector<PersonAnswers> people;
-  for (const AnswersByLevel& answers : with_trials)
+  for (const auto& [participant, answers] : all)
     people.push_back({answers_on_scale(answers, largest_g), {}});
   const Profiles by_person = profiles(people);
-  const std::vector<double> once(people.size(), 1);
-  found.sensitivity = sensitivity_at(top_of(sum_of(by_person.log_likelihood, once))) / largest_g;
-  put_indecision(found, by_person);
+  found.sensitivity = sensitivity_of(by_person.log_likelihood, samples.once()) / largest_g;
+  put_indecision(found, by_person, samples);
   if (found.n >= least_people)
-    for (const OnGrid& one : by_person.log_likelihood)
-      found.people.push_back(own_sensitivity(one, largest_g));
+    for (std::size_t i = 0; const auto& [participant, answers] : all)
+      found.people[participant] = own_sensitivity(by_person.log_likelihood[i++], largest_g);
   if (found.n == 1)
-    put_own_interval(found, with_trials[0]);
+    put_own_interval(found, all.begin()->second);
   else if (found.n >= least_people)
-    put_pooled(found, by_person.log_likelihood, largest_g);
+    put_pooled(found, by_person.log_likelihood, people, samples, largest_g);
   else
     found.why =
         fmt::format("{} participants are too few to tell how people differ, expected {} or more",

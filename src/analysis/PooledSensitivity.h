@@ -8,20 +8,23 @@
 // % too large. What remains is each person's likelihood of a sensitivity, on a grid.
 //
 // The sensitivity that all have in common says whether there is any: its interval holds 0 or not.
-// Where there is, the estimate is the median of sensitivities that are log-normal over people.
-// Intervals come from a bootstrap over people: as many are drawn with replacement, and the
-// percentiles are taken farther out, as Student's t and n/(n-1) ask for where people are few
-// (Hesterberg 2015, "expanded percentile interval"). The indecision's comes from the same samples,
-// each at its own sensitivity, with people as their answers have them: as random effects, drawn
-// towards each other, they differ too little, and the interval held the truth in 65 to 90 %.
+// Where there is, the estimate is the median of sensitivities that are log-normal over people, each
+// with criteria of their own (SensitivitySpread.h). Intervals come from a bootstrap over people: as
+// many as the study has are drawn with replacement, and the percentiles are taken farther out, as
+// Student's t and n/(n-1) ask for where people are few (Hesterberg 2015, "expanded percentile
+// interval"); the median's are symmetric about its logarithm (Hall 1988). The indecision's comes
+// from the same samples, each at its own sensitivity, with people as their answers have them: as
+// random effects, drawn towards each other, they differ too little, and the interval held the truth
+// in 65 to 90 %.
 //
 // Levels are signed by side: mass on the right minus mass on the left, and the answers are left,
 // none, right. A person can prefer a side but not the reference, which nothing marks; and as sides
 // are drawn anew, what earlier answers did to a staircase's level can't pass for sensitivity.
 #pragma once
 
+#include <map>
 #include <optional>
-#include <span>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -56,8 +59,10 @@ struct PooledSensitivity {
   /// there is no threshold.
   std::optional<double> indecision;
   std::optional<Interval> indecision_interval;
-  std::vector<OwnSensitivity> people{};  ///< with a trial, as given; empty: too few to draw on
-  /// By bootstrap sample; shared by all references of one study, so that these can be compared.
+  /// By participant, of those with a trial; empty: too few to draw on.
+  std::map<std::string, OwnSensitivity> people{};
+  /// By bootstrap sample; the same people are in it at all references of one study, so that these
+  /// can be compared.
   std::vector<double> sensitivity_samples;
 
   bool identifiable() const { return why.empty(); }
@@ -67,9 +72,16 @@ struct PooledSensitivity {
 Interval expanded_percentiles(const std::vector<double>& samples, std::size_t n_people,
                               double confidence = confidence_level);
 
-/// @param people  answers (left, none, right) by signed level in g. Identifiable: the interval of
-///   the sensitivity lies above 0 and that of the threshold ends at most at twice the largest
-///   level.
-PooledSensitivity pooled_sensitivity(std::span<const AnswersByLevel> people);
+/// Of a figure above 0, symmetric about the estimate on the scale of logarithms (Hall 1988): what
+/// that share of bootstrap samples reaches to either side, more where people are few. n_people > 1.
+Interval symmetric_interval(double estimate, const std::vector<double>& samples,
+                            std::size_t n_people, double confidence);
+
+/// Identifiable: the interval of the sensitivity lies above 0 and that of the threshold ends at
+/// most at twice the largest level.
+/// @param people  answers (left, none, right) by signed level in g, by participant
+/// @param study  the participants of all references
+PooledSensitivity pooled_sensitivity(std::map<std::string, AnswersByLevel> people,
+                                     const std::set<std::string>& study);
 
 }  // namespace heft

@@ -40,34 +40,63 @@ Interval score_interval(double fraction, double n, double t) {
   return {std::max((center - half) / scale, 0.0), std::min((center + half) / scale, 1.0)};
 }
 
-// @param variance of the fraction, by the differences between participants
-Interval participants_interval(double fraction, double variance, std::size_t n_participants,
-                               double confidence) {
-  const double n = static_cast<double>(n_participants);
-  if (!(variance > 0)) return exact_interval(fraction * n, n, confidence);
+// How far each participant's absence moves a figure (the jackknife).
+using Moves = std::vector<double>;
+
+// Where few participants make most of the spread, its estimate is worth less than n - 1 differences
+// (Satterthwaite 1946, by the unbiased excess kurtosis; Joanes & Gill 1998). Fewer than ten can't
+// tell their kurtosis, and their intervals are wide enough.
+double degrees_of_freedom(const Moves& moves) {
+  const double n = static_cast<double>(moves.size());
+  if (n < 10) return n - 1;
+  double squares = 0, fourths = 0;
+  for (const double move : moves) {
+    squares += move * move;
+    fourths += move * move * move * move;
+  }
+  const double excess = n * fourths / (squares * squares) - 3;
+  const double unbiased = (n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * excess + 6);
+  return 2 / (2 / (n - 1) + std::max(unbiased, 0.0) / n);
+}
+
+Interval participants_interval(double fraction, const Moves& moves, double confidence) {
+  const double n = static_cast<double>(moves.size());
+  double variance = 0;
+  for (const double move : moves) variance += move * move * (n - 1) / n;
   const double n_effective = std::max(n, fraction * (1 - fraction) / variance);
-  return score_interval(fraction, n_effective, student_t_quantile(n - 1, confidence));
+  return score_interval(fraction, n_effective,
+                        student_t_quantile(degrees_of_freedom(moves), confidence));
+}
+
+bool all_alike(std::span<const Tally> counted) {
+  return std::ranges::all_of(counted, [&](const Tally& tally) {
+    return tally.n_hits * counted[0].n_trials == counted[0].n_hits * tally.n_trials;
+  });
+}
+
+Interval interval_of_alike(std::span<const Tally> counted, double confidence) {
+  const double n = static_cast<double>(counted.size());
+  return exact_interval(percent_of(counted[0]) / 100 * n, n, confidence);
 }
 
 // The mean over participants of each one's share.
 Interval mean_interval(std::span<const Tally> counted, double confidence) {
-  std::vector<double> fractions;
+  if (all_alike(counted)) return interval_of_alike(counted, confidence);
+  Moves fractions;
   for (const Tally& tally : counted) fractions.push_back(percent_of(tally) / 100);
-  const double sd = *sample_sd(fractions), n = static_cast<double>(fractions.size());
-  return participants_interval(*mean(fractions), sd * sd / n, counted.size(), confidence);
+  const double center = *mean(fractions), n = static_cast<double>(counted.size());
+  for (double& fraction : fractions) fraction = (fraction - center) / (n - 1);
+  return participants_interval(center, fractions, confidence);
 }
 
-// A share of all trials: a ratio of two sums over participants (Cochran 1977, 6.3).
+// A share of all trials: a ratio of two sums over participants.
 Interval ratio_interval(std::span<const Tally> counted, const Tally& all) {
-  const double fraction = percent_of(all) / 100, n = static_cast<double>(counted.size());
-  double square = 0;
-  for (const Tally& tally : counted) {
-    const double off = tally.n_hits - fraction * tally.n_trials;
-    square += off * off;
-  }
-  const double trials = all.n_trials;
-  return participants_interval(fraction, n / (n - 1) * square / (trials * trials), counted.size(),
-                               confidence_level);
+  if (all_alike(counted)) return interval_of_alike(counted, confidence_level);
+  const double fraction = percent_of(all) / 100;
+  Moves moves;
+  for (const Tally& tally : counted)
+    moves.push_back((tally.n_hits - fraction * tally.n_trials) / (all.n_trials - tally.n_trials));
+  return participants_interval(fraction, moves, confidence_level);
 }
 }  // namespace
 

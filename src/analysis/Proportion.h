@@ -12,9 +12,11 @@ namespace heft {
 
 /// Where an interval comes from. The unit is the participant: a score interval (Wilson 1927) with
 /// the effective number of trials that the differences between participants leave (Korn & Graubard
-/// 1998), and Student's t with a degree of freedom less than there are participants instead of the
-/// normal quantile. Where all participants are the same, Clopper-Pearson over people; of one alone,
-/// over that one's trials, and then it says nothing of others.
+/// 1998), where the variance is the jackknife's (Efron & Stein 1981: not too small where few have
+/// most of the trials), and Student's t instead of the normal quantile. Its degrees of freedom are
+/// one less than there are participants, and fewer where few of these make most of the spread
+/// (Satterthwaite 1946). Where all participants are the same, Clopper-Pearson over people; of one
+/// alone, over that one's trials, and then it says nothing of others.
 enum class IntervalMethod { none, participants, exact };
 template <>
 struct EnumNames<IntervalMethod> {

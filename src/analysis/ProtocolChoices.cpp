@@ -4,10 +4,12 @@
 
 #include <map>
 #include <set>
+#include <variant>
 
 #include "base/Error.h"
 #include "protocol/ProcedureReader.h"
 #include "protocol/StudyPlan.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 
@@ -81,8 +83,12 @@ class Collector {
     add("catch trials", catch_text(block));
     add("sides of the reference", std::string(name_of(block.sides)));
     add("moves a staircase down", std::string(name_of(block.positive_answer)));
-    for (const ReferenceStaircase& entry : block.staircases)
-      add(fmt::format("staircase {}", entry.staircase.name), described(entry.staircase));
+    for (const ReferenceStaircase& entry : block.staircases) {
+      const ProcedureConfig& procedure = entry.staircase;
+      if (const auto* config = std::get_if<UpDownConfig>(procedure.kind.get()))
+        add(fmt::format("staircase {}, start and steps", procedure.name), course_text(*config));
+      add(fmt::format("staircase {}", procedure.name), described(procedure));
+    }
   }
 
   std::vector<ProtocolChoice> choices;
@@ -94,6 +100,17 @@ class Collector {
     for (const auto& [reference_g, trials] : block.catch_trials)
       text += fmt::format("{}{} at {:g} g", text.empty() ? "" : ", ", trials, reference_g);
     return text + fmt::format(", one in every {} trials", block.catch_every);
+  }
+  static std::string course_text(const UpDownConfig& config) {
+    const std::string unit =
+        config.step_scale == StepScale::linear ? "g" : std::string(name_of(config.step_scale));
+    if (!config.steps.empty())
+      return fmt::format("from {:g} g, steps {:g} {}", config.start, fmt::join(config.steps, ", "),
+                         unit);
+    const std::string halved = config.halve_every > 0
+                                   ? fmt::format(", halved every {} reversals", config.halve_every)
+                                   : "";
+    return fmt::format("from {:g} g, steps {:g} {}{}", config.start, config.step, unit, halved);
   }
   static std::string input_text(const DriveInput& input) {
     return fmt::format("{}, {}", name_of(input.mode),
@@ -122,8 +139,13 @@ std::vector<std::string> changed_by(const Setup& setup) {
 class InForce {
  public:
   void add(const SessionData& data, const Protocol& protocol) {
+    const SessionHeader& header = data.session.header;
+    hashes_.insert(header.protocol_sha256);
+    seeds_.insert(fmt::format("{}", header.seed));
     for (const LoggedSetup& logged : data.setups) {
       const Setup& setup = logged.setup;
+      if (!setup.heft_version.empty())
+        programs_.insert(fmt::format("heft {}, {}", setup.heft_version, setup.build));
       // Older logs told what differed from the protocol.
       const std::string simulator =
           setup.simulator.empty() ? protocol.simulator.name : setup.simulator;
@@ -142,8 +164,15 @@ class InForce {
   }
 
   std::vector<ProtocolChoice> choices(const std::string& protocol) const {
-    std::vector<ProtocolChoice> choices{{protocol, "frames a second", joined(rates_)},
-                                        {protocol, "simulator", joined(simulators_)}};
+    constexpr std::size_t most_seeds = 3;
+    std::vector<ProtocolChoice> choices{{protocol, "SHA-256", joined(hashes_)}};
+    if (!programs_.empty()) choices.push_back({protocol, "program and build", joined(programs_)});
+    choices.push_back({protocol, "seeds of the sessions",
+                       seeds_.size() <= most_seeds
+                           ? joined(seeds_)
+                           : fmt::format("{} different ones, in the log", seeds_.size())});
+    choices.push_back({protocol, "frames a second", joined(rates_)});
+    choices.push_back({protocol, "simulator", joined(simulators_)});
     if (!settings_.empty()) choices.push_back({protocol, "changed by --set", joined(settings_)});
     if (!orders_.empty()) choices.push_back({protocol, "orders of blocks", joined(orders_)});
     return choices;
@@ -154,7 +183,7 @@ class InForce {
     return fmt::format("{}", fmt::join(texts, "; "));
   }
 
-  std::set<std::string> simulators_, rates_, settings_, orders_;
+  std::set<std::string> hashes_, seeds_, programs_, simulators_, rates_, settings_, orders_;
 };
 
 std::vector<std::string> changed_by(const SessionData& data) {

@@ -43,6 +43,27 @@ class Levels {
     for (double& place : places_) place = to_axis(place);
   }
 
+  /// Neighbors put together, at their mean, until there are no more than so many.
+  Levels coarser(std::size_t most) const {
+    Levels few = *this;
+    few.places_.clear();
+    few.n_.clear();
+    const std::size_t step = (size() + most - 1) / most;
+    for (std::size_t i = 0; i < size(); i += step) {
+      double sum = 0, n = 0;
+      std::array<double, 2> answers{};
+      for (std::size_t k = i; k < std::min(i + step, size()); ++k) {
+        const double n_here = n_[k][negative] + n_[k][positive];
+        sum += n_here * places_[k];
+        n += n_here;
+        for (const Answer answer : {negative, positive}) answers[answer] += n_[k][answer];
+      }
+      few.places_.push_back(sum / n);
+      few.n_.push_back(answers);
+    }
+    return few;
+  }
+
   std::size_t size() const { return n_.size(); }
   double place(std::size_t i) const { return places_[i]; }
   const std::array<double, 2>& n(std::size_t i) const { return n_[i]; }
@@ -148,6 +169,30 @@ std::vector<std::vector<Parameters>> starts(const Levels& levels,
   return all;
 }
 
+LikelihoodFit maximize(const Levels& levels, PsychometricShape shape,
+                       const std::vector<ParameterBounds>& bounds,
+                       const std::vector<std::vector<Parameters>>& from) {
+  return maximize_likelihood(
+      [&](const Parameters& at, Derivatives* derivatives) {
+        return log_likelihood(levels, shape, at, derivatives);
+      },
+      bounds, from);
+}
+
+// Of very many levels, the hills are told apart on fewer, which takes as long for each start as
+// there are levels. So many answers make one hill of it.
+LikelihoodFit maximize(const Levels& levels, PsychometricShape shape,
+                       const std::vector<ParameterBounds>& bounds) {
+  constexpr std::size_t many = 5000, few = 500;
+  if (levels.size() <= many) return maximize(levels, shape, bounds, starts(levels, bounds));
+  const Levels coarse = levels.coarser(few);
+  const LikelihoodFit near = maximize(coarse, shape, bounds, starts(coarse, bounds));
+  Parameters from(static_cast<Eigen::Index>(near.parameters.size()));
+  for (Eigen::Index i = 0; i < from.size(); ++i)
+    from[i] = near.parameters[static_cast<std::size_t>(i)].value;
+  return maximize(levels, shape, bounds, {{from}});
+}
+
 // Whether answers that can't be were given: at 0, which nobody sees.
 bool impossible(const AnswersByLevel& answers, const FitOptions& options) {
   const auto zero = answers.find(0);
@@ -233,11 +278,7 @@ Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options) {
     return fit;
   }
   const Levels levels(answers, options.function);
-  LikelihoodFit found = maximize_likelihood(
-      [&](const Parameters& at, Derivatives* derivatives) {
-        return log_likelihood(levels, options.function.shape, at, derivatives);
-      },
-      bounds, starts(levels, bounds));
+  LikelihoodFit found = maximize(levels, options.function.shape, bounds);
   const double flat = log_likelihood_of_flat(answers, bounds);
   const double step = log_likelihood_of_step(answers, options.function, found);
   if (step > found.log_likelihood - interval_drop) found.parameters[steepness].high = std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace heft {
 
@@ -51,13 +52,16 @@ std::map<std::pair<Compared, std::string>, std::vector<const Attempt*>> usable_c
 }
 
 std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions) {
-  std::map<Compared, std::vector<AnswersByLevel>> answers;
-  for (const auto& [key, attempts] : usable_comparisons(sessions))
-    answers[key.first].push_back(answers_by_side(attempts));
+  std::map<Compared, std::map<std::string, AnswersByLevel>> answers;
+  std::set<std::string> study;
+  for (const auto& [key, attempts] : usable_comparisons(sessions)) {
+    answers[key.first][key.second] = answers_by_side(attempts);
+    study.insert(key.second);
+  }
   const std::vector<StartEffect> effects = start_effects(sessions);
   std::vector<ReferenceSensitivity> all;
   for (const auto& [compared, people] : answers) {
-    ReferenceSensitivity one{compared, pooled_sensitivity(people), std::nullopt};
+    ReferenceSensitivity one{compared, pooled_sensitivity(people, study), std::nullopt};
     const auto effect = std::ranges::find(effects, compared, &StartEffect::compared);
     if (effect != effects.end()) one.start_effect = *effect;
     all.push_back(std::move(one));
@@ -72,8 +76,8 @@ Interval threshold_ratio_interval(const PooledSensitivity& first, const PooledSe
       std::min(first.sensitivity_samples.size(), second.sensitivity_samples.size());
   for (std::size_t i = 0; i < n; ++i)
     ratios.push_back(first.sensitivity_samples[i] / second.sensitivity_samples[i]);
-  return expanded_percentiles(ratios, static_cast<std::size_t>(std::min(first.n, second.n)),
-                              confidence);
+  return symmetric_interval(*first.sensitivity / *second.sensitivity, ratios,
+                            static_cast<std::size_t>(std::min(first.n, second.n)), confidence);
 }
 
 }  // namespace heft

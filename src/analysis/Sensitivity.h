@@ -32,8 +32,8 @@ std::map<std::pair<Compared, std::string>, std::vector<const Attempt*>> usable_c
 /// By reference, lightest first, and condition; participants' sessions together.
 std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions);
 
-/// The interval of the second threshold divided by the first, over samples of the same people.
-/// Both identifiable.
+/// The interval of the second threshold divided by the first, both identifiable and of one study:
+/// each bootstrap sample draws the same people at both.
 Interval threshold_ratio_interval(const PooledSensitivity& first, const PooledSensitivity& second,
                                   double confidence = confidence_level);
 

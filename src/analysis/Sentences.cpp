@@ -21,6 +21,14 @@ std::string percent(const Proportion& proportion) {
   return text;
 }
 
+// Chance is of answers: who doesn't know is neither right nor wrong.
+std::string answered(const ConditionSorting& sorting) {
+  std::string text = percent(sorting.answered_correct) + " of the answered trials in C1";
+  if (sorting.none.mean_percent.value_or(0) > 0)
+    text += fmt::format(" ({:.0f} % were \"I don't know\")", *sorting.none.mean_percent);
+  return text;
+}
+
 std::string who(const Summary& summary) {
   const std::string people = fmt::format("{} {}participant{}", summary.n_participants,
                                          summary.data == "simulated" ? "simulated " : "",
@@ -45,8 +53,8 @@ std::string sorting_sentence(const Summary& summary) {
   if (named(summary, "E1-H2").verdict == HypothesisVerdict::not_supported)
     worked = "C2 tells masses apart hardly or not at all (at most 10 points above chance)";
   return fmt::format(
-      "Sorting: {}; of {}, {} of trials were right in C2 and {} in C1, where chance is {:.0f} %{}.",
-      worked, who(summary), percent(c2.correct), percent(c1.correct),
+      "Sorting: {}; of {}, {} of trials were right in C2 and {}, where chance is {:.0f} %{}.",
+      worked, who(summary), percent(c2.correct), answered(c1),
       c2.chance_percent().value_or(c1.chance_percent().value_or(0)), blind);
 }
 

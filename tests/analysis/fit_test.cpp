@@ -192,6 +192,33 @@ TEST(IndecisionFit, SaysWhyThereIsNoThreshold) {
   EXPECT_THAT(why_no_choice({{0, {40, 40, 40}}, {100, {25, 40, 55}}}), HasSubstr("beyond twice"));
 }
 
+// 20 g apart, nothing is known of a threshold of hundreds of grams, whatever the reference weighs.
+TEST(IndecisionFit, AbsoluteMassesReachNoFartherThanTheirRange) {
+  const AnswersByLevel apart{{-10, {60, 40, 40}}, {10, {40, 40, 60}}};
+  AnswersByLevel masses;
+  for (const auto& [level_g, n] : apart) masses[level_g + 1000] = n;
+  EXPECT_THAT(why_no_choice(apart), HasSubstr("beyond twice the largest level"));
+  EXPECT_THAT(why_no_choice(masses), HasSubstr("beyond twice the range of levels"));
+}
+
+TEST(PsychometricFit, OfVeryManyLevelsIsThatOfTheSameAnswersOnFewer) {
+  AnswersByLevel many, few;
+  for (int i = 0; i < 6000; ++i) {
+    const double level = i % 60 - 30,
+                 share = standard_curve(PsychometricShape::cumulative_normal, level / 10).below;
+    const bool positive = i / 60 < 100 * share;
+    many[level + 1e-9 * (i / 60)][positive ? 1 : 0] += 1;
+    few[level][positive ? 1 : 0] += 1;
+  }
+  const Fit fine = fit_psychometric(many, {}), coarse = fit_psychometric(few, {});
+  ASSERT_EQ(fine.n_levels, 6000);
+  for (const char* name : {"threshold", "slope"}) {
+    EXPECT_NEAR(*fine.parameter(name).value, *coarse.parameter(name).value, 1e-5);
+    EXPECT_NEAR(*fine.parameter(name).low, *coarse.parameter(name).low, 1e-4);
+    EXPECT_NEAR(*fine.parameter(name).high, *coarse.parameter(name).high, 1e-4);
+  }
+}
+
 // R's ordinal::clm and SciPy find 0.003653: on the way there the indecision seems to go below 0.
 TEST(IndecisionFit, AnEndIsFoundWhereTheOthersTurnBack) {
   const Fit fit = fit_indecision({{-199.3, {1, 1, 0}},

@@ -36,6 +36,8 @@ TEST(HypothesisOfC1, IsSupportedByEquivalenceToChance) {
   const Summary summary = summarize({"x.db", c1_study(n_right, 6, 8)}, "");
   EXPECT_EQ(summary.hypotheses.at(0).verdict, HypothesisVerdict::supported);
   EXPECT_THAT(three_sentences(summary).at(0), HasSubstr("equivalent to chance (within 10 points)"));
+  EXPECT_THAT(three_sentences(summary).at(0),
+              HasSubstr("of the answered trials in C1 (25 % were \"I don't know\"), where"));
 }
 
 TEST(HypothesisOfC1, IsLeftOpenByFewData) {

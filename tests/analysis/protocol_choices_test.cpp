@@ -37,6 +37,8 @@ TEST(ProtocolChoices, name_what_the_paper_leaves_open) {
   EXPECT_EQ(value_of(choices, "between the experiments"), "a break of at least 60 s");
   EXPECT_EQ(value_of(choices, "staircase 15g"),
             "floor 0 g, ceiling 1500 g, step changes before_move, at most 60 trials");
+  EXPECT_EQ(value_of(choices, "staircase 15g, start and steps"),
+            "from 175 g, steps 50 g, halved every 2 reversals");
 }
 
 TEST(ProtocolChoices, name_constant_stimuli) {
@@ -65,7 +67,7 @@ TEST(ProtocolChoices, are_told_once_a_protocol_and_versions_are_told_apart) {
   changed.text += "\n# changed\n";
   changed.sha256 = "0123456789abcdef";
   const auto once = protocol_choices({session_of(quick), session_of(quick)});
-  EXPECT_EQ(once.size(), choices_in(quick).size() + 2);  // and what was in force
+  EXPECT_EQ(once.size(), choices_in(quick).size() + 4);  // and what was in force
   EXPECT_EQ(once.front().protocol, "quick");
   const auto both = protocol_choices({session_of(quick), session_of(changed)});
   EXPECT_EQ(both.size(), 2 * once.size());
@@ -77,6 +79,9 @@ TEST(ProtocolChoices, tell_what_was_in_force_in_any_of_the_sessions) {
   SessionData plain = session_of(quick), resumed = session_of(quick);
   LoggedSetup logged{1, 1, {}};
   plain.setups = {logged};  // as an older log: what does not differ from the protocol is not told
+  plain.session.header.seed = resumed.session.header.seed = 12;
+  logged.setup.heft_version = "0.2.0";
+  logged.setup.build = "Release 0123abc";
   logged.setup.simulator = "bullet";
   logged.setup.rate_hz = 500;
   logged.setup.display_rate_hz = 60;
@@ -89,6 +94,9 @@ TEST(ProtocolChoices, tell_what_was_in_force_in_any_of_the_sessions) {
                         quick.simulator.rate_hz));
   EXPECT_EQ(value_of(choices, "frames a second"),
             fmt::format("{:g}; 60, of a source that gives 30", quick.display_rate_hz));
+  EXPECT_EQ(value_of(choices, "program and build"), "heft 0.2.0, Release 0123abc");
+  EXPECT_EQ(value_of(choices, "seeds of the sessions"), "12");
+  EXPECT_EQ(value_of(choices, "SHA-256"), quick.sha256);
   EXPECT_EQ(value_of(choices, "changed by --set"), "coupling.stiffness_n_per_m=25");
 }
 

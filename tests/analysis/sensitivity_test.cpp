@@ -43,7 +43,7 @@ PooledCoverage pooled_coverage(int n_people, const Population& population,
     std::vector<Chooser> people;
     const auto rows = sensitivities_of(study(n_people, population, {design}, stream, &people));
     for (std::size_t k = 0; k < people.size(); ++k) {
-      const OwnSensitivity& own = rows.at(0).pooled.people.at(k);
+      const OwnSensitivity& own = rows.at(0).pooled.people.at(std::to_string(100 + k));
       found.own.add(Interval{own.low.value_or(-1e9), own.high.value_or(1e9)},
                     people[k].sensitivity_per_g);
     }
@@ -129,7 +129,8 @@ TEST(Sensitivity, HasAboveAndBelowApart) {
 TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
   PooledSensitivity light, heavy, heaviest;
   light.n = heavy.n = heaviest.n = 13;
-  light.sensitivity = heavy.sensitivity = heaviest.sensitivity = 1;
+  light.sensitivity = std::exp(1);
+  heavy.sensitivity = heaviest.sensitivity = 1;
   light.threshold_75_g = heavy.threshold_75_g = heaviest.threshold_75_g = z_75;
   for (int i = 0; i < 2000; ++i) {
     light.sensitivity_samples.push_back(std::exp(2.0 * i / 2000));
@@ -152,11 +153,13 @@ TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
 }
 
 TEST(CoverageOf, Sensitivities) {
-  const int studies = n_studies(40);
+  const int studies = n_studies(20);
   for (const auto& [n_people, population, reference_g] :
        {std::tuple{13, Population{150, 0}, 200.0}, std::tuple{13, Population{150}, 200.0},
         std::tuple{13, Population{150, 0.3, 0.4}, 200.0}, std::tuple{13, Population{50}, 15.0},
-        std::tuple{13, Population{600}, 800.0}, std::tuple{40, Population{150}, 200.0}}) {
+        std::tuple{13, Population{600}, 800.0}, std::tuple{40, Population{150}, 200.0},
+        std::tuple{13, Population{150, 0.3, 2}, 200.0},
+        std::tuple{40, Population{150, 0.3, 2}, 200.0}}) {
     const auto [threshold, indecision, own] =
         pooled_coverage(n_people, population, recommended_at(reference_g), studies);
     std::cout << n_people << " people, threshold " << population.threshold_75_g << " g, spread "
@@ -170,6 +173,60 @@ TEST(CoverageOf, Sensitivities) {
     EXPECT_GE(own.percent(), 92 - by_chance_percent(own.n_given()));
     EXPECT_LE(own.percent(), 98 + by_chance_percent(own.n_given()));
   }
+}
+
+// At one reference 150 g, at the other 600 g, of people who keep their sensitivity or don't.
+TEST(CoverageOf, ThresholdRatios) {
+  const int studies = n_studies(20);
+  for (const bool same : {false, true})
+    for (const double indecision : {1.0, 2.0}) {
+      RandomStream stream(19, "ratios", same ? 1 : 0);
+      Coverage found;
+      for (int i = 0; i < studies; ++i) {
+        std::vector<SessionData> sessions;
+        for (int k = 0; k < 13; ++k) {
+          sessions.push_back(session(k + 1, std::to_string(100 + k)));
+          const Chooser light = Population{150, 0.3, indecision}.draw(stream);
+          Chooser heavy = Population{600, 0.3, indecision}.draw(stream);
+          if (same) heavy = {light.sensitivity_per_g / 4, light.indecision, light.side_bias};
+          compare(sessions.back(), light, recommended_at(200), stream);
+          compare(sessions.back(), heavy, recommended_at(800), stream);
+        }
+        const auto rows = sensitivities_of(sessions);
+        if (rows.at(0).pooled.identifiable() && rows.at(1).pooled.identifiable())
+          found.add(threshold_ratio_interval(rows[0].pooled, rows[1].pooled), 4);
+      }
+      std::cout << "ratio of thresholds of " << (same ? "the same" : "independent")
+                << " sensitivities, indecision " << indecision << ": " << found.percent()
+                << " % of " << found.n_given() << "\n";
+      expect_95(found, studies);
+    }
+}
+
+// Who is missing at one reference is drawn at the other, and nobody stands for another.
+TEST(Sensitivity, ARatioIsOfTheSamePeopleWhoeverIsMissing) {
+  RandomStream stream(41, "missing");
+  std::vector<SessionData> all, missing, strangers;
+  for (int i = 0; i < 12; ++i) {
+    // People who differ much, and are the same at both references.
+    const Chooser one{0.0045 * std::exp(i % 2 == 0 ? 0.8 : -0.8), 1, 0};
+    SessionData at_first = session(i + 1, std::to_string(100 + i));
+    SessionData at_second = session(i + 1, std::to_string(200 + i));
+    for (int k = 0; k < 4; ++k) compare(at_first, one, recommended_at(200), stream);
+    SessionData at_both = at_first;
+    for (int k = 0; k < 4; ++k) compare(at_both, one, recommended_at(201), stream);
+    for (int k = 0; k < 4; ++k) compare(at_second, one, recommended_at(201), stream);
+    all.push_back(at_both);
+    missing.push_back(i == 0 ? at_first : at_both);
+    strangers.insert(strangers.end(), {at_first, at_second});
+  }
+  const auto width = [](const std::vector<SessionData>& sessions) {
+    const auto rows = sensitivities_of(sessions);
+    const Interval ratio = threshold_ratio_interval(rows.at(0).pooled, rows.at(1).pooled);
+    return std::log(ratio.high / ratio.low);
+  };
+  EXPECT_LT(width(missing), 2 * width(all));
+  EXPECT_GT(width(strangers), 2 * width(missing));
 }
 
 // What a study of ever more people would find: above minus below, of those whose staircases end

@@ -1,0 +1,188 @@
+#include "analysis/Likelihood.h"
+
+#include <nlopt.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace heft {
+
+std::vector<Eigen::Index> Likelihood::free(Eigen::Index held) const {
+  std::vector<Eigen::Index> all;
+  for (Eigen::Index i = 0; i < n_; ++i)
+    if (i != held && !bounds(i).fixed()) all.push_back(i);
+  return all;
+}
+
+double Likelihood::objective(unsigned n, const double* free_values, double* free_gradient,
+                             void* self) {
+  auto& likelihood = *static_cast<Likelihood*>(self);
+  for (unsigned k = 0; k < n; ++k) likelihood.at_[likelihood.free_[k]] = free_values[k];
+  const double value = likelihood.function_(likelihood.at_, &likelihood.derivatives_);
+  if (value > likelihood.best_.log_likelihood) likelihood.best_ = {likelihood.at_, value};
+  for (unsigned k = 0; free_gradient != nullptr && k < n; ++k)
+    free_gradient[k] = likelihood.derivatives_.gradient[likelihood.free_[k]];
+  return value;
+}
+
+Parameters Likelihood::within_bounds(Parameters at) const {
+  for (Eigen::Index i = 0; i < n_; ++i) at[i] = std::clamp(at[i], bounds(i).low, bounds(i).high);
+  return at;
+}
+
+// Whether no bound stops a parameter.
+bool Likelihood::can_climb_along(Eigen::Index i, const Parameters& at) const {
+  const double slope = derivatives_.gradient[i];
+  return (at[i] > bounds(i).low || slope > 0) && (at[i] < bounds(i).high || slope < 0);
+}
+
+// Newton's. Where the likelihood bends upwards it goes as far as if it bent down as much, so that
+// it always leads uphill. What can't move is taken out of the equations.
+Parameters Likelihood::step_against(const Parameters& slope, const Parameters& at,
+                                    Eigen::Index held) const {
+  Parameters step = slope;
+  Curvature bend = -derivatives_.hessian;
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    if (i != held && can_climb_along(i, at)) continue;
+    step[i] = 0;
+    bend.row(i).setZero();
+    bend.col(i).setZero();
+    bend(i, i) = 1;
+  }
+  if (!bend.allFinite()) return step;
+  if (const Eigen::LLT<Curvature> factor(bend); factor.info() == Eigen::Success) {
+    factor.solveInPlace(step);
+    return step;
+  }
+  const Eigen::SelfAdjointEigenSolver<Curvature> solver(bend);
+  const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
+  Parameters along = solver.eigenvectors().transpose() * step;
+  for (Eigen::Index i = 0; i < n_; ++i)
+    along[i] /= std::max(std::abs(solver.eigenvalues()[i]), 1e-8 * largest);
+  return solver.eigenvectors() * along;
+}
+
+bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held) {
+  best.log_likelihood = function_(best.at, &derivatives_);
+  // What is still to be gained, and where there are very many trials, what its digits can tell.
+  const double of_digits = std::abs(best.log_likelihood) * std::numeric_limits<double>::epsilon();
+  const double good_enough = std::max(held < 0 ? 1e-13 : 1e-10, of_digits);
+  for (int i = 0; i < 100; ++i) {
+    const Parameters step = step_against(derivatives_.gradient, best.at, held);
+    const double to_gain = step.dot(derivatives_.gradient);
+    if (!std::isfinite(to_gain)) return false;
+    if (to_gain <= good_enough) return true;
+    Maximum there = nothing();
+    for (double length = 1; length > 1e-9 && !(there.log_likelihood > best.log_likelihood);
+         length /= 2) {
+      there.at = within_bounds(best.at + length * step);
+      there.log_likelihood = function_(there.at, &derivatives_);
+    }
+    if (!(there.log_likelihood > best.log_likelihood))
+      return to_gain < std::max(1e-9, 500 * of_digits);  // no digits left
+    best = there;
+  }
+  return false;
+}
+
+Maximum Likelihood::climb(Parameters from, Eigen::Index held) {
+  Maximum best{within_bounds(std::move(from)), 0};
+  return climb_by_newton(best, held) ? best : climb_by_nlopt(best, held);
+}
+
+// Sequential quadratic programming (Kraft 1994). It may stop for lack of digits, even at no number:
+// what counts is the best that it tried.
+Maximum Likelihood::climb_by_nlopt(Maximum from, Eigen::Index held) {
+  at_ = from.at;
+  best_ = from;
+  free_ = free(held);
+  if (free_.empty()) return best_;
+  std::vector<double> values, low, high;
+  for (const Eigen::Index i : free_) {
+    values.push_back(at_[i]);
+    low.push_back(bounds(i).low);
+    high.push_back(bounds(i).high);
+  }
+  const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> search(
+      nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(free_.size())), nlopt_destroy);
+  nlopt_set_lower_bounds(search.get(), low.data());
+  nlopt_set_upper_bounds(search.get(), high.data());
+  nlopt_set_max_objective(search.get(), objective, this);
+  nlopt_set_ftol_abs(search.get(), 1e-12);
+  nlopt_set_maxeval(search.get(), 500);
+  double reached = 0;
+  nlopt_optimize(search.get(), values.data(), &reached);
+  return best_;
+}
+
+Maximum Likelihood::maximum() {
+  Maximum best = nothing();
+  for (const std::vector<Parameters>& group : starts_) {
+    Maximum start = nothing();
+    for (const Parameters& at : group) start = likelier(start, {at, value(at)});
+    best = likelier(best, climb(start.at));
+  }
+  return best;
+}
+
+Maximum Likelihood::profile(Eigen::Index held, double held_value, Parameters from) {
+  from[held] = held_value;
+  return climb(std::move(from), held);
+}
+
+Maximum Likelihood::profile(Eigen::Index held, double held_value, Parameters from,
+                            Parameters or_from) {
+  const Maximum first = profile(held, held_value, std::move(from));
+  return likelier(first, profile(held, held_value, std::move(or_from)));
+}
+
+Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value) {
+  Maximum best = nothing();
+  if (starts_.size() == 1) return best;  // one hill, and that is known
+  for (const std::vector<Parameters>& group : starts_)
+    for (Parameters start : group) {
+      start[held] = held_value;
+      start = within_bounds(std::move(start));
+      best = likelier(best, {start, value(start)});
+    }
+  return climb(best.at, held);
+}
+
+// From the observed information. 0 where there is none.
+constexpr double singular = 1e-7;  // of its eigenvalues, where each parameter has the same scale
+
+Parameters Likelihood::standard_errors(const Parameters& at) {
+  std::vector<Eigen::Index> inside;
+  for (const Eigen::Index i : free(-1)) {
+    const double at_bound = 1e-5 * std::max(1.0, std::abs(at[i]));
+    if (at[i] - at_bound >= bounds(i).low && at[i] + at_bound <= bounds(i).high)
+      inside.push_back(i);
+  }
+  const auto n = static_cast<Eigen::Index>(inside.size());
+  function_(at, &derivatives_);
+  const Curvature information = -derivatives_.hessian(inside, inside);
+  Parameters errors = Parameters::Zero(at.size());
+  if (n == 0 || !information.allFinite() || !(information.diagonal().minCoeff() > 0)) return errors;
+  const Parameters scale = information.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Curvature> solver(scale.asDiagonal() * information *
+                                                        scale.asDiagonal());
+  const Parameters& values = solver.eigenvalues();
+  if (!(values[0] > singular * values[n - 1])) return errors;
+  const Curvature inverse = solver.eigenvectors() * values.cwiseInverse().asDiagonal() *
+                            solver.eigenvectors().transpose();
+  errors(inside) = inverse.diagonal().cwiseSqrt().cwiseProduct(scale);
+  return errors;
+}
+
+Parameters Likelihood::tangent(const Parameters& maximum, Eigen::Index along) {
+  function_(maximum, &derivatives_);
+  Parameters change = step_against(derivatives_.hessian.col(along), maximum, along);
+  if (!change.allFinite()) change.setZero();
+  change[along] = 1;
+  return change;
+}
+
+}  // namespace heft

@@ -1,0 +1,75 @@
+// A log likelihood as a landscape: its maxima, with one parameter held or none. What
+// MaximumLikelihood.h and its intervals are made with.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "analysis/MaximumLikelihood.h"
+
+namespace heft {
+
+using Starts = std::vector<std::vector<Parameters>>;
+
+struct Maximum {
+  Parameters at;
+  double log_likelihood = 0;
+};
+
+inline const Maximum& likelier(const Maximum& first, const Maximum& second) {
+  return second.log_likelihood > first.log_likelihood ? second : first;
+}
+
+/// A log likelihood within bounds, and the ways up on it. What it refers to must outlive it.
+class Likelihood {
+ public:
+  Likelihood(const LogLikelihood& function, const std::vector<ParameterBounds>& bounds,
+             const Starts& starts)
+      : function_(function),
+        bounds_(bounds),
+        starts_(starts),
+        n_(static_cast<Eigen::Index>(bounds.size())),
+        derivatives_{Parameters(n_), Curvature(n_, n_)} {}
+
+  double value(const Parameters& at) const { return function_(at, nullptr); }
+  const ParameterBounds& bounds(Eigen::Index i) const {
+    return bounds_[static_cast<std::size_t>(i)];
+  }
+
+  Maximum maximum();
+  /// To the nearest maximum; one parameter may be held.
+  Maximum climb(Parameters from, Eigen::Index held = -1);
+  /// With one parameter held. @param from where to start for the others
+  Maximum profile(Eigen::Index held, double held_value, Parameters from);
+  /// The likelier of where two starts lead.
+  Maximum profile(Eigen::Index held, double held_value, Parameters from, Parameters or_from);
+  Maximum profile_from_anywhere(Eigen::Index held, double held_value);
+  Parameters standard_errors(const Parameters& at);
+  /// How the likeliest others move with one parameter, next to a maximum.
+  Parameters tangent(const Parameters& maximum, Eigen::Index along);
+
+ private:
+  /// @return whether it got there
+  bool climb_by_newton(Maximum& from, Eigen::Index held);
+  Maximum climb_by_nlopt(Maximum from, Eigen::Index held);
+  Parameters step_against(const Parameters& slope, const Parameters& at, Eigen::Index held) const;
+  bool can_climb_along(Eigen::Index i, const Parameters& at) const;
+  Parameters within_bounds(Parameters at) const;
+  Maximum nothing() const { return {starts_[0][0], -std::numeric_limits<double>::infinity()}; }
+  std::vector<Eigen::Index> free(Eigen::Index held) const;
+  static double objective(unsigned n, const double* free_values, double* free_gradient, void* self);
+
+  const LogLikelihood& function_;
+  const std::vector<ParameterBounds>& bounds_;
+  const Starts& starts_;
+  Eigen::Index n_;
+  Derivatives derivatives_;
+  // What NLopt's search is at; its objective only sees what is free.
+  Parameters at_;
+  Maximum best_;
+  std::vector<Eigen::Index> free_;
+};
+
+}  // namespace heft

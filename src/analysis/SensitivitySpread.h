@@ -1,0 +1,56 @@
+// How the sensitivities of people who see something are spread, together with their criteria: see
+// PooledSensitivity.h.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "analysis/CriteriaFit.h"
+#include "analysis/SensitivityGrid.h"
+
+namespace heft {
+
+/// How sensitivities are spread between people: their logarithm is normal.
+struct Spectrum {
+  double mean_log = 0, sd_log = 0.3;
+};
+
+/// The likelihood of each person's sensitivities above none, as a density over their logarithm.
+class PositiveSensitivities {
+ public:
+  /// @param people log likelihoods; of places that aren't above none any
+  explicit PositiveSensitivities(std::span<const OnGrid> people);
+
+  /// By person: log likelihoods of medians on the grid, where people are spread so much. What is
+  /// not above none can't be.
+  std::vector<OnGrid> of_medians(double sd_log) const;
+  /// By the EM algorithm.
+  Spectrum fit(Spectrum from, int n_steps) const;
+  /// By person: how likely each place above none is, the first being the one after it. Sums to 1.
+  std::vector<std::vector<double>> posteriors(const Spectrum& spectrum) const;
+
+ private:
+  static constexpr std::size_t n_places = n_grid - no_sensitivity - 1;
+  using OnPlaces = std::array<double, n_places>;
+
+  double width(std::size_t i) const;
+  OnPlaces density_of(const Spectrum& spectrum) const;
+
+  OnPlaces logs_{};
+  std::vector<OnPlaces> densities_;
+};
+
+/// People's log likelihoods by sensitivity where both sensitivities and criteria differ between
+/// them, each on their own: with one that all have in common, the criteria would have to make up
+/// for the differences, and the median came out 5 % too large at an indecision of 2 SD.
+struct SpreadSensitivities {
+  std::vector<OnGrid> log_likelihood;  ///< only above none
+  Spectrum spectrum;
+};
+
+/// By the EM algorithm.
+/// @param people their criteria are where to begin
+/// @param place where they are together most likely
+SpreadSensitivities spread_sensitivities(std::vector<PersonAnswers> people, double place);
+
+}  // namespace heft
