@@ -262,14 +262,15 @@ void study_input(const StudyOptions& options) {
                        "set xtics rotate by 45 right font ',10' ({})\n"
                        "set arrow 1 from 3.5, graph 0 to 3.5, graph 1 nohead linecolor '#cccccc'\n"
                        "set arrow 2 from 7.5, graph 0 to 7.5, graph 1 nohead linecolor '#cccccc'\n"
-                       "set key at screen 0.985, screen 1-50*pixel right top horizontal font ',12' "
+                       "set key at screen 0.985, screen 1-12*pixel right top horizontal font ',12' "
                        "samplen 1\n"
-                       "set multiplot layout 1,4 margins screen 0.05, screen 0.985, screen "
-                       "caption_top + 120*pixel, screen 1-95*pixel spacing screen 0.06\n"
+                       "set multiplot layout 1,4 margins screen 0.065, screen 0.985, screen "
+                       "caption_top + 120*pixel, screen 1-95*pixel spacing screen 0.07\n"
                        "set ylabel 'error of the clone (mm RMS)'\nset yrange [0.001:20]\n",
                        tics) +
            panel("air", "free air, over video: at the picture''s time") +
-           "unset key\nset yrange [0.005:20]\n" + panel("picture", "a cube, over video") +
+           "unset key\nunset label\nset yrange [0.005:20]\n" +
+           panel("picture", "a cube, over video") +
            panel("present", "a cube, see-through: at the present") +
            "set ylabel 'fastest cube (m/s)'\nset yrange [0.1:10]\n" +
            panel("kick", "C1: how a cube is kicked (hand: 0.16 m/s)") + "unset multiplot\n");
