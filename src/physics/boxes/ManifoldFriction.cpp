@@ -49,11 +49,11 @@ double Manifold::stick(const Six& moving, Six& change) {
 
 // Friction at its limit would turn the slip at the start, s0, into one backwards, s, beyond the
 // end. A slip that changes steadily from s0 is s on the way, after (1 - mean weight / 2) of the
-// step.
+// step. What stuck before has stopped: what is left of its slip dies out, see BoxWorld.h.
 std::optional<double> Manifold::fraction_before_stop() const {
   const Vector3d& slip = at_start_.tangential;
   const double speed_m_s = slip.head<2>().norm();
-  if (!sticks_ || speed_m_s < least_slip_m_s) return std::nullopt;
+  if (stuck_ || !sticks_ || speed_m_s < least_slip_m_s) return std::nullopt;
   const Vector3d friction_n_s = tangential_sum(impulses_);
   const double mass_kg = slip.dot(tangential_mass_ * slip) / slip.squaredNorm();
   const double spare_n_s =
