@@ -122,7 +122,6 @@ class Manifold {
   double stick(const Six& moving, Six& change);
   bool share_friction(const Eigen::Vector3d& more);
   double slip(const Eigen::Vector3d& slips, Six& change);
-  double slip_straight(const Eigen::Vector3d& slips, Six& change);
 
   Body* first_ = nullptr;
   Body* second_ = nullptr;
