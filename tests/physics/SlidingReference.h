@@ -41,7 +41,7 @@ class SlidingReference {
     hand_ = turned(hand.position_m);
   }
 
-  /// The hand goes straight to this pose; dt_s is cut into steps of 4 us.
+  /// The hand goes straight to this pose; dt_s is cut into steps of 2 us.
   void advance(const Pose& hand, double dt_s) {
     const int n = static_cast<int>(std::ceil(dt_s / step_s));
     const Vec velocity = (turned(hand.position_m) - hand_) / dt_s;
@@ -56,7 +56,7 @@ class SlidingReference {
   }
 
  private:
-  static constexpr double step_s = 4e-6, wall_n_per_m = 1e6, wall_damping_ratio = 4;
+  static constexpr double step_s = 2e-6, wall_n_per_m = 1e7, wall_damping_ratio = 2;
   static constexpr int n_sweeps = 3;
 
   struct Body {

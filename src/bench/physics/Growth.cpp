@@ -63,7 +63,7 @@ void study_growth(const StudyOptions& options) {
            data +
            "set logscale xy\nset format y '%g'\nset xtics (1, 2, 4, 8, 16, 32, 64)\n"
            "set xlabel 'cubes'\nset ylabel 'a step (\u00b5s)'\nset key top left font ',11'\n"
-           "set tmargin at screen 1-50*pixel\nset bmargin at screen caption_top + 62*pixel\n" +
+           "set tmargin at screen 1-50*pixel\nset bmargin at screen caption_top + 72*pixel\n" +
            plot + "NaN notitle\n");
 }
 

@@ -103,7 +103,7 @@ void chart(const StudyOptions& options, const std::map<Key, Runs>& all) {
           "'{1}' title '{2}', $block{0} using 1:2 with lines linewidth 1 linecolor '{1}' notitle",
           block++, color_of(simulator), simulator);
     }
-    plots += "\n";
+    plots += "\nunset label\n";  // or each panel draws title and caption again
   }
   const std::string caption = fmt::format(
       "Random scenes with one answer: minimum-jerk strokes that sway, tremble and turn, seen at 15 "
@@ -112,12 +112,12 @@ void chart(const StudyOptions& options, const std::map<Key, Runs>& all) {
       "what auto tolerates. Truth: boxes at {} Hz. {}",
       16 * reference_rate_hz, provenance(options));
   draw(options, "hands",
-       gnuplot_header({"hands.svg", 1240, 420, "Hands as they are: error against rate", caption}) +
+       gnuplot_header({"hands.svg", 1300, 440, "Hands as they are: error against rate", caption}) +
            data +
            "set logscale xy\nset format y '%g'\nset xtics (15, 60, 240, 960)\n"
            "set xlabel 'steps a second'\nset key bottom left font ',10'\n"
-           "set multiplot layout 1,4 margins screen 0.05, screen 0.985, screen caption_top + "
-           "60*pixel, screen 1-80*pixel spacing screen 0.05\n" +
+           "set multiplot layout 1,4 margins screen 0.065, screen 0.985, screen caption_top + "
+           "72*pixel, screen 1-80*pixel spacing screen 0.065\n" +
            plots + "unset multiplot\n");
 }
 }  // namespace

@@ -17,7 +17,7 @@ namespace heft {
 
 namespace {
 constexpr const char* simulator_name = "boxes";
-constexpr int physics_rate_hz = 240;
+constexpr int physics_rate_hz = 240, width_px = 1400;
 constexpr double duration_s = 4;
 
 // What a camera does to the hand's motion.
@@ -204,12 +204,25 @@ std::string dots_of(const Dots& dots, const char* panel) {
   return script;
 }
 
+// Under the title, each word in its color.
+std::string legend() {
+  std::string script;
+  int x_px = 90;
+  for (InputMode mode : all_modes) {
+    script += fmt::format(
+        "set label '\u25cf {}' at screen {}, screen 1-44*pixel font ',12' textcolor '{}'\n",
+        name_of(mode), x_px / static_cast<double>(width_px), color_of(mode));
+    x_px += 110;
+  }
+  return script;
+}
+
 std::string panel(const char* name, const char* title) {
   std::string script = fmt::format("set title '{}' font ',13'\nplot ", title);
   for (InputMode mode : all_modes)
     script += fmt::format(
-        "${0}_{1} using 1:2 with points pointtype 7 pointsize 1 linecolor '{2}' title '{1}', ",
-        name, name_of(mode), color_of(mode));
+        "${0}_{1} using 1:2 with points pointtype 7 pointsize 1 linecolor '{2}' notitle, ", name,
+        name_of(mode), color_of(mode));
   return script + "NaN notitle\n";
 }
 }  // namespace
@@ -253,23 +266,22 @@ void study_input(const StudyOptions& options) {
       "extrapolate: on along the last two. " +
       provenance(options);
   draw(options, "input",
-       gnuplot_header({"input.svg", 1400, 640,
+       gnuplot_header({"input.svg", width_px, 640,
                        "From camera poses to a target: what each way of filling the gaps costs",
                        caption}) +
-           dots_of(in_air, "air") + dots_of(at_picture, "picture") +
+           legend() + dots_of(in_air, "air") + dots_of(at_picture, "picture") +
            dots_of(at_present, "present") + dots_of(kicks, "kick") +
            fmt::format("set logscale y\nset format y '%g'\nset xrange [-0.6:11.6]\n"
                        "set xtics rotate by 45 right font ',10' ({})\n"
                        "set arrow 1 from 3.5, graph 0 to 3.5, graph 1 nohead linecolor '#cccccc'\n"
                        "set arrow 2 from 7.5, graph 0 to 7.5, graph 1 nohead linecolor '#cccccc'\n"
-                       "set key at screen 0.985, screen 1-50*pixel right top horizontal font ',12' "
-                       "samplen 1\n"
-                       "set multiplot layout 1,4 margins screen 0.05, screen 0.985, screen "
-                       "caption_top + 120*pixel, screen 1-95*pixel spacing screen 0.06\n"
+                       "unset key\n"
+                       "set multiplot layout 1,4 margins screen 0.065, screen 0.985, screen "
+                       "caption_top + 120*pixel, screen 1-95*pixel spacing screen 0.07\n"
                        "set ylabel 'error of the clone (mm RMS)'\nset yrange [0.001:20]\n",
                        tics) +
            panel("air", "free air, over video: at the picture''s time") +
-           "unset key\nset yrange [0.005:20]\n" + panel("picture", "a cube, over video") +
+           "unset label\nset yrange [0.005:20]\n" + panel("picture", "a cube, over video") +
            panel("present", "a cube, see-through: at the present") +
            "set ylabel 'fastest cube (m/s)'\nset yrange [0.1:10]\n" +
            panel("kick", "C1: how a cube is kicked (hand: 0.16 m/s)") + "unset multiplot\n");

@@ -135,7 +135,7 @@ void study_lag(const StudyOptions& options) {
                        caption}) +
            data + labels +
            "unset key\nset tmargin at screen 1-56*pixel\nset bmargin at screen caption_top + "
-           "62*pixel\nset xrange [0:1540]\nset yrange [-3:125]\nset xlabel 'mass of the cube (g)'\n"
+           "72*pixel\nset xrange [0:1540]\nset yrange [-3:125]\nset xlabel 'mass of the cube (g)'\n"
            "set ylabel 'clone behind the hand at the end (mm)'\n" +
            plot + "\n");
 }

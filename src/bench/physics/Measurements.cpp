@@ -22,14 +22,20 @@ std::vector<int> rates_to_measure(bool quick) {
 
 Measurement measure_one(const SimulatorEntry& simulator, const BenchScene& scene, int rate_hz,
                         const SceneTrack& reference, bool quick) {
-  Measurement one{
-      std::string(simulator.name), rate_hz, scene, Fate::ran, "", {}, nothing, nothing, nothing};
+  Measurement one;
+  one.simulator = simulator.name;
+  one.rate_hz = rate_hz;
+  one.scene = scene;
+  one.cpu_us_per_s = nothing;
   const SceneRun run = run_scene(simulator.make(), scene, rate_hz, rate_hz);
   one.fate = run.fate;
   one.why = run.why;
   one.unsettled_per_s = static_cast<double>(run.n_unsettled) / scene.duration_s();
   one.hits_per_s = static_cast<double>(run.n_hits) / scene.duration_s();
-  if (run.fate == Fate::ran) one.error = error_of(run.track, reference, scene);
+  if (run.fate == Fate::ran) {
+    one.error = error_of(run.track, reference, scene);
+    one.energy = energy_balance(run.track, scene);
+  }
   if (run.fate != Fate::outside_model)
     one.cpu_us_per_s = cpu_us_per_s(simulator, scene, rate_hz, quick ? 0 : 0.01);
   return one;
@@ -74,7 +80,7 @@ void write_tables(const StudyOptions& options, const Measurements& measurements)
   CsvFile csv(options, "work_precision.csv",
               "simulator,rate_hz,scene,scene_class,unique_if_rigid,fate,clone_rms_mm,clone_max_mm,"
               "clone_turn_rms_deg,cubes_rms_mm,lag_error_g,cpu_us_per_simulated_s,unsettled_per_s,"
-              "hits_per_s");
+              "hits_per_s,hand_work_mj,energy_left_mj");
   for (const Measurement& one : measurements.all) {
     const auto known = [&](double value) { return one.fate == Fate::ran ? value : nothing; };
     csv.row(one.simulator, one.rate_hz, one.scene.name, name_of(one.scene.kind),
@@ -82,7 +88,8 @@ void write_tables(const StudyOptions& options, const Measurements& measurements)
             known(one.error.clone_rms_mm), known(one.error.clone_max_mm),
             known(one.error.clone_turn_rms_deg), known(one.error.cubes_rms_mm),
             known(one.error.lag_error_g), one.cpu_us_per_s, known(one.unsettled_per_s),
-            known(one.hits_per_s));
+            known(one.hits_per_s), one.energy ? 1e3 * one.energy->hand_work_j : nothing,
+            one.energy ? 1e3 * one.energy->left_j() : nothing);
   }
   write_references(options, measurements);
 }

@@ -2,11 +2,13 @@
 // chart of error against CPU time come from these.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bench/StudyFiles.h"
+#include "bench/physics/EnergyBalance.h"
 #include "bench/physics/Reference.h"
 
 namespace heft {
@@ -20,6 +22,7 @@ struct Measurement {
   TrackError error;
   double cpu_us_per_s = 0;  ///< of one core, per simulated second
   double unsettled_per_s = 0, hits_per_s = 0;
+  std::optional<EnergyBalance> energy;
 };
 
 struct Measurements {

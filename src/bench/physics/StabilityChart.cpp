@@ -103,7 +103,8 @@ std::string panel(const std::vector<StabilityCell>& cells, const std::string& si
   }
   return script + fmt::format(
                       "set title {} font ',14'\nset xlabel '{}' font ',12'\nset xtics ({}) font "
-                      "',11'\nset ytics ({}) font ',11'\nset ylabel {} font ',14' offset -1.5,0\n"
+                      "',11'\nset ytics ({}) font ',11'\nset label 400 {} at screen 0.012, graph "
+                      "0.5 font ',14'\n"
                       "plot [-0.6:{}] [-0.6:{}] NaN notitle\n",
                       gnuplot_quoted(place.top ? axis_of(varied) : ""),
                       place.bottom ? "steps a second" : "", tics(rates, !place.bottom),
@@ -122,7 +123,7 @@ std::string legend() {
         "set label {0} '\u25a0' at screen {1}, screen 1-50*pixel font ',24' textcolor '{2}'\n"
         "set label {3} {4} at screen {5}, screen 1-50*pixel font ',14'\n",
         200 + i, x, look.color, 300 + i, gnuplot_quoted(look.words), x + 0.02);
-    x += 0.132;
+    x += 0.045 + 0.0063 * static_cast<double>(std::string_view(look.words).size());
   }
   return script;
 }
@@ -142,16 +143,15 @@ void draw_stability(const StudyOptions& options, const std::vector<StabilityCell
       legend() +
       fmt::format(
           "unset grid\nunset key\nset tics scale 0.3\n"
-          "set multiplot layout {},4 margins screen 0.13, screen 0.985, screen caption_top + "
-          "62*pixel, screen 1-110*pixel spacing screen 0.06, screen 18*pixel\n",
+          "set multiplot layout {},4 margins screen 0.215, screen 0.985, screen caption_top + "
+          "62*pixel, screen 1-110*pixel spacing screen 0.055, screen 18*pixel\n",
           names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (Varied varied : all_varied) {
       const bool left = varied == all_varied.front();
       script +=
           panel(cells, names[i], varied, {i == 0, i + 1 == names.size(), left}, options.quick);
-      for (int tag = 200; i == 0 && left && tag < 307; ++tag)
-        if (tag < 207 || tag >= 300) script += fmt::format("unset label {}\n", tag);
+      script += "unset label\n";  // each panel would draw title, legend and caption again
     }
   }
   draw(options, "stability", script + "unset multiplot\n");

@@ -46,6 +46,7 @@ void Manifold::prepare(const Contact& contact, Body& first, Body& second,
   first_seen_ = first.pose;
   second_seen_ = second.pose;
   take_points(contact);
+  sticks_ = sticks_ && n_ > 0;
   first_per_kg_ = -1;  // new
 }
 
@@ -112,6 +113,7 @@ void Manifold::take_frame(const Contact& contact) {
 void Manifold::start() {
   gaps_m_ = prepared_gaps_m_.array() + normal_.dot(moved_m());
   at_start_ = moving(first_->velocity, second_->velocity);
+  stuck_ = sticks_;
   touching_ = 0;
   closing_at_start_m_s_ = 0;
   const Points speeds = levers_ * at_start_.normal;

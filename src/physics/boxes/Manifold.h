@@ -38,7 +38,10 @@ class Manifold {
   /// other noticeably.
   /// @param margin_m of a contact that would be looked for now
   bool still_fits(double margin_m) const;
-  void clear() { n_ = 0; }
+  void clear() {
+    n_ = 0;
+    sticks_ = false;
+  }
 
   /// Takes note of where the bodies are and how they move when a step begins.
   void start();
@@ -119,7 +122,6 @@ class Manifold {
   double stick(const Six& moving, Six& change);
   bool share_friction(const Eigen::Vector3d& more);
   double slip(const Eigen::Vector3d& slips, Six& change);
-  double slip_straight(const Eigen::Vector3d& slips, Six& change);
 
   Body* first_ = nullptr;
   Body* second_ = nullptr;
@@ -146,7 +148,7 @@ class Manifold {
 
   Six at_start_;  // how the bodies moved when the step began
   double closing_at_start_m_s_ = 0;
-  bool sticks_ = false;
+  bool sticks_ = false, stuck_ = false;  // in this solve; when the step began
 
   // Changes of the motion per impulse, and the impulse that stops a unit tangential motion.
   double first_per_kg_ = 0, second_per_kg_ = 0;  // that the rest was made with

@@ -12,7 +12,6 @@ using Eigen::Vector3d;
 
 namespace {
 constexpr double least_spread_m = 1e-6;       // of points that are worth calling a patch
-constexpr double straight = 1e-3;             // of a slip that may be spin
 constexpr double least_slip_m_s = 1e-4;       // that is worth stopping exactly
 constexpr double least_impulse_n_s = 1e-100;  // that can be divided by
 constexpr double least_spread_m2 = 1e-12;     // of loads that can bear a moment about the normal
@@ -49,11 +48,11 @@ double Manifold::stick(const Six& moving, Six& change) {
 
 // Friction at its limit would turn the slip at the start, s0, into one backwards, s, beyond the
 // end. A slip that changes steadily from s0 is s on the way, after (1 - mean weight / 2) of the
-// step.
+// step. What stuck before has stopped: what is left of its slip dies out, see BoxWorld.h.
 std::optional<double> Manifold::fraction_before_stop() const {
   const Vector3d& slip = at_start_.tangential;
   const double speed_m_s = slip.head<2>().norm();
-  if (!sticks_ || speed_m_s < least_slip_m_s) return std::nullopt;
+  if (stuck_ || !sticks_ || speed_m_s < least_slip_m_s) return std::nullopt;
   const Vector3d friction_n_s = tangential_sum(impulses_);
   const double mass_kg = slip.dot(tangential_mass_ * slip) / slip.squaredNorm();
   const double spare_n_s =
@@ -86,28 +85,6 @@ bool Manifold::share_friction(const Vector3d& more) {
   impulses_.col(1) = u;
   impulses_.col(2) = v;
   return true;
-}
-
-// A patch at its limit that does not spin slips as one.
-// @return the change of its velocity, m/s; negative where that is not so: nothing is changed
-double Manifold::slip_straight(const Vector3d& slips, Six& change) {
-  const double load = impulses_.col(0).sum(), limit = surface_.friction * load;
-  const Vector3d bias = (1 - time_.mean_weight()) * at_start_.tangential;
-  const Vector3d mean = slips + bias;
-  if (!(load > 0) || std::abs(mean[2]) * spread_m_ > straight * mean.head<2>().norm()) return -1;
-  const Vector3d was = tangential_sum(impulses_);
-  double& per_kg = slip_per_kg_[0];
-  if (per_kg == 0) per_kg = response_at(at_u_m_[0], at_v_m_[0], tangential_by_tangential_);
-  Vector2d now = was.head<2>() - slips.head<2>() / per_kg;
-  if (now.squaredNorm() <= limit * limit) return -1;
-  now -= bias.head<2>() / per_kg;
-  now *= limit / now.norm();
-  const Points portions = impulses_.col(0) / load;
-  impulses_.col(1) = now[0] * portions;
-  impulses_.col(2) = now[1] * portions;
-  const Vector3d more = tangential_sum(impulses_) - was;
-  change.tangential += more;
-  return per_kg * more.head<2>().cwiseAbs().maxCoeff();
 }
 
 // By projected gradient on Coulomb's disk, one point after the other: an impulse inside it stops

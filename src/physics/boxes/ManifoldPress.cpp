@@ -47,19 +47,15 @@ double Manifold::press(Six& moving, Six& change) {
   const Points now = impulses_.col(0);
   const Points missing = -(levers_ * moving.normal) - closing_m_s_ - softness_.cwiseProduct(now);
   unsigned active = 0;
-  double largest = 0;
-  for (int i = 0; i < n_; ++i) {
-    if (now[i] == 0 && !(missing[i] > rounding_m_s)) continue;
-    active |= 1u << i;
-    largest = std::max(largest, std::abs(missing[i]));
-  }
+  for (int i = 0; i < n_; ++i)
+    if (now[i] != 0 || missing[i] > rounding_m_s) active |= 1u << i;
   if (active == 0) return 0;
   Points more = stopping(active) * missing;
   if ((now + more).minCoeff() < 0) more = release(active, missing);
   impulses_.col(0) = (now + more).cwiseMax(0);
   change.normal = levers_.transpose() * more;
   moving.tangential += tangential_by_normal_ * change.normal;
-  return largest;
+  return (response_ * more).cwiseAbs().maxCoeff();
 }
 
 // Lets go of one point after the other that would have to pull.

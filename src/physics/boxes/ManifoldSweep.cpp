@@ -38,7 +38,6 @@ double Manifold::relax() {
   const double pressed_m_s = press(now, change);
   if (n_ == 4 && pressed_m_s > noticed_m_s) balance();
   double rubbed_m_s = stick(now, change);
-  if (rubbed_m_s < 0) rubbed_m_s = slip_straight(now.tangential, change);
   if (rubbed_m_s < 0) rubbed_m_s = slip(now.tangential, change);
   const double changed_m_s = std::max(pressed_m_s, rubbed_m_s);
   if (changed_m_s > 0) apply(change);
