@@ -74,8 +74,9 @@ class BodyFinder {
   std::vector<TagObservation> measure_detected(const Image& gray,
                                                const std::vector<DetectedTag>& detected,
                                                std::vector<bool>& done);
+  /// @param covered_too tags of which two edges are clear
   std::vector<TagObservation> measure_expected(const Image& gray, const Pose& camera_from_body,
-                                               std::vector<bool>& done);
+                                               std::vector<bool>& done, bool covered_too);
   MeasuredTag measure(const Image& gray, std::size_t tag,
                       const std::array<Eigen::Vector2d, 4>& corners_px);
   TagObservation observed(std::size_t tag, const MeasuredTag& measured) const;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/Pose.h"
@@ -33,7 +34,13 @@ constexpr double least_blur_px = 0.29;  // a pixel's own extent: 1 / sqrt(12)
 constexpr double blur_sd = 0.05;        // relative; what the borders' fits left open
 constexpr double least_noise = 0.5;
 constexpr int rounds = 2;
-constexpr double most_pixels = 1800;  // of a tag, about
+// Of larger tags fewer pixels are enough; and of those in the middle of cells, which tell of light
+// alone, one in so many.
+constexpr double most_pixels = 6000;
+constexpr int flat_stride = 4;
+constexpr double edge_in_blurs = 2.5;
+// Of a covered tag: what is not it reaches as far.
+constexpr double covered_in_blurs = 3;
 constexpr double settled_rad = 5e-5, settled_m = 5e-6;
 // Of the pixels: a shadow's edge or a finger lies over a tag of which less is what it should be.
 constexpr double least_explained = 0.9;
@@ -111,6 +118,7 @@ class TagFit {
     if (!is_clear()) return;
     paint();
     collect(gray, camera, start);
+    if (seen_.covered()) leave_out_covered(start);
     if (smear) smear_along(*smear, start);
   }
 
@@ -127,8 +135,7 @@ class TagFit {
     all_pull.segment<2>(n_shared + along) -= 10 * own_.segment<2>(along);
     const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
     const double clip = 2.5 * noise_;
-    const double levels = seen_.bright - seen_.dark;
-    const double far = drop_outliers ? std::max({10.0, 0.12 * levels, 3 * picture_noise_}) : 1e9;
+    const double far = drop_outliers || seen_.covered() ? far_off() : 1e9;
     double sum = 0;
     int n = 0;
     for (const Pixel& pixel : pixels_) {
@@ -185,7 +192,8 @@ class TagFit {
               y0 = std::max(0, static_cast<int>(low.y()));
     const int x1 = std::min(gray.width - 1, static_cast<int>(high.x()) + 1);
     const int y1 = std::min(gray.height - 1, static_cast<int>(high.y()) + 1);
-    // Of large tags every so many pixels are enough, in rows that are offset.
+    const Eigen::Vector2d near = near_cells(plane);
+    // In rows that are offset.
     const int stride = 1 + static_cast<int>(seen_.area_px2 / most_pixels);
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
@@ -194,10 +202,46 @@ class TagFit {
         const Eigen::Vector2d cell = Hit(plane, ray).cell;
         if (!((cell.array() > -beyond.array()).all() && (cell.array() < n + beyond.array()).all()))
           continue;
+        if ((x + 2 * y) % (flat_stride * stride) != 0 && is_flat(cell, near)) continue;
         const auto at =
             static_cast<std::size_t>(y) * gray.row_bytes() + static_cast<std::size_t>(x);
         pixels_.push_back({ray, static_cast<double>(gray.pixels[at])});
       }
+  }
+
+  // No edge of the pattern within so many cells of a place.
+  bool is_flat(const Eigen::Vector2d& cell, const Eigen::Vector2d& near) const {
+    const auto is_white = [&](double right, double below) {
+      const auto place = [&](double at) {
+        return std::clamp(static_cast<int>(std::floor(at)) + padding, 0, n_painted_ - 1);
+      };
+      return white_[static_cast<std::size_t>(place(cell.y() + below) * n_painted_ +
+                                             place(cell.x() + right))];
+    };
+    const std::uint8_t here = is_white(-near.x(), -near.y());
+    return is_white(near.x(), -near.y()) == here && is_white(-near.x(), near.y()) == here &&
+           is_white(near.x(), near.y()) == here;
+  }
+
+  // How far off a pixel is that shows another thing, gray levels.
+  double far_off() const {
+    return std::max({10.0, 0.12 * (seen_.bright - seen_.dark), 3 * picture_noise_});
+  }
+
+  // What is not the tag, and what is so near to it that they are blurred into each other.
+  void leave_out_covered(const Pose& pose) {
+    const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
+    const double reach = covered_in_blurs * blur_px_.maxCoeff() / seen_.px_per_ray;
+    std::vector<Eigen::Vector2d> covers;
+    VectorAll unused;
+    for (const Pixel& pixel : pixels_)
+      if (std::abs(pixel.value - modeled(pixel, plane, pose, 0, unused)) > far_off())
+        covers.push_back(pixel.ray);
+    std::erase_if(pixels_, [&](const Pixel& pixel) {
+      return std::ranges::any_of(covers, [&](const Eigen::Vector2d& ray) {
+        return (ray - pixel.ray).squaredNorm() < reach * reach;
+      });
+    });
   }
 
   Hit middle(const Plane& plane) const {
@@ -230,6 +274,14 @@ class TagFit {
                                                            hit.cell_by_slant.row(i).norm(),
                              0.0, most_beyond_cells);
     return beyond;
+  }
+
+  // How far an edge is blurred.
+  Eigen::Vector2d near_cells(const Plane& plane) const {
+    const Hit hit = middle(plane);
+    const double pixel_m = hit.point_m.z() / seen_.px_per_ray;
+    const Eigen::Vector2d cell_by_px = pixel_m * hit.cell_by_slant.rowwise().norm();
+    return (edge_in_blurs * cell_by_px.cwiseProduct(blur_px_)).cwiseMin(0.5);
   }
 
   // The pattern with its outermost cells carried on, as far as five cells around a pixel reach.
@@ -314,10 +366,14 @@ std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera
                                      const BiasPrior& prior, const ToneCurve& curve, double noise,
                                      const std::optional<Smear>& smear) {
   std::vector<TagFit> fits;
+  std::vector<DenseTag> used;
   for (const DenseTag& tag : tags) {
-    fits.emplace_back(gray, camera, tag, start.camera_from_body, curve, noise, smear);
-    if (!fits.back().usable()) return std::nullopt;
+    TagFit fit(gray, camera, tag, start.camera_from_body, curve, noise, smear);
+    if (!fit.usable()) continue;
+    fits.push_back(std::move(fit));
+    used.push_back(tag);
   }
+  if (fits.empty()) return std::nullopt;
   BodyFit fit = start;
   const double bias_variance = std::max(prior.sd_px * prior.sd_px, 1e-8);
   MatrixShared matrix;
@@ -338,8 +394,12 @@ std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera
         change.segment<3>(3).norm() < settled_m)
       break;
   }
-  for (const TagFit& tag : fits)
-    if (tag.explained() < least_explained) return std::nullopt;
+  std::vector<DenseTag> explained;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (fits[i].explained() >= least_explained) explained.push_back(used[i]);
+  if (explained.empty()) return std::nullopt;
+  if (explained.size() < used.size())
+    return align_densely(gray, camera, explained, start, prior, curve, noise, smear);
   const MatrixShared covariance = matrix.inverse();
   fit.covariance = covariance.topLeftCorner<6, 6>();
   fit.bias_sd_px = std::sqrt(covariance(6, 6));
