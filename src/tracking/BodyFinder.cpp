@@ -94,17 +94,22 @@ Eigen::Array2d BodyFinder::blur_px() const {
 }
 
 BodyFit BodyFinder::aligned(const Image& gray, const BodyFit& found, const BiasPrior& prior,
-                            const std::optional<Smear>& smear, TrackerTimes& times) const {
+                            const std::optional<Smear>& smear, const std::optional<Velocity>& rolls,
+                            TrackerTimes& times) const {
   if (!settings_.refine_edges || !settings_.inner_edges) return found;
+  const Pose& start = found.camera_from_body;
+  std::optional<RowsHeld> rows;
+  if (rolls) rows.emplace(camera_, start, *rolls);
   std::vector<TagObservation> used;
   std::vector<DenseTag> tags;
-  for (const TagObservation& tag : last_tags_)
+  for (const TagObservation& tag :
+       rolls ? held_still(last_tags_, camera_, start, *rolls) : last_tags_)
     if (tag_rms_px(tag, found) < most_dense_rms_px) used.push_back(tag);
   if (used.empty()) return found;
   for (const TagObservation& tag : used) tags.push_back({&tag, &patterns_[tag.tag]});
   return timed(times.pose_s, [&] {
     auto fit = align_densely(gray, camera_, tags, found, prior_for(settings_, prior), how_.curve,
-                             how_.noise, smear);
+                             how_.noise, smear, rows);
     // Cells that are half hidden, or strangely lit, may leave more open than their borders.
     if (!fit || place_variance_m2(*fit) > place_variance_m2(found)) return found;
     // Where cells and borders tell different poses, one of them is wrong.

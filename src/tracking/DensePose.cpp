@@ -29,6 +29,7 @@ enum Own { dark, contrast, along, down, log_blur };
 // How far beyond the border pixels are compared: what lies beyond the white cell around it, perhaps
 // an edge of the box, must not blur into them.
 constexpr double most_beyond_cells = 0.45, far_in_blurs = 3;
+constexpr double most_lean = 0.01;  // of the picture's width, between a tag's rows and the body's
 constexpr double most_blur_cells = 0.45;
 constexpr double least_blur_px = 0.29;  // a pixel's own extent: 1 / sqrt(12)
 constexpr double blur_sd = 0.05;        // relative; what the borders' fits left open
@@ -106,7 +107,8 @@ struct Hit {
 class TagFit {
  public:
   TagFit(const Image& gray, const Intrinsics& camera, const DenseTag& tag, const Pose& start,
-         const ToneCurve& curve, double noise, const std::optional<Smear>& smear)
+         const ToneCurve& curve, double noise, const std::optional<Smear>& smear,
+         const std::optional<RowsHeld>& rows)
       : seen_(*tag.seen),
         pattern_(*tag.pattern),
         curve_(curve),
@@ -117,7 +119,7 @@ class TagFit {
     own_ << curve.light(seen_.dark), curve.light(seen_.bright) - curve.light(seen_.dark), 0, 0, 0;
     if (!is_clear()) return;
     paint();
-    collect(gray, camera, start);
+    collect(gray, camera, start, rows);
     if (seen_.covered()) leave_out_covered(start);
     if (smear) smear_along(*smear, start);
   }
@@ -177,7 +179,8 @@ class TagFit {
            blur_px_.maxCoeff() < most_blur_cells * cell_px;
   }
 
-  void collect(const Image& gray, const Intrinsics& camera, const Pose& pose) {
+  void collect(const Image& gray, const Intrinsics& camera, const Pose& pose,
+               const std::optional<RowsHeld>& rows) {
     const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
     const Eigen::Vector2d beyond = beyond_cells(plane);
     const double n = pattern_.border_cells;
@@ -188,6 +191,10 @@ class TagFit {
         const Eigen::Vector2d pixel = project(camera, p);
         low = low.cwiseMin(pixel), high = high.cwiseMax(pixel);
       }
+    if (rows) {
+      const double leans_px = most_lean * gray.width;
+      low.array() -= leans_px, high.array() += leans_px;
+    }
     const int x0 = std::max(0, static_cast<int>(low.x())),
               y0 = std::max(0, static_cast<int>(low.y()));
     const int x1 = std::min(gray.width - 1, static_cast<int>(high.x()) + 1);
@@ -198,7 +205,8 @@ class TagFit {
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         if ((x + (stride > 2 ? 2 * y : y)) % stride != 0) continue;
-        const Eigen::Vector2d ray = undistort(camera, Eigen::Vector2d(x, y));
+        Eigen::Vector2d ray = undistort(camera, Eigen::Vector2d(x, y));
+        if (rows) ray = (*rows)(ray, y, Hit(plane, ray).point_m);
         const Eigen::Vector2d cell = Hit(plane, ray).cell;
         if (!((cell.array() > -beyond.array()).all() && (cell.array() < n + beyond.array()).all()))
           continue;
@@ -364,11 +372,12 @@ class TagFit {
 std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera,
                                      std::span<const DenseTag> tags, const BodyFit& start,
                                      const BiasPrior& prior, const ToneCurve& curve, double noise,
-                                     const std::optional<Smear>& smear) {
+                                     const std::optional<Smear>& smear,
+                                     const std::optional<RowsHeld>& rows) {
   std::vector<TagFit> fits;
   std::vector<DenseTag> used;
   for (const DenseTag& tag : tags) {
-    TagFit fit(gray, camera, tag, start.camera_from_body, curve, noise, smear);
+    TagFit fit(gray, camera, tag, start.camera_from_body, curve, noise, smear, rows);
     if (!fit.usable()) continue;
     fits.push_back(std::move(fit));
     used.push_back(tag);
@@ -399,7 +408,7 @@ std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera
     if (fits[i].explained() >= least_explained) explained.push_back(used[i]);
   if (explained.empty()) return std::nullopt;
   if (explained.size() < used.size())
-    return align_densely(gray, camera, explained, start, prior, curve, noise, smear);
+    return align_densely(gray, camera, explained, start, prior, curve, noise, smear, rows);
   const MatrixShared covariance = matrix.inverse();
   fit.covariance = covariance.topLeftCorner<6, 6>();
   fit.bias_sd_px = std::sqrt(covariance(6, 6));

@@ -16,6 +16,7 @@
 
 #include "base/Image.h"
 #include "tracking/BodyPose.h"
+#include "tracking/RollingShutter.h"
 #include "tracking/TagFamily.h"
 #include "tracking/ToneCurve.h"
 
@@ -33,11 +34,13 @@ struct Smear {
 };
 
 /// @param noise sd of the picture's, gray levels  @param smear none: it stands still
+/// @param rows of a rolling shutter, before which the body moves; none: all are seen at once
 /// @return the start with another pose, bias and covariance; none where pixels don't bear it:
 /// of no tag: blurred over cells, clipped, not explained, or leading far from the start
 std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera,
                                      std::span<const DenseTag> tags, const BodyFit& start,
                                      const BiasPrior& prior, const ToneCurve& curve, double noise,
-                                     const std::optional<Smear>& smear = {});
+                                     const std::optional<Smear>& smear = {},
+                                     const std::optional<RowsHeld>& rows = {});
 
 }  // namespace heft
