@@ -7,7 +7,7 @@
 namespace heft {
 
 namespace {
-constexpr int chart_width_px = 1180, chart_height_px = 1560;
+constexpr int chart_width_px = 1180, chart_height_px = 1580;
 constexpr int n_columns = 4;
 
 struct Line {
@@ -56,34 +56,35 @@ std::string qualities(const Fault& fault) {
 }
 
 std::string place(int column, int top_px, int bottom_px) {
-  const double left = 0.062 + 0.24 * column;
+  const double left = 0.072 + 0.238 * column;
   return fmt::format(
       "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
       "set tmargin at screen 1-{}*pixel\nset bmargin at screen 1-{}*pixel\n",
-      left, left + 0.195, top_px, bottom_px);
+      left, left + 0.19, top_px, bottom_px);
 }
 
 std::string panel(const Fault& fault, std::size_t index, const std::vector<FaultPoint>& points) {
   const int column = static_cast<int>(index) % n_columns;
-  const int top_px = 105 + 340 * (static_cast<int>(index) / n_columns);
+  const int top_px = 120 + 340 * (static_cast<int>(index) / n_columns);
   const auto [low, high] = std::ranges::minmax(fault.values);
   std::string script;
   for (std::size_t i = 0; i < lines.size(); ++i) script += block_of(fault, lines[i], i, points);
   script += fmt::format("set xrange [{}:{}]\n", low, high) + place(column, top_px, top_px + 80);
   script += fmt::format(
       "set format x ''\nunset xlabel\nunset logscale y\nset yrange [0:105]\nset ytics 0,50,100\n"
-      "set ylabel {} offset 1,0\n{}\nplot {}{}\nunset key\n",
+      "set ylabel {} offset 2,0 font ',10'\n{}\nplot {}{}\nunset key\n",
       gnuplot_quoted(column == 0 ? "found, quality (%)" : ""),
-      index == 0 ? "set key at screen 0.5, screen 1-66*pixel center maxrows 1 font ',12'" : "",
+      index == 0 ? "set key at screen 0.5, screen 1-66*pixel center maxrows 2 font ',11'" : "",
       plots(fault, 2, index == 0), qualities(fault));
   script += place(column, top_px + 92, top_px + 265);
-  return script +
-         fmt::format(
-             "set format x '%g'\nset xlabel {} font ',10' offset 0,0.4\nset logscale y\n"
-             "set yrange [0.01:100]\nset ytics (0.01,0.1,1,10,100)\nset ylabel {} offset 1,0\n"
-             "plot {}\n",
-             gnuplot_quoted(fault.label), gnuplot_quoted(column == 0 ? "tip error, p95 (mm)" : ""),
-             plots(fault, 4, false));
+  return script + fmt::format(
+                      "set format x '%g'\nset xlabel {} font ',10' offset 0,0.4\nset logscale y\n"
+                      "set yrange [0.005:100]\nset ytics (0.01,0.1,1,10,100)\nset ylabel {} offset "
+                      "2,0 font ',10'\n"
+                      "plot {}\n",
+                      gnuplot_quoted(fault.label),
+                      gnuplot_quoted(column == 0 ? "tip error, p95 (mm)" : ""),
+                      plots(fault, 4, false));
 }
 }  // namespace
 
