@@ -12,6 +12,7 @@
 
 #include "base/Pose.h"
 #include "tracking/NormalTable.h"
+#include "tracking/TagPlane.h"
 
 namespace heft {
 
@@ -78,32 +79,6 @@ struct Pixel {
   double value;
 };
 
-// A tag as a plane in the camera's frame: its border's top left corner and its cells' sides.
-struct Plane {
-  Eigen::Vector3d corner_m, right_m, down_m;
-
-  Plane(const Pose& pose, const std::array<Eigen::Vector3d, 4>& c, int n_cells)
-      : corner_m(pose * c[0]),
-        right_m(pose.orientation * (c[1] - c[0]) / n_cells),
-        down_m(pose.orientation * (c[3] - c[0]) / n_cells) {}
-};
-
-// Where a ray hits it, and what the place on it does to the ray.
-struct Hit {
-  Eigen::Vector2d cell;           ///< from the border's corner
-  Eigen::Matrix2d cell_by_slant;  ///< of the ray's distance from a point, at the point's depth
-  Eigen::Vector3d point_m;
-
-  Hit(const Plane& plane, const Eigen::Vector2d& ray) {
-    Eigen::Matrix2d slant;
-    slant.col(0) = plane.right_m.head<2>() - ray * plane.right_m.z();
-    slant.col(1) = plane.down_m.head<2>() - ray * plane.down_m.z();
-    cell_by_slant = slant.inverse();
-    cell = -(cell_by_slant * (plane.corner_m.head<2>() - ray * plane.corner_m.z()));
-    point_m = plane.corner_m + cell.x() * plane.right_m + cell.y() * plane.down_m;
-  }
-};
-
 class TagFit {
  public:
   TagFit(const Image& gray, const Intrinsics& camera, const DenseTag& tag, const Pose& start,
@@ -135,7 +110,7 @@ class TagFit {
     all_pull(n_shared + log_blur) = -own_(log_blur) / (blur_sd * blur_sd);
     all.diagonal().segment<2>(n_shared + along).array() += 10;
     all_pull.segment<2>(n_shared + along) -= 10 * own_.segment<2>(along);
-    const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
+    const TagPlane plane(pose, seen_.corners_m, pattern_.border_cells);
     const double clip = 2.5 * noise_;
     const double far = drop_outliers || seen_.covered() ? far_off() : 1e9;
     double sum = 0;
@@ -181,7 +156,7 @@ class TagFit {
 
   void collect(const Image& gray, const Intrinsics& camera, const Pose& pose,
                const std::optional<RowsHeld>& rows) {
-    const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
+    const TagPlane plane(pose, seen_.corners_m, pattern_.border_cells);
     const Eigen::Vector2d beyond = beyond_cells(plane);
     const double n = pattern_.border_cells;
     Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
@@ -206,8 +181,8 @@ class TagFit {
       for (int x = x0; x <= x1; ++x) {
         if ((x + (stride > 2 ? 2 * y : y)) % stride != 0) continue;
         Eigen::Vector2d ray = undistort(camera, Eigen::Vector2d(x, y));
-        if (rows) ray = (*rows)(ray, y, Hit(plane, ray).point_m);
-        const Eigen::Vector2d cell = Hit(plane, ray).cell;
+        if (rows) ray = (*rows)(ray, y, TagHit(plane, ray).point_m);
+        const Eigen::Vector2d cell = TagHit(plane, ray).cell;
         if (!((cell.array() > -beyond.array()).all() && (cell.array() < n + beyond.array()).all()))
           continue;
         if ((x + 2 * y) % (flat_stride * stride) != 0 && is_flat(cell, near)) continue;
@@ -238,7 +213,7 @@ class TagFit {
 
   // What is not the tag, and what is so near to it that they are blurred into each other.
   void leave_out_covered(const Pose& pose) {
-    const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
+    const TagPlane plane(pose, seen_.corners_m, pattern_.border_cells);
     const double reach = covered_in_blurs * blur_px_.maxCoeff() / seen_.px_per_ray;
     std::vector<Eigen::Vector2d> covers;
     VectorAll unused;
@@ -252,15 +227,15 @@ class TagFit {
     });
   }
 
-  Hit middle(const Plane& plane) const {
+  TagHit middle(const TagPlane& plane) const {
     const Eigen::Vector3d middle_m =
         plane.corner_m + pattern_.border_cells / 2.0 * (plane.right_m + plane.down_m);
-    return Hit(plane, middle_m.hnormalized());
+    return TagHit(plane, middle_m.hnormalized());
   }
 
   // The variance that motion adds along its way, from what it adds across the borders.
   void smear_along(const Smear& smear, const Pose& pose) {
-    const Hit hit = middle(Plane(pose, seen_.corners_m, pattern_.border_cells));
+    const TagHit hit = middle(TagPlane(pose, seen_.corners_m, pattern_.border_cells));
     const Eigen::Vector3d v = smear.velocity.linear_m_s +
                               smear.velocity.angular_rad_s.cross(hit.point_m - pose.position_m);
     const Eigen::Vector2d along = v.head<2>() - v.z() * hit.point_m.hnormalized();
@@ -273,8 +248,8 @@ class TagFit {
     blur_shape_ += variance / still * along.normalized() * along.normalized().transpose();
   }
 
-  Eigen::Vector2d beyond_cells(const Plane& plane) const {
-    const Hit hit = middle(plane);
+  Eigen::Vector2d beyond_cells(const TagPlane& plane) const {
+    const TagHit hit = middle(plane);
     const double pixel_m = hit.point_m.z() / seen_.px_per_ray;
     Eigen::Vector2d beyond;
     for (int i = 0; i < 2; ++i)
@@ -285,8 +260,8 @@ class TagFit {
   }
 
   // How far an edge is blurred.
-  Eigen::Vector2d near_cells(const Plane& plane) const {
-    const Hit hit = middle(plane);
+  Eigen::Vector2d near_cells(const TagPlane& plane) const {
+    const TagHit hit = middle(plane);
     const double pixel_m = hit.point_m.z() / seen_.px_per_ray;
     const Eigen::Vector2d cell_by_px = pixel_m * hit.cell_by_slant.rowwise().norm();
     return (edge_in_blurs * cell_by_px.cwiseProduct(blur_px_)).cwiseMin(0.5);
@@ -303,9 +278,9 @@ class TagFit {
                                            std::clamp(row - padding + margin, 0, last)));
   }
 
-  double modeled(const Pixel& pixel, const Plane& plane, const Pose& pose, double bias_px,
+  double modeled(const Pixel& pixel, const TagPlane& plane, const Pose& pose, double bias_px,
                  VectorAll& by) const {
-    const Hit hit(plane, pixel.ray);
+    const TagHit hit(plane, pixel.ray);
     // A pixel's size on the tag.
     const double pixel_m = hit.point_m.z() / seen_.px_per_ray, wider = std::exp(own_(log_blur));
     const Eigen::Vector2d cell_by_px = pixel_m * hit.cell_by_slant.rowwise().norm();
