@@ -15,7 +15,7 @@ struct FaultGoal {
 constexpr std::array tip_goals{
     FaultGoal{"film curve", "film", 1, 1.1},
     FaultGoal{"S-curve", "s_curve", 0.6, 1.1},
-    FaultGoal{"a shadow's edge that takes 60 %", "shadow", 0.6, 1},
+    FaultGoal{"a shadow's edge that takes 40 %", "shadow", 0.4, 1},
     FaultGoal{"Bayer and JPEG 80", "mosaic_jpeg", 20, 0.8},
     FaultGoal{"noise 10", "noise", 10, 1.5},
     FaultGoal{"a third of the light, noise 10", "dim_noise", 0.7, 2.5},
