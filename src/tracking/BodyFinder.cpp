@@ -13,6 +13,8 @@ using Corners = std::array<Eigen::Vector2d, 4>;
 constexpr double least_expected_edge_px = 9;
 constexpr double most_dense_rms_px = 0.5;  // of a tag whose cells are looked at
 constexpr double least_agreement = 0.85;   // of the data cells of a tag that no detector read
+// While a body shows no more, what fingers leave of another tag tells much: its tilt and depth.
+constexpr std::size_t few_tags = 3;
 
 // Adds the time that it takes.
 template <typename Work>
@@ -75,8 +77,10 @@ std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<Det
   tags = timed(times.refine_s, [&] { return measure_detected(gray, detected, done); });
   const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
   if (!fit || !settings_.refine_edges) return fit;
-  const auto more =
-      timed(times.refine_s, [&] { return measure_expected(gray, fit->camera_from_body, done); });
+  const bool covered_too = tags.size() < few_tags;
+  const auto more = timed(times.refine_s, [&] {
+    return measure_expected(gray, fit->camera_from_body, done, covered_too);
+  });
   if (more.empty()) return fit;
   tags.insert(tags.end(), more.begin(), more.end());
   return timed(times.pose_s, [&] { return solve_body(tags, fit->camera_from_body, bias); });
@@ -90,17 +94,22 @@ Eigen::Array2d BodyFinder::blur_px() const {
 }
 
 BodyFit BodyFinder::aligned(const Image& gray, const BodyFit& found, const BiasPrior& prior,
-                            const std::optional<Smear>& smear, TrackerTimes& times) const {
+                            const std::optional<Smear>& smear, const std::optional<Velocity>& rolls,
+                            TrackerTimes& times) const {
   if (!settings_.refine_edges || !settings_.inner_edges) return found;
+  const Pose& start = found.camera_from_body;
+  std::optional<RowsHeld> rows;
+  if (rolls) rows.emplace(camera_, start, *rolls);
   std::vector<TagObservation> used;
   std::vector<DenseTag> tags;
-  for (const TagObservation& tag : last_tags_)
+  for (const TagObservation& tag :
+       rolls ? held_still(last_tags_, camera_, start, *rolls) : last_tags_)
     if (tag_rms_px(tag, found) < most_dense_rms_px) used.push_back(tag);
   if (used.empty()) return found;
   for (const TagObservation& tag : used) tags.push_back({&tag, &patterns_[tag.tag]});
   return timed(times.pose_s, [&] {
     auto fit = align_densely(gray, camera_, tags, found, prior_for(settings_, prior), how_.curve,
-                             how_.noise, smear);
+                             how_.noise, smear, rows);
     // Cells that are half hidden, or strangely lit, may leave more open than their borders.
     if (!fit || place_variance_m2(*fit) > place_variance_m2(found)) return found;
     // Where cells and borders tell different poses, one of them is wrong.
@@ -129,7 +138,8 @@ std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& exp
                                               TrackerTimes& times) {
   std::vector<bool> done(body_.tags.size(), false);
   tone_ = {};
-  const auto tags = timed(times.refine_s, [&] { return measure_expected(gray, expected, done); });
+  const auto tags =
+      timed(times.refine_s, [&] { return measure_expected(gray, expected, done, false); });
   if (static_cast<int>(tags.size()) < least_tags) return std::nullopt;
   const BiasPrior bias = prior_for(settings_, prior);
   const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
@@ -159,16 +169,20 @@ std::vector<TagObservation> BodyFinder::measure_detected(const Image& gray,
 
 std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,
                                                          const Pose& camera_from_body,
-                                                         std::vector<bool>& done) {
+                                                         std::vector<bool>& done,
+                                                         bool covered_too) {
   std::vector<TagObservation> tags;
   for (std::size_t i = 0; i < body_.tags.size(); ++i) {
     if (done[i]) continue;
     const auto corners = projected(camera_, body_.tags[i], camera_from_body);
     if (!corners) continue;
     const MeasuredTag measured = measure(gray, i, *corners);
-    if (measured.quality < settings_.least_quality || measured.agreement < least_agreement)
-      continue;
-    tags.push_back(observed(i, measured));
+    if (measured.agreement < least_agreement) continue;
+    const bool whole = measured.quality >= settings_.least_quality;
+    if (!whole && !covered_too) continue;
+    const auto seen = whole ? measured : without_covered_edges(measured, settings_.least_quality);
+    if (!seen) continue;
+    tags.push_back(observed(i, *seen));
     done[i] = true;
   }
   return tags;

@@ -61,8 +61,10 @@ class BodyFinder {
   Eigen::Array2d blur_px() const;
 
   /// What find saw last, cell by cell; `found` where that does not help.
+  /// @param rolls velocity of the body's origin, in the camera's frame, before a rolling shutter
   BodyFit aligned(const Image& gray, const BodyFit& found, const BiasPrior& prior,
-                  const std::optional<Smear>& smear, TrackerTimes& times) const;
+                  const std::optional<Smear>& smear, const std::optional<Velocity>& rolls,
+                  TrackerTimes& times) const;
 
   /// What find saw last, once more: its rows as a rolling shutter read them while the body moved.
   /// @param found what came of it so far  @param velocity of the body's origin, in the camera's
@@ -74,8 +76,9 @@ class BodyFinder {
   std::vector<TagObservation> measure_detected(const Image& gray,
                                                const std::vector<DetectedTag>& detected,
                                                std::vector<bool>& done);
+  /// @param covered_too tags of which two edges are clear
   std::vector<TagObservation> measure_expected(const Image& gray, const Pose& camera_from_body,
-                                               std::vector<bool>& done);
+                                               std::vector<bool>& done, bool covered_too);
   MeasuredTag measure(const Image& gray, std::size_t tag,
                       const std::array<Eigen::Vector2d, 4>& corners_px);
   TagObservation observed(std::size_t tag, const MeasuredTag& measured) const;

@@ -203,6 +203,10 @@ double pose_quality(const std::vector<TagObservation>& tags, const BodyFit& fit)
          halving(end_variance_m2 / (halved_at_end_m * halved_at_end_m));
 }
 
+bool TagObservation::covered() const {
+  return std::ranges::any_of(edges, [](const Edge& edge) { return std::isinf(edge.sd_px); });
+}
+
 TagObservation observe(const Intrinsics& camera, const Tag& tag, const MeasuredTag& measured,
                        bool bright_outside) {
   TagObservation seen;

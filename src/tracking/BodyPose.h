@@ -21,7 +21,7 @@ struct TagObservation {
     Eigen::Vector3d start_m, end_m;       ///< on the body
     std::array<Eigen::Vector2d, 2> rays;  ///< two measured points, undistorted
     std::array<double, 2> px_per_ray;     ///< across the edge
-    double sd_px = 0;                     ///< of each
+    double sd_px = 0;                     ///< of each; infinite: covered, it tells nothing
   };
   std::size_t tag = 0;                       ///< its place in the body's tags
   std::array<Eigen::Vector3d, 4> corners_m;  ///< on the body
@@ -34,6 +34,8 @@ struct TagObservation {
   double quality = 0;
   double saturated = 0;  ///< fraction of its edges
   double area_px2 = 0;
+
+  bool covered() const;  ///< in part: an edge tells nothing
 };
 
 TagObservation observe(const Intrinsics& camera, const Tag& tag, const MeasuredTag& measured,

@@ -7,10 +7,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/Pose.h"
 #include "tracking/NormalTable.h"
+#include "tracking/TagPlane.h"
 
 namespace heft {
 
@@ -28,12 +30,19 @@ enum Own { dark, contrast, along, down, log_blur };
 // How far beyond the border pixels are compared: what lies beyond the white cell around it, perhaps
 // an edge of the box, must not blur into them.
 constexpr double most_beyond_cells = 0.45, far_in_blurs = 3;
+constexpr double most_lean = 0.01;  // of the picture's width, between a tag's rows and the body's
 constexpr double most_blur_cells = 0.45;
 constexpr double least_blur_px = 0.29;  // a pixel's own extent: 1 / sqrt(12)
 constexpr double blur_sd = 0.05;        // relative; what the borders' fits left open
 constexpr double least_noise = 0.5;
 constexpr int rounds = 2;
-constexpr double most_pixels = 1800;  // of a tag, about
+// Of larger tags fewer pixels are enough; and of those in the middle of cells, which tell of light
+// alone, one in so many.
+constexpr double most_pixels = 6000;
+constexpr int flat_stride = 4;
+constexpr double edge_in_blurs = 2.5;
+// Of a covered tag: what is not it reaches as far.
+constexpr double covered_in_blurs = 3;
 constexpr double settled_rad = 5e-5, settled_m = 5e-6;
 // Of the pixels: a shadow's edge or a finger lies over a tag of which less is what it should be.
 constexpr double least_explained = 0.9;
@@ -70,36 +79,11 @@ struct Pixel {
   double value;
 };
 
-// A tag as a plane in the camera's frame: its border's top left corner and its cells' sides.
-struct Plane {
-  Eigen::Vector3d corner_m, right_m, down_m;
-
-  Plane(const Pose& pose, const std::array<Eigen::Vector3d, 4>& c, int n_cells)
-      : corner_m(pose * c[0]),
-        right_m(pose.orientation * (c[1] - c[0]) / n_cells),
-        down_m(pose.orientation * (c[3] - c[0]) / n_cells) {}
-};
-
-// Where a ray hits it, and what the place on it does to the ray.
-struct Hit {
-  Eigen::Vector2d cell;           ///< from the border's corner
-  Eigen::Matrix2d cell_by_slant;  ///< of the ray's distance from a point, at the point's depth
-  Eigen::Vector3d point_m;
-
-  Hit(const Plane& plane, const Eigen::Vector2d& ray) {
-    Eigen::Matrix2d slant;
-    slant.col(0) = plane.right_m.head<2>() - ray * plane.right_m.z();
-    slant.col(1) = plane.down_m.head<2>() - ray * plane.down_m.z();
-    cell_by_slant = slant.inverse();
-    cell = -(cell_by_slant * (plane.corner_m.head<2>() - ray * plane.corner_m.z()));
-    point_m = plane.corner_m + cell.x() * plane.right_m + cell.y() * plane.down_m;
-  }
-};
-
 class TagFit {
  public:
   TagFit(const Image& gray, const Intrinsics& camera, const DenseTag& tag, const Pose& start,
-         const ToneCurve& curve, double noise, const std::optional<Smear>& smear)
+         const ToneCurve& curve, double noise, const std::optional<Smear>& smear,
+         const std::optional<RowsHeld>& rows)
       : seen_(*tag.seen),
         pattern_(*tag.pattern),
         curve_(curve),
@@ -110,7 +94,8 @@ class TagFit {
     own_ << curve.light(seen_.dark), curve.light(seen_.bright) - curve.light(seen_.dark), 0, 0, 0;
     if (!is_clear()) return;
     paint();
-    collect(gray, camera, start);
+    collect(gray, camera, start, rows);
+    if (seen_.covered()) leave_out_covered(start);
     if (smear) smear_along(*smear, start);
   }
 
@@ -125,10 +110,9 @@ class TagFit {
     all_pull(n_shared + log_blur) = -own_(log_blur) / (blur_sd * blur_sd);
     all.diagonal().segment<2>(n_shared + along).array() += 10;
     all_pull.segment<2>(n_shared + along) -= 10 * own_.segment<2>(along);
-    const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
+    const TagPlane plane(pose, seen_.corners_m, pattern_.border_cells);
     const double clip = 2.5 * noise_;
-    const double levels = seen_.bright - seen_.dark;
-    const double far = drop_outliers ? std::max({10.0, 0.12 * levels, 3 * picture_noise_}) : 1e9;
+    const double far = drop_outliers || seen_.covered() ? far_off() : 1e9;
     double sum = 0;
     int n = 0;
     for (const Pixel& pixel : pixels_) {
@@ -170,8 +154,9 @@ class TagFit {
            blur_px_.maxCoeff() < most_blur_cells * cell_px;
   }
 
-  void collect(const Image& gray, const Intrinsics& camera, const Pose& pose) {
-    const Plane plane(pose, seen_.corners_m, pattern_.border_cells);
+  void collect(const Image& gray, const Intrinsics& camera, const Pose& pose,
+               const std::optional<RowsHeld>& rows) {
+    const TagPlane plane(pose, seen_.corners_m, pattern_.border_cells);
     const Eigen::Vector2d beyond = beyond_cells(plane);
     const double n = pattern_.border_cells;
     Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
@@ -181,34 +166,76 @@ class TagFit {
         const Eigen::Vector2d pixel = project(camera, p);
         low = low.cwiseMin(pixel), high = high.cwiseMax(pixel);
       }
+    if (rows) {
+      const double leans_px = most_lean * gray.width;
+      low.array() -= leans_px, high.array() += leans_px;
+    }
     const int x0 = std::max(0, static_cast<int>(low.x())),
               y0 = std::max(0, static_cast<int>(low.y()));
     const int x1 = std::min(gray.width - 1, static_cast<int>(high.x()) + 1);
     const int y1 = std::min(gray.height - 1, static_cast<int>(high.y()) + 1);
-    // Of large tags every so many pixels are enough, in rows that are offset.
+    const Eigen::Vector2d near = near_cells(plane);
+    // In rows that are offset.
     const int stride = 1 + static_cast<int>(seen_.area_px2 / most_pixels);
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         if ((x + (stride > 2 ? 2 * y : y)) % stride != 0) continue;
-        const Eigen::Vector2d ray = undistort(camera, Eigen::Vector2d(x, y));
-        const Eigen::Vector2d cell = Hit(plane, ray).cell;
+        Eigen::Vector2d ray = undistort(camera, Eigen::Vector2d(x, y));
+        if (rows) ray = (*rows)(ray, y, TagHit(plane, ray).point_m);
+        const Eigen::Vector2d cell = TagHit(plane, ray).cell;
         if (!((cell.array() > -beyond.array()).all() && (cell.array() < n + beyond.array()).all()))
           continue;
+        if ((x + 2 * y) % (flat_stride * stride) != 0 && is_flat(cell, near)) continue;
         const auto at =
             static_cast<std::size_t>(y) * gray.row_bytes() + static_cast<std::size_t>(x);
         pixels_.push_back({ray, static_cast<double>(gray.pixels[at])});
       }
   }
 
-  Hit middle(const Plane& plane) const {
+  // No edge of the pattern within so many cells of a place.
+  bool is_flat(const Eigen::Vector2d& cell, const Eigen::Vector2d& near) const {
+    const auto is_white = [&](double right, double below) {
+      const auto place = [&](double at) {
+        return std::clamp(static_cast<int>(std::floor(at)) + padding, 0, n_painted_ - 1);
+      };
+      return white_[static_cast<std::size_t>(place(cell.y() + below) * n_painted_ +
+                                             place(cell.x() + right))];
+    };
+    const std::uint8_t here = is_white(-near.x(), -near.y());
+    return is_white(near.x(), -near.y()) == here && is_white(-near.x(), near.y()) == here &&
+           is_white(near.x(), near.y()) == here;
+  }
+
+  // How far off a pixel is that shows another thing, gray levels.
+  double far_off() const {
+    return std::max({10.0, 0.12 * (seen_.bright - seen_.dark), 3 * picture_noise_});
+  }
+
+  // What is not the tag, and what is so near to it that they are blurred into each other.
+  void leave_out_covered(const Pose& pose) {
+    const TagPlane plane(pose, seen_.corners_m, pattern_.border_cells);
+    const double reach = covered_in_blurs * blur_px_.maxCoeff() / seen_.px_per_ray;
+    std::vector<Eigen::Vector2d> covers;
+    VectorAll unused;
+    for (const Pixel& pixel : pixels_)
+      if (std::abs(pixel.value - modeled(pixel, plane, pose, 0, unused)) > far_off())
+        covers.push_back(pixel.ray);
+    std::erase_if(pixels_, [&](const Pixel& pixel) {
+      return std::ranges::any_of(covers, [&](const Eigen::Vector2d& ray) {
+        return (ray - pixel.ray).squaredNorm() < reach * reach;
+      });
+    });
+  }
+
+  TagHit middle(const TagPlane& plane) const {
     const Eigen::Vector3d middle_m =
         plane.corner_m + pattern_.border_cells / 2.0 * (plane.right_m + plane.down_m);
-    return Hit(plane, middle_m.hnormalized());
+    return TagHit(plane, middle_m.hnormalized());
   }
 
   // The variance that motion adds along its way, from what it adds across the borders.
   void smear_along(const Smear& smear, const Pose& pose) {
-    const Hit hit = middle(Plane(pose, seen_.corners_m, pattern_.border_cells));
+    const TagHit hit = middle(TagPlane(pose, seen_.corners_m, pattern_.border_cells));
     const Eigen::Vector3d v = smear.velocity.linear_m_s +
                               smear.velocity.angular_rad_s.cross(hit.point_m - pose.position_m);
     const Eigen::Vector2d along = v.head<2>() - v.z() * hit.point_m.hnormalized();
@@ -221,8 +248,8 @@ class TagFit {
     blur_shape_ += variance / still * along.normalized() * along.normalized().transpose();
   }
 
-  Eigen::Vector2d beyond_cells(const Plane& plane) const {
-    const Hit hit = middle(plane);
+  Eigen::Vector2d beyond_cells(const TagPlane& plane) const {
+    const TagHit hit = middle(plane);
     const double pixel_m = hit.point_m.z() / seen_.px_per_ray;
     Eigen::Vector2d beyond;
     for (int i = 0; i < 2; ++i)
@@ -230,6 +257,14 @@ class TagFit {
                                                            hit.cell_by_slant.row(i).norm(),
                              0.0, most_beyond_cells);
     return beyond;
+  }
+
+  // How far an edge is blurred.
+  Eigen::Vector2d near_cells(const TagPlane& plane) const {
+    const TagHit hit = middle(plane);
+    const double pixel_m = hit.point_m.z() / seen_.px_per_ray;
+    const Eigen::Vector2d cell_by_px = pixel_m * hit.cell_by_slant.rowwise().norm();
+    return (edge_in_blurs * cell_by_px.cwiseProduct(blur_px_)).cwiseMin(0.5);
   }
 
   // The pattern with its outermost cells carried on, as far as five cells around a pixel reach.
@@ -243,9 +278,9 @@ class TagFit {
                                            std::clamp(row - padding + margin, 0, last)));
   }
 
-  double modeled(const Pixel& pixel, const Plane& plane, const Pose& pose, double bias_px,
+  double modeled(const Pixel& pixel, const TagPlane& plane, const Pose& pose, double bias_px,
                  VectorAll& by) const {
-    const Hit hit(plane, pixel.ray);
+    const TagHit hit(plane, pixel.ray);
     // A pixel's size on the tag.
     const double pixel_m = hit.point_m.z() / seen_.px_per_ray, wider = std::exp(own_(log_blur));
     const Eigen::Vector2d cell_by_px = pixel_m * hit.cell_by_slant.rowwise().norm();
@@ -312,12 +347,17 @@ class TagFit {
 std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera,
                                      std::span<const DenseTag> tags, const BodyFit& start,
                                      const BiasPrior& prior, const ToneCurve& curve, double noise,
-                                     const std::optional<Smear>& smear) {
+                                     const std::optional<Smear>& smear,
+                                     const std::optional<RowsHeld>& rows) {
   std::vector<TagFit> fits;
+  std::vector<DenseTag> used;
   for (const DenseTag& tag : tags) {
-    fits.emplace_back(gray, camera, tag, start.camera_from_body, curve, noise, smear);
-    if (!fits.back().usable()) return std::nullopt;
+    TagFit fit(gray, camera, tag, start.camera_from_body, curve, noise, smear, rows);
+    if (!fit.usable()) continue;
+    fits.push_back(std::move(fit));
+    used.push_back(tag);
   }
+  if (fits.empty()) return std::nullopt;
   BodyFit fit = start;
   const double bias_variance = std::max(prior.sd_px * prior.sd_px, 1e-8);
   MatrixShared matrix;
@@ -338,8 +378,12 @@ std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera
         change.segment<3>(3).norm() < settled_m)
       break;
   }
-  for (const TagFit& tag : fits)
-    if (tag.explained() < least_explained) return std::nullopt;
+  std::vector<DenseTag> explained;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (fits[i].explained() >= least_explained) explained.push_back(used[i]);
+  if (explained.empty()) return std::nullopt;
+  if (explained.size() < used.size())
+    return align_densely(gray, camera, explained, start, prior, curve, noise, smear, rows);
   const MatrixShared covariance = matrix.inverse();
   fit.covariance = covariance.topLeftCorner<6, 6>();
   fit.bias_sd_px = std::sqrt(covariance(6, 6));

@@ -7,7 +7,8 @@
 // B being the tag's cells, 0 black and 1 white, blurred by a normal distribution; s the place on
 // the tag that the pixel's ray hits. Unknown are the pose and the edge bias, and of each tag its
 // light, the light's gradient and the blur. Gauss-Newton from the pose of the borders, Huber
-// weights.
+// weights. Tags that fingers cover in part count with what is clear of them; tags that are not what
+// they should be are left out.
 #pragma once
 
 #include <optional>
@@ -15,6 +16,7 @@
 
 #include "base/Image.h"
 #include "tracking/BodyPose.h"
+#include "tracking/RollingShutter.h"
 #include "tracking/TagFamily.h"
 #include "tracking/ToneCurve.h"
 
@@ -32,11 +34,13 @@ struct Smear {
 };
 
 /// @param noise sd of the picture's, gray levels  @param smear none: it stands still
+/// @param rows of a rolling shutter, before which the body moves; none: all are seen at once
 /// @return the start with another pose, bias and covariance; none where pixels don't bear it:
-/// blurred over cells, clipped, or leading far from the start
+/// of no tag: blurred over cells, clipped, not explained, or leading far from the start
 std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera,
                                      std::span<const DenseTag> tags, const BodyFit& start,
                                      const BiasPrior& prior, const ToneCurve& curve, double noise,
-                                     const std::optional<Smear>& smear = {});
+                                     const std::optional<Smear>& smear = {},
+                                     const std::optional<RowsHeld>& rows = {});
 
 }  // namespace heft

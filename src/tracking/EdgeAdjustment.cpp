@@ -52,6 +52,7 @@ void add_residual(Equations& equations, double residual_px, const Vector7& by, d
 
 bool add_edge(Equations& equations, const TagObservation::Edge& edge, double outward,
               const Unknowns& at) {
+  if (std::isinf(edge.sd_px)) return true;
   End a, b;
   if (!project_end(at.pose, edge.start_m, a) || !project_end(at.pose, edge.end_m, b)) return false;
   const Eigen::Vector2d along = b.ray - a.ray;

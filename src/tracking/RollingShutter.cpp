@@ -20,15 +20,25 @@ double own_row_s(const Intrinsics& camera, const Pose& camera_from_body) {
   return row_s(camera, project(camera, camera_from_body.position_m).y());
 }
 
+RowsHeld::RowsHeld(const Intrinsics& camera, const Pose& camera_from_body, const Velocity& velocity)
+    : camera_(camera),
+      origin_m_(camera_from_body.position_m),
+      velocity_(velocity),
+      own_s_(own_row_s(camera, camera_from_body)) {}
+
+Eigen::Vector2d RowsHeld::operator()(const Eigen::Vector2d& ray, double row,
+                                     const Eigen::Vector3d& point_m) const {
+  const Eigen::Vector3d moves_m_s =
+      velocity_.linear_m_s + velocity_.angular_rad_s.cross(point_m - origin_m_);
+  const double since_s = row_s(camera_, row) - own_s_;
+  return ray - since_s / point_m.z() * (moves_m_s.head<2>() - moves_m_s.z() * ray);
+}
+
 std::vector<TagObservation> held_still(std::vector<TagObservation> tags, const Intrinsics& camera,
                                        const Pose& camera_from_body, const Velocity& velocity) {
-  const double own_s = own_row_s(camera, camera_from_body);
+  const RowsHeld rows(camera, camera_from_body, velocity);
   const auto held = [&](const Eigen::Vector2d& ray, const Eigen::Vector3d& point_m) {
-    const Eigen::Vector3d arm_m = camera_from_body.orientation * point_m;
-    const Eigen::Vector3d moves_m_s = velocity.linear_m_s + velocity.angular_rad_s.cross(arm_m);
-    const double depth_m = camera_from_body.position_m.z() + arm_m.z();
-    const double since_s = row_s(camera, distort(camera, ray).y()) - own_s;
-    return Eigen::Vector2d(ray - since_s / depth_m * (moves_m_s.head<2>() - moves_m_s.z() * ray));
+    return rows(ray, distort(camera, ray).y(), camera_from_body * point_m);
   };
   for (TagObservation& tag : tags) {
     for (std::size_t i = 0; i < 4; ++i)

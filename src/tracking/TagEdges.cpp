@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 
 #include "tracking/PlanarPose.h"
 
@@ -152,6 +153,22 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPa
   for (std::size_t i = 0; i < 4; ++i)
     tag.corners_px[i] = crossing(tag.edges[(i + 3) % 4], tag.edges[i]);
   tag.agreement = agreement(gray, pattern, tag);
+  return tag;
+}
+
+std::optional<MeasuredTag> without_covered_edges(MeasuredTag tag, double least_quality) {
+  constexpr int least_edges = 2;
+  int n_clear = 0;
+  for (FittedEdge& edge : tag.edges) {
+    if (edge.quality >= least_quality) {
+      ++n_clear;
+    } else {
+      edge.dark = edge.bright = edge.blur_px = 0;  // described like the clear ones
+      edge.sd_px = std::numeric_limits<double>::infinity();
+    }
+  }
+  if (n_clear < least_edges) return std::nullopt;
+  describe_missing(tag.edges);
   return tag;
 }
 

@@ -2,6 +2,7 @@
 // and whether it really is that tag.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,10 @@ struct EdgeMeasuring {
 /// @param corners_px where they are expected, within half a cell
 MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPattern& pattern,
                         const std::array<Eigen::Vector2d, 4>& corners_px, const EdgeMeasuring& how);
+
+/// Of a tag that fingers cover in part: its covered edges tell nothing (sd_px is infinite).
+/// @return none where fewer than two are clear, their quality at least so much
+std::optional<MeasuredTag> without_covered_edges(MeasuredTag tag, double least_quality);
 
 /// The same from the detector's corners as they are: each edge goes from corner to corner.
 MeasuredTag unrefined_tag(const std::array<Eigen::Vector2d, 4>& corners_px);

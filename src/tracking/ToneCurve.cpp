@@ -86,7 +86,14 @@ struct ToneCurve::Tables {
       light_by_bend[i] = (light_by_bend[i] - light[i] * most_by_bend) / most;
     }
     invert();
-    if (bend.isZero()) stored = srgb_table;
+    if (bend.isZero()) be_srgb();
+  }
+
+  // Every whole stored value is exact.
+  void be_srgb() {
+    stored = srgb_table;
+    for (std::size_t i = 0; i <= n; ++i)
+      light[i] = light_of_stored(white * static_cast<double>(i) / n);
   }
 
   void invert() {
@@ -112,7 +119,6 @@ Stored ToneCurve::stored(double light) const {
 }
 
 double ToneCurve::light(double value) const {
-  if (bend_.isZero()) return light_of_stored(value);
   const double place = std::clamp(value / white, 0.0, 1.0) * Tables::n;
   const auto below = std::min(static_cast<std::size_t>(place), std::size_t{Tables::n - 1});
   const double fraction = place - static_cast<double>(below);

@@ -224,9 +224,10 @@ BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrio
                           double t_s) {
   if (!(camera_.readout_s > 0)) {
     const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
-    return effector_.aligned(gray_, fit, prior, smear(pose, seen_board, t_s), result_.times);
+    return effector_.aligned(gray_, fit, prior, smear(pose, seen_board, t_s), {}, result_.times);
   }
   if (!seen_) return fit;
+  Velocity velocity;
   constexpr int rounds = 2;
   for (int round = 0; round < rounds; ++round) {
     const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
@@ -238,12 +239,13 @@ BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrio
       const Eigen::Vector3d in_board = carry_on ? of_mean + (of_mean - before) / 2 : of_mean;
       return Eigen::Vector3d(seen_board.camera_from_body.orientation * in_board);
     };
-    fit = effector_.solve_moving(fit,
-                                 {now(mean.linear_m_s, seen_->velocity.linear_m_s),
-                                  now(mean.angular_rad_s, seen_->velocity.angular_rad_s)},
-                                 prior, result_.times);
+    velocity = {now(mean.linear_m_s, seen_->velocity.linear_m_s),
+                now(mean.angular_rad_s, seen_->velocity.angular_rad_s)};
+    fit = effector_.solve_moving(fit, velocity, prior, result_.times);
   }
-  return fit;
+  const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
+  return effector_.aligned(gray_, fit, prior, smear(pose, seen_board, t_s), velocity,
+                           result_.times);
 }
 
 void Tracker::take_board(const std::optional<BodyFit>& fit) {

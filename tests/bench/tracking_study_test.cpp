@@ -29,10 +29,15 @@ TEST(TrackingStudy, QuickRunMakesEveryFile) {
   const auto filters = folder.csv("filters.csv");
   EXPECT_EQ(filters.rows.size(), smoothers().size());
   for (const double jitter : filters.numbers("jitter_mm")) EXPECT_GT(jitter, 0);
-  EXPECT_EQ(folder.csv("goals.csv").rows.size(), 26U);
+  EXPECT_EQ(folder.csv("goals.csv").rows.size(), 32U);
+  const auto faults = folder.csv("faults.csv");
+  EXPECT_EQ(faults.rows.size() % 4, 0U);  // ours and the plain chain at two sizes
+  EXPECT_GT(faults.rows.size(), 4 * 12U);
+  for (const double share : faults.numbers("effector_found")) EXPECT_LE(share, 1);
+  EXPECT_NE(folder.text("goals.csv").find("false poses"), std::string::npos);
   EXPECT_NE(folder.text("goals.csv").find("camera calibration from 6 views"), std::string::npos);
   for (const double bound : folder.csv("bound.csv").numbers("bound_mm")) EXPECT_GT(bound, 0);
-  for (const char* chart : {"accuracy.svg", "limits.svg", "filters.svg"})
+  for (const char* chart : {"accuracy.svg", "limits.svg", "faults.svg", "filters.svg"})
     EXPECT_TRUE(folder.has_chart(chart)) << chart;
   const std::string readme = folder.text("README.md");
   EXPECT_NE(readme.find("quick run"), std::string::npos);

@@ -68,6 +68,27 @@ TEST(DensePose, ATagAtASlantIsWhereItIs) {
   EXPECT_LT(tip_errors({}, true).worst_mm, 0.3);
 }
 
+// The hand covers the lower side of the face that it shows beside the top.
+TEST(DensePose, ATagUnderFingersCountsWithWhatIsClear) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticCamera camera(apparatus, {}, 6);
+  Tracker tracker(apparatus);
+  const Eigen::Vector3d tip_m(0.045, 0, 0);
+  const std::vector<Pose> covered{
+      {{-0.026, 0.010, 0.040}, held(0, 1.716, 0.061, -0.906).orientation},
+      {{-0.042, -0.024, 0.044}, held(0, 1.826, 0.154, -0.938).orientation},
+      {{0.034, 0.005, 0.047}, held(0, 1.582, 0.098, -0.949).orientation}};
+  double sum_mm2 = 0;
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    tracker.reset();
+    const auto seen = tracker.track(camera.picture([&](double) { return covered[i]; }, 0, i), 0);
+    ASSERT_TRUE(seen.board_from_effector) << i;
+    EXPECT_EQ(seen.n_effector_faces, 2) << i;
+    sum_mm2 += 1e6 * (*seen.board_from_effector * tip_m - covered[i] * tip_m).squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(sum_mm2 / static_cast<double>(covered.size())), 0.14);
+}
+
 // Moved in every direction over the table, 2 pixels while the shutter is open; the third picture's
 // error, RMS.
 double smeared_rms_mm(bool inner_edges) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -57,14 +58,29 @@ std::string plot_of(int picture_px, const Series& one, std::size_t index, bool w
       name, one.color, with_title ? "title " + gnuplot_quoted(one.label) : std::string("notitle"));
 }
 
+bool is_anywhere(const std::vector<MethodResult>& results, const Series& one) {
+  return std::ranges::any_of(results, [&](const MethodResult& result) {
+    return is_of(result.name, one) && result.summary.tip_mm.p95;
+  });
+}
+
+// For the legend of both panels, where only the other one has points.
+std::string only_title(const Series& one) {
+  return fmt::format("NaN with lines linewidth 2 linecolor '{}' title {}", one.color,
+                     gnuplot_quoted(one.label));
+}
+
 std::string panel(const std::vector<MethodResult>& results, int picture_px, double left,
                   double right, bool with_titles) {
   std::string blocks, plots;
   for (std::size_t i = 0; i < series.size(); ++i) {
     const std::string block = block_of(results, picture_px, series[i], i);
-    if (block.empty()) continue;
     blocks += block;
-    plots += (plots.empty() ? "" : ", \\\n") + plot_of(picture_px, series[i], i, with_titles);
+    const std::string plot = !block.empty() ? plot_of(picture_px, series[i], i, with_titles)
+                             : with_titles && is_anywhere(results, series[i])
+                                 ? only_title(series[i])
+                                 : std::string();
+    if (!plot.empty()) plots += (plots.empty() ? "" : ", \\\n") + plot;
   }
   if (plots.empty()) return "";
   return fmt::format(

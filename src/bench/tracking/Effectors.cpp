@@ -51,7 +51,7 @@ std::string readme(const std::vector<EffectorResult>& results, const StudyOption
 }  // namespace
 
 EffectorResult compare_effector(EffectorBody body, int width_px, int n_grips, std::uint64_t seed) {
-  FilmPlan plan{width_px, Motion::hold, n_grips, 1, seed, Grip::any, {}};
+  FilmPlan plan{width_px, Motion::hold, n_grips, 1, seed, Grip::any, {}, {}};
   plan.print.body = body;
   const auto films = film(plan, {our_method(width_px)});
   std::vector<Measured> pictures;

@@ -45,10 +45,10 @@ double start_of(Motion motion, int take) {
 // A camera in one place.
 class Studio {
  public:
-  Studio(const Apparatus& apparatus, const Place& place, std::uint64_t seed)
+  Studio(const Apparatus& apparatus, const Place& place, const Optics& optics, std::uint64_t seed)
       : apparatus_(apparatus),
         tip_m_(tip_of(apparatus.effector)),
-        settings_(placed(place)),
+        settings_(placed(place, optics)),
         camera_(apparatus, settings_, seed) {}
 
   void film_take(const FilmPlan& plan, int number, const std::vector<TrackingMethod>& methods,
@@ -69,8 +69,9 @@ class Studio {
   }
 
  private:
-  static SyntheticSettings placed(const Place& place) {
+  static SyntheticSettings placed(const Place& place, const Optics& optics) {
     SyntheticSettings settings;
+    settings.optics = optics;
     settings.camera_from_board = camera_above_board(place.distance_m, place.pitch_deg * M_PI / 180);
     return settings;
   }
@@ -122,6 +123,7 @@ TrackedError error_of(const MethodPoses& poses, const Pose& camera_from_board,
     error.tip_mm = 1e3 * (*poses.board_from_effector * tip_m - board_from_effector * tip_m).norm();
     error.effector_deg =
         degrees_between(poses.board_from_effector->orientation, board_from_effector.orientation);
+    error.quality = poses.quality;
   }
   return error;
 }
@@ -133,7 +135,7 @@ std::vector<MethodFilm> film(const FilmPlan& plan, const std::vector<MethodName>
   std::vector<MethodFilm> films(methods.size());
   const int n_places = std::min(plan.n_takes, static_cast<int>(places.size()));
   for (int place = 0; place < n_places; ++place) {
-    Studio studio(apparatus, places[static_cast<std::size_t>(place)], plan.seed);
+    Studio studio(apparatus, places[static_cast<std::size_t>(place)], plan.optics, plan.seed);
     for (int i = place; i < plan.n_takes; i += n_places) studio.film_take(plan, i, methods, films);
   }
   return films;
@@ -163,13 +165,15 @@ ErrorSummary summary_of(const std::vector<TrackedError>& errors) {
   summary.tip_mm = quantiles_of(&TrackedError::tip_mm);
   summary.effector_found = found;
   summary.effector_deg = quantiles_of(&TrackedError::effector_deg);
+  summary.quality = quantiles_of(&TrackedError::quality);
+  summary.n_false = static_cast<int>(std::ranges::count_if(errors, &TrackedError::is_false));
   summary.time_ms = quantiles_of(&TrackedError::time_ms);
   return summary;
 }
 
 namespace {
 FilmPlan plan_for(int width_px, Motion motion, bool quick) {
-  FilmPlan plan{width_px, motion, 1, 12, 2, Grip::any, {}};
+  FilmPlan plan{width_px, motion, 1, 12, 2, Grip::any, {}, {}};
   if (quick) return plan;
   const int times = width_px == 640 ? 2 : 1;
   plan.n_takes = motion == Motion::hold ? 10 * times : 20 * times;

@@ -20,6 +20,7 @@ struct MethodPoses {
   std::optional<Pose> camera_from_board, board_from_effector;
   double quality = 1;
   int n_faces = 0;  ///< of the effector, that its pose was measured on; 0 where a method tells none
+  std::optional<double> effector_t_s = std::nullopt;  ///< where a method tells it
 };
 
 /// What a method is, in the words of the charts and tables.
@@ -50,8 +51,11 @@ std::vector<MethodName> all_methods(int width_px, bool quick);
 /// One picture, one method.
 struct TrackedError {
   std::optional<double> board_mm, board_deg;  ///< none: the board was not found
-  std::optional<double> tip_mm, effector_deg;
+  std::optional<double> tip_mm, effector_deg, quality;
   double time_ms = 0;  ///< processor time
+
+  /// A pose that is given and is more than 10 mm or 5 deg off.
+  bool is_false() const { return tip_mm && (*tip_mm > 10 || *effector_deg > 5); }
 };
 
 /// @param tip_m in the effector's frame
@@ -74,6 +78,7 @@ struct FilmPlan {
   std::uint64_t seed = 1;
   Grip grip = Grip::any;
   EffectorPrint print{};
+  Optics optics{};
 };
 
 /// What one method made of each take's pictures.
@@ -98,7 +103,8 @@ struct Quantiles {
 struct ErrorSummary {
   int n = 0;
   double board_found = 0, effector_found = 0;  ///< fractions
-  Quantiles board_mm, board_deg, tip_mm, effector_deg, time_ms;
+  Quantiles board_mm, board_deg, tip_mm, effector_deg, quality, time_ms;
+  int n_false = 0;
 };
 
 /// @param errors at least one

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/Quantile.h"
@@ -112,7 +113,7 @@ void add_size(std::vector<Goal>& goals, const GoalFilms& goal_films) {
 
 // Strokes with two faces in view, in which the effector came out turned round.
 Goal count_flips(bool quick) {
-  FilmPlan plan{640, Motion::stroke, quick ? 2 : 520, quick ? 4 : 30, 3, Grip::two_faces, {}};
+  FilmPlan plan{640, Motion::stroke, quick ? 2 : 520, quick ? 4 : 30, 3, Grip::two_faces, {}, {}};
   const auto films = film(plan, {our_method(plan.width_px)});
   int n = 0, flips = 0;
   for (const auto& take : films[0].pictures)
@@ -124,6 +125,27 @@ Goal count_flips(bool quick) {
   return {fmt::format("gross flips in {} pictures with two faces in view", n), 0, "flips", false,
           static_cast<double>(flips)};
 }
+
+// What a picture costs that nobody lit.
+Goal time_in_the_dark(bool quick) {
+  FilmPlan plan{640, Motion::stroke, quick ? 1 : 12, quick ? 4 : 15, 4, Grip::any, {}, {}};
+  plan.optics.exposure = 0.3;
+  plan.optics.noise = 10;
+  const auto films = film(plan, {our_method(plan.width_px), plain_method(plan.width_px)});
+  return {"our time over that of apriltag + solvePnP, a third of the light, noise 10, at 640x480",
+          0.9, "times", false,
+          ratio(summary_of(films[0].errors()).time_ms.median,
+                summary_of(films[1].errors()).time_ms.median)};
+}
+
+void add_two_faces(std::vector<Goal>& goals, bool quick) {
+  const auto two = compare_effector(EffectorBody::two_faces, 640, quick ? 3 : 200, 5);
+  goals.push_back({"grips that show two tags of effector_two_faces.toml", 90, "%", true,
+                   100 * two.two_in_view});
+  goals.push_back({"tip p95, effector_two_faces.toml at 640x480", 0.35, "mm", false,
+                   or_nan(two.summary.tip_mm.p95)});
+}
+
 // Cameras calibrated from as many views as the wizard asks for, each from views of its own: the
 // worst one's, since a lab has one.
 Goal calibrate_cameras(bool quick) {
@@ -146,16 +168,20 @@ std::string figure_text(double value, const std::string& unit) {
   return std::isnan(value) ? "-" : fmt::format("{:.3g} {}", value, unit);
 }
 
-std::vector<Goal> study_goals(const std::vector<GoalFilms>& films_by_size,
-                              const std::vector<BoundResult>& bounds, const StudyOptions& options,
+std::vector<Goal> study_goals(const StudyParts& parts, const StudyOptions& options,
                               StudyProgress& progress) {
   std::vector<Goal> goals;
-  for (const GoalFilms& goal_films : films_by_size) add_size(goals, goal_films);
-  for (const BoundResult& bound : bounds)
+  for (const GoalFilms& goal_films : parts.films_by_size) add_size(goals, goal_films);
+  for (const BoundResult& bound : parts.bounds)
     goals.push_back(
         {fmt::format("tip's RMS over what noise allows, {} at {}",
                      bound.tags == 1 ? "one tag" : "two tags", size_name(bound.width_px)),
          bound.tags == 1 ? 2.5 : 2, "times", false, bound.ratio()});
+  std::ranges::move(fault_goals(parts.faults), std::back_inserter(goals));
+  goals.push_back(count_false_poses(parts));
+  progress.next("in the dark, and with two faces");
+  goals.push_back(time_in_the_dark(options.quick));
+  add_two_faces(goals, options.quick);
   progress.next("looking for flips");
   goals.push_back(count_flips(options.quick));
   progress.next("calibrating cameras");

@@ -47,7 +47,7 @@ TrackingMethod make_method(const MethodName& name, const Apparatus& apparatus) {
     return {[tracker](const Image& image, double t_s) -> MethodPoses {
               const TrackedPicture seen = tracker->track(image, t_s);
               return {seen.camera_from_board, seen.board_from_effector, seen.quality,
-                      seen.n_effector_faces};
+                      seen.n_effector_faces, seen.effector_t_s};
             },
             [tracker] { tracker->reset(); }};
   }

@@ -112,11 +112,8 @@ std::string goal_table(const std::vector<Goal>& goals) {
 }
 }  // namespace
 
-std::string tracking_readme(const std::vector<MethodResult>& accuracy,
-                            const std::vector<LimitPoint>& limit_points,
-                            const std::vector<BoundResult>& bounds,
-                            const std::vector<FilterResult>& filters,
-                            const std::vector<Goal>& goals, const StudyOptions& options) {
+std::string tracking_readme(const StudyParts& parts, const std::vector<Goal>& goals,
+                            const StudyOptions& options) {
   return fmt::format(
       "# Tracking: what to choose when\n\n"
       "Written by the study itself ({}). Everything is filmed by the synthetic camera, so the "
@@ -147,6 +144,11 @@ std::string tracking_readme(const std::vector<MethodResult>& accuracy,
       "So: tags as large as the effector allows and well clear of the fingers, a short exposure in "
       "much light rather than a bright picture by a long one, a focus that stays, and no "
       "overexposed paper.\n\n"
+      "## What cameras do\n\n"
+      "Tone curves with shoulders, what a camera's processor makes of a picture, light, rolling "
+      "shutters whose read-out is known, and files that are wrong:\n\n"
+      "![faults](faults.svg)\n\n"
+      "`faults.csv` has found rates, errors, quality and false poses of each.\n\n"
       "## Which filter\n\n{}\n"
       "![filters](filters.svg)\n\n"
       "Over video every millisecond of lag pulls the clone off the filmed effector, which people "
@@ -155,27 +157,27 @@ std::string tracking_readme(const std::vector<MethodResult>& accuracy,
       provenance(options),
       options.quick ? " **This was a quick run to see that it works: its figures mean nothing.**"
                     : "",
-      method_table(accuracy), tone_table(limit_points), bound_table(bounds),
-      limit_table(limit_points), filter_table(filters), goal_table(goals));
+      method_table(parts.accuracy), tone_table(parts.limits), bound_table(parts.bounds),
+      limit_table(parts.limits), filter_table(parts.filters), goal_table(goals));
 }
 
 void run_tracking_study(const StudyOptions& options) {
   keep_opencv_on_one_thread();
   const int n_sizes = static_cast<int>(picture_widths_px.size());
   std::vector<Goal> goals;
+  StudyParts parts;
   {
-    StudyProgress progress(n_sizes * (1 + goal_film_parts) + limit_parts + bound_parts +
-                           goal_parts);
-    const auto accuracy = study_accuracy(options, progress);
-    std::vector<GoalFilms> films_by_size;
+    StudyProgress progress(n_sizes * (1 + goal_film_parts) + limit_parts + fault_parts +
+                           bound_parts + goal_parts);
+    parts.accuracy = study_accuracy(options, progress);
     for (const int width_px : picture_widths_px)
-      films_by_size.push_back(film_for_goals(width_px, options.quick, progress));
-    const auto filters = study_filters(films_by_size.front(), options);
-    const auto limits = study_limits(options, progress);
-    const auto bounds = study_bound(options, progress);
-    goals = study_goals(films_by_size, bounds, options, progress);
-    std::ofstream(options.out + "/README.md")
-        << tracking_readme(accuracy, limits, bounds, filters, goals, options);
+      parts.films_by_size.push_back(film_for_goals(width_px, options.quick, progress));
+    parts.filters = study_filters(parts.films_by_size.front(), options);
+    parts.limits = study_limits(options, progress);
+    parts.faults = study_faults(options, progress);
+    parts.bounds = study_bound(options, progress);
+    goals = study_goals(parts, options, progress);
+    std::ofstream(options.out + "/README.md") << tracking_readme(parts, goals, options);
   }
   fmt::print("{}", as_text(goals));
 }

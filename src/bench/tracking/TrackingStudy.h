@@ -69,6 +69,25 @@ std::vector<LimitPoint> study_limits(const StudyOptions& options, StudyProgress&
 
 inline constexpr int limit_parts = 9;  ///< of progress
 
+// What cameras, their light and their prints do, one fault at a time, at both sizes:
+// FaultStudy.cpp.
+
+struct FaultPoint {
+  std::string fault;
+  double value = 0;
+  int width_px = 0;
+  ErrorSummary ours, plain;
+};
+
+/// Writes faults.csv and faults.svg.
+std::vector<FaultPoint> study_faults(const StudyOptions& options, StudyProgress& progress);
+
+inline constexpr int fault_parts = 2;  ///< of progress
+
+/// None where it was not filmed.
+const FaultPoint* point_of(const std::vector<FaultPoint>& points, const std::string& fault,
+                           double value, int width_px);
+
 // How far from what noise allows: BoundStudy.cpp.
 
 /// Held grips at one picture size with so many tags in view; RMS distances of the tip.
@@ -165,13 +184,26 @@ struct Goal {
   bool met() const { return at_least ? reached >= goal : reached <= goal; }
 };
 
-/// Films for flips and calibrates cameras, too. Writes goals.csv.
-/// @param films_by_size of 640x480 and 1280x720
-std::vector<Goal> study_goals(const std::vector<GoalFilms>& films_by_size,
-                              const std::vector<BoundResult>& bounds, const StudyOptions& options,
+/// What all the other parts of the study found.
+struct StudyParts {
+  std::vector<MethodResult> accuracy;
+  std::vector<GoalFilms> films_by_size;  ///< of 640x480 and 1280x720
+  std::vector<FilterResult> filters;
+  std::vector<LimitPoint> limits;
+  std::vector<FaultPoint> faults;
+  std::vector<BoundResult> bounds;
+};
+
+/// Of what cameras do: FaultGoals.cpp.
+std::vector<Goal> fault_goals(const std::vector<FaultPoint>& points);
+/// Poses that are false in all pictures of the study.
+Goal count_false_poses(const StudyParts& parts);
+
+/// Films for flips, compares effectors and calibrates cameras, too. Writes goals.csv.
+std::vector<Goal> study_goals(const StudyParts& parts, const StudyOptions& options,
                               StudyProgress& progress);
 
-inline constexpr int goal_parts = 2;  ///< of progress
+inline constexpr int goal_parts = 3;  ///< of progress
 
 /// A table for people.
 std::string as_text(const std::vector<Goal>& goals);

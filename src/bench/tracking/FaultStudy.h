@@ -1,0 +1,35 @@
+// How well poses are found by cameras that are not ideal, at both picture sizes.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/tracking/PictureFaults.h"
+#include "bench/tracking/TrackingStudy.h"
+
+namespace heft {
+
+/// An effector held still before the ideal camera, and what is to be changed of it.
+struct FaultScene {
+  Apparatus filmed;  ///< what is there
+  Apparatus told;    ///< what the tracker's files say
+  SyntheticSettings settings;
+  PictureFaults faults;
+  double speed_m_s = 0;  ///< straight on over the table
+};
+
+struct Fault {
+  std::string name;   ///< in the CSV
+  std::string label;  ///< of the axis, with its unit
+  std::vector<double> values;
+  std::function<void(FaultScene& scene, double value)> change;
+};
+
+/// More than limits tell: at both sizes, with what comes after the lens, and with wrong files.
+std::vector<Fault> faults();
+
+/// Writes faults.svg.
+void draw_faults(const std::vector<FaultPoint>& points, const StudyOptions& options);
+
+}  // namespace heft
