@@ -251,6 +251,21 @@ class Files(SessionTest):
                 if command == "resume":
                     self.assertNotEqual(done.returncode, 0)
 
+    def test_a_changed_log_makes_no_file_and_opens_none(self):
+        db = self.folder / "s.db"
+        self.session(db, "--backup", self.folder / "copies")
+        change(db, "update session set state = 'paused'")
+        for column, name in (("view", "video:new.avi"), ("record_camera", "new"),
+                             ("responder", "scripted:new")):
+            changed = self.folder / f"{column}.db"
+            shutil.copy(db, changed)
+            self.assertEqual(change(changed, f"update setup set {column} = "
+                                             f"replace('{name}', 'new', '{self.folder}/new')"), 1)
+            before = sorted(path.name for path in self.folder.iterdir())
+            done = self.run_heft("resume", "--db", changed, expect=5)
+            self.assertIn("not as it was written", done.stderr)
+            self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before)
+
     def has_trial(self, db):
         try:
             return query(db, "select count(*) from trial") > [(0,)]
