@@ -107,19 +107,24 @@ TouchKind Pages::ask_model(const Questionnaire& form, const ScreenState& screen)
   return TouchKind::close;
 }
 
-void Pages::questionnaires(const std::string& before_block) {
-  const auto& asked = protocol_.screens.questionnaires;
-  if (asked.empty() || (!texts_ && !asked_.texts)) return;
-  const auto ask_after = [&](const std::string& block) {
-    if (const auto found = asked.find(block); found != asked.end())
-      for (const std::string& name : found->second) ask(name, block);
-  };
-  for (const Block& block : protocol_.blocks) {
-    const std::string& name = block_name(block);
-    if (!before_block.empty() && name == before_block) return;
-    ask_after(name);
+void Pages::questionnaires_before(const std::string& block) {
+  if (block.empty()) return;
+  for (const Block& before : protocol_.blocks) {
+    if (block_name(before) == block) return;
+    ask_after(block_name(before));
   }
-  if (before_block.empty()) ask_after("");
+}
+
+void Pages::questionnaires_at_the_end() {
+  for (const Block& block : protocol_.blocks) ask_after(block_name(block));
+  ask_after("");
+}
+
+void Pages::ask_after(const std::string& block) {
+  if (!texts_ && !asked_.texts) return;
+  const auto& asked = protocol_.screens.questionnaires;
+  if (const auto found = asked.find(block); found != asked.end())
+    for (const std::string& name : found->second) ask(name, block);
 }
 
 void Pages::thanks() {

@@ -48,9 +48,11 @@ class Pages {
   /// A break of at least so many seconds.
   void rest(double least_s);
 
-  /// The questionnaires after the blocks before this one that were not asked yet; before none: all,
-  /// and those at the end. A model is asked, too.
-  void questionnaires(const std::string& before_block = {});
+  /// The questionnaires after the blocks before this one that were not asked yet; of no block none.
+  /// A model is asked, too.
+  void questionnaires_before(const std::string& block);
+  /// Those after all blocks, and those at the end.
+  void questionnaires_at_the_end();
 
   /// The pages after the last trial.
   void how_decided();
@@ -63,6 +65,7 @@ class Pages {
   TouchKind show(ScreenState screen, double least_s = 0, const Moving& frame_at = {});
   TouchKind show(Screen screen) { return show(ScreenState{.screen = screen}); }
   void show_once(Screen screen);
+  void ask_after(const std::string& block);
   void ask(const std::string& name, const std::string& after);
   TouchKind ask_model(const Questionnaire& form, const ScreenState& screen);
   void show_form(Screen screen);

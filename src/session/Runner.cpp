@@ -105,8 +105,12 @@ bool Runner::begin() {
 
 RunEnd Runner::run_blocks() {
   for (;;) {
+    pages_.questionnaires_before(block_to_come());
     if (control_.leaving()) return RunEnd::stopped;
-    if (const auto rest = parts_.engine.next().rest) take_break(rest->name, rest->least_duration_s);
+    if (const auto rest = parts_.engine.next().rest) {
+      take_break(rest->name, rest->least_duration_s);
+      continue;  // it may be asked about, too
+    }
     if (control_.take_rest_wish()) take_break("asked for", 0);
     control_.check_if_wanted();
     if (control_.leaving()) return RunEnd::stopped;
@@ -130,9 +134,17 @@ RunEnd Runner::run_blocks() {
   }
 }
 
+// Of a break that is due, its own. None: no block is to come.
+std::string Runner::block_to_come() const {
+  const Next& next = parts_.engine.next();
+  if (next.rest) return next.rest->name;
+  if (next.demonstration) return next.demonstration->name;
+  return next.plan ? next.plan->block : "";
+}
+
 // None: the last answer was vetoed meanwhile, and there is more to do.
 std::optional<RunEnd> Runner::finish() {
-  pages_.questionnaires();
+  pages_.questionnaires_at_the_end();
   if (pages_.has_reader()) pages_.how_decided();
   if (control_.leaving()) return RunEnd::stopped;
   if (parts_.engine.next().kind != Next::Kind::finish) return std::nullopt;
@@ -168,8 +180,6 @@ void Runner::run_trial(const TrialPlan& plan) {
                          plan.trial_number)});
   }
   if (instructed_block_ != plan.block) {
-    pages_.questionnaires(plan.block);
-    if (control_.leaving()) return;
     if (pages_.has_reader()) pages_.instructions(plan.task);
     if (control_.leaving()) return;
     instructed_block_ = plan.block;

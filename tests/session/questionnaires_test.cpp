@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::Each;
+using ::testing::ElementsAre;
 using ::testing::IsSupersetOf;
 using testing::made_up_s;
 using ::testing::Not;
@@ -131,6 +132,25 @@ TEST(Questionnaires, WhatPeopleAnswerIsLoggedByBlockWithItsTime) {
   }
 }
 
+// What is asked of the effort of a block is asked before people have rested from it.
+TEST(Questionnaires, ComeBeforeTheBreakThatFollowsTheirBlock) {
+  Protocol protocol = asking();
+  protocol.blocks.insert(protocol.blocks.begin() + 1, BreakBlock{"rest", 0.1});
+  protocol.blocks.insert(protocol.blocks.begin() + 2, DemonstrationBlock{"shown", 0.1});
+  protocol.screens.questionnaires = {{"sorting", {"borg_cr10"}},
+                                     {"rest", {"presence"}},
+                                     {"shown", {"ownership"}},
+                                     {"", {"nasa_tlx"}}};
+  Asked person(6);
+  TappedSession session(protocol, texts_with(all), std::ref(person));
+  ASSERT_EQ(session.run(), RunEnd::finished);
+  EXPECT_THAT(
+      testing::pages_of(session.sink),
+      ElementsAre("welcome", "instructions_sorting", "trial_sorting", "questionnaire_borg_cr10",
+                  "rest", "questionnaire_presence", "demonstration", "questionnaire_ownership",
+                  "instructions_sorting", "trial_sorting", "questionnaire_nasa_tlx", "thanks"));
+}
+
 TEST(Questionnaires, WhoComesBackIsNotAskedAgainAndGoesOnWhereTheyLeft) {
   Asked person(3);
   TappedSession session(asking(), texts_with(all), std::ref(person));
@@ -189,10 +209,10 @@ TEST(Questionnaires, ModelsAreAskedAsPeopleAre) {
     EXPECT_GT(at_s, last_s + 2) << "it takes its time";
     last_s = at_s;
   }
-  EXPECT_THAT(testing::pages_of(session),
-              ::testing::ElementsAre("questionnaire_nasa_tlx", "questionnaire_nasa_tlx",
-                                     "questionnaire_borg_cr10", "questionnaire_presence",
-                                     "questionnaire_ownership"));
+  EXPECT_THAT(
+      testing::pages_of(session),
+      ElementsAre("questionnaire_nasa_tlx", "questionnaire_nasa_tlx", "questionnaire_borg_cr10",
+                  "questionnaire_presence", "questionnaire_ownership"));
   EXPECT_EQ(compute_session(asked_model(), {}).header().participant_info, logged);
 }
 
