@@ -42,7 +42,8 @@ void Pages::show_once(Screen screen) {
 }
 
 void Pages::show_form(Screen screen) {
-  show(ScreenState{.screen = screen, .entries = gone_.entries});
+  const TouchKind end = show(ScreenState{.screen = screen, .entries = gone_.entries});
+  if (end == TouchKind::next) gone_.pages.insert(std::string(name_of(screen)));
 }
 
 void Pages::instructions(Task task) {
@@ -61,7 +62,7 @@ void Pages::rest(double least_s) {
 }
 
 void Pages::how_decided() {
-  if (protocol_.screens.how_decided) show_form(Screen::how_decided);
+  if (protocol_.screens.how_decided) show_once(Screen::how_decided);
 }
 
 // Once it was gone through, its own entry has the time; until then it comes again after a
@@ -109,22 +110,31 @@ TouchKind Pages::ask_model(const Questionnaire& form, const ScreenState& screen)
 
 void Pages::questionnaires_before(const std::string& block) {
   if (block.empty()) return;
+  std::vector<std::string> over;
   for (const Block& before : protocol_.blocks) {
-    if (block_name(before) == block) return;
-    ask_after(block_name(before));
+    if (block_name(before) == block) break;
+    over.push_back(block_name(before));
   }
+  ask_after(over);
 }
 
 void Pages::questionnaires_at_the_end() {
-  for (const Block& block : protocol_.blocks) ask_after(block_name(block));
-  ask_after("");
+  std::vector<std::string> over;
+  for (const Block& block : protocol_.blocks) over.push_back(block_name(block));
+  over.emplace_back();
+  ask_after(over);
 }
 
-void Pages::ask_after(const std::string& block) {
+// Of an answer that is taken back meanwhile the trial comes again before what is left of them.
+void Pages::ask_after(const std::vector<std::string>& blocks) {
   if (!texts_ && !asked_.texts) return;
-  const auto& asked = protocol_.screens.questionnaires;
-  if (const auto found = asked.find(block); found != asked.end())
-    for (const std::string& name : found->second) ask(name, block);
+  const int n_completed = journal_.engine().n_completed();
+  for (const std::string& block : blocks) {
+    const auto asked = protocol_.screens.questionnaires.find(block);
+    if (asked == protocol_.screens.questionnaires.end()) continue;
+    for (const std::string& name : asked->second)
+      if (journal_.engine().n_completed() == n_completed) ask(name, block);
+  }
 }
 
 void Pages::thanks() {

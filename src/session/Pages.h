@@ -65,7 +65,7 @@ class Pages {
   TouchKind show(ScreenState screen, double least_s = 0, const Moving& frame_at = {});
   TouchKind show(Screen screen) { return show(ScreenState{.screen = screen}); }
   void show_once(Screen screen);
-  void ask_after(const std::string& block);
+  void ask_after(const std::vector<std::string>& blocks);
   void ask(const std::string& name, const std::string& after);
   TouchKind ask_model(const Questionnaire& form, const ScreenState& screen);
   void show_form(Screen screen);

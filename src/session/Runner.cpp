@@ -144,10 +144,11 @@ std::string Runner::block_to_come() const {
 
 // None: the last answer was vetoed meanwhile, and there is more to do.
 std::optional<RunEnd> Runner::finish() {
+  const auto at_end = [this] { return parts_.engine.next().kind == Next::Kind::finish; };
   pages_.questionnaires_at_the_end();
-  if (pages_.has_reader()) pages_.how_decided();
+  if (pages_.has_reader() && at_end()) pages_.how_decided();
   if (control_.leaving()) return RunEnd::stopped;
-  if (parts_.engine.next().kind != Next::Kind::finish) return std::nullopt;
+  if (!at_end()) return std::nullopt;
   journal_.emit_now(SessionEnded{});
   return RunEnd::finished;
 }

@@ -151,6 +151,44 @@ TEST(Questionnaires, ComeBeforeTheBreakThatFollowsTheirBlock) {
                   "instructions_sorting", "trial_sorting", "questionnaire_nasa_tlx", "thanks"));
 }
 
+// A short staircase, and at the end two questionnaires and the three questions.
+Protocol asking_at_the_end() {
+  Protocol protocol = asking();
+  ComparisonBlock comparison;
+  comparison.name = "comparison";
+  comparison.staircases = {{15, testing::staircase("15g", 175, 50, 3)}};
+  protocol.blocks = {comparison};
+  protocol.screens.how_decided = true;
+  protocol.screens.questionnaires = {{"", {"borg_cr10", "presence"}}};
+  return protocol;
+}
+
+// The pages of a session whose last answer is taken back while one of them is shown.
+std::vector<std::string> pages_with_veto_on(Screen vetoed_on) {
+  Asked person(7);
+  std::optional<TappedSession> session;
+  bool vetoed = false;
+  const auto with_veto = [&](const TappedScreen& screen) {
+    if (screen.screen().screen == vetoed_on && !std::exchange(vetoed, true))
+      session->engine.apply({session->engine.last_s(), AnswerVetoed{"by mistake"}});
+    return person(screen);
+  };
+  session.emplace(asking_at_the_end(), texts_with(all), with_veto);
+  EXPECT_EQ(session->run(), RunEnd::finished);
+  std::vector<std::string> pages = testing::pages_of(session->sink);
+  pages.erase(pages.begin(), pages.begin() + 2);  // welcome and instructions
+  return pages;
+}
+
+TEST(Questionnaires, AnAnswerTakenBackComesBeforeThePagesThatAreLeftAndNoneComesTwice) {
+  EXPECT_THAT(pages_with_veto_on(Screen::questionnaire),
+              ElementsAre("trial_comparison", "questionnaire_borg_cr10", "trial_comparison",
+                          "questionnaire_presence", "how_decided", "thanks"));
+  EXPECT_THAT(pages_with_veto_on(Screen::how_decided),
+              ElementsAre("trial_comparison", "questionnaire_borg_cr10", "questionnaire_presence",
+                          "how_decided", "trial_comparison", "thanks"));
+}
+
 TEST(Questionnaires, WhoComesBackIsNotAskedAgainAndGoesOnWhereTheyLeft) {
   Asked person(3);
   TappedSession session(asking(), texts_with(all), std::ref(person));
