@@ -2,6 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
@@ -39,7 +42,8 @@ class Pages {
   /// @return false when the person does not agree to take part
   bool welcome();
 
-  void instructions(Task task);
+  /// Those of a block, unless they were read before.
+  void instructions(const std::string& block, Task task);
 
   /// The demonstration, for as long as the block says and until the person goes on.
   /// @param apparatus, left_hand as Demonstration
@@ -77,6 +81,7 @@ class Pages {
   ParticipantScreen& screen_;
   const ScreenTexts* texts_;
   GoneThrough gone_;
+  std::set<std::string> instructed_;  // of which blocks, since the session goes on
   AskedMind asked_;
 };
 

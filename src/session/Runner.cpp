@@ -180,11 +180,7 @@ void Runner::run_trial(const TrialPlan& plan) {
         Note{fmt::format("staircase \"{}\" is the last one and runs alone from trial {}", *survivor,
                          plan.trial_number)});
   }
-  if (instructed_block_ != plan.block) {
-    if (pages_.has_reader()) pages_.instructions(plan.task);
-    if (control_.leaving()) return;
-    instructed_block_ = plan.block;
-  }
+  if (pages_.has_reader()) pages_.instructions(plan.block, plan.task);
   fade_out();
   const Next& next = parts_.engine.next();
   const bool still_due = next.kind == Next::Kind::trial &&

@@ -92,7 +92,7 @@ class Runner {
   SessionControl control_;
   Pages pages_;
   ViewFrame last_shown_;  // of a trial
-  std::optional<std::string> noted_last_staircase_, instructed_block_;
+  std::optional<std::string> noted_last_staircase_;
 };
 
 }  // namespace heft
