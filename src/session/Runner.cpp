@@ -22,6 +22,8 @@ Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
       pages_(parts.protocol, journal_, control_, screen_, parts.texts, parts.before,
              {&parts.responder, parts.asked}) {
   control_.on_check([this] { check_apparatus(); });
+  // One of the protocol the engine knows to be due; one that was asked for it does not.
+  if (parts.before.in_break && !parts.engine.next().rest) control_.want_rest();
   journal_.while_locked([this](double waited_s) { return wait_for_log(waited_s); });
 }
 

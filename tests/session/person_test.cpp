@@ -493,6 +493,14 @@ TEST(GoneThrough, WhatAnotherPageCoveredForAWhileOrABreakOffEndedWasNotTurned) {
   EXPECT_THAT(gone_through({shown("welcome"), shown("rest")}, {}).pages, ElementsAre("welcome"));
 }
 
+TEST(GoneThrough, ABreakIsOverWhenItWasTakenOrTheTrialIsThere) {
+  const auto shown = [](const std::string& page) { return Event{0, TextShown{page, "en", ""}}; };
+  const Event taken{0, BreakTaken{"asked for", 3}};
+  EXPECT_TRUE(gone_through({shown("rest"), shown("paused"), {0, SessionResumed{}}}, {}).in_break);
+  EXPECT_FALSE(gone_through({shown("rest"), taken}, {}).in_break);
+  EXPECT_FALSE(gone_through({shown("rest"), shown("trial_sorting")}, {}).in_break);
+}
+
 TEST(Experimenter, notes_takes_a_break_and_ends) {
   ScriptedConsole console({{ConsoleCommandKind::note, "door slammed"},
                            {ConsoleCommandKind::rest, {}},
@@ -508,6 +516,22 @@ TEST(Experimenter, gets_the_break_that_was_asked_for) {
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::finished);
   EXPECT_EQ(session.events(EventKind::rest).at(0).as<BreakTaken>()->name, "asked for");
+}
+
+TEST(Person, who_comes_back_takes_the_break_that_was_asked_for_and_not_ended) {
+  ScriptedConsole console({{ConsoleCommandKind::rest, {}}});
+  bool closes = true;
+  Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
+    if (screen.screen != Screen::rest || !std::exchange(closes, false))
+      return patient(picture, screen);
+    return std::vector{touch(TouchKind::close)};
+  });
+  EXPECT_EQ(session.run(&console), RunEnd::stopped);
+  EXPECT_THAT(session.events(EventKind::rest), IsEmpty());
+  RecordedSession sink{SessionHeader{}};
+  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
+  EXPECT_THAT(pages_of(sink), ElementsAre("rest", "trial_sorting", "thanks"));
+  EXPECT_EQ(testing::events_of(sink, EventKind::rest).at(0).as<BreakTaken>()->name, "asked for");
 }
 
 TEST(Experimenter, is_blind_until_they_unblind_themselves) {
