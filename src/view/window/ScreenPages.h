@@ -23,6 +23,7 @@ struct ScreenMemory {
   std::map<std::string, std::string> entries;  ///< of a form, as chosen so far
   bool cubes_shown = false;                    ///< in the scene
   std::string named;                           ///< the button of the last choice, while it fades
+  bool has_declined = false;                   ///< consent: and came back
   double up_s = 0;                             ///< how long the part or question has been there
 };
 

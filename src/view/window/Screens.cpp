@@ -116,6 +116,7 @@ void Screens::remember(const ScreenState& state) {
     memory_ = std::move(paused_->memory);
   } else {
     memory_ = {};
+    memory_.has_declined = state_.screen == Screen::declined;
     memory_.entries = state.entries;
     memory_.part = state.screen == Screen::questionnaire
                        ? first_open_question(texts_.questionnaires.at(state.form),
