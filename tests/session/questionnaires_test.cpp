@@ -51,6 +51,7 @@ class Asked {
     const Control& chosen = *answers[random_.below(answers.size())];
     const double at = 0.01 + 0.98 * random_.uniform();
     if (const auto* touch = std::get_if<Touch>(&chosen.effect)) meant[touch->key] = touch->value;
+    if (const auto* typed = std::get_if<Typed>(&chosen.effect)) meant[typed->key] = typed->value;
     if (const auto* slide = std::get_if<Slide>(&chosen.effect))
       meant[slide->key] = std::to_string(std::lround(100 * at));
     return tap(&chosen, at);
