@@ -157,6 +157,7 @@ void Engine::start_trial(double t_s, Changes& changes) {
   row.started_s = t_s;
   open_.emplace(row, *next_.plan, plan_->require_contact, onset_.min_answer_s);
   rest_.reset();
+  begun_.insert(open_->plan().block);
   changes.attempt_index = n_attempts_;
   changes.trial = open_->row();
   changes.cubes = open_->cubes();

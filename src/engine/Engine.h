@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -88,6 +89,9 @@ class Engine {
     return answered_ && !answered_->vetoed ? &answered_->trials.back() : nullptr;
   }
 
+  /// Whether a trial of that block was ever started.
+  bool has_begun(const std::string& block) const { return begun_.contains(block); }
+
   bool trial_is_open() const { return open_.has_value(); }
   /// Paused because one trial was voided max_voids times in a row: somebody has to look.
   bool needs_somebody() const { return paused_ && n_voids_ >= max_voids; }
@@ -132,6 +136,7 @@ class Engine {
 
   std::size_t block_ = 0;  // of the next or open trial
   BlockRun run_;           // of that block
+  std::set<std::string> begun_;
   std::optional<BreakBlock> rest_;
 
   /// Of the comparison block that was answered last, what is needed to take its last answer back.

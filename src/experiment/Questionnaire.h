@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,17 @@ struct Questionnaire {
 
 /// Whether an answer is one that the question takes; people may be in the middle of typing it.
 bool takes_answer(const FormQuestion& question, const std::string& value);
+
+/// Of a number, in letters.
+inline constexpr std::size_t longest_number = 9;
+
+/// What a number that is being typed becomes with one more key: 0 before a point alone, and no 0
+/// before another digit.
+/// @param key a digit or "."
+/// @return none: it would be no number, or none that could still come to lie in the question's
+/// range
+std::optional<std::string> typed_on(const FormQuestion& question, const std::string& typed,
+                                    const std::string& key);
 
 /// The page of texts that a questionnaire is.
 inline std::string questionnaire_page(const std::string& name) {

@@ -42,11 +42,17 @@ void Pages::show_once(Screen screen) {
 }
 
 void Pages::show_form(Screen screen) {
-  show(ScreenState{.screen = screen, .entries = gone_.entries});
+  const TouchKind end = show(ScreenState{.screen = screen, .entries = gone_.entries});
+  if (end == TouchKind::next) gone_.pages.insert(std::string(name_of(screen)));
 }
 
-void Pages::instructions(Task task) {
-  show(ScreenState{.screen = Screen::instructions, .task = task});
+// Blocks of one task have one page: those of a block that has begun were read by whoever left that
+// page before; not by a person who goes on where a model began.
+void Pages::instructions(const std::string& block, Task task) {
+  const bool left_before = gone_.pages.contains(text_page(Screen::instructions, task));
+  if (instructed_.contains(block) || (left_before && journal_.engine().has_begun(block))) return;
+  const TouchKind end = show(ScreenState{.screen = Screen::instructions, .task = task});
+  if (end == TouchKind::next) instructed_.insert(block);
 }
 
 void Pages::demonstration(const DemonstrationBlock& block, const Apparatus& apparatus,
@@ -61,7 +67,7 @@ void Pages::rest(double least_s) {
 }
 
 void Pages::how_decided() {
-  if (protocol_.screens.how_decided) show_form(Screen::how_decided);
+  if (protocol_.screens.how_decided) show_once(Screen::how_decided);
 }
 
 // Once it was gone through, its own entry has the time; until then it comes again after a
@@ -107,19 +113,33 @@ TouchKind Pages::ask_model(const Questionnaire& form, const ScreenState& screen)
   return TouchKind::close;
 }
 
-void Pages::questionnaires(const std::string& before_block) {
-  const auto& asked = protocol_.screens.questionnaires;
-  if (asked.empty() || (!texts_ && !asked_.texts)) return;
-  const auto ask_after = [&](const std::string& block) {
-    if (const auto found = asked.find(block); found != asked.end())
-      for (const std::string& name : found->second) ask(name, block);
-  };
-  for (const Block& block : protocol_.blocks) {
-    const std::string& name = block_name(block);
-    if (!before_block.empty() && name == before_block) return;
-    ask_after(name);
+void Pages::questionnaires_before(const std::string& block) {
+  if (block.empty()) return;
+  std::vector<std::string> over;
+  for (const Block& before : protocol_.blocks) {
+    if (block_name(before) == block) break;
+    over.push_back(block_name(before));
   }
-  if (before_block.empty()) ask_after("");
+  ask_after(over);
+}
+
+void Pages::questionnaires_at_the_end() {
+  std::vector<std::string> over;
+  for (const Block& block : protocol_.blocks) over.push_back(block_name(block));
+  over.emplace_back();
+  ask_after(over);
+}
+
+// Of an answer that is taken back meanwhile the trial comes again before what is left of them.
+void Pages::ask_after(const std::vector<std::string>& blocks) {
+  if (!texts_ && !asked_.texts) return;
+  const int n_completed = journal_.engine().n_completed();
+  for (const std::string& block : blocks) {
+    const auto asked = protocol_.screens.questionnaires.find(block);
+    if (asked == protocol_.screens.questionnaires.end()) continue;
+    for (const std::string& name : asked->second)
+      if (journal_.engine().n_completed() == n_completed) ask(name, block);
+  }
 }
 
 void Pages::thanks() {

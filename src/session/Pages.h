@@ -2,6 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
@@ -39,7 +42,8 @@ class Pages {
   /// @return false when the person does not agree to take part
   bool welcome();
 
-  void instructions(Task task);
+  /// Those of a block, unless they were read before.
+  void instructions(const std::string& block, Task task);
 
   /// The demonstration, for as long as the block says and until the person goes on.
   /// @param apparatus, left_hand as Demonstration
@@ -48,9 +52,11 @@ class Pages {
   /// A break of at least so many seconds.
   void rest(double least_s);
 
-  /// The questionnaires after the blocks before this one that were not asked yet; before none: all,
-  /// and those at the end. A model is asked, too.
-  void questionnaires(const std::string& before_block = {});
+  /// The questionnaires after the blocks before this one that were not asked yet; of no block none.
+  /// A model is asked, too.
+  void questionnaires_before(const std::string& block);
+  /// Those after all blocks, and those at the end.
+  void questionnaires_at_the_end();
 
   /// The pages after the last trial.
   void how_decided();
@@ -63,6 +69,7 @@ class Pages {
   TouchKind show(ScreenState screen, double least_s = 0, const Moving& frame_at = {});
   TouchKind show(Screen screen) { return show(ScreenState{.screen = screen}); }
   void show_once(Screen screen);
+  void ask_after(const std::vector<std::string>& blocks);
   void ask(const std::string& name, const std::string& after);
   TouchKind ask_model(const Questionnaire& form, const ScreenState& screen);
   void show_form(Screen screen);
@@ -74,6 +81,7 @@ class Pages {
   ParticipantScreen& screen_;
   const ScreenTexts* texts_;
   GoneThrough gone_;
+  std::set<std::string> instructed_;  // of which blocks, since the session goes on
   AskedMind asked_;
 };
 

@@ -22,6 +22,8 @@ Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
       pages_(parts.protocol, journal_, control_, screen_, parts.texts, parts.before,
              {&parts.responder, parts.asked}) {
   control_.on_check([this] { check_apparatus(); });
+  // One of the protocol the engine knows to be due; one that was asked for it does not.
+  if (parts.before.in_break && !parts.engine.next().rest) control_.want_rest();
   journal_.while_locked([this](double waited_s) { return wait_for_log(waited_s); });
 }
 
@@ -105,8 +107,12 @@ bool Runner::begin() {
 
 RunEnd Runner::run_blocks() {
   for (;;) {
+    pages_.questionnaires_before(block_to_come());
     if (control_.leaving()) return RunEnd::stopped;
-    if (const auto rest = parts_.engine.next().rest) take_break(rest->name, rest->least_duration_s);
+    if (const auto rest = parts_.engine.next().rest) {
+      take_break(rest->name, rest->least_duration_s);
+      continue;  // it may be asked about, too
+    }
     if (control_.take_rest_wish()) take_break("asked for", 0);
     control_.check_if_wanted();
     if (control_.leaving()) return RunEnd::stopped;
@@ -130,12 +136,21 @@ RunEnd Runner::run_blocks() {
   }
 }
 
+// Of a break that is due, its own. None: no block is to come.
+std::string Runner::block_to_come() const {
+  const Next& next = parts_.engine.next();
+  if (next.rest) return next.rest->name;
+  if (next.demonstration) return next.demonstration->name;
+  return next.plan ? next.plan->block : "";
+}
+
 // None: the last answer was vetoed meanwhile, and there is more to do.
 std::optional<RunEnd> Runner::finish() {
-  pages_.questionnaires();
-  if (pages_.has_reader()) pages_.how_decided();
+  const auto at_end = [this] { return parts_.engine.next().kind == Next::Kind::finish; };
+  pages_.questionnaires_at_the_end();
+  if (pages_.has_reader() && at_end()) pages_.how_decided();
   if (control_.leaving()) return RunEnd::stopped;
-  if (parts_.engine.next().kind != Next::Kind::finish) return std::nullopt;
+  if (!at_end()) return std::nullopt;
   journal_.emit_now(SessionEnded{});
   return RunEnd::finished;
 }
@@ -167,13 +182,7 @@ void Runner::run_trial(const TrialPlan& plan) {
         Note{fmt::format("staircase \"{}\" is the last one and runs alone from trial {}", *survivor,
                          plan.trial_number)});
   }
-  if (instructed_block_ != plan.block) {
-    pages_.questionnaires(plan.block);
-    if (control_.leaving()) return;
-    if (pages_.has_reader()) pages_.instructions(plan.task);
-    if (control_.leaving()) return;
-    instructed_block_ = plan.block;
-  }
+  if (pages_.has_reader()) pages_.instructions(plan.block, plan.task);
   fade_out();
   const Next& next = parts_.engine.next();
   const bool still_due = next.kind == Next::Kind::trial &&

@@ -77,6 +77,7 @@ class Runner {
   std::string failed_checks();
   SessionControl::Answer ask_whether_failures_matter();
   [[noreturn]] void refuse_unchecked(const std::string& failed);
+  std::string block_to_come() const;
   std::optional<RunEnd> finish();
   void take_break(const std::string& name, double least_s);
   void show_demonstration(const DemonstrationBlock& block);
@@ -91,7 +92,7 @@ class Runner {
   SessionControl control_;
   Pages pages_;
   ViewFrame last_shown_;  // of a trial
-  std::optional<std::string> noted_last_staircase_, instructed_block_;
+  std::optional<std::string> noted_last_staircase_;
 };
 
 }  // namespace heft

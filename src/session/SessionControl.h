@@ -90,6 +90,8 @@ class SessionControl {
   /// Whether the session is to be left: a signal, the experimenter, a closed window.
   bool leaving() const { return leaving_ || (stop_ && stop_->load()); }
 
+  /// As if the experimenter asked for a break.
+  void want_rest() { rest_wanted_ = true; }
   /// Whether the experimenter asked for a break since the last time.
   bool take_rest_wish();
 

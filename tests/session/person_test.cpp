@@ -414,6 +414,20 @@ TEST(Person, who_declines_by_mistake_can_take_it_back) {
   EXPECT_TRUE(consents[1].as<Consent>()->agreed);
 }
 
+// The same session once more, after it was left.
+RunEnd go_on(Session& session, RecordedSession& sink) {
+  std::vector<Event> events;
+  for (const RecordedEntry& entry : session.sink.entries())
+    if (const auto* recorded = std::get_if<RecordedEvent>(&entry))
+      events.push_back(recorded->event);
+  session.engine.apply({session.engine.last_s(), SessionResumed{}});
+  SessionParts parts{*session.protocol, session.engine, sink, session.pictures, *session.hand,
+                     session.screen,    session.clock,  true, &session.texts};
+  parts.before = gone_through(events, session.sink.header().participant_info);
+  session.screen.screens.clear();
+  return Runner(parts, {}).run();
+}
+
 TEST(Person, who_comes_back_meets_no_page_again_that_they_were_through_with) {
   Protocol protocol = every_page_protocol();
   bool closes = true;
@@ -429,20 +443,62 @@ TEST(Person, who_comes_back_meets_no_page_again_that_they_were_through_with) {
   EXPECT_EQ(session.run(), RunEnd::stopped);
   EXPECT_THAT(pages_of(session.sink), ElementsAre("consent", "welcome", "about_you"));
 
-  std::vector<Event> events;
-  for (const RecordedEntry& entry : session.sink.entries())
-    if (const auto* recorded = std::get_if<RecordedEvent>(&entry))
-      events.push_back(recorded->event);
-  session.engine.apply({session.engine.last_s(), SessionResumed{}});
   RecordedSession sink{SessionHeader{}};
-  SessionParts parts{protocol,       session.engine, sink, session.pictures, *session.hand,
-                     session.screen, session.clock,  true, &session.texts};
-  parts.before = gone_through(events, session.sink.header().participant_info);
-  session.screen.screens.clear();
-  EXPECT_EQ(Runner(parts, {}).run(), RunEnd::finished);
+  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
   EXPECT_EQ(pages_of(sink).at(0), "about_you");
   EXPECT_EQ(pages_of(sink).at(1), "demonstration");
   EXPECT_THAT(session.screen.screens.at(0).entries, ElementsAre(std::pair("age", "25_34")));
+}
+
+TEST(Person, who_comes_back_in_the_middle_of_a_block_is_not_instructed_again) {
+  Protocol protocol = comparing_protocol();
+  auto second = std::get<ComparisonBlock>(protocol.blocks.front());
+  second.name = "again";
+  protocol.blocks.push_back(second);
+  const Session* running = nullptr;
+  bool closes = true;
+  Session session(protocol, [&](const ViewFrame& picture, const ScreenState& screen) {
+    if (running->engine.n_completed() < 2 || !std::exchange(closes, false))
+      return patient(picture, screen);
+    return std::vector{touch(TouchKind::close)};
+  });
+  running = &session;
+  EXPECT_EQ(session.run(), RunEnd::stopped);
+  RecordedSession sink{SessionHeader{}};
+  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
+  EXPECT_THAT(pages_of(sink), ElementsAre("trial_comparison", "instructions_comparison",
+                                          "trial_comparison", "thanks"))
+      << "of the next block they are";
+}
+
+TEST(Person, reads_instructions_again_that_they_were_in_the_middle_of) {
+  bool closes = true;
+  Session session(comparing_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
+    if (screen.screen != Screen::instructions || !std::exchange(closes, false))
+      return patient(picture, screen);
+    return std::vector{touch(TouchKind::close)};
+  });
+  EXPECT_EQ(session.run(), RunEnd::stopped);
+  RecordedSession sink{SessionHeader{}};
+  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
+  EXPECT_THAT(pages_of(sink), Contains("instructions_comparison"));
+}
+
+TEST(GoneThrough, WhatAnotherPageCoveredForAWhileOrABreakOffEndedWasNotTurned) {
+  const auto shown = [](const std::string& page) { return Event{0, TextShown{page, "en", ""}}; };
+  for (const char* cover : {"paused", "setting_up"})
+    EXPECT_THAT(gone_through({shown("welcome"), shown(cover)}, {}).pages, IsEmpty()) << cover;
+  EXPECT_THAT(gone_through({shown("welcome"), Event{0, SessionResumed{}}, shown("rest")}, {}).pages,
+              IsEmpty());
+  EXPECT_THAT(gone_through({shown("welcome"), shown("rest")}, {}).pages, ElementsAre("welcome"));
+}
+
+TEST(GoneThrough, ABreakIsOverWhenItWasTakenOrTheTrialIsThere) {
+  const auto shown = [](const std::string& page) { return Event{0, TextShown{page, "en", ""}}; };
+  const Event taken{0, BreakTaken{"asked for", 3}};
+  EXPECT_TRUE(gone_through({shown("rest"), shown("paused"), {0, SessionResumed{}}}, {}).in_break);
+  EXPECT_FALSE(gone_through({shown("rest"), taken}, {}).in_break);
+  EXPECT_FALSE(gone_through({shown("rest"), shown("trial_sorting")}, {}).in_break);
 }
 
 TEST(Experimenter, notes_takes_a_break_and_ends) {
@@ -460,6 +516,22 @@ TEST(Experimenter, gets_the_break_that_was_asked_for) {
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::finished);
   EXPECT_EQ(session.events(EventKind::rest).at(0).as<BreakTaken>()->name, "asked for");
+}
+
+TEST(Person, who_comes_back_takes_the_break_that_was_asked_for_and_not_ended) {
+  ScriptedConsole console({{ConsoleCommandKind::rest, {}}});
+  bool closes = true;
+  Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
+    if (screen.screen != Screen::rest || !std::exchange(closes, false))
+      return patient(picture, screen);
+    return std::vector{touch(TouchKind::close)};
+  });
+  EXPECT_EQ(session.run(&console), RunEnd::stopped);
+  EXPECT_THAT(session.events(EventKind::rest), IsEmpty());
+  RecordedSession sink{SessionHeader{}};
+  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
+  EXPECT_THAT(pages_of(sink), ElementsAre("rest", "trial_sorting", "thanks"));
+  EXPECT_EQ(testing::events_of(sink, EventKind::rest).at(0).as<BreakTaken>()->name, "asked for");
 }
 
 TEST(Experimenter, is_blind_until_they_unblind_themselves) {

@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::Each;
+using ::testing::ElementsAre;
 using ::testing::IsSupersetOf;
 using testing::made_up_s;
 using ::testing::Not;
@@ -50,6 +51,7 @@ class Asked {
     const Control& chosen = *answers[random_.below(answers.size())];
     const double at = 0.01 + 0.98 * random_.uniform();
     if (const auto* touch = std::get_if<Touch>(&chosen.effect)) meant[touch->key] = touch->value;
+    if (const auto* typed = std::get_if<Typed>(&chosen.effect)) meant[typed->key] = typed->value;
     if (const auto* slide = std::get_if<Slide>(&chosen.effect))
       meant[slide->key] = std::to_string(std::lround(100 * at));
     return tap(&chosen, at);
@@ -131,6 +133,63 @@ TEST(Questionnaires, WhatPeopleAnswerIsLoggedByBlockWithItsTime) {
   }
 }
 
+// What is asked of the effort of a block is asked before people have rested from it.
+TEST(Questionnaires, ComeBeforeTheBreakThatFollowsTheirBlock) {
+  Protocol protocol = asking();
+  protocol.blocks.insert(protocol.blocks.begin() + 1, BreakBlock{"rest", 0.1});
+  protocol.blocks.insert(protocol.blocks.begin() + 2, DemonstrationBlock{"shown", 0.1});
+  protocol.screens.questionnaires = {{"sorting", {"borg_cr10"}},
+                                     {"rest", {"presence"}},
+                                     {"shown", {"ownership"}},
+                                     {"", {"nasa_tlx"}}};
+  Asked person(6);
+  TappedSession session(protocol, texts_with(all), std::ref(person));
+  ASSERT_EQ(session.run(), RunEnd::finished);
+  EXPECT_THAT(
+      testing::pages_of(session.sink),
+      ElementsAre("welcome", "instructions_sorting", "trial_sorting", "questionnaire_borg_cr10",
+                  "rest", "questionnaire_presence", "demonstration", "questionnaire_ownership",
+                  "instructions_sorting", "trial_sorting", "questionnaire_nasa_tlx", "thanks"));
+}
+
+// A short staircase, and at the end two questionnaires and the three questions.
+Protocol asking_at_the_end() {
+  Protocol protocol = asking();
+  ComparisonBlock comparison;
+  comparison.name = "comparison";
+  comparison.staircases = {{15, testing::staircase("15g", 175, 50, 3)}};
+  protocol.blocks = {comparison};
+  protocol.screens.how_decided = true;
+  protocol.screens.questionnaires = {{"", {"borg_cr10", "presence"}}};
+  return protocol;
+}
+
+// The pages of a session whose last answer is taken back while one of them is shown.
+std::vector<std::string> pages_with_veto_on(Screen vetoed_on) {
+  Asked person(7);
+  std::optional<TappedSession> session;
+  bool vetoed = false;
+  const auto with_veto = [&](const TappedScreen& screen) {
+    if (screen.screen().screen == vetoed_on && !std::exchange(vetoed, true))
+      session->engine.apply({session->engine.last_s(), AnswerVetoed{"by mistake"}});
+    return person(screen);
+  };
+  session.emplace(asking_at_the_end(), texts_with(all), with_veto);
+  EXPECT_EQ(session->run(), RunEnd::finished);
+  std::vector<std::string> pages = testing::pages_of(session->sink);
+  pages.erase(pages.begin(), pages.begin() + 2);  // welcome and instructions
+  return pages;
+}
+
+TEST(Questionnaires, AnAnswerTakenBackComesBeforeThePagesThatAreLeftAndNoneComesTwice) {
+  EXPECT_THAT(pages_with_veto_on(Screen::questionnaire),
+              ElementsAre("trial_comparison", "questionnaire_borg_cr10", "trial_comparison",
+                          "questionnaire_presence", "how_decided", "thanks"));
+  EXPECT_THAT(pages_with_veto_on(Screen::how_decided),
+              ElementsAre("trial_comparison", "questionnaire_borg_cr10", "questionnaire_presence",
+                          "how_decided", "trial_comparison", "thanks"));
+}
+
 TEST(Questionnaires, WhoComesBackIsNotAskedAgainAndGoesOnWhereTheyLeft) {
   Asked person(3);
   TappedSession session(asking(), texts_with(all), std::ref(person));
@@ -189,10 +248,10 @@ TEST(Questionnaires, ModelsAreAskedAsPeopleAre) {
     EXPECT_GT(at_s, last_s + 2) << "it takes its time";
     last_s = at_s;
   }
-  EXPECT_THAT(testing::pages_of(session),
-              ::testing::ElementsAre("questionnaire_nasa_tlx", "questionnaire_nasa_tlx",
-                                     "questionnaire_borg_cr10", "questionnaire_presence",
-                                     "questionnaire_ownership"));
+  EXPECT_THAT(
+      testing::pages_of(session),
+      ElementsAre("questionnaire_nasa_tlx", "questionnaire_nasa_tlx", "questionnaire_borg_cr10",
+                  "questionnaire_presence", "questionnaire_ownership"));
   EXPECT_EQ(compute_session(asked_model(), {}).header().participant_info, logged);
 }
 

@@ -173,20 +173,77 @@ TEST(QuestionnaireScreen, APointAndAChoiceAreOneTap) {
   EXPECT_THAT(choice.tap("next"), SizeIs(1)) << "of one question the last";
 }
 
-TEST(QuestionnaireScreen, ANumberIsTypedOnButtonsAndGoesOnWhenItIsOne) {
+// The questionnaire of ownership at its last question, a number from 0 to 1000.
+std::map<std::string, std::string> all_but_the_number() {
   std::map<std::string, std::string> before;
   for (const char* key : {"ownership", "ownership_control", "agency", "agency_control"})
     before[std::string("sorting.ownership.") + key] = "4";
-  Form form(asked("ownership", before));
+  return before;
+}
+
+TEST(QuestionnaireScreen, ANumberIsTypedOnButtonsAndIsAnAnswerWhenItsQuestionIsLeft) {
+  Form form(asked("ownership", all_but_the_number()));
   ASSERT_NE(form.control("pushes_key_1"), nullptr) << "the first question without an answer";
-  EXPECT_EQ(form.tap("pushes_key_1").at(0).value, "1");
-  EXPECT_EQ(form.tap("pushes_key_1").at(0).value, "11");
-  EXPECT_EQ(form.tap("pushes_key_0").at(0).value, "110");
+  for (const char* key : {"1", "1", "0"})
+    EXPECT_THAT(form.tap(std::string("pushes_key_") + key), IsEmpty()) << "no answer yet";
+  EXPECT_FALSE(form.control("pushes_key_0")->enabled) << "1100 is more than anybody pushes";
   EXPECT_TRUE(form.control("next")->enabled);
-  form.tap("pushes_key_0");
-  EXPECT_FALSE(form.control("next")->enabled) << "1100 is more than anybody pushes";
-  EXPECT_EQ(form.tap("pushes_delete").at(0).value, "110");
-  EXPECT_TRUE(form.control("next")->enabled);
+  form.tap("pushes_delete");
+  const auto left = form.tap("next");
+  ASSERT_THAT(left, SizeIs(2));
+  EXPECT_EQ(left[0].key, "sorting.ownership.pushes");
+  EXPECT_EQ(left[0].value, "11");
+  EXPECT_EQ(left[1].kind, TouchKind::next);
+}
+
+TEST(QuestionnaireScreen, ANumberThatWasErasedBeforeItWasAnAnswerLeavesNone) {
+  Form form(asked("ownership", all_but_the_number()));
+  form.tap("pushes_key_1");
+  form.tap("pushes_delete");
+  EXPECT_EQ(form.control("next")->text, "Skip");
+  const auto left = form.tap("next");
+  ASSERT_THAT(left, SizeIs(1));
+  EXPECT_EQ(left[0].kind, TouchKind::next);
+}
+
+TEST(QuestionnaireScreen, ANumberIsToldBeforeAnEarlierQuestionToo) {
+  Form form(asked("ownership", all_but_the_number()));
+  form.tap("pushes_key_7");
+  form.tap("pushes_key_.");
+  const auto left = form.tap("back");
+  ASSERT_THAT(left, SizeIs(1));
+  EXPECT_EQ(left[0].value, "7") << "and the point is none of it";
+}
+
+TEST(QuestionnaireScreen, ShowsANumbersRange) {
+  const Form form(asked("ownership", all_but_the_number()));
+  EXPECT_THAT(form.screen.page().lines,
+              ::testing::Contains(::testing::Field(&TextLine::text, "0 – 1000")));
+}
+
+TEST(QuestionnaireScreen, NoKeyIsTakenThatLeadsOutOfTheRangeForGood) {
+  FormQuestion number;
+  number.kind = QuestionKind::number;
+  const auto typed = [&](double least, double most, const std::string& keys) {
+    number.least = least;
+    number.most = most;
+    std::string so_far;
+    for (const char key : keys)
+      so_far = typed_on(number, so_far, std::string(1, key)).value_or(so_far);
+    return so_far;
+  };
+  EXPECT_EQ(typed(0, 99, "123456789"), "12");
+  EXPECT_EQ(typed(0, 99, "99.5"), "99.") << "99.0 is one, 99.5 is none";
+  EXPECT_EQ(typed(0, 99, ".333"), "0.333");
+  EXPECT_EQ(typed(0, 99, "007"), "7");
+  EXPECT_EQ(typed(10, 20, "3"), "") << "with more digits it is 30 or 300";
+  EXPECT_EQ(typed(10, 20, "15"), "15");
+  EXPECT_EQ(typed(10, 20, "0.5"), "");
+  EXPECT_EQ(typed(1000, 5000, "4321"), "4321");
+  EXPECT_EQ(typed(0.25, 0.5, ".19"), "0.") << "neither 0.1 nor 0.9";
+  EXPECT_EQ(typed(0, 1, "0.1.2"), "0.12");
+  EXPECT_EQ(typed(0, 1e12, "1234567890"), "123456789") << "in nine letters";
+  EXPECT_EQ(typed(2e9, 3e9, "2"), "") << "in nine letters it can't be one";
 }
 
 TEST(QuestionnaireScreen, TwoInARowAreTwoPages) {

@@ -423,10 +423,25 @@ TEST(Screens, NobodyAgreesWhereTheyReadOnOrBeforeTheyCanHaveRead) {
       EXPECT_FALSE(overlap(fixture.control(name).area, more)) << name;
     for (const double up_s : {0.0, 1.9})
       EXPECT_THAT(names(fixture.screens.page(fixture.typeface, fixture.measures, up_s), true),
-                  ElementsAre("back"));
+                  ElementsAre("back", "decline"));
     EXPECT_THAT(names(fixture.screens.page(fixture.typeface, fixture.measures, 60), true),
                 testing::Contains("next"));
   }
+}
+
+TEST(Screens, WhoComesBackFromDecliningNeedNotReadTheConsentAgain) {
+  Fixture fixture;
+  const auto live_at_once = [&] {
+    return names(fixture.screens.page(fixture.typeface, fixture.measures, 0), true);
+  };
+  fixture.screens.show(page_state(Screen::consent), false);
+  EXPECT_THAT(live_at_once(), ElementsAre("decline"));
+  fixture.screens.show(page_state(Screen::declined), false);
+  fixture.screens.show(page_state(Screen::consent), false);
+  EXPECT_THAT(live_at_once(), ElementsAre("next", "decline"));
+  fixture.screens.show(page_state(Screen::paused), false);
+  fixture.screens.show(page_state(Screen::consent), false);
+  EXPECT_THAT(live_at_once(), ElementsAre("next", "decline")) << "nor after a pause";
 }
 
 TEST(Screens, ValidationNeedsTheSessionsLeave) {

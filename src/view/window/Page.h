@@ -45,8 +45,13 @@ struct Slide {
   bool from_the_right = false;
 };
 
+/// A number that is being typed, so far: an answer only when the question is left.
+struct Typed {
+  std::string key, value;
+};
+
 /// What a tap does: something that the session must know, or something between view and person.
-using Effect = std::variant<Touch, SelectCube, TurnPart, Slide>;
+using Effect = std::variant<Touch, SelectCube, TurnPart, Slide, Typed>;
 
 enum class Look { plain, primary };
 
@@ -64,8 +69,9 @@ struct Control {
   char key = 0;  ///< the keyboard's equivalent (see WindowView.h); 0: none
   Look look = Look::plain;
   bool enabled = true;
-  bool chosen = false;             ///< drawn as switched on
-  std::optional<Slid> slide = {};  ///< drawn as a slider
+  bool chosen = false;                ///< drawn as switched on
+  std::optional<Slid> slide = {};     ///< drawn as a slider
+  std::optional<Touch> entered = {};  ///< what was typed, which the session must know first
 };
 
 enum class Tone { strong, soft };

@@ -136,26 +136,30 @@ class Asked {
     }
   }
 
-  void add_keypad(const Rect& room) {
-    constexpr std::size_t longest = 9;
+  // What was typed, and at the other end of its line the range.
+  float add_typed(const Rect& room) {
     const Measures& m = builder.measures;
+    const std::string range = fmt::format("{} – {}", question.least, question.most);
+    builder.page.lines.push_back({range, room.right() - builder.typeface.width_px(range, m.body),
+                                  room.y + m.title - m.body, m.body, Tone::soft});
+    return builder.add_lines({given.empty() ? "–" : given}, room, room.y, m.title);
+  }
+
+  void add_keypad(const Rect& room) {
     constexpr std::array keys{"1", "2", "3", "4", "5", "6", "7", "8", "9", "0", "."};
-    const float size_px = m.title;
-    builder.add_lines({given.empty() ? "–" : given}, room, room.y, size_px);
-    const Rect below{room.x, room.y + Typeface::line_height_px(size_px), room.width, 0};
+    const Rect below{room.x, add_typed(room), room.width, 0};
     for (int i = 0; i < static_cast<int>(keys.size()); ++i) {
       const std::string key = keys[static_cast<std::size_t>(i)];
-      const bool fits =
-          given.size() < longest && (key != "." || given.find('.') == std::string::npos);
+      const auto longer = typed_on(question, given, key);
       builder
           .add_button(question.key + "_key_" + key, cell(below, i, 6, false), key,
-                      builder.entry(question.key, given + key))
-          .enabled = fits;
+                      Typed{builder.entry_key(question.key), longer.value_or(given)})
+          .enabled = longer.has_value();
     }
     builder
-        .add_button(
-            question.key + "_delete", cell(below, 11, 6, false), "←",
-            builder.entry(question.key, given.substr(0, given.empty() ? 0 : given.size() - 1)))
+        .add_button(question.key + "_delete", cell(below, 11, 6, false), "←",
+                    Typed{builder.entry_key(question.key),
+                          given.substr(0, given.empty() ? 0 : given.size() - 1)})
         .enabled = !given.empty();
   }
 
@@ -163,6 +167,27 @@ class Asked {
   const FormQuestion& question;
   const std::string& given;
 };
+}  // namespace
+
+namespace {
+std::optional<std::string> value_of(const std::map<std::string, std::string>& values,
+                                    const std::string& key) {
+  const auto found = values.find(key);
+  return found == values.end() ? std::nullopt : std::optional(found->second);
+}
+
+// A number is an answer when its question is left; one that is none yet, or below its range, is not
+// left forward.
+void leave_number(PageBuilder& builder, const FormQuestion& question, const std::string& told,
+                  const std::string& given, bool answered) {
+  const std::string number = given.ends_with('.') ? given.substr(0, given.size() - 1) : given;
+  for (Control& control : builder.page.controls) {
+    if (control.name != "next" && control.name != "back") continue;
+    if (control.name == "next") control.enabled = answered || given.empty();
+    if ((answered || given.empty()) && number != told)
+      control.entered = builder.entry(question.key, number);
+  }
+}
 }  // namespace
 
 int first_open_question(const Questionnaire& form, const std::string& prefix,
@@ -183,8 +208,9 @@ void questionnaire_screen(PageBuilder& builder) {
   const int n = static_cast<int>(form.questions.size());
   const int i = std::clamp(builder.memory.part, 0, n - 1);
   const FormQuestion& question = form.questions[static_cast<std::size_t>(i)];
-  const auto found = builder.memory.entries.find(builder.entry_key(question.key));
-  const std::string given = found == builder.memory.entries.end() ? "" : found->second;
+  const std::string key = builder.entry_key(question.key);
+  const std::string told = value_of(builder.memory.entries, key).value_or("");
+  const std::string given = value_of(builder.memory.typed, key).value_or(told);
   Asked asked(builder, question, given);
   const Rect area = builder.text_area();
   float y = builder.add_lines({fmt::format("{}   {}/{}", form.title, i + 1, n)}, area, area.y,
@@ -198,9 +224,7 @@ void questionnaire_screen(PageBuilder& builder) {
   asked.add_answers({area.x, y, area.width, area.bottom() - y});
   const bool answered = question.kind == QuestionKind::text || takes_answer(question, given);
   add_turning(builder, i, n, answered);
-  if (!answered && !given.empty())  // of a number that is none yet, or out of its range
-    for (Control& control : builder.page.controls)
-      if (control.name == "next") control.enabled = false;
+  if (question.kind == QuestionKind::number) leave_number(builder, question, told, given, answered);
 }
 
 }  // namespace heft

@@ -21,8 +21,10 @@ struct ScreenMemory {
   std::optional<int> selected;                 ///< sorting: the cube that the next label is for
   int part = 0;                                ///< of a long text, or question of a form; from 0
   std::map<std::string, std::string> entries;  ///< of a form, as chosen so far
+  std::map<std::string, std::string> typed;    ///< numbers among them, that are no answers yet
   bool cubes_shown = false;                    ///< in the scene
   std::string named;                           ///< the button of the last choice, while it fades
+  bool has_declined = false;                   ///< consent: and came back
   double up_s = 0;                             ///< how long the part or question has been there
 };
 

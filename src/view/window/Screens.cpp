@@ -116,6 +116,7 @@ void Screens::remember(const ScreenState& state) {
     memory_ = std::move(paused_->memory);
   } else {
     memory_ = {};
+    memory_.has_declined = state_.screen == Screen::declined;
     memory_.entries = state.entries;
     memory_.part = state.screen == Screen::questionnaire
                        ? first_open_question(texts_.questionnaires.at(state.form),
@@ -153,6 +154,9 @@ std::optional<Touch> Screens::tapped(const Control& control) {
     memory_.selected = select->slot;
   if (const auto* turn = std::get_if<TurnPart>(&control.effect))
     memory_.part = std::max(0, memory_.part + turn->by);
+  if (const auto* typed = std::get_if<Typed>(&control.effect))
+    memory_.typed[typed->key] = typed->value;
+  if (control.entered) memory_.entries[control.entered->key] = control.entered->value;
   const auto* touch = std::get_if<Touch>(&control.effect);
   if (!touch) return std::nullopt;
   if (touch->kind == TouchKind::entry) memory_.entries[touch->key] = touch->value;

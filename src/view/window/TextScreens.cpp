@@ -167,18 +167,18 @@ void add_turning(PageBuilder& builder, int i, int n, bool answered) {
   if (i > 0) add_back(builder);
 }
 
-// Who reads on does not tap where others agree.
+// Who reads on does not tap where others agree. To decline takes no reading, nor does coming back
+// from the question whether that was meant.
 void consent_screen(PageBuilder& builder) {
   if (!add_text(builder, "consent", builder.memory.part, 2)) return;
-  const bool has_read = builder.memory.up_s >= reading_time_s(builder);
+  const bool has_read =
+      builder.memory.has_declined || builder.memory.up_s >= reading_time_s(builder);
   builder
       .add_primary("next", builder.choice_button(0), builder.text("consent", "agree"),
                    touch_of(TouchKind::next))
       .enabled = has_read;
-  builder
-      .add_button("decline", builder.choice_button(1), builder.text("consent", "decline"),
-                  touch_of(TouchKind::decline), 'n')
-      .enabled = has_read;
+  builder.add_button("decline", builder.choice_button(1), builder.text("consent", "decline"),
+                     touch_of(TouchKind::decline), 'n');
 }
 
 void declined_screen(PageBuilder& builder) {

@@ -87,6 +87,7 @@ void TouchScreen::apply(Control control, float x, double t_s) {
   if (const auto* slide = std::get_if<Slide>(&control.effect))
     control.effect = slid_to(*slide, (x - control.area.x) / control.area.width);
   if (std::holds_alternative<TurnPart>(control.effect)) turn(settle_s);
+  if (control.entered) report(*control.entered, t_s);
   if (auto touch = screens_.tapped(control)) report(std::move(*touch), t_s);
 }
 
