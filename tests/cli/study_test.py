@@ -186,8 +186,10 @@ class Plans(StudyTest):
                 self.assertIn("both have a [questionnaire.two]", said)
 
     def test_nobody_takes_anothers_place_by_a_slip(self):
-        said = self.next("--participant", "P2", expect=2).stderr
-        self.assertIn('"P02"', said)
+        for near in ("P2", "p2", "2", "02"):
+            said = self.next("--participant", near, expect=2).stderr
+            self.assertIn(f'has no participant "{near}", but there is "P02"', said)
+            self.assertIn("--again", said)
         self.assertFalse(self.db.exists())
         self.next("--participant", "P2", "--again")
         said = self.next("--set", 'block_order=["sorting", "comparison"]', expect=2).stderr
