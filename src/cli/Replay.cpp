@@ -197,6 +197,7 @@ std::pair<Protocol, Setup> supposed(const LoggedSession& session, const Options&
                               &setup.effector_file, &setup.texts_file})
       file->clear();
     complete(setup);
+    check(setup, protocol);
   }
   setup = in_force(std::move(setup), protocol);
   protocol = *protocol_for(std::move(protocol), setup);

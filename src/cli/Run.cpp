@@ -83,6 +83,7 @@ SessionRequest request_of(const Options& options) {
   setup.protocol_file = std::filesystem::absolute(options.protocol).lexically_normal().string();
   setup.backup = backup_folder(options.elsewhere);
   add_questionnaires(setup, request.protocol, texts);
+  check(setup, request.protocol);
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant.value();
   request.participant_info = options.participant_info;
