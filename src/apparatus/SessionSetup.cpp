@@ -229,32 +229,6 @@ void check(const Setup& options) {
   make_responder(options, 0);  // says what is wrong with its parameters before anything is logged
 }
 
-namespace {
-// Where an answer is given; none: nothing is asked.
-std::optional<std::string> first_block_with_trials(const Protocol& protocol) {
-  for (const Block& block : protocol.blocks)
-    if (!std::holds_alternative<DemonstrationBlock>(block) &&
-        !std::holds_alternative<BreakBlock>(block))
-      return block_name(block);
-  return std::nullopt;
-}
-}  // namespace
-
-void check(const Setup& options, const Protocol& protocol) {
-  if (!protocol.require_contact || has_person(options)) return;
-  const ResponderEntry& responder = responder_named(split_name(options.responder).name);
-  const bool is_filmed = tracker_named(options.tracker).what == TrackerWhat::source;
-  const auto block = first_block_with_trials(protocol);
-  if (responder.touches_cubes || is_filmed || !block) return;
-  throw Error(
-      fmt::format(
-          "responder \"{}\" never touches a cube, and the protocol takes no answer before "
-          "every cube was touched (require_contact = true), first in block \"{}\"; expected "
-          "another responder, or require_contact = false",
-          responder.name, *block),
-      ExitCode::usage);
-}
-
 bool is_same_simulator(const std::string& a, const std::string& b) {
   return simulator_named(a).make == simulator_named(b).make;
 }
