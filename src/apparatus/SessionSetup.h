@@ -57,6 +57,11 @@ void complete(Setup& options);
 /// The same of the participant's texts alone: what was read before stays as it is.
 void complete_texts(Setup& options);
 
+/// Whether who takes part can do what the protocol asks.
+/// @throws Error (usage) where answers need contact with every cube, and the hand is a model's that
+///   touches none
+void check(const Setup& options, const Protocol& protocol);
+
 /// As complete(), for options from a log: the parameters stay those that were read then.
 void check(const Setup& options);
 

@@ -93,6 +93,30 @@ std::string folded(const std::string& id) {
   }
   return folded;
 }
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// "01" of "P01" or "P-01"; none where there is no such number, or nothing but the number.
+std::optional<std::string> without_letters(const std::string& id) {
+  const auto number = std::ranges::find_if(id, is_digit);
+  const auto is_part = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_' || c == '.' ||
+           c == ' ';
+  };
+  if (number == id.begin() || number == id.end() || !std::all_of(number, id.end(), is_digit) ||
+      !std::all_of(id.begin(), number, is_part))
+    return std::nullopt;
+  return std::string(number, id.end());
+}
+
+// Only what is data: pilot-P01 or simulated-1 is nobody's id.
+bool lacks_letters_of(const std::string& id, const SessionRow& session) {
+  if (session.header.purpose != Purpose::main) return false;
+  const auto number = without_letters(session.header.participant);
+  return number && folded(*number) == folded(id);
+}
 }  // namespace
 
 std::optional<LoggedPlace> place_of(const ParticipantInfo& info) {
@@ -171,7 +195,8 @@ std::optional<std::string> near_planned_id(const std::string& id, const StudyPla
   for (int number = 1; number <= plan.participants; ++number) {
     const std::string planned = planned_id(plan, number);
     if (planned == id) return std::nullopt;
-    if (!near && folded(planned) == folded(id)) near = planned;
+    const std::string bare = planned.substr(plan.id_prefix.size());
+    if (!near && (folded(planned) == folded(id) || folded(bare) == folded(id))) near = planned;
   }
   return near;
 }
@@ -179,7 +204,8 @@ std::optional<std::string> near_planned_id(const std::string& id, const StudyPla
 std::optional<std::string> near_id(const std::string& id, const std::vector<SessionRow>& sessions) {
   if (is_in(sessions, id)) return std::nullopt;
   for (const SessionRow& session : sessions)
-    if (folded(session.header.participant) == folded(id)) return session.header.participant;
+    if (folded(session.header.participant) == folded(id) || lacks_letters_of(id, session))
+      return session.header.participant;
   return std::nullopt;
 }
 

@@ -60,8 +60,8 @@ OtherVersions had_another_protocol(const StudyPlan& plan, const std::vector<Sess
 /// The keys of participant_info that place_of() reads.
 ParticipantInfo info_of(const StudyPlan& plan, const StudyPlace& place);
 
-/// An id that somebody may have meant to be this one: 01 for 1, " 01", O1, P-01 or p01. None where
-/// the id itself is there already, or no such one.
+/// An id that somebody may have meant to be this one: 01 for 1, " 01" or O1, P01 for P-01, p1, 01
+/// or 1. None where the id itself is there already, or no such one.
 std::optional<std::string> near_id(const std::string& id, const std::vector<SessionRow>& sessions);
 
 /// The same among the ids that the plan gives.

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "base/Error.h"
 #include "base/Names.h"
@@ -42,13 +43,20 @@ std::string nearest_hint(const std::string& wanted, const std::vector<std::strin
 }
 
 // CLI11 would only say that a subcommand is required.
-void refuse_unknown_command(const CLI::App& app, const std::string& word) {
+// @param name as it is typed, with the commands before it
+void refuse_unknown_command(const CLI::App& app, const std::string& name,
+                            std::span<char* const> words) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
-  if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return;
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  for (const CLI::App* command : commands) names.push_back(command->get_name());
+  if (words.empty() || names.empty() || *words.front() == '-') return;
+  const std::string word = words.front();
+  const auto found = std::ranges::find(names, word);
+  if (found != names.end())
+    return refuse_unknown_command(*commands[static_cast<std::size_t>(found - names.begin())],
+                                  name + " " + word, words.subspan(1));
   throw Error(fmt::format("there is no command \"{}\"{}; {} --help lists all", word,
-                          nearest_hint(word, names), app.get_name()),
+                          nearest_hint(word, names), name),
               ExitCode::usage);
 }
 
@@ -245,7 +253,8 @@ void run_command_line(const ProgramDescription& program, int argc, char** argv) 
   Command all(app);
   program.add_commands(all);
   add_completion(all, app);
-  if (argc > 1) refuse_unknown_command(app, argv[1]);
+  if (argc > 1)
+    refuse_unknown_command(app, app.get_name(), {argv + 1, static_cast<std::size_t>(argc - 1)});
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -58,6 +58,8 @@ class Gathered {
     add(name, *file);
   }
 
+  const std::map<std::string, std::string>& file_of() const { return file_of_; }
+
  private:
   void add(const std::string& name, const std::string& file) {
     const std::string text = read_text_file(file);
@@ -88,8 +90,9 @@ class Gathered {
 };
 }  // namespace
 
-void add_questionnaires(Setup& setup, const Protocol& protocol, const std::string& texts_file) {
-  if (protocol.screens.questionnaires.empty()) return;
+std::map<std::string, std::string> add_questionnaires(Setup& setup, const Protocol& protocol,
+                                                      const std::string& texts_file) {
+  if (protocol.screens.questionnaires.empty()) return {};
   if (setup.texts_text.empty()) {
     setup.texts_file = fs::absolute(texts_file).lexically_normal().string();
     setup.texts_text = read_text_file(setup.texts_file);
@@ -97,6 +100,7 @@ void add_questionnaires(Setup& setup, const Protocol& protocol, const std::strin
   Gathered gathered(setup);
   for (const auto& [after, names] : protocol.screens.questionnaires)
     for (const std::string& name : names) gathered.add(name);
+  return gathered.file_of();
 }
 
 }  // namespace heft::cli

@@ -66,17 +66,24 @@ void print_divergence(const Divergence& divergence) {
 
 std::string how_frames_were_checked(const Verification& found) {
   if (found.n_frames == 0) return "no frames logged, so the simulator was not checked";
-  std::string how = fmt::format("{} frames simulated again, ", found.n_frames);
+  const int n_same_edition = found.n_frames - found.n_other_edition;
+  std::vector<std::string> how;
   if (found.n_other_edition > 0)
-    how += fmt::format(
-        "{} of them logged with an edition of the simulator that this heft does not "
-        "have: only measured, they differ by up to {:.3g} m; of the others ",
-        found.n_other_edition, found.largest_difference_m);
-  if (found.same_build) return how + "equal bits demanded";
-  return how + fmt::format(
-                   "logged by another build: poses within 1e-6 m demanded, largest "
-                   "difference {:.3g} m",
-                   found.largest_difference_m);
+    how.push_back(
+        fmt::format("{} of them logged with an edition of the simulator that this heft does not "
+                    "have: only measured, they differ by up to {:.3g} m",
+                    found.n_other_edition, found.largest_of_other_edition_m));
+  if (found.n_other_build > 0)
+    how.push_back(fmt::format(
+        "{}logged by another build: poses within 1e-6 m demanded, largest difference {:.3g} m",
+        found.n_other_build == found.n_frames ? ""
+                                              : fmt::format("{} of them ", found.n_other_build),
+        found.largest_difference_m));
+  if (const int n_same = n_same_edition - found.n_other_build; n_same > 0)
+    how.push_back(n_same == found.n_frames
+                      ? "equal bits demanded"
+                      : fmt::format("of the other {} equal bits demanded", n_same));
+  return fmt::format("{} frames simulated again, {}", found.n_frames, fmt::join(how, "; "));
 }
 
 // @return whether the log says what its events give
@@ -197,6 +204,7 @@ std::pair<Protocol, Setup> supposed(const LoggedSession& session, const Options&
                               &setup.effector_file, &setup.texts_file})
       file->clear();
     complete(setup);
+    check(setup, protocol);
   }
   setup = in_force(std::move(setup), protocol);
   protocol = *protocol_for(std::move(protocol), setup);

@@ -41,6 +41,7 @@ GivenOptions with_missing_files(const LoggedSession& session, GivenOptions again
 // What people are asked is planned with the protocol, and comes in whatever they read.
 void change(LoggedSession& session, const GivenOptions& again) {
   change_setup(session, again);
+  check(session.setup, *session.protocol);
   add_questionnaires(session.setup, *session.protocol,
                      again.texts_file.value_or(texts_file(session.protocol->screens.language)));
   session.setup = in_force(std::move(session.setup), *session.protocol);

@@ -37,6 +37,7 @@ struct Options {
   std::map<std::string, std::string> participant_info;  // what the plan gave
   bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
   bool changed_protocol = false;
+  bool are_two = false;  // somebody with an id much like another's, who was asked about
 };
 
 void check_participant(const std::string& id) {
@@ -82,6 +83,7 @@ SessionRequest request_of(const Options& options) {
   setup.protocol_file = std::filesystem::absolute(options.protocol).lexically_normal().string();
   setup.backup = backup_folder(options.elsewhere);
   add_questionnaires(setup, request.protocol, texts);
+  check(setup, request.protocol);
   request.setup = in_force(std::move(setup), request.protocol);
   request.participant = options.participant.value();
   request.participant_info = options.participant_info;
@@ -130,19 +132,6 @@ void give_place(const StudyPlan& plan, const PlannedParticipant& planned, Option
   options.participant_info = info_of(plan, planned.place);
 }
 
-// P2 for P02 would take another one's place.
-void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
-                               const Options& options) {
-  if (!options.participant || options.again) return;
-  for (const SessionRow& session : sessions)
-    if (session.header.participant == *options.participant) return;
-  if (const auto near = near_planned_id(*options.participant, plan))
-    throw Error(fmt::format("the plan {} has no participant \"{}\", but there is \"{}\": give "
-                            "that id if it is the same person; if it is another one, add --again",
-                            options.plan, *options.participant, *near),
-                ExitCode::usage);
-}
-
 // Who is asked at a terminal types y or n; any other word is asked again, the end of input is no.
 bool answers_yes(const std::string& question) {
   for (std::string answer; say("{} y/n: ", question), std::getline(std::cin, answer);) {
@@ -156,6 +145,31 @@ bool answers_yes(const std::string& question) {
 bool is_asked_and_answered_yes(const std::string& question) {
   const bool has_terminal = isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
   return has_terminal && answers_yes(question);
+}
+
+// What was found of an id is asked about at a terminal; elsewhere only --again goes on with it.
+void refuse_unless_two_people(const std::string& found, Options& options) {
+  if (is_asked_and_answered_yes(found + ". Are these two people?")) {
+    options.are_two = true;
+    return;
+  }
+  throw Error(fmt::format("{}: give that id if it is the same person; if it is another one, add "
+                          "--again",
+                          found),
+              ExitCode::usage);
+}
+
+// P2 for P02 would take another one's place.
+void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
+                               Options& options) {
+  if (!options.participant || options.again) return;
+  for (const SessionRow& session : sessions)
+    if (session.header.participant == *options.participant) return;
+  if (const auto near = near_planned_id(*options.participant, plan))
+    refuse_unless_two_people(
+        fmt::format("the plan {} has no participant \"{}\", but there is \"{}\"", options.plan,
+                    *options.participant, *near),
+        options);
 }
 
 // People of one group who did different things are no group.
@@ -209,16 +223,12 @@ void take_from_plan(Options& options) {
 }
 
 // 1 for 01 would part one person's sessions.
-void refuse_near_id(const Options& options) {
-  const auto near = near_id(*options.participant, sessions_in(*options.db));
-  if (!near || options.again) return;
-  const std::string found = fmt::format("participant \"{}\" is new in {}, but there is \"{}\"",
-                                        *options.participant, *options.db, *near);
-  if (is_asked_and_answered_yes(found + ". Are these two people?")) return;
-  throw Error(fmt::format("{}: give that id if it is the same person; if it is another one, add "
-                          "--again",
-                          found),
-              ExitCode::usage);
+void refuse_near_id(Options& options) {
+  if (options.again || options.are_two) return;
+  if (const auto near = near_id(*options.participant, sessions_in(*options.db)))
+    refuse_unless_two_people(fmt::format("participant \"{}\" is new in {}, but there is \"{}\"",
+                                         *options.participant, *options.db, *near),
+                             options);
 }
 
 // A plan is easily given as a protocol, and the other way round; what else is wrong with a file is

@@ -6,6 +6,7 @@
 
 #include "base/Error.h"
 #include "base/Printable.h"
+#include "cli/Terminal.h"
 #include "protocol/ExpectedLength.h"
 
 namespace heft::cli {
@@ -40,7 +41,7 @@ SessionFacts facts_of(const LogReader& reader, const SessionRow& row) {
 
 std::string trials_text(const SessionFacts& facts) {
   if (!facts.planned_trials) return fmt::format("{}", facts.n_completed);
-  return fmt::format("{} of about {:.0f}", facts.n_completed, *facts.planned_trials);
+  return of_about(facts.n_completed, *facts.planned_trials);
 }
 
 nlohmann::ordered_json as_json(const SessionFacts& facts) {

@@ -281,8 +281,8 @@ SessionResult run_session(const CommandedSession& session,
   else  // nothing that would unblind whoever watches: no mass, level, condition or correctness
     options.progress = [&](const Engine& engine) {
       bar.update(expected > 0 ? engine.n_completed() / expected : 0,  // a demonstration alone: 0
-                 fmt::format("{} of about {:.0f} trials, {:.0f} min", engine.n_completed(),
-                             expected, engine.last_s() / 60));
+                 fmt::format("{} trials, {:.0f} min", of_about(engine.n_completed(), expected),
+                             engine.last_s() / 60));
     };
   std::int64_t begun = 0;
   options.begun = &begun;

@@ -36,6 +36,7 @@ void simulate_participants(const Options& options) {
   complete(setup);
   setup.protocol_file = std::filesystem::absolute(options.protocol).lexically_normal().string();
   add_questionnaires(setup, request.protocol, texts_file(request.protocol.screens.language));
+  check(setup, request.protocol);
   request.setup = in_force(std::move(setup), request.protocol);
   request.db = options.db;
   request.seed = options.seed.value_or(fresh_seed());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -51,6 +52,11 @@ ProgressBar::ProgressBar(std::string label)
 
 ProgressBar::~ProgressBar() {
   if (shown_) draw("\r\033[K");
+}
+
+std::string of_about(int n_done, double expected, std::string_view between) {
+  if (n_done > std::round(expected)) return fmt::format("{}", n_done);
+  return fmt::format("{}{}{:.0f}", n_done, between, expected);
 }
 
 void ProgressBar::update(double done, const std::string& text) {

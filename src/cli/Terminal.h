@@ -53,6 +53,9 @@ int columns_of(std::string_view line);
 /// What is said when stdout can't be written.
 Error output_error(const std::string& reason);
 
+/// "31 of about 70"; "71" where more were done than was expected.
+std::string of_about(int n_done, double expected, std::string_view between = " of about ");
+
 /// On stderr, when stderr is a terminal.
 class ProgressBar {
  public:

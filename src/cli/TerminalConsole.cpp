@@ -56,8 +56,8 @@ std::string status_words(const ConsoleStatus& status, double expected_trials, bo
   const auto seconds = static_cast<long>(status.session_s);
   std::string line = fmt::format("{}:{:02}", seconds / 60, seconds % 60);
   if (status.paused) line += status.paused_itself ? "  PAUSED ITSELF" : "  PAUSED";
-  line += fmt::format("  {}{}{:.0f} trials  {}", status.n_completed, brief ? "/" : " of about ",
-                      expected_trials,
+  line += fmt::format("  {} trials  {}",
+                      of_about(status.n_completed, expected_trials, brief ? "/" : " of about "),
                       status.screen ? name_of(status.screen->screen) : "nothing shown yet");
   line += tracking_words(status, brief);
   line += fmt::format("  {} dropped, {} late", status.n_dropped, status.n_late);

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <set>
 
 #include "apparatus/SessionSetup.h"
 #include "base/Error.h"
@@ -18,6 +19,7 @@
 #include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
+#include "cli/WordCheck.h"
 #include "experiment/DisplayFacts.h"
 #include "experiment/ScreenTexts.h"
 #include "physics/Scene.h"
@@ -29,7 +31,6 @@
 #include "session/Session.h"
 #include "tracking/MarkerBody.h"
 #include "tracking/SyntheticCamera.h"
-#include "view/window/TextFit.h"
 
 namespace heft::cli {
 
@@ -103,36 +104,14 @@ std::string described(const Protocol& protocol) {
 struct Checked {
   std::string summary;
   std::vector<std::string> cautions = {};
+  std::vector<Mistake> mistakes = {};  ///< beside those that it can't be read with
+
+  Checked& operator+=(WordFaults words) {
+    for (std::string& caution : words.cautions) cautions.push_back(std::move(caution));
+    for (Mistake& mistake : words.mistakes) mistakes.push_back(std::move(mistake));
+    return *this;
+  }
 };
-
-// What of the texts would not be read well on the smallest screen, a sentence each.
-std::vector<std::string> what_does_not_fit(const ScreenTexts& texts, double text_size) {
-  const Measures smallest = smallest_screen(text_size);
-  std::vector<std::string> sentences = texts_that_do_not_fit(texts, smallest);
-  for (std::string& sentence : sentences)
-    sentence = fmt::format("on a screen of {} x {}: {}", smallest.width, smallest.height, sentence);
-  return sentences;
-}
-
-// The same with the largest letters that somebody may ask for: there what fits in small ones will
-// do.
-std::vector<std::string> what_does_not_fit_enlarged(const ScreenTexts& texts) {
-  std::vector<std::string> sentences = what_does_not_fit(texts, most_text_size);
-  std::erase_if(sentences, [](const std::string& sentence) {
-    return sentence.find("only in small letters") != std::string::npos;
-  });
-  for (std::string& sentence : sentences)
-    sentence = fmt::format("with --text-size {}, {}", most_text_size, sentence);
-  return sentences;
-}
-
-// As people read them, and as those do who ask for large letters.
-std::vector<std::string> what_does_not_fit(const ScreenTexts& texts) {
-  std::vector<std::string> sentences = what_does_not_fit(texts, 1);
-  for (std::string& sentence : what_does_not_fit_enlarged(texts))
-    sentences.push_back(std::move(sentence));
-  return sentences;
-}
 
 std::string described(const ScreenTexts& texts) {
   return fmt::format("{} page(s) in the language \"{}\"", texts.pages.size(), texts.language);
@@ -179,16 +158,11 @@ std::vector<std::string> cautions_of(const StudyPlan& plan) {
       below > 0 ? fmt::format("{} or ", below) : "", below + n_cells)};
 }
 
-// Whether what people are to read is there, in the language that they read.
-void check_words(const Protocol& protocol, const std::string& protocol_file,
-                 const std::string& language, const std::string& path) {
+// Whether what people are to read is there in the language that they read, and can be shown.
+WordFaults check_words(const Protocol& protocol, const std::string& protocol_file,
+                       const std::string& language, const std::string& path) {
   try {
-    Setup setup;
-    setup.texts_file = texts_file(language);
-    setup.texts_text = read_text_file(setup.texts_file);
-    setup.protocol_file = protocol_file;
-    add_questionnaires(setup, protocol, setup.texts_file);
-    parse_texts(setup.texts_text, setup.texts_file);
+    return faults_in_words(protocol, protocol_file, language);
   } catch (const InvalidFile&) {
     throw;
   } catch (const Error& error) {
@@ -196,30 +170,37 @@ void check_words(const Protocol& protocol, const std::string& protocol_file,
   }
 }
 
-void check_words(const StudyPlan& plan, const std::string& path) {
+Checked checked(const StudyPlan& plan, const std::string& path) {
+  Checked file{described(plan), cautions_of(plan)};
+  std::set<std::pair<std::string, std::string>> told;
   for (const StudyGroup& group : plan.groups) {
     const Protocol protocol = load_protocol(group.protocol);
-    check_words(protocol, group.protocol, group.language.value_or(protocol.screens.language), path);
+    const std::string language = group.language.value_or(protocol.screens.language);
+    if (told.insert({group.protocol, language}).second)
+      file += check_words(protocol, group.protocol, language, path);
   }
-}
-
-Checked checked(const Protocol& protocol, const std::string& path) {
-  const auto& [language, text_size] =
-      std::tie(protocol.screens.language, protocol.screens.text_size);
-  check_words(protocol, path, language, path);
-  Checked file{described(protocol), cautions(protocol)};
-  if (text_size != 1)
-    for (std::string& sentence : what_does_not_fit(load_texts(texts_file(language)), text_size))
-      file.cautions.push_back(std::move(sentence));
   return file;
 }
 
+Checked checked(const Protocol& protocol, const std::string& path) {
+  Checked file;
+  file += check_words(protocol, path, protocol.screens.language, path);
+  for (std::string& caution : cautions(protocol)) file.cautions.push_back(std::move(caution));
+  if (file.mistakes.empty()) file.summary = described(protocol);
+  return file;
+}
+
+Checked checked(const ScreenTexts& texts, std::string summary, const std::string& path) {
+  Checked file{std::move(summary)};
+  return file += faults_in_words(texts, path);
+}
+
 // Beside the English words, which every questionnaire is shown with.
-Checked checked_questionnaires(const ScreenTexts& read) {
+Checked checked_questionnaires(const ScreenTexts& read, const std::string& path) {
   ScreenTexts texts = load_texts(texts_file("en"));
   texts.questionnaires = read.questionnaires;
   for (const auto& [page, words] : read.pages) texts.pages[page] = words;
-  return {fmt::format("{} questionnaire(s)", read.questionnaires.size()), what_does_not_fit(texts)};
+  return checked(texts, fmt::format("{} questionnaire(s)", read.questionnaires.size()), path);
 }
 
 Checked checked(FileKind kind, const std::string& text, const std::string& path) {
@@ -237,18 +218,15 @@ Checked checked(FileKind kind, const std::string& text, const std::string& path)
     case FileKind::synthetic_camera:
       return {described(parse_synthetic_camera(text, path).optics)};
     case FileKind::questionnaires:
-      return checked_questionnaires(parse_questionnaires(text, path));
+      return checked_questionnaires(parse_questionnaires(text, path), path);
     case FileKind::texts: {
       const ScreenTexts texts = parse_texts(text, path);
-      return {described(texts), what_does_not_fit(texts)};
+      return checked(texts, described(texts), path);
     }
     case FileKind::display:
       return {described(parse_display(text, path))};
-    case FileKind::study: {
-      const StudyPlan plan = parse_study(text, path);
-      check_words(plan, path);
-      return {described(plan), cautions_of(plan)};
-    }
+    case FileKind::study:
+      return checked(parse_study(text, path), path);
   }
   return {};
 }
@@ -264,8 +242,9 @@ ExitCode validate(const std::string& path) {
     const FileKind kind = recognized_kind(text, path);
     try {
       const Checked file = checked(kind, text, path);
-      print("{}: ok, {}: {}\n", path, with_article(kind), file.summary);
+      if (file.mistakes.empty()) print("{}: ok, {}: {}\n", path, with_article(kind), file.summary);
       for (const std::string& caution : file.cautions) say("{}: {}\n", path, caution);
+      if (!file.mistakes.empty()) throw InvalidFile(file.mistakes);
     } catch (const InvalidFile& error) {
       say("{}\n{}: not valid as {}: {} mistake(s)\n", error.what(), path, with_article(kind),
           error.mistakes().size());

@@ -29,7 +29,8 @@ class FrameCheck {
   /// @param frames all of the attempt's, at least one
   void run(const std::vector<FrameRow>& frames);
 
-  /// Largest distance of a pose from its logged one, where bits need not be equal.
+  /// Largest distance of a pose from its logged one, where bits need not be equal
+  /// or poses are only measured.
   double largest_difference_m() const { return largest_difference_m_; }
 
  private:

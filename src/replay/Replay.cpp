@@ -159,10 +159,12 @@ class Verifier {
     };
     FrameCheck check(*protocol, attempt, options);
     check.run(frames);
-    result_.same_build = result_.same_build && options.equal_bits;
-    if (!options.same_edition) result_.n_other_edition += static_cast<int>(frames.size());
-    result_.largest_difference_m =
-        std::max(result_.largest_difference_m, check.largest_difference_m());
+    if (options.same_edition && options.equal_bits) return;
+    auto& n = options.same_edition ? result_.n_other_build : result_.n_other_edition;
+    double& largest_m =
+        options.same_edition ? result_.largest_difference_m : result_.largest_of_other_edition_m;
+    n += static_cast<int>(frames.size());
+    largest_m = std::max(largest_m, check.largest_difference_m());
   }
 
   void differ(const RowText& row, const std::string& what, const std::string& logged,

@@ -23,12 +23,13 @@ struct Divergence {
 
 struct Verification {
   int n_events = 0, n_rows = 0, n_attempts = 0, n_frames = 0;
-  bool ended = false;      ///< the session has its end; otherwise all there is was verified
-  bool same_build = true;  ///< equal bits demanded; otherwise poses within 1e-6 m
+  bool ended = false;  ///< the session has its end; otherwise all there is was verified
   /// Frames of a simulator's edition that this program does not have: verified in all but their
   /// poses.
   int n_other_edition = 0;
-  double largest_difference_m = 0;  ///< of any pose, where builds or editions differ
+  int n_other_build = 0;                  ///< frames that poses within 1e-6 m are demanded of
+  double largest_difference_m = 0;        ///< of any of their poses
+  double largest_of_other_edition_m = 0;  ///< of any pose that is only measured
   std::optional<Divergence> first;
 };
 

@@ -103,6 +103,7 @@ struct ResponderEntry {
   ///   valid name; Error where a folder lacks what it must hold
   std::unique_ptr<Responder> (*make)(const ResponderOptions& options);
   std::span<const ParameterPart> parts;  ///< whose parameters its file may set
+  bool touches_cubes = true;             ///< its hand does; false: it rests
 };
 
 std::span<const ResponderEntry> responders();

@@ -157,6 +157,24 @@ TEST(NearIds, AreThoseThatPeopleTakeForOneAnother) {
   for (const char* id : {"01", "10", "02", "11", "101", "01b"})
     EXPECT_FALSE(is_near(id, "01")) << id;
   EXPECT_FALSE(is_near("100", "1"));
+  for (const char* id : {"1", "01", " 1", "O1"}) EXPECT_TRUE(is_near(id, "P01")) << id;
+  for (const char* id : {"10", "A01", "P10", "2"}) EXPECT_FALSE(is_near(id, "P01")) << id;
+  EXPECT_FALSE(is_near("1", "P2-01")) << "which of its numbers is meant?";
+}
+
+TEST(NearIds, OfAPlanMayLackItsPrefixAndZeros) {
+  StudyPlan plan = six_people();
+  plan.id_prefix = "P2-";
+  for (const char* id : {"1", "01", "p2-01", "P2_01", "O1"})
+    EXPECT_EQ(near_planned_id(id, plan), "P2-01") << id;
+  for (const char* id : {"P2-01", "7", "A01"})
+    EXPECT_EQ(near_planned_id(id, plan), std::nullopt) << id;
+}
+
+TEST(NearIds, WithoutTheLettersOfARehearsalAreNobodys) {
+  Log log(six_people());
+  log.add_row("simulated-01", SessionState::finished, Purpose::simulated, {});
+  EXPECT_EQ(near_id("1", log.sessions), std::nullopt);
 }
 
 }  // namespace

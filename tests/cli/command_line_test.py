@@ -33,6 +33,9 @@ class Mistakes(CommandLine):
         self.assertEqual(self.says(2, "analize"), 'heft: there is no command "analize" '
                                                   "(did you mean analyse?); heft --help lists all\n")
         self.assertIn('"qqqqqqqq"', self.says(2, "qqqqqqqq"))
+        self.assertEqual(self.says(2, "calibrate", "displya"),
+                         'heft: there is no command "displya" (did you mean display?); '
+                         "heft calibrate --help lists all\n")
         self.assertIn("command is missing", self.says(2))
 
     def test_every_usage_mistake_points_to_the_help_of_its_command(self):

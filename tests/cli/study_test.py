@@ -39,6 +39,31 @@ language = "fr"
 """
 
 
+# Soon at its end for whoever feels differences, and long for whoever never does.
+LONG = """title = "Long"
+display_rate_hz = 15
+[[block]]
+kind = "comparison"
+name = "comparison"
+technique = "C2"
+catch_fraction = 0
+positive_answer = "any_choice"
+interleave = "random"
+[[block.staircase]]
+name = "200g"
+reference_g = 200
+start = 600
+step = 300
+halve_every = 1
+floor = 0
+ceiling = 1500
+change_step = "before_move"
+stop_reversals = 3
+stop_trials = 100
+discard_reversals = 1
+"""
+
+
 class StudyTest(SessionTest):
     def setUp(self):
         super().setUp()
@@ -186,8 +211,10 @@ class Plans(StudyTest):
                 self.assertIn("both have a [questionnaire.two]", said)
 
     def test_nobody_takes_anothers_place_by_a_slip(self):
-        said = self.next("--participant", "P2", expect=2).stderr
-        self.assertIn('"P02"', said)
+        for near in ("P2", "p2", "2", "02"):
+            said = self.next("--participant", near, expect=2).stderr
+            self.assertIn(f'has no participant "{near}", but there is "P02"', said)
+            self.assertIn("--again", said)
         self.assertFalse(self.db.exists())
         self.next("--participant", "P2", "--again")
         said = self.next("--set", 'block_order=["sorting", "comparison"]', expect=2).stderr
@@ -296,6 +323,25 @@ class ListAndShow(StudyTest):
         shown = json.loads(self.run_heft("show", "--db", db, "--json").stdout)
         self.assertEqual(shown["setups"][0]["responder"], "simulated")
         self.assertEqual(shown["state"], "running")
+
+    def test_an_estimate_below_what_was_done_is_not_told(self):
+        recording = self.folder / "recording"
+        recording.mkdir()
+        n_trials = 40
+        for number in range(1, n_trials + 1):
+            (recording / f"trial_{number}.csv").write_text(
+                "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,-0.1,0.025,1,0,0,0\n10,0,-0.1,0.025,1,0,0,0\n")
+        (recording / "actions.csv").write_text("trial_number,t_s,action,slot,label\n" + "".join(
+            f"{number},1.5,no_difference,,\n" for number in range(1, n_trials + 1)))
+        protocol = self.folder / "long.toml"
+        protocol.write_text(LONG)
+        self.assertRegex(self.run_heft("validate", protocol).stdout, r"about (\d|1\d|2\d) trials")
+        db = self.folder / "long.db"
+        self.run_heft("run", protocol, "--participant", "1", "--responder", f"scripted:{recording}",
+                      "--db", db, expect=1)
+        said = self.run_heft("list", "--db", db).stdout
+        self.assertRegex(said, r"\b40\b")
+        self.assertNotIn("of about", said)
 
     def test_show_tells_nothing_of_masses(self):
         self.next()

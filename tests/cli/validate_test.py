@@ -55,6 +55,45 @@ class Validate(unittest.TestCase):
         for language in ("en", "fr"):
             self.assertEqual("", self.validate(PROTOCOLS / "texts" / f"{language}.toml").stderr)
 
+    def questioned(self, text):
+        """A protocol that asks a questionnaire of one choice."""
+        self.file("q_x.en.toml", '''[questionnaire.q_x]
+title = "One"
+# A comment may have what it wants: \U0010ffff
+[[questionnaire.q_x.question]]
+key = "c"
+kind = "choice"
+text = "%s"
+choice = [{ value = "a", text = "Apple" },
+          { value = "b", text = "Donaudampfschifffahrtsgesellschaftskapitaenskajuetenschluesselanhaenger" }]
+''' % text)
+        quick = (PROTOCOLS / "quick.toml").read_text(encoding="utf-8")
+        return self.file("asks.toml", quick.replace(
+            "\n[[block]]", '\n[[screens.questionnaire]]\nname = "q_x"\nafter = "sorting"\n\n[[block]]', 1))
+
+    def test_questionnaires_that_a_protocol_asks_are_checked_with_it(self):
+        asks = self.questioned("Choose one")
+        run = self.validate(asks)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stderr, r"q_x\.en\.toml: on a screen of 1024 x 600: questionnaire_q_x: "
+                                     '"Donau.*" does not fit')
+
+    def test_a_character_without_font_hides_no_word_that_does_not_fit(self):
+        asks = self.questioned("Choose \U0010ffff")
+        plan = self.file("plan.toml", '''study = "x"
+participants = 2
+seed = 3
+id_prefix = "P"
+protocol = "asks.toml"
+''')
+        for path in (asks, plan, str(pathlib.Path(self.folder.name) / "q_x.en.toml")):
+            run = self.validate(path)
+            self.assertEqual((run.returncode, run.stdout), (3, ""), run.stderr)
+            self.assertRegex(run.stderr, r"q_x\.en\.toml:7: characters that no installed font has: "
+                                         r"U\+10FFFF in questionnaire_q_x\.c; install")
+            self.assertIn("Donaudampf", run.stderr)
+            self.assertIn(": 1 mistake(s)", run.stderr)
+
     def test_every_shipped_protocol_is_ok(self):
         paths = sorted(PROTOCOLS.glob("*.toml"))
         self.assertGreaterEqual(len(paths), 5)

@@ -308,6 +308,8 @@ class Combinations(unittest.TestCase):
         (2, ["--responder", "coin", "--view", "windows"], "window"),
         (4, ["--responder", "coin", "--view", "window"], "display"),
         (2, ["--responder", "coin", "--simulator", "nothing"], "simulator"),
+        *((2, ["--responder", name, "--set", "require_contact=true", "--tracker", tracker],
+           f'"{name}" never touches a cube') for name in RESTING for tracker in ("hand", "synthetic")),
     ]
 
     def refuse(self, number, code, options, reason):
@@ -331,6 +333,26 @@ class Combinations(unittest.TestCase):
         for number, case in enumerate(self.REFUSED):
             with self.subTest(case=case):
                 self.refuse(number, *case)
+
+    def test_a_hand_that_rests_is_refused_where_answers_need_contact(self):
+        contact = ["--set", "require_contact=true"]
+        done = self.heft("simulate", self.folder / "one.toml", "--responder", "coin",
+                         "--participants", "1", "--db", "none.db", *contact, expect=2)
+        self.assertIn('block "pairs"', done.stderr)
+        self.assertFalse((self.folder / "none.db").exists())
+        db = self.new("contact")
+        touch = self.folder / "touch.toml"
+        touch.write_text(TWO.replace("require_contact = false", "require_contact = true"))
+        self.heft("run", touch, "--participant", "1", "--responder",
+                  self.responder("scripted", "half"), "--db", db, expect=1)
+        rows = ["select count(*), max(event_id) from event", "select count(*) from setup"]
+        before = [query(db, sql) for sql in rows]
+        for words in (["resume", "--db", db, "--responder", "coin"],
+                      ["replay", "--db", db, "--responder", "coin", "--rerun"]):
+            self.assertIn('"coin" never touches a cube', self.heft(*words, expect=2).stderr)
+            self.assertEqual([query(db, sql) for sql in rows], before)
+        self.heft("resume", "--db", db, "--responder", "simulated")
+        self.verified(db)
 
     def test_what_may_not_follow_leaves_the_log_as_it_is(self):
         db = self.interrupted("refused")

@@ -40,7 +40,7 @@ std::vector<ScreenState> states(const ScreenTexts& texts) {
 class FitCheck {
  public:
   FitCheck(const ScreenTexts& texts, const Measures& measures)
-      : measures_(measures), typeface_(texts), screens_(texts, false) {}
+      : measures_(measures), typeface_(Typeface::whatever_lacks(texts)), screens_(texts, false) {}
 
   void look_at(const ScreenState& state) {
     screens_.show(state, true);

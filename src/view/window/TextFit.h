@@ -13,8 +13,8 @@ namespace heft {
 Measures smallest_screen(double text_size = 1);
 
 /// A sentence for each text that would be written much smaller than the rest, or that sticks out of
-/// its place.
-/// @throws Error (invalid_file) naming the characters of the texts that no installed font has
+/// its place. Characters that no installed font has are as wide as the boxes that stand for them.
+/// @return each sentence begins with the name of its page and ": "
 std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures);
 
 }  // namespace heft

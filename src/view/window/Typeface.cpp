@@ -69,16 +69,19 @@ const Value& remembered(std::map<Key, Value>& memory, const Key& key, const Make
 }
 }  // namespace
 
-Typeface::Typeface(const ScreenTexts& texts)
-    : letters_(make_letters(texts.language)), direction_(direction_of(texts, *letters_)) {
+Typeface::Typeface(const ScreenTexts& texts, std::shared_ptr<const Letters> letters)
+    : letters_(std::move(letters)), direction_(direction_of(texts, *letters_)) {}
+
+Typeface::Typeface(const ScreenTexts& texts) : Typeface(whatever_lacks(texts)) {
   const auto missing = lacking(texts, *letters_);
   if (missing.empty()) return;
-  throw Error(
-      fmt::format("the text file in the language \"{}\" has characters that no installed font has: "
-                  "{}; install a font that has them (Debian: apt-get install fonts-dejavu-core, "
-                  "fonts-noto-core or fonts-noto-cjk), or write them in another way",
-                  texts.language, listed(missing)),
-      ExitCode::invalid_file);
+  throw Error(fmt::format("the text file in the language \"{}\" has {}", texts.language,
+                          without_font(missing)),
+              ExitCode::invalid_file);
+}
+
+Typeface Typeface::whatever_lacks(const ScreenTexts& texts) {
+  return {texts, make_letters(texts.language)};
 }
 
 WrittenLine Typeface::written(const std::string& line, float size_px) const {
@@ -117,6 +120,13 @@ FittedText Typeface::fitted(const std::string& text, float size_px, float width,
     if (narrow && lines_px <= height) break;
   }
   return fit;
+}
+
+std::string without_font(const std::vector<LackingCharacter>& characters) {
+  return fmt::format(
+      "characters that no installed font has: {}; install a font that has them (Debian: apt-get "
+      "install fonts-dejavu-core, fonts-noto-core or fonts-noto-cjk), or write them in another way",
+      listed(characters));
 }
 
 std::vector<LackingCharacter> characters_without_font(const ScreenTexts& texts) {

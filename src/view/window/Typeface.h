@@ -30,6 +30,9 @@ class Typeface {
   /// @throws Error (invalid_file) naming the characters of the texts that no installed font has
   explicit Typeface(const ScreenTexts& texts);
 
+  /// To measure with: a character without a font is as wide as the box that stands for it.
+  static Typeface whatever_lacks(const ScreenTexts& texts);
+
   float width_px(const std::string& line, float size_px) const;
   static float line_height_px(float size_px) { return 1.3f * size_px; }
 
@@ -51,12 +54,17 @@ class Typeface {
   Ink ink(const WrittenLine& line) const { return letters_->ink(line); }
 
  private:
+  Typeface(const ScreenTexts& texts, std::shared_ptr<const Letters> letters);
+
   std::shared_ptr<const Letters> letters_;
   Direction direction_;
   // Pages are laid out each frame, with the same few texts.
   mutable std::map<WrittenLine, float> widths_px_;
   mutable std::map<std::pair<WrittenLine, float>, std::vector<std::string>> wrapped_;
 };
+
+/// Which they are, and what can be done.
+std::string without_font(const std::vector<LackingCharacter>& characters);
 
 /// In the texts' order, each once.
 std::vector<LackingCharacter> characters_without_font(const ScreenTexts& texts);
