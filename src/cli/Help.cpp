@@ -31,6 +31,32 @@ std::string wrapped(const std::string& text, std::size_t column, std::size_t wid
   return result;
 }
 
+// An example in lines that a shell takes as one: broken between words, never within quotes.
+std::string continued(std::string_view example, std::size_t width) {
+  std::string result;
+  std::size_t line = 0, blank = 0;  // where the line began in the result, and its last free blank
+  bool quoted = false;
+  for (const char c : example) {
+    if (c == '\'' || c == '"') quoted = !quoted;
+    if (c == ' ' && !quoted && result.size() > line + 6) blank = result.size();
+    result += c;
+    if (result.size() - line + 2 <= width || blank <= line) continue;
+    result.replace(blank, 1, " \\\n      ");
+    line = blank + 3;
+    blank = 0;
+  }
+  return result;
+}
+
+// What stands below the options, its commands no wider than the terminal.
+std::string with_examples(const std::string& footer, std::size_t width) {
+  std::istringstream lines(footer);
+  std::string result;
+  for (std::string line; std::getline(lines, line);)
+    result += (line.starts_with("  heft ") ? continued(line, width) : line) + '\n';
+  return result;
+}
+
 std::string left_of(const OptionDescription& option) {
   std::string left = "  " + option.names;
   if (!option.value.empty()) left += " " + option.value;
@@ -120,7 +146,7 @@ std::string help_of(const CommandDescription& command, std::size_t width) {
   if (!command.commands.empty()) text += "\nCommands:\n";
   for (const CommandDescription& inner : command.commands)
     text += line_of("  " + last_word(inner.name), inner.summary, width);
-  return text + (command.footer.empty() ? "" : "\n" + command.footer + "\n");
+  return text + (command.footer.empty() ? "" : "\n" + with_examples(command.footer, width));
 }
 
 std::string bash_completion(const CommandDescription& program) {

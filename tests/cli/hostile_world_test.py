@@ -261,10 +261,9 @@ class Files(SessionTest):
             shutil.copy(db, changed)
             self.assertEqual(change(changed, f"update setup set {column} = "
                                              f"replace('{name}', 'new', '{self.folder}/new')"), 1)
-            before = sorted(path.name for path in self.folder.iterdir())
             done = self.run_heft("resume", "--db", changed, expect=5)
             self.assertIn("not as it was written", done.stderr)
-            self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before)
+            self.assertEqual(list(self.folder.glob("new*")), [])
 
     def has_trial(self, db):
         try:
