@@ -42,8 +42,8 @@ class FaultFilm {
         methods_{make_method(our_method(width_px), scene_.told),
                  make_method(plain_method(width_px), scene_.told)} {}
 
-  void add(int n_grips) {
-    for (int i = 0; i < n_grips; ++i) {
+  void add(int n_first, int n_grips) {
+    for (int i = 0; i < n_first + n_grips; ++i) {
       const auto number = static_cast<std::uint64_t>(i);
       const Moving path = moving(scene_.speed_m_s, number);
       for (const TrackingMethod& method : methods_) method.reset();
@@ -51,7 +51,7 @@ class FaultFilm {
       for (int picture = 0; picture < last; ++picture)
         add_picture(path, (picture - last / 2) / film_rate_hz,
                     8 * number + static_cast<std::uint64_t>(picture),
-                    i >= unmeasured && (last == 1 || picture >= run_up));
+                    i >= n_first && (last == 1 || picture >= run_up));
     }
   }
 
@@ -113,11 +113,11 @@ std::vector<FaultPoint> study_faults(const StudyOptions& options, StudyProgress&
   std::vector<FaultPoint> points;
   for (const int width_px : picture_widths_px) {
     progress.next("faults of cameras at " + size_name(width_px));
-    const int n_grips = unmeasured + (options.quick ? 1 : width_px == 640 ? 24 : 16);
+    const int n_grips = options.quick ? 1 : width_px == 640 ? 24 : 16;
     for (const Fault& fault : faults())
       for (std::size_t i = 0; i < (options.quick ? 1 : fault.values.size()); ++i) {
         FaultFilm film(fault, fault.values[i], width_px);
-        film.add(n_grips);
+        film.add(options.quick ? 0 : unmeasured, n_grips);
         points.push_back({fault.name, fault.values[i], width_px, summary_of(film.errors(0)),
                           summary_of(film.errors(1))});
       }
