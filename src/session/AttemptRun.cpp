@@ -12,7 +12,7 @@ namespace {
 constexpr double look_up_s = 0.004;  // a live camera is asked for its next picture this often
 constexpr double longest_wait_s = 0.02;
 constexpr double longest_unseen_s = 120;  // without anybody who could see to it
-constexpr double late_periods = 2;  // of the display; a frame that is shown later is late
+constexpr double late_periods = 2;        // of the display; a frame that is shown later is late
 
 // What a frame's row of the log takes over from its picture's effector sample.
 FrameRow row_of(const Picture& picture, double start_s) {
