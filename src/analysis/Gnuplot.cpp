@@ -61,6 +61,13 @@ std::string gnuplot_header(const ChartFrame& frame) {
   return script;
 }
 
+std::string gnuplot_place(double left, double right, int top_px, int bottom_px) {
+  return fmt::format(
+      "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
+      "set tmargin at screen 1-{}*pixel\nset bmargin at screen 1-{}*pixel\n",
+      left, right, top_px, bottom_px);
+}
+
 bool run_gnuplot(const std::string& folder, const std::string& script_file) {
   std::string program = "gnuplot", script = script_file;
   std::array<char*, 3> arguments{program.data(), script.data(), nullptr};

@@ -22,6 +22,10 @@ struct ChartFrame {
 /// `caption_top`, in screen coordinates, for placing the rest.
 std::string gnuplot_header(const ChartFrame& frame);
 
+/// Where the next plot stands: from left to right as parts of the chart's width, its top and bottom
+/// in pixels from the chart's top.
+std::string gnuplot_place(double left, double right, int top_px, int bottom_px);
+
 /// Runs a script in a folder.
 /// @return false when gnuplot is not installed
 /// @throws Error when it fails

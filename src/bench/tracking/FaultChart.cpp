@@ -57,10 +57,7 @@ std::string qualities(const Fault& fault) {
 
 std::string place(int column, int top_px, int bottom_px) {
   const double left = 0.072 + 0.238 * column;
-  return fmt::format(
-      "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
-      "set tmargin at screen 1-{}*pixel\nset bmargin at screen 1-{}*pixel\n",
-      left, left + 0.19, top_px, bottom_px);
+  return gnuplot_place(left, left + 0.19, top_px, bottom_px);
 }
 
 std::string panel(const Fault& fault, std::size_t index, const std::vector<FaultPoint>& points) {
@@ -72,7 +69,7 @@ std::string panel(const Fault& fault, std::size_t index, const std::vector<Fault
   script += fmt::format("set xrange [{}:{}]\n", low, high) + place(column, top_px, top_px + 80);
   script += fmt::format(
       "set format x ''\nunset xlabel\nunset logscale y\nset yrange [0:105]\nset ytics 0,50,100\n"
-      "set ylabel {} offset 2,0 font ',10'\n{}\nplot {}{}\nunset key\n",
+      "set ylabel {} offset 2,0 font ',10'\n{}\nplot {}{}\nunset label\nunset key\n",
       gnuplot_quoted(column == 0 ? "found, quality (%)" : ""),
       index == 0 ? "set key at screen 0.5, screen 1-66*pixel center maxrows 2 font ',11'" : "",
       plots(fault, 2, index == 0), qualities(fault));

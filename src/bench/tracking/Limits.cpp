@@ -34,10 +34,7 @@ std::string two_lines(const std::string& name, int our_column, int plain_column,
 // A strip of a panel, pixels from the top.
 std::string place(int column, int top_px, int bottom_px) {
   const double left = 0.085 + 0.311 * column;
-  return fmt::format(
-      "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
-      "set tmargin at screen 1-{}*pixel\nset bmargin at screen 1-{}*pixel\n",
-      left, left + 0.25, top_px, bottom_px);
+  return gnuplot_place(left, left + 0.25, top_px, bottom_px);
 }
 
 std::string panel(const Limit& limit, std::size_t index, const std::vector<LimitPoint>& points) {
