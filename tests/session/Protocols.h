@@ -55,14 +55,25 @@ inline Protocol every_page_protocol() {
   return protocol;
 }
 
+/// Comparisons by one short staircase.
+inline ComparisonBlock short_comparison(int stop_reversals) {
+  ComparisonBlock comparison;
+  comparison.name = "comparison";
+  comparison.staircases = {{15, staircase("15g", 175, 50, stop_reversals)}};
+  return comparison;
+}
+
 /// The same with a short staircase at the end.
 inline Protocol whole_protocol(double display_rate_hz, int stop_reversals) {
   Protocol protocol = every_page_protocol();
   protocol.display_rate_hz = display_rate_hz;
-  ComparisonBlock comparison;
-  comparison.name = "comparison";
-  comparison.staircases = {{15, staircase("15g", 175, 50, stop_reversals)}};
-  protocol.blocks.push_back(comparison);
+  protocol.blocks.push_back(short_comparison(stop_reversals));
+  return protocol;
+}
+
+/// The same protocol with nothing but a short staircase.
+inline Protocol comparing_alone(Protocol protocol) {
+  protocol.blocks = {short_comparison(3)};
   return protocol;
 }
 

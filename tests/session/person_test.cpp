@@ -365,14 +365,8 @@ TEST(Experimenter, vetoes_a_trial_and_it_comes_again) {
   EXPECT_EQ(session.engine.n_completed(), 2);
 }
 
-// Comparisons alone, short ones.
 Protocol comparing_protocol() {
-  Protocol protocol = quick_protocol();
-  ComparisonBlock comparison;
-  comparison.name = "comparison";
-  comparison.staircases = {{15, testing::staircase("15g", 175, 50, 3)}};
-  protocol.blocks = {comparison};
-  return protocol;
+  return testing::comparing_alone(quick_protocol());
 }
 
 TEST(Experimenter, takes_the_last_answer_back_and_its_trial_comes_again) {

@@ -154,11 +154,7 @@ TEST(Questionnaires, ComeBeforeTheBreakThatFollowsTheirBlock) {
 
 // A short staircase, and at the end two questionnaires and the three questions.
 Protocol asking_at_the_end() {
-  Protocol protocol = asking();
-  ComparisonBlock comparison;
-  comparison.name = "comparison";
-  comparison.staircases = {{15, testing::staircase("15g", 175, 50, 3)}};
-  protocol.blocks = {comparison};
+  Protocol protocol = testing::comparing_alone(asking());
   protocol.screens.how_decided = true;
   protocol.screens.questionnaires = {{"", {"borg_cr10", "presence"}}};
   return protocol;
