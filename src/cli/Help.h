@@ -22,9 +22,8 @@ struct CommandDescription {
   std::vector<CommandDescription> commands;
 };
 
-/// @param width in characters, that no line of an option's help goes beyond, and no example that
-/// can
-///   be broken between words
+/// @param width in characters, that no line of an option's help goes beyond, nor an example's that
+///   can be broken between words
 std::string help_of(const CommandDescription& command, std::size_t width);
 
 /// Scripts to be sourced by a shell: commands and options; elsewhere files.

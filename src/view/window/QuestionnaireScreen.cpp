@@ -167,9 +167,7 @@ class Asked {
   const FormQuestion& question;
   const std::string& given;
 };
-}  // namespace
 
-namespace {
 std::optional<std::string> value_of(const std::map<std::string, std::string>& values,
                                     const std::string& key) {
   const auto found = values.find(key);
