@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "base/Error.h"
@@ -114,7 +115,7 @@ void Engine::fold(const Event& event, Changes& changes) {
     if (event.as<SessionResumed>()) n_voids_ = 0;  // somebody has looked
     set_state(SessionState::running, changes);
   } else if (event.as<DemonstrationShown>()) {
-    rest_.reset();
+    end_rest();
     answered_.reset();
     enter_block(block_ + 1);
   } else if (const auto* ended = event.as<SessionEnded>()) {
@@ -122,7 +123,7 @@ void Engine::fold(const Event& event, Changes& changes) {
     set_state(ended->how == Ending::finished ? SessionState::finished : SessionState::aborted,
               changes);
   } else if (const auto* taken = event.as<BreakTaken>()) {
-    if (rest_ && rest_->name == taken->name) rest_.reset();
+    if (rest_ && rest_->name == taken->name) end_rest();
   } else if (event.as<CubesShown>()) {
     open_->show(event.t_s);
     changes.trial = open_->row();
@@ -156,7 +157,7 @@ void Engine::start_trial(double t_s, Changes& changes) {
   row.setup_index = n_setups_;
   row.started_s = t_s;
   open_.emplace(row, *next_.plan, plan_->require_contact, onset_.min_answer_s);
-  rest_.reset();
+  end_rest();
   begun_.insert(open_->plan().block);
   changes.attempt_index = n_attempts_;
   changes.trial = open_->row();
@@ -261,12 +262,17 @@ void Engine::set_state(SessionState state, Changes& changes) {
   changes.state = state;
 }
 
+void Engine::end_rest() {
+  rest_.reset();
+  rested_ = std::max(rested_, block_);
+}
+
 void Engine::enter_block(std::size_t index) {
   run_ = std::monostate{};
   for (block_ = index; block_ < plan_->blocks.size(); ++block_) {
     const Block& block = plan_->blocks[block_];
     if (const auto* rest = std::get_if<BreakBlock>(&block)) {
-      rest_ = *rest;
+      if (block_ >= rested_) rest_ = *rest;
       continue;
     }
     if (const auto* introduction = std::get_if<IntroductionBlock>(&block))

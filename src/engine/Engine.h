@@ -122,6 +122,7 @@ class Engine {
   void set_state(SessionState state, Changes& changes);
 
   void enter_block(std::size_t index);
+  void end_rest();
   Next what_next() const;
 
   std::shared_ptr<const SessionPlan> plan_;
@@ -138,6 +139,7 @@ class Engine {
   BlockRun run_;           // of that block
   std::set<std::string> begun_;
   std::optional<BreakBlock> rest_;
+  std::size_t rested_ = 0;  // breaks before this block are over, whatever is taken back later
 
   /// Of the comparison block that was answered last, what is needed to take its last answer back.
   struct Answered {

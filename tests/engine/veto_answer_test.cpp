@@ -96,6 +96,22 @@ TEST(VetoedAnswer, takes_its_reversal_and_its_estimates_back) {
   EXPECT_FALSE(session.engine.next().rest) << "the break comes when the block is done";
 }
 
+TEST(VetoedAnswer, brings_no_break_again_that_is_over) {
+  for (const bool told : {true, false}) {
+    Session session;
+    while (session.compares()) session.answer(true);
+    ASSERT_TRUE(session.engine.next().rest);
+    if (told) session.apply(BreakTaken{"break"});
+    session.start();
+    session.apply(TrialVoided{std::string(void_interrupted)});
+    session.apply(by_mistake);
+    EXPECT_FALSE(session.engine.next().rest);
+    while (session.compares()) session.answer(true);
+    EXPECT_EQ(session.engine.next().plan->task, Task::sorting);
+    EXPECT_FALSE(session.engine.next().rest) << "it was taken before the answer was taken back";
+  }
+}
+
 // With vetoes anywhere, what counts is what a session without them has: levels, reversals,
 // estimates.
 RC_GTEST_PROP(VetoedAnswer, leaves_the_procedures_as_if_it_had_not_been, ()) {
