@@ -141,6 +141,20 @@ TEST(QuestionnaireScreen, ComesBackToANumberThatWasBeingTyped) {
   EXPECT_EQ(first_open_question(form, "q.", {{"q.n", "12"}}), 1);
 }
 
+TEST(QuestionnaireScreen, ComesBackBehindWhatWasToldToTheExperimenter) {
+  FormQuestion told, likert;
+  told.key = "t";
+  told.kind = QuestionKind::text;
+  likert.key = "l";
+  likert.kind = QuestionKind::likert;
+  FormQuestion last = likert;
+  last.key = "m";
+  const Questionnaire form{"T", "", {told, likert, last}};
+  EXPECT_EQ(first_open_question(form, "q.", {}), 0);
+  EXPECT_EQ(first_open_question(form, "q.", {{"q.l", "3"}}), 2);
+  EXPECT_EQ(first_open_question({"T", "", {likert, told}}, "q.", {{"q.l", "3"}}), 1);
+}
+
 TEST(QuestionnaireScreen, ASliderIsSetWhereItIsTappedAndMovedByOne) {
   Form form(asked("nasa_tlx"));
   EXPECT_EQ(form.control("next")->text, "Skip");

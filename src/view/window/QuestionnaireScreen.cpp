@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "view/window/ScreenPages.h"
 
@@ -190,14 +191,16 @@ void leave_number(PageBuilder& builder, const FormQuestion& question, const std:
 
 int first_open_question(const Questionnaire& form, const std::string& prefix,
                         const std::map<std::string, std::string>& entries) {
-  int i = 0;
-  for (const FormQuestion& question : form.questions) {
+  const auto is_told = [](const FormQuestion& q) { return q.kind == QuestionKind::text; };
+  const auto is_open = [&](const FormQuestion& question) {
     const auto given = entries.find(prefix + question.key);
-    const bool answered = given != entries.end() && takes_answer(question, given->second);
-    if (!answered) return i;  // or a number was being typed
-    ++i;
-  }
-  return std::max(0, i - 1);
+    return !is_told(question) && (given == entries.end() || !takes_answer(question, given->second));
+  };
+  const auto& all = form.questions;
+  auto open = std::ranges::find_if(all, is_open);
+  if (open == all.end() && open != all.begin()) --open;
+  while (open != all.begin() && is_told(*std::prev(open))) --open;  // perhaps not told yet
+  return static_cast<int>(open - all.begin());
 }
 
 void questionnaire_screen(PageBuilder& builder) {
