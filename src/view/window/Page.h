@@ -96,6 +96,7 @@ struct Page {
   std::optional<Rect> scene;  ///< where the scene goes, as large as fits; none: no scene
   float scene_opacity = 1;    ///< less while it fades
   std::string notice;         ///< one sentence over the scene's lower edge
+  std::string hint;           ///< over its upper edge, away from the effector that it is about
   std::vector<CubeMark> marks;
 };
 

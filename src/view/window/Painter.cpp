@@ -130,9 +130,10 @@ void paint_mark(ImDrawList& list, const PlacedMark& placed, const Paint& paint,
   write_centered(list, paint, {size, {placed.mark.text}}, flag, colors::on_accent);
 }
 
-void paint_notice(ImDrawList& list, const std::string& notice, const Rect& scene,
-                  const Paint& paint) {
-  const auto [text, area] = words_of_notice(notice, scene, paint.typeface, paint.measures);
+void paint_notice(ImDrawList& list, const std::string& notice, bool at_top, const Paint& paint) {
+  if (notice.empty()) return;
+  const auto [text, area] =
+      words_of_notice(notice, paint.scene->area, paint.typeface, paint.measures, at_top);
   list.AddRectFilled(corner(area), opposite_corner(area), colors::notice,
                      0.1f * paint.measures.target);
   write_centered(list, paint, text, area, colors::strong);
@@ -157,7 +158,7 @@ ControlWords words_on(const Control& control, const Typeface& typeface, const Me
 }
 
 NoticeWords words_of_notice(const std::string& notice, const Rect& scene, const Typeface& typeface,
-                            const Measures& measures) {
+                            const Measures& measures, bool at_top) {
   const float margin = measures.margin;
   NoticeWords words{typeface.fitted(notice, measures.body, scene.width - 4 * margin,
                                     0.25f * scene.height, measures.least_px(measures.body)),
@@ -168,8 +169,8 @@ NoticeWords words_of_notice(const std::string& notice, const Rect& scene, const 
   width += 2 * margin;
   const float height =
       Typeface::line_height_px(size_px) * static_cast<float>(lines.size()) + 1.2f * margin;
-  words.area = {scene.x + (scene.width - width) / 2, scene.bottom() - margin - height, width,
-                height};
+  const float y = at_top ? scene.y + margin : scene.bottom() - margin - height;
+  words.area = {scene.x + (scene.width - width) / 2, y, width, height};
   return words;
 }
 
@@ -181,7 +182,8 @@ void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
     std::vector<Rect> flags;
     for (const PlacedMark& mark : paint.marks) paint_mark(list, mark, paint, flags);
     list.PopClipRect();
-    if (!page.notice.empty()) paint_notice(list, page.notice, paint.scene->area, paint);
+    paint_notice(list, page.notice, false, paint);
+    paint_notice(list, page.hint, true, paint);
   }
   for (const TextLine& line : page.lines)
     write(list, paint, line.text, line.x, line.y, line.size_px,

@@ -59,14 +59,14 @@ struct ControlWords {
 
 ControlWords words_on(const Control& control, const Typeface& typeface, const Measures& measures);
 
-/// A notice over the scene, made to fit, and its plate.
+/// A notice or hint over the scene, made to fit, and its plate.
 struct NoticeWords {
   FittedText text;
   Rect area;
 };
 
 NoticeWords words_of_notice(const std::string& notice, const Rect& scene, const Typeface& typeface,
-                            const Measures& measures);
+                            const Measures& measures, bool at_top = false);
 
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
 

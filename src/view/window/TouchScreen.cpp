@@ -45,7 +45,7 @@ void TouchScreen::turn(double settles_s) {
 void TouchScreen::lay_out(const Typeface& typeface, const Measures& measures, double now_s,
                           const std::string& hint) {
   page_ = screens_.page(typeface, measures, presented_ ? now_s - since_s_ : 0);
-  if (!hint.empty()) page_.notice = hint;
+  page_.hint = hint;
 }
 
 void TouchScreen::presented(double t_s) {

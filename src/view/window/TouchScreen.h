@@ -31,7 +31,7 @@ class TouchScreen {
 
   /// What the session offers now, and whether the scene has cubes. It counts once it is presented.
   void show(const ScreenState& state, bool cubes_shown);
-  /// Makes the page as it is at a time. @param hint over the scene; empty: the page's own
+  /// Makes the page as it is at a time. @param hint over the scene
   void lay_out(const Typeface& typeface, const Measures& measures, double now_s,
                const std::string& hint = {});
   /// The page as laid out last is on the display.
