@@ -320,10 +320,11 @@ double asked_mm(const std::string& what, const std::string& option) {
 
 // Its pixels are square.
 DisplayMeasures by_card(int display) {
-  say("Hold a bank card against the display and make the blue rectangle as large as it is: with "
-      "the\n"
-      "arrow keys (Shift: faster), the wheel or the mouse. Enter when it is, Escape to leave.\n");
-  const auto card = measure_card(display);
+  const std::string how =
+      "Hold a bank card against the display and make the blue rectangle as large as it is: with "
+      "the arrow keys (Shift: faster), the wheel or the mouse. Enter when it is, Escape to leave.";
+  say("{}\n", how);
+  const auto card = measure_card(display, how);
   if (!card) throw Error("the display was not measured", ExitCode::interrupted);
   const double mm_per_px = card_w_mm / card->w_px;
   const DisplayFacts& facts = card->display;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "view/window/GlWindow.h"
+#include "view/window/Painter.h"
 
 namespace heft {
 
@@ -62,24 +63,38 @@ Wish handle(const SDL_Event& event, float scale, const Measures& window, Card& c
   }
 }
 
-void draw(GlWindow& window, const Card& card) {
+// The words, as high up as the card may leave them uncovered.
+Page instructions(const std::string& how, const Typeface& typeface, const Measures& m) {
+  Page page;
+  const FittedText words =
+      typeface.fitted(how, m.body, m.width - 2 * m.margin, m.height / 4, m.least_px(m.body));
+  float y = m.margin;
+  for (const std::string& line : words.lines) {
+    page.lines.push_back({line, m.margin, y, words.size_px});
+    y += Typeface::line_height_px(words.size_px);
+  }
+  return page;
+}
+
+void draw(GlWindow& window, const Card& card, const std::string& how, const Typeface& typeface) {
   const Measures m = window.measures();
   const auto w = static_cast<float>(card.w_px);
   const auto h = static_cast<float>(card.w_px * card_h_mm / card_w_mm);
   ImDrawList& list = window.begin_frame();
-  list.AddRectFilled({0, 0}, {m.width, m.height}, IM_COL32(20, 23, 27, 255));
+  paint_page(list, instructions(how, typeface, m), {typeface, m, window.written(), {}, {}, {}});
   list.AddRectFilled({(m.width - w) / 2, (m.height - h) / 2},
                      {(m.width + w) / 2, (m.height + h) / 2}, IM_COL32(94, 177, 255, 255));
   window.end_frame();
 }
 }  // namespace
 
-std::optional<MeasuredCard> measure_card(int display) {
+std::optional<MeasuredCard> measure_card(int display, const std::string& how) {
   GlWindow window("Heft", {display});
   const Measures m = window.measures();
+  const Typeface typeface({"en", {}});
   Card card{start_fraction * static_cast<double>(m.width), static_cast<double>(m.width)};
   for (;;) {
-    draw(window, card);
+    draw(window, card, how, typeface);
     SDL_Event event;
     if (SDL_WaitEventTimeout(&event, wait_ms) == 0) continue;
     const Wish wish = handle(event, window.scale(), m, card);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "experiment/DisplayFacts.h"
 
@@ -15,9 +16,10 @@ struct MeasuredCard {
   double w_px = 0;
 };
 
-/// Shows the rectangle, full screen. The wheel and the arrow keys change it by a pixel (with Shift
-/// ten), dragging the mouse makes it as wide; Enter ends it, Escape without a result.
+/// Shows the rectangle below the words, full screen. The wheel and the arrow keys change it by a
+/// pixel (with Shift ten), dragging the mouse makes it as wide; Enter ends it, Escape without a
+/// result.
 /// @throws Error (device_missing) when there is no such display
-std::optional<MeasuredCard> measure_card(int display);
+std::optional<MeasuredCard> measure_card(int display, const std::string& how);
 
 }  // namespace heft
