@@ -60,8 +60,10 @@ struct TrialsOfSome {
 };
 
 // The same few participants each time, so that a protocol always gets the same numbers. None where
-// a session has no end, or where the protocol's simulator can't do what hands do (cautions()).
-std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int participants) {
+// a session has no end, or where the protocol's simulator can't do what hands do (cautions()), or
+// with one more caution where they can't get through.
+std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int participants,
+                                                std::vector<std::string>& cautions) try {
   if (!entry_named("simulator", protocol.simulator.name, simulators()).for_sessions)
     return std::nullopt;
   std::vector<std::future<std::optional<int>>> running;
@@ -77,15 +79,19 @@ std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int pa
     of_all.most = std::max(of_all.most, *trials);
   }
   return of_all;
+} catch (const Error& error) {
+  cautions.push_back(
+      fmt::format("a simulated participant does not get through it: {}", error.what()));
+  return std::nullopt;
 }
 
-std::string described(const Protocol& protocol) {
+std::string described(const Protocol& protocol, std::vector<std::string>& cautions) {
   constexpr int participants = 6;
   const TrialDurations durations;
   ExpectedLength length = expected_length(protocol, durations);
   std::string simulated;
   if (length.staircases > 0)
-    if (const auto taken = trials_of_simulated(protocol, participants)) {
+    if (const auto taken = trials_of_simulated(protocol, participants, cautions)) {
       length.minutes +=
           (taken->mean - length.trials) * (durations.comparison_s + protocol.onset.gap_s) / 60;
       length.trials = taken->mean;
@@ -186,7 +192,7 @@ Checked checked(const Protocol& protocol, const std::string& path) {
   Checked file;
   file += check_words(protocol, path, protocol.screens.language, path);
   for (std::string& caution : cautions(protocol)) file.cautions.push_back(std::move(caution));
-  if (file.mistakes.empty()) file.summary = described(protocol);
+  if (file.mistakes.empty()) file.summary = described(protocol, file.cautions);
   return file;
 }
 

@@ -55,6 +55,15 @@ class Validate(unittest.TestCase):
         for language in ("en", "fr"):
             self.assertEqual("", self.validate(PROTOCOLS / "texts" / f"{language}.toml").stderr)
 
+    def test_a_protocol_that_models_do_not_get_through_is_valid_with_a_caution(self):
+        text = (PROTOCOLS / "jnd.toml").read_text(encoding="utf-8")
+        soft = self.file("soft.toml", "require_contact = true\n"
+                         "coupling = { stiffness_n_per_m = 0.001 }\n" + text)
+        result = self.validate(soft)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, "a simulated participant does not get through it: trial "
+                         r"\d+: .* not every cube was touched yet")
+
     def questioned(self, text):
         """A protocol that asks a questionnaire of one choice."""
         self.file("q_x.en.toml", '''[questionnaire.q_x]
