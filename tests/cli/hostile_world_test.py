@@ -203,6 +203,14 @@ class Files(SessionTest):
             done = self.run_heft("validate", path, expect=1, timeout=20)
             self.assertIn("a device or a pipe, expected a file", done.stderr)
 
+    def test_no_library_is_taken_from_where_somebody_is(self):
+        needed = subprocess.run(["ldd", self.heft], capture_output=True, text=True, check=True).stdout
+        libraries = [line.split()[0] for line in needed.splitlines() if " => " in line]
+        self.assertIn("libsqlite3.so.0", libraries)
+        for name in [*libraries, "heft-codecs.so", "heft-letters.so"]:
+            (self.folder / name).write_bytes(b"")
+        self.run_heft("validate", PROTOCOLS / "paper.toml", cwd=self.folder)
+
     def test_a_sheet_writes_over_nothing_and_follows_no_link(self):
         out, link = self.folder / "mine.pdf", self.folder / "link.pdf"
         out.write_text("mine")
