@@ -27,7 +27,8 @@ struct PersonThreshold {
 
 /// By reference and condition, then participant.
 /// @param pooled  of the same sessions
-std::vector<PersonThreshold> thresholds_of(std::span<const SessionData> sessions,
+std::vector<PersonThreshold> thresholds_of(const ComparisonTrials& trials,
+                                           const StaircaseFold& staircases,
                                            std::span<const ReferenceSensitivity> pooled);
 
 }  // namespace heft

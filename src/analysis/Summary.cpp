@@ -61,7 +61,8 @@ Summary summarize(const Dataset& dataset, const std::string& command) {
   summary.tracks = example_tracks(sessions);
   summary.all_tracks = all_tracks(sessions);
   summary.points = points_of(sessions);
-  summary.thresholds = thresholds_of(sessions, summary.sensitivity);
+  summary.thresholds = thresholds_of(folded<ComparisonTrials>(sessions),
+                                     folded<StaircaseFold>(sessions), summary.sensitivity);
   summary.tracking = tracking_of(dataset.sessions);
   summary.flow = flow_of(dataset.sessions, summary.participants);
   summary.hypotheses = hypotheses_of(summary);

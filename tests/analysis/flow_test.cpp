@@ -81,7 +81,8 @@ TEST(PersonThresholds, AreGivenWhereTheTrialsBearThem) {
     compare(sessions[0], {0.6745 / 100}, recommended_at(200), stream);
     compare(sessions[1], {0}, recommended_at(200), stream);
   }
-  const auto people = thresholds_of(sessions, sensitivities_of(sessions));
+  const auto people = thresholds_of(folded<ComparisonTrials>(sessions),
+                                    folded<StaircaseFold>(sessions), sensitivities_of(sessions));
   ASSERT_EQ(people.size(), 2u);
   EXPECT_EQ(people[0].participant, "sees");
   ASSERT_TRUE(people[0].identifiable()) << people[0].why;

@@ -68,9 +68,8 @@ TEST(AnswersBySide, SignTheLevelByWhereTheHeavierStood) {
   on_right.trial.outcome = Outcome::difference;
   on_right.trial.chosen_slot = 1;
   add_comparison(data, "", 200, 0).trial.plan.is_catch = true;
-  std::vector<const Attempt*> attempts;
-  for (const Attempt& attempt : data.attempts) attempts.push_back(&attempt);
-  const AnswersByLevel answers = answers_by_side(attempts);
+  const auto people = answers_by_side(folded<ComparisonTrials>({&data, 1}), {200, ""});
+  const AnswersByLevel& answers = people.at("a");
   EXPECT_EQ(answers.at(50), (std::array<double, 3>{0, 0, 1}));
   EXPECT_EQ(answers.at(-50), (std::array<double, 3>{1, 0, 0}));
   EXPECT_EQ(answers.at(0), (std::array<double, 3>{0, 1, 0}));
