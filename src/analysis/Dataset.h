@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -95,10 +97,28 @@ struct Dataset {
 /// @throws Error when the file can't be read or has no such session
 Dataset read_dataset(const std::string& database, const std::vector<std::int64_t>& session_ids);
 
-/// The purposes of the sessions, sorted, each once.
-std::vector<std::string> purposes(const Dataset& dataset);
+/// The sessions of a log, read one by one: of a thousand no more than one is in memory.
+class LoggedSessions {
+ public:
+  /// @param session_ids which; empty: all
+  /// @throws Error when the file can't be read or has no such session
+  LoggedSessions(std::string database, const std::vector<std::int64_t>& session_ids);
 
-/// @throws Error (usage) naming the purposes and their sessions when there are several
-void refuse_mixed_purposes(const Dataset& dataset);
+  const std::string& database() const { return database_; }
+  /// May be called again, and gives the same.
+  void each(const std::function<void(const SessionData&)>& use) const;
+  /// By name, how many sessions have each.
+  const std::map<std::string, int>& purposes() const { return purposes_; }
+
+ private:
+  std::string database_;
+  LogReader log_;
+  std::vector<std::int64_t> session_ids_;
+  std::map<std::string, int> purposes_;
+};
+
+/// @throws Error (usage) naming the purposes and how many sessions have them, when there are
+/// several
+void refuse_mixed_purposes(const LoggedSessions& sessions);
 
 }  // namespace heft
