@@ -139,7 +139,7 @@ TEST_F(LogFile, WhoIsLeftOutIsInNoFigure) {
   EXPECT_TRUE(summary.participants.at(1).excluded());
   EXPECT_EQ(summary.n_participants, 1);
   EXPECT_EQ(summary.sorting[1].n_trials, 1);
-  EXPECT_EQ(summary.times.at(0).n_trials, 1);
+  EXPECT_EQ(summary.flow.n_analyzed, 1);
 }
 
 TEST(Dataset, pictures_are_counted_over_a_sessions_camera_events) {
