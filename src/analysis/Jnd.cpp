@@ -123,11 +123,6 @@ std::vector<StaircaseResult> results_of(const SessionData& data) {
   return results;
 }
 
-std::optional<CensoredValue> value_of(const StaircaseResult& result) {
-  if (!result.shown_g) return std::nullopt;
-  return CensoredValue{*result.shown_g, result.censored};
-}
-
 using Began = StaircaseFold::Began;
 using AboveAndBelow = StaircaseFold::AboveAndBelow;
 
@@ -142,7 +137,7 @@ void put_participants(ReferenceJnd& jnd, std::span<const StaircaseResult> result
       std::vector<std::optional<CensoredValue>> values;
       for (const StaircaseResult& result : results)
         if (result.participant == participant && result.session_id == session_id)
-          values.push_back(value_of(result));
+          values.push_back(censored_value(result));
       values.resize(std::max(values.size(), static_cast<std::size_t>(n_began)));
       if (auto value = mean_figure(values)) told.push_back(value);
     }
@@ -169,7 +164,7 @@ void put_session(AboveAndBelow& figures, std::span<const StaircaseResult* const>
   const double middle_g = (low->start_g + high->start_g) / 2;
   if (low->start_g == high->start_g) return;
   for (const StaircaseResult* result : results)
-    (result->start_g > middle_g ? figures.above : figures.below).push_back(value_of(*result));
+    (result->start_g > middle_g ? figures.above : figures.below).push_back(censored_value(*result));
 }
 
 FigureSummary summarize(std::span<const std::optional<CensoredValue>> figures, int& n_censored,
@@ -233,6 +228,11 @@ ReferenceJnd jnd_at(const Compared& compared, std::span<const StaircaseResult> r
   return jnd;
 }
 }  // namespace
+
+std::optional<CensoredValue> censored_value(const StaircaseResult& result) {
+  if (!result.shown_g) return std::nullopt;
+  return CensoredValue{*result.shown_g, result.censored};
+}
 
 std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
   std::set<std::string> names;

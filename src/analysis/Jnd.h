@@ -44,6 +44,9 @@ struct StaircaseResult {
   double start_g = 0;  ///< the first level presented
 };
 
+/// None where nothing is known.
+std::optional<CensoredValue> censored_value(const StaircaseResult& result);
+
 /// A staircase that ended with fewer is censored.
 inline constexpr int least_reversals = 4;
 

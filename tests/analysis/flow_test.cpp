@@ -91,7 +91,8 @@ TEST(PersonThresholds, AreGivenWhereTheTrialsBearThem) {
   EXPECT_FALSE(people[1].identifiable());
   EXPECT_THAT(people[1].why, HasSubstr("holds 0"));
   EXPECT_FALSE(people[1].threshold_75_g.has_value());
-  EXPECT_TRUE(people[1].start_g.has_value());
+  EXPECT_EQ(people[1].from_above.start_g, 600);
+  EXPECT_EQ(people[1].from_below.start_g, 20);
 }
 
 TEST(EarlyAnswers, AreThoseThatTheSetupForbade) {
