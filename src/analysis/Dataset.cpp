@@ -87,6 +87,25 @@ PictureCounts count_pictures(const std::vector<LoggedEvent>& events) {
   return counts;
 }
 
+namespace {
+std::optional<std::string> text_noted(const Event& event) {
+  if (const auto* note = event.as<Note>()) return note->text;
+  if (const auto* deviation = event.as<Deviation>()) return deviation->text;
+  if (const auto* unblinding = event.as<Unblinding>()) return unblinding->who;
+  if (const auto* check = event.as<CheckResult>(); check && check->verdict != CheckVerdict::ok)
+    return fmt::format("{}, {}: {}", check->name, name_of(check->verdict), check->finding);
+  return std::nullopt;
+}
+}  // namespace
+
+std::vector<Noted> noted_in(const std::vector<LoggedEvent>& events) {
+  std::vector<Noted> noted;
+  for (const LoggedEvent& logged : events)
+    if (const auto text = text_noted(logged.event))
+      noted.push_back({logged.event.t_s, logged.event.kind(), *text});
+  return noted;
+}
+
 EventCounts count_events(const std::vector<LoggedEvent>& events) {
   EventCounts counts;
   for (const LoggedEvent& logged : events) {
@@ -141,6 +160,7 @@ SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& 
   const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
   data.frames = log.frame_counts(id);
   data.events = count_events(events);
+  data.noted = noted_in(events);
   if (!data.simulated()) data.pictures = count_pictures(events);
   return data;
 }

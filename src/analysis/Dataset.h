@@ -46,12 +46,20 @@ struct EventCounts {
   std::optional<bool> consented{};  ///< none: it was not asked
 };
 
+/// A note, deviation, unblinding or a check that was not passed.
+struct Noted {
+  double t_s = 0;
+  EventKind kind = EventKind::note;
+  std::string text;
+};
+
 struct SessionData {
   SessionRow session;
   std::vector<Attempt> attempts;
   std::vector<EstimateRow> estimates;
   PictureCounts pictures;
   EventCounts events;
+  std::vector<Noted> noted{};       ///< in order
   FrameCounts frames;               ///< none where frames were not kept
   std::vector<LoggedSetup> setups;  ///< what was in force, in order
   /// Staircases of the protocol that estimate no JND, such as constant stimuli.
@@ -73,6 +81,9 @@ struct SessionData {
 
 /// The sum of a session's `camera` events.
 PictureCounts count_pictures(const std::vector<LoggedEvent>& events);
+
+/// What of them is to be told in words.
+std::vector<Noted> noted_in(const std::vector<LoggedEvent>& events);
 
 EventCounts count_events(const std::vector<LoggedEvent>& events);
 

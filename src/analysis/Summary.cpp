@@ -35,6 +35,8 @@ struct EverybodyFold {
   FlowFold flow;
   ChoicesFold choices;
   NotesFold notes;
+  SetupsFold setups;
+  IncidentsFold incidents;
   std::vector<SessionSummary> sessions;
   std::size_t n_simulated = 0;
 
@@ -46,6 +48,8 @@ struct EverybodyFold {
     flow.add(data);
     choices.add(data);
     notes.add(data);
+    setups.add(data);
+    incidents.add(data);
     sessions.push_back(summary_of(data));
     n_simulated += data.simulated() ? 1 : 0;
   }
@@ -130,6 +134,8 @@ Summary summarize(const std::string& database, const EachSession& each,
   summary.tracking = everybody.tracking.result();
   summary.flow = everybody.flow.result(summary.participants);
   summary.choices = everybody.choices.result();
+  summary.setups = everybody.setups.result();
+  summary.incidents = everybody.incidents.result();
   summary.sessions = std::move(everybody.sessions);
   counted_of(std::move(all), each, summary.participants).put(summary);
   summary.hypotheses = hypotheses_of(summary);
