@@ -73,7 +73,21 @@ class Folder {
   std::vector<std::string> files_;
 };
 
+// A session at a time: of a thousand, each cell of a table would be most of what is in memory.
+void write_tracks(Folder& folder, const Summary& summary) {
+  std::string csv;
+  std::string name;
+  for (const SessionTracks& session : summary.all_tracks) {
+    const Table table = track_list(session, summary);
+    const std::string of_session = as_csv(table, summary.data);
+    csv += csv.empty() ? of_session : of_session.substr(of_session.find('\n') + 1);
+    name = table.name;
+  }
+  if (!csv.empty()) folder.write(name + ".csv", csv);
+}
+
 void write_tables(Folder& folder, const Summary& summary) {
+  write_tracks(folder, summary);
   for (const auto& tables : {tables_of(summary), lists_of(summary)})
     for (const Table& table : tables)
       folder.write(table.name + ".csv", as_csv(table, summary.data));

@@ -29,6 +29,7 @@ Table threshold_list(const Summary& summary);
 Table setup_table(const Summary& summary);
 Table incident_table(const Summary& summary);
 Table dictionary_table(const Summary& summary);
+Table track_list(const SessionTracks& session, const Summary& summary);
 std::vector<Table> point_lists(const Summary& summary);  ///< what the figures show point by point
 
 // Cells that several tables have.
