@@ -79,6 +79,7 @@ TEST_F(ReportFolder, AnswersFirstAndHoldsWhatAReviewerAsksFor) {
   write_report(summarize({"x.db", sessions}, ""), folder);
   const std::string page = read("report.html");
   EXPECT_THAT(page, HasSubstr("Did C2 work? Yes"));
+  EXPECT_LT(page.find("id=\"sorting\""), page.find("id=\"times_by_trial\""));
   EXPECT_LT(page.find("Did C2 work?"), page.find("Contents"));
   EXPECT_THAT(page, HasSubstr("the lamp &lt;fell&gt;"));
   EXPECT_THAT(read("deviations.csv"), HasSubstr("deviation,the lamp <fell>"));
