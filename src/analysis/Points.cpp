@@ -145,12 +145,15 @@ void PointsFold::add_times(const SessionData& data) {
         times_s_[task][static_cast<int>(n_tenths * i / attempts.size())].push_back(*time_s);
 }
 
-// Five bands a decade, called by their middle.
+// Five bands a decade, called by their middle. How far the hand went is what a lag can come to.
 void PointsFold::add_lags(const Attempt& attempt) {
+  const std::string& condition = attempt.trial.plan.condition;
   for (const CubeRow& cube : attempt.cubes) {
-    if (!cube.peak_lag_m || !(cube.mass_g > 0)) continue;
-    const double band = std::round(5 * std::log10(cube.mass_g));
-    lag_mm_[attempt.trial.plan.condition][std::pow(10, band / 5)].push_back(1e3 * *cube.peak_lag_m);
+    if (!(cube.mass_g > 0)) continue;
+    const double mass_g = std::pow(10, std::round(5 * std::log10(cube.mass_g)) / 5);
+    if (cube.peak_lag_m) lag_mm_[condition][mass_g].push_back(1e3 * *cube.peak_lag_m);
+    if (cube.peak_lag_m && cube.deepest_push_m)
+      lag_mm_[condition + ", the hand's way"][mass_g].push_back(1e3 * *cube.deepest_push_m);
   }
 }
 
