@@ -1,7 +1,8 @@
 #include "analysis/Comparison.h"
 
+#include <algorithm>
 #include <map>
-#include <utility>
+#include <vector>
 
 namespace heft {
 
@@ -17,15 +18,14 @@ void count(Tallies& tallies, const std::string& participant, bool hit) {
   tally.n_hits += hit ? 1 : 0;
 }
 
-void count_trial(Counts& counts, const std::string& participant, const TrialRow& trial) {
-  const bool chosen = trial.outcome == Outcome::difference;
-  const bool equal = trial.plan.level_g.value_or(0) == 0;
+void count_trial(Counts& counts, const std::string& participant, const ComparedTrial& trial) {
+  const bool equal = trial.level_g == 0;
   counts.n_trials += 1;
-  if (trial.plan.is_catch) count(counts.false_alarm, participant, chosen);
-  if (!trial.plan.is_catch) count(counts.difference, participant, chosen);
-  if (!trial.plan.is_catch && equal) count(counts.at_zero, participant, chosen);
-  if (chosen && !equal && trial.choice_correct)
-    count(counts.wrong_cube, participant, !*trial.choice_correct);
+  if (trial.is_catch) count(counts.false_alarm, participant, trial.difference);
+  if (!trial.is_catch) count(counts.difference, participant, trial.difference);
+  if (!trial.is_catch && equal) count(counts.at_zero, participant, trial.difference);
+  if (trial.difference && !equal && trial.correct)
+    count(counts.wrong_cube, participant, !*trial.correct);
 }
 
 ComparisonChoices choices(double reference_g, std::optional<double> level_g, const Counts& counts) {
@@ -37,30 +37,41 @@ ComparisonChoices choices(double reference_g, std::optional<double> level_g, con
           rate_of(counts.false_alarm),
           rate_of(counts.at_zero)};
 }
+using TrialsAtOne = std::vector<const ComparedTrial*>;
+
+// All conditions of a reference together, by level.
+std::map<double, TrialsAtOne> by_reference(const ComparisonTrials& trials) {
+  std::map<double, TrialsAtOne> references;
+  for (const auto& [compared, theirs] : trials.by_compared())
+    for (const ComparedTrial& trial : theirs) references[compared.reference_g].push_back(&trial);
+  for (auto& [reference_g, theirs] : references)
+    std::ranges::stable_sort(theirs, {}, &ComparedTrial::level_g);
+  return references;
+}
+
+// One level after the other, so that no more than one's counts are in memory.
+void put_levels(ComparisonSummary& summary, double reference_g, const TrialsAtOne& sorted,
+                const ComparisonTrials& trials) {
+  for (auto first = sorted.begin(); first != sorted.end();) {
+    const double level_g = (*first)->level_g;
+    Counts counts;
+    for (; first != sorted.end() && (*first)->level_g == level_g; ++first)
+      if (!(*first)->is_catch) count_trial(counts, trials.participant(**first), **first);
+    if (counts.n_trials > 0) summary.by_level.push_back(choices(reference_g, level_g, counts));
+  }
+}
 }  // namespace
 
-ComparisonSummary comparisons_of(std::span<const SessionData> sessions) {
-  Counts all;
-  std::map<double, Counts> by_reference;
-  std::map<std::pair<double, double>, Counts> by_level;
-  for (const SessionData& data : sessions) {
-    const std::string participant = data.participant();
-    for (const Attempt& attempt : data.attempts) {
-      const TrialRow& trial = attempt.trial;
-      if (!attempt.completed() || trial.plan.task != Task::comparison) continue;
-      if (!trial.outcome || !trial.plan.reference_g) continue;
-      const double reference_g = *trial.plan.reference_g;
-      count_trial(all, participant, trial);
-      count_trial(by_reference[reference_g], participant, trial);
-      if (!trial.plan.is_catch)
-        count_trial(by_level[{reference_g, trial.plan.level_g.value_or(0)}], participant, trial);
-    }
-  }
+ComparisonSummary comparisons_of(const ComparisonTrials& trials) {
   ComparisonSummary summary;
-  for (const auto& [reference_g, counts] : by_reference)
+  Counts all;
+  for (const auto& [reference_g, sorted] : by_reference(trials)) {
+    Counts counts;
+    for (const ComparedTrial* trial : sorted)
+      for (Counts* sum : {&all, &counts}) count_trial(*sum, trials.participant(*trial), *trial);
     summary.by_reference.push_back(choices(reference_g, std::nullopt, counts));
-  for (const auto& [key, counts] : by_level)
-    summary.by_level.push_back(choices(key.first, key.second, counts));
+    put_levels(summary, reference_g, sorted, trials);
+  }
   summary.wrong_cube = rate_of(all.wrong_cube);
   summary.false_alarm = rate_of(all.false_alarm);
   summary.at_zero = rate_of(all.at_zero);

@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "analysis/Dataset.h"
+#include "analysis/ComparisonTrials.h"
+#include "analysis/Fold.h"
 #include "analysis/Proportion.h"
 
 namespace heft {
@@ -28,6 +29,9 @@ struct ComparisonSummary {
   Rate wrong_cube, false_alarm, at_zero;    ///< all references together
 };
 
-ComparisonSummary comparisons_of(std::span<const SessionData> sessions);
+ComparisonSummary comparisons_of(const ComparisonTrials& trials);
+inline ComparisonSummary comparisons_of(std::span<const SessionData> sessions) {
+  return comparisons_of(folded<ComparisonTrials>(sessions));
+}
 
 }  // namespace heft

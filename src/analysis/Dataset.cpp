@@ -57,8 +57,7 @@ SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
   SessionData data;
   data.session = session;
   data.estimates = rows.estimates;
-  data.attempts.reserve(rows.trials.size());  // of a thousand sessions, what is spare is much
-  std::map<int, std::size_t> place;           // attempt index -> its place in data.attempts
+  std::map<int, std::size_t> place;  // attempt index -> its place in data.attempts
   for (const TrialRow& trial : rows.trials) {
     place[trial.attempt_index] = data.attempts.size();
     data.attempts.push_back({trial, {}, {}, false});
@@ -73,11 +72,7 @@ SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
     with_attempt(answer.attempt_index, [&](Attempt& a) { a.answers.push_back(answer); });
   for (const ReversalRow& reversal : rows.reversals)
     with_attempt(reversal.attempt_index, [&](Attempt& a) { a.is_reversal = true; });
-  for (Attempt& attempt : data.attempts) {
-    std::ranges::sort(attempt.cubes, {}, &CubeRow::slot);
-    attempt.cubes.shrink_to_fit();
-    attempt.answers.shrink_to_fit();
-  }
+  for (Attempt& attempt : data.attempts) std::ranges::sort(attempt.cubes, {}, &CubeRow::slot);
   return data;
 }
 
@@ -90,6 +85,25 @@ PictureCounts count_pictures(const std::vector<LoggedEvent>& events) {
       counts.late += report->n_late;
     }
   return counts;
+}
+
+namespace {
+std::optional<std::string> text_noted(const Event& event) {
+  if (const auto* note = event.as<Note>()) return note->text;
+  if (const auto* deviation = event.as<Deviation>()) return deviation->text;
+  if (const auto* unblinding = event.as<Unblinding>()) return unblinding->who;
+  if (const auto* check = event.as<CheckResult>(); check && check->verdict != CheckVerdict::ok)
+    return fmt::format("{}, {}: {}", check->name, name_of(check->verdict), check->finding);
+  return std::nullopt;
+}
+}  // namespace
+
+std::vector<Noted> noted_in(const std::vector<LoggedEvent>& events) {
+  std::vector<Noted> noted;
+  for (const LoggedEvent& logged : events)
+    if (const auto text = text_noted(logged.event))
+      noted.push_back({logged.event.t_s, logged.event.kind(), *text});
+  return noted;
 }
 
 EventCounts count_events(const std::vector<LoggedEvent>& events) {
@@ -119,15 +133,6 @@ constexpr std::array counted_kinds{
     EventKind::note,   EventKind::deviation, EventKind::unblinding,   EventKind::check,
     EventKind::camera, EventKind::consent,   EventKind::effector_lost};
 
-// The contents of a session's files, of which no figure is made: of a thousand sessions they are
-// most of what would be kept in memory.
-void forget_contents(Setup& setup) {
-  for (std::string* text : {&setup.responder_text, &setup.tracker_text, &setup.camera_text,
-                            &setup.board_text, &setup.effector_text, &setup.texts_text})
-    *text = {};
-  setup.participant_parameters.clear();
-}
-
 Declared declared_in(const std::string& protocol_text) {
   Declared declared{staircases_without_jnd(protocol_text), {}, {}};
   try {
@@ -138,57 +143,60 @@ Declared declared_in(const std::string& protocol_text) {
   }
   return declared;
 }
+
+/// Protocols are read once, however many sessions ran them.
+using DeclaredByText = std::map<std::string, Declared>;
+
+SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& declared_by_text) {
+  SessionData data = join_rows(log.session(id), {log.trials(id), log.cubes(id), log.answers(id),
+                                                 log.reversals(id), log.estimates(id)});
+  data.setups = log.setups(id);
+  const std::string& protocol_text = data.session.header.protocol_text;
+  const auto [found, is_new] = declared_by_text.try_emplace(protocol_text);
+  if (is_new) found->second = declared_in(protocol_text);
+  data.without_jnd = found->second.without_jnd;
+  data.plan = found->second.plan;
+  data.exclusion = found->second.exclusion;
+  const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
+  data.frames = log.frame_counts(id);
+  data.events = count_events(events);
+  data.noted = noted_in(events);
+  if (!data.simulated()) data.pictures = count_pictures(events);
+  return data;
+}
 }  // namespace
 
+LoggedSessions::LoggedSessions(std::string database, const std::vector<std::int64_t>& session_ids)
+    : database_(std::move(database)), log_(database_) {
+  const std::set named(session_ids.begin(), session_ids.end());
+  session_ids_.assign(named.begin(), named.end());
+  if (session_ids_.empty()) session_ids_ = log_.session_ids();
+  for (const std::int64_t id : session_ids_)
+    purposes_[std::string(name_of(log_.session(id).header.purpose))] += 1;
+}
+
+void LoggedSessions::each(const std::function<void(const SessionData&)>& use) const {
+  DeclaredByText declared_by_text;
+  for (const std::int64_t id : session_ids_) use(read_session(log_, id, declared_by_text));
+}
+
 Dataset read_dataset(const std::string& database, const std::vector<std::int64_t>& session_ids) {
-  const LogReader log(database);
-  std::vector<SessionRow> sessions;
-  if (session_ids.empty()) sessions = log.sessions();
-  for (std::int64_t id : std::set(session_ids.begin(), session_ids.end()))
-    sessions.push_back(log.session(id));
   Dataset dataset{database, {}};
-  std::map<std::string, Declared> declared;  // by the protocol's text
-  for (const SessionRow& session : sessions) {
-    const std::int64_t id = session.session_id;
-    dataset.sessions.push_back(join_rows(session, {log.trials(id), log.cubes(id), log.answers(id),
-                                                   log.reversals(id), log.estimates(id)}));
-    SessionData& data = dataset.sessions.back();
-    data.setups = log.setups(id);
-    for (LoggedSetup& logged : data.setups) forget_contents(logged.setup);
-    const auto [found, is_new] = declared.try_emplace(session.header.protocol_text);
-    if (is_new) found->second = declared_in(session.header.protocol_text);
-    data.without_jnd = found->second.without_jnd;
-    data.plan = found->second.plan;
-    data.exclusion = found->second.exclusion;
-    const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
-    data.frames = log.frame_counts(id);
-    data.events = count_events(events);
-    if (!data.simulated()) data.pictures = count_pictures(events);
-  }
+  LoggedSessions(database, session_ids).each([&](const SessionData& data) {
+    dataset.sessions.push_back(data);
+  });
   return dataset;
 }
 
-std::vector<std::string> purposes(const Dataset& dataset) {
-  std::set<std::string> names;
-  for (const SessionData& data : dataset.sessions)
-    names.emplace(name_of(data.session.header.purpose));
-  return {names.begin(), names.end()};
-}
-
-void refuse_mixed_purposes(const Dataset& dataset) {
-  const std::vector<std::string> names = purposes(dataset);
-  if (names.size() < 2) return;
+void refuse_mixed_purposes(const LoggedSessions& sessions) {
+  if (sessions.purposes().size() < 2) return;
   std::string counts;
-  for (const std::string& name : names) {
-    const auto n = std::ranges::count(dataset.sessions, name, [](const SessionData& data) {
-      return name_of(data.session.header.purpose);
-    });
+  for (const auto& [name, n] : sessions.purposes())
     counts += fmt::format("{}{} of purpose \"{}\"", counts.empty() ? "" : ", ", n, name);
-  }
   throw Error(fmt::format("{} holds sessions of several purposes ({}), and their figures don't "
                           "belong together. Name the sessions to use with --session, or put all "
                           "together with --mix.",
-                          dataset.database, counts),
+                          sessions.database(), counts),
               ExitCode::usage);
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -44,12 +46,20 @@ struct EventCounts {
   std::optional<bool> consented{};  ///< none: it was not asked
 };
 
+/// A note, deviation, unblinding or a check that was not passed.
+struct Noted {
+  double t_s = 0;
+  EventKind kind = EventKind::note;
+  std::string text;
+};
+
 struct SessionData {
   SessionRow session;
   std::vector<Attempt> attempts;
   std::vector<EstimateRow> estimates;
   PictureCounts pictures;
   EventCounts events;
+  std::vector<Noted> noted{};       ///< in order
   FrameCounts frames;               ///< none where frames were not kept
   std::vector<LoggedSetup> setups;  ///< what was in force, in order
   /// Staircases of the protocol that estimate no JND, such as constant stimuli.
@@ -71,6 +81,9 @@ struct SessionData {
 
 /// The sum of a session's `camera` events.
 PictureCounts count_pictures(const std::vector<LoggedEvent>& events);
+
+/// What of them is to be told in words.
+std::vector<Noted> noted_in(const std::vector<LoggedEvent>& events);
 
 EventCounts count_events(const std::vector<LoggedEvent>& events);
 
@@ -95,10 +108,28 @@ struct Dataset {
 /// @throws Error when the file can't be read or has no such session
 Dataset read_dataset(const std::string& database, const std::vector<std::int64_t>& session_ids);
 
-/// The purposes of the sessions, sorted, each once.
-std::vector<std::string> purposes(const Dataset& dataset);
+/// The sessions of a log, read one by one: of a thousand no more than one is in memory.
+class LoggedSessions {
+ public:
+  /// @param session_ids which; empty: all
+  /// @throws Error when the file can't be read or has no such session
+  LoggedSessions(std::string database, const std::vector<std::int64_t>& session_ids);
 
-/// @throws Error (usage) naming the purposes and their sessions when there are several
-void refuse_mixed_purposes(const Dataset& dataset);
+  const std::string& database() const { return database_; }
+  /// May be called again, and gives the same.
+  void each(const std::function<void(const SessionData&)>& use) const;
+  /// By name, how many sessions have each.
+  const std::map<std::string, int>& purposes() const { return purposes_; }
+
+ private:
+  std::string database_;
+  LogReader log_;
+  std::vector<std::int64_t> session_ids_;
+  std::map<std::string, int> purposes_;
+};
+
+/// @throws Error (usage) naming the purposes and how many sessions have them, when there are
+/// several
+void refuse_mixed_purposes(const LoggedSessions& sessions);
 
 }  // namespace heft

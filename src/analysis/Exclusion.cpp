@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
 #include "analysis/Quality.h"
 
 namespace heft {
@@ -36,51 +33,32 @@ std::string why_excluded(const ParticipantRow& row, int n_attempts, const Exclus
 }
 }  // namespace
 
-std::vector<ParticipantRow> participants_of(std::span<const SessionData> sessions) {
-  struct Seen {
-    ParticipantRow row;
-    int n_attempts = 0;
-    const ExclusionRules* rules = nullptr;
-  };
-  std::map<std::string, Seen> participants;
-  for (const SessionData& data : sessions) {
-    const std::string name = data.participant();
-    Seen& seen = participants[name];
-    seen.row.participant = name;
-    if (!seen.rules) seen.rules = &data.exclusion;
-    seen.row.n_sessions += 1;
-    seen.row.n_finished += data.finished() ? 1 : 0;
-    for (const Attempt& attempt : data.attempts) count_attempt(seen.row, data, attempt);
-    seen.n_attempts += static_cast<int>(data.attempts.size());
-  }
+void ParticipantsFold::add(const SessionData& data) {
+  const std::string name = data.participant();
+  const auto [found, is_new] = participants_.try_emplace(name);
+  Seen& seen = found->second;
+  if (is_new) seen.rules = data.exclusion;
+  seen.row.participant = name;
+  seen.row.n_sessions += 1;
+  seen.row.n_finished += data.finished() ? 1 : 0;
+  for (const Attempt& attempt : data.attempts) count_attempt(seen.row, data, attempt);
+  seen.n_attempts += static_cast<int>(data.attempts.size());
+}
+
+std::vector<ParticipantRow> ParticipantsFold::result() const {
   std::vector<ParticipantRow> rows;
-  for (auto& [name, seen] : participants) {
-    seen.row.excluded_because = why_excluded(seen.row, seen.n_attempts, *seen.rules);
+  for (const auto& [name, seen] : participants_) {
     rows.push_back(seen.row);
+    rows.back().excluded_because = why_excluded(seen.row, seen.n_attempts, seen.rules);
   }
   return rows;
 }
 
-std::vector<SessionData> included(std::span<const SessionData> sessions,
-                                  std::span<const ParticipantRow> participants) {
-  std::map<std::string, bool> excluded;
-  for (const ParticipantRow& row : participants) excluded[row.participant] = row.excluded();
-  std::vector<SessionData> kept;
-  for (const SessionData& data : sessions)
-    if (!excluded[data.participant()]) kept.push_back(data);
-  return kept;
-}
-
-std::optional<AnalysisPlan> declared_plan(std::span<const SessionData> sessions) {
-  std::optional<AnalysisPlan> plan;
-  for (const SessionData& data : sessions) {
-    if (!data.plan) return std::nullopt;
-    if (plan && (plan->tested != data.plan->tested ||
-                 plan->equivalence_margin != data.plan->equivalence_margin))
-      return std::nullopt;
-    plan = data.plan;
-  }
-  return plan;
+void PlanFold::add(const SessionData& data) {
+  differ_ = differ_ || !data.plan ||
+            (plan_ && (plan_->tested != data.plan->tested ||
+                       plan_->equivalence_margin != data.plan->equivalence_margin));
+  plan_ = data.plan;
 }
 
 }  // namespace heft

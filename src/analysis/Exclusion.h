@@ -2,12 +2,13 @@
 // would leave out.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "analysis/Dataset.h"
+#include "analysis/Fold.h"
 #include "protocol/AnalysisPlan.h"
 
 namespace heft {
@@ -24,13 +25,36 @@ struct ParticipantRow {
 };
 
 /// By name. The rules are those of each one's first session.
-std::vector<ParticipantRow> participants_of(std::span<const SessionData> sessions);
+class ParticipantsFold {
+ public:
+  void add(const SessionData& data);
+  std::vector<ParticipantRow> result() const;
 
-/// The sessions of those who count.
-std::vector<SessionData> included(std::span<const SessionData> sessions,
-                                  std::span<const ParticipantRow> participants);
+ private:
+  struct Seen {
+    ParticipantRow row;
+    int n_attempts = 0;
+    ExclusionRules rules;
+  };
+  std::map<std::string, Seen> participants_;
+};
 
 /// What all sessions' protocols declare alike; none where one declares nothing or something else.
-std::optional<AnalysisPlan> declared_plan(std::span<const SessionData> sessions);
+class PlanFold {
+ public:
+  void add(const SessionData& data);
+  std::optional<AnalysisPlan> result() const { return differ_ ? std::nullopt : plan_; }
+
+ private:
+  std::optional<AnalysisPlan> plan_;
+  bool differ_ = false;
+};
+
+inline std::vector<ParticipantRow> participants_of(std::span<const SessionData> sessions) {
+  return folded<ParticipantsFold>(sessions);
+}
+inline std::optional<AnalysisPlan> declared_plan(std::span<const SessionData> sessions) {
+  return folded<PlanFold>(sessions);
+}
 
 }  // namespace heft

@@ -3,12 +3,14 @@
 namespace heft {
 
 namespace {
-struct Way {
-  bool declined = false, agreed = false, started = false, finished = false;
-  SessionState last = SessionState::running;
-};
+// "impossible answers: 12 of 40, the protocol allows 5 %" is the rule "impossible answers".
+std::string rule_of(const std::string& why) {
+  return why.substr(0, why.find(':'));
+}
+}  // namespace
 
-void follow(Way& way, const SessionData& data) {
+void FlowFold::add(const SessionData& data) {
+  Way& way = ways_[data.participant()];
   way.declined = way.declined || !data.events.consented.value_or(true);
   way.agreed = way.agreed || data.events.consented.value_or(false);
   way.started = way.started || !data.attempts.empty();
@@ -16,19 +18,10 @@ void follow(Way& way, const SessionData& data) {
   way.last = data.session.state;
 }
 
-// "impossible answers: 12 of 40, the protocol allows 5 %" is the rule "impossible answers".
-std::string rule_of(const std::string& why) {
-  return why.substr(0, why.find(':'));
-}
-}  // namespace
-
-ParticipantFlow flow_of(std::span<const SessionData> sessions,
-                        std::span<const ParticipantRow> participants) {
-  std::map<std::string, Way> ways;
-  for (const SessionData& data : sessions) follow(ways[data.participant()], data);
+ParticipantFlow FlowFold::result(std::span<const ParticipantRow> participants) const {
   ParticipantFlow flow;
-  flow.n_asked = static_cast<int>(ways.size());
-  for (const auto& [participant, way] : ways) {
+  flow.n_asked = static_cast<int>(ways_.size());
+  for (const auto& [participant, way] : ways_) {
     flow.n_declined += way.declined && !way.agreed && !way.started ? 1 : 0;
     flow.n_started += way.started ? 1 : 0;
     flow.n_finished += way.started && way.finished ? 1 : 0;
@@ -36,9 +29,16 @@ ParticipantFlow flow_of(std::span<const SessionData> sessions,
   }
   for (const ParticipantRow& row : participants) {
     if (row.excluded()) flow.excluded[rule_of(row.excluded_because)] += 1;
-    flow.n_analyzed += !row.excluded() && ways[row.participant].started ? 1 : 0;
+    flow.n_analyzed += !row.excluded() && ways_.at(row.participant).started ? 1 : 0;
   }
   return flow;
+}
+
+ParticipantFlow flow_of(std::span<const SessionData> sessions,
+                        std::span<const ParticipantRow> participants) {
+  FlowFold fold;
+  for (const SessionData& data : sessions) fold.add(data);
+  return fold.result(participants);
 }
 
 }  // namespace heft

@@ -23,6 +23,20 @@ struct ParticipantFlow {
       unfinished;  ///< started but finished none, by the last session's state
 };
 
+class FlowFold {
+ public:
+  void add(const SessionData& data);
+  /// @param participants all, of the same sessions
+  ParticipantFlow result(std::span<const ParticipantRow> participants) const;
+
+ private:
+  struct Way {
+    bool declined = false, agreed = false, started = false, finished = false;
+    SessionState last = SessionState::running;
+  };
+  std::map<std::string, Way> ways_;
+};
+
 /// @param participants all, of the same sessions
 ParticipantFlow flow_of(std::span<const SessionData> sessions,
                         std::span<const ParticipantRow> participants);

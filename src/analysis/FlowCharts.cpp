@@ -130,7 +130,7 @@ Chart tracking_chart(const Summary& summary) {
 // The people of one reference, side by side.
 struct ThresholdGroup {
   std::string name;
-  std::string thresholds, jnds, starts;
+  std::string thresholds, from_above, from_below, starts;
   int n = 0, n_identifiable = 0, from = 0;
 };
 
@@ -138,6 +138,12 @@ struct ThresholdGroup {
 std::string in_double_quotes(std::string text) {
   std::erase_if(text, [](char c) { return c == '"' || c == '\\' || c == '`' || c == '\n'; });
   return text;
+}
+
+// Above 0 alone: the axis is logarithmic.
+void add_started(std::string& jnds, std::string& starts, int x, const StartedFigure& figure) {
+  if (figure.jnd && figure.jnd->value > 0) jnds += fmt::format("{} {}\n", x, figure.jnd->value);
+  if (figure.start_g && *figure.start_g > 0) starts += fmt::format("{} {}\n", x, *figure.start_g);
 }
 
 std::vector<ThresholdGroup> groups_of(const Summary& summary) {
@@ -160,10 +166,8 @@ std::vector<ThresholdGroup> groups_of(const Summary& summary) {
             fmt::format("{} {} {} {}\n", x, *person->threshold_75_g,
                         std::max(person->interval_g->low, 0.1), person->interval_g->high);
       }
-      if (person->jnd && person->jnd->jnd_g > 0)
-        group.jnds += fmt::format("{} {}\n", x, person->jnd->jnd_g);
-      if (person->start_g && *person->start_g > 0)
-        group.starts += fmt::format("{} {}\n", x, *person->start_g);
+      add_started(group.from_above, group.starts, x, person->from_above);
+      add_started(group.from_below, group.starts, x, person->from_below);
     }
     group.name =
         fmt::format("{:g} g, {}\\n{} of {} not identifiable", compared.reference_g,
@@ -180,21 +184,23 @@ Chart thresholds_chart(const Summary& summary) {
   chart.caption =
       "A column for each participant and reference, ordered by threshold: the difference told "
       "rightly in 75 % with its likelihood interval, where their trials bear one; the paper's JND "
-      "(censored ones at what they lie beyond); the mean start of their staircases.";
+      "of their staircases from above and from below apart (censored ones at what they lie "
+      "beyond); where these began.";
   chart.csv = "thresholds_by_participant.csv";
   const std::vector<ThresholdGroup> groups = groups_of(summary);
-  std::string thresholds, jnds, starts, tics;
+  std::string thresholds, from_above, from_below, starts, tics;
   int end = 0;
   for (const ThresholdGroup& group : groups) {
     thresholds += group.thresholds;
-    jnds += group.jnds;
+    from_above += group.from_above;
+    from_below += group.from_below;
     starts += group.starts;
     tics += fmt::format("{}\"{}\" {}", tics.empty() ? "" : ", ", group.name,
                         group.from + (group.n + 1) / 2.0);
     chart.n = std::max(chart.n, group.n);
     end = group.from + group.n;
   }
-  if (thresholds.empty() && jnds.empty()) return chart;
+  if (thresholds.empty() && from_above.empty() && from_below.empty()) return chart;
   std::string blocks, plots;
   const auto add = [&](const char* name, const std::string& rows, const std::string& how) {
     if (rows.empty()) return;
@@ -204,7 +210,10 @@ Chart thresholds_chart(const Summary& summary) {
   add("thresholds", thresholds,
       "using 1:2:3:4 with yerrorbars pointtype 7 pointsize 0.6 linecolor '#2f6fb0' title "
       "'threshold'");
-  add("jnds", jnds, "with points pointtype 6 pointsize 0.7 linecolor '#c0561f' title 'JND'");
+  add("above", from_above,
+      "with points pointtype 10 pointsize 0.8 linecolor '#c0561f' title 'JND from above'");
+  add("below", from_below,
+      "with points pointtype 8 pointsize 0.8 linecolor '#7a5aa6' title 'JND from below'");
   add("starts", starts, "with points pointtype 1 pointsize 0.5 linecolor '#777777' title 'start'");
   chart.script = framed(chart, summary, 440,
                         fmt::format("set logscale y\nset ylabel 'difference (g)'\nset xrange "

@@ -59,6 +59,14 @@ namespace {
 std::string in_short(const std::string& why) {
   return why.substr(0, why.find(':'));
 }
+
+// "> 1136.2" for what is known to lie above.
+Cell shown_jnd(const StartedFigure& figure) {
+  if (!figure.jnd) return {};
+  Cell cell = number(figure.jnd->value);
+  cell.text = std::string(beyond_sign(figure.jnd->censored)) + cell.text;
+  return cell;
+}
 }  // namespace
 
 Table threshold_list(const Summary& summary) {
@@ -71,13 +79,16 @@ Table threshold_list(const Summary& summary) {
                {"threshold_75_g", "threshold g"},
                {"low_g", "95 % low"},
                {"high_g", "high"},
-               {"jnd_g", "JND g"},
-               {"censored", "which is"},
-               {"start_g", "start g"},
+               {"jnd_g", ""},
+               {"censored", ""},
+               {"start_above_g", "start g"},
+               {"jnd_above_g", "its JND"},
+               {"start_below_g", "from below g"},
+               {"jnd_below_g", "its JND"},
                {"why", "no threshold, because"}},
               {},
               "the difference that is told rightly in 75 %, by this person's trials alone; the "
-              "paper's JND and the mean start of its staircases beside"};
+              "paper's JND of the staircases that began high and low beside, each with its start"};
   for (const PersonThreshold& person : summary.thresholds)
     table.rows.push_back(
         {mass(person.compared.reference_g), word(person.compared.condition),
@@ -86,7 +97,9 @@ Table threshold_list(const Summary& summary) {
          number(person.jnd ? std::optional(person.jnd->jnd_g) : std::nullopt),
          person.jnd && person.jnd->censored != Censored::none ? named_cell(person.jnd->censored)
                                                               : Cell(),
-         number(person.start_g), word(in_short(person.why))});
+         number(person.from_above.start_g), shown_jnd(person.from_above),
+         number(person.from_below.start_g), shown_jnd(person.from_below),
+         word(in_short(person.why))});
   return table;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <vector>
@@ -118,7 +119,34 @@ double log_likelihood(std::span<const Level> levels, const Parameters& at,
   return sum;
 }
 
-std::vector<std::vector<Parameters>> starts(const AnswersByLevel& answers,
+// Where few of the levels lie between, on the axis.
+std::vector<double> cuts_between(const AnswersByLevel& answers, const LevelAxis& axis) {
+  constexpr std::size_t most = 4;
+  std::vector<double> between;
+  for (auto level = answers.begin(); std::next(level) != answers.end(); ++level)
+    between.push_back(axis((level->first + std::next(level)->first) / 2));
+  if (between.size() <= most) return between;
+  std::vector<double> few;
+  for (std::size_t i = 0; i < most; ++i)
+    few.push_back(between[(2 * i + 1) * between.size() / (2 * most)]);
+  return few;
+}
+
+// As good as steps, with the criteria between levels: there what is flat leads nowhere, and hills
+// are not found from afar.
+std::vector<Parameters> steep_starts(const AnswersByLevel& answers, const LevelAxis& axis) {
+  constexpr double steep = 40;
+  std::vector<Parameters> all;
+  const std::vector<double> cuts = cuts_between(answers, axis);
+  for (std::size_t low = 0; low < cuts.size(); ++low)
+    for (std::size_t high = low; high < cuts.size(); ++high)
+      for (const double at_lapse : {0.02, 0.2, 0.45})
+        all.emplace_back(Eigen::Vector4d(steep, steep * (cuts[high] - cuts[low]) / 2,
+                                         -steep * (cuts[high] + cuts[low]) / 2, at_lapse));
+  return all;
+}
+
+std::vector<std::vector<Parameters>> starts(const AnswersByLevel& answers, const LevelAxis& axis,
                                             const ParameterBounds& lapses) {
   const auto n = totals(answers);
   const double undecided = std::clamp(n[none] / trials_in(answers), 0.02, 0.98);
@@ -134,6 +162,9 @@ std::vector<std::vector<Parameters>> starts(const AnswersByLevel& answers,
       for (const double at_lapse : some_lapses)
         all.back().emplace_back(Eigen::Vector4d(at_sensitivity, half_width * wider, 0, at_lapse));
   }
+  if (std::vector<Parameters> steep = steep_starts(answers, axis);
+      !lapses.fixed() && !steep.empty())
+    all.push_back(std::move(steep));
   return all;
 }
 
@@ -178,7 +209,7 @@ LikelihoodFit maximize(const AnswersByLevel& answers, const LevelAxis& axis,
   std::vector<ParameterBounds> for_bias = bounds, for_others = bounds;
   for (std::size_t i = 0; i < bounds.size(); ++i)
     (i == bias ? for_others : for_bias)[i].with_interval = false;
-  std::vector<std::vector<Parameters>> from = starts(answers, bounds[lapse]);
+  std::vector<std::vector<Parameters>> from = starts(answers, axis, bounds[lapse]);
   LikelihoodFit found, turned;
   for (int i = 0; i < 3; ++i) {
     found = maximize_turned(levels, Eigen::Matrix4d::Identity(), for_others, from);
@@ -233,8 +264,10 @@ FittedParameter threshold(const FittedParameter& s) {
 Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
   Fit fit{{}, std::nullopt, trials_in(answers), answers.size(), too_little(answers)};
   const ParameterBounds lapses{options.lapse.value_or(0), options.lapse.value_or(most_free_lapse)};
-  const std::vector<ParameterBounds> bounds{
-      {-infinity, infinity}, {0, infinity}, {-infinity, infinity}, lapses};
+  const std::vector<ParameterBounds> bounds{{-infinity, infinity, true, true},
+                                            {0, infinity, true, true},
+                                            {-infinity, infinity, true, true},
+                                            lapses};
   LikelihoodFit found{std::vector<LikelihoodParameter>(names.size()), 0};
   for (auto& unknown : found.parameters) unknown.exists = false;
   found.parameters[lapse].value = lapses.low;

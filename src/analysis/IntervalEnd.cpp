@@ -11,13 +11,19 @@ void IntervalEnd::search(double first_step) {
   // Doubled each time, and never beyond twice the last place: the others have to follow.
   double distance = std::min(first_step, (1 + std::abs(center)) / 2);
   Parameters change = likelihood_.tangent(best_.at, parameter_);
-  for (int i = 0; i < most_doublings && !end_; ++i, distance *= 2) {
-    const double to = distance >= beyond ? limit_ : center + direction_ * distance;
+  for (int n_doublings = 0; n_doublings < most_doublings && !end_;) {
+    double to = distance >= beyond ? limit_ : center + direction_ * distance;
+    if (is_too_far(to)) {
+      to = last_.at[parameter_] / 2;
+    } else {
+      distance *= 2;
+      n_doublings += 1;
+    }
     // Where the others go on as they went, or stay: going on may lead to a bound where nothing is
     // likely, and from where no way leads back.
     const Parameters ahead = last_.at + (to - last_.at[parameter_]) * change;
     const Maximum outer = likelier(likelihood_.profile(parameter_, to, ahead, last_.at),
-                                   likelihood_.profile_from_anywhere(parameter_, to));
+                                   likelihood_.profile_from_anywhere(parameter_, to, last_.at));
     likeliest_ = likelier(likeliest_, outer);
     if (excess(outer) > 0)
       end_ = between(last_, outer);
@@ -26,6 +32,13 @@ void IntervalEnd::search(double first_step) {
     if (to != last_.at[parameter_]) change = (outer.at - last_.at) / (to - last_.at[parameter_]);
     last_ = outer;
   }
+}
+
+// From afar towards 0, where there may be hills: halfway at most, so that the others can follow.
+bool IntervalEnd::is_too_far(double to) const {
+  const double here = last_.at[parameter_];
+  return !likelihood_.is_one_hill() && direction_ * here < -1 &&
+         std::abs(to - here) > std::abs(here) / 2;
 }
 
 double IntervalEnd::excess(const Maximum& there) const {
@@ -41,7 +54,10 @@ double IntervalEnd::between(Maximum inner, Maximum outer) {
     const double here = to - at_outer * (to - from) / (at_outer - at_inner);
     const double part = (here - from) / (to - from);
     Maximum middle = likelihood_.profile(parameter_, here, inner.at + part * (outer.at - inner.at));
-    if (middle.log_likelihood < outer.log_likelihood)  // got stuck
+    // Between two that stand on different hills neither's way leads to the higher one for sure.
+    if (!likelihood_.is_one_hill())
+      middle = likelier(middle, likelihood_.profile(parameter_, here, inner.at, outer.at));
+    else if (middle.log_likelihood < outer.log_likelihood)  // got stuck
       middle = likelier(middle, likelihood_.profile(parameter_, here, inner.at));
     const double at_middle = excess(middle);
     if (std::abs(at_middle) < 1e-6) return here;

@@ -29,6 +29,7 @@ class IntervalEnd {
   const Maximum& likeliest() const { return likeliest_; }
 
  private:
+  bool is_too_far(double to) const;
   // The root of the fall is nearly a straight line for any likelihood.
   double excess(const Maximum& there) const;
   // Where the fall is just enough, by regula falsi (its Illinois variant).

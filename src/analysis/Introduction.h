@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <span>
+#include <string>
 
-#include "analysis/Dataset.h"
+#include "analysis/Fold.h"
 #include "analysis/Proportion.h"
 
 namespace heft {
@@ -16,6 +18,19 @@ struct IntroductionSummary {
 };
 
 /// Each participant's first completed introduction; nobody is untrained twice. Sessions in order.
-IntroductionSummary introduction_of(std::span<const SessionData> sessions);
+class IntroductionFold {
+ public:
+  void add(const SessionData& data);
+  IntroductionSummary result() const;
+
+ private:
+  Tally tally_;
+  bool as_published_ = true;
+  std::set<std::string> seen_;
+};
+
+inline IntroductionSummary introduction_of(std::span<const SessionData> sessions) {
+  return folded<IntroductionFold>(sessions);
+}
 
 }  // namespace heft

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 
+#include "analysis/Fold.h"
 #include "analysis/Published.h"
 #include "protocol/Protocol.h"
 #include "protocol/TomlDocument.h"
@@ -121,16 +123,11 @@ std::vector<StaircaseResult> results_of(const SessionData& data) {
   return results;
 }
 
-std::optional<CensoredValue> value_of(const StaircaseResult& result) {
-  if (!result.shown_g) return std::nullopt;
-  return CensoredValue{*result.shown_g, result.censored};
-}
+using Began = StaircaseFold::Began;
+using AboveAndBelow = StaircaseFold::AboveAndBelow;
 
-/// What the sessions of each participant hold of one comparison; staircases that began and have no
-/// result are unknown.
-using Began = std::map<std::string, std::map<std::int64_t, int>>;  // participant, session: how many
-
-// Staircases of one session first, then sessions: a participant counts once. Sessions that tell
+// Staircases of one session first, then sessions: a participant counts once. Staircases that began
+// and have no result are unknown. Sessions that tell
 // nothing don't count where another one does.
 void put_participants(ReferenceJnd& jnd, std::span<const StaircaseResult> results,
                       const Began& began) {
@@ -140,7 +137,7 @@ void put_participants(ReferenceJnd& jnd, std::span<const StaircaseResult> result
       std::vector<std::optional<CensoredValue>> values;
       for (const StaircaseResult& result : results)
         if (result.participant == participant && result.session_id == session_id)
-          values.push_back(value_of(result));
+          values.push_back(censored_value(result));
       values.resize(std::max(values.size(), static_cast<std::size_t>(n_began)));
       if (auto value = mean_figure(values)) told.push_back(value);
     }
@@ -162,17 +159,12 @@ void put_mean(ReferenceJnd& jnd) {
   jnd.interval_g = found.interval;
 }
 
-// One participant's figures at one reference, by where the staircases of a session began.
-struct AboveAndBelow {
-  std::vector<std::optional<CensoredValue>> above, below;
-};
-
 void put_session(AboveAndBelow& figures, std::span<const StaircaseResult* const> results) {
   const auto [low, high] = std::ranges::minmax(results, {}, &StaircaseResult::start_g);
   const double middle_g = (low->start_g + high->start_g) / 2;
   if (low->start_g == high->start_g) return;
   for (const StaircaseResult* result : results)
-    (result->start_g > middle_g ? figures.above : figures.below).push_back(value_of(*result));
+    (result->start_g > middle_g ? figures.above : figures.below).push_back(censored_value(*result));
 }
 
 FigureSummary summarize(std::span<const std::optional<CensoredValue>> figures, int& n_censored,
@@ -237,6 +229,11 @@ ReferenceJnd jnd_at(const Compared& compared, std::span<const StaircaseResult> r
 }
 }  // namespace
 
+std::optional<CensoredValue> censored_value(const StaircaseResult& result) {
+  if (!result.shown_g) return std::nullopt;
+  return CensoredValue{*result.shown_g, result.censored};
+}
+
 std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
   std::set<std::string> names;
   try {
@@ -251,29 +248,52 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
   return names;
 }
 
+void StaircaseFold::add_starts(const std::string& participant,
+                               std::span<const StaircaseResult> of_session) {
+  std::map<Compared, std::vector<const StaircaseResult*>> by_compared;
+  for (const StaircaseResult& result : of_session) by_compared[result.compared].push_back(&result);
+  for (const auto& [compared, same] : by_compared) {
+    AboveAndBelow& of_person = starts_[compared][participant];
+    put_session(of_person, same);
+    if (of_person.above.empty()) starts_[compared].erase(participant);
+  }
+}
+
+void StaircaseFold::add(const SessionData& data) {
+  const std::string participant = data.participant();
+  for (const auto& [staircase, compared] : compared_by(data))
+    began_[compared][participant][data.session.session_id] += 1;
+  std::vector<StaircaseResult> of_session = results_of(data);
+  add_starts(participant, of_session);
+  std::ranges::move(of_session, std::back_inserter(results_));
+}
+
+std::vector<StartEffect> StaircaseFold::start_effects() const {
+  std::vector<StartEffect> effects;
+  for (const auto& [compared, participants] : starts_)
+    if (!participants.empty()) effects.push_back(start_effect(compared, participants));
+  return effects;
+}
+
+std::vector<ReferenceJnd> StaircaseFold::jnds() const {
+  std::map<Compared, std::vector<StaircaseResult>> finished;
+  for (const StaircaseResult& result : results_) finished[result.compared].push_back(result);
+  std::vector<ReferenceJnd> jnds;
+  for (const auto& [compared, participants] : began_)
+    jnds.push_back(jnd_at(compared, finished[compared], participants));
+  return jnds;
+}
+
 std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sessions) {
-  std::vector<StaircaseResult> results;
-  for (const SessionData& data : sessions)
-    for (StaircaseResult& result : results_of(data)) results.push_back(std::move(result));
-  return results;
+  return folded<StaircaseFold>(sessions).results();
 }
 
 std::vector<StartEffect> start_effects(std::span<const SessionData> sessions) {
-  std::map<Compared, std::map<std::string, AboveAndBelow>> figures;
-  for (const SessionData& data : sessions) {
-    const std::vector<StaircaseResult> results = results_of(data);
-    std::map<Compared, std::vector<const StaircaseResult*>> by_compared;
-    for (const StaircaseResult& result : results) by_compared[result.compared].push_back(&result);
-    for (const auto& [compared, same] : by_compared) {
-      AboveAndBelow& of_person = figures[compared][data.participant()];
-      put_session(of_person, same);
-      if (of_person.above.empty()) figures[compared].erase(data.participant());
-    }
-  }
-  std::vector<StartEffect> effects;
-  for (const auto& [compared, participants] : figures)
-    if (!participants.empty()) effects.push_back(start_effect(compared, participants));
-  return effects;
+  return folded<StaircaseFold>(sessions).start_effects();
+}
+
+std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions) {
+  return folded<StaircaseFold>(sessions).jnds();
 }
 
 std::string_view beyond_sign(Censored censored) {
@@ -283,20 +303,6 @@ std::string_view beyond_sign(Censored censored) {
 
 int ReferenceJnd::n_censored(Censored direction) const {
   return static_cast<int>(std::ranges::count(participants, direction, &ParticipantJnd::censored));
-}
-
-std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions) {
-  std::map<Compared, std::vector<StaircaseResult>> finished;
-  std::map<Compared, Began> began;
-  for (const SessionData& data : sessions)
-    for (const auto& [staircase, compared] : compared_by(data))
-      began[compared][data.participant()][data.session.session_id] += 1;
-  for (const StaircaseResult& result : staircase_results(sessions))
-    finished[result.compared].push_back(result);
-  std::vector<ReferenceJnd> jnds;
-  for (const auto& [compared, participants] : began)
-    jnds.push_back(jnd_at(compared, finished[compared], participants));
-  return jnds;
 }
 
 }  // namespace heft

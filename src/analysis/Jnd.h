@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -42,6 +43,9 @@ struct StaircaseResult {
   std::optional<double> shown_g{};
   double start_g = 0;  ///< the first level presented
 };
+
+/// None where nothing is known.
+std::optional<CensoredValue> censored_value(const StaircaseResult& result);
 
 /// A staircase that ended with fewer is censored.
 inline constexpr int least_reversals = 4;
@@ -85,10 +89,6 @@ struct ReferenceJnd {
 /// protocol.
 std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 
-/// Finished staircases in the order of sessions and estimates, each with the reference of its
-/// trials.
-std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sessions);
-
 /// What staircases that began high and low say of one reference. Their difference is how far a JND
 /// follows from where its staircase began.
 struct StartEffect {
@@ -98,12 +98,39 @@ struct StartEffect {
   FigureSummary from_above_g, from_below_g, difference_g;
 };
 
-/// Of references whose staircases in one session differ in their start: those that begin above the
-/// middle between the highest and the lowest start, and those below.
-std::vector<StartEffect> start_effects(std::span<const SessionData> sessions);
+/// What the sessions' staircases come to.
+class StaircaseFold {
+ public:
+  void add(const SessionData& data);
+  const StaircaseFold& result() const { return *this; }
 
-/// By reference, lightest first, and condition. The paper's figures are beside its references in
-/// C2.
+  /// Finished staircases in the order of sessions and estimates, each with the reference of its
+  /// trials.
+  const std::vector<StaircaseResult>& results() const { return results_; }
+  /// By reference, lightest first, and condition. The paper's figures are beside its references in
+  /// C2.
+  std::vector<ReferenceJnd> jnds() const;
+  /// Of references whose staircases in one session differ in their start: those that begin above
+  /// the middle between the highest and the lowest start, and those below.
+  std::vector<StartEffect> start_effects() const;
+
+  /// How many staircases each participant's sessions began.
+  using Began = std::map<std::string, std::map<std::int64_t, int>>;
+  /// One participant's figures at one reference, by where the staircases of a session began.
+  struct AboveAndBelow {
+    std::vector<std::optional<CensoredValue>> above, below;
+  };
+
+ private:
+  void add_starts(const std::string& participant, std::span<const StaircaseResult> of_session);
+
+  std::vector<StaircaseResult> results_;
+  std::map<Compared, Began> began_;
+  std::map<Compared, std::map<std::string, AboveAndBelow>> starts_;
+};
+
+std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sessions);
+std::vector<StartEffect> start_effects(std::span<const SessionData> sessions);
 std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions);
 
 }  // namespace heft

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 namespace heft {
@@ -139,16 +140,33 @@ Maximum Likelihood::profile(Eigen::Index held, double held_value, Parameters fro
   return likelier(first, profile(held, held_value, std::move(or_from)));
 }
 
-Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value) {
-  Maximum best = nothing();
-  if (starts_.size() == 1) return best;  // one hill, and that is known
+Parameters Likelihood::in_proportion(Parameters start, Eigen::Index held, double held_value) const {
+  if (!bounds(held).in_proportion || start[held] == 0) return start;
+  const double growth = held_value / start[held];
+  for (Eigen::Index i = 0; i < n_; ++i)
+    if (bounds(i).in_proportion) start[i] *= growth;
+  return start;
+}
+
+// Climbs from the likeliest starts: the very likeliest may stand on the wrong hill.
+Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value,
+                                          const Parameters& last) {
+  if (is_one_hill()) return nothing();
+  Maximum best = profile(held, held_value, in_proportion(last, held, held_value));
+  std::vector<Maximum> from;
   for (const std::vector<Parameters>& group : starts_)
-    for (Parameters start : group) {
-      start[held] = held_value;
-      start = within_bounds(std::move(start));
-      best = likelier(best, {start, value(start)});
+    for (const Parameters& start : group) {
+      Parameters at = in_proportion(start, held, held_value);
+      at[held] = held_value;
+      at = within_bounds(std::move(at));
+      from.push_back({at, value(at)});
     }
-  return climb(best.at, held);
+  constexpr std::size_t most = 3;
+  const auto end = from.begin() + static_cast<std::ptrdiff_t>(std::min(most, from.size()));
+  std::ranges::partial_sort(from, end, std::greater(), &Maximum::log_likelihood);
+  for (auto start = from.begin(); start != end; ++start)
+    best = likelier(best, climb(start->at, held));
+  return best;
 }
 
 // From the observed information. 0 where there is none.

@@ -38,6 +38,8 @@ class Likelihood {
     return bounds_[static_cast<std::size_t>(i)];
   }
 
+  /// As the starts say.
+  bool is_one_hill() const { return starts_.size() == 1; }
   Maximum maximum();
   /// To the nearest maximum; one parameter may be held.
   Maximum climb(Parameters from, Eigen::Index held = -1);
@@ -45,7 +47,8 @@ class Likelihood {
   Maximum profile(Eigen::Index held, double held_value, Parameters from);
   /// The likelier of where two starts lead.
   Maximum profile(Eigen::Index held, double held_value, Parameters from, Parameters or_from);
-  Maximum profile_from_anywhere(Eigen::Index held, double held_value);
+  /// From all starts, and in proportion to what was last.
+  Maximum profile_from_anywhere(Eigen::Index held, double held_value, const Parameters& last);
   Parameters standard_errors(const Parameters& at);
   /// How the likeliest others move with one parameter, next to a maximum.
   Parameters tangent(const Parameters& maximum, Eigen::Index along);
@@ -57,6 +60,7 @@ class Likelihood {
   Parameters step_against(const Parameters& slope, const Parameters& at, Eigen::Index held) const;
   bool can_climb_along(Eigen::Index i, const Parameters& at) const;
   Parameters within_bounds(Parameters at) const;
+  Parameters in_proportion(Parameters start, Eigen::Index held, double held_value) const;
   Maximum nothing() const { return {starts_[0][0], -std::numeric_limits<double>::infinity()}; }
   std::vector<Eigen::Index> free(Eigen::Index held) const;
   static double objective(unsigned n, const double* free_values, double* free_gradient, void* self);

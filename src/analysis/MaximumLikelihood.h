@@ -36,6 +36,9 @@ using LogLikelihood = std::function<double(const Parameters& at, Derivatives* de
 struct ParameterBounds {
   double low = 0, high = 0;   ///< equal: the parameter is fixed; may be infinite
   bool with_interval = true;  ///< otherwise none is searched for
+  /// Of those in proportion the ratios say where the curves lie: a start moves along with one that
+  /// is held elsewhere.
+  bool in_proportion = false;
   bool fixed() const { return low == high; }
 };
 

@@ -2,6 +2,8 @@
 // not, and the figures that speak to the paper's hypotheses.
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,8 +15,27 @@ namespace heft {
 /// the comparisons, of what rests on what.
 std::vector<std::string> three_sentences(const Summary& summary);
 
-/// A sentence each; none where nothing is out of the ordinary.
-std::vector<std::string> notes_on(const Dataset& dataset, const Summary& summary);
+/// What notes tell of the sessions beside the figures.
+class NotesFold {
+ public:
+  void add(const SessionData& data);
+  /// A sentence each; none where nothing is out of the ordinary.
+  /// @param summary of the same sessions
+  std::vector<std::string> result(const Summary& summary) const;
+
+ private:
+  std::string repeated_note() const;
+  std::string protocols_note() const;
+  std::string other_methods_note() const;
+  std::string dragged_note() const;
+  std::string pictures_note() const;
+
+  std::map<std::string, int> n_sessions_;         // by participant
+  std::map<std::string, std::string> protocols_;  // names, by content
+  std::set<std::string> methods_;
+  std::vector<std::string> dragged_;
+  PictureCounts pictures_;
+};
 
 /// Points of percent beside chance that count as chance: the protocol's, or 10.
 double equivalence_margin_percent(const Summary& summary);

@@ -128,10 +128,11 @@ Chart lag_chart(const Summary& summary) {
   Chart chart{"lag_by_mass", titled("Lag seen, by mass", summary), ""};
   chart.caption =
       "Largest distance of the clone from the effector while it touched a cube, as displayed: "
-      "median and quartiles over cubes and trials. Masses in five bands a decade.";
+      "median and quartiles over cubes and trials; beside it how far the hand went from where the "
+      "touch began: a lag comes to about that and no more. Masses in five bands a decade.";
   chart.csv = "lag_by_mass.csv";
   put_series(chart, summary, summary.points.lag_by_mass,
-             "set logscale x\nset xlabel 'mass (g)'\nset ylabel 'lag (mm)'\nset yrange [0:*]\n");
+             "set logscale x\nset xlabel 'mass (g)'\nset ylabel 'mm'\nset yrange [0:*]\n");
   return chart;
 }
 

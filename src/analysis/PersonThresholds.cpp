@@ -35,39 +35,64 @@ const OwnSensitivity* own_of(const Key& key, std::span<const ReferenceSensitivit
   return own == reference->pooled.people.end() ? nullptr : &own->second;
 }
 
-std::map<Key, double> starts_by_person(std::span<const SessionData> sessions) {
-  std::map<Key, std::vector<double>> starts_g;
-  for (const StaircaseResult& result : staircase_results(sessions))
-    starts_g[{result.compared, result.participant}].push_back(result.start_g);
-  std::map<Key, double> means_g;
-  for (const auto& [key, values] : starts_g) means_g[key] = *mean(values);
-  return means_g;
+using Results = std::vector<const StaircaseResult*>;
+
+std::map<Key, Results> results_by_person(std::span<const StaircaseResult> all) {
+  std::map<Key, Results> results;
+  for (const StaircaseResult& result : all)
+    results[{result.compared, result.participant}].push_back(&result);
+  return results;
 }
 
-std::map<Key, ParticipantJnd> jnds_by_person(std::span<const SessionData> sessions) {
+StartedFigure started(const Results& results) {
+  std::vector<double> starts_g;
+  std::vector<std::optional<CensoredValue>> jnds;
+  for (const StaircaseResult* result : results) {
+    starts_g.push_back(result->start_g);
+    jnds.push_back(censored_value(*result));
+  }
+  if (results.empty()) return {};
+  return {mean(starts_g), mean_figure(jnds)};
+}
+
+void put_starts(PersonThreshold& one, const Results& results) {
+  const auto [low, high] = std::ranges::minmax(results, {}, &StaircaseResult::start_g);
+  const double middle_g = (low->start_g + high->start_g) / 2;
+  const bool is_one = low->start_g == high->start_g;
+  Results above, below;
+  for (const StaircaseResult* result : results)
+    (is_one || result->start_g > middle_g ? above : below).push_back(result);
+  one.from_above = started(above);
+  one.from_below = started(below);
+}
+
+std::map<Key, ParticipantJnd> jnds_by_person(std::span<const ReferenceJnd> all) {
   std::map<Key, ParticipantJnd> jnds;
-  for (const ReferenceJnd& jnd : jnd_of(sessions))
+  for (const ReferenceJnd& jnd : all)
     for (const ParticipantJnd& one : jnd.participants) jnds[{jnd.compared, one.participant}] = one;
   return jnds;
 }
 }  // namespace
 
-std::vector<PersonThreshold> thresholds_of(std::span<const SessionData> sessions,
+std::vector<PersonThreshold> thresholds_of(const ComparisonTrials& trials,
+                                           const StaircaseFold& staircases,
                                            std::span<const ReferenceSensitivity> pooled) {
-  const auto jnds = jnds_by_person(sessions);
-  const auto starts_g = starts_by_person(sessions);
+  const auto jnds = jnds_by_person(staircases.jnds());
+  const auto results = results_by_person(staircases.results());
   std::vector<PersonThreshold> rows;
-  for (const auto& [key, attempts] : usable_comparisons(sessions)) {
-    PersonThreshold& row = rows.emplace_back(PersonThreshold{
-        key.first, key.second, static_cast<int>(attempts.size()), {}, {}, {}, {}, {}});
-    const AnswersByLevel answers = answers_by_side(attempts);
-    if (const OwnSensitivity* own = own_of(key, pooled))
-      put_own(row, answers, *own);
-    else
-      put_fitted(row, answers);
-    if (const auto found = jnds.find(key); found != jnds.end()) row.jnd = found->second;
-    if (const auto found = starts_g.find(key); found != starts_g.end()) row.start_g = found->second;
-  }
+  for (const auto& [compared, theirs] : trials.by_compared())
+    for (const auto& [participant, answers] : answers_by_side(trials, compared)) {
+      const Key key{compared, participant};
+      PersonThreshold& row = rows.emplace_back(PersonThreshold{
+          compared, participant, static_cast<int>(trials_in(answers)), {}, {}, {}, {}, {}, {}});
+      if (const OwnSensitivity* own = own_of(key, pooled))
+        put_own(row, answers, *own);
+      else
+        put_fitted(row, answers);
+      if (const auto found = jnds.find(key); found != jnds.end()) row.jnd = found->second;
+      if (const auto found = results.find(key); found != results.end())
+        put_starts(row, found->second);
+    }
   return rows;
 }
 

@@ -12,6 +12,12 @@
 
 namespace heft {
 
+/// A participant's finished staircases that began on one side.
+struct StartedFigure {
+  std::optional<double> start_g;  ///< mean first level
+  std::optional<CensoredValue> jnd;
+};
+
 struct PersonThreshold {
   Compared compared;
   std::string participant;
@@ -20,14 +26,16 @@ struct PersonThreshold {
   std::optional<Interval> interval_g;    ///< see OwnSensitivity; of fewer people profile likelihood
   std::string why;                       ///< not identifiable; empty: it is
   std::optional<ParticipantJnd> jnd;     ///< the paper's, beside
-  std::optional<double> start_g;         ///< mean first level of their finished staircases
+  /// Of the staircases that began high and low in a session; of a single start all are from above.
+  StartedFigure from_above, from_below;
 
   bool identifiable() const { return why.empty(); }
 };
 
 /// By reference and condition, then participant.
 /// @param pooled  of the same sessions
-std::vector<PersonThreshold> thresholds_of(std::span<const SessionData> sessions,
+std::vector<PersonThreshold> thresholds_of(const ComparisonTrials& trials,
+                                           const StaircaseFold& staircases,
                                            std::span<const ReferenceSensitivity> pooled);
 
 }  // namespace heft

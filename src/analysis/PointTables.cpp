@@ -83,8 +83,9 @@ Table measured_list(std::string name, std::string_view title, std::string at, st
                           number(row.lower_quartile, 2), number(row.upper_quartile, 2)});
   return table;
 }
+}  // namespace
 
-Table track_list(const Summary& summary) {
+Table track_list(const SessionTracks& session, const Summary& summary) {
   Table table{"staircase_trials",
               titled("Every trial of every staircase", summary),
               {{"session_id", "session"},
@@ -98,19 +99,17 @@ Table track_list(const Summary& summary) {
                {"reversal", "reversal"}},
               {},
               ""};
-  for (const SessionTracks& session : summary.all_tracks)
-    for (const Track& track : session.tracks)
-      for (std::size_t i = 0; i < track.points.size(); ++i) {
-        const TrackPoint& point = track.points[i];
-        table.rows.push_back({word(std::to_string(session.session_id)), word(session.participant),
-                              word(track.staircase), mass(track.reference_g),
-                              count(static_cast<int>(i) + 1), number(point.level_g),
-                              count(point.chosen ? 1 : 0), count(point.wrong ? 1 : 0),
-                              count(point.is_reversal ? 1 : 0)});
-      }
+  for (const Track& track : session.tracks)
+    for (std::size_t i = 0; i < track.points.size(); ++i) {
+      const TrackPoint& point = track.points[i];
+      table.rows.push_back({word(std::to_string(session.session_id)), word(session.participant),
+                            word(track.staircase), mass(track.reference_g),
+                            count(static_cast<int>(i) + 1), number(point.level_g),
+                            count(point.chosen ? 1 : 0), count(point.wrong ? 1 : 0),
+                            count(point.is_reversal ? 1 : 0)});
+    }
   return table;
 }
-}  // namespace
 
 Table participant_list(const Summary& summary) {
   Table table{"participants",
@@ -154,8 +153,7 @@ Table label_table(const Summary& summary) {
 
 std::vector<Table> point_lists(const Summary& summary) {
   const Points& points = summary.points;
-  return {track_list(summary),
-          choice_list(summary),
+  return {choice_list(summary),
           sorting_list(summary),
           detection_list(summary),
           measured_list("times_by_level", "Response times by difference", "mean_level_g", "s",

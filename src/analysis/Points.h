@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/Dataset.h"
-#include "analysis/Jnd.h"
+#include "analysis/ComparisonTrials.h"
 #include "analysis/Proportion.h"
 
 namespace heft {
@@ -55,6 +54,23 @@ struct Points {
   std::vector<Quartiles> times_by_trial;   ///< seconds, by task, ten bins over a session's trials
   std::vector<Quartiles> lag_by_mass;      ///< mm, largest of a trial, by condition
   std::map<std::string, LabelMatrix> labels;
+};
+
+class PointsFold {
+ public:
+  void add(const SessionData& data);
+  /// @param trials of the same sessions
+  Points result(const ComparisonTrials& trials) const;
+
+ private:
+  void add_sorting(const std::string& participant, const Attempt& attempt);
+  void add_times(const SessionData& data);
+  void add_lags(const Attempt& attempt);
+
+  std::map<std::string, std::map<std::string, Tally>> sortings_;         // participant, condition
+  std::map<std::string, LabelMatrix> labels_;                            // condition
+  std::map<Task, std::map<int, std::vector<double>>> times_s_;           // tenth of the trials
+  std::map<std::string, std::map<double, std::vector<double>>> lag_mm_;  // condition, mass
 };
 
 Points points_of(std::span<const SessionData> sessions);

@@ -197,9 +197,9 @@ void put_pooled(PooledSensitivity& found, std::span<const OnGrid> in_common,
 }
 
 // Where a likelihood has fallen far enough, a place on the grid; none: nowhere on this side.
-std::optional<double> end_of(const OnGrid& log_likelihood, std::ptrdiff_t direction) {
+std::optional<double> end_of(const OnGrid& log_likelihood, double drop, std::ptrdiff_t direction) {
   const auto best = std::ranges::max_element(log_likelihood);
-  const double least = *best - interval_drop;
+  const double least = *best - drop;
   const auto last = direction < 0 ? log_likelihood.begin() : log_likelihood.end() - 1;
   for (auto inner = best; inner != last; inner += direction) {
     const double here = *inner, next = *(inner + direction);
@@ -210,11 +210,19 @@ std::optional<double> end_of(const OnGrid& log_likelihood, std::ptrdiff_t direct
   return std::nullopt;
 }
 
-OwnSensitivity own_sensitivity(const OnGrid& log_likelihood, double largest_g) {
+// As far as Student's t goes instead of the normal distribution, with a degree of freedom less for
+// sensitivity, indecision and bias each: of 30 trials the chi-square quantile holds too little.
+double drop_of(double n_trials) {
+  const double t = student_t_quantile(std::max(n_trials - 3, 1.0), confidence_level);
+  return t * t / 2;
+}
+
+OwnSensitivity own_sensitivity(const OnGrid& log_likelihood, double n_trials, double largest_g) {
+  const double drop = drop_of(n_trials);
   const auto at = [largest_g](double place) { return sensitivity_at(place) / largest_g; };
   OwnSensitivity own{at(top_of(log_likelihood))};
-  if (const auto place = end_of(log_likelihood, -1)) own.low = at(*place);
-  if (const auto place = end_of(log_likelihood, 1)) own.high = at(*place);
+  if (const auto place = end_of(log_likelihood, drop, -1)) own.low = at(*place);
+  if (const auto place = end_of(log_likelihood, drop, 1)) own.high = at(*place);
   return own;
 }
 
@@ -269,7 +277,8 @@ PooledSensitivity pooled_sensitivity(std::map<std::string, AnswersByLevel> all,
   put_indecision(found, by_person, samples);
   if (found.n >= least_people)
     for (std::size_t i = 0; const auto& [participant, answers] : all)
-      found.people[participant] = own_sensitivity(by_person.log_likelihood[i++], largest_g);
+      found.people[participant] =
+          own_sensitivity(by_person.log_likelihood[i++], trials_in(answers), largest_g);
   if (found.n == 1)
     put_own_interval(found, all.begin()->second);
   else if (found.n >= least_people)

@@ -40,7 +40,8 @@ inline constexpr int least_people = 5;
 
 /// One person's own, per gram, with criteria that are random effects too: by maximum likelihood of
 /// all three (heft fit) the interval of 20 to 50 trials lies too high, and holds the truth in 82 to
-/// 94 %. Ends where the likelihood has fallen as for a 95 % profile interval; none: it never does.
+/// 94 %. Ends where the likelihood has fallen as for a 95 % profile interval, with Student's t for
+/// as many trials; none: it never does.
 struct OwnSensitivity {
   double value = 0;
   std::optional<double> low{}, high{};

@@ -135,59 +135,12 @@ std::vector<std::string> changed_by(const Setup& setup) {
   return settings;
 }
 
-// What was in force in the trials of a protocol's sessions, as their setups tell it; each once.
-class InForce {
- public:
-  void add(const SessionData& data, const Protocol& protocol) {
-    const SessionHeader& header = data.session.header;
-    hashes_.insert(header.protocol_sha256);
-    seeds_.insert(fmt::format("{}", header.seed));
-    for (const LoggedSetup& logged : data.setups) {
-      const Setup& setup = logged.setup;
-      if (!setup.heft_version.empty())
-        programs_.insert(fmt::format("heft {}, {}", setup.heft_version, setup.build));
-      // Older logs told what differed from the protocol.
-      const std::string simulator =
-          setup.simulator.empty() ? protocol.simulator.name : setup.simulator;
-      simulators_.insert(fmt::format("{} at {:g} Hz", simulator,
-                                     setup.rate_hz.value_or(protocol.simulator.rate_hz)));
-      const double wanted_hz = setup.display_rate_hz.value_or(protocol.display_rate_hz);
-      rates_.insert(
-          setup.source_rate_hz && *setup.source_rate_hz < wanted_hz
-              ? fmt::format("{:g}, of a source that gives {:.3g}", wanted_hz, *setup.source_rate_hz)
-              : fmt::format("{:g}", wanted_hz));
-      if (const auto changed = changed_by(setup); !changed.empty())
-        settings_.insert(fmt::format("{}", fmt::join(changed, "\n")));
-      for (const std::string& setting : settings_of(setup))
-        if (is_order(setting)) orders_.insert(setting);
-    }
-  }
-
-  std::vector<ProtocolChoice> choices(const std::string& protocol) const {
-    constexpr std::size_t most_seeds = 3;
-    std::vector<ProtocolChoice> choices{{protocol, "SHA-256", joined(hashes_)}};
-    if (!programs_.empty()) choices.push_back({protocol, "program and build", joined(programs_)});
-    choices.push_back({protocol, "seeds of the sessions",
-                       seeds_.size() <= most_seeds
-                           ? joined(seeds_)
-                           : fmt::format("{} different ones, in the log", seeds_.size())});
-    choices.push_back({protocol, "frames a second", joined(rates_)});
-    choices.push_back({protocol, "simulator", joined(simulators_)});
-    if (!settings_.empty()) choices.push_back({protocol, "changed by --set", joined(settings_)});
-    if (!orders_.empty()) choices.push_back({protocol, "orders of blocks", joined(orders_)});
-    return choices;
-  }
-
- private:
-  static std::string joined(const std::set<std::string>& texts) {
-    return fmt::format("{}", fmt::join(texts, "; "));
-  }
-
-  std::set<std::string> hashes_, seeds_, programs_, simulators_, rates_, settings_, orders_;
-};
-
 std::vector<std::string> changed_by(const SessionData& data) {
   return data.setups.empty() ? std::vector<std::string>{} : changed_by(data.setups.front().setup);
+}
+
+std::string joined(const std::set<std::string>& texts) {
+  return fmt::format("{}", fmt::join(texts, "; "));
 }
 
 // Sessions with one key had one protocol.
@@ -203,30 +156,75 @@ std::vector<ProtocolChoice> choices_in(const Protocol& protocol) {
   return Collector(protocol).choices;
 }
 
-std::vector<ProtocolChoice> protocol_choices(const std::vector<SessionData>& sessions) {
-  std::map<std::string, std::set<std::string>> hashes_by_name;
-  for (const SessionData& data : sessions)
-    hashes_by_name[data.session.header.protocol_name].insert(data.session.header.protocol_sha256);
-  std::vector<ProtocolChoice> all;
-  std::set<std::string> seen;
-  for (const SessionData& data : sessions) {
-    const SessionHeader& header = data.session.header;
-    if (!seen.insert(key_of(data)).second) continue;
+void InForce::add(const SessionData& data, const Protocol& protocol) {
+  const SessionHeader& header = data.session.header;
+  hashes_.insert(header.protocol_sha256);
+  seeds_.insert(fmt::format("{}", header.seed));
+  for (const LoggedSetup& logged : data.setups) {
+    const Setup& setup = logged.setup;
+    if (!setup.heft_version.empty())
+      programs_.insert(fmt::format("heft {}, {}", setup.heft_version, setup.build));
+    // Older logs told what differed from the protocol.
+    const std::string simulator =
+        setup.simulator.empty() ? protocol.simulator.name : setup.simulator;
+    simulators_.insert(fmt::format("{} at {:g} Hz", simulator,
+                                   setup.rate_hz.value_or(protocol.simulator.rate_hz)));
+    const double wanted_hz = setup.display_rate_hz.value_or(protocol.display_rate_hz);
+    rates_.insert(
+        setup.source_rate_hz && *setup.source_rate_hz < wanted_hz
+            ? fmt::format("{:g}, of a source that gives {:.3g}", wanted_hz, *setup.source_rate_hz)
+            : fmt::format("{:g}", wanted_hz));
+    if (const auto changed = changed_by(setup); !changed.empty())
+      settings_.insert(fmt::format("{}", fmt::join(changed, "\n")));
+    for (const std::string& setting : settings_of(setup))
+      if (is_order(setting)) orders_.insert(setting);
+  }
+}
+
+std::vector<ProtocolChoice> InForce::choices(const std::string& protocol) const {
+  constexpr std::size_t most_seeds = 3;
+  std::vector<ProtocolChoice> choices{{protocol, "SHA-256", joined(hashes_)}};
+  if (!programs_.empty()) choices.push_back({protocol, "program and build", joined(programs_)});
+  choices.push_back({protocol, "seeds of the sessions",
+                     seeds_.size() <= most_seeds
+                         ? joined(seeds_)
+                         : fmt::format("{} different ones, in the log", seeds_.size())});
+  choices.push_back({protocol, "frames a second", joined(rates_)});
+  choices.push_back({protocol, "simulator", joined(simulators_)});
+  if (!settings_.empty()) choices.push_back({protocol, "changed by --set", joined(settings_)});
+  if (!orders_.empty()) choices.push_back({protocol, "orders of blocks", joined(orders_)});
+  return choices;
+}
+
+void ChoicesFold::add(const SessionData& data) {
+  const SessionHeader& header = data.session.header;
+  const std::vector<std::string> settings = changed_by(data);
+  const auto [place, is_new] = places_.emplace(key_of(data), ran_.size());
+  if (is_new) {
+    Ran& ran = ran_.emplace_back(
+        Ran{{}, header.protocol_name, header.protocol_sha256, !settings.empty(), {}});
     try {
-      Protocol protocol =
-          parse_protocol(header.protocol_text, header.protocol_name, changed_by(data));
-      protocol.name = header.protocol_name;
-      if (hashes_by_name[header.protocol_name].size() > 1)
-        protocol.name = fmt::format("{} {:.8}", header.protocol_name, header.protocol_sha256);
-      if (!changed_by(data).empty()) protocol.name += " with --set";
-      InForce in_force;
-      for (const SessionData& other : sessions)
-        if (key_of(other) == key_of(data)) in_force.add(other, protocol);
-      for (ProtocolChoice& choice : in_force.choices(protocol.name))
-        all.push_back(std::move(choice));
-      for (ProtocolChoice& choice : choices_in(protocol)) all.push_back(std::move(choice));
+      ran.protocol = parse_protocol(header.protocol_text, header.protocol_name, settings);
     } catch (const InvalidFile&) {
     }
+  }
+  Ran& ran = ran_[place->second];
+  if (ran.protocol) ran.in_force.add(data, *ran.protocol);
+}
+
+std::vector<ProtocolChoice> ChoicesFold::result() const {
+  std::map<std::string, std::set<std::string>> hashes_by_name;
+  for (const Ran& ran : ran_) hashes_by_name[ran.name].insert(ran.sha256);
+  std::vector<ProtocolChoice> all;
+  for (const Ran& ran : ran_) {
+    if (!ran.protocol) continue;
+    Protocol protocol = *ran.protocol;
+    protocol.name = ran.name;
+    if (hashes_by_name[ran.name].size() > 1)
+      protocol.name = fmt::format("{} {:.8}", ran.name, ran.sha256);
+    if (ran.is_changed) protocol.name += " with --set";
+    for (const auto& choices : {ran.in_force.choices(protocol.name), choices_in(protocol)})
+      all.insert(all.end(), choices.begin(), choices.end());
   }
   return all;
 }

@@ -1,10 +1,13 @@
 // What a protocol chose where the paper leaves it open, so that a report says what was run.
 #pragma once
 
+#include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "analysis/Dataset.h"
+#include "analysis/Fold.h"
 #include "protocol/Protocol.h"
 
 namespace heft {
@@ -17,8 +20,36 @@ struct ProtocolChoice {
 /// The choices of one protocol, in the order of paper.toml.
 std::vector<ProtocolChoice> choices_in(const Protocol& protocol);
 
+/// What was in force in the trials of a protocol's sessions, as their setups tell it; each once.
+class InForce {
+ public:
+  void add(const SessionData& data, const Protocol& protocol);
+  std::vector<ProtocolChoice> choices(const std::string& protocol) const;
+
+ private:
+  std::set<std::string> hashes_, seeds_, programs_, simulators_, rates_, settings_, orders_;
+};
+
 /// Those of every protocol that the sessions ran, each once. A logged text that is no protocol has
 /// none.
-std::vector<ProtocolChoice> protocol_choices(const std::vector<SessionData>& sessions);
+class ChoicesFold {
+ public:
+  void add(const SessionData& data);
+  std::vector<ProtocolChoice> result() const;
+
+ private:
+  struct Ran {
+    std::optional<Protocol> protocol;  // none: the text is none
+    std::string name, sha256;
+    bool is_changed = false;  // by --set
+    InForce in_force;
+  };
+  std::vector<Ran> ran_;                       // in the order of sessions
+  std::map<std::string, std::size_t> places_;  // by what makes it one protocol
+};
+
+inline std::vector<ProtocolChoice> protocol_choices(const std::vector<SessionData>& sessions) {
+  return folded<ChoicesFold>(sessions);
+}
 
 }  // namespace heft

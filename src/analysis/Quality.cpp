@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
-#include <set>
-#include <tuple>
 
 #include "analysis/Timing.h"
 #include "experiment/Block.h"
@@ -84,12 +81,7 @@ void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attemp
   }
 }
 
-struct Sums {
-  int n_completed = 0, n_early = 0, n_fast = 0, n_untouched = 0;
-  std::set<double> least_answers_s;
-  EventCounts events;
-  int n_unfinished = 0;
-};
+using Sums = QualityFold::Sums;
 
 void count_completed(Sums& sums, const SessionData& data, const Attempt& attempt) {
   const Impossible found = impossible_in(data, attempt);
@@ -106,6 +98,7 @@ void count_session(Sums& sums, const SessionData& data) {
   sums.events.checks_failed += data.events.checks_failed;
   sums.events.checks_warned += data.events.checks_warned;
   sums.events.unblindings += data.events.unblindings;
+  sums.n_sessions += 1;
   sums.n_unfinished += data.finished() ? 0 : 1;
 }
 
@@ -115,7 +108,7 @@ std::string too_early(const std::set<double>& least_answers_s) {
   return fmt::format("answers earlier than {:g} s", fmt::join(least_answers_s, " or "));
 }
 
-std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losses, int n_sessions) {
+std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losses) {
   LossRow all;
   for (const LossRow& row : losses) {
     all.n_attempts += row.n_attempts;
@@ -137,7 +130,7 @@ std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losse
        "of the apparatus, before a session"},
       {"checks that warned", sums.events.checks_warned, std::nullopt, "as above"},
       {"unblindings", sums.events.unblindings, std::nullopt, "somebody was shown what is hidden"},
-      {"unfinished sessions", sums.n_unfinished, n_sessions,
+      {"unfinished sessions", sums.n_unfinished, sums.n_sessions,
        "their completed trials and finished staircases count"}};
 }
 }  // namespace
@@ -146,29 +139,27 @@ bool is_impossible(const SessionData& data, const Attempt& attempt) {
   return impossible_in(data, attempt).any();
 }
 
-Quality quality_of(std::span<const SessionData> sessions) {
-  Sums sums;
-  std::map<LossKey, LossRow> losses;
-  std::map<std::size_t, ResetRow> resets;
-  for (const SessionData& data : sessions) {
-    count_session(sums, data);
-    for (const Attempt& attempt : data.attempts) {
-      const TrialPlan& plan = attempt.trial.plan;
-      const LossKey key = key_of(plan);
-      LossRow& row = losses[key];
-      row.task = plan.task;
-      row.condition = plan.condition;
-      if (std::get<2>(key) > 0) row.difference = band_name(std::get<2>(key) - 1, differences_g);
-      count_loss(row, data, attempt);
-      if (!attempt.completed()) continue;
-      count_completed(sums, data, attempt);
-      count_resets(resets, attempt);
-    }
+void QualityFold::add(const SessionData& data) {
+  count_session(sums_, data);
+  for (const Attempt& attempt : data.attempts) {
+    const TrialPlan& plan = attempt.trial.plan;
+    const LossKey key = key_of(plan);
+    LossRow& row = losses_[key];
+    row.task = plan.task;
+    row.condition = plan.condition;
+    if (std::get<2>(key) > 0) row.difference = band_name(std::get<2>(key) - 1, differences_g);
+    count_loss(row, data, attempt);
+    if (!attempt.completed()) continue;
+    count_completed(sums_, data, attempt);
+    count_resets(resets_, attempt);
   }
+}
+
+Quality QualityFold::result() const {
   Quality quality;
-  for (const auto& [key, row] : losses) quality.losses.push_back(row);
-  quality.counted = rows_of(sums, quality.losses, static_cast<int>(sessions.size()));
-  for (const auto& [band, row] : resets) quality.resets.push_back(row);
+  for (const auto& [key, row] : losses_) quality.losses.push_back(row);
+  quality.counted = rows_of(sums_, quality.losses);
+  for (const auto& [band, row] : resets_) quality.resets.push_back(row);
   return quality;
 }
 

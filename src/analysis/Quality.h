@@ -2,12 +2,15 @@
 // noted, and whether what was lost goes with what was shown.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "analysis/Dataset.h"
+#include "analysis/Fold.h"
 
 namespace heft {
 
@@ -47,6 +50,26 @@ struct Quality {
 /// anybody, or without contact.
 bool is_impossible(const SessionData& data, const Attempt& attempt);
 
-Quality quality_of(std::span<const SessionData> sessions);
+class QualityFold {
+ public:
+  void add(const SessionData& data);
+  Quality result() const;
+
+  struct Sums {
+    int n_sessions = 0, n_unfinished = 0;
+    int n_completed = 0, n_early = 0, n_fast = 0, n_untouched = 0;
+    std::set<double> least_answers_s;
+    EventCounts events;
+  };
+
+ private:
+  Sums sums_;
+  std::map<std::tuple<Task, std::string, std::size_t>, LossRow> losses_;  // by band of differences
+  std::map<std::size_t, ResetRow> resets_;                                // by band of masses
+};
+
+inline Quality quality_of(std::span<const SessionData> sessions) {
+  return folded<QualityFold>(sessions);
+}
 
 }  // namespace heft

@@ -73,7 +73,21 @@ class Folder {
   std::vector<std::string> files_;
 };
 
+// A session at a time: of a thousand, each cell of a table would be most of what is in memory.
+void write_tracks(Folder& folder, const Summary& summary) {
+  std::string csv;
+  std::string name;
+  for (const SessionTracks& session : summary.all_tracks) {
+    const Table table = track_list(session, summary);
+    const std::string of_session = as_csv(table, summary.data);
+    csv += csv.empty() ? of_session : of_session.substr(of_session.find('\n') + 1);
+    name = table.name;
+  }
+  if (!csv.empty()) folder.write(name + ".csv", csv);
+}
+
 void write_tables(Folder& folder, const Summary& summary) {
+  write_tracks(folder, summary);
   for (const auto& tables : {tables_of(summary), lists_of(summary)})
     for (const Table& table : tables)
       folder.write(table.name + ".csv", as_csv(table, summary.data));
@@ -94,6 +108,7 @@ td.n { text-align: right; font-variant-numeric: tabular-nums; }
 .simulated { background: #fff3d6; border-left: 4px solid #d79b00; padding: 0.4rem 0.8rem; }
 svg { max-width: 100%; height: auto; }
 .first { border: 1px solid #bbb; padding: 0.2rem 1.2rem; font-size: 1.1rem; }
+.answer b { font-size: 1.3rem; display: block; }
 figure { margin: 1.5rem 0; break-inside: avoid; }
 figcaption { font-size: 0.9rem; max-width: 60rem; }
 nav ul { columns: 2; font-size: 0.9rem; }
@@ -140,17 +155,20 @@ std::string table_html(const Table& table) {
       table.name, as_html(table));
 }
 
-std::string contents_html(const std::vector<DrawnChart>& charts, const std::vector<Table>& tables) {
-  std::string html =
-      "<nav>\n<h2>Contents</h2>\n<ul>\n<li><a href=\"#hypotheses\">The paper's hypotheses</a></li>"
-      "\n";
-  for (std::size_t i = 0; i < charts.size(); ++i)
-    html += fmt::format("<li><a href=\"#{}\">Figure {}: {}</a></li>\n", charts[i].chart.name, i + 1,
-                        html_escaped(charts[i].chart.title));
-  for (const Table& table : tables)
-    html += fmt::format("<li><a href=\"#table_{}\">{}</a></li>\n", table.name,
-                        html_escaped(table.title));
-  return html + "</ul>\n</nav>\n";
+// For who reads no further: whether the technique did what it is for.
+std::string answer_html(const Summary& summary) {
+  const auto found = std::ranges::find(summary.hypotheses, "E1-H2", &Hypothesis::name);
+  if (summary.sessions.empty() || found == summary.hypotheses.end()) return "";
+  const std::string_view whom = summary.data == "simulated" ? ", for the model that answered" : "";
+  std::string answer = "These data can't tell.";
+  if (found->verdict == HypothesisVerdict::supported)
+    answer = fmt::format("Yes{}: C2 tells masses apart.", whom);
+  if (found->verdict == HypothesisVerdict::not_supported)
+    answer = fmt::format("No{}: C2 tells masses apart hardly or not at all.", whom);
+  return fmt::format(
+      "<p class=\"answer\"><b>Did C2 work? {}</b> C2 is decoupling, where a heavy cube pushes the "
+      "clone back; C1 the control, where it stays on the effector.</p>\n",
+      answer);
 }
 
 std::string head_html(const Summary& summary) {
@@ -160,7 +178,7 @@ std::string head_html(const Summary& summary) {
       "<title>Heft report</title>\n<style>{}</style>\n</head>\n<body>\n"
       "<h1>Heft report</h1>\n<p>{}</p>\n",
       style, html_escaped(headline(summary)));
-  html += "<div class=\"first\">\n";
+  html += "<div class=\"first\">\n" + answer_html(summary);
   for (const std::string& sentence : three_sentences(summary))
     html += fmt::format("<p>{}</p>\n", html_escaped(sentence));
   html += "</div>\n";
@@ -170,22 +188,68 @@ std::string head_html(const Summary& summary) {
   return html;
 }
 
+struct Section {
+  std::string id, title;
+  std::vector<Table> tables;
+};
+
+// By what a reviewer asks for: who took part and what went wrong, what came out, what was run.
+std::vector<Section> sections_of(const Summary& summary) {
+  Section first{"first", "Counted first", {participant_list(summary)}};
+  Section results{"results", "Tables", {}};
+  for (Table& table : quality_tables(summary)) first.tables.push_back(std::move(table));
+  first.tables.push_back(incident_table(summary));
+  for (const auto& tables : {sorting_tables(summary), sensitivity_tables(summary)})
+    results.tables.insert(results.tables.end(), tables.begin(), tables.end());
+  results.tables.push_back(threshold_list(summary));
+  for (Table& table : comparison_tables(summary)) results.tables.push_back(std::move(table));
+  std::vector<Table> run = session_tables(summary);  // times, voids, choices of the protocol
+  run.push_back(setup_table(summary));
+  run.push_back(tracking_table(summary));
+  run.push_back(dictionary_table(summary));
+  std::vector<Section> sections{std::move(first),
+                                std::move(results),
+                                {"run", "What was run, and what it means", std::move(run)}};
+  for (Section& section : sections)
+    std::erase_if(section.tables, [](const Table& table) { return table.rows.empty(); });
+  return sections;
+}
+
+std::string section_html(const Section& section) {
+  std::string html = fmt::format("<h2 id=\"{}\">{}</h2>\n", section.id, section.title);
+  for (const Table& table : section.tables) html += table_html(table);
+  return html;
+}
+
+std::string contents_html(const std::vector<DrawnChart>& charts,
+                          const std::vector<Section>& sections) {
+  std::string html = "<nav>\n<h2>Contents</h2>\n<ul>\n";
+  const auto link = [&](std::string_view id, std::string_view text) {
+    html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, text);
+  };
+  const auto tables = [&](const Section& section) {
+    for (const Table& table : section.tables)
+      link("table_" + table.name, html_escaped(table.title));
+  };
+  link("hypotheses", "The paper's hypotheses");
+  tables(sections[0]);
+  for (std::size_t i = 0; i < charts.size(); ++i)
+    link(charts[i].chart.name,
+         fmt::format("Figure {}: {}", i + 1, html_escaped(charts[i].chart.title)));
+  tables(sections[1]);
+  tables(sections[2]);
+  return html + "</ul>\n</nav>\n";
+}
+
 // The report as one HTML page: what it comes to, what was counted first, figures, tables.
 std::string report_page(const Summary& summary, const std::vector<DrawnChart>& charts) {
-  std::vector<Table> tables{participant_list(summary)};
-  for (Table& table : tables_of(summary)) tables.push_back(std::move(table));
-  tables.push_back(threshold_list(summary));
-  tables.push_back(tracking_table(summary));
-  std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
-  std::string html = head_html(summary) + contents_html(charts, tables);
-  constexpr std::size_t n_first = 4;  // participants and what is counted first
-  for (std::size_t i = 0; i < std::min(n_first, tables.size()); ++i) html += table_html(tables[i]);
-  html += hypotheses_html(summary) + "<h2>Figures</h2>\n";
+  const std::vector<Section> sections = sections_of(summary);
+  std::string html = head_html(summary) + contents_html(charts, sections);
+  html += hypotheses_html(summary) + section_html(sections[0]) + "<h2>Figures</h2>\n";
   for (std::size_t i = 0; i < charts.size(); ++i)
     html += figure_html(charts[i], static_cast<int>(i) + 1);
   if (charts.empty()) html += "<p class=\"note\">No charts were drawn.</p>\n";
-  html += "<h2>Tables</h2>\n";
-  for (std::size_t i = n_first; i < tables.size(); ++i) html += table_html(tables[i]);
+  html += section_html(sections[1]) + section_html(sections[2]);
   return html + fmt::format("<p class=\"made\">{}</p>\n</body>\n</html>\n",
                             html_escaped(caption_of(summary)));
 }

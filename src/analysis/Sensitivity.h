@@ -2,14 +2,12 @@
 // PooledSensitivity.h.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
-#include "analysis/Dataset.h"
+#include "analysis/ComparisonTrials.h"
+#include "analysis/Fold.h"
 #include "analysis/Jnd.h"
 #include "analysis/PooledSensitivity.h"
 
@@ -21,16 +19,12 @@ struct ReferenceSensitivity {
   std::optional<StartEffect> start_effect;  ///< where staircases began high and low
 };
 
-/// Completed comparisons of a participant at one reference, catch trials too: left, none, right by
-/// the mass on the right minus that on the left.
-AnswersByLevel answers_by_side(std::span<const Attempt* const> attempts);
-
-/// The comparisons that a fit takes, by what was compared and participant: completed, no practice.
-std::map<std::pair<Compared, std::string>, std::vector<const Attempt*>> usable_comparisons(
-    std::span<const SessionData> sessions);
-
 /// By reference, lightest first, and condition; participants' sessions together.
-std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions);
+std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trials,
+                                                   std::span<const StartEffect> effects);
+inline std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions) {
+  return sensitivities_of(folded<ComparisonTrials>(sessions), start_effects(sessions));
+}
 
 /// The interval of the second threshold divided by the first, both identifiable and of one study:
 /// each bootstrap sample draws the same people at both.

@@ -9,24 +9,10 @@
 namespace heft {
 
 namespace {
-// One condition's trials, by participant.
-struct Tallied {
-  Tallies correct, incorrect, none, answered_correct, answered_incorrect;
-};
-
-void count(Tallies& tallies, const std::string& participant, bool hit) {
+void count_one(Tallies& tallies, const std::string& participant, bool hit) {
   Tally& tally = tallies[participant];
   tally.n_trials += 1;
   tally.n_hits += hit ? 1 : 0;
-}
-
-void count_trial(Tallied& tallied, const std::string& participant, Outcome outcome) {
-  count(tallied.correct, participant, outcome == Outcome::correct);
-  count(tallied.incorrect, participant, outcome == Outcome::incorrect);
-  count(tallied.none, participant, outcome == Outcome::dont_know);
-  if (outcome == Outcome::dont_know) return;
-  count(tallied.answered_correct, participant, outcome == Outcome::correct);
-  count(tallied.answered_incorrect, participant, outcome == Outcome::incorrect);
 }
 
 bool has_published_masses(const Attempt& attempt) {
@@ -45,42 +31,6 @@ void put_beside(ConditionSorting& sorting, const published::Sorting& figures) {
   put_beside(sorting.incorrect, figures.incorrect);
   put_beside(sorting.none, figures.none);
   sorting.answered_correct.published_percent = figures.answered_correct_percent;
-}
-
-bool counts(const Attempt& attempt, const std::string& condition) {
-  return attempt.completed() && attempt.trial.plan.task == Task::sorting &&
-         attempt.trial.plan.condition == condition && attempt.trial.outcome.has_value();
-}
-
-ConditionSorting sorting_in(const std::string& condition, std::span<const SessionData> sessions) {
-  ConditionSorting sorting;
-  sorting.condition = condition;
-  Tallied tallied;
-  bool as_published = true;
-  for (const SessionData& data : sessions) {
-    for (const Attempt& attempt : data.attempts) {
-      if (!counts(attempt, condition)) continue;
-      count_trial(tallied, data.participant(), *attempt.trial.outcome);
-      sorting.n_trials_by_cubes[static_cast<int>(attempt.cubes.size())] += 1;
-      as_published = as_published && has_published_masses(attempt);
-      if (attempt.trial.outcome != Outcome::incorrect) continue;
-      const std::vector<double> masses_g = attempt.masses_g();
-      const auto labels = final_labels(attempt.answers, static_cast<int>(masses_g.size()));
-      if (const auto swap = swap_of(masses_g, labels))
-        sorting.swaps.at(static_cast<std::size_t>(*swap)) += 1;
-    }
-  }
-  sorting.correct = proportion_of(tallied.correct);
-  sorting.incorrect = proportion_of(tallied.incorrect);
-  sorting.none = proportion_of(tallied.none);
-  sorting.answered_correct = proportion_of(tallied.answered_correct);
-  sorting.answered_incorrect = proportion_of(tallied.answered_incorrect);
-  sorting.answered_correct_90_percent = interval_percent_of(tallied.answered_correct, 0.9);
-  sorting.n_trials = sorting.correct.trials.n_trials;
-  sorting.n_participants = sorting.correct.n_participants;
-  if (sorting.n_trials > 0 && as_published)
-    put_beside(sorting, condition == "C1" ? published::sorting_c1 : published::sorting_c2);
-  return sorting;
 }
 }  // namespace
 
@@ -134,18 +84,60 @@ std::optional<Swap> swap_of(std::span<const double> masses_g,
   return Swap::all_three;
 }
 
-std::vector<ConditionSorting> sorting_of(std::span<const SessionData> sessions) {
-  std::vector<std::string> techniques{"C1", "C2"};  // the paper's first, there or not
-  for (const SessionData& data : sessions)
-    for (const Attempt& attempt : data.attempts) {
-      const TrialPlan& plan = attempt.trial.plan;
-      if (plan.task == Task::sorting &&
-          std::ranges::find(techniques, plan.condition) == techniques.end())
-        techniques.push_back(plan.condition);
-    }
+SortingFold::Counted& SortingFold::counted_in(const std::string& condition) {
+  for (auto& [name, counted] : conditions_)
+    if (name == condition) return counted;
+  return conditions_.emplace_back(condition, Counted{}).second;
+}
+
+void SortingFold::count(Counted& counted, const std::string& participant, const Attempt& attempt) {
+  const Outcome outcome = *attempt.trial.outcome;
+  count_one(counted.correct, participant, outcome == Outcome::correct);
+  count_one(counted.incorrect, participant, outcome == Outcome::incorrect);
+  count_one(counted.none, participant, outcome == Outcome::dont_know);
+  counted.n_trials_by_cubes[static_cast<int>(attempt.cubes.size())] += 1;
+  counted.as_published = counted.as_published && has_published_masses(attempt);
+  if (outcome == Outcome::dont_know) return;
+  count_one(counted.answered_correct, participant, outcome == Outcome::correct);
+  count_one(counted.answered_incorrect, participant, outcome == Outcome::incorrect);
+  if (outcome != Outcome::incorrect) return;
+  const std::vector<double> masses_g = attempt.masses_g();
+  const auto labels = final_labels(attempt.answers, static_cast<int>(masses_g.size()));
+  if (const auto swap = swap_of(masses_g, labels))
+    counted.swaps.at(static_cast<std::size_t>(*swap)) += 1;
+}
+
+void SortingFold::add(const SessionData& data) {
+  const std::string participant = data.participant();
+  for (const Attempt& attempt : data.attempts) {
+    if (attempt.trial.plan.task != Task::sorting) continue;
+    Counted& counted = counted_in(attempt.trial.plan.condition);
+    if (attempt.completed() && attempt.trial.outcome) count(counted, participant, attempt);
+  }
+}
+
+ConditionSorting SortingFold::sorting_in(const std::string& condition, const Counted& counted) {
+  ConditionSorting sorting;
+  sorting.condition = condition;
+  sorting.swaps = counted.swaps;
+  sorting.n_trials_by_cubes = counted.n_trials_by_cubes;
+  sorting.correct = proportion_of(counted.correct);
+  sorting.incorrect = proportion_of(counted.incorrect);
+  sorting.none = proportion_of(counted.none);
+  sorting.answered_correct = proportion_of(counted.answered_correct);
+  sorting.answered_incorrect = proportion_of(counted.answered_incorrect);
+  sorting.answered_correct_90_percent = interval_percent_of(counted.answered_correct, 0.9);
+  sorting.n_trials = sorting.correct.trials.n_trials;
+  sorting.n_participants = sorting.correct.n_participants;
+  if (sorting.n_trials > 0 && counted.as_published)
+    put_beside(sorting, condition == "C1" ? published::sorting_c1 : published::sorting_c2);
+  return sorting;
+}
+
+std::vector<ConditionSorting> SortingFold::result() const {
   std::vector<ConditionSorting> sorting;
-  for (const std::string& technique : techniques)
-    sorting.push_back(sorting_in(technique, sessions));
+  for (const auto& [condition, counted] : conditions_)
+    sorting.push_back(sorting_in(condition, counted));
   return sorting;
 }
 

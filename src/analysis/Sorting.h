@@ -6,9 +6,11 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "analysis/Dataset.h"
+#include "analysis/Fold.h"
 #include "analysis/Proportion.h"
 #include "experiment/Task.h"
 
@@ -49,8 +51,30 @@ struct ConditionSorting {
   std::optional<double> chance_percent() const;
 };
 
-/// Completed trials of both conditions. A participant's sessions count together. The paper's
-/// figures are beside where all cubes have the paper's masses.
-std::vector<ConditionSorting> sorting_of(std::span<const SessionData> sessions);
+/// Completed trials by condition. A participant's sessions count together. The paper's figures are
+/// beside where all cubes have the paper's masses.
+class SortingFold {
+ public:
+  void add(const SessionData& data);
+  /// The paper's conditions first, there or not; others as they came.
+  std::vector<ConditionSorting> result() const;
+
+ private:
+  struct Counted {
+    Tallies correct, incorrect, none, answered_correct, answered_incorrect;
+    std::array<int, 4> swaps{};
+    std::map<int, int> n_trials_by_cubes;
+    bool as_published = true;
+  };
+  static void count(Counted& counted, const std::string& participant, const Attempt& attempt);
+  static ConditionSorting sorting_in(const std::string& condition, const Counted& counted);
+  Counted& counted_in(const std::string& condition);
+
+  std::vector<std::pair<std::string, Counted>> conditions_{{"C1", {}}, {"C2", {}}};
+};
+
+inline std::vector<ConditionSorting> sorting_of(std::span<const SessionData> sessions) {
+  return folded<SortingFold>(sessions);
+}
 
 }  // namespace heft

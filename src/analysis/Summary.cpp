@@ -1,13 +1,18 @@
 #include "analysis/Summary.h"
 
 #include <algorithm>
+#include <functional>
 #include <set>
+#include <utility>
 
 #include "analysis/Notes.h"
 
 namespace heft {
 
 namespace {
+/// Gives each session in turn, as often as it is called.
+using EachSession = std::function<void(const std::function<void(const SessionData&)>&)>;
+
 SessionSummary summary_of(const SessionData& data) {
   const SessionHeader& header = data.session.header;
   SessionSummary summary{data.session.session_id,        header.participant,
@@ -21,59 +26,136 @@ SessionSummary summary_of(const SessionData& data) {
   return summary;
 }
 
-std::string kind_of_data(const std::vector<SessionData>& sessions) {
-  if (sessions.empty()) return "";
-  const auto n_simulated = static_cast<std::size_t>(
-      std::ranges::count_if(sessions, [](const SessionData& data) { return data.simulated(); }));
-  if (n_simulated == 0) return "human";
-  return n_simulated == sessions.size() ? "simulated" : "human and simulated";
+// What is told of all people, those too who are left out.
+struct EverybodyFold {
+  ParticipantsFold participants;
+  PlanFold plan;
+  QualityFold quality;
+  TrackingFold tracking;
+  FlowFold flow;
+  ChoicesFold choices;
+  NotesFold notes;
+  SetupsFold setups;
+  IncidentsFold incidents;
+  std::vector<SessionSummary> sessions;
+  std::size_t n_simulated = 0;
+
+  void add(const SessionData& data) {
+    participants.add(data);
+    plan.add(data);
+    quality.add(data);
+    tracking.add(data);
+    flow.add(data);
+    choices.add(data);
+    notes.add(data);
+    setups.add(data);
+    incidents.add(data);
+    sessions.push_back(summary_of(data));
+    n_simulated += data.simulated() ? 1 : 0;
+  }
+
+  std::string kind_of_data() const {
+    if (sessions.empty()) return "";
+    if (n_simulated == 0) return "human";
+    return n_simulated == sessions.size() ? "simulated" : "human and simulated";
+  }
+};
+
+// The figures, of those who count.
+struct CountedFold {
+  std::set<std::string> participants;
+  SortingFold sorting;
+  IntroductionFold introduction;
+  StaircaseFold staircases;
+  ComparisonTrials comparisons;
+  TimesFold times;
+  VoidsFold voids;
+  TracksFold tracks;
+  PointsFold points;
+
+  void add(const SessionData& data) {
+    participants.insert(data.participant());
+    sorting.add(data);
+    introduction.add(data);
+    staircases.add(data);
+    comparisons.add(data);
+    times.add(data);
+    voids.add(data);
+    tracks.add(data);
+    points.add(data);
+  }
+
+  void put(Summary& summary) const {
+    summary.n_participants = static_cast<int>(participants.size());
+    summary.sorting = sorting.result();
+    summary.introduction = introduction.result();
+    summary.jnd = staircases.jnds();
+    summary.sensitivity = sensitivities_of(comparisons, staircases.start_effects());
+    summary.staircases = staircases.results();
+    summary.comparison = comparisons_of(comparisons);
+    summary.times = times.result();
+    summary.voids = voids.result();
+    summary.tracks = tracks.example();
+    summary.all_tracks = tracks.result();
+    summary.points = points.result(comparisons);
+    summary.thresholds = thresholds_of(comparisons, staircases, summary.sensitivity);
+  }
+};
+
+// Who is left out is known at the end; only where somebody is, sessions are gone through again.
+CountedFold counted_of(CountedFold all, const EachSession& each,
+                       std::span<const ParticipantRow> participants) {
+  if (std::ranges::none_of(participants, &ParticipantRow::excluded)) return all;
+  std::set<std::string> excluded;
+  for (const ParticipantRow& row : participants)
+    if (row.excluded()) excluded.insert(row.participant);
+  CountedFold counted;
+  each([&](const SessionData& data) {
+    if (!excluded.contains(data.participant())) counted.add(data);
+  });
+  return counted;
 }
 
-int n_participants(std::span<const SessionData> sessions) {
-  std::set<std::string> participants;
-  for (const SessionData& data : sessions) participants.insert(data.participant());
-  return static_cast<int>(participants.size());
+Summary summarize(const std::string& database, const EachSession& each,
+                  const std::string& command) {
+  EverybodyFold everybody;
+  CountedFold all;
+  each([&](const SessionData& data) {
+    everybody.add(data);
+    all.add(data);
+  });
+  Summary summary;
+  summary.database = database;
+  summary.command = command;
+  summary.data = everybody.kind_of_data();
+  summary.participants = everybody.participants.result();
+  summary.plan = everybody.plan.result();
+  summary.quality = everybody.quality.result();
+  summary.tracking = everybody.tracking.result();
+  summary.flow = everybody.flow.result(summary.participants);
+  summary.choices = everybody.choices.result();
+  summary.setups = everybody.setups.result();
+  summary.incidents = everybody.incidents.result();
+  summary.sessions = std::move(everybody.sessions);
+  counted_of(std::move(all), each, summary.participants).put(summary);
+  summary.hypotheses = hypotheses_of(summary);
+  summary.notes = everybody.notes.result(summary);
+  return summary;
 }
 }  // namespace
 
 Summary summarize(const Dataset& dataset, const std::string& command) {
-  Summary summary;
-  summary.database = dataset.database;
-  summary.command = command;
-  summary.data = kind_of_data(dataset.sessions);
-  for (const SessionData& data : dataset.sessions) summary.sessions.push_back(summary_of(data));
-  summary.participants = participants_of(dataset.sessions);
-  summary.plan = declared_plan(dataset.sessions);
-  summary.quality = quality_of(dataset.sessions);
-  std::vector<SessionData> kept;  // a copy only where somebody is left out
-  std::span<const SessionData> sessions = dataset.sessions;
-  if (std::ranges::any_of(summary.participants, &ParticipantRow::excluded))
-    sessions = kept = included(sessions, summary.participants);
-  summary.n_participants = n_participants(sessions);
-  summary.sorting = sorting_of(sessions);
-  summary.introduction = introduction_of(sessions);
-  summary.jnd = jnd_of(sessions);
-  summary.sensitivity = sensitivities_of(sessions);
-  summary.staircases = staircase_results(sessions);
-  summary.comparison = comparisons_of(sessions);
-  summary.times = response_times(sessions);
-  summary.voids = voids_of(sessions);
-  summary.tracks = example_tracks(sessions);
-  summary.all_tracks = all_tracks(sessions);
-  summary.points = points_of(sessions);
-  summary.thresholds = thresholds_of(sessions, summary.sensitivity);
-  summary.tracking = tracking_of(dataset.sessions);
-  summary.flow = flow_of(dataset.sessions, summary.participants);
-  summary.hypotheses = hypotheses_of(summary);
-  summary.choices = protocol_choices(dataset.sessions);
-  summary.notes = notes_on(dataset, summary);
-  return summary;
+  const auto each = [&](const std::function<void(const SessionData&)>& use) {
+    std::ranges::for_each(dataset.sessions, use);
+  };
+  return summarize(dataset.database, each, command);
 }
 
 Summary analyze(const AnalysisOptions& options) {
-  const Dataset dataset = read_dataset(options.database, options.session_ids);
-  if (!options.mix) refuse_mixed_purposes(dataset);
-  return summarize(dataset, options.command);
+  const LoggedSessions sessions(options.database, options.session_ids);
+  if (!options.mix) refuse_mixed_purposes(sessions);
+  const auto each = [&](const std::function<void(const SessionData&)>& use) { sessions.each(use); };
+  return summarize(sessions.database(), each, options.command);
 }
 
 }  // namespace heft

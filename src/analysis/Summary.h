@@ -23,6 +23,7 @@
 #include "analysis/Timing.h"
 #include "analysis/TrackingQuality.h"
 #include "analysis/Tracks.h"
+#include "analysis/WhatHappened.h"
 
 namespace heft {
 
@@ -83,6 +84,8 @@ struct Summary {
   Points points;
   std::vector<Hypothesis> hypotheses;
   std::vector<ProtocolChoice> choices;
+  std::vector<SetupValue> setups;
+  std::vector<Incident> incidents;
   std::vector<std::string> notes;  ///< what a reader must know about what was counted
 
   bool simulated() const { return data == "simulated" || data == "human and simulated"; }

@@ -26,6 +26,10 @@ Table participant_list(const Summary& summary);
 Table flow_table(const Summary& summary);
 Table tracking_table(const Summary& summary);
 Table threshold_list(const Summary& summary);
+Table setup_table(const Summary& summary);
+Table incident_table(const Summary& summary);
+Table dictionary_table(const Summary& summary);
+Table track_list(const SessionTracks& session, const Summary& summary);
 std::vector<Table> point_lists(const Summary& summary);  ///< what the figures show point by point
 
 // Cells that several tables have.

@@ -1,12 +1,14 @@
 // How long answers took, and why attempts are void.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "analysis/Dataset.h"
+#include "analysis/Fold.h"
 
 namespace heft {
 
@@ -22,7 +24,14 @@ struct ResponseTimes {
 };
 
 /// By task and condition; only those that have a completed trial.
-std::vector<ResponseTimes> response_times(std::span<const SessionData> sessions);
+class TimesFold {
+ public:
+  void add(const SessionData& data);
+  std::vector<ResponseTimes> result() const;
+
+ private:
+  std::map<std::pair<Task, std::string>, std::vector<double>> times_s_;
+};
 
 struct VoidCount {
   std::string reason;
@@ -30,6 +39,20 @@ struct VoidCount {
 };
 
 /// Void attempts by reason, most frequent first.
-std::vector<VoidCount> voids_of(std::span<const SessionData> sessions);
+class VoidsFold {
+ public:
+  void add(const SessionData& data);
+  std::vector<VoidCount> result() const;
+
+ private:
+  std::map<std::string, int> counts_;
+};
+
+inline std::vector<ResponseTimes> response_times(std::span<const SessionData> sessions) {
+  return folded<TimesFold>(sessions);
+}
+inline std::vector<VoidCount> voids_of(std::span<const SessionData> sessions) {
+  return folded<VoidsFold>(sessions);
+}
 
 }  // namespace heft

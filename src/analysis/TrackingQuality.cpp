@@ -1,7 +1,5 @@
 #include "analysis/TrackingQuality.h"
 
-#include <map>
-
 namespace heft {
 
 namespace {
@@ -36,18 +34,19 @@ std::optional<double> PersonTracking::tracked_percent() const {
   return 100.0 * counts.frames.n_tracked / counts.frames.n_frames;
 }
 
-std::vector<PersonTracking> tracking_of(std::span<const SessionData> sessions) {
-  std::map<std::string, PersonTracking> people;
-  for (const SessionData& data : sessions) {
-    PersonTracking& person = people[data.participant()];
-    person.participant = data.participant();
-    add(person.counts, data.tracking());
-    person.pictures.shown += data.pictures.shown;
-    person.pictures.dropped += data.pictures.dropped;
-    person.pictures.late += data.pictures.late;
-  }
+void TrackingFold::add(const SessionData& data) {
+  const std::string participant = data.participant();
+  PersonTracking& person = people_[participant];
+  person.participant = participant;
+  heft::add(person.counts, data.tracking());
+  person.pictures.shown += data.pictures.shown;
+  person.pictures.dropped += data.pictures.dropped;
+  person.pictures.late += data.pictures.late;
+}
+
+std::vector<PersonTracking> TrackingFold::result() const {
   std::vector<PersonTracking> rows;
-  for (const auto& [participant, person] : people) rows.push_back(person);
+  for (const auto& [participant, person] : people_) rows.push_back(person);
   return rows;
 }
 

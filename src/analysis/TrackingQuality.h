@@ -1,12 +1,13 @@
 // How well each participant's effector was tracked: what a reviewer holds beside their figures.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "analysis/Dataset.h"
+#include "analysis/Fold.h"
 
 namespace heft {
 
@@ -21,6 +22,17 @@ struct PersonTracking {
 };
 
 /// By participant.
-std::vector<PersonTracking> tracking_of(std::span<const SessionData> sessions);
+class TrackingFold {
+ public:
+  void add(const SessionData& data);
+  std::vector<PersonTracking> result() const;
+
+ private:
+  std::map<std::string, PersonTracking> people_;
+};
+
+inline std::vector<PersonTracking> tracking_of(std::span<const SessionData> sessions) {
+  return folded<TrackingFold>(sessions);
+}
 
 }  // namespace heft

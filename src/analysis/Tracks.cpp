@@ -39,27 +39,24 @@ std::vector<Track> tracks_of(const SessionData& data) {
 }
 }  // namespace
 
-std::vector<SessionTracks> all_tracks(std::span<const SessionData> sessions) {
-  std::vector<SessionTracks> all;
-  for (const SessionData& data : sessions)
-    if (std::vector<Track> tracks = tracks_of(data); !tracks.empty())
-      all.push_back({data.session.session_id, data.session.header.participant, data.simulated(),
-                     std::move(tracks)});
-  return all;
+void TracksFold::add(const SessionData& data) {
+  std::vector<Track> tracks = tracks_of(data);
+  if (tracks.empty()) return;
+  for (Track& track : tracks) track.points.shrink_to_fit();  // of a thousand, what is spare is much
+  if (data.finished() && !first_finished_) first_finished_ = all_.size();
+  all_.push_back({data.session.session_id, data.session.header.participant, data.simulated(),
+                  std::move(tracks)});
+}
+
+std::optional<SessionTracks> TracksFold::example() const {
+  if (all_.empty()) return std::nullopt;
+  return all_[first_finished_.value_or(0)];
 }
 
 std::optional<SessionTracks> example_tracks(std::span<const SessionData> sessions) {
-  std::optional<SessionTracks> unfinished;
-  for (const SessionData& data : sessions) {
-    if (unfinished && !data.finished()) continue;
-    std::vector<Track> tracks = tracks_of(data);
-    if (tracks.empty()) continue;
-    SessionTracks found{data.session.session_id, data.session.header.participant, data.simulated(),
-                        std::move(tracks)};
-    if (data.finished()) return found;
-    unfinished = std::move(found);
-  }
-  return unfinished;
+  TracksFold fold;
+  for (const SessionData& data : sessions) fold.add(data);
+  return fold.example();
 }
 
 }  // namespace heft

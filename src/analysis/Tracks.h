@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/Dataset.h"
+#include "analysis/Fold.h"
 
 namespace heft {
 
@@ -34,10 +34,21 @@ struct SessionTracks {
 };
 
 /// Every session that has staircases that estimate a JND.
-std::vector<SessionTracks> all_tracks(std::span<const SessionData> sessions);
+class TracksFold {
+ public:
+  void add(const SessionData& data);
+  std::vector<SessionTracks> result() const { return all_; }
+  /// The first finished one of them, or else the first.
+  std::optional<SessionTracks> example() const;
 
-/// The first finished session that has staircases that estimate a JND, or else the first that has
-/// any.
+ private:
+  std::vector<SessionTracks> all_;
+  std::optional<std::size_t> first_finished_;
+};
+
+inline std::vector<SessionTracks> all_tracks(std::span<const SessionData> sessions) {
+  return folded<TracksFold>(sessions);
+}
 std::optional<SessionTracks> example_tracks(std::span<const SessionData> sessions);
 
 }  // namespace heft

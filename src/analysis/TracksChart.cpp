@@ -24,21 +24,18 @@ Panels panels_of(const SessionTracks& session) {
   return panels;
 }
 
-double highest_level(const SessionTracks& session) {
+double highest_level(std::span<const Track* const> tracks) {
   double highest_g = 0;
-  for (const Track& track : session.tracks)
-    for (const TrackPoint& point : track.points) highest_g = std::max(highest_g, point.level_g);
+  for (const Track* track : tracks)
+    for (const TrackPoint& point : track->points) highest_g = std::max(highest_g, point.level_g);
   return highest_g > 0 ? highest_g : 1;
 }
 
-// Top of the y axis: the keys, two lines a track, stand above the highest level.
-double top_level(const SessionTracks& session, const Panels& panels) {
+// Top of a reference's own y axis: the keys, two lines a track, stand above the highest level.
+double top_level(std::span<const Track* const> tracks) {
   constexpr double key_line = 0.057, most_of_panel = 0.6;
-  std::size_t most_tracks = 0;
-  for (const auto& [reference_g, tracks] : panels)
-    most_tracks = std::max(most_tracks, tracks.size());
-  const double keys = key_line * (2 * static_cast<double>(most_tracks) + 0.8);
-  return highest_level(session) / (1 - std::min(keys, most_of_panel));
+  const double keys = key_line * (2 * static_cast<double>(tracks.size()) + 0.8);
+  return highest_level(tracks) / (1 - std::min(keys, most_of_panel));
 }
 
 std::string block_name(double reference_g, std::size_t index) {
@@ -85,9 +82,10 @@ std::string panel_script(double reference_g, std::span<const Track* const> track
   }
   return blocks + fmt::format(
                       "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
+                      "set yrange [0:{}]\n"
                       "set title 'reference {:g} g' offset 0,-0.7\nplot {}\n"
-                      "unset label\nunset ylabel\nset format y ''\n",
-                      left, right, reference_g, plots);
+                      "unset label\nunset ylabel\n",
+                      left, right, top_level(tracks), reference_g, plots);
 }
 }  // namespace
 
@@ -106,21 +104,19 @@ Chart tracks_chart(const Summary& summary) {
   const int width_px = std::max(560, 105 + panel_px * static_cast<int>(panels.size()));
   chart.script =
       gnuplot_header({"staircases.svg", width_px, height_px, chart.title, caption_of(summary)}) +
-      fmt::format(
-          "set label 'filled: a cube was chosen; open: no difference; ring: reversal' "
-          "at screen 0.5, screen 1-46*pixel center font ',11' textcolor '#555555'\n"
-          "set multiplot\n"
-          "set tmargin at screen 1-108*pixel\n"
-          "set bmargin at screen caption_top + 66*pixel\n"
-          "set key top right reverse Left samplen 2 font ',11'\n"
-          "set xrange [0:*]\nset yrange [0:{}]\n"
-          "set xlabel 'trial of the staircase'\n"
-          "set ylabel 'difference from the reference (g)'\n",
-          top_level(session, panels));
+      "set label 'filled: a cube was chosen; open: no difference; ring: reversal' "
+      "at screen 0.5, screen 1-46*pixel center font ',11' textcolor '#555555'\n"
+      "set multiplot\n"
+      "set tmargin at screen 1-108*pixel\n"
+      "set bmargin at screen caption_top + 66*pixel\n"
+      "set key top right reverse Left samplen 2 font ',11'\n"
+      "set xrange [0:*]\n"
+      "set xlabel 'trial of the staircase'\n"
+      "set ylabel 'difference from the reference (g)'\n";
   double left_px = 100;
   for (const auto& [reference_g, tracks] : panels) {
     chart.script +=
-        panel_script(reference_g, tracks, left_px / width_px, (left_px + panel_px - 25) / width_px);
+        panel_script(reference_g, tracks, left_px / width_px, (left_px + panel_px - 60) / width_px);
     left_px += panel_px;
   }
   chart.script += "unset multiplot\n";

@@ -146,6 +146,11 @@ std::vector<SessionRow> LogReader::sessions() const {
   return impl_->sessions("true");
 }
 
+std::vector<std::int64_t> LogReader::session_ids() const {
+  return impl_->rows([](Cells& cells) { return cells.id(); }, "session",
+                     "SELECT session_id FROM session ORDER BY session_id");
+}
+
 SessionRow LogReader::session(std::int64_t session_id) const {
   const auto found = impl_->with_participant_info(
       impl_->rows(session_from, "session", Impl::session_sql("session_id = ?1"), session_id));

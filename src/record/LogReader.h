@@ -71,6 +71,8 @@ class LogReader {
 
   /// Oldest first, as all lists here: in the order of writing.
   std::vector<SessionRow> sessions() const;
+  /// For those that would not be in memory all at once.
+  std::vector<std::int64_t> session_ids() const;
   /// @throws Error when there is none of that id
   SessionRow session(std::int64_t session_id) const;
   std::vector<SessionRow> sessions_of(const std::string& participant,

@@ -56,7 +56,7 @@ TEST(Comparison, LevelsAreWithoutCatchTrials) {
 }
 
 TEST(Comparison, NothingIsFoundInNothing) {
-  const ComparisonSummary summary = comparisons_of({});
+  const ComparisonSummary summary = comparisons_of(ComparisonTrials());
   EXPECT_FALSE(summary.wrong_cube.percent.has_value());
   EXPECT_TRUE(summary.by_reference.empty());
 }

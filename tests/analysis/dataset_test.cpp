@@ -8,6 +8,7 @@
 #include "MadeUpSessions.h"
 #include "analysis/Summary.h"
 #include "base/Error.h"
+#include "base/TextFile.h"
 #include "record/SessionLog.h"
 
 namespace heft {
@@ -31,8 +32,10 @@ class LogFile : public testing::Test {
   std::string path() const { return (folder_ / "log.db").string(); }
 
   /// A finished session with one sorting trial, light and intermediate taken for each other.
-  void write_session(const std::string& participant, Purpose purpose) {
+  void write_session(const std::string& participant, Purpose purpose,
+                     const std::string& protocol_text = "") {
     SessionHeader header = session(0, participant, purpose).session.header;
+    header.protocol_text = protocol_text;
     header.heft_version = "0.1.0";
     header.run_options = "{}";
     header.started_utc = "2026-01-01T00:00:00.000Z";
@@ -89,12 +92,13 @@ TEST(Dataset, SimulatedRespondersOfOneNameAreSeveralParticipants) {
   EXPECT_FALSE(session(1, "1", Purpose::pilot, "human").simulated());
 }
 
-TEST(Dataset, SeveralPurposesAreRefused) {
-  Dataset dataset{"x.db", {session(1, "a", Purpose::main), session(2, "b", Purpose::main)}};
-  EXPECT_NO_THROW(refuse_mixed_purposes(dataset));
-  dataset.sessions.push_back(session(3, "c", Purpose::pilot));
+TEST_F(LogFile, SeveralPurposesAreRefused) {
+  write_session("a", Purpose::main);
+  write_session("b", Purpose::main);
+  EXPECT_NO_THROW(refuse_mixed_purposes({path(), {}}));
+  write_session("c", Purpose::pilot);
   try {
-    refuse_mixed_purposes(dataset);
+    refuse_mixed_purposes({path(), {}});
     FAIL() << "several purposes were not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::usage);
@@ -122,6 +126,20 @@ TEST_F(LogFile, PurposesAreMixedOnlyOnDemandAndSessionsCanBeNamed) {
   EXPECT_EQ(analyze({path(), {2}, false, ""}).sorting[1].n_trials, 1);
   EXPECT_EQ(analyze({path(), {2, 2}, false, ""}).sorting[1].n_trials, 1);
   EXPECT_THROW(analyze({path(), {3}, false, ""}), Error);
+}
+
+// A figure of those who count is made of the log read again.
+TEST_F(LogFile, WhoIsLeftOutIsInNoFigure) {
+  const std::string protocol = read_text_file(HEFT_SOURCE_DIR "/protocols/sorting.toml");
+  write_session("touched nothing, left out", Purpose::main,
+                protocol + "\n[exclusion]\nimpossible_answers = 0.5\n");
+  write_session("touched nothing", Purpose::main, protocol);
+  const Summary summary = analyze({path(), {}, false, ""});
+  EXPECT_EQ(summary.sessions.size(), 2);
+  EXPECT_TRUE(summary.participants.at(1).excluded());
+  EXPECT_EQ(summary.n_participants, 1);
+  EXPECT_EQ(summary.sorting[1].n_trials, 1);
+  EXPECT_EQ(summary.flow.n_analyzed, 1);
 }
 
 TEST(Dataset, pictures_are_counted_over_a_sessions_camera_events) {

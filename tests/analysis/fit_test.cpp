@@ -364,6 +364,27 @@ TEST(IndecisionFit, TheOriginOfTheLevelsOnlyMattersToTheBias) {
   });
 }
 
+// A free lapse rate makes several hills, and where answers are separated the estimate lies far out:
+// an interval's end is the same from wherever it is looked for.
+TEST(IndecisionFit, WithAFreeLapseTheOriginDoesNotMoveTheEnds) {
+  RandomStream random(1, "origin, free lapse");
+  for (int i = 0; i < 60; ++i) {
+    std::vector<double> levels;
+    for (int k = 0; k < 9; ++k) levels.push_back(std::round(800 * random.uniform() - 400));
+    const IndecisionParameters person{i % 2 == 0 ? 0.005 : 0.03, 0.3 + 0.4 * (i % 5), 0.3, 0.1};
+    const AnswersByLevel answers = choices_of(person, levels, 2 + i % 4, random);
+    AnswersByLevel moved;
+    for (const auto& [level, n] : answers) moved[level + 1000] = n;
+    const Fit here = fit_indecision(answers, {{}, 0, {}}),
+              there = fit_indecision(moved, {{}, 0, {}});
+    SCOPED_TRACE(testing::PrintToString(answers));
+    EXPECT_NEAR(*there.log_likelihood, *here.log_likelihood, 1e-5);
+    const FittedParameter &a = here.parameter("sensitivity"), &b = there.parameter("sensitivity");
+    expect_same(b.low, a.low, 1e-3 * (1e-3 + std::abs(a.low.value_or(0))));
+    expect_same(b.high, a.high, 1e-3 * (1e-3 + std::abs(a.high.value_or(0))));
+  }
+}
+
 // Whatever the answers are: the figures are finite, in order, and there or not as `why` says.
 RC_GTEST_PROP(Fit, OfAnyAnswersIsConsistent, ()) {
   AnswersByLevel answers;

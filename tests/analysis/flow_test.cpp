@@ -81,7 +81,8 @@ TEST(PersonThresholds, AreGivenWhereTheTrialsBearThem) {
     compare(sessions[0], {0.6745 / 100}, recommended_at(200), stream);
     compare(sessions[1], {0}, recommended_at(200), stream);
   }
-  const auto people = thresholds_of(sessions, sensitivities_of(sessions));
+  const auto people = thresholds_of(folded<ComparisonTrials>(sessions),
+                                    folded<StaircaseFold>(sessions), sensitivities_of(sessions));
   ASSERT_EQ(people.size(), 2u);
   EXPECT_EQ(people[0].participant, "sees");
   ASSERT_TRUE(people[0].identifiable()) << people[0].why;
@@ -90,7 +91,8 @@ TEST(PersonThresholds, AreGivenWhereTheTrialsBearThem) {
   EXPECT_FALSE(people[1].identifiable());
   EXPECT_THAT(people[1].why, HasSubstr("holds 0"));
   EXPECT_FALSE(people[1].threshold_75_g.has_value());
-  EXPECT_TRUE(people[1].start_g.has_value());
+  EXPECT_EQ(people[1].from_above.start_g, 600);
+  EXPECT_EQ(people[1].from_below.start_g, 20);
 }
 
 TEST(EarlyAnswers, AreThoseThatTheSetupForbade) {

@@ -66,6 +66,27 @@ TEST_F(ReportFolder, PageIsSelfContainedAndEscaped) {
   EXPECT_THAT(read("staircases.svg"), HasSubstr("Staircases of session 1"));
 }
 
+TEST_F(ReportFolder, AnswersFirstAndHoldsWhatAReviewerAsksFor) {
+  SessionData data = session(1, "a");
+  add_sortings(data, "C2", Outcome::correct, 8);
+  data.setups[0].setup.simulator = "boxes";
+  data.noted = {{12.5, EventKind::deviation, "the lamp <fell>"}};
+  std::vector<SessionData> sessions(13, data);
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    sessions[i].session.session_id = static_cast<int>(i) + 1;
+    sessions[i].session.header.participant = "P" + std::to_string(i);
+  }
+  write_report(summarize({"x.db", sessions}, ""), folder);
+  const std::string page = read("report.html");
+  EXPECT_THAT(page, HasSubstr("Did C2 work? Yes"));
+  EXPECT_LT(page.find("id=\"sorting\""), page.find("id=\"times_by_trial\""));
+  EXPECT_LT(page.find("Did C2 work?"), page.find("Contents"));
+  EXPECT_THAT(page, HasSubstr("the lamp &lt;fell&gt;"));
+  EXPECT_THAT(read("deviations.csv"), HasSubstr("deviation,the lamp <fell>"));
+  EXPECT_THAT(read("setups.csv"), HasSubstr("simulator,boxes,,13,104,"));
+  EXPECT_THAT(read("dictionary.csv"), HasSubstr("trial,level_g,g,"));
+}
+
 TEST_F(ReportFolder, EveryChartCarriesItsCommandAndVersion) {
   for (const Chart& chart : charts_of(summary_with_everything())) {
     EXPECT_THAT(chart.script, HasSubstr("Made by: heft analyse --db x.db --out ''a folder''"));

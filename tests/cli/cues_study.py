@@ -9,8 +9,10 @@ heavier has more of it, ties counting half. A cue of a trial tells whether its d
 the ROC curve. A figure a session, then their mean against 50 % by the normal approximation, at 1 %
 divided by the number of cues (Bonferroni); the interval printed is that of all cues together.
 
-Run: python3 tests/cli/cues_study.py PATH_TO_HEFT [SESSIONS [LOG]]
+Run: python3 tests/cli/cues_study.py PATH_TO_HEFT [SESSIONS [LOG...]] [--csv FILE]
 """
+import argparse
+import csv
 import math
 import os
 import sqlite3
@@ -203,8 +205,8 @@ def judged(figures):
     return mean, se, p
 
 
-def study(log):
-    """-> how many cues tell the mass"""
+def study(log, table):
+    """-> how many cues tell the mass. table: takes a row a cue"""
     found, beside, n = {}, {}, 0
     for trials in sessions_of(log):
         n += 1
@@ -219,30 +221,52 @@ def study(log):
         mean, se, p = judged(figures)
         tells = p < ALPHA / len(found)  # one that is turned round tells as much
         n_told += tells
+        table.append([cue, len(figures), 100 * mean, 100 * (mean - reach * se),
+                      100 * (mean + reach * se), p, "judged", "yes" if tells else "no"])
         print(f"  {cue:48} {100 * mean:6.2f} % [{100 * (mean - reach * se):.2f}, "
               f"{100 * (mean + reach * se):.2f}], p {p:.3g}{'  TELLS' if tells else ''}")
     for cue, figures in beside.items():
         mean, se, p = judged(figures)
+        table.append([cue, len(figures), 100 * mean, 100 * (mean - reach * se),
+                      100 * (mean + reach * se), p, "beside", ""])
         print(f"  beside: {cue:40} {100 * mean:6.2f} % (SE {100 * se:.2f}), p {p:.3g}")
     return n_told
 
 
+def write(table, file, n_sessions):
+    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=PROTOCOL.parent,
+                            capture_output=True, text=True).stdout.strip()
+    command = f"python3 tests/cli/cues_study.py build/heft {n_sessions} --csv {file}"
+    with open(file, "w", newline="") as out:
+        rows = csv.writer(out, lineterminator="\n")
+        rows.writerow(["cue", "n_sessions", "percent", "low_percent", "high_percent", "p", "role",
+                       "tells", "commit", "command"])
+        rows.writerows([*row, commit, command] for row in table)
+
+
+def simulated(heft, folder, n_sessions):
+    """-> logs: without frames, and of fewer sessions with frames, ten megabytes each"""
+    for name, n, seed, more in (("cues", n_sessions, 77, []),
+                                ("frames", max(n_sessions // 25, 2), 78, ["--frames"])):
+        log = Path(folder) / f"{name}.db"
+        subprocess.run([heft, "simulate", PROTOCOL, "--participants", str(n), "--seed", str(seed),
+                        *more, "--db", log], check=True, stderr=subprocess.DEVNULL)
+        yield log
+
+
 def main():
-    heft = os.path.abspath(sys.argv[1])
-    n_sessions = int(sys.argv[2]) if len(sys.argv) > 2 else 500
-    if len(sys.argv) > 3:
-        raise SystemExit(min(study(sys.argv[3]), 1))
+    options = argparse.ArgumentParser()
+    options.add_argument("heft")
+    options.add_argument("sessions", nargs="?", type=int, default=500)
+    options.add_argument("logs", nargs="*")
+    options.add_argument("--csv")
+    asked = options.parse_args()
+    table = []
     with tempfile.TemporaryDirectory() as folder:
-        log = Path(folder) / "cues.db"
-        subprocess.run([heft, "simulate", PROTOCOL, "--participants", str(n_sessions), "--seed", "77",
-                        "--db", log], check=True, stderr=subprocess.DEVNULL)
-        n_told = study(log)
-        frames = Path(folder) / "frames.db"  # ten megabytes a session
-        subprocess.run([heft, "simulate", PROTOCOL, "--participants", str(max(n_sessions // 25, 2)),
-                        "--seed", "78", "--frames", "--db", frames], check=True,
-                       stderr=subprocess.DEVNULL)
-        print("with frames, for jumps:")
-        n_told += study(frames)
+        logs = asked.logs or simulated(os.path.abspath(asked.heft), folder, asked.sessions)
+        n_told = sum(study(log, table) for log in logs)
+    if asked.csv:
+        write(table, asked.csv, asked.sessions)
     raise SystemExit(min(n_told, 1))
 
 

@@ -1,0 +1,59 @@
+// Completed comparisons, as little of each as the figures need: of a thousand participants this is
+// what stays in memory.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/Dataset.h"
+#include "analysis/Fit.h"
+#include "analysis/Jnd.h"
+
+namespace heft {
+
+enum class SideChosen : std::uint8_t { left, none, right };
+
+struct ComparedTrial {
+  double level_g = 0;                ///< comparison - reference
+  std::optional<double> response_s;  ///< see response_time_s
+  std::uint32_t person = 0;          ///< place in ComparisonTrials::participants
+  SideChosen side = SideChosen::none;
+  bool difference = false;      ///< a cube was chosen
+  std::optional<bool> correct;  ///< it was the heavier one
+  bool is_catch = false;
+  bool reference_on_right = false;
+
+  double right_minus_left_g() const { return reference_on_right ? -level_g : level_g; }
+};
+
+/// Those with an answer and a level, no practice.
+class ComparisonTrials {
+ public:
+  void add(const SessionData& data);
+  const ComparisonTrials& result() const { return *this; }
+
+  /// In the order of sessions and trials.
+  const std::map<Compared, std::deque<ComparedTrial>>& by_compared() const { return trials_; }
+  const std::vector<std::string>& participants() const { return participants_; }
+  const std::string& participant(const ComparedTrial& trial) const {
+    return participants_[trial.person];
+  }
+
+ private:
+  std::uint32_t place_of(const std::string& participant);
+
+  std::map<Compared, std::deque<ComparedTrial>> trials_;
+  std::vector<std::string> participants_;
+  std::map<std::string, std::uint32_t> places_;
+};
+
+/// Each participant's answers at one reference, catch trials too: left, none, right by the mass on
+/// the right minus that on the left.
+std::map<std::string, AnswersByLevel> answers_by_side(const ComparisonTrials& trials,
+                                                      const Compared& compared);
+
+}  // namespace heft
