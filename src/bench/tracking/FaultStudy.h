@@ -5,17 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "bench/tracking/PictureFaults.h"
 #include "bench/tracking/TrackingStudy.h"
 
 namespace heft {
 
 /// An effector held still before the ideal camera, and what is to be changed of it.
 struct FaultScene {
-  Apparatus filmed;  ///< what is there
-  Apparatus told;    ///< what the tracker's files say
+  Apparatus apparatus;  ///< as its files have it
   SyntheticSettings settings;
-  PictureFaults faults;
   double speed_m_s = 0;  ///< straight on over the table
 };
 
