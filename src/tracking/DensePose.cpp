@@ -12,6 +12,7 @@
 
 #include "base/Pose.h"
 #include "tracking/NormalTable.h"
+#include "tracking/SymmetricSum.h"
 #include "tracking/TagPlane.h"
 
 namespace heft {
@@ -123,9 +124,10 @@ class TagFit {
       sum += size;
       ++n;
       const double weight = (size > clip ? clip / size : 1) / (noise_ * noise_);
-      all.noalias() += (weight * by) * by.transpose();
+      add_lower<n_all>(all, weight * by, by);
       all_pull += weight * residual * by;
     }
+    complete_upper(all);
     noise_ = std::max(least_noise, 1.2533 * sum / std::max(1, n));
     used_ = n;
     const auto own_part = all.bottomRightCorner<n_own, n_own>();
@@ -177,10 +179,16 @@ class TagFit {
     const Eigen::Vector2d near = near_cells(plane);
     // In rows that are offset.
     const int stride = 1 + static_cast<int>(seen_.area_px2 / most_pixels);
+    Eigen::Vector2d last_pixel(x0, y0), last_ray = undistort(camera, last_pixel);
+    const Eigen::Vector2d ray_by_pixel(1 / camera.fx_px, 1 / camera.fy_px);
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         if ((x + (stride > 2 ? 2 * y : y)) % stride != 0) continue;
-        Eigen::Vector2d ray = undistort(camera, Eigen::Vector2d(x, y));
+        const Eigen::Vector2d pixel(x, y);
+        last_ray =
+            undistort(camera, pixel, last_ray + ray_by_pixel.cwiseProduct(pixel - last_pixel));
+        last_pixel = pixel;
+        Eigen::Vector2d ray = last_ray;
         if (rows) ray = (*rows)(ray, y, TagHit(plane, ray).point_m);
         const Eigen::Vector2d cell = TagHit(plane, ray).cell;
         if (!((cell.array() > -beyond.array()).all() && (cell.array() < n + beyond.array()).all()))

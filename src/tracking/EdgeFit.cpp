@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tracking/NormalTable.h"
+#include "tracking/SymmetricSum.h"
 #include "tracking/ToneCurve.h"
 
 namespace heft {
@@ -172,9 +173,10 @@ class StepFit {
       sum += size;
       const double weight = (size > clip ? clip / size : 1) / (noise * noise);
       const Vector6 weighted = weight * by;
-      normal_matrix.noalias() += weighted * by.transpose();
+      add_lower(normal_matrix, weighted, by);
       pull += residual * weighted;
     }
+    complete_upper(normal_matrix);
     noise = std::max(least_noise, 1.2533 * sum / std::max(1, n));
     const Vector6 change = normal_matrix.llt().solve(pull);
     if (!change.allFinite()) return 1e9;
