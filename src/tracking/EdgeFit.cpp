@@ -160,7 +160,7 @@ class StepFit {
     Matrix6 normal_matrix = prior();
     Vector6 pull = Vector6::Zero();
     pull(blur) = normal_matrix(blur, blur) * (guess_.blur_px - unknowns(blur));
-    const double clip = 2.5 * noise;
+    const double clip = 2.5 * noise, per_variance = 1 / (noise * noise);
     const double far = drop_outliers ? outlier_bound() : 1e9;  // another thing lies over the edge
     double sum = 0;
     int n = 0;
@@ -171,7 +171,7 @@ class StepFit {
       if (size > far) continue;
       ++n;
       sum += size;
-      const double weight = (size > clip ? clip / size : 1) / (noise * noise);
+      const double weight = (size > clip ? clip / size : 1) * per_variance;
       const Vector6 weighted = weight * by;
       add_lower(normal_matrix, weighted, by);
       pull += residual * weighted;
@@ -211,12 +211,13 @@ class StepFit {
       const double q2 = q * q, step = -by_six(offset) * unknowns(blur);
       Vector8 by;
       by << by_six, step * q * (q2 - 3), step * q * ((q2 - 10) * q2 + 15);
-      own.noalias() += weight * by * by.transpose();
+      add_lower<8>(own, weight * by, by);
       own_pull += weight * residual * by;
       mixed.noalias() += weight * by * by_bend.transpose();
       evidence.information.noalias() += weight * by_bend * by_bend.transpose();
       evidence.pull += weight * residual * by_bend;
     }
+    complete_upper(own);
     const Eigen::LLT<Eigen::Matrix<double, 8, 8>> solver(own);
     const Eigen::Matrix<double, 8, 3> by_bend = -solver.solve(mixed);
     evidence.information += mixed.transpose() * by_bend;
