@@ -26,6 +26,9 @@ struct Fault {
 /// More than limits tell: at both sizes, with what comes after the lens, and with wrong files.
 std::vector<Fault> faults();
 
+/// Films a board that is waved under a rolling shutter and finds its read-out: ShutterStudy.cpp.
+Goal find_readout(bool quick);
+
 /// Writes faults.svg.
 void draw_faults(const std::vector<FaultPoint>& points, const StudyOptions& options);
 
