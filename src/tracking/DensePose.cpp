@@ -179,16 +179,14 @@ class TagFit {
     const Eigen::Vector2d near = near_cells(plane);
     // In rows that are offset.
     const int stride = 1 + static_cast<int>(seen_.area_px2 / most_pixels);
-    Eigen::Vector2d last_pixel(x0, y0), last_ray = undistort(camera, last_pixel);
     const Eigen::Vector2d ray_by_pixel(1 / camera.fx_px, 1 / camera.fy_px);
+    Eigen::Vector2d bend = -ray_by_pixel.cwiseProduct(Eigen::Vector2d(camera.cx_px, camera.cy_px));
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         if ((x + (stride > 2 ? 2 * y : y)) % stride != 0) continue;
-        const Eigen::Vector2d pixel(x, y);
-        last_ray =
-            undistort(camera, pixel, last_ray + ray_by_pixel.cwiseProduct(pixel - last_pixel));
-        last_pixel = pixel;
-        Eigen::Vector2d ray = last_ray;
+        const Eigen::Vector2d pixel(x, y), straight = ray_by_pixel.cwiseProduct(pixel);
+        Eigen::Vector2d ray = undistort(camera, pixel, straight + bend);
+        bend = ray - straight;  // nearly the next one's
         if (rows) ray = (*rows)(ray, y, TagHit(plane, ray).point_m);
         const Eigen::Vector2d cell = TagHit(plane, ray).cell;
         if (!((cell.array() > -beyond.array()).all() && (cell.array() < n + beyond.array()).all()))
