@@ -222,7 +222,7 @@ Checked checked(FileKind kind, const std::string& text, const std::string& path)
     case FileKind::effector:
       return {described(parse_effector(text, path))};
     case FileKind::synthetic_camera:
-      return {described(parse_synthetic_camera(text, path).optics)};
+      return {described(parse_synthetic_camera(text, path))};
     case FileKind::questionnaires:
       return checked_questionnaires(parse_questionnaires(text, path), path);
     case FileKind::texts: {

@@ -29,6 +29,10 @@ constexpr Range gammas{1, 3};
 constexpr Range vignettings{0, 1, false, true};
 constexpr Range lights{0, 10, true};
 constexpr Range noises{0, 100};
+constexpr Range shares{0, 1};
+constexpr Range sharpenings{0, 5};
+constexpr WholeRange jpeg_qualities{1, 100};
+constexpr Range scales{0.9, 1.1};  // of prints and lenses; more is another one
 
 // None where the value is no finite number, truth value or text.
 std::optional<std::variant<double, bool, std::string>> value_of(const TomlNode& node) {
@@ -61,7 +65,9 @@ const std::vector<KindKeys>& kinds() {
       {FileKind::effector, "box", {"tag", "family", "ruler_measured_m", "size_m"}},
       {FileKind::synthetic_camera,
        "exposure_s",
-       {"blur_px", "vignetting", "light", "gamma", "noise_levels", "hand"}},
+       {"readout_s", "blur_px", "vignetting", "light", "gamma", "noise_levels", "shadow", "glare",
+        "film_curve", "s_curve", "mosaic", "sharpening", "jpeg_quality", "board_tag_scale",
+        "effector_tag_scale", "focal_length_scale", "hand"}},
       {FileKind::texts, "language", {"buttons", "slots", "consent", "welcome", "trial", "thanks"}},
       {FileKind::questionnaires, "questionnaire", {}},
       {FileKind::display, "eye_distance_mm", {"width_px", "height_px", "width_mm", "height_mm"}},
@@ -132,18 +138,45 @@ SyntheticSettings parse_synthetic_camera(const std::string& text, const std::str
   reader.read("light", optics.exposure, lights);
   reader.read("gamma", optics.gamma, gammas);
   reader.read("noise_levels", optics.noise, noises);
+  reader.read("shadow", optics.shadow, shares);
+  reader.read("glare", optics.glare, shares);
+  reader.read("film_curve", optics.film_curve, shares);
+  reader.read("s_curve", optics.s_curve, shares);
+  reader.read("mosaic", optics.mosaic);
+  reader.read("sharpening", optics.sharpening, sharpenings);
+  reader.read("jpeg_quality", optics.jpeg_quality, jpeg_qualities);
+  reader.read("board_tag_scale", settings.files.board_tag_scale, scales);
+  reader.read("effector_tag_scale", settings.files.effector_tag_scale, scales);
+  reader.read("focal_length_scale", settings.files.focal_length_scale, scales);
   reader.read("hand", settings.hand);
   reader.close();
   mistakes.throw_if_any();
   return settings;
 }
 
-std::string described(const Optics& optics) {
-  const std::string readout =
-      optics.readout_s > 0 ? fmt::format("read-out {:g} ms, ", 1e3 * optics.readout_s) : "";
-  return fmt::format("exposure {:g} ms, {}blur {:g} px, noise {:g} levels, {}",
-                     1e3 * optics.exposure_s, readout, optics.blur_px, optics.noise,
-                     optics.gamma ? fmt::format("gamma {:g}", *optics.gamma) : "sRGB");
+std::string described(const SyntheticSettings& settings) {
+  const Optics& optics = settings.optics;
+  const FileErrors& files = settings.files;
+  std::string text = fmt::format("exposure {:g} ms, ", 1e3 * optics.exposure_s);
+  if (optics.readout_s > 0) text += fmt::format("read-out {:g} ms, ", 1e3 * optics.readout_s);
+  text +=
+      fmt::format("blur {:g} px, noise {:g} levels, {}", optics.blur_px, optics.noise,
+                  optics.gamma ? fmt::format("gamma {:g}", *optics.gamma) : std::string("sRGB"));
+  const auto add = [&](const char* what, double value, double usual) {
+    if (value != usual) text += fmt::format(", {} {:g}", what, value);
+  };
+  add("light", optics.exposure, 1);
+  add("shadow", optics.shadow, 0);
+  add("glare", optics.glare, 0);
+  add("film curve", optics.film_curve, 0);
+  add("S-curve", optics.s_curve, 0);
+  if (optics.mosaic) text += ", mosaic";
+  add("sharpening", optics.sharpening, 0);
+  add("JPEG", optics.jpeg_quality, 0);
+  add("board's tags by", files.board_tag_scale, 1);
+  add("effector's tags by", files.effector_tag_scale, 1);
+  add("focal length by", files.focal_length_scale, 1);
+  return text;
 }
 
 std::vector<Parameter> parse_parameters(const std::string& text, const std::string& file) {

@@ -12,7 +12,6 @@ namespace heft {
 struct DisplayMeasures;
 struct InterleavedProcedures;
 struct MarkerBody;
-struct Optics;
 struct Parameter;
 struct Scene;
 struct ScreenTexts;
@@ -83,14 +82,15 @@ std::string effector_to_toml(const MarkerBody& effector, const std::string& comm
 /// What a body has, for people: "24 tags of tag36h11, 40 mm, ids 0-23, 280 x 184 mm".
 std::string described(const MarkerBody& body);
 
-/// How a synthetic camera's optics and sensor fall short of a perfect one's; size, focal length and
-/// distortion are the calibration's. Absent keys are as protocols/apparatus/synthetic_camera.toml
-/// explains them.
+/// How a synthetic camera, its light and its files fall short of perfect ones; size, focal length
+/// and distortion are the calibration's. Absent keys are as
+/// protocols/apparatus/synthetic_camera.toml explains them.
 /// @throws InvalidFile with every mistake at its line and column
 SyntheticSettings parse_synthetic_camera(const std::string& text, const std::string& file);
 
-/// What the camera is like, for people: "exposure 4 ms, blur 0.6 px, noise 3 levels, sRGB".
-std::string described(const Optics& optics);
+/// What the camera is like, for people: "exposure 4 ms, blur 0.6 px, noise 3 levels, sRGB", and
+/// what it has of the rest.
+std::string described(const SyntheticSettings& settings);
 
 /// Every word that a participant reads, in one language: its code and one table a page; which pages
 /// and keys there must be is listed once, in TextsFile.cpp. Line ends are LF, and spaces at a

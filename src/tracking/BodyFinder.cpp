@@ -138,12 +138,14 @@ std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& exp
                                               TrackerTimes& times) {
   std::vector<bool> done(body_.tags.size(), false);
   tone_ = {};
-  const auto tags =
-      timed(times.refine_s, [&] { return measure_expected(gray, expected, done, false); });
+  auto tags = timed(times.refine_s,
+                    [&] { return measure_expected(gray, expected, done, false, last_tags_); });
   if (static_cast<int>(tags.size()) < least_tags) return std::nullopt;
   const BiasPrior bias = prior_for(settings_, prior);
   const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
-  return fit && fit->n_tags >= least_tags ? fit : std::nullopt;
+  if (!fit || fit->n_tags < least_tags) return std::nullopt;
+  last_tags_ = std::move(tags);
+  return fit;
 }
 
 std::vector<TagObservation> BodyFinder::measure_detected(const Image& gray,
@@ -169,14 +171,16 @@ std::vector<TagObservation> BodyFinder::measure_detected(const Image& gray,
 
 std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,
                                                          const Pose& camera_from_body,
-                                                         std::vector<bool>& done,
-                                                         bool covered_too) {
+                                                         std::vector<bool>& done, bool covered_too,
+                                                         std::span<const TagObservation> before) {
   std::vector<TagObservation> tags;
   for (std::size_t i = 0; i < body_.tags.size(); ++i) {
     if (done[i]) continue;
     const auto corners = projected(camera_, body_.tags[i], camera_from_body);
     if (!corners) continue;
-    const MeasuredTag measured = measure(gray, i, *corners);
+    const auto last = std::ranges::find(before, i, &TagObservation::tag);
+    const MeasuredTag measured =
+        measure(gray, i, *corners, last == before.end() ? nullptr : &*last);
     if (measured.agreement < least_agreement) continue;
     const bool whole = measured.quality >= settings_.least_quality;
     if (!whole && !covered_too) continue;
@@ -188,8 +192,12 @@ std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,
   return tags;
 }
 
-MeasuredTag BodyFinder::measure(const Image& gray, std::size_t tag, const Corners& corners_px) {
-  const MeasuredTag seen = measure_tag(gray, camera_, patterns_[tag], corners_px, how_);
+MeasuredTag BodyFinder::measure(const Image& gray, std::size_t tag, const Corners& corners_px,
+                                const TagObservation* before) {
+  const bool again = before && before->quality >= settings_.least_quality && before->saturated == 0;
+  const MeasuredTag seen = again ? measure_tag_again(gray, camera_, patterns_[tag], corners_px,
+                                                     {before->blur_px[0], before->blur_px[1]}, how_)
+                                 : measure_tag(gray, camera_, patterns_[tag], corners_px, how_);
   if (seen.quality < settings_.least_quality) return seen;
   for (const FittedEdge& edge : seen.edges) tone_.add(edge, patterns_[tag].bright_outside ? 1 : -1);
   // Clipped edges look more blurred than they are: learning from them, the blur would grow.

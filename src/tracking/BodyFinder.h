@@ -52,7 +52,8 @@ class BodyFinder {
                               const std::optional<Pose>& expected, const BiasPrior& prior,
                               TrackerTimes& times);
 
-  /// From where it is expected alone; none unless at least least_tags are there.
+  /// From where it is expected alone; none unless at least least_tags are there. Tags that were
+  /// seen last are taken to be as blurred as they were.
   std::optional<BodyFit> find_again(const Image& gray, const Pose& expected, int least_tags,
                                     const BiasPrior& prior, TrackerTimes& times);
 
@@ -76,11 +77,15 @@ class BodyFinder {
   std::vector<TagObservation> measure_detected(const Image& gray,
                                                const std::vector<DetectedTag>& detected,
                                                std::vector<bool>& done);
-  /// @param covered_too tags of which two edges are clear
+  /// @param covered_too tags of which two edges are clear  @param before what was seen last, if
+  /// that is to be gone on from
   std::vector<TagObservation> measure_expected(const Image& gray, const Pose& camera_from_body,
-                                               std::vector<bool>& done, bool covered_too);
+                                               std::vector<bool>& done, bool covered_too,
+                                               std::span<const TagObservation> before = {});
+  /// @param before what was seen of it last, where that is to be gone on from
   MeasuredTag measure(const Image& gray, std::size_t tag,
-                      const std::array<Eigen::Vector2d, 4>& corners_px);
+                      const std::array<Eigen::Vector2d, 4>& corners_px,
+                      const TagObservation* before = nullptr);
   TagObservation observed(std::size_t tag, const MeasuredTag& measured) const;
   TagObservation unrefined(std::size_t tag, const std::array<Eigen::Vector2d, 4>& corners_px) const;
 
@@ -90,7 +95,7 @@ class BodyFinder {
   EdgeMeasuring how_;  ///< with the blur of this body's edges in the last picture
   std::vector<TagPattern> patterns_;
   PictureTone tone_;
-  std::vector<TagObservation> last_tags_;  ///< of the last find
+  std::vector<TagObservation> last_tags_;  ///< of the last find, or find_again
 };
 
 }  // namespace heft

@@ -24,6 +24,9 @@ constexpr double halved_at_px = 1.0, halved_at_m = 0.0005;
 // it open by a centimeter nothing can be done.
 constexpr double halved_at_end_m = 0.002;
 constexpr double same_pose_rad = 0.01;
+// So many tags whose corners are where they were expected, by so much, leave no doubt.
+constexpr std::size_t undoubted_tags = 6;
+constexpr double undoubted_px = 0.5;
 constexpr double expected_sd_rad = 0.1;  // of a turn that was foreseen a picture before
 
 TagObservation::Edge observe_edge(const Intrinsics& camera, const FittedEdge& edge) {
@@ -74,12 +77,16 @@ struct Start {
 // The largest tags' two poses each and the expected one, best first, near doubles left out.
 std::vector<Start> starts(const std::vector<TagObservation>& tags,
                           const std::optional<Pose>& previous) {
+  const double previous_cost = previous ? capped_cost(tags, *previous) : 0;
+  if (previous && tags.size() >= undoubted_tags &&
+      previous_cost < undoubted_px * undoubted_px * static_cast<double>(4 * tags.size()))
+    return {{*previous, previous_cost}};
   std::vector<const TagObservation*> largest;
   for (const TagObservation& tag : tags) largest.push_back(&tag);
   std::ranges::sort(largest, std::greater{}, &TagObservation::area_px2);
   largest.resize(std::min(largest.size(), most_start_tags));
   std::vector<Start> all;
-  if (previous) all.push_back({*previous, capped_cost(tags, *previous)});
+  if (previous) all.push_back({*previous, previous_cost});
   for (const TagObservation* tag : largest)
     for (const Pose& pose : planar_poses(tag->corners_m, tag->rays))
       all.push_back({pose, capped_cost(tags, pose)});

@@ -12,6 +12,7 @@
 
 #include "base/Pose.h"
 #include "tracking/NormalTable.h"
+#include "tracking/SymmetricSum.h"
 #include "tracking/TagPlane.h"
 
 namespace heft {
@@ -123,9 +124,10 @@ class TagFit {
       sum += size;
       ++n;
       const double weight = (size > clip ? clip / size : 1) / (noise_ * noise_);
-      all.noalias() += (weight * by) * by.transpose();
+      add_lower<n_all>(all, weight * by, by);
       all_pull += weight * residual * by;
     }
+    complete_upper(all);
     noise_ = std::max(least_noise, 1.2533 * sum / std::max(1, n));
     used_ = n;
     const auto own_part = all.bottomRightCorner<n_own, n_own>();
@@ -177,10 +179,14 @@ class TagFit {
     const Eigen::Vector2d near = near_cells(plane);
     // In rows that are offset.
     const int stride = 1 + static_cast<int>(seen_.area_px2 / most_pixels);
+    const Eigen::Vector2d ray_by_pixel(1 / camera.fx_px, 1 / camera.fy_px);
+    Eigen::Vector2d bend = -ray_by_pixel.cwiseProduct(Eigen::Vector2d(camera.cx_px, camera.cy_px));
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         if ((x + (stride > 2 ? 2 * y : y)) % stride != 0) continue;
-        Eigen::Vector2d ray = undistort(camera, Eigen::Vector2d(x, y));
+        const Eigen::Vector2d pixel(x, y), straight = ray_by_pixel.cwiseProduct(pixel);
+        Eigen::Vector2d ray = undistort(camera, pixel, straight + bend);
+        bend = ray - straight;  // nearly the next one's
         if (rows) ray = (*rows)(ray, y, TagHit(plane, ray).point_m);
         const Eigen::Vector2d cell = TagHit(plane, ray).cell;
         if (!((cell.array() > -beyond.array()).all() && (cell.array() < n + beyond.array()).all()))

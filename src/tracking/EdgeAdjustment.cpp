@@ -4,6 +4,7 @@
 #include "base/LevenbergMarquardt.h"
 #include "base/Pose.h"
 #include "tracking/BodyPose.h"
+#include "tracking/SymmetricSum.h"
 
 namespace heft {
 
@@ -43,7 +44,7 @@ void add_residual(Equations& equations, double residual_px, const Vector7& by, d
   const double variance = sd_px * sd_px + model_sd_px * model_sd_px;
   const RobustResidual robust = huber(std::abs(residual_px) / std::sqrt(variance));
   const double weight = robust.weight / variance;
-  equations.matrix.noalias() += (weight * by) * by.transpose();
+  add_lower<7>(equations.matrix, weight * by, by);
   equations.pull -= weight * residual_px * by;
   equations.cost += robust.cost;
   equations.sum_squares += residual_px * residual_px;
@@ -80,6 +81,7 @@ Equations equations_at(const std::vector<TagObservation>& tags, const Unknowns& 
         equations.cost = behind;
         return equations;
       }
+  complete_upper(equations.matrix);
   equations.add_prior(6, at.bias_px - prior.mean_px, std::max(prior.sd_px, 1e-6));
   return equations;
 }

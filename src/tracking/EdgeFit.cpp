@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tracking/NormalTable.h"
+#include "tracking/SymmetricSum.h"
 #include "tracking/ToneCurve.h"
 
 namespace heft {
@@ -159,7 +160,7 @@ class StepFit {
     Matrix6 normal_matrix = prior();
     Vector6 pull = Vector6::Zero();
     pull(blur) = normal_matrix(blur, blur) * (guess_.blur_px - unknowns(blur));
-    const double clip = 2.5 * noise;
+    const double clip = 2.5 * noise, per_variance = 1 / (noise * noise);
     const double far = drop_outliers ? outlier_bound() : 1e9;  // another thing lies over the edge
     double sum = 0;
     int n = 0;
@@ -170,11 +171,12 @@ class StepFit {
       if (size > far) continue;
       ++n;
       sum += size;
-      const double weight = (size > clip ? clip / size : 1) / (noise * noise);
+      const double weight = (size > clip ? clip / size : 1) * per_variance;
       const Vector6 weighted = weight * by;
-      normal_matrix.noalias() += weighted * by.transpose();
+      add_lower(normal_matrix, weighted, by);
       pull += residual * weighted;
     }
+    complete_upper(normal_matrix);
     noise = std::max(least_noise, 1.2533 * sum / std::max(1, n));
     const Vector6 change = normal_matrix.llt().solve(pull);
     if (!change.allFinite()) return 1e9;
@@ -209,12 +211,13 @@ class StepFit {
       const double q2 = q * q, step = -by_six(offset) * unknowns(blur);
       Vector8 by;
       by << by_six, step * q * (q2 - 3), step * q * ((q2 - 10) * q2 + 15);
-      own.noalias() += weight * by * by.transpose();
+      add_lower<8>(own, weight * by, by);
       own_pull += weight * residual * by;
       mixed.noalias() += weight * by * by_bend.transpose();
       evidence.information.noalias() += weight * by_bend * by_bend.transpose();
       evidence.pull += weight * residual * by_bend;
     }
+    complete_upper(own);
     const Eigen::LLT<Eigen::Matrix<double, 8, 8>> solver(own);
     const Eigen::Matrix<double, 8, 3> by_bend = -solver.solve(mixed);
     evidence.information += mixed.transpose() * by_bend;

@@ -56,10 +56,17 @@ DistortedRay distort_with_derivative(const Intrinsics& camera, const Eigen::Vect
 }
 
 Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
+  return undistort(
+      camera, pixel,
+      {(pixel.x() - camera.cx_px) / camera.fx_px, (pixel.y() - camera.cy_px) / camera.fy_px});
+}
+
+// Newton's steps: after one of 1e-7 the next would be of some 1e-14.
+Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel,
+                          const Eigen::Vector2d& near_ray) {
   constexpr int most_steps = 20;
-  constexpr double near_enough = 1e-12;
-  Eigen::Vector2d ray((pixel.x() - camera.cx_px) / camera.fx_px,
-                      (pixel.y() - camera.cy_px) / camera.fy_px);
+  constexpr double near_enough = 1e-7;
+  Eigen::Vector2d ray = near_ray;
   for (int i = 0; i < most_steps; ++i) {
     const DistortedRay there = distort_with_derivative(camera, ray);
     const double determinant = there.pixel_by_ray.determinant();

@@ -50,6 +50,9 @@ DistortedRay distort_with_derivative(const Intrinsics& camera, const Eigen::Vect
 
 /// Ray (x/z, y/z) of a pixel: the inverse of distort to 1e-9, within the picture.
 Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel);
+/// The same, found sooner from a ray that is near to it.
+Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel,
+                          const Eigen::Vector2d& near_ray);
 
 /// Where a camera stands on the participant's side that looks at the board's center:
 /// camera_from_board. @param below_horizon_rad how steeply it looks down

@@ -31,6 +31,22 @@ double largest_move_px(const std::vector<PrintedFace>& faces, const SeenBody& fr
   }
   return largest;
 }
+
+void scale_tags(MarkerBody& body, double scale) {
+  for (Tag& tag : body.tags) {
+    const Vector3d center_m = tag_center_m(tag);
+    for (Vector3d& corner_m : tag.corners_m) corner_m = center_m + scale * (corner_m - center_m);
+  }
+}
+
+// What is in front of the camera, and its lens.
+Apparatus as_it_is(Apparatus apparatus, const FileErrors& files) {
+  scale_tags(apparatus.board, files.board_tag_scale);
+  scale_tags(apparatus.effector, files.effector_tag_scale);
+  apparatus.camera.fx_px *= files.focal_length_scale;
+  apparatus.camera.fy_px *= files.focal_length_scale;
+  return apparatus;
+}
 }  // namespace
 
 Intrinsics default_camera(int width_px, int height_px) {
@@ -64,6 +80,7 @@ struct SyntheticCamera::Impl {
   }
   void put_into_hand(const PixelBox& box);
   PixelBox reached(const EffectorPath& path, double t_s) const;
+  std::optional<Eigen::Vector2d> effector_px(const EffectorPath& path, double t_s) const;
   void draw_moving(const std::vector<std::optional<Pose>>& poses, const PixelBox& box);
   void draw_moving(const EffectorPath& path, double t_s);
   void put_before_still(const RowSpans& spans);
@@ -171,6 +188,20 @@ PixelBox SyntheticCamera::Impl::reached(const EffectorPath& path, double t_s) co
   return fine_of(coarse_of(box).grown(2 * sensor.reach_px() + between_px)).within(still.box);
 }
 
+// The middle of it, when its own row is exposed.
+std::optional<Eigen::Vector2d> SyntheticCamera::Impl::effector_px(const EffectorPath& path,
+                                                                  double t_s) const {
+  const auto seen_at = [&](double at_s) -> std::optional<Eigen::Vector2d> {
+    const auto pose = path(at_s);
+    if (!pose) return std::nullopt;
+    const Vector3d at_m = seen(*pose).in_camera(Vector3d::Zero());
+    return at_m.z() < Lens::nearest_m ? std::nullopt : std::optional(coarse_lens.pixel(at_m));
+  };
+  const auto early_px = seen_at(t_s);
+  if (!early_px) return std::nullopt;
+  return seen_at(t_s + optics().readout_s * early_px->y() / coarse_lens.camera().height_px);
+}
+
 // The effector is smeared over the exposure; the hand around it is as in the middle.
 void SyntheticCamera::Impl::draw_moving(const std::vector<std::optional<Pose>>& poses,
                                         const PixelBox& box) {
@@ -221,7 +252,7 @@ void SyntheticCamera::Impl::forget(const RowSpans& changed) {
 
 SyntheticCamera::SyntheticCamera(const Apparatus& apparatus, const SyntheticSettings& settings,
                                  std::uint64_t seed)
-    : impl_(std::make_unique<Impl>(apparatus, settings, seed)) {}
+    : impl_(std::make_unique<Impl>(as_it_is(apparatus, settings.files), settings, seed)) {}
 SyntheticCamera::~SyntheticCamera() = default;
 SyntheticCamera::SyntheticCamera(SyntheticCamera&&) noexcept = default;
 SyntheticCamera& SyntheticCamera::operator=(SyntheticCamera&&) noexcept = default;
@@ -232,7 +263,8 @@ Image SyntheticCamera::picture(const EffectorPath& board_from_effector, double t
                                std::uint64_t number) {
   Impl& p = *impl_;
   const PixelBox reached = p.reached(board_from_effector, t_s);
-  if (reached.empty()) return p.sensor.develop(p.levels, number);
+  const auto effector_px = p.effector_px(board_from_effector, t_s);
+  if (reached.empty()) return p.sensor.develop(p.levels, number, effector_px);
   p.moving.reset(reached);
   p.draw_moving(board_from_effector, t_s);
   const int reach_px = p.sensor.reach_px(), needed_px = (2 * reach_px + 1) * fineness;
@@ -240,7 +272,7 @@ Image SyntheticCamera::picture(const EffectorPath& board_from_effector, double t
   const RowSpans changed = drawn.coarse().grown(reach_px, reach_px);
   p.put_before_still(drawn.grown(needed_px, needed_px));
   p.sensor.expose(p.moving, changed, p.levels);
-  Image picture = p.sensor.develop(p.levels, number);
+  Image picture = p.sensor.develop(p.levels, number, effector_px);
   p.forget(changed);
   return picture;
 }

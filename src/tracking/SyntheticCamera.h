@@ -27,6 +27,24 @@ struct Optics {
   double noise = 3;  ///< sd, of 255; the same in all three channels, so gray pictures have it too
   double exposure_s = 0.004;  ///< how long the shutter is open; moving things blur
   double readout_s = 0;  ///< how much later the last row is exposed than the first; they lean, too
+
+  // What other cameras, and the light before them, do to a picture, in the order in which it comes.
+  /// Light that is missing on one side of a line through the effector, 1 being all of it.
+  double shadow = 0;
+  /// Light that a lamp's reflection adds on the effector, 1 being white; half of it at a sixteenth
+  /// of the picture's width from there.
+  double glare = 0;
+  double film_curve = 0;  ///< share of what is stored that bends as film does: a toe, a shoulder
+  double s_curve = 0;     ///< contrast in the middle of what is stored, 1 being v^2 (3 - 2 v)
+  bool mosaic = false;    ///< each pixel has one color, the others are interpolated
+  double sharpening = 0;  ///< of the stored values: what a blur of 1 px takes off, times it
+  int jpeg_quality = 0;   ///< of libjpeg's scale, 1 to 100; 0: not compressed
+};
+
+/// How things are against what the files of the apparatus say.
+struct FileErrors {
+  double board_tag_scale = 1, effector_tag_scale = 1;  ///< tags about their centers
+  double focal_length_scale = 1;
 };
 
 struct SyntheticSettings {
@@ -34,6 +52,7 @@ struct SyntheticSettings {
   /// side.
   Pose camera_from_board;
   Optics optics;
+  FileErrors files;
   bool hand = true;  ///< a hand that holds the effector's back end and occludes
   bool left_hand = false;
   /// Renderings averaged over the exposure where the effector moves, at least; more where it smears
@@ -49,6 +68,7 @@ class SyntheticCamera {
   using EffectorPath = std::function<std::optional<Pose>(double t_s)>;
 
   /// @param seed of the noise; the same seed, number and path give the same pixels
+  /// @param apparatus as its files have it
   /// @throws Error for an unknown tag family, a board tag that does not lie on the table, an
   ///   effector tag that does not lie on a face of the box
   SyntheticCamera(const Apparatus& apparatus, const SyntheticSettings& settings,

@@ -3,6 +3,7 @@
 #include <apriltag/apriltag.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "tracking/TagFamily.h"
@@ -40,13 +41,23 @@ Region clipped(const Region& region, const Image& image) {
   return {left, top, right - left, bottom - top};
 }
 
-// The value below which a fraction of them lies.
-int quantile_of(std::vector<int>& values, double fraction) {
-  const auto at = values.begin() +
-                  static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-  std::ranges::nth_element(values, at);
-  return *at;
-}
+// How often each gray level, or difference of two, is there.
+struct Histogram {
+  std::array<int, 256> counts{};
+  int n = 0;
+
+  void add(int value) {
+    ++counts[static_cast<std::size_t>(value)];
+    ++n;
+  }
+  // The value below which a fraction of them lies.
+  int quantile(double fraction) const {
+    int before = static_cast<int>(fraction * (n - 1)), value = 0;
+    for (; before >= counts[static_cast<std::size_t>(value)]; ++value)
+      before -= counts[static_cast<std::size_t>(value)];
+    return value;
+  }
+};
 
 // Calls take(p) for pixels on a coarse grid, each with a neighbor to its right.
 template <typename Take>
@@ -59,9 +70,9 @@ void each_on_grid(const Image& gray, const Take& take) {
 }
 
 int searched_contrast(const Image& gray) {
-  std::vector<int> values;
-  each_on_grid(gray, [&](const std::uint8_t* p) { values.push_back(p[0]); });
-  const double contrast = quantile_of(values, 0.99) - quantile_of(values, 0.01);
+  Histogram values;
+  each_on_grid(gray, [&](const std::uint8_t* p) { values.add(p[0]); });
+  const double contrast = values.quantile(0.99) - values.quantile(0.01);
   const double wanted = std::max(contrast_fraction * contrast, noise_range_sd * noise_of(gray));
   return std::clamp(static_cast<int>(wanted), library_contrast, usual_contrast);
 }
@@ -80,9 +91,9 @@ DetectedTag converted(const apriltag_detection_t& found, const Region& region) {
 
 double noise_of(const Image& gray) {
   constexpr double sd_per_median_difference = 1 / 0.954;  // of two normal numbers
-  std::vector<int> differences;
-  each_on_grid(gray, [&](const std::uint8_t* p) { differences.push_back(std::abs(p[1] - p[0])); });
-  return differences.empty() ? 0 : sd_per_median_difference * quantile_of(differences, 0.5);
+  Histogram differences;
+  each_on_grid(gray, [&](const std::uint8_t* p) { differences.add(std::abs(p[1] - p[0])); });
+  return differences.n == 0 ? 0 : sd_per_median_difference * differences.quantile(0.5);
 }
 
 Region whole(const Image& image) {

@@ -122,10 +122,10 @@ std::vector<TagPattern> patterns_of(const MarkerBody& body) {
   return patterns;
 }
 
-MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPattern& pattern,
-                        const Corners& corners_px, const EdgeMeasuring& how) {
+namespace {
+std::array<EdgeGuess, 4> guesses_of(const Intrinsics& camera, const TagPattern& pattern,
+                                    const Corners& corners_px, const EdgeMeasuring& how) {
   const Eigen::Matrix3d pixel_from_square = square_to(corners_px);
-  MeasuredTag tag = unrefined_tag(corners_px);
   std::array<EdgeGuess, 4> guesses;
   for (std::size_t i = 0; i < 4; ++i) {
     EdgeGuess& guess = guesses[i];
@@ -137,13 +137,11 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPa
     guess.bright_outside = pattern.bright_outside;
     guess.noise = how.noise;
     guess.curve = how.curve;
-    take_edge(tag.edges[i], fit_edge(gray, guess, how.most_pixels));
   }
-  if (std::ranges::all_of(tag.edges, tells_blur))
-    for (std::size_t i = 0; i < 4; ++i) {
-      guesses[i].tells_curve = how.tells_curve;
-      take_edge(tag.edges[i], fit_edge(gray, informed(guesses[i], tag.edges, i), how.most_pixels));
-    }
+  return guesses;
+}
+
+MeasuredTag with_edges(MeasuredTag tag, const Image& gray, const TagPattern& pattern) {
   describe_missing(tag.edges);
   tag.quality = 0;
   for (const FittedEdge& edge : tag.edges) {
@@ -154,6 +152,38 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPa
     tag.corners_px[i] = crossing(tag.edges[(i + 3) % 4], tag.edges[i]);
   tag.agreement = agreement(gray, pattern, tag);
   return tag;
+}
+}  // namespace
+
+MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPattern& pattern,
+                        const Corners& corners_px, const EdgeMeasuring& how) {
+  std::array<EdgeGuess, 4> guesses = guesses_of(camera, pattern, corners_px, how);
+  MeasuredTag tag = unrefined_tag(corners_px);
+  for (std::size_t i = 0; i < 4; ++i)
+    take_edge(tag.edges[i], fit_edge(gray, guesses[i], how.most_pixels));
+  if (std::ranges::all_of(tag.edges, tells_blur))
+    for (std::size_t i = 0; i < 4; ++i) {
+      guesses[i].tells_curve = how.tells_curve;
+      take_edge(tag.edges[i], fit_edge(gray, informed(guesses[i], tag.edges, i), how.most_pixels));
+    }
+  return with_edges(std::move(tag), gray, pattern);
+}
+
+MeasuredTag measure_tag_again(const Image& gray, const Intrinsics& camera,
+                              const TagPattern& pattern, const Corners& corners_px,
+                              const std::array<double, 2>& blur_px, const EdgeMeasuring& how) {
+  std::array<EdgeGuess, 4> guesses = guesses_of(camera, pattern, corners_px, how);
+  MeasuredTag tag = unrefined_tag(corners_px);
+  for (std::size_t i = 0; i < 4; ++i) {
+    guesses[i].blur_px = blur_px[1 - i % 2];
+    guesses[i].blur_sd_px = relative_blur_sd * guesses[i].blur_px;
+    guesses[i].tells_curve = how.tells_curve;
+    const FittedEdge fitted = fit_edge(gray, guesses[i], how.most_pixels);
+    if (fitted.quality < least_edge_quality || !tells_blur(fitted))
+      return measure_tag(gray, camera, pattern, corners_px, how);
+    tag.edges[i] = fitted;
+  }
+  return with_edges(std::move(tag), gray, pattern);
 }
 
 std::optional<MeasuredTag> without_covered_edges(MeasuredTag tag, double least_quality) {

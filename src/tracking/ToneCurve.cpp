@@ -7,7 +7,8 @@
 namespace heft {
 
 namespace {
-constexpr double white = 255;
+constexpr double white = StoredTable::white;
+constexpr int steps = StoredTable::steps;
 constexpr double dark_slope = 12.92;
 constexpr double dark_light = 0.0031308;
 
@@ -17,25 +18,12 @@ Stored exactly(double light) {
   return {white * (1.055 * power - 0.055), slope};
 }
 
-// Value and slope at even steps of light; between them the tangent is off by less than 1/50 level.
-constexpr int steps = 4096;
-using StoredTable = std::array<Stored, steps + 1>;
 const StoredTable srgb_table = [] {
   StoredTable made{};
   for (int i = 0; i <= steps; ++i)
-    made[static_cast<std::size_t>(i)] = exactly(static_cast<double>(i) / steps);
+    made.at[static_cast<std::size_t>(i)] = exactly(static_cast<double>(i) / steps);
   return made;
 }();
-
-Stored stored_by(const StoredTable& table, double light) {
-  if (light >= 1) return {white, 0};
-  const double slope_in_dark = table.front().by_light;
-  if (!(light > 0)) return {slope_in_dark * light, slope_in_dark};  // what is no number stays none
-  const double place = light * steps;
-  const int nearest = static_cast<int>(place + 0.5);
-  const Stored& there = table[static_cast<std::size_t>(nearest)];
-  return {there.value + there.by_light * (place - nearest) / steps, there.by_light};
-}
 
 // d light / d value of sRGB, both 0...1.
 double srgb_slope(double v) {
@@ -49,7 +37,7 @@ ToneBend bends_at(double v) {
 }  // namespace
 
 Stored stored_of_light(double light) {
-  return stored_by(srgb_table, light);
+  return srgb_table(light);
 }
 
 double light_of_stored(double value) {
@@ -104,7 +92,7 @@ struct ToneCurve::Tables {
       const double fraction = (wanted - light[below]) / (light[below + 1] - light[below]);
       const double slope =
           light_by_value[below] + fraction * (light_by_value[below + 1] - light_by_value[below]);
-      stored[i] = {white * (static_cast<double>(below) + fraction) / n, white / slope};
+      stored.at[i] = {white * (static_cast<double>(below) + fraction) / n, white / slope};
     }
   }
 };
@@ -112,10 +100,7 @@ struct ToneCurve::Tables {
 ToneCurve::ToneCurve(const ToneBend& bend) : bend_(bend) {
   static const auto srgb = std::make_shared<const Tables>(ToneBend::Zero());
   tables_ = bend.isZero() ? srgb : std::make_shared<const Tables>(bend);
-}
-
-Stored ToneCurve::stored(double light) const {
-  return stored_by(tables_->stored, light);
+  stored_ = &tables_->stored;
 }
 
 double ToneCurve::light(double value) const {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 
 namespace heft {
@@ -17,6 +18,24 @@ namespace heft {
 /// A stored value, 0...255, and its derivative by the light.
 struct Stored {
   double value, by_light;
+};
+
+/// Stored values at even steps of light; between them the tangent is off by less than 1/50 level.
+struct StoredTable {
+  static constexpr int steps = 4096;
+  static constexpr double white = 255;
+  std::array<Stored, steps + 1> at;
+
+  Stored operator()(double light) const {
+    if (light >= 1) return {white, 0};
+    const double slope_in_dark = at.front().by_light;
+    if (!(light > 0))
+      return {slope_in_dark * light, slope_in_dark};  // what is no number stays none
+    const double place = light * steps;
+    const int nearest = static_cast<int>(place + 0.5);
+    const Stored& there = at[static_cast<std::size_t>(nearest)];
+    return {there.value + there.by_light * (place - nearest) / steps, there.by_light};
+  }
 };
 
 /// sRGB. @param light 1 is where the sensor saturates; above, the derivative is 0
@@ -34,7 +53,7 @@ class ToneCurve {
   explicit ToneCurve(const ToneBend& bend = ToneBend::Zero());
 
   const ToneBend& bend() const { return bend_; }
-  Stored stored(double light) const;
+  Stored stored(double light) const { return (*stored_)(light); }
   double light(double value) const;
   /// How the value that is stored for a light moves with the bend.
   ToneBend stored_by_bend(double value) const;
@@ -43,6 +62,7 @@ class ToneCurve {
   struct Tables;
   ToneBend bend_;
   std::shared_ptr<const Tables> tables_;
+  const StoredTable* stored_;  ///< theirs
 };
 
 }  // namespace heft

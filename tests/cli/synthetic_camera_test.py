@@ -118,9 +118,32 @@ class SyntheticCamera(SessionTest):
         self.assertEqual(options["tracker_text"], settings)
         self.assertIn("session 2: verified", self.run_heft("replay", "--db", self.db).stdout)
 
+    def test_what_other_cameras_do_is_in_the_pictures_and_in_what_is_tracked(self):
+        def error_mm(name, settings):
+            self.record(name, settings=settings)
+            both = zip(rows_of(self.folder / name / "truth.csv"), self.track(name))
+            return median([1e3 * math.dist(place(a), place(b)) for a, b in both
+                           if b["effector_found"] == "1"])
+
+        clean = error_mm("clean", "")
+        worse = error_mm("worse", "film_curve = 0.5\nshadow = 0.3\nglare = 0.1\nmosaic = true\n"
+                                  "sharpening = 0.5\njpeg_quality = 80\n")
+        first = [(self.folder / name / "picture_000001.png").read_bytes()
+                 for name in ("clean", "worse")]
+        self.assertNotEqual(*first)
+        self.assertLess(worse, 3)  # webcams are no reason to give up
+        # Tags that are printed 2 % too large seem 2 % nearer, of 45 cm.
+        printed = error_mm("printed", "effector_tag_scale = 1.02\n")
+        self.assertGreater(printed, max(4, 5 * clean))
+        self.assertLess(printed, 13)
+        replayed = self.run_heft("replay", "--db", self.db).stdout
+        self.assertEqual(replayed.count(": verified"), 3)
+
     def test_refusals(self):
         said = self.record("a", settings="noise_levels = 0\nblur = 1\n", expect=3).stderr
         self.assertRegex(said, r"settings\.toml:2:1: unknown key \"blur\".*\"blur_px\"")
+        said = self.record("a", settings="jpeg_quality = 180\n", expect=3).stderr
+        self.assertRegex(said, r"settings\.toml:1:16: jpeg_quality is 180, expected .*100")
         self.protocol.write_text("display_rate_hz = 60\n" + PROTOCOL, encoding="utf-8")
         said = self.record("a", settings="exposure_s = 0.02\n", expect=3).stderr
         self.assertRegex(said, r"settings\.toml: exposure_s is 0\.02 s, .* 60 pictures a second")

@@ -47,5 +47,47 @@ TEST(MeasuredTag, EdgesThatWereNotFoundLookAsTheOthersDo) {
   }
 }
 
+// A dark square, blurred more from left to right than up and down. Where that is known, its edges
+// are where they were, in one fit each; where it has changed since, they are not far.
+TEST(MeasuredTag, IsMeasuredAgainAsBlurredAsItWas) {
+  const TagPattern pattern = tag_pattern("tag36h11", 0);
+  const double side_px = cell_px * pattern.border_cells, low = margin_px, high = low + side_px;
+  Image image(2 * margin_px + static_cast<int>(side_px), 2 * margin_px + static_cast<int>(side_px),
+              1);
+  const auto inside = [&](double at, double wider) {
+    const auto from = [&](double edge) { return covered_from(edge / wider, at / wider); };
+    return from(low) - from(high);
+  };
+  constexpr double wider = 1.5;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      image.pixels[static_cast<std::size_t>(y * image.width + x)] = static_cast<std::uint8_t>(
+          std::lround(stored_of_light(0.6 - 0.5 * inside(x, wider) * inside(y, 1)).value));
+  Intrinsics camera;
+  camera.cx_px = camera.cy_px = margin_px + side_px / 2;
+  const double off_px = 0.3;
+  const std::array<Eigen::Vector2d, 4> expected{Eigen::Vector2d(low + off_px, low),
+                                                {high + off_px, low},
+                                                {high + off_px, high},
+                                                {low + off_px, high}};
+  const EdgeMeasuring how{.blur_px = blur_px};
+  const MeasuredTag first = measure_tag(image, camera, pattern, expected, how);
+  const double upright_px = (first.edges[1].blur_px + first.edges[3].blur_px) / 2;
+  const double level_px = (first.edges[0].blur_px + first.edges[2].blur_px) / 2;
+  EXPECT_NEAR(upright_px, wider * blur_px, 0.1);
+  EXPECT_NEAR(level_px, blur_px, 0.1);
+  const auto off = [&](const std::array<double, 2>& known_px) {
+    const MeasuredTag again = measure_tag_again(image, camera, pattern, expected, known_px, how);
+    double worst = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_GT(again.edges[i].quality, 0.9);
+      worst = std::max(worst, (again.corners_px[i] - first.corners_px[i]).norm());
+    }
+    return worst;
+  };
+  EXPECT_LT(off({upright_px, level_px}), 0.005);
+  EXPECT_LT(off({level_px, level_px}), 0.05);
+}
+
 }  // namespace
 }  // namespace heft

@@ -28,7 +28,7 @@ Moving moving(double speed_m_s, std::uint64_t number) {
 
 // When the row is read in which the effector's center is seen.
 double own_row_s(const FaultScene& scene, const Moving& path, double t_s) {
-  const Intrinsics& camera = scene.filmed.camera;
+  const Intrinsics& camera = scene.apparatus.camera;
   const Eigen::Vector3d at_m = scene.settings.camera_from_board * path.at(t_s).position_m;
   return camera.readout_s * project(camera, at_m).y() / camera.height_px;
 }
@@ -38,9 +38,9 @@ class FaultFilm {
  public:
   FaultFilm(const Fault& fault, double value, int width_px)
       : scene_(changed(fault, value, width_px)),
-        camera_(scene_.filmed, scene_.settings, seed),
-        methods_{make_method(our_method(width_px), scene_.told),
-                 make_method(plain_method(width_px), scene_.told)} {}
+        camera_(scene_.apparatus, scene_.settings, seed),
+        methods_{make_method(our_method(width_px), scene_.apparatus),
+                 make_method(plain_method(width_px), scene_.apparatus)} {}
 
   void add(int n_first, int n_grips) {
     for (int i = 0; i < n_first + n_grips; ++i) {
@@ -59,24 +59,20 @@ class FaultFilm {
 
  private:
   static FaultScene changed(const Fault& fault, double value, int width_px) {
-    FaultScene scene{bench_apparatus(width_px), bench_apparatus(width_px), {}, {}};
-    scene.settings.optics.noise = 0;
+    FaultScene scene{bench_apparatus(width_px), {}};
     fault.change(scene, value);
     return scene;
   }
 
   void add_picture(const Moving& path, double t_s, std::uint64_t number, bool counts) {
     const double seen_s = t_s + own_row_s(scene_, path, t_s);
-    const Eigen::Vector3d at_m = scene_.settings.camera_from_board * path.at(seen_s).position_m;
-    const Image image =
-        with_faults(camera_.picture([&](double at_s) { return path.at(at_s); }, t_s, number),
-                    scene_.faults, project(scene_.filmed.camera, at_m), number);
+    const Image image = camera_.picture([&](double at_s) { return path.at(at_s); }, t_s, number);
     for (std::size_t m = 0; m < methods_.size(); ++m) {
       const MethodPoses poses = methods_[m].track(image, t_s);
       const Pose truth = path.at(poses.effector_t_s.value_or(seen_s));
       if (counts)
         errors_[m].push_back(error_of(poses, scene_.settings.camera_from_board, truth,
-                                      tip_of(scene_.told.effector)));
+                                      tip_of(scene_.apparatus.effector)));
     }
   }
 

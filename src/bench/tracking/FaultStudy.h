@@ -5,17 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "bench/tracking/PictureFaults.h"
 #include "bench/tracking/TrackingStudy.h"
 
 namespace heft {
 
 /// An effector held still before the ideal camera, and what is to be changed of it.
 struct FaultScene {
-  Apparatus filmed;  ///< what is there
-  Apparatus told;    ///< what the tracker's files say
+  Apparatus apparatus;  ///< as its files have it
   SyntheticSettings settings;
-  PictureFaults faults;
   double speed_m_s = 0;  ///< straight on over the table
 };
 
@@ -28,6 +25,9 @@ struct Fault {
 
 /// More than limits tell: at both sizes, with what comes after the lens, and with wrong files.
 std::vector<Fault> faults();
+
+/// Films a board that is waved under a rolling shutter and finds its read-out: ShutterStudy.cpp.
+Goal find_readout(bool quick);
 
 /// Writes faults.svg.
 void draw_faults(const std::vector<FaultPoint>& points, const StudyOptions& options);

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/Quantile.h"
-#include "bench/tracking/TrackingStudy.h"
+#include "bench/tracking/FaultStudy.h"
 #include "physics/Drive.h"
 #include "tracking/CameraCalibration.h"
 #include "tracking/ViewCollector.h"
@@ -178,6 +178,7 @@ std::vector<Goal> study_goals(const StudyParts& parts, const StudyOptions& optio
                      bound.tags == 1 ? "one tag" : "two tags", size_name(bound.width_px)),
          bound.tags == 1 ? 2.5 : 2, "times", false, bound.ratio()});
   std::ranges::move(fault_goals(parts.faults), std::back_inserter(goals));
+  goals.push_back(find_readout(options.quick));
   goals.push_back(count_false_poses(parts));
   progress.next("in the dark, and with two faces");
   goals.push_back(time_in_the_dark(options.quick));

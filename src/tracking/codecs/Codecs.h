@@ -20,6 +20,8 @@ namespace heft {
 struct Codecs {
   bool (*read)(const std::string& path, cv::Mat& picture);  ///< @throws cv::Exception
   bool (*write)(const std::string& path, const cv::Mat& picture);
+  /// Compressed and decompressed. @param quality 1 to 100
+  void (*through_jpeg)(const cv::Mat& picture, int quality, cv::Mat& back);
   std::unique_ptr<cv::VideoCapture> (*capture)();  ///< not open yet
   /// Not open if it can't be. @param backend of cv::VideoCaptureAPIs
   std::unique_ptr<cv::VideoWriter> (*writer)(const std::string& path, int backend, int four_cc,

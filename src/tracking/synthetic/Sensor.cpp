@@ -5,17 +5,11 @@
 #include <span>
 
 #include "base/Random.h"
-#include "tracking/ToneCurve.h"
+#include "tracking/synthetic/Processing.h"
 
 namespace heft {
 
 namespace {
-// Seen over the root of light, the curve is steep nowhere: the nearest of so many values is within
-// 1/300 level, of a gamma of 2.2 within 1/75 in the dark.
-constexpr int curve_intervals = 65535;
-// Noise comes before the clipping of white, so levels go on above it until no noise brings them
-// back.
-constexpr double most_light = 1.4, most_level = 300;
 constexpr std::size_t noise_length = 1 << 20;
 
 // From the middle of a pixel outwards: what a fine pixel's light counts, of both halves' sum 1. The
@@ -38,27 +32,6 @@ std::vector<float> half_kernel(double sd_px) {
 }
 static_assert(fineness % 2 == 0, "the kernel has no middle of its own");
 
-int place_in_curve(float light) {
-  constexpr float per_most = static_cast<float>(1 / most_light);
-  return static_cast<int>(std::sqrt(per_most * light) * curve_intervals + 0.5F);
-}
-
-double level_of(double light, const std::optional<double>& gamma) {
-  if (gamma) return 255 * (light < 1 ? std::pow(light, 1 / *gamma) : 1 + (light - 1) / *gamma);
-  constexpr double slope_at_white = 255 * 1.055 / 2.4;
-  return stored_of_light(light).value + slope_at_white * std::max(0.0, light - 1);
-}
-
-std::vector<std::int16_t> tone_curve(const std::optional<double>& gamma) {
-  std::vector<std::int16_t> curve;
-  for (int i = 0; i <= curve_intervals; ++i) {
-    const double light = most_light * std::pow(static_cast<double>(i) / curve_intervals, 2);
-    const double level = std::min(level_of(light, gamma), most_level);
-    curve.push_back(static_cast<std::int16_t>(std::lround(level_steps * level)));
-  }
-  return curve;
-}
-
 // Nearly normal from whole numbers alone, so that every machine draws the same: the sum of eight
 // uniform 16-bit numbers, cut off at 4.9 sd, and at what 16 bits hold above the highest level. Each
 // three times, for a pixel's channels.
@@ -80,6 +53,10 @@ std::vector<std::int16_t> noise_row(double sd, std::uint64_t seed) {
     row.insert(row.end(), 3, static_cast<std::int16_t>(std::clamp(value, -most, most)));
   }
   return row;
+}
+
+bool has_uneven_light(const Optics& optics) {
+  return optics.shadow > 0 || optics.glare > 0;
 }
 
 // A row of light, blurred: row_at(n) is the same row n fine steps away, of which 0 and 1 are at the
@@ -114,8 +91,9 @@ Sensor::Sensor(const Optics& optics, int width_px, int height_px, std::uint64_t 
       lost_per_px2_(optics.exposure * optics.vignetting * 4 /
                     ((width_ - 1.0) * (width_ - 1) + (height_ - 1.0) * (height_ - 1))),
       kernel_(half_kernel(optics.blur_px)),
-      curve_(tone_curve(optics.gamma)),
+      curve_(has_uneven_light(optics) ? Optics{} : optics),
       noise_(noise_row(optics.noise, seed)) {
+  if (has_uneven_light(optics)) uneven_light_.emplace(optics, width_);
   for (int x = 0; x < width_; ++x) lost_by_column_.push_back(lost_light(x, width_));
 }
 
@@ -160,10 +138,10 @@ void Sensor::expose_row(int y, const Span& span, std::int16_t* levels) {
   for (std::size_t x = 0; x < n; ++x) row_[x] = ((gain - lost[x]) * row_[x]).max(0.0F).min(most);
   const float* light = row_.data()->data();
   places_.resize(4 * n);
-  for (std::size_t i = 0; i < 4 * n; ++i) places_[i] = place_in_curve(light[i]);
+  for (std::size_t i = 0; i < 4 * n; ++i) places_[i] = LevelCurve::place_of(light[i]);
   for (std::size_t x = 0; x < n; ++x)
     for (std::size_t channel = 0; channel < 3; ++channel)
-      levels[3 * x + channel] = curve_[static_cast<std::size_t>(places_[4 * x + channel])];
+      levels[3 * x + channel] = curve_.at(places_[4 * x + channel]);
 }
 
 void Sensor::expose(const LightPicture& sharp, const RowSpans& spans, Levels& levels) {
@@ -178,7 +156,7 @@ void Sensor::expose(const LightPicture& sharp, const RowSpans& spans, Levels& le
 }
 
 // Every row of every picture takes its noise from a place of its own in the long row.
-Image Sensor::develop(const Levels& levels, std::uint64_t number) const {
+Image Sensor::noisy(const Levels& levels, std::uint64_t number) const {
   Image image(width_, height_, 3);
   RandomStream places(seed_, "camera noise place", number);
   const std::size_t n = image.row_bytes();
@@ -191,6 +169,12 @@ Image Sensor::develop(const Levels& levels, std::uint64_t number) const {
     develop_row(levels.data() + start, noise, {image.pixels.data() + start, n});
   }
   return image;
+}
+
+Image Sensor::develop(const Levels& levels, std::uint64_t number,
+                      const std::optional<Eigen::Vector2d>& effector_px) const {
+  if (!uneven_light_) return processed(noisy(levels, number), optics_);
+  return processed(noisy(uneven_light_->on(levels, effector_px), number), optics_);
 }
 
 }  // namespace heft

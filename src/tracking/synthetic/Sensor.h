@@ -1,4 +1,5 @@
-// From light to bytes: the lens' blur, vignetting, exposure, the tone curve, noise, rounding.
+// From light to bytes: the lens' blur, vignetting, exposure, uneven light, the tone curve, noise,
+// rounding, and what the camera's processor does then.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +8,10 @@
 #include "base/Image.h"
 #include "tracking/SyntheticCamera.h"
 #include "tracking/synthetic/AreaRaster.h"
+#include "tracking/synthetic/LevelCurve.h"
+#include "tracking/synthetic/UnevenLight.h"
 
 namespace heft {
-
-/// Gray levels (0...255) as the sensor has them before noise, in 1/64, so that no rounding but the
-/// last one counts. Rows from the top, three channels.
-using Levels = std::vector<std::int16_t>;
-inline constexpr int level_steps = 64;
 
 class Sensor {
  public:
@@ -33,14 +31,17 @@ class Sensor {
     return (static_cast<std::ptrdiff_t>(y) * width_ + x) * 3;
   }
 
-  /// Adds the noise of that picture and rounds.
-  Image develop(const Levels& levels, std::uint64_t number) const;
+  /// Adds the noise of that picture, rounds and processes it.
+  /// @param effector_px where it is seen, if it is
+  Image develop(const Levels& levels, std::uint64_t number,
+                const std::optional<Eigen::Vector2d>& effector_px = std::nullopt) const;
 
  private:
   float lost_light(int place, int n_places) const;
   void blur_along_rows(const LightPicture& sharp, const RowSpans& spans);
   void blur_across_rows(int y, const Span& span);
   void expose_row(int y, const Span& span, std::int16_t* levels);
+  Image noisy(const Levels& levels, std::uint64_t number) const;
 
   Optics optics_;
   int width_, height_;
@@ -50,7 +51,8 @@ class Sensor {
   /// Half of a symmetric one, of fine pixels, from a pixel's middle outwards: its own extent and
   /// the blur.
   std::vector<float> kernel_;
-  std::vector<std::int16_t> curve_;  ///< levels at equally spaced roots of light
+  LevelCurve curve_;  ///< sRGB's before uneven light
+  std::optional<UnevenLight> uneven_light_;
   std::vector<std::int16_t> noise_;  ///< a long row of independent draws for three channels each
   LightPicture along_rows_;          ///< blurred that way: fine rows of the picture's columns
   std::vector<Light> row_, padded_row_;
