@@ -78,6 +78,8 @@ void Manifold::take_points(const Contact& contact) {
   spread_m_ = std::sqrt(squares_m2_.sum() / n_);
   levers_ << Points::Zero(), at_v_m_, -at_u_m_;
   levers_.col(0).head(n_).setOnes();
+  balance_.setZero();
+  if (n_ == 4 && surface_.compliance_m_per_n == 0) find_balance();
   if (u == u_) return;
   for (Impulses* turned : {&impulses_, &before_, &foreseen_}) {
     const Points along_u = turned->col(1), along_v = turned->col(2);

@@ -109,6 +109,7 @@ class Manifold {
   void couple_if_new();
   void couple();
   void set_closing();
+  void find_balance();
   Eigen::Vector3d moved_m() const;
 
   Six moving(const Velocity& first, const Velocity& second) const;
@@ -119,6 +120,7 @@ class Manifold {
   double press(Six& moving, Six& change);
   Points release(unsigned active, const Points& missing);
   const Eigen::Matrix4d& stopping(unsigned set);
+  void balance();
 
   double stick(const Six& moving, Six& change);
   bool share_friction(const Eigen::Vector3d& more);
@@ -144,6 +146,8 @@ class Manifold {
   // What a unit normal impulse at a point does at the middle, and what a motion there is here.
   PointRows levers_ = PointRows::Zero();
   Points gaps_m_ = Points::Zero(), prepared_gaps_m_ = gaps_m_;
+  // Normal impulses in these proportions push nothing anywhere; all zero unless four points touch.
+  Points balance_ = Points::Zero();
 
   Six at_start_;  // how the bodies moved when the step began
   double closing_at_start_m_s_ = 0;

@@ -13,9 +13,8 @@ using Eigen::Vector3d;
 namespace {
 // Of a point without a load: whether it is one of those that share must not hang on rounding.
 constexpr double rounding_m_s = 1e-12;
-// Of a block's diagonal, so that it can be solved. Four points hold a body in more than one way: of
-// all changes that do the same this finds the evenest, as equally stiff points would.
-constexpr double firmness = 1e-5;
+constexpr double firmness = 1e-5;       // of a block's diagonal, so that it can be solved
+constexpr double least_area_m2 = 1e-8;  // of points that are not on a line
 
 bool has(unsigned set, int i) {
   return (set >> i & 1) != 0;
@@ -71,6 +70,30 @@ Manifold::Points Manifold::release(unsigned active, const Points& missing) {
     active &= ~(1u << worst);
     given[worst] = -now[worst];
   }
+}
+
+// Four points on a plane hold a body in more than one way: impulses in the proportions of the
+// triangles that the other three points span, with alternating signs, cancel. Real surfaces give a
+// little and share the load as evenly as they can; so do we, see balance().
+void Manifold::find_balance() {
+  const auto area = [this](int a, int b, int c) {
+    return (at_u_m_[b] - at_u_m_[a]) * (at_v_m_[c] - at_v_m_[a]) -
+           (at_v_m_[b] - at_v_m_[a]) * (at_u_m_[c] - at_u_m_[a]);
+  };
+  const Points areas(area(1, 2, 3), -area(0, 2, 3), area(0, 1, 3), -area(0, 1, 2));
+  const double length = areas.norm();
+  if (length > least_area_m2) balance_ = areas / length;
+}
+
+// Of all normal impulses that do the same, those with the smallest sum of squares: the limit of
+// equally stiff points as they become rigid.
+void Manifold::balance() {
+  const Points now = impulses_.col(0);
+  if (!(now.minCoeff() > 0)) return;
+  double uneven = balance_.dot(now);
+  for (int i = 0; i < 4; ++i)  // no further than to zero
+    if (uneven * balance_[i] > now[i]) uneven = now[i] / balance_[i];
+  impulses_.col(0) = (now - uneven * balance_).cwiseMax(0);
 }
 
 }  // namespace heft::boxes
