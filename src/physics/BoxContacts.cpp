@@ -231,19 +231,25 @@ std::optional<double> parting(const Box& first, const Box& second, const Vector3
 Contact contact_with_table(const Box& box, double margin_m) {
   const double half_height_m = box.axes.row(2).cwiseAbs().dot(box.half_m);
   if (box.center_m.z() - half_height_m >= margin_m) return {};
-  std::array<ContactPoint, 8> corners;
-  for (int i = 0; i < 8; ++i) {
+  const auto corner_m = [&](int i) -> Vector3d {
     const Vector3d signs(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-    const Vector3d at_m = box.center_m + box.axes * signs.cwiseProduct(box.half_m);
-    corners[static_cast<std::size_t>(i)] = {at_m, {at_m.x(), at_m.y(), 0}, at_m.z(), i};
-  }
+    return box.center_m + box.axes * signs.cwiseProduct(box.half_m);
+  };
+  struct Corner {
+    double height_m;
+    int index;
+  };
+  std::array<Corner, 8> corners;
+  for (int i = 0; i < 8; ++i) corners[static_cast<std::size_t>(i)] = {corner_m(i).z(), i};
   std::partial_sort(corners.begin(), corners.begin() + 4, corners.end(),
-                    [](const auto& x, const auto& y) { return x.distance_m < y.distance_m; });
+                    [](const Corner& x, const Corner& y) { return x.height_m < y.height_m; });
   Contact contact;
-  std::copy_n(corners.begin(), 4, contact.points.begin());
-  while (contact.n_points < 4 &&
-         contact.points[static_cast<std::size_t>(contact.n_points)].distance_m < margin_m)
-    ++contact.n_points;
+  for (const auto& [height_m, i] : std::span(corners).first(4)) {
+    if (height_m >= margin_m) break;
+    const Vector3d at_m = corner_m(i);
+    contact.points[static_cast<std::size_t>(contact.n_points++)] = {
+        at_m, {at_m.x(), at_m.y(), 0}, height_m, i};
+  }
   return contact;
 }
 

@@ -147,6 +147,36 @@ TEST(Boxes, ACoupledCloneIsBlindToMass) {
   }
 }
 
+// A coupled hand that brakes throws its cube ahead: friction alone slows it, until the hand meets
+// it again.
+TEST(Boxes, ACubeThatABrakingCoupledHandThrowsAheadIsMetWhereFrictionLetsIt) {
+  const double fast_m_s = 0.3, brakes_s = 0.3, brakes_by_m_s2 = 0.8 * 9.81;
+  Scene scene = one_cube(0.2);
+  scene.coupling.decoupled = false;
+  for (double slower_m_s : {0.02, 0.03, 0.06, 0.2}) {
+    for (double rate_hz : {60.0, 240.0}) {
+      const auto hand_m = [&](double t_s) {
+        return fast_m_s * t_s - slower_m_s * std::max(0.0, t_s - brakes_s);
+      };
+      const auto path = [&](double t_s) {
+        return upright_pose({-0.0645 + hand_m(t_s), 0, 0.021}, 0);
+      };
+      double worst_m = 0;
+      run(*make_simulator("boxes"), scene, path, 0.5, rate_hz,
+          [&](double t_s, const Pose&, const WorldState& state) {
+            const double after_s = std::max(0.0, t_s - brakes_s);
+            const double pushed_m = hand_m(t_s) - 0.002;
+            const double flies_s = std::min(after_s, fast_m_s / brakes_by_m_s2);
+            const double flies_m = hand_m(brakes_s) - 0.002 + fast_m_s * flies_s -
+                                   brakes_by_m_s2 / 2 * flies_s * flies_s;
+            const double at_m = std::max({0.0, pushed_m, after_s > 0 ? flies_m : 0.0});
+            worst_m = std::max(worst_m, std::abs(state.cubes[0].pose.position_m.x() - at_m));
+          });
+      EXPECT_LT(worst_m, 4e-6) << slower_m_s << " m/s slower, " << rate_hz << " Hz";
+    }
+  }
+}
+
 struct Swipe {
   double speed_m_s, heading_rad, side_m, yaw_rad;
 };

@@ -87,17 +87,14 @@ std::string labels_of(const Lines& lines, double Point::*error) {
     labels.push_back({points.back().cpu_us_per_s, std::log10(points.back().*error), simulator,
                       points.back().*error >= blown_up_mm});
   std::ranges::sort(labels, {}, &Label::y);
-  std::string script;
-  for (int old = 100; old < 120; ++old) script += fmt::format("unset label {}\n", old);
+  std::string script = "set label 'blows up' at 0.7, 1400 font ',10' textcolor '#c00000'\n";
   double last_y = -99;
-  int tag = 100;
   for (const Label& label : labels) {
     const double y = std::max(label.y, last_y + 0.28);
     last_y = y;
-    script +=
-        fmt::format("set label {} {} at {}, {} left offset 0.9,{} font ',11' textcolor '{}'\n",
-                    tag++, gnuplot_quoted(label.name), label.x, std::pow(10, y),
-                    label.on_top ? 0.5 : 0, color_of(label.name));
+    script += fmt::format("set label {} at {}, {} left offset 0.9,{} font ',11' textcolor '{}'\n",
+                          gnuplot_quoted(label.name), label.x, std::pow(10, y),
+                          label.on_top ? 0.5 : 0, color_of(label.name));
   }
   return script;
 }
@@ -114,10 +111,12 @@ std::string panel(const Lines& lines, double Point::*error, int column, const ch
         "'{2}' notitle, ",
         i++, column, color);
   }
-  return script + fmt::format(
-                      "{} with lines dashtype 3 linecolor '#c00000' notitle, 0.1 with lines "
-                      "dashtype 2 linecolor '#999999' notitle\n",
-                      blown_up_mm);
+  return script +
+         fmt::format(
+             "{} with lines dashtype 3 linecolor '#c00000' notitle, 0.1 with lines "
+             "dashtype 2 linecolor '#999999' notitle\n",
+             blown_up_mm) +
+         "unset label\n";  // or the next panel draws them, title and caption again
 }
 }  // namespace
 
@@ -139,7 +138,6 @@ void draw_work_precision(const StudyOptions& options, std::span<const Measuremen
           "set xrange [0.5:3e5]\n"
           "set xlabel 'CPU time per simulated second (\u00b5s, one core)'\n"
           "set ylabel 'error of the clone (mm RMS)'\n"
-          "set label 99 'blows up' at 0.7, 1400 font ',10' textcolor '#c00000'\n"
           "set multiplot layout 1,2 margins screen 0.085, screen 0.985, screen caption_top + "
           "70*pixel, screen 1-88*pixel spacing screen 0.09\n",
           smallest_mm, 5 * blown_up_mm) +

@@ -326,11 +326,10 @@ std::optional<double> BoxWorld::fraction_before_sliding_off(const Pair& pair, do
 void BoxWorld::move(double h_s, bool ends_pushes) {
   for (Body& body : bodies_) {
     if (body.asleep) continue;
-    if (body.driven && body.step.per_kg > 0) {
+    if (body.driven) body.pushed_s = ends_pushes ? 0 : h_s;
+    if (body.driven && body.step.per_kg > 0)
       body.pushed_n =
           (body.step.ahead.linear_m_s - body.step.free.linear_m_s) / (body.step.per_kg * h_s);
-      body.pushed_s = ends_pushes ? 0 : h_s;
-    }
     body.move(body.step.mean, h_s);
     body.velocity = body.step.end;
   }

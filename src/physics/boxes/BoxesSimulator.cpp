@@ -20,8 +20,10 @@ using Eigen::Vector3d;
 // Near boxes a step is cut into pieces in which the clone's oscillator turns no farther than this,
 // and no box either: a push is taken as steady over a piece, a lever as the same.
 constexpr double oscillation_rad = 0.4, turn_rad = 0.05;
+// A coupled clone has none; but the cube that it throws ahead and meets again wants short pieces.
+constexpr double coupled_per_s = 190;
 constexpr double near_m = 5e-3;
-constexpr double most_pieces = 16;
+constexpr double most_pieces = 32;
 constexpr double rounding = 1e-9;
 constexpr int most_cuts = 24;  // pieces of a step that may end at an event
 
@@ -59,7 +61,7 @@ class Coupled : public boxes::Driver {
   }
   /// The fastest that its oscillator swings or decays.
   double fastest_per_s() const {
-    if (!decoupled_) return 0;
+    if (!decoupled_) return coupled_per_s;
     const double z = std::max(1.0, coupling_.damping_ratio);
     return std::sqrt(coupling_.stiffness_n_per_m / mass_kg_) * (z + std::sqrt(z * z - 1));
   }

@@ -10,9 +10,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
-constexpr double flat_m = 1e-6;  // gaps and overlaps below this are none
-// Points nearer than this touch; if they pressed a step ago, nearer than that.
-constexpr double touching_m = 2e-6, still_touching_m = 0.1e-3;
+constexpr double flat_m = 1e-6;       // gaps and overlaps below this are none
+constexpr double touching_m = 2e-6;   // points nearer than this touch
 constexpr double same_mass = 1e-9;    // a share
 constexpr double never_m_s = 1e100;   // at which no two bodies meet
 constexpr double parting_m_s = 0.05;  // at most so fast overlaps are undone
@@ -118,7 +117,7 @@ void Manifold::start() {
   closing_at_start_m_s_ = 0;
   const Points speeds = levers_ * at_start_.normal;
   for (int i = 0; i < n_; ++i) {
-    if (gaps_m_[i] > (impulses_(i, 0) > 0 ? still_touching_m : touching_m)) continue;
+    if (gaps_m_[i] > (impulses_(i, 0) > 0 ? surface_.still_touching_m() : touching_m)) continue;
     touching_ |= 1u << i;
     closing_at_start_m_s_ = std::max(closing_at_start_m_s_, -speeds[i]);
   }

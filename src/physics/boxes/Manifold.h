@@ -24,6 +24,9 @@ struct ContactSurface {
   /// Bodies that moved or turned against each other by less, m or rad, keep their contact: no lever
   /// changes noticeably.
   double same_place() const { return shortcuts ? 1e-6 : 1e-10; }
+  /// Points that pressed a step ago touch if they are nearer than that. A coupled clone's less: a
+  /// cube that it has thrown ahead must not be pushed before it is met again.
+  double still_touching_m() const { return shortcuts ? 0.1e-3 : 0.03e-3; }
 };
 
 class Manifold {
