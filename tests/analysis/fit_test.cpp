@@ -386,6 +386,16 @@ TEST(IndecisionFit, WithAFreeLapseTheOriginDoesNotMoveTheEnds) {
 }
 
 // Whatever the answers are: the figures are finite, in order, and there or not as `why` says.
+// R's ordinal::clm has the same standard error, and none that means anything for the two thresholds:
+// nobody answered near one of them.
+TEST(IndecisionFit, WhatIsLeftOpenTakesNoStandardErrorFromTheSensitivity) {
+  const Fit fit = fit_indecision(
+      {{-222, {29, 0, 0}}, {-137.2, {46, 1, 0}}, {-69.6, {15, 26, 0}}, {284.4, {0, 0, 33}}}, {});
+  EXPECT_NEAR(fit.parameter("sensitivity").se.value(), 0.0067812, 0.00002);
+  EXPECT_TRUE(fit.parameter("threshold_75_g").se);
+  EXPECT_FALSE(fit.parameter("indecision").se);
+}
+
 RC_GTEST_PROP(Fit, OfAnyAnswersIsConsistent, ()) {
   AnswersByLevel answers;
   const int n_levels = *rc::gen::inRange(1, 7);

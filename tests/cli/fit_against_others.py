@@ -6,6 +6,7 @@ Run: python3 tests/cli/fit_against_others.py PATH_TO_HEFT [SEED [DATASETS]]
 import importlib.util
 import os
 import resource
+import secrets
 import sys
 import tempfile
 import warnings
@@ -82,7 +83,9 @@ if __name__ == "__main__":
         print("not run: R's package ordinal is not installed")
         sys.exit(77)
     fit_harness.program = sys.argv[1]
-    generator = numpy.random.default_rng(int(sys.argv[2]) if len(sys.argv) > 2 else None)
+    seed = int(sys.argv[2]) if len(sys.argv) > 2 else secrets.randbelow(2**31)
+    print(f"seed {seed}")
+    generator = numpy.random.default_rng(seed)
     n_sets = int(sys.argv[3]) if len(sys.argv) > 3 else 10
     with tempfile.TemporaryDirectory() as name:
         sys.exit(min(1, psychometric(Path(name), generator, n_sets) +
