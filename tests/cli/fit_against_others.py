@@ -3,6 +3,7 @@ each takes. Exits 77 where these are not installed (Debian: python3-scipy, r-cra
 
 Run: python3 tests/cli/fit_against_others.py PATH_TO_HEFT [SEED [DATASETS]]
 """
+import csv
 import importlib.util
 import os
 import resource
@@ -49,6 +50,21 @@ def timed(run):
     return run(), used() - before
 
 
+def is_a_splines(what, fit, path):
+    """-> whether an end that differs from clm's, which come from a spline, is where the likelihood ends"""
+    end = what.split()[0]
+    if end not in ("low", "high"):
+        return False
+    answers = {}
+    with open(path, newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            if row["dataset"] == fit["group"]:
+                counts = answers.setdefault(float(row["level_g"]), [0, 0, 0])
+                counts[("reference", "none", "comparison").index(row["answer"])] += 1
+    at = fit["parameters"]["sensitivity"][end]
+    return abs(others.fall_of_choices(answers, at, fit["log_likelihood"]) - 3.8415) < 1e-3
+
+
 def indecision(folder, rng, n_datasets):
     """-> how many fits differ"""
     make.write_choices(folder / "data.csv", rng, n_datasets)
@@ -57,7 +73,8 @@ def indecision(folder, rng, n_datasets):
     expected, r_s = timed(lambda: others.clm_fits(folder / "data.csv"))
     n_wrong = 0
     for fit in found:
-        wrong = choice_differences(fit, expected[fit["group"]])
+        wrong = [what for what in choice_differences(fit, expected[fit["group"]])
+                 if not is_a_splines(what, fit, folder / "data.csv")]
         n_wrong += bool(wrong)
         if wrong:
             print(fit["group"], *wrong)

@@ -183,6 +183,29 @@ for (name in unique(all$dataset)) {
 """
 
 
+def fall_of_choices(answers, sensitivity, log_likelihood):
+    """How far twice the log likelihood of the indecision model falls from its maximum where the
+    sensitivity is held, the other two searched from many places. Its 95 % interval ends at 3.8415.
+
+    @param answers level -> how often reference, none, comparison
+    """
+    def cost(others):
+        half, bias = math.exp(others[0]), others[1]
+        total = 0
+        for level, (reference, none, comparison) in answers.items():
+            up, down = sensitivity * level + bias - half, sensitivity * level + bias + half
+            if up > 0:  # the smaller tails
+                up, down, reference, comparison = -down, -up, comparison, reference
+            between = special.ndtr(down) - special.ndtr(up)
+            total -= reference * special.log_ndtr(-down) + comparison * special.log_ndtr(up)
+            total -= none * math.log(max(between, 1e-300))
+        return total
+    best = min(optimize.minimize(cost, [math.log(half), bias], method="Nelder-Mead",
+                                 options={"xatol": 1e-7, "fatol": 1e-9, "maxiter": 2000}).fun
+               for half in (0.1, 0.5, 1, 2, 4, 8) for bias in (-8, -4, -2, -0.5, 0, 0.5, 2, 4, 8))
+    return 2 * (best + log_likelihood)
+
+
 def have_r():
     """Whether R and its package ordinal are installed."""
     return shutil.which("Rscript") is not None and subprocess.run(
