@@ -2,12 +2,9 @@
 
 namespace heft {
 
-namespace {
-// "impossible answers: 12 of 40, the protocol allows 5 %" is the rule "impossible answers".
-std::string rule_of(const std::string& why) {
+std::string in_short(const std::string& why) {
   return why.substr(0, why.find(':'));
 }
-}  // namespace
 
 void FlowFold::add(const SessionData& data) {
   Way& way = ways_[data.participant()];
@@ -28,7 +25,7 @@ ParticipantFlow FlowFold::result(std::span<const ParticipantRow> participants) c
     if (way.started && !way.finished) flow.unfinished[std::string(name_of(way.last))] += 1;
   }
   for (const ParticipantRow& row : participants) {
-    if (row.excluded()) flow.excluded[rule_of(row.excluded_because)] += 1;
+    if (row.excluded()) flow.excluded[in_short(row.excluded_because)] += 1;
     flow.n_analyzed += !row.excluded() && ways_.at(row.participant).started ? 1 : 0;
   }
   return flow;

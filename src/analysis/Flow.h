@@ -23,6 +23,9 @@ struct ParticipantFlow {
       unfinished;  ///< started but finished none, by the last session's state
 };
 
+/// "impossible answers: 12 of 40, the protocol allows 5 %" is "impossible answers".
+std::string in_short(const std::string& why);
+
 class FlowFold {
  public:
   void add(const SessionData& data);

@@ -55,11 +55,6 @@ Table tracking_table(const Summary& summary) {
 }
 
 namespace {
-// "no sensitivity: its 95 % interval..." is "no sensitivity": the words stand in the table of all.
-std::string in_short(const std::string& why) {
-  return why.substr(0, why.find(':'));
-}
-
 // "> 1136.2" for what is known to lie above.
 Cell shown_jnd(const StartedFigure& figure) {
   if (!figure.jnd) return {};
