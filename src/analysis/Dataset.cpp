@@ -180,14 +180,6 @@ void LoggedSessions::each(const std::function<void(const SessionData&)>& use) co
   for (const std::int64_t id : session_ids_) use(read_session(log_, id, declared_by_text));
 }
 
-Dataset read_dataset(const std::string& database, const std::vector<std::int64_t>& session_ids) {
-  Dataset dataset{database, {}};
-  LoggedSessions(database, session_ids).each([&](const SessionData& data) {
-    dataset.sessions.push_back(data);
-  });
-  return dataset;
-}
-
 void refuse_mixed_purposes(const LoggedSessions& sessions) {
   if (sessions.purposes().size() < 2) return;
   std::string counts;

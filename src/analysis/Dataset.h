@@ -104,10 +104,6 @@ struct Dataset {
   std::vector<SessionData> sessions;
 };
 
-/// @param session_ids which sessions; empty: all
-/// @throws Error when the file can't be read or has no such session
-Dataset read_dataset(const std::string& database, const std::vector<std::int64_t>& session_ids);
-
 /// The sessions of a log, read one by one: of a thousand no more than one is in memory.
 class LoggedSessions {
  public:

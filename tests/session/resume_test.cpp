@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <optional>
 
 #include "analysis/Dataset.h"
 #include "experiment/ScreenTexts.h"
@@ -95,7 +96,13 @@ class Resumed : public ::testing::Test {
     EXPECT_GT(found.n_frames, 0);
     EXPECT_TRUE(found.ended);
   }
-  SessionData analysed() const { return read_dataset(request.db, {}).sessions.at(0); }
+  SessionData analysed() const {
+    std::optional<SessionData> first;
+    LoggedSessions(request.db, {}).each([&](const SessionData& data) {
+      if (!first) first = data;
+    });
+    return first.value();
+  }
   void change(const std::string& sql) const {
     SQLite::Database(request.db, SQLite::OPEN_READWRITE).exec(sql);
   }
