@@ -50,8 +50,9 @@ struct Histogram {
     ++counts[static_cast<std::size_t>(value)];
     ++n;
   }
-  // The value below which a fraction of them lies.
+  // The value below which a fraction of them lies; of none 0.
   int quantile(double fraction) const {
+    if (n == 0) return 0;
     int before = static_cast<int>(fraction * (n - 1)), value = 0;
     for (; before >= counts[static_cast<std::size_t>(value)]; ++value)
       before -= counts[static_cast<std::size_t>(value)];
@@ -93,7 +94,7 @@ double noise_of(const Image& gray) {
   constexpr double sd_per_median_difference = 1 / 0.954;  // of two normal numbers
   Histogram differences;
   each_on_grid(gray, [&](const std::uint8_t* p) { differences.add(std::abs(p[1] - p[0])); });
-  return differences.n == 0 ? 0 : sd_per_median_difference * differences.quantile(0.5);
+  return sd_per_median_difference * differences.quantile(0.5);
 }
 
 Region whole(const Image& image) {
