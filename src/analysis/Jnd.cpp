@@ -127,8 +127,7 @@ using Began = StaircaseFold::Began;
 using AboveAndBelow = StaircaseFold::AboveAndBelow;
 
 // Staircases of one session first, then sessions: a participant counts once. Staircases that began
-// and have no result are unknown. Sessions that tell
-// nothing don't count where another one does.
+// and have no result are unknown. Sessions that tell nothing don't count where another one does.
 void put_participants(ReferenceJnd& jnd, std::span<const StaircaseResult> results,
                       const Began& began) {
   for (const auto& [participant, sessions] : began) {

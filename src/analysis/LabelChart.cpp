@@ -46,8 +46,7 @@ Chart label_chart(const Summary& summary) {
   const int width_px = std::max(620, left_px + panel_px * static_cast<int>(labels.size()));
   chart.caption =
       "Sorted trials of three cubes, all participants together, without \"I don't know\": how "
-      "often "
-      "each cube got each label, and in how many percent of its labels. Right ones on the "
+      "often each cube got each label, and in how many percent of its labels. Right ones on the "
       "diagonal.";
   chart.n = summary.n_participants;
   chart.csv = "labels_by_mass.csv";

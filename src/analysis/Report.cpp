@@ -194,7 +194,11 @@ struct Section {
 };
 
 // By what a reviewer asks for: who took part and what went wrong, what came out, what was run.
-std::vector<Section> sections_of(const Summary& summary) {
+struct Sections {
+  Section first, results, run;
+};
+
+Sections sections_of(const Summary& summary) {
   Section first{"first", "Counted first", {participant_list(summary)}};
   Section results{"results", "Tables", {}};
   for (Table& table : quality_tables(summary)) first.tables.push_back(std::move(table));
@@ -207,12 +211,12 @@ std::vector<Section> sections_of(const Summary& summary) {
   run.push_back(setup_table(summary));
   run.push_back(tracking_table(summary));
   run.push_back(dictionary_table(summary));
-  std::vector<Section> sections{std::move(first),
-                                std::move(results),
-                                {"run", "What was run, and what it means", std::move(run)}};
-  for (Section& section : sections)
-    std::erase_if(section.tables, [](const Table& table) { return table.rows.empty(); });
-  return sections;
+  Sections all{std::move(first),
+               std::move(results),
+               {"run", "What was run, and what it means", std::move(run)}};
+  for (Section* section : {&all.first, &all.results, &all.run})
+    std::erase_if(section->tables, [](const Table& table) { return table.rows.empty(); });
+  return all;
 }
 
 std::string section_html(const Section& section) {
@@ -221,8 +225,7 @@ std::string section_html(const Section& section) {
   return html;
 }
 
-std::string contents_html(const std::vector<DrawnChart>& charts,
-                          const std::vector<Section>& sections) {
+std::string contents_html(const std::vector<DrawnChart>& charts, const Sections& sections) {
   std::string html = "<nav>\n<h2>Contents</h2>\n<ul>\n";
   const auto link = [&](std::string_view id, std::string_view text) {
     html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, text);
@@ -232,24 +235,24 @@ std::string contents_html(const std::vector<DrawnChart>& charts,
       link("table_" + table.name, html_escaped(table.title));
   };
   link("hypotheses", "The paper's hypotheses");
-  tables(sections[0]);
+  tables(sections.first);
   for (std::size_t i = 0; i < charts.size(); ++i)
     link(charts[i].chart.name,
          fmt::format("Figure {}: {}", i + 1, html_escaped(charts[i].chart.title)));
-  tables(sections[1]);
-  tables(sections[2]);
+  tables(sections.results);
+  tables(sections.run);
   return html + "</ul>\n</nav>\n";
 }
 
 // The report as one HTML page: what it comes to, what was counted first, figures, tables.
 std::string report_page(const Summary& summary, const std::vector<DrawnChart>& charts) {
-  const std::vector<Section> sections = sections_of(summary);
+  const Sections sections = sections_of(summary);
   std::string html = head_html(summary) + contents_html(charts, sections);
-  html += hypotheses_html(summary) + section_html(sections[0]) + "<h2>Figures</h2>\n";
+  html += hypotheses_html(summary) + section_html(sections.first) + "<h2>Figures</h2>\n";
   for (std::size_t i = 0; i < charts.size(); ++i)
     html += figure_html(charts[i], static_cast<int>(i) + 1);
   if (charts.empty()) html += "<p class=\"note\">No charts were drawn.</p>\n";
-  html += section_html(sections[1]) + section_html(sections[2]);
+  html += section_html(sections.results) + section_html(sections.run);
   return html + fmt::format("<p class=\"made\">{}</p>\n</body>\n</html>\n",
                             html_escaped(caption_of(summary)));
 }
