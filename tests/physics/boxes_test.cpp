@@ -177,6 +177,27 @@ TEST(Boxes, ACubeThatABrakingCoupledHandThrowsAheadIsMetWhereFrictionLetsIt) {
   }
 }
 
+// What meets slowly may bounce by what friction takes away within a step, however short that is.
+TEST(Boxes, ACubeThatACoupledCloneMeetsIsAsFastAsTheClone) {
+  Scene scene = one_cube(0.2);
+  scene.coupling.decoupled = false;
+  for (double speed_m_s : {0.003, 0.008, 0.02}) {
+    for (double rate_hz : {240.0, 3840.0, 15360.0}) {
+      const auto path = [&](double t_s) {
+        return upright_pose({-0.0626 + speed_m_s * t_s, 0, 0.021}, 0);
+      };
+      double fastest_m_s = 0;
+      run(*make_simulator("boxes"), scene, path, 1e-4 / speed_m_s + 0.05, rate_hz,
+          [&](double, const Pose&, const WorldState& state) {
+            fastest_m_s = std::max(fastest_m_s, state.cubes[0].velocity.linear_m_s.x());
+          });
+      EXPECT_GE(fastest_m_s, (1 - 1e-6) * speed_m_s);
+      EXPECT_LE(fastest_m_s, speed_m_s + 0.8 * 9.81 / rate_hz)
+          << speed_m_s << " m/s, " << rate_hz << " Hz";
+    }
+  }
+}
+
 struct Swipe {
   double speed_m_s, heading_rad, side_m, yaw_rad;
 };

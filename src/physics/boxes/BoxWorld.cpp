@@ -18,7 +18,9 @@ constexpr double listed_beyond_m = 0.02;
 constexpr double far_m = 0.1e-3;  // a travel worth finding out where on the way boxes meet
 constexpr double clear_m = 1e-6;  // boxes that slid off each other are so far apart
 constexpr double exactly_m = 1e-9;
-constexpr double hit_m_s = 0.01;
+// What closes in faster hits. Slower, a step gives back a third of it: so much as friction and
+// weight take away within the step.
+constexpr double hit_m_s = 0.01, hit_m_s2 = 10;
 constexpr double least_step_s = 1e-6;  // up to an event
 constexpr double least_cut_s = 5e-6;   // of a step that is worth cutting off
 constexpr double farthest = 100;       // that sweeps are extrapolated, in sweeps
@@ -147,8 +149,8 @@ double BoxWorld::advance(double h_s, const SteppedBy& how) {
   set_motions(h_s, how);
   find_neighbours(h_s);
   if (wake_reached(h_s)) set_motions(h_s, how);
-  find_contacts(h_s);
-  hit_ = any_closes_in();
+  find_contacts(h_s, how.beyond_s);
+  hit_ = any_closes_in(how.beyond_s);
   if (hit_ && how.cuts) {
     hit(how.driver);
     return 0;
@@ -174,7 +176,7 @@ void BoxWorld::set_motions(double h_s, const SteppedBy& how) {
   }
 }
 
-void BoxWorld::find_contacts(double h_s) {
+void BoxWorld::find_contacts(double h_s, double regular_s) {
   touching_.clear();
   for (Pair& pair : pairs_) {
     Body& first = bodies_[pair.first];
@@ -187,7 +189,7 @@ void BoxWorld::find_contacts(double h_s) {
     else if (!pair.manifold.still_fits(margin_m))
       pair.manifold.prepare(contact(pair, h_s, margin_m), first, second, surface_, margin_m);
     if (pair.manifold.empty()) continue;
-    pair.manifold.start();
+    pair.manifold.start(regular_s);
     pair.manifold.extrapolate();
     touching_.push_back(&pair.manifold);
   }
@@ -196,9 +198,10 @@ void BoxWorld::find_contacts(double h_s) {
   if (surface_.shortcuts) std::ranges::reverse(touching_);
 }
 
-bool BoxWorld::any_closes_in() const {
+bool BoxWorld::any_closes_in(double regular_s) const {
+  const double least_m_s = std::min(hit_m_s, hit_m_s2 * regular_s);
   return std::ranges::any_of(touching_,
-                             [](const Manifold* m) { return m->closing_m_s() > hit_m_s; });
+                             [&](const Manifold* m) { return m->closing_m_s() > least_m_s; });
 }
 
 void BoxWorld::hit(const Driver& driver) {

@@ -109,7 +109,7 @@ void Manifold::take_frame(const Contact& contact) {
   arm_second_m_ = middle_second_m - second_->pose.position_m;
 }
 
-void Manifold::start() {
+void Manifold::start(double regular_s) {
   gaps_m_ = prepared_gaps_m_.array() + normal_.dot(moved_m());
   at_start_ = moving(first_->velocity, second_->velocity);
   stuck_ = sticks_;
@@ -119,7 +119,8 @@ void Manifold::start() {
   for (int i = 0; i < n_; ++i) {
     if (gaps_m_[i] > (impulses_(i, 0) > 0 ? surface_.still_touching_m() : touching_m)) continue;
     touching_ |= 1u << i;
-    closing_at_start_m_s_ = std::max(closing_at_start_m_s_, -speeds[i]);
+    const double gap_m_s = gaps_m_[i] > flat_m ? gaps_m_[i] / regular_s : 0;
+    closing_at_start_m_s_ = std::max(closing_at_start_m_s_, -speeds[i] - gap_m_s);
   }
   if (surface_.compliance_m_per_n > 0) closing_at_start_m_s_ = 0;
 }

@@ -47,7 +47,8 @@ class Manifold {
   }
 
   /// Takes note of where the bodies are and how they move when a step begins.
-  void start();
+  /// @param regular_s in which a gap may close without a hit
+  void start(double regular_s);
   /// Takes the bodies' motions over a step.
   void take_step(const StepTime& time);
 
