@@ -121,6 +121,20 @@ TEST(SpeedLimit, HoldsTheCloneBackFromTheFirstTouchAndLetsItCatchUp) {
             });
 }
 
+// As fast as it may until it has caught up with a hand that waits: it throws the cube at that
+// speed.
+TEST(SpeedLimit, HoldsUntilTheCloneHasCaughtUp) {
+  const double limit_m_s = 0.15, slides_m = limit_m_s * limit_m_s / (2 * 0.8 * 9.81);
+  const Scene scene = scene_with(SpeedLimit{MassCurve({{0.2, limit_m_s}})});
+  for (double length_m : {0.05, 0.0508, 0.0511})
+    for (double rate_hz : {15.0, 60.0, 240.0}) {
+      const Stroke stroke{.speed_m_s = 0.3, .length_m = length_m};
+      const WorldState state = drive("boxes", scene, along(stroke), 0.8, rate_hz);
+      EXPECT_NEAR(state.cubes[0].pose.position_m.x(), length_m - gap_m + slides_m, 0.01e-3)
+          << length_m << " m, " << rate_hz << " Hz";
+    }
+}
+
 TEST(SpeedLimit, LeavesASlowHandAlone) {
   const Stroke stroke{.speed_m_s = 0.04};
   drive("boxes", scene_with(SpeedLimit{limits_m_s}), along(stroke), 2, 60,

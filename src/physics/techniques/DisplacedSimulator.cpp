@@ -115,11 +115,14 @@ Vector3d DisplacedSimulator::displacement_at(const Pose& hand, double h_s) const
   return std::visit(by_law, *scene_.displacement);
 }
 
-// The fraction of a step after which what is touched is not what it was.
+// The fraction of a step after which what is touched is not what it was, or the clone has caught up
+// with the hand.
 double DisplacedSimulator::fraction_until_change(const Pose& hand, double h_s) const {
   const auto changed = [&](double fraction) {
     const Pose there = interpolate(hand_, hand, fraction);
-    return touched_kg(there, displacement_at(there, fraction * h_s)) != touched_kg_;
+    const Vector3d displacement_m = displacement_at(there, fraction * h_s);
+    return touched_kg(there, displacement_m) != touched_kg_ ||
+           (displacement_m.isZero(0) && !displacement_m_.isZero(0));
   };
   if (!changed(1)) return 1;
   double before = 0, after = 1;

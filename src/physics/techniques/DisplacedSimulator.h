@@ -6,7 +6,7 @@
 // its own way back it pushes nothing. Once nothing is touched any more the displacement returns
 // from rest, critically damped with the time constant return_s:
 //   d(t) = d(0) (1 + t / return_s) e^(-t / return_s).
-// Steps are cut where touching begins and ends.
+// Steps are cut where touching begins and ends, and where the clone has caught up with the hand.
 #pragma once
 
 #include <memory>
