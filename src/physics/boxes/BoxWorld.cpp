@@ -149,13 +149,12 @@ double BoxWorld::advance(double h_s, const SteppedBy& how) {
   set_motions(h_s, how);
   find_neighbours(h_s);
   if (wake_reached(h_s)) set_motions(h_s, how);
-  find_contacts(h_s, how.beyond_s);
-  hit_ = any_closes_in(how.beyond_s);
-  if (hit_ && how.cuts) {
+  const double closing_m_s = find_contacts(h_s, how.beyond_s);
+  hit_ = how.cuts && closing_m_s > std::min(hit_m_s, hit_m_s2 * how.beyond_s);
+  if (hit_) {
     hit(how.driver);
     return 0;
   }
-  hit_ = false;
   solve(h_s, how);
   const Event event = how.cuts ? next_event(h_s) : Event{};
   if (event.fraction < 1) {
@@ -176,7 +175,9 @@ void BoxWorld::set_motions(double h_s, const SteppedBy& how) {
   }
 }
 
-void BoxWorld::find_contacts(double h_s, double regular_s) {
+// @return the largest speed at which what touches closes in, m/s
+double BoxWorld::find_contacts(double h_s, double regular_s) {
+  double closing_m_s = 0;
   touching_.clear();
   for (Pair& pair : pairs_) {
     Body& first = bodies_[pair.first];
@@ -189,19 +190,14 @@ void BoxWorld::find_contacts(double h_s, double regular_s) {
     else if (!pair.manifold.still_fits(margin_m))
       pair.manifold.prepare(contact(pair, h_s, margin_m), first, second, surface_, margin_m);
     if (pair.manifold.empty()) continue;
-    pair.manifold.start(regular_s);
+    closing_m_s = std::max(closing_m_s, pair.manifold.start(regular_s));
     pair.manifold.extrapolate();
     touching_.push_back(&pair.manifold);
   }
   // Sweeps settle sooner from the table up. But where a coupled clone squeezes a cube against it
   // there is no answer, and the cube should stay above the table.
   if (surface_.shortcuts) std::ranges::reverse(touching_);
-}
-
-bool BoxWorld::any_closes_in(double regular_s) const {
-  const double least_m_s = std::min(hit_m_s, hit_m_s2 * regular_s);
-  return std::ranges::any_of(touching_,
-                             [&](const Manifold* m) { return m->closing_m_s() > least_m_s; });
+  return closing_m_s;
 }
 
 void BoxWorld::hit(const Driver& driver) {

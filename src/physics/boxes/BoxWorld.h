@@ -98,8 +98,7 @@ class BoxWorld {
   void find_neighbours(double h_s);
   void list_neighbours();
   bool wake_reached(double h_s);
-  void find_contacts(double h_s, double regular_s);
-  bool any_closes_in(double regular_s) const;
+  double find_contacts(double h_s, double regular_s);
   void hit(const Driver& driver);
   void set_motions(double h_s, const SteppedBy& how);
   void solve(double h_s, const SteppedBy& how);

@@ -10,8 +10,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
-constexpr double flat_m = 1e-6;       // gaps and overlaps below this are none
-constexpr double touching_m = 2e-6;   // points nearer than this touch
+constexpr double flat_m = 1e-6;      // gaps and overlaps below this are none
+constexpr double touching_m = 2e-6;  // points nearer than this touch
+// Those that pressed a step ago: a cube that was thrown ahead must not be pushed before it is met.
+constexpr double still_touching_m = 0.03e-3;
 constexpr double same_mass = 1e-9;    // a share
 constexpr double never_m_s = 1e100;   // at which no two bodies meet
 constexpr double parting_m_s = 0.05;  // at most so fast overlaps are undone
@@ -109,20 +111,20 @@ void Manifold::take_frame(const Contact& contact) {
   arm_second_m_ = middle_second_m - second_->pose.position_m;
 }
 
-void Manifold::start(double regular_s) {
+double Manifold::start(double regular_s) {
   gaps_m_ = prepared_gaps_m_.array() + normal_.dot(moved_m());
   at_start_ = moving(first_->velocity, second_->velocity);
   stuck_ = sticks_;
   touching_ = 0;
-  closing_at_start_m_s_ = 0;
+  double closing_m_s = 0;
   const Points speeds = levers_ * at_start_.normal;
   for (int i = 0; i < n_; ++i) {
-    if (gaps_m_[i] > (impulses_(i, 0) > 0 ? surface_.still_touching_m() : touching_m)) continue;
+    if (gaps_m_[i] > (impulses_(i, 0) > 0 ? still_touching_m : touching_m)) continue;
     touching_ |= 1u << i;
     const double gap_m_s = gaps_m_[i] > flat_m ? gaps_m_[i] / regular_s : 0;
-    closing_at_start_m_s_ = std::max(closing_at_start_m_s_, -speeds[i] - gap_m_s);
+    closing_m_s = std::max(closing_m_s, -speeds[i] - gap_m_s);
   }
-  if (surface_.compliance_m_per_n > 0) closing_at_start_m_s_ = 0;
+  return surface_.compliance_m_per_n > 0 ? 0 : closing_m_s;
 }
 
 void Manifold::take_step(const StepTime& time) {
@@ -163,7 +165,7 @@ void Manifold::couple() {
   if (tangential_by_tangential_(2, 2) > 0) tangential_mass_ = tangential_by_tangential_.inverse();
   response_.noalias() = levers_ * normal_by_normal * levers_.transpose();
   stopping_set_ = 0;
-  slip_per_kg_.setZero();
+  slip_kg_.setZero();
 }
 
 // Points that touch close gaps and part overlaps from the step's start to beyond its end.

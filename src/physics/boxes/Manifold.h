@@ -24,9 +24,6 @@ struct ContactSurface {
   /// Bodies that moved or turned against each other by less, m or rad, keep their contact: no lever
   /// changes noticeably.
   double same_place() const { return shortcuts ? 1e-6 : 1e-10; }
-  /// Points that pressed a step ago touch if they are nearer than that. A coupled clone's less: a
-  /// cube that it has thrown ahead must not be pushed before it is met again.
-  double still_touching_m() const { return shortcuts ? 0.1e-3 : 0.03e-3; }
 };
 
 class Manifold {
@@ -48,7 +45,8 @@ class Manifold {
 
   /// Takes note of where the bodies are and how they move when a step begins.
   /// @param regular_s in which a gap may close without a hit
-  void start(double regular_s);
+  /// @return the largest speed at which points that touch close in, m/s; 0 where contacts give
+  double start(double regular_s);
   /// Takes the bodies' motions over a step.
   void take_step(const StepTime& time);
 
@@ -69,8 +67,6 @@ class Manifold {
   /// @return the largest change of a velocity at a point, m/s
   double relax();
 
-  /// The largest speed at which points that touch close in when the step begins, m/s.
-  double closing_m_s() const { return closing_at_start_m_s_; }
   /// The fraction of the step after which points that are apart now meet; none if they do not.
   std::optional<double> fraction_before_hit() const {
     return touching_ == (1u << n_) - 1 ? std::nullopt : fraction_before_meeting();
@@ -93,6 +89,8 @@ class Manifold {
   void forget_impulses();
 
  private:
+  static constexpr double noticed_m_s = 1e-9;  // smaller changes are not worth waiting for
+
   using Points = Eigen::Vector4d;                 // a number for each
   using PointRows = Eigen::Matrix<double, 4, 3>;  // three numbers for each
   using Impulses = PointRows;                     // N s: along the normal, u and v
@@ -150,8 +148,7 @@ class Manifold {
   // Normal impulses in these proportions push nothing anywhere; all zero unless four points touch.
   Points balance_ = Points::Zero();
 
-  Six at_start_;  // how the bodies moved when the step began
-  double closing_at_start_m_s_ = 0;
+  Six at_start_;                         // how the bodies moved when the step began
   bool sticks_ = false, stuck_ = false;  // in this solve; when the step began
 
   // Changes of the motion per impulse, and the impulse that stops a unit tangential motion.
@@ -163,7 +160,7 @@ class Manifold {
   // them.
   Eigen::Matrix4d response_ = Eigen::Matrix4d::Zero(), stopping_ = Eigen::Matrix4d::Zero();
   unsigned stopping_set_ = 0;
-  Points slip_per_kg_ = Points::Zero();  // the most that a friction impulse changes a slip by
+  Points slip_kg_ = Points::Zero();  // the least that a slip has to be stopped of; 0: to be found
   Points closing_m_s_ = Points::Zero();  // at which points may close in
   Points softness_ = Points::Zero();     // m/s per N s
 

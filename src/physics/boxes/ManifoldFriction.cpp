@@ -101,22 +101,23 @@ double Manifold::slip(const Vector3d& slips, Six& change) {
     const Vector2d was = impulses_.row(i).tail<2>();
     if (limit == 0 && was.isZero(0)) continue;
     const double at_u_m = at_u_m_[i], at_v_m = at_v_m_[i];
-    double& per_kg = slip_per_kg_[i];
-    if (per_kg == 0) per_kg = response_at(at_u_m, at_v_m, by);
+    double& kg = slip_kg_[i];
+    if (kg == 0) kg = 1 / response_at(at_u_m, at_v_m, by);
     const auto at_point = [&](const Vector3d& of_patch) {
       return Vector2d(of_patch[0] - at_v_m * of_patch[2], of_patch[1] + at_u_m * of_patch[2]);
     };
-    Vector2d now = was - at_point(speed) / per_kg;
+    Vector2d now = was - kg * at_point(speed);
     if (now.squaredNorm() > limit * limit) {
-      now -= at_point(bias) / per_kg;
+      now -= kg * at_point(bias);
       now *= limit / std::max(now.norm(), least_impulse_n_s);
     }
     const Vector2d more = now - was;
+    if (more.squaredNorm() < noticed_m_s * noticed_m_s * kg * kg) continue;
     const Vector3d on_patch(more[0], more[1], at_u_m * more[1] - at_v_m * more[0]);
     impulses_.row(i).tail<2>() = now;
     speed += by * on_patch;
     change.tangential += on_patch;
-    largest = std::max(largest, more.cwiseAbs().maxCoeff() * per_kg);
+    largest = std::max(largest, more.cwiseAbs().maxCoeff() / kg);
   }
   return largest;
 }

@@ -52,10 +52,12 @@ double Manifold::press(Six& moving, Six& change) {
   if (active == 0) return 0;
   Points more = stopping(active) * missing;
   if ((now + more).minCoeff() < 0) more = release(active, missing);
+  const double changed_m_s = (response_ * more).cwiseAbs().maxCoeff();
+  if (changed_m_s < noticed_m_s) return 0;
   impulses_.col(0) = (now + more).cwiseMax(0);
   change.normal = levers_.transpose() * more;
   moving.tangential += tangential_by_normal_ * change.normal;
-  return (response_ * more).cwiseAbs().maxCoeff();
+  return changed_m_s;
 }
 
 // Lets go of one point after the other that would have to pull.

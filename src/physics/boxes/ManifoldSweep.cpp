@@ -8,7 +8,6 @@ namespace heft::boxes {
 using Eigen::Vector3d;
 
 namespace {
-constexpr double noticed_m_s = 1e-9;  // a change that may leave loads uneven
 constexpr double right_enough = 0.1;  // of a change, squared, that was foreseen wrongly
 }  // namespace
 
@@ -36,7 +35,7 @@ void Manifold::go_on(double fraction) {
 double Manifold::relax() {
   Six now = moving(first_->step.ahead, second_->step.ahead), change;
   const double pressed_m_s = press(now, change);
-  if (n_ == 4 && pressed_m_s > noticed_m_s) balance();
+  if (n_ == 4 && pressed_m_s > 0) balance();
   double rubbed_m_s = stick(now, change);
   if (rubbed_m_s < 0) rubbed_m_s = slip(now.tangential, change);
   const double changed_m_s = std::max(pressed_m_s, rubbed_m_s);
