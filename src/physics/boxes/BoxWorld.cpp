@@ -24,7 +24,7 @@ constexpr double hit_m_s = 0.01, hit_m_s2 = 10;
 constexpr double least_step_s = 1e-6;  // up to an event
 constexpr double least_cut_s = 5e-6;   // of a step that is worth cutting off
 constexpr double farthest = 100;       // that sweeps are extrapolated, in sweeps
-constexpr int most_sweeps = 100;
+constexpr int most_sweeps = 300;
 constexpr double settled_m_s = 1e-5;   // sweeps end when no velocity changes by more
 constexpr double squeezed_m_s = 0.01;  // what never ends has no answer
 }  // namespace
