@@ -12,6 +12,7 @@ using Corners = std::array<Eigen::Vector2d, 4>;
 
 constexpr double least_expected_edge_px = 9;
 constexpr double most_dense_rms_px = 0.5;  // of a tag whose cells are looked at
+constexpr double believed_variance = 2;    // of a pose by cells, against one by borders
 constexpr double least_agreement = 0.85;   // of the data cells of a tag that no detector read
 // While a body shows no more, what fingers leave of another tag tells much: its tilt and depth.
 constexpr std::size_t few_tags = 3;
@@ -110,8 +111,10 @@ BodyFit BodyFinder::aligned(const Image& gray, const BodyFit& found, const BiasP
   return timed(times.pose_s, [&] {
     auto fit = align_densely(gray, camera_, tags, found, prior_for(settings_, prior), how_.curve,
                              how_.noise, smear, rows);
-    // Cells that are half hidden, or strangely lit, may leave more open than their borders.
-    if (!fit || place_variance_m2(*fit) > place_variance_m2(found)) return found;
+    // Cells that are half hidden may leave more open than their borders. Those in uneven light do,
+    // too, for borders do not know what it does to them: some more is no reason against cells.
+    if (!fit || place_variance_m2(*fit) > believed_variance * place_variance_m2(found))
+      return found;
     // Where cells and borders tell different poses, one of them is wrong.
     for (const TagObservation& tag : used)
       for (const Eigen::Vector3d& corner_m : tag.corners_m)

@@ -19,14 +19,15 @@ namespace heft {
 
 namespace {
 constexpr int n_shared = 7;  // turn, shift, bias
-constexpr int n_own = 5;     // of a tag: dark, contrast, gradient along and down, log of the blur
+// Of a tag: dark, contrast, gradient along and down, log of the blur; reflected light.
+constexpr int n_sure = 5, n_reflected = 5, n_own = n_sure + n_reflected;
 constexpr int n_all = n_shared + n_own;
 using VectorAll = Eigen::Matrix<double, n_all, 1>;
 using MatrixAll = Eigen::Matrix<double, n_all, n_all>;
 using VectorShared = Eigen::Matrix<double, n_shared, 1>;
 using MatrixShared = Eigen::Matrix<double, n_shared, n_shared>;
 using VectorOwn = Eigen::Matrix<double, n_own, 1>;
-enum Own { dark, contrast, along, down, log_blur };
+enum Own { dark, contrast, along, down, log_blur, reflected };
 
 // How far beyond the border pixels are compared: what lies beyond the white cell around it, perhaps
 // an edge of the box, must not blur into them.
@@ -36,7 +37,13 @@ constexpr double most_blur_cells = 0.45;
 constexpr double least_blur_px = 0.29;  // a pixel's own extent: 1 / sqrt(12)
 constexpr double blur_sd = 0.05;        // relative; what the borders' fits left open
 constexpr double least_noise = 0.5;
-constexpr int rounds = 2;
+// More where pixels are left out, at a shadow's edge, or light is reflected: they had pulled the
+// pose before.
+constexpr int rounds = 2, most_rounds = 5;
+// Variances: reflected light looks a little like another distance, so that looking for what is not
+// there would cost half of what the cells tell.
+constexpr double least_gain = 50;
+constexpr double all_explained = 0.99;
 // Of larger tags fewer pixels are enough; and of those in the middle of cells, which tell of light
 // alone, one in so many.
 constexpr double most_pixels = 6000;
@@ -92,7 +99,8 @@ class TagFit {
                  std::max(least_blur_px, tag.seen->blur_px[1])),
         picture_noise_(noise),
         noise_(std::max(6.0, noise)) {
-    own_ << curve.light(seen_.dark), curve.light(seen_.bright) - curve.light(seen_.dark), 0, 0, 0;
+    own_(dark) = curve.light(seen_.dark);
+    own_(contrast) = curve.light(seen_.bright) - own_(dark);
     if (!is_clear()) return;
     paint();
     collect(gray, camera, start, rows);
@@ -111,6 +119,8 @@ class TagFit {
     all_pull(n_shared + log_blur) = -own_(log_blur) / (blur_sd * blur_sd);
     all.diagonal().segment<2>(n_shared + along).array() += 10;
     all_pull.segment<2>(n_shared + along) -= 10 * own_.segment<2>(along);
+    all.diagonal().tail<n_reflected>().array() += 10;
+    all_pull.tail<n_reflected>() -= 10 * own_.tail<n_reflected>();
     const TagPlane plane(pose, seen_.corners_m, pattern_.border_cells);
     const double clip = 2.5 * noise_;
     const double far = drop_outliers || seen_.covered() ? far_off() : 1e9;
@@ -130,6 +140,8 @@ class TagFit {
     complete_upper(all);
     noise_ = std::max(least_noise, 1.2533 * sum / std::max(1, n));
     used_ = n;
+    reflects_ = reflects_ || (drop_outliers && gained(all, all_pull) > least_gain);
+    if (!reflects_) all.diagonal().tail<n_reflected>().array() += 1e12;
     const auto own_part = all.bottomRightCorner<n_own, n_own>();
     const Eigen::LDLT<Eigen::Matrix<double, n_own, n_own>> solver(own_part);
     own_by_shared_ = solver.solve(all.bottomLeftCorner<n_own, n_shared>());
@@ -144,16 +156,30 @@ class TagFit {
     own_(log_blur) = std::clamp(own_(log_blur), -0.5, 0.5);
   }
 
+  bool reflects() const { return reflects_; }
+
   double explained() const {
     return static_cast<double>(used_) /
            static_cast<double>(std::max<std::size_t>(1, pixels_.size()));
   }
 
  private:
+  // By how many variances reflected light would explain the pixels better.
+  static double gained(const MatrixAll& all, const VectorAll& pull) {
+    constexpr int n_rest = n_all - n_reflected;
+    const auto across = all.bottomLeftCorner<n_reflected, n_rest>();
+    const Eigen::LDLT<Eigen::Matrix<double, n_rest, n_rest>> rest(
+        all.topLeftCorner<n_rest, n_rest>());
+    const Eigen::Matrix<double, n_reflected, n_reflected> left =
+        all.bottomRightCorner<n_reflected, n_reflected>() - across * rest.solve(across.transpose());
+    const Eigen::Matrix<double, n_reflected, 1> pull_left =
+        pull.tail<n_reflected>() - across * rest.solve(pull.head<n_rest>());
+    return pull_left.dot(left.ldlt().solve(pull_left));
+  }
+
   bool is_clear() const {
     const double cell_px = std::sqrt(seen_.area_px2) / pattern_.border_cells;
-    return own_(contrast) > 0.002 && seen_.saturated == 0 &&
-           blur_px_.maxCoeff() < most_blur_cells * cell_px;
+    return own_(contrast) > 0.002 && blur_px_.maxCoeff() < most_blur_cells * cell_px;
   }
 
   void collect(const Image& gray, const Intrinsics& camera, const Pose& pose,
@@ -214,7 +240,7 @@ class TagFit {
 
   // How far off a pixel is that shows another thing, gray levels.
   double far_off() const {
-    return std::max({10.0, 0.12 * (seen_.bright - seen_.dark), 3 * picture_noise_});
+    return std::max({10.0, 0.05 * (seen_.bright - seen_.dark), 3 * picture_noise_});
   }
 
   // What is not the tag, and what is so near to it that they are blurred into each other.
@@ -324,14 +350,16 @@ class TagFit {
     const double half = pattern_.border_cells / 2.0;
     const Eigen::Vector2d place = (hit.cell.array() - half) / half;
     const double brighter = 1 + own_(along) * place.x() + own_(down) * place.y();
-    const double light = own_(dark) + own_(contrast) * b;
+    Eigen::Matrix<double, n_reflected, 1> powers;
+    powers << place, place.cwiseAbs2(), place.prod();
+    const double light = own_(dark) + own_(contrast) * b + own_.tail<n_reflected>().dot(powers);
     const Stored stored = curve_.stored(light * brighter);
     const double by_light = stored.by_light * brighter, by_b = by_light * own_(contrast);
     const Eigen::Vector3d by_point(by_b * slope.x(), by_b * slope.y(),
                                    -by_b * slope.dot(pixel.ray));
     const Eigen::Vector3d arm = hit.point_m - pose.position_m;
     by << arm.cross(by_point), by_point, by_b * shrinks, by_light, by_light * b,
-        stored.by_light * light * place.x(), stored.by_light * light * place.y(), by_b * by_blur;
+        stored.by_light * light * place, by_b * by_blur, by_light * powers;
     return stored.value;
   }
 
@@ -344,9 +372,10 @@ class TagFit {
   std::vector<Pixel> pixels_;
   std::vector<std::uint8_t> white_;
   int n_painted_ = 0;
-  VectorOwn own_, own_step_ = VectorOwn::Zero();
+  VectorOwn own_ = VectorOwn::Zero(), own_step_ = VectorOwn::Zero();
   Eigen::Matrix<double, n_own, n_shared> own_by_shared_;
   int used_ = 0;
+  bool reflects_ = false;
 };
 }  // namespace
 
@@ -367,7 +396,13 @@ std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera
   BodyFit fit = start;
   const double bias_variance = std::max(prior.sd_px * prior.sd_px, 1e-8);
   MatrixShared matrix;
-  for (int round = 0; round < rounds; ++round) {
+  const auto goes_on = [&](int round) {
+    return round < rounds ||
+           (round < most_rounds && std::ranges::any_of(fits, [](const TagFit& tag) {
+              return tag.explained() < all_explained || tag.reflects();
+            }));
+  };
+  for (int round = 0; goes_on(round); ++round) {
     matrix.setZero();
     VectorShared pull = VectorShared::Zero();
     matrix(6, 6) = 1 / bias_variance;

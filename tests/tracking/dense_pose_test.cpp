@@ -89,6 +89,53 @@ TEST(DensePose, ATagUnderFingersCountsWithWhatIsClear) {
   EXPECT_LT(std::sqrt(sum_mm2 / static_cast<double>(covered.size())), 0.14);
 }
 
+// It clips white, and lies over a tag like a hill: each tag seemed larger, and up to 2 mm nearer.
+TEST(DensePose, ALampsReflectionMovesNoTag) {
+  const Apparatus apparatus = default_apparatus(640);
+  for (const double exposure : {0.7, 1.0}) {
+    SyntheticSettings settings;
+    settings.optics.glare = 0.4;
+    settings.optics.exposure = exposure;
+    SyntheticCamera camera(apparatus, settings, 7);
+    Tracker tracker(apparatus);
+    const Eigen::Vector3d tip_m(0.045, 0, 0);
+    double sum_mm2 = 0;
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+      tracker.reset();
+      const auto seen = tracker.track(camera.picture([&](double) { return grips[i]; }, 0, i),
+                                      static_cast<double>(i));
+      ASSERT_TRUE(seen.board_from_effector) << i;
+      sum_mm2 += 1e6 * (*seen.board_from_effector * tip_m - grips[i] * tip_m).squaredNorm();
+    }
+    EXPECT_LT(std::sqrt(sum_mm2 / static_cast<double>(grips.size())), 0.35) << exposure;
+  }
+}
+
+// Cells on both sides of it are as bright as the light there, those that it crosses tell nothing.
+TEST(DensePose, AShadowsEdgeOverATagPullsNoPose) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticSettings settings;
+  settings.optics.shadow = 0.4;
+  SyntheticCamera camera(apparatus, settings, 8);
+  Tracker tracker(apparatus);
+  const Eigen::Vector3d tip_m(0.045, 0, 0);
+  RandomStream random(8, "shadowed grips");
+  double sum_mm2 = 0;
+  constexpr int n_grips = 24;
+  int n = 0;
+  for (std::uint64_t i = 0; i < n_grips; ++i) {
+    const auto within = [&](double half) { return half * (2 * random.uniform() - 1); };
+    const Pose grip = held(within(0.05), M_PI / 2 + within(0.7), 0.1 + within(0.15), within(0.6));
+    tracker.reset();
+    const auto seen = tracker.track(camera.picture([&](double) { return grip; }, 0, i), 0);
+    if (!seen.board_from_effector) continue;
+    ++n;
+    sum_mm2 += 1e6 * (*seen.board_from_effector * tip_m - grip * tip_m).squaredNorm();
+  }
+  EXPECT_GT(n, n_grips * 9 / 10);
+  EXPECT_LT(std::sqrt(sum_mm2 / n), 0.32);
+}
+
 // Moved in every direction over the table, 2 pixels while the shutter is open; the third picture's
 // error, RMS.
 double smeared_rms_mm(bool inner_edges) {
