@@ -138,7 +138,11 @@ std::string summary(const CameraCalibration& calibration) {
   const auto list = doubts(calibration);
   text += list.empty() ? "verdict: good\n" : "verdict: doubtful\n";
   for (const std::string& line : list) text += fmt::format("  {}\n", line);
-  return text;
+  // Larger in all and farther away by as much, it is the same picture.
+  return text +
+         "no picture tells whether a print is too large or too small as a whole, the board's or "
+         "the "
+         "effector's: measure the rulers of both sheets (ruler_measured_m)\n";
 }
 
 }  // namespace heft

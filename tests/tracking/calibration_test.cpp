@@ -38,6 +38,8 @@ TEST(CameraCalibration, FindsTheCameraAndLeavesOutWhatDoesNotFit) {
   EXPECT_EQ(found.views.back().name, "the odd one");
   EXPECT_FALSE(found.views.back().used);
   EXPECT_NE(summary(found).find("20 views used of 21"), std::string::npos);
+  // What pictures can not tell, and rulers do.
+  EXPECT_NE(summary(found).find("ruler_measured_m"), std::string::npos);
 }
 
 // Stretched by 0.2 % and sheared by 0.15 degrees, as printers do that feed paper unevenly.
