@@ -188,6 +188,55 @@ TEST(SyntheticGeometry, MotionSmearsAnEdgeAsFarAsItMoves) {
   EXPECT_NEAR(std::sqrt(12 * (variance - pixel_variance)), smear_px, 0.03 * smear_px);
 }
 
+// Of a tag's upper edge, nearly level: how far its crossings are from the line through the corners
+// on average where they lie in the same part of their pixel. Rays, or moments of the exposure, that
+// are taken at the same places in every pixel would move edges to and fro with that part; the
+// camera has an area's light in closed form instead, and no rays.
+double worst_by_part_px(const Image& image, const Tag& tag, const Intrinsics& camera,
+                        const Pose& camera_from_body, int reach) {
+  constexpr std::size_t n_parts = 5;
+  std::array<double, n_parts> sum{}, n{};
+  const Vector2d one = project(camera, camera_from_body * tag.corners_m[0]);
+  const Vector2d other = project(camera, camera_from_body * tag.corners_m[1]);
+  const Vector2d from = one.x() < other.x() ? one : other, to = one.x() < other.x() ? other : one;
+  for (int x = static_cast<int>(from.x()) + 2 * reach; x < to.x() - 2 * reach; ++x) {
+    const double y = from.y() + (x - from.x()) * (to.y() - from.y()) / (to.x() - from.x());
+    const auto part = static_cast<std::size_t>(n_parts * (y - std::floor(y)));
+    sum[part] += crossing_px(image, static_cast<int>(std::lround(y)), x, false, reach) - y;
+    ++n[part];
+  }
+  double worst = 0;
+  for (std::size_t part = 0; part < n_parts; ++part) {
+    EXPECT_GE(n[part], 6) << part;
+    worst = std::max(worst, std::abs(sum[part] / n[part]));
+  }
+  return worst;
+}
+
+TEST(SyntheticGeometry, NoPartOfAPixelMovesAnEdgeAtRestOrSmeared) {
+  SyntheticSettings settings = ideal_sensor();
+  settings.optics.blur_px = 0.6;
+  settings.camera_from_board = {{0, 0, 0.4},
+                                Eigen::Quaterniond(0, 1, 0, 0)};  // straight down from 40 cm
+  Apparatus pinhole = default_apparatus(1280);
+  pinhole.camera.distortion = {};
+  const Pose middle{{0, 0, 0.04},
+                    Eigen::Quaterniond(Eigen::AngleAxisd(0.05 - M_PI / 2, Vector3d::UnitZ()))};
+  const Pose camera_from_effector{settings.camera_from_board * middle.position_m,
+                                  settings.camera_from_board.orientation * middle.orientation};
+  for (const double speed_m_s : {0.0, 0.1, 0.35}) {
+    SyntheticCamera camera(pinhole, settings, 1);
+    const auto path = [&](double t_s) {
+      return std::optional<Pose>(
+          {middle.position_m + t_s * speed_m_s * Vector3d::UnitY(), middle.orientation});
+    };
+    EXPECT_LT(worst_by_part_px(camera.picture(path, 0, 0), pinhole.effector.tags[1], pinhole.camera,
+                               camera_from_effector, 6),
+              0.008)
+        << speed_m_s;
+  }
+}
+
 TEST(SyntheticGeometry, NothingChangesButWhereEffectorAndHandAre) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticCamera camera(apparatus, {}, 1);
