@@ -111,15 +111,15 @@ TEST(DensePose, ALampsReflectionMovesNoTag) {
   }
 }
 
-// Cells on both sides of it are as bright as the light there, those that it crosses tell nothing.
+// Pixels that are not as bright as the light on most of the tag tell nothing.
 TEST(DensePose, AShadowsEdgeOverATagPullsNoPose) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticSettings settings;
   settings.optics.shadow = 0.4;
-  SyntheticCamera camera(apparatus, settings, 8);
+  SyntheticCamera camera(apparatus, settings, 11);
   Tracker tracker(apparatus);
   const Eigen::Vector3d tip_m(0.045, 0, 0);
-  RandomStream random(8, "shadowed grips");
+  RandomStream random(11, "shadowed grips");
   double sum_mm2 = 0;
   constexpr int n_grips = 24;
   int n = 0;
@@ -133,7 +133,7 @@ TEST(DensePose, AShadowsEdgeOverATagPullsNoPose) {
     sum_mm2 += 1e6 * (*seen.board_from_effector * tip_m - grip * tip_m).squaredNorm();
   }
   EXPECT_GT(n, n_grips * 9 / 10);
-  EXPECT_LT(std::sqrt(sum_mm2 / n), 0.32);
+  EXPECT_LT(std::sqrt(sum_mm2 / n), 0.25);  // .44 where they pull
 }
 
 // Moved in every direction over the table, 2 pixels while the shutter is open; the third picture's
