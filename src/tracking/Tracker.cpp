@@ -234,7 +234,8 @@ BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrio
     const double dt_s = t_s + own_row_s(camera_, fit.camera_from_body) - seen_->t_s;
     if (!(dt_s > 0) || !could_have_moved(seen_->board_from_effector, pose, dt_s)) return fit;
     const Velocity mean = mean_velocity(seen_->board_from_effector, pose, dt_s);
-    const bool carry_on = !seen_->velocity.linear_m_s.isZero();
+    // The first pose of all is a mean over rows: a velocity from it is no trend's beginning.
+    const bool carry_on = seen_->n_poses > 2;
     const auto now = [&](const Eigen::Vector3d& of_mean, const Eigen::Vector3d& before) {
       const Eigen::Vector3d in_board = carry_on ? of_mean + (of_mean - before) / 2 : of_mean;
       return Eigen::Vector3d(seen_board.camera_from_body.orientation * in_board);
@@ -269,7 +270,8 @@ void Tracker::take_effector(const BodyFit& fit, double t_s) {
   const bool moves_on = !result_.jump && dt_s > 0;
   seen_ =
       SeenEffector{result_.effector_t_s, own_s, pose,
-                   moves_on ? mean_velocity(seen_->board_from_effector, pose, dt_s) : Velocity{}};
+                   moves_on ? mean_velocity(seen_->board_from_effector, pose, dt_s) : Velocity{},
+                   moves_on ? seen_->n_poses + 1 : 1};
   result_.board_from_effector = pose;
   result_.n_effector_tags = fit.n_tags;
   result_.n_effector_faces = fit.n_faces;
