@@ -11,11 +11,26 @@ Cell shown_jnd(const StaircaseResult& result) {
   return cell;
 }
 
+// The paper's staircases began above, so that its figures stand beside those.
+void add_jnds(Table& table, const ReferenceJnd& jnd, std::string_view staircases,
+              const StartedJnds& jnds, bool as_published = true) {
+  const auto published = [&](const std::optional<double>& figure) {
+    return number(as_published ? figure : std::nullopt);
+  };
+  table.rows.push_back({mass(jnd.compared.reference_g), word(jnd.compared.condition),
+                        word(std::string(staircases)), number(jnds.mean), number(jnds.sd),
+                        low(jnds.interval), high(jnds.interval), kind_word(jnds.kind),
+                        count(jnds.n()), count(jnds.n_censored(Censored::above)),
+                        count(jnds.n_censored(Censored::below)), count(jnds.n_missing),
+                        published(jnd.published_g), published(jnd.published_sd_g)});
+}
+
 Table jnd_table(const Summary& summary) {
   Table table{"jnd",
               titled("JND by reference mass, mean over participants", summary),
               {{"reference_g", "reference g"},
                {"condition", "condition"},
+               {"staircases", "staircases"},
                {"mean_g", "JND g"},
                {"sd_g", "SD"},
                {"low_g", "95 % low"},
@@ -29,18 +44,22 @@ Table jnd_table(const Summary& summary) {
                {"published_sd_g", "published SD"}},
               {},
               "n participants; SD between them (n-1). The paper's JND: it moves with the criterion "
-              "as much as with what is perceived. Above, below: participants of whom it is only "
+              "as much as with what is perceived, and with where its staircase began: where they "
+              "began on both sides, these are apart, and above - below is by how much each "
+              "participant's JND follows the start. Above, below: participants of whom it is only "
               "known to lie there, as a staircase ended at a bound, at its trial limit or with "
               "fewer than 4 reversals; missing: not even that. Where all are exact, the mean with "
               "Student's t interval; otherwise the Tobit mean (normal model of exact and censored "
               "ones together) with its profile interval; none where half or more are not exact."};
-  for (const ReferenceJnd& jnd : summary.jnd)
-    table.rows.push_back(
-        {mass(jnd.compared.reference_g), word(jnd.compared.condition), number(jnd.mean_g),
-         number(jnd.sd_g), low(jnd.interval_g), high(jnd.interval_g), kind_word(jnd.summary),
-         count(jnd.n()), count(jnd.n_censored(Censored::above)),
-         count(jnd.n_censored(Censored::below)), count(static_cast<int>(jnd.missing.size())),
-         number(jnd.published_g), number(jnd.published_sd_g)});
+  for (const ReferenceJnd& jnd : summary.jnd) {
+    if (!jnd.starts) {
+      add_jnds(table, jnd, "all", jnd.as_published());
+      continue;
+    }
+    add_jnds(table, jnd, "from above", jnd.starts->from_above_g);
+    add_jnds(table, jnd, "from below", jnd.starts->from_below_g, false);
+    add_jnds(table, jnd, "above - below", jnd.starts->difference_g, false);
+  }
   return table;
 }
 

@@ -46,15 +46,20 @@ std::string first_try_figure(const IntroductionSummary& introduction) {
 }
 
 bool counts(const ReferenceJnd& jnd) {
-  return jnd.compared.condition == "C2" && jnd.mean_g.has_value();
+  return jnd.compared.condition == "C2" && jnd.as_published().mean.has_value();
+}
+
+std::string_view began(const ReferenceJnd& jnd) {
+  return jnd.starts ? " (staircases from above)" : "";
 }
 
 std::vector<std::string> jnd_figures(const Summary& summary) {
   std::vector<std::string> figures;
   for (const ReferenceJnd& jnd : summary.jnd)
     if (counts(jnd))
-      figures.push_back(fmt::format("JND at {:g} g: {:.1f} g{}, n = {}{}", jnd.compared.reference_g,
-                                    *jnd.mean_g, within(jnd.interval_g), jnd.n(),
+      figures.push_back(fmt::format("JND{} at {:g} g: {:.1f} g{}, n = {}{}", began(jnd),
+                                    jnd.compared.reference_g, *jnd.as_published().mean,
+                                    within(jnd.as_published().interval), jnd.n(),
                                     beside(jnd.published_g, " g")));
   if (figures.empty()) figures.push_back("no finished staircase in C2");
   return figures;
@@ -67,7 +72,8 @@ std::string rising_figure(const Summary& summary) {
   for (const ReferenceJnd& jnd : summary.jnd) {
     if (!counts(jnd)) continue;
     ++n_references;
-    for (const ParticipantJnd& one : jnd.participants)
+    const StartedJnds as_published = jnd.as_published();
+    for (const ParticipantJnd& one : as_published.participants)
       if (one.censored == Censored::none) jnds[one.participant].push_back(one.jnd_g);
   }
   int n_complete = 0, n_rising = 0;
@@ -92,12 +98,13 @@ std::vector<std::string> ratio_figures(const Summary& summary) {
     if (!counts(jnd) || reference_g == 0) continue;
     const std::string published =
         jnd.published_g ? fmt::format("; published {:.2f}", *jnd.published_g / reference_g) : "";
+    const StartedJnds jnds = jnd.as_published();
     const std::string interval =
-        jnd.interval_g ? fmt::format(" [{:.2f}, {:.2f}]", jnd.interval_g->low / reference_g,
-                                     jnd.interval_g->high / reference_g)
-                       : "";
-    figures.push_back(fmt::format("JND / reference at {:g} g: {:.2f}{}{}", reference_g,
-                                  *jnd.mean_g / reference_g, interval, published));
+        jnds.interval ? fmt::format(" [{:.2f}, {:.2f}]", jnds.interval->low / reference_g,
+                                    jnds.interval->high / reference_g)
+                      : "";
+    figures.push_back(fmt::format("JND{} / reference at {:g} g: {:.2f}{}{}", began(jnd),
+                                  reference_g, *jnds.mean / reference_g, interval, published));
   }
   if (figures.empty()) figures.push_back("no finished staircase in C2");
   return figures;

@@ -148,10 +148,14 @@ void put_participants(ReferenceJnd& jnd, std::span<const StaircaseResult> result
   }
 }
 
-void put_mean(ReferenceJnd& jnd) {
+FigureSummary summary_of(std::span<const ParticipantJnd> participants, int n_missing) {
   std::vector<CensoredValue> values;
-  for (const ParticipantJnd& one : jnd.participants) values.push_back({one.jnd_g, one.censored});
-  const FigureSummary found = summarize_figures(values, static_cast<int>(jnd.missing.size()));
+  for (const ParticipantJnd& one : participants) values.push_back({one.jnd_g, one.censored});
+  return summarize_figures(values, n_missing);
+}
+
+void put_mean(ReferenceJnd& jnd) {
+  const FigureSummary found = summary_of(jnd.participants, static_cast<int>(jnd.missing.size()));
   jnd.summary = found.kind;
   jnd.mean_g = found.mean;
   jnd.sd_g = found.sd;
@@ -166,31 +170,30 @@ void put_session(AboveAndBelow& figures, std::span<const StaircaseResult* const>
     (result->start_g > middle_g ? figures.above : figures.below).push_back(censored_value(*result));
 }
 
-FigureSummary summarize(std::span<const std::optional<CensoredValue>> figures, int& n_censored,
-                        int& n_missing) {
-  std::vector<CensoredValue> known;
-  for (const auto& figure : figures)
-    if (figure) known.push_back(*figure);
-  n_missing = static_cast<int>(figures.size() - known.size());
-  n_censored = static_cast<int>(std::ranges::count_if(
-      known, [](const CensoredValue& value) { return value.censored != Censored::none; }));
-  return summarize_figures(known, n_missing);
+void put(StartedJnds& jnds, const std::string& participant,
+         const std::optional<CensoredValue>& figure) {
+  if (figure)
+    jnds.participants.push_back({participant, figure->value, figure->censored});
+  else
+    jnds.n_missing += 1;
 }
 
-StartEffect start_effect(const Compared& compared,
-                         const std::map<std::string, AboveAndBelow>& participants) {
-  std::vector<std::optional<CensoredValue>> above, below, differences;
-  for (const auto& [participant, figures] : participants) {
-    above.push_back(mean_figure(figures.above));
-    below.push_back(mean_figure(figures.below));
-    differences.push_back(difference(above.back(), below.back()));
-  }
+// None where no session has staircases of both kinds.
+std::optional<StartEffect> start_effect(const std::map<std::string, AboveAndBelow>& participants,
+                                        const Began& began) {
+  if (participants.empty()) return std::nullopt;
   StartEffect effect;
-  effect.compared = compared;
-  effect.n = static_cast<int>(participants.size());
-  effect.from_above_g = summarize(above, effect.n_censored, effect.n_missing);
-  effect.from_below_g = summarize(below, effect.n_censored, effect.n_missing);
-  effect.difference_g = summarize(differences, effect.n_censored, effect.n_missing);
+  for (const auto& [participant, sessions] : began) {
+    const auto figures = participants.find(participant);
+    const bool any = figures != participants.end();
+    const auto above = any ? mean_figure(figures->second.above) : std::nullopt;
+    const auto below = any ? mean_figure(figures->second.below) : std::nullopt;
+    put(effect.from_above_g, participant, above);
+    put(effect.from_below_g, participant, below);
+    put(effect.difference_g, participant, difference(above, below));
+  }
+  for (StartedJnds* jnds : {&effect.from_above_g, &effect.from_below_g, &effect.difference_g})
+    static_cast<FigureSummary&>(*jnds) = summary_of(jnds->participants, jnds->n_missing);
   return effect;
 }
 
@@ -267,28 +270,20 @@ void StaircaseFold::add(const SessionData& data) {
   std::ranges::move(of_session, std::back_inserter(results_));
 }
 
-std::vector<StartEffect> StaircaseFold::start_effects() const {
-  std::vector<StartEffect> effects;
-  for (const auto& [compared, participants] : starts_)
-    if (!participants.empty()) effects.push_back(start_effect(compared, participants));
-  return effects;
-}
-
 std::vector<ReferenceJnd> StaircaseFold::jnds() const {
   std::map<Compared, std::vector<StaircaseResult>> finished;
   for (const StaircaseResult& result : results_) finished[result.compared].push_back(result);
   std::vector<ReferenceJnd> jnds;
-  for (const auto& [compared, participants] : began_)
+  for (const auto& [compared, participants] : began_) {
     jnds.push_back(jnd_at(compared, finished[compared], participants));
+    if (const auto starts = starts_.find(compared); starts != starts_.end())
+      jnds.back().starts = start_effect(starts->second, participants);
+  }
   return jnds;
 }
 
 std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sessions) {
   return folded<StaircaseFold>(sessions).results();
-}
-
-std::vector<StartEffect> start_effects(std::span<const SessionData> sessions) {
-  return folded<StaircaseFold>(sessions).start_effects();
 }
 
 std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions) {
@@ -300,8 +295,17 @@ std::string_view beyond_sign(Censored censored) {
   return censored == Censored::above ? "> " : "< ";
 }
 
+int StartedJnds::n_censored(Censored direction) const {
+  return static_cast<int>(std::ranges::count(participants, direction, &ParticipantJnd::censored));
+}
+
 int ReferenceJnd::n_censored(Censored direction) const {
   return static_cast<int>(std::ranges::count(participants, direction, &ParticipantJnd::censored));
+}
+
+StartedJnds ReferenceJnd::as_published() const {
+  if (starts) return starts->from_above_g;
+  return {{summary, mean_g, sd_g, interval_g}, participants, static_cast<int>(missing.size())};
 }
 
 }  // namespace heft

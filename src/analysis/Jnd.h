@@ -61,8 +61,27 @@ struct ParticipantJnd {
 /// "> " where the value lies above what is given, "< " below, otherwise nothing.
 std::string_view beyond_sign(Censored censored);
 
+/// JNDs of participants' staircases that began on one side, or by how much they differ.
+struct StartedJnds : FigureSummary {
+  std::vector<ParticipantJnd> participants;  ///< with a figure, exact or censored
+  int n_missing = 0;                         ///< participants without one
+
+  int n() const { return static_cast<int>(participants.size()) + n_missing; }
+  int n_censored(Censored direction) const;
+};
+
+/// What staircases that began high and low say of one reference. Their difference is how far a JND
+/// follows from where its staircase began. Whoever has not both kinds in a session is missing.
+struct StartEffect {
+  StartedJnds from_above_g, from_below_g, difference_g;
+};
+
 struct ReferenceJnd {
   Compared compared;
+  /// Where staircases of a session differ in their start: those that begin above the middle between
+  /// the highest and the lowest start, and those below. None: there is one start, and `mean_g` is
+  /// of it; otherwise that is of both kinds together, and nothing that the paper measured.
+  std::optional<StartEffect> starts;
   /// Over participants; sd_g over n-1. None where half of them or more are censored or missing.
   std::optional<double> mean_g, sd_g;
   std::optional<Interval> interval_g;  ///< none for one participant or SD 0
@@ -83,20 +102,13 @@ struct ReferenceJnd {
 
   int n() const { return static_cast<int>(participants.size() + missing.size()); }
   int n_censored(Censored direction) const;  ///< participants
+  /// Of staircases that began as the paper's did: from above, where there are others too.
+  StartedJnds as_published() const;
 };
 
 /// Names of a protocol's staircases whose kind has no jnd_method; none where the text is no
 /// protocol.
 std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
-
-/// What staircases that began high and low say of one reference. Their difference is how far a JND
-/// follows from where its staircase began.
-struct StartEffect {
-  Compared compared;
-  int n = 0;                          ///< participants with staircases of both kinds
-  int n_censored = 0, n_missing = 0;  ///< of the differences
-  FigureSummary from_above_g, from_below_g, difference_g;
-};
 
 /// What the sessions' staircases come to.
 class StaircaseFold {
@@ -110,9 +122,6 @@ class StaircaseFold {
   /// By reference, lightest first, and condition. The paper's figures are beside its references in
   /// C2.
   std::vector<ReferenceJnd> jnds() const;
-  /// Of references whose staircases in one session differ in their start: those that begin above
-  /// the middle between the highest and the lowest start, and those below.
-  std::vector<StartEffect> start_effects() const;
 
   /// How many staircases each participant's sessions began.
   using Began = std::map<std::string, std::map<std::int64_t, int>>;
@@ -130,7 +139,6 @@ class StaircaseFold {
 };
 
 std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sessions);
-std::vector<StartEffect> start_effects(std::span<const SessionData> sessions);
 std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions);
 
 }  // namespace heft

@@ -91,6 +91,22 @@ ordered_json participants_json(const ReferenceJnd& jnd) {
   return participants;
 }
 
+ordered_json started_json(const std::optional<StartEffect>& starts,
+                          StartedJnds StartEffect::*which) {
+  if (!starts) return nullptr;
+  const StartedJnds& jnds = (*starts).*which;
+  return {{"mean_g", figure(jnds.mean)},
+          {"sd_g", figure(jnds.sd)},
+          {"low_g", low(jnds.interval)},
+          {"high_g", high(jnds.interval)},
+          {"summary",
+           jnds.kind == MeanKind::none ? ordered_json(nullptr) : ordered_json(name_of(jnds.kind))},
+          {"n", jnds.n()},
+          {"n_censored_above", jnds.n_censored(Censored::above)},
+          {"n_censored_below", jnds.n_censored(Censored::below)},
+          {"n_missing", jnds.n_missing}};
+}
+
 ordered_json jnd_json(const ReferenceJnd& jnd) {
   const bool any = jnd.n_staircases > 0;
   const auto of_any = [any](auto value) {
@@ -102,6 +118,9 @@ ordered_json jnd_json(const ReferenceJnd& jnd) {
           {"sd_g", figure(jnd.sd_g)},
           {"low_g", low(jnd.interval_g)},
           {"high_g", high(jnd.interval_g)},
+          {"from_above", started_json(jnd.starts, &StartEffect::from_above_g)},
+          {"from_below", started_json(jnd.starts, &StartEffect::from_below_g)},
+          {"above_minus_below", started_json(jnd.starts, &StartEffect::difference_g)},
           {"published_g", figure(jnd.published_g)},
           {"published_sd_g", figure(jnd.published_sd_g)},
           {"summary", jnd.summary == MeanKind::none ? ordered_json(nullptr)
@@ -126,26 +145,8 @@ ordered_json jnd_json(const ReferenceJnd& jnd) {
           {"n_ceiling_staircases", jnd.n_ceiling_staircases}};
 }
 
-ordered_json figures_json(const FigureSummary& figures) {
-  return {{"mean_g", figure(figures.mean)},
-          {"low_g", low(figures.interval)},
-          {"high_g", high(figures.interval)},
-          {"summary", figures.kind == MeanKind::none ? ordered_json(nullptr)
-                                                     : ordered_json(name_of(figures.kind))}};
-}
-
-ordered_json start_effect_json(const std::optional<StartEffect>& effect) {
-  if (!effect) return nullptr;
-  ordered_json json = figures_json(effect->difference_g);
-  json["n"] = effect->n;
-  json["n_censored"] = effect->n_censored;
-  json["n_missing"] = effect->n_missing;
-  return json;
-}
-
 ordered_json sensitivity_json(const ReferenceSensitivity& row) {
   const PooledSensitivity& pooled = row.pooled;
-  const auto& effect = row.start_effect;
   return {{"reference_g", figure(row.compared.reference_g)},
           {"condition", row.compared.condition},
           {"n", pooled.n},
@@ -160,10 +161,7 @@ ordered_json sensitivity_json(const ReferenceSensitivity& row) {
           {"sensitivity_high_per_g", high(pooled.sensitivity_interval)},
           {"indecision", figure(pooled.indecision)},
           {"indecision_low", low(pooled.indecision_interval)},
-          {"indecision_high", high(pooled.indecision_interval)},
-          {"from_above_g", effect ? figure(effect->from_above_g.mean) : ordered_json(nullptr)},
-          {"from_below_g", effect ? figure(effect->from_below_g.mean) : ordered_json(nullptr)},
-          {"above_minus_below", start_effect_json(effect)}};
+          {"indecision_high", high(pooled.indecision_interval)}};
 }
 
 ordered_json quality_json(const Quality& quality) {

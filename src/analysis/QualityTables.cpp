@@ -84,37 +84,6 @@ Table sensitivity_table(const Summary& summary) {
   }
   return table;
 }
-
-Table starts_table(const Summary& summary) {
-  Table table{
-      "start_effect",
-      titled("Does the JND follow its start? Staircases from above and from below", summary),
-      {{"reference_g", "reference g"},
-       {"condition", "condition"},
-       {"n", "n"},
-       {"from_above_g", "from above g"},
-       {"from_below_g", "from below g"},
-       {"difference_g", "difference g"},
-       {"low_g", "95 % low"},
-       {"high_g", "high"},
-       {"summary", "is the"},
-       {"n_censored", "censored"},
-       {"n_missing", "missing"}},
-      {},
-      "n participants with both; difference: above minus below of each, its mean and "
-      "interval as in the JND's table; censored, missing: of the differences"};
-  for (const ReferenceSensitivity& row : summary.sensitivity) {
-    if (!row.start_effect) continue;
-    const StartEffect& effect = *row.start_effect;
-    const FigureSummary& found = effect.difference_g;
-    table.rows.push_back({mass(row.compared.reference_g), word(row.compared.condition),
-                          count(effect.n), number(effect.from_above_g.mean),
-                          number(effect.from_below_g.mean), number(found.mean), low(found.interval),
-                          high(found.interval), kind_word(found.kind), count(effect.n_censored),
-                          count(effect.n_missing)});
-  }
-  return table;
-}
 }  // namespace
 
 Cell kind_word(MeanKind kind) {
@@ -127,7 +96,7 @@ std::vector<Table> quality_tables(const Summary& summary) {
 }
 
 std::vector<Table> sensitivity_tables(const Summary& summary) {
-  return {sensitivity_table(summary), starts_table(summary)};
+  return {sensitivity_table(summary)};
 }
 
 }  // namespace heft

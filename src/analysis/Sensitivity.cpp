@@ -6,17 +6,11 @@
 
 namespace heft {
 
-std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trials,
-                                                   std::span<const StartEffect> effects) {
+std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trials) {
   const std::set<std::string> study(trials.participants().begin(), trials.participants().end());
   std::vector<ReferenceSensitivity> all;
-  for (const auto& [compared, theirs] : trials.by_compared()) {
-    ReferenceSensitivity one{compared, pooled_sensitivity(answers_by_side(trials, compared), study),
-                             std::nullopt};
-    const auto effect = std::ranges::find(effects, compared, &StartEffect::compared);
-    if (effect != effects.end()) one.start_effect = *effect;
-    all.push_back(std::move(one));
-  }
+  for (const auto& [compared, theirs] : trials.by_compared())
+    all.push_back({compared, pooled_sensitivity(answers_by_side(trials, compared), study)});
   return all;
 }
 

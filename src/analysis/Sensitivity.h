@@ -16,14 +16,12 @@ namespace heft {
 struct ReferenceSensitivity {
   Compared compared;
   PooledSensitivity pooled;
-  std::optional<StartEffect> start_effect;  ///< where staircases began high and low
 };
 
 /// By reference, lightest first, and condition; participants' sessions together.
-std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trials,
-                                                   std::span<const StartEffect> effects);
+std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trials);
 inline std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions) {
-  return sensitivities_of(folded<ComparisonTrials>(sessions), start_effects(sessions));
+  return sensitivities_of(folded<ComparisonTrials>(sessions));
 }
 
 /// The interval of the second threshold divided by the first, both identifiable and of one study:

@@ -90,7 +90,7 @@ struct CountedFold {
     summary.sorting = sorting.result();
     summary.introduction = introduction.result();
     summary.jnd = staircases.jnds();
-    summary.sensitivity = sensitivities_of(comparisons, staircases.start_effects());
+    summary.sensitivity = sensitivities_of(comparisons);
     summary.staircases = staircases.results();
     summary.comparison = comparisons_of(comparisons);
     summary.times = times.result();

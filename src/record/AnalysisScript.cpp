@@ -169,19 +169,41 @@ jnds <- function() {
         told <- Filter(function(one) !is.na(one$value), sessions)
         mean_figure(vapply(told, function(one) one$value, 0), vapply(told, function(one) one$way, ""))
       })
-      value <- vapply(people, function(one) as.numeric(one$value), 0)
-      way <- vapply(people, function(one) as.character(one$way), "")
-      n_missing <- sum(is.na(value))
-      mean_g <- censored_mean(value[!is.na(value)], way[!is.na(value)], n_missing)
-      cat(sprintf("%s %g g: mean %s g; %d people, %d above, %d below, %d unknown\n", condition,
-                  reference, number(mean_g), length(value), sum(way == "above", na.rm = TRUE),
-                  sum(way == "below", na.rm = TRUE), n_missing))
-      tell("jnd.mean_g", condition, reference, mean_g)
-      tell("jnd.n", condition, reference, length(value))
-      tell("jnd.n_censored_above", condition, reference, sum(way == "above", na.rm = TRUE))
-      tell("jnd.n_censored_below", condition, reference, sum(way == "below", na.rm = TRUE))
-      tell("jnd.n_missing", condition, reference, n_missing)
+      tell_jnds(people, "jnd", "all staircases", condition, reference)
+      for (side in c("from_above", "from_below")) {
+        of_side <- by_start(here, results, side)
+        if (any(vapply(of_side, function(one) !is.na(one$value), NA)))
+          tell_jnds(of_side, paste0("jnd.", side), sub("_", " ", side), condition, reference)
+      }
     }
+}
+
+tell_jnds <- function(people, figure, staircases, condition, reference) {
+  value <- vapply(people, function(one) as.numeric(one$value), 0)
+  way <- vapply(people, function(one) as.character(one$way), "")
+  n_missing <- sum(is.na(value))
+  mean_g <- censored_mean(value[!is.na(value)], way[!is.na(value)], n_missing)
+  cat(sprintf("%s %g g, %s: mean %s g; %d people, %d above, %d below, %d unknown\n", condition,
+              reference, staircases, number(mean_g), length(value),
+              sum(way == "above", na.rm = TRUE), sum(way == "below", na.rm = TRUE), n_missing))
+  tell(paste0(figure, ".mean_g"), condition, reference, mean_g)
+  tell(paste0(figure, ".n"), condition, reference, length(value))
+  tell(paste0(figure, ".n_censored_above"), condition, reference, sum(way == "above", na.rm = TRUE))
+  tell(paste0(figure, ".n_censored_below"), condition, reference, sum(way == "below", na.rm = TRUE))
+  tell(paste0(figure, ".n_missing"), condition, reference, n_missing)
+}
+
+# Of sessions whose staircases began high and low: those on one side of the middle between.
+by_start <- function(here, results, side) {
+  lapply(split(here, here$person), function(theirs) {
+    own <- do.call(rbind, lapply(split(theirs, key(theirs)), function(session) {
+      found <- results[paste(key(results), results$staircase) %in%
+                       paste(key(session), session$staircase), ]
+      if (length(unique(found$start_g)) < 2) return(found[0, ])
+      found[(found$start_g > mean(range(found$start_g))) == (side == "from_above"), ]
+    }))
+    mean_figure(own$shown_g, own$way)
+  })
 }
 
 # Sensitivity: comparison, none or reference -------------------------------------------------------

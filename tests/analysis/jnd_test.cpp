@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "MadeUpSessions.h"
+#include "analysis/Summary.h"
+#include "analysis/Table.h"
+#include "analysis/Tables.h"
 #include "analysis/Tracks.h"
 
 namespace heft {
@@ -41,6 +45,48 @@ TEST(Jnd, StaircasesThenSessionsAreAveragedWithinAParticipant) {
   EXPECT_DOUBLE_EQ(jnds[0].participants[0].jnd_g, 200);
   EXPECT_DOUBLE_EQ(*jnds[0].mean_g, 300);
   EXPECT_EQ(jnds[0].n_staircases, 4);
+}
+
+SessionData with_both_starts(std::int64_t id, double above_g, double below_g) {
+  SessionData data = session(id, std::to_string(id));
+  add_comparison(data, "down", 200, 600);
+  add_staircase(data, "down", 200, above_g);
+  add_comparison(data, "up", 200, 20);
+  add_staircase(data, "up", 200, below_g);
+  return data;
+}
+
+TEST(Jnd, AboveAndBelowAreApart) {
+  std::vector sessions{with_both_starts(1, 300, 100), with_both_starts(2, 320, 100)};
+  const StartEffect both = jnd_of(sessions).at(0).starts.value();
+  EXPECT_EQ(both.from_above_g.mean, 310);
+  EXPECT_EQ(both.from_below_g.mean, 100);
+  EXPECT_EQ(both.difference_g.mean, 210);
+  EXPECT_NEAR(both.difference_g.interval->high, 210 + 12.7062047362 * 10, 1e-6);  // t, 1 df
+
+  sessions.push_back(session(3, "3"));  // ends before one of the two
+  add_comparison(sessions.back(), "up", 200, 20);
+  add_staircase(sessions.back(), "up", 200, 100);
+  const ReferenceJnd jnd = jnd_of(sessions).at(0);
+  EXPECT_EQ(jnd.starts.value().from_above_g.n_missing, 1);
+  EXPECT_EQ(jnd.starts->difference_g.n(), 3);
+  EXPECT_EQ(jnd.as_published().mean, 310);  // not 210, which is of both together
+
+  const ReferenceJnd alone = jnd_of({&sessions.back(), 1}).at(0);
+  EXPECT_FALSE(alone.starts.has_value());
+  EXPECT_EQ(alone.as_published().mean, 100);
+}
+
+TEST(Jnd, TheTableHasARowForEachStart) {
+  const std::vector sessions{with_both_starts(1, 300, 100), with_both_starts(2, 320, 100)};
+  const auto tables = tables_of(summarize({"x.db", sessions}, ""));
+  const Table& table = *std::ranges::find(tables, "jnd", &Table::name);
+  std::vector<std::string> rows;
+  for (const auto& row : table.rows) rows.push_back(row[2].text + ": " + row[3].text);
+  EXPECT_EQ(rows, (std::vector<std::string>{"from above: 310.0", "from below: 100.0",
+                                            "above - below: 210.0"}));
+  EXPECT_EQ(table.rows[0].at(12).text, "271.5");  // published, of staircases from above
+  EXPECT_EQ(table.rows[1].at(12).text, "");
 }
 
 TEST(Jnd, OneParticipantHasNoSpreadAndNoInterval) {

@@ -106,25 +106,6 @@ TEST(Sensitivity, OfOnePersonIsThatPersonsOwn) {
   EXPECT_GT(rows[0].pooled.threshold_interval_g->high, 100);
 }
 
-TEST(Sensitivity, HasAboveAndBelowApart) {
-  SessionData one = session(1, "a"), two = session(2, "b");
-  for (SessionData* data : {&one, &two}) {
-    const double more_g = data == &one ? 0 : 20;
-    add_comparison(*data, "down", 200, 600);
-    add_staircase(*data, "down", 200, 300 + more_g);
-    add_comparison(*data, "up", 200, 20);
-    add_staircase(*data, "up", 200, 100);
-  }
-  const auto rows = sensitivities_of(std::vector{one, two});
-  ASSERT_TRUE(rows.at(0).start_effect.has_value());
-  const StartEffect& effect = *rows[0].start_effect;
-  EXPECT_EQ(effect.n, 2);
-  EXPECT_EQ(effect.from_above_g.mean, 310);
-  EXPECT_EQ(effect.from_below_g.mean, 100);
-  EXPECT_EQ(effect.difference_g.mean, 210);
-  EXPECT_NEAR(effect.difference_g.interval->high, 210 + 12.7062047362 * 10, 1e-6);  // t, 1 df
-}
-
 // Of two ratios one may be off by chance twice as often as the only one.
 TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
   PooledSensitivity light, heavy, heaviest;
@@ -140,7 +121,7 @@ TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
   const auto verdict = [&](double ratio) {
     Summary summary = summarize({"x.db", {}}, "");
     const auto row = [](double reference_g, const PooledSensitivity& pooled) {
-      return ReferenceSensitivity{{reference_g, "C2"}, pooled, std::nullopt};
+      return ReferenceSensitivity{{reference_g, "C2"}, pooled};
     };
     summary.sensitivity = {row(100, light), row(100 * ratio, heavy), row(100 * ratio, heaviest)};
     return hypotheses_of(summary).at(4).verdict;
@@ -233,8 +214,8 @@ TEST(Sensitivity, ARatioIsOfTheSamePeopleWhoeverIsMissing) {
 // well.
 double true_start_effect(const Population& population, const ComparisonDesign& design) {
   RandomStream stream(29, "very many people");
-  const auto effects = start_effects(study(4000, population, {design}, stream));
-  return effects.at(0).difference_g.mean.value();
+  const auto jnds = jnd_of(study(4000, population, {design}, stream));
+  return jnds.at(0).starts.value().difference_g.mean.value();
 }
 
 TEST(CoverageOf, AboveMinusBelow) {
@@ -247,8 +228,8 @@ TEST(CoverageOf, AboveMinusBelow) {
     RandomStream stream(31, "above and below", static_cast<std::uint64_t>(n_people));
     Coverage found;
     for (int i = 0; i < studies; ++i) {
-      const auto effects = start_effects(study(n_people, population, {design}, stream));
-      found.add(effects.at(0).difference_g.interval, truth);
+      const auto jnds = jnd_of(study(n_people, population, {design}, stream));
+      found.add(jnds.at(0).starts.value().difference_g.interval, truth);
     }
     std::cout << n_people << " people, threshold " << population.threshold_75_g
               << " g, above - below " << truth << " g: " << found.percent() << " % of "

@@ -146,8 +146,10 @@ class Comparison:
             elif kind == "jnd":
                 (told,) = [one for one in summary["jnd"] if one["condition"] == condition and
                            one["reference_g"] == float(reference)]
+                for name in path[:-1]:  # from_above, from_below
+                    told = told[name]
                 relative = 1e-5 if told["summary"] == "tobit_mean" else 1e-9
-                self.expect((row["figure"], condition, reference), found, told[path[0]], relative)
+                self.expect((row["figure"], condition, reference), found, told[path[-1]], relative)
             else:
                 fit = fits[f"{condition} {float(reference):g} g"]
                 if path[0] == "log_likelihood":
