@@ -12,10 +12,22 @@ namespace heft {
 namespace {
 // What a reviewer looks for first comes first: who took part, what the answers are, then each
 // staircase and participant, then how it went.
-constexpr std::array by_importance{
-    "participant_flow",      "sorting",     "staircases",     "all_staircases", "choice_curves",
-    "thresholds_by",         "jnd",         "jnd_against",    "sorting_by",     "labels_by_mass",
-    "hits_and_false_alarms", "lag_by_mass", "times_by_level", "times_by_trial", "tracking_quality"};
+constexpr std::array by_importance{"participant_flow",
+                                   "sorting",
+                                   "staircases",
+                                   "all_staircases",
+                                   "choice_curves",
+                                   "thresholds_by",
+                                   "jnd",
+                                   "jnd_against",
+                                   "sorting_by",
+                                   "labels_by_mass",
+                                   "beside_published",
+                                   "hits_and_false_alarms",
+                                   "lag_by_mass",
+                                   "times_by_level",
+                                   "times_by_trial",
+                                   "tracking_quality"};
 
 std::ptrdiff_t importance(const Chart& chart) {
   std::ptrdiff_t place = 0, longest = 0, found = by_importance.size();
@@ -47,7 +59,8 @@ std::string framed(const Chart& chart, const Summary& summary, int height_px,
 std::vector<Chart> charts_of(const Summary& summary) {
   std::vector<Chart> charts{
       participant_flow_chart(summary), tracks_chart(summary), sorting_chart(summary),
-      choice_chart(summary),           jnd_chart(summary),    label_chart(summary)};
+      choice_chart(summary),           jnd_chart(summary),    label_chart(summary),
+      published_chart(summary)};
   for (Chart& chart : multiples_charts(summary)) charts.push_back(std::move(chart));
   for (Chart& chart : person_charts(summary)) charts.push_back(std::move(chart));
   for (Chart& chart : people_charts(summary)) charts.push_back(std::move(chart));

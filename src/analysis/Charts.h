@@ -32,6 +32,7 @@ Chart choice_chart(const Summary& summary);
 std::vector<Chart> multiples_charts(const Summary& summary);
 std::vector<Chart> people_charts(const Summary& summary);
 Chart label_chart(const Summary& summary);
+Chart published_chart(const Summary& summary);
 Chart participant_flow_chart(const Summary& summary);
 std::vector<Chart> person_charts(const Summary& summary);  ///< thresholds, tracking
 

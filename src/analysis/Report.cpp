@@ -207,6 +207,7 @@ Sections sections_of(const Summary& summary) {
     results.tables.insert(results.tables.end(), tables.begin(), tables.end());
   results.tables.push_back(threshold_list(summary));
   for (Table& table : comparison_tables(summary)) results.tables.push_back(std::move(table));
+  results.tables.push_back(published_table(summary));
   std::vector<Table> run = session_tables(summary);  // times, voids, choices of the protocol
   run.push_back(setup_table(summary));
   run.push_back(tracking_table(summary));

@@ -14,7 +14,7 @@ namespace heft {
 std::vector<Table> sorting_tables(const Summary& summary);      ///< with the introduction
 std::vector<Table> comparison_tables(const Summary& summary);   ///< JNDs and choices
 std::vector<Table> quality_tables(const Summary& summary);      ///< what is counted first
-std::vector<Table> sensitivity_tables(const Summary& summary);  ///< thresholds, start effect
+std::vector<Table> sensitivity_tables(const Summary& summary);  ///< thresholds
 std::vector<Table> session_tables(const Summary& summary);      ///< response times and voids
 
 // Row for row, for CSV files only.
@@ -22,6 +22,7 @@ Table staircase_list(const Summary& summary);
 Table level_list(const Summary& summary);
 Table session_list(const Summary& summary);
 Table label_table(const Summary& summary);
+Table published_table(const Summary& summary);
 Table participant_list(const Summary& summary);
 Table flow_table(const Summary& summary);
 Table tracking_table(const Summary& summary);

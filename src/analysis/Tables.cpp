@@ -73,10 +73,10 @@ std::vector<Table> tables_of(const Summary& summary) {
 
 std::vector<Table> lists_of(const Summary& summary) {
   std::vector<Table> lists;
-  add_filled(lists, {participant_list(summary), flow_table(summary), threshold_list(summary),
-                     tracking_table(summary), session_list(summary), staircase_list(summary),
-                     level_list(summary), setup_table(summary), incident_table(summary),
-                     dictionary_table(summary)});
+  add_filled(lists, {participant_list(summary), published_table(summary), flow_table(summary),
+                     threshold_list(summary), tracking_table(summary), session_list(summary),
+                     staircase_list(summary), level_list(summary), setup_table(summary),
+                     incident_table(summary), dictionary_table(summary)});
   add_filled(lists, point_lists(summary));
   return lists;
 }

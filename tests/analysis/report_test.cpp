@@ -101,7 +101,8 @@ TEST_F(ReportFolder, EveryChartCarriesItsCommandAndVersion) {
     EXPECT_GT(chart.n, 0) << chart.name;
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"sorting", "choice_curves", "jnd", "staircases",
-                                            "all_staircases_15g", "jnd_against_start"}));
+                                            "all_staircases_15g", "jnd_against_start",
+                                            "beside_published"}));
   EXPECT_TRUE(charts_of(summarize({"x.db", {}}, "")).empty());
 }
 
