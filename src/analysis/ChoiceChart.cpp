@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "analysis/Charts.h"
 #include "analysis/Gnuplot.h"
@@ -23,6 +24,17 @@ std::string block_of(std::string_view name, std::span<const ChoiceBin* const> bi
                            found.interval_percent->low, found.interval_percent->high);
   }
   return block + "END\n";
+}
+
+// A line a participant, of how often they chose the heavier cube; gnuplot begins anew after a gap.
+std::string lines_block(std::string_view name, std::span<const ChoiceBin* const> bins) {
+  std::map<std::string, std::string> lines;
+  for (const ChoiceBin* bin : bins)
+    for (const auto& [participant, percent] : bin->right_percent_of)
+      lines[participant] += fmt::format("{} {}\n", bin->mean_level_g, percent);
+  std::string block = fmt::format("${} << END\n", name);
+  for (const auto& [participant, line] : lines) block += line + '\n';
+  return block + (lines.empty() ? "NaN NaN\nEND\n" : "END\n");
 }
 
 // The model of a participant in the middle, without side bias.
@@ -51,11 +63,12 @@ std::string panel_script(const ReferenceSensitivity& row, std::span<const Choice
                                 : std::string("no threshold");
   return block_of(prefix + "r", bins, &ChoiceBin::right) +
          block_of(prefix + "w", bins, &ChoiceBin::wrong) +
-         block_of(prefix + "n", bins, &ChoiceBin::none) +
+         block_of(prefix + "n", bins, &ChoiceBin::none) + lines_block(prefix + "i", bins) +
          fmt::format(
              "set lmargin at screen {0:.4f}\nset rmargin at screen {1:.4f}\n"
              "set title {2} offset 0,-0.6\n"
-             "plot ${3}r using 1:2:3:4 with yerrorbars pointtype 7 pointsize 0.7 linecolor "
+             "plot ${3}i using 1:2 with lines linewidth 0.6 linecolor '#b9cde3' notitle, "
+             "${3}r using 1:2:3:4 with yerrorbars pointtype 7 pointsize 0.7 linecolor "
              "'#2f6fb0' notitle, "
              "${3}w using 1:2:3:4 with yerrorbars pointtype 2 pointsize 0.8 linecolor '#c0561f' "
              "notitle, "
@@ -75,7 +88,9 @@ Chart choice_chart(const Summary& summary) {
   chart.caption =
       "Percentage of trials in which the heavier cube, the lighter cube or neither was chosen; "
       "trials of all participants in bins of about as many, those without a difference apart, "
-      "with 95 % intervals over participants. Curves: indecision model of the median participant, "
+      "with 95 % intervals over participants. Thin lines: how often each participant chose the "
+      "heavier cube in those bins (not drawn of more than 60). Curves: indecision model of the "
+      "median participant, "
       "where the data bear one.";
   chart.n = summary.n_participants;
   chart.csv = "choice_curves.csv";

@@ -63,8 +63,12 @@ ChoiceBin choice_bin(const Compared& compared, const Trials& bin, const Comparis
     count(right[participant], trial->difference && rightly);
     count(wrong[participant], trial->difference && !rightly);
   }
-  return {compared,       mean_level_g(bin), static_cast<int>(bin.size()),
-          rate_of(right), rate_of(wrong),    rate_of(none)};
+  ChoiceBin found{compared,       mean_level_g(bin), static_cast<int>(bin.size()),
+                  rate_of(right), rate_of(wrong),    rate_of(none)};
+  if (trials.participants().size() <= most_lines)
+    for (const auto& [participant, tally] : right)
+      found.right_percent_of[participant] = 100.0 * tally.n_hits / tally.n_trials;
+  return found;
 }
 
 Quartiles measured(std::string group, double at, const std::vector<double>& values) {

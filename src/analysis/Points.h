@@ -20,7 +20,12 @@ struct ChoiceBin {
   double mean_level_g = 0;
   int n_trials = 0;
   Rate right, wrong, none;  ///< at 0 either choice is half right, half wrong, and not counted there
+  /// By participant, of those with trials here; empty: there are more than can be drawn apart.
+  std::map<std::string, double> right_percent_of{};
 };
+
+/// More participants than this have no line of their own.
+inline constexpr std::size_t most_lines = 60;
 
 /// One participant's percentages of right sortings, of all completed ones; none without any.
 struct PersonSorting {

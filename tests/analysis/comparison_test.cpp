@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "MadeUpSessions.h"
+#include "analysis/Charts.h"
+#include "analysis/Points.h"
 #include "analysis/Timing.h"
 
 namespace heft {
@@ -97,6 +99,25 @@ TEST(Timing, VoidsByReasonMostFrequentFirst) {
   ASSERT_EQ(voids.size(), 2);
   EXPECT_EQ(voids[0].reason, "interrupted");
   EXPECT_EQ(voids[0].n, 2);
+}
+
+std::vector<SessionData> choosers(int n) {
+  std::vector<SessionData> sessions;
+  for (int i = 0; i < n; ++i) {
+    sessions.push_back(session(i + 1, std::to_string(100 + i)));
+    Attempt& attempt = add_comparison(sessions.back(), "s", 200, 50);
+    if (i == 0) choose(attempt, true);
+  }
+  return sessions;
+}
+
+TEST(ChoiceCurves, EachParticipantIsALineUntilThereAreTooMany) {
+  const auto few = points_of(choosers(2));
+  EXPECT_EQ(few.choices.at(0).right_percent_of,
+            (std::map<std::string, double>{{"100", 100}, {"101", 0}}));
+  const Summary summary = summarize({"x.db", choosers(2)}, "");
+  EXPECT_THAT(choice_chart(summary).script, testing::HasSubstr("$c0i << END\n50 100\n\n50 0\n"));
+  EXPECT_TRUE(points_of(choosers(61)).choices.at(0).right_percent_of.empty());
 }
 
 }  // namespace
