@@ -32,7 +32,12 @@ struct LevelAxis {
                                        std::abs(answers.rbegin()->first - mean_g));
     if (furthest_g > 0) unit_g = furthest_g;
   }
-  double operator()(double level_g) const { return (level_g - mean_g) / unit_g; }
+  /// Without the last digits, which an origin far away takes: where there are several hills, or the
+  /// top is at infinity, they decide where a search ends.
+  double operator()(double level_g) const {
+    constexpr double steps = 1LL << 33;
+    return std::round((level_g - mean_g) / unit_g * steps) / steps;
+  }
 
   double mean_g = 0, unit_g = 1;
 };

@@ -385,6 +385,21 @@ TEST(IndecisionFit, WithAFreeLapseTheOriginDoesNotMoveTheEnds) {
   }
 }
 
+// The answers are separated, so that the top lies at infinity; where a search for it ends is for
+// the last digits to say, and an origin far away changes these.
+TEST(IndecisionFit, TheLastDigitsOfTheLevelsDoNotMoveTheEnds) {
+  const AnswersByLevel answers{{-394, {1, 1, 0}}, {-254, {2, 0, 0}}, {-249, {2, 0, 0}},
+                               {-205, {1, 1, 0}}, {-102, {1, 0, 1}}, {-98, {0, 2, 0}},
+                               {54, {0, 2, 0}},   {104, {0, 1, 1}},  {363, {0, 0, 2}}};
+  AnswersByLevel moved;
+  for (const auto& [level, n] : answers) moved[level + 1000] = n;
+  const Fit here = fit_indecision(answers, {{}, 0, {}}),
+            there = fit_indecision(moved, {{}, 0, {}});
+  EXPECT_NEAR(*there.log_likelihood, *here.log_likelihood, 1e-9);
+  for (const char* name : {"sensitivity", "indecision", "lapse"})
+    expect_same(there.parameter(name).low, here.parameter(name).low, 1e-9);
+}
+
 // Whatever the answers are: the figures are finite, in order, and there or not as `why` says.
 // R's ordinal::clm has the same standard error, and none that means anything for the two thresholds:
 // nobody answered near one of them.
