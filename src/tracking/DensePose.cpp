@@ -40,6 +40,9 @@ constexpr double least_noise = 0.5;
 // More where pixels are left out, at a shadow's edge, or light is reflected: they had pulled the
 // pose before.
 constexpr int rounds = 2, most_rounds = 5;
+// Of the contrast: what is farther off shows another thing. The last round looks closer, when edges
+// are no longer off because pose or bias are.
+constexpr double far_share = 0.12, last_far_share = 0.05;
 // Variances: reflected light looks a little like another distance, so that looking for what is not
 // there would cost half of what the cells tell.
 constexpr double least_gain = 50;
@@ -112,7 +115,7 @@ class TagFit {
 
   // What this tag's pixels say about what tags share, its own unknowns taken out.
   void add_to(MatrixShared& matrix, VectorShared& pull, const Pose& pose, double bias_px,
-              bool drop_outliers) {
+              int round) {
     MatrixAll all = MatrixAll::Zero();
     VectorAll all_pull = VectorAll::Zero();
     all(n_shared + log_blur, n_shared + log_blur) = 1 / (blur_sd * blur_sd);
@@ -123,7 +126,8 @@ class TagFit {
     all_pull.tail<n_reflected>() -= 10 * own_.tail<n_reflected>();
     const TagPlane plane(pose, seen_.corners_m, pattern_.border_cells);
     const double clip = 2.5 * noise_;
-    const double far = drop_outliers || seen_.covered() ? far_off() : 1e9;
+    const double share = round + 1 < most_rounds ? far_share : last_far_share;
+    const double far = round > 0 || seen_.covered() ? far_off(share) : 1e9;
     double sum = 0;
     int n = 0;
     for (const Pixel& pixel : pixels_) {
@@ -140,7 +144,7 @@ class TagFit {
     complete_upper(all);
     noise_ = std::max(least_noise, 1.2533 * sum / std::max(1, n));
     used_ = n;
-    reflects_ = reflects_ || (drop_outliers && gained(all, all_pull) > least_gain);
+    reflects_ = reflects_ || (round > 0 && gained(all, all_pull) > least_gain);
     if (!reflects_) all.diagonal().tail<n_reflected>().array() += 1e12;
     const auto own_part = all.bottomRightCorner<n_own, n_own>();
     const Eigen::LDLT<Eigen::Matrix<double, n_own, n_own>> solver(own_part);
@@ -239,8 +243,8 @@ class TagFit {
   }
 
   // How far off a pixel is that shows another thing, gray levels.
-  double far_off() const {
-    return std::max({10.0, 0.05 * (seen_.bright - seen_.dark), 3 * picture_noise_});
+  double far_off(double share) const {
+    return std::max({10.0, share * (seen_.bright - seen_.dark), 3 * picture_noise_});
   }
 
   // What is not the tag, and what is so near to it that they are blurred into each other.
@@ -250,7 +254,7 @@ class TagFit {
     std::vector<Eigen::Vector2d> covers;
     VectorAll unused;
     for (const Pixel& pixel : pixels_)
-      if (std::abs(pixel.value - modeled(pixel, plane, pose, 0, unused)) > far_off())
+      if (std::abs(pixel.value - modeled(pixel, plane, pose, 0, unused)) > far_off(far_share))
         covers.push_back(pixel.ray);
     std::erase_if(pixels_, [&](const Pixel& pixel) {
       return std::ranges::any_of(covers, [&](const Eigen::Vector2d& ray) {
@@ -407,7 +411,7 @@ std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera
     VectorShared pull = VectorShared::Zero();
     matrix(6, 6) = 1 / bias_variance;
     pull(6) = (prior.mean_px - fit.bias_px) / bias_variance;
-    for (TagFit& tag : fits) tag.add_to(matrix, pull, fit.camera_from_body, fit.bias_px, round > 0);
+    for (TagFit& tag : fits) tag.add_to(matrix, pull, fit.camera_from_body, fit.bias_px, round);
     const VectorShared change = matrix.ldlt().solve(pull);
     if (!change.allFinite() || !(change.head<3>().norm() < 0.2)) return std::nullopt;
     for (TagFit& tag : fits) tag.step(change);
