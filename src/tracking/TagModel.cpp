@@ -1,0 +1,192 @@
+#include "tracking/TagModel.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/Pose.h"
+#include "tracking/NormalTable.h"
+
+namespace heft {
+
+namespace {
+// What lies beyond the white cell around the border, perhaps an edge of the box, must not blur into
+// the pixels that are compared.
+constexpr double most_beyond_cells = 0.45, far_in_blurs = 3;
+constexpr double most_blur_cells = 0.45;
+constexpr double least_blur_px = 0.29;  // a pixel's own extent: 1 / sqrt(12)
+constexpr double edge_in_blurs = 2.5;
+constexpr double least_contrast = 0.002;  // of the light that shows as white
+// The pattern is painted with its outermost cells carried on, as far as five cells around a pixel
+// reach.
+constexpr int padding = 3;
+
+// A tag's cells along one axis around a place: how much of the blur lies over each of five.
+struct Weights {
+  int first;  ///< cell
+  std::array<double, 5> weight, by_place, by_log_blur;
+};
+
+Weights weights_at(double place, double blur_cells) {
+  Weights w;
+  const int cell = static_cast<int>(std::floor(place));
+  w.first = cell - 2;
+  double before = 1, before_by_place = 0, before_by_blur = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double q = (place - (cell - 1 + i)) / blur_cells;
+    const Normal normal = normal_at(q);
+    const double by_place = normal.density / blur_cells, by_blur = -q * normal.density;
+    const auto k = static_cast<std::size_t>(i);
+    w.weight[k] = before - normal.below;
+    w.by_place[k] = before_by_place - by_place;
+    w.by_log_blur[k] = before_by_blur - by_blur;
+    before = normal.below, before_by_place = by_place, before_by_blur = by_blur;
+  }
+  w.weight[4] = before;
+  w.by_place[4] = before_by_place;
+  w.by_log_blur[4] = before_by_blur;
+  return w;
+}
+
+}  // namespace
+
+TagModel::TagModel(const DenseTag& tag, const ToneCurve& curve)
+    : seen_(*tag.seen),
+      pattern_(*tag.pattern),
+      curve_(curve),
+      blur_px_(std::max(least_blur_px, tag.seen->blur_px[0]),
+               std::max(least_blur_px, tag.seen->blur_px[1])) {
+  own_(dark) = curve.light(seen_.dark);
+  own_(contrast) = curve.light(seen_.bright) - own_(dark);
+  paint();
+}
+
+void TagModel::paint() {
+  n_painted_ = pattern_.border_cells + 2 * padding;
+  const int margin = pattern_.margin_cells(), last = pattern_.n_cells - 1;
+  for (int row = 0; row < n_painted_; ++row)
+    for (int column = 0; column < n_painted_; ++column)
+      white_.push_back(pattern_.is_white(std::clamp(column - padding + margin, 0, last),
+                                         std::clamp(row - padding + margin, 0, last)));
+}
+
+bool TagModel::is_clear() const {
+  const double cell_px = std::sqrt(seen_.area_px2) / pattern_.border_cells;
+  return own_(contrast) > least_contrast && blur_px_.maxCoeff() < most_blur_cells * cell_px;
+}
+
+TagPlane TagModel::plane(const Pose& pose) const {
+  return {pose, seen_.corners_m, pattern_.border_cells};
+}
+
+TagHit TagModel::middle(const TagPlane& plane) const {
+  const Eigen::Vector3d middle_m =
+      plane.corner_m + pattern_.border_cells / 2.0 * (plane.right_m + plane.down_m);
+  return TagHit(plane, middle_m.hnormalized());
+}
+
+// The variance that motion adds along its way, from what it adds across the borders.
+void TagModel::smear_along(const Smear& smear, const Pose& pose) {
+  const TagHit hit = middle(plane(pose));
+  const Eigen::Vector3d v =
+      smear.velocity.linear_m_s + smear.velocity.angular_rad_s.cross(hit.point_m - pose.position_m);
+  const Eigen::Vector2d way = v.head<2>() - v.z() * hit.point_m.hnormalized();
+  if (!(way.norm() > 0)) return;
+  const Eigen::Vector2d across = (hit.cell_by_slant.rowwise().normalized() * way.normalized())
+                                     .cwiseAbs2();  // of the way, across each kind of border
+  const double still = smear.still_blur_px * smear.still_blur_px;
+  const Eigen::Vector2d added = blur_px_.cwiseAbs2().array() - still;
+  const double variance = std::max(0.0, across.dot(added) / across.squaredNorm());
+  blur_shape_ += variance / still * way.normalized() * way.normalized().transpose();
+}
+
+Eigen::Vector2d TagModel::beyond_cells(const TagPlane& plane) const {
+  const TagHit hit = middle(plane);
+  const double pixel_m = hit.point_m.z() / seen_.px_per_ray;
+  Eigen::Vector2d beyond;
+  for (int i = 0; i < 2; ++i)
+    beyond(i) = std::clamp(pattern_.margin_cells() - far_in_blurs * blur_px_(i) * pixel_m *
+                                                         hit.cell_by_slant.row(i).norm(),
+                           0.0, most_beyond_cells);
+  return beyond;
+}
+
+Eigen::Vector2d TagModel::near_cells(const TagPlane& plane) const {
+  const TagHit hit = middle(plane);
+  const double pixel_m = hit.point_m.z() / seen_.px_per_ray;
+  const Eigen::Vector2d cell_by_px = pixel_m * hit.cell_by_slant.rowwise().norm();
+  return (edge_in_blurs * cell_by_px.cwiseProduct(blur_px_)).cwiseMin(0.5);
+}
+
+bool TagModel::is_flat(const Eigen::Vector2d& cell, const Eigen::Vector2d& near) const {
+  const auto is_white = [&](double right, double below) {
+    const auto place = [&](double at) {
+      return std::clamp(static_cast<int>(std::floor(at)) + padding, 0, n_painted_ - 1);
+    };
+    return white_[static_cast<std::size_t>(place(cell.y() + below) * n_painted_ +
+                                           place(cell.x() + right))];
+  };
+  const std::uint8_t here = is_white(-near.x(), -near.y());
+  return is_white(near.x(), -near.y()) == here && is_white(-near.x(), near.y()) == here &&
+         is_white(near.x(), near.y()) == here;
+}
+
+void TagModel::change_own(const VectorOwn& change) {
+  own_ += change;
+  own_(log_blur) = std::clamp(own_(log_blur), -0.5, 0.5);
+}
+
+double TagModel::gray_level(const Eigen::Vector2d& ray, const TagPlane& plane, const Pose& pose,
+                            double bias_px, VectorAll& by) const {
+  const TagHit hit(plane, ray);
+  // A pixel's size on the tag.
+  const double pixel_m = hit.point_m.z() / seen_.px_per_ray, wider = std::exp(own_(log_blur));
+  const Eigen::Vector2d cell_by_px = pixel_m * hit.cell_by_slant.rowwise().norm();
+  const Eigen::Vector2d blur = wider * cell_by_px.cwiseProduct(blur_px_);
+  const Weights across = weights_at(hit.cell.x(), blur.x());
+  const Weights below = weights_at(hit.cell.y(), blur.y());
+  // Seen at a slant, or smeared, the blur lies at a slant on the tag: two terms of Mehler's
+  // series.
+  const Eigen::Matrix2d shape = hit.cell_by_slant * blur_shape_ * hit.cell_by_slant.transpose();
+  const double correlation = shape(0, 1) / std::sqrt(shape(0, 0) * shape(1, 1));
+  const double slanted = correlation * blur.prod(), twice = correlation * correlation / 2;
+  double b = 0, by_blur = 0;
+  Eigen::Vector2d by_cell(0, 0);
+  const int first_row = std::clamp(below.first + padding, 0, n_painted_ - 5);
+  const int first_column = std::clamp(across.first + padding, 0, n_painted_ - 5);
+  for (std::size_t j = 0; j < 5; ++j) {
+    double row = 0, row_by_place = 0, row_by_blur = 0;
+    const std::uint8_t* white = &white_[static_cast<std::size_t>(
+        (first_row + static_cast<int>(j)) * n_painted_ + first_column)];
+    for (std::size_t i = 0; i < 5; ++i)
+      if (white[i] != 0) {
+        row += across.weight[i];
+        row_by_place += across.by_place[i];
+        row_by_blur += across.by_log_blur[i];
+      }
+    b += below.weight[j] * row + slanted * below.by_place[j] * row_by_place +
+         twice * below.by_log_blur[j] * row_by_blur;
+    by_cell.x() += below.weight[j] * row_by_place;
+    by_cell.y() += below.by_place[j] * row;
+    by_blur += below.weight[j] * row_by_blur + below.by_log_blur[j] * row;
+  }
+  const Eigen::Vector2d slope = -(hit.cell_by_slant.transpose() * by_cell);
+  const double shrinks = -slope.norm() * pixel_m;  // of white, by a pixel of bias
+  b += shrinks * bias_px;
+  const double half = pattern_.border_cells / 2.0;
+  const Eigen::Vector2d place = (hit.cell.array() - half) / half;
+  const double brighter = 1 + own_(along) * place.x() + own_(down) * place.y();
+  Eigen::Matrix<double, n_reflected, 1> powers;
+  powers << place, place.cwiseAbs2(), place.prod();
+  const double light = own_(dark) + own_(contrast) * b + own_.tail<n_reflected>().dot(powers);
+  const Stored stored = curve_.stored(light * brighter);
+  const double by_light = stored.by_light * brighter, by_b = by_light * own_(contrast);
+  const Eigen::Vector3d by_point(by_b * slope.x(), by_b * slope.y(), -by_b * slope.dot(ray));
+  const Eigen::Vector3d arm = hit.point_m - pose.position_m;
+  by << arm.cross(by_point), by_point, by_b * shrinks, by_light, by_light * b,
+      stored.by_light * light * place, by_b * by_blur, by_light * powers;
+  return stored.value;
+}
+
+}  // namespace heft
