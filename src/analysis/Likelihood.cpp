@@ -188,15 +188,16 @@ Parameters Likelihood::standard_errors(const Parameters& at) {
   const Eigen::SelfAdjointEigenSolver<Curvature> solver(scale.asDiagonal() * information *
                                                         scale.asDiagonal());
   const Parameters& values = solver.eigenvalues();
-  // What the answers leave open, such as where nobody answered on either side of a criterion, takes
-  // the standard errors of those alone that move with it.
+  // What the answers leave open, such as where a criterion lies that nobody answered on either side
+  // of, leaves those alone open that move with it.
   const Eigen::ArrayXd open = (values.array() <= singular * values[n - 1]).cast<double>();
   const auto shares = solver.eigenvectors().array().square().matrix();
   const Parameters is_open = shares * open.matrix();
   const Parameters variances = shares * (open > 0).select(0, values.array().inverse()).matrix();
   for (Eigen::Index i = 0; i < n; ++i)
-    if (is_open[i] < singular)
-      errors[inside[static_cast<std::size_t>(i)]] = std::sqrt(variances[i]) * scale[i];
+    errors[inside[static_cast<std::size_t>(i)]] = is_open[i] < singular
+                                                      ? std::sqrt(variances[i]) * scale[i]
+                                                      : std::numeric_limits<double>::infinity();
   return errors;
 }
 

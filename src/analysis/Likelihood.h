@@ -49,6 +49,7 @@ class Likelihood {
   Maximum profile(Eigen::Index held, double held_value, Parameters from, Parameters or_from);
   /// From all starts, and in proportion to what was last.
   Maximum profile_from_anywhere(Eigen::Index held, double held_value, const Parameters& last);
+  /// 0: at a bound, or unknown; infinite: the answers leave it open.
   Parameters standard_errors(const Parameters& at);
   /// How the likeliest others move with one parameter, next to a maximum.
   Parameters tangent(const Parameters& maximum, Eigen::Index along);

@@ -17,11 +17,12 @@ bool fit_parameters(Likelihood& likelihood, Maximum& best,
     LikelihoodParameter& parameter = parameters[static_cast<std::size_t>(i)];
     parameter.value = best.at[i];
     if (likelihood.bounds(i).fixed()) continue;
-    if (errors[i] > 0) parameter.se = errors[i];
+    parameter.exists = !std::isinf(errors[i]);
+    if (errors[i] > 0 && parameter.exists) parameter.se = errors[i];
     if (!likelihood.bounds(i).with_interval) continue;
     for (const double direction : {-1.0, 1.0}) {
       IntervalEnd end(likelihood, best, i, direction);
-      end.search(errors[i] > 0 ? 2 * errors[i] : 0.1 * (1 + std::abs(best.at[i])));
+      end.search(parameter.se ? 2 * *parameter.se : 0.1 * (1 + std::abs(best.at[i])));
       if (end.likeliest().log_likelihood > best.log_likelihood + same_log_likelihood) {
         best = end.likeliest();
         return false;

@@ -46,7 +46,8 @@ struct LikelihoodParameter {
   double value = 0;
   std::optional<double> se;         ///< none: fixed, at a bound, or no information
   std::optional<double> low, high;  ///< none: the interval has no end on that side
-  /// False where the likelihood grows for ever on the way to infinity: no value is the estimate.
+  /// False where the likelihood grows for ever on the way to infinity, or is the same all around:
+  /// no value is the estimate.
   bool exists = true;
 };
 

@@ -393,22 +393,25 @@ TEST(IndecisionFit, TheLastDigitsOfTheLevelsDoNotMoveTheEnds) {
                                {54, {0, 2, 0}},   {104, {0, 1, 1}},  {363, {0, 0, 2}}};
   AnswersByLevel moved;
   for (const auto& [level, n] : answers) moved[level + 1000] = n;
-  const Fit here = fit_indecision(answers, {{}, 0, {}}),
-            there = fit_indecision(moved, {{}, 0, {}});
+  const Fit here = fit_indecision(answers, {{}, 0, {}}), there = fit_indecision(moved, {{}, 0, {}});
   EXPECT_NEAR(*there.log_likelihood, *here.log_likelihood, 1e-9);
   for (const char* name : {"sensitivity", "indecision", "lapse"})
     expect_same(there.parameter(name).low, here.parameter(name).low, 1e-9);
 }
 
 // Whatever the answers are: the figures are finite, in order, and there or not as `why` says.
-// R's ordinal::clm has the same standard error, and none that means anything for the two thresholds:
-// nobody answered near one of them.
+// R's ordinal::clm has the same standard error, and none that means anything for the two
+// thresholds: nobody answered near one of them.
 TEST(IndecisionFit, WhatIsLeftOpenTakesNoStandardErrorFromTheSensitivity) {
   const Fit fit = fit_indecision(
       {{-222, {29, 0, 0}}, {-137.2, {46, 1, 0}}, {-69.6, {15, 26, 0}}, {284.4, {0, 0, 33}}}, {});
   EXPECT_NEAR(fit.parameter("sensitivity").se.value(), 0.0067812, 0.00002);
   EXPECT_TRUE(fit.parameter("threshold_75_g").se);
-  EXPECT_FALSE(fit.parameter("indecision").se);
+  for (const char* open : {"indecision", "bias"}) {  // as likely all around
+    EXPECT_EQ(fit.parameter(open).value, std::nullopt) << open;
+    EXPECT_FALSE(fit.parameter(open).se) << open;
+    EXPECT_TRUE(fit.parameter(open).low) << open;
+  }
 }
 
 RC_GTEST_PROP(Fit, OfAnyAnswersIsConsistent, ()) {
