@@ -24,8 +24,7 @@
 #include "tracking/ShutterCalibration.h"
 #include "tracking/Unseen.h"
 #include "tracking/ViewCollector.h"
-#include "view/window/CardWindow.h"
-#include "view/window/Displays.h"
+#include "view/Window.h"
 
 namespace heft::cli {
 
@@ -324,7 +323,7 @@ DisplayMeasures by_card(int display) {
       "Hold a bank card against the display and make the blue rectangle as large as it is: with "
       "the arrow keys (Shift: faster), the wheel or the mouse. Enter when it is, Escape to leave.";
   say("{}\n", how);
-  const auto card = measure_card(display, how);
+  const auto card = window_module().measure_card(display, how);
   if (!card) throw Error("the display was not measured", ExitCode::interrupted);
   const double mm_per_px = card_w_mm / card->w_px;
   const DisplayFacts& facts = card->display;
@@ -332,7 +331,7 @@ DisplayMeasures by_card(int display) {
 }
 
 DisplayMeasures by_ruler(const DisplayOptions& options) {
-  const std::vector<DisplayFacts> all = displays();
+  const std::vector<DisplayFacts> all = window_module().displays();
   const auto number = static_cast<std::size_t>(options.display);
   if (options.display < 0 || number >= all.size())
     throw Error(fmt::format("there is no display {}; heft doctor lists them", options.display),

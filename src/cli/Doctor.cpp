@@ -31,8 +31,7 @@
 #include "tracking/ShutterCalibration.h"
 #include "tracking/VideoDevices.h"
 #include "view/ArView.h"
-#include "view/window/Displays.h"
-#include "view/window/TouchDelay.h"
+#include "view/Window.h"
 
 namespace heft::cli {
 
@@ -160,15 +159,22 @@ void check_commit(Report& report, const std::string& folder) {
                           median_ms, worst_ms));
 }
 
+void check_displays(Report& report, const ScreenTexts& texts) try {
+  for (const CheckResult& result : window_module().check_displays(texts))
+    report.line(result.verdict, result.name, result.finding);
+} catch (const Error& error) {
+  report.line(CheckVerdict::failed, "display", error.what());
+}
+
 // From a touch to the disk and the display. Of fifty, one may be late.
 void check_touch_delay(Report& report, const std::string& folder, const ScreenTexts& texts) try {
   constexpr int n_taps = 50;
   constexpr double usual_refresh_hz = 60, beside_a_frame_s = 0.020;
-  const auto found = displays();
+  const auto found = window_module().displays();
   if (found.empty())
     return report.line(CheckVerdict::ok, "touch delay", "not measured: there is no display");
   const WrittenForTrial file(folder);
-  std::vector<double> times_s = touch_delays_s(
+  std::vector<double> times_s = window_module().touch_delays_s(
       texts, [&] { file.is_there() && file.write_page(); }, n_taps);
   if (times_s.size() < n_taps / 2)
     return report.line(
@@ -261,8 +267,7 @@ void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) 
   check_commit(report, folder);
   check_log(report, db);
   const ScreenTexts texts = load_texts(texts_file("en"));
-  for (const CheckResult& result : check_displays(texts))
-    report.line(result.verdict, result.name, result.finding);
+  check_displays(report, texts);
   check_touch_delay(report, folder, texts);
   if (given.tracker) check_tracker(report, given, rate_hz);
   list_cameras();

@@ -12,8 +12,8 @@
 #include "experiment/Setup.h"
 #include "protocol/Files.h"
 #include "protocol/Protocol.h"
-#include "view/window/TextFit.h"
-#include "view/window/Typeface.h"
+#include "view/screens/TextFit.h"
+#include "view/screens/Typeface.h"
 
 namespace heft::cli {
 

@@ -12,7 +12,7 @@
 #include "base/TextFile.h"
 #include "tracking/codecs/Codecs.h"
 #include "view/SceneDrawing.h"
-#include "view/window/WindowView.h"
+#include "view/Window.h"
 
 namespace heft {
 
@@ -85,16 +85,18 @@ class HeadlessView final : public ArView {
   std::vector<Touch> wait(double) override { return {}; }
 };
 
-template <typename View>
-std::unique_ptr<ArView> make(const ViewSetup& setup) {
-  return std::make_unique<View>(setup);
+std::unique_ptr<ArView> make_headless(const ViewSetup& setup) {
+  return std::make_unique<HeadlessView>(setup);
+}
+
+std::unique_ptr<ArView> make_window(const ViewSetup& setup) {
+  return window_module().make(setup);
 }
 
 constexpr std::array table{
-    ViewEntry{"headless", "shows nothing; for simulated responders", false, false,
-              make<HeadlessView>},
+    ViewEntry{"headless", "shows nothing; for simulated responders", false, false, make_headless},
     ViewEntry{"window", "the participant's screen, for touch, mouse and keys", true, false,
-              make<WindowView>},
+              make_window},
     ViewEntry{"video", "writes what would be seen into a video file: video:session.mp4", false,
               true, make_video_view}};
 }  // namespace

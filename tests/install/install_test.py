@@ -66,9 +66,6 @@ class Programs(Installed):
         film, module = self.folder / "film.avi", next(prefix.rglob("heft-codecs.so"))
         self.must(*filming, "--db", self.folder / "lab.db", "--view", f"video:{film}", env=BARE)
         self.assertGreater(film.stat().st_size, 10_000)
-        libraries = run("ldd", prefix / "bin/heft").stdout
-        self.assertNotIn("imgcodecs", libraries)
-        self.assertNotIn("pango", libraries)
         module.unlink()
         without = run(*filming, "--db", self.folder / "no.db", "--view",
                       f"video:{self.folder / 'none.avi'}", env=BARE)
@@ -83,6 +80,27 @@ class Programs(Installed):
         without = run(prefix / "bin/heft", "validate", texts, env=BARE)
         self.assertEqual(without.returncode, 1, without.stderr)
         self.assertIn("heft-letters.so", without.stderr)
+
+    def test_displays_are_asked_for_by_a_module_that_is_named_where_it_is_missing(self):
+        prefix = self.install("--component", "heft")
+        checking = [prefix / "bin/heft", "doctor", "--db", self.folder / "lab.db"]
+        showing = [prefix / "bin/heft", "run", prefix / "share/heft/protocols/quick.toml",
+                   "--participant", "1", "--tracker", "mouse", "--view", "window", "--db",
+                   self.folder / "lab.db"]
+        self.assertIn("none: people's sessions need a desktop", run(*checking, env=BARE).stdout)
+        self.assertEqual(run(*showing, env=BARE).returncode, 4)
+        next(prefix.rglob("heft-window.so")).unlink()
+        for command in (checking, showing):
+            without = run(*command, env=BARE)
+            self.assertEqual(without.returncode, 1, without.stderr)
+            self.assertIn("heft-window.so", without.stdout + without.stderr)
+
+    @unittest.skipIf("-fsanitize" in FLAGS, "then the modules' libraries of OpenCV are the program's")
+    def test_a_start_loads_nothing_that_only_modules_need(self):
+        libraries = run("ldd", Path(BUILD) / "heft").stdout
+        self.assertIn("libsqlite3", libraries)
+        for name in ("imgcodecs", "videoio", "pango", "SDL", "libGL.so", "pulse"):
+            self.assertNotIn(name, libraries)
 
     def test_bench_is_found_beside_in_libexec_or_on_the_path(self):
         prefix = self.install()

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "view/ArView.h"
-#include "view/window/TouchScreen.h"
+#include "view/screens/TouchScreen.h"
 
 namespace heft::testing {
 

@@ -9,7 +9,7 @@
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"
-#include "view/WindowTaps.h"
+#include "window/WindowTaps.h"
 
 namespace heft {
 namespace {

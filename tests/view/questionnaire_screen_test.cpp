@@ -4,9 +4,9 @@
 
 #include "EveryScreen.h"
 #include "base/TextFile.h"
-#include "view/window/ScreenPages.h"
-#include "view/window/TextFit.h"
-#include "view/window/TouchScreen.h"
+#include "view/screens/ScreenPages.h"
+#include "view/screens/TextFit.h"
+#include "view/screens/TouchScreen.h"
 
 namespace heft {
 namespace {

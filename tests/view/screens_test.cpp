@@ -1,6 +1,6 @@
 // The participant's screens without a window: what is on each page, whether it fits, and what taps
 // on it mean.
-#include "view/window/Screens.h"
+#include "view/screens/Screens.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 
 #include "EveryScreen.h"
 #include "base/Error.h"
-#include "view/window/Painter.h"
-#include "view/window/TextFit.h"
+#include "view/screens/Places.h"
+#include "view/screens/TextFit.h"
 
 namespace heft {
 namespace {

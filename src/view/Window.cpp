@@ -1,0 +1,13 @@
+#include "view/Window.h"
+
+#include "base/Module.h"
+
+namespace heft {
+
+const WindowModule& window_module() {
+  static const auto& module = *static_cast<const WindowModule*>(
+      from_module("heft-window.so", "heft_window", "asks for displays and shows windows"));
+  return module;
+}
+
+}  // namespace heft

@@ -1,0 +1,64 @@
+#include "window/Displays.h"
+
+#include <SDL_opengl.h>
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "view/screens/Typeface.h"
+#include "window/GlWindow.h"
+
+namespace heft {
+
+namespace {
+constexpr const char* nobody_looks =
+    "none: people's sessions need a desktop (DISPLAY or WAYLAND_DISPLAY set)";
+
+std::string described(const DisplayFacts& display) {
+  const std::string refresh =
+      display.refresh_hz ? fmt::format(" at {:g} Hz", *display.refresh_hz) : "";
+  return fmt::format("{} ({}), {} x {} pixels{}", display.number, display.name, display.w_px,
+                     display.h_px, refresh);
+}
+
+// Text can be made without a display.
+CheckResult check_typeface(const ScreenTexts& texts) try {
+  const Typeface typeface(texts);
+  return {CheckVerdict::ok, "typeface", "has every character of the participant's texts"};
+} catch (const Error& error) {
+  return {CheckVerdict::failed, "typeface", error.what()};
+}
+
+// A window that nobody sees, for a moment.
+CheckResult check_graphics() try {
+  const GlWindow window("Heft", {.hidden = true});
+  const std::string renderer = window.renderer();
+  const bool software = renderer.find("llvmpipe") != std::string::npos ||
+                        renderer.find("softpipe") != std::string::npos;
+  return {software ? CheckVerdict::warning : CheckVerdict::ok, "graphics",
+          software ? renderer + ", which draws without a graphics card: frames may come late"
+                   : renderer};
+} catch (const Error& error) {
+  return {CheckVerdict::failed, "graphics", error.what()};
+}
+
+CheckResult check_touch() {
+  const int n = touch_devices();
+  if (n == 0) return {CheckVerdict::ok, "touch", "no touch screen; a mouse does as well"};
+  return {CheckVerdict::ok, "touch", fmt::format("{} touch device{}", n, n > 1 ? "s" : "")};
+}
+}  // namespace
+
+std::vector<CheckResult> check_displays(const ScreenTexts& texts) {
+  std::vector<CheckResult> results;
+  for (const DisplayFacts& display : displays())
+    results.push_back({CheckVerdict::ok, "display", described(display)});
+  if (results.empty())
+    results.push_back({CheckVerdict::warning, "display", nobody_looks});
+  else
+    results.push_back(check_graphics());
+  results.push_back(check_typeface(texts));
+  if (results.size() > 2) results.push_back(check_touch());
+  return results;
+}
+
+}  // namespace heft

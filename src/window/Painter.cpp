@@ -1,0 +1,278 @@
+#include "window/Painter.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace heft {
+
+namespace {
+namespace colors {
+constexpr ImU32 background = IM_COL32(20, 23, 27, 255);
+constexpr ImU32 button = IM_COL32(49, 56, 65, 255);
+constexpr ImU32 button_pressed = IM_COL32(79, 90, 104, 255);
+constexpr ImU32 button_disabled = IM_COL32(29, 33, 38, 255);
+constexpr ImU32 accent = IM_COL32(94, 177, 255, 255);
+constexpr ImU32 accent_pressed = IM_COL32(158, 209, 255, 255);
+constexpr ImU32 on_accent = IM_COL32(10, 24, 38, 255);
+constexpr ImU32 strong = IM_COL32(243, 245, 247, 255);
+constexpr ImU32 soft = IM_COL32(196, 203, 211, 255);
+constexpr ImU32 disabled = IM_COL32(96, 105, 115, 255);
+constexpr ImU32 flag = IM_COL32(250, 250, 250, 255);
+constexpr ImU32 notice = IM_COL32(20, 23, 27, 225);
+}  // namespace colors
+
+ImVec2 corner(const Rect& area) {
+  return {area.x, area.y};
+}
+
+ImVec2 opposite_corner(const Rect& area) {
+  return {area.right(), area.bottom()};
+}
+
+ImTextureID drawable(unsigned texture) {
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+}
+
+// On whole pixels, or the letters would blur.
+void write(ImDrawList& list, const Paint& paint, const std::string& text, float x, float y,
+           float size_px, ImU32 color) {
+  const WrittenTexture& ink =
+      paint.textures.of(paint.typeface.written(text, size_px), paint.typeface);
+  if (ink.texture == 0) return;
+  const ImVec2 from{std::round(x) + static_cast<float>(ink.left),
+                    std::round(y) + static_cast<float>(ink.top)};
+  const ImVec2 to{from.x + static_cast<float>(ink.width), from.y + static_cast<float>(ink.height)};
+  list.AddImage(drawable(ink.texture), from, to, {0, 0}, {1, 1}, color);
+}
+
+// Lines centered in an area.
+void write_centered(ImDrawList& list, const Paint& paint, const FittedText& text, const Rect& area,
+                    ImU32 color) {
+  const float line_px = Typeface::line_height_px(text.size_px);
+  // A line's letters stand at the top of its height.
+  const float height_px = line_px * static_cast<float>(text.lines.size() - 1) + text.size_px;
+  float y = area.y + (area.height - height_px) / 2;
+  for (const std::string& line : text.lines) {
+    const float x = area.x + (area.width - paint.typeface.width_px(line, text.size_px)) / 2;
+    write(list, paint, line, x, y, text.size_px, color);
+    y += line_px;
+  }
+}
+
+ImU32 fill_of(const Control& control, bool pressed) {
+  if (!control.enabled) return colors::button_disabled;
+  const bool accented = control.look == Look::primary;
+  if (pressed) return accented ? colors::accent_pressed : colors::button_pressed;
+  return accented ? colors::accent : colors::button;
+}
+
+ImU32 ink_of(const Control& control) {
+  if (!control.enabled) return colors::disabled;
+  return control.look == Look::primary ? colors::on_accent : colors::strong;
+}
+
+void paint_words(ImDrawList& list, const Control& control, const Paint& paint, ImU32 ink) {
+  const ControlWords words = words_on(control, paint.typeface, paint.measures);
+  write_centered(list, paint, words.text, words.text_area, ink);
+  if (!control.note.empty())
+    write_centered(list, paint, words.note, words.note_area, colors::accent);
+}
+
+// A line from end to end, and a bar where it is set.
+void paint_slider(ImDrawList& list, const Rect& area, const Slid& slid, float target) {
+  const float thick = 0.06f * target, inset = 0.12f * target;
+  const float left = area.x + inset, right = area.right() - inset, y = area.y + area.height / 2;
+  list.AddRectFilled({left, y - thick / 2}, {right, y + thick / 2}, colors::soft, thick / 2);
+  if (!slid.fraction) return;
+  const float x = std::clamp(area.x + *slid.fraction * area.width, left, right);
+  list.AddRectFilled({x - thick, area.y + inset}, {x + thick, area.bottom() - inset},
+                     colors::accent, thick);
+}
+
+void paint_control(ImDrawList& list, const Control& control, const Paint& paint) {
+  const bool pressed = control.enabled && paint.is_pressed(control.name);
+  const float rounding = 0.14f * paint.measures.target;
+  const ImVec2 from = corner(control.area), to = opposite_corner(control.area);
+  list.AddRectFilled(from, to, fill_of(control, pressed), rounding);
+  if (control.chosen)
+    list.AddRect(from, to, colors::accent, rounding, 0, 0.045f * paint.measures.target);
+  if (control.slide) return paint_slider(list, control.area, *control.slide, paint.measures.target);
+  paint_words(list, control, paint, ink_of(control));
+}
+
+void paint_scene(ImDrawList& list, const PaintedScene& scene) {
+  const auto alpha = static_cast<int>(std::lround(255 * std::clamp(scene.opacity, 0.f, 1.f)));
+  list.AddImage(drawable(scene.texture), corner(scene.area), opposite_corner(scene.area),
+                corner(scene.part), opposite_corner(scene.part), IM_COL32(255, 255, 255, alpha));
+}
+
+// A flag with a label, its tip at the cube; only the tip where no label is given yet. Higher where
+// another flag is in its way.
+void paint_mark(ImDrawList& list, const PlacedMark& placed, const Paint& paint,
+                std::vector<Rect>& flags) {
+  const ImU32 fill = placed.mark.selected ? colors::accent : colors::flag;
+  const float size = paint.measures.small, tip = 0.55f * size;
+  list.AddTriangleFilled({placed.x - tip, placed.y - tip}, {placed.x + tip, placed.y - tip},
+                         {placed.x, placed.y}, fill);
+  if (placed.mark.text.empty()) return;
+  const float width = paint.typeface.width_px(placed.mark.text, size) + 1.2f * size;
+  const float height = 1.7f * size;
+  Rect flag{placed.x - width / 2, placed.y - tip - height + 1, width, height};
+  while (std::ranges::any_of(flags, [&](const Rect& other) { return flag.overlaps(other); }))
+    flag.y -= height / 4;
+  flags.push_back(flag);
+  list.AddLine({placed.x, flag.bottom() - 1}, {placed.x, placed.y}, fill, 0.15f * size);
+  list.AddRectFilled(corner(flag), opposite_corner(flag), fill, height / 4);
+  write_centered(list, paint, {size, {placed.mark.text}}, flag, colors::on_accent);
+}
+
+void paint_notice(ImDrawList& list, const std::string& notice, bool at_top, const Paint& paint) {
+  if (notice.empty()) return;
+  const auto [text, area] =
+      words_of_notice(notice, paint.scene->area, paint.typeface, paint.measures, at_top);
+  list.AddRectFilled(corner(area), opposite_corner(area), colors::notice,
+                     0.1f * paint.measures.target);
+  write_centered(list, paint, text, area, colors::strong);
+}
+}  // namespace
+
+void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
+  list.AddRectFilled({0, 0}, {paint.measures.width, paint.measures.height}, colors::background);
+  if (paint.scene) {
+    paint_scene(list, *paint.scene);
+    list.PushClipRect(corner(paint.scene->area), opposite_corner(paint.scene->area), true);
+    std::vector<Rect> flags;
+    for (const PlacedMark& mark : paint.marks) paint_mark(list, mark, paint, flags);
+    list.PopClipRect();
+    paint_notice(list, page.notice, false, paint);
+    paint_notice(list, page.hint, true, paint);
+  }
+  for (const TextLine& line : page.lines)
+    write(list, paint, line.text, line.x, line.y, line.size_px,
+          line.tone == Tone::strong ? colors::strong : colors::soft);
+  for (const Control& control : page.controls) paint_control(list, control, paint);
+  if (!paint.patch) return;
+  const Rect place = place_of(*paint.patch, paint.measures);
+  list.AddRectFilled(corner(place), opposite_corner(place),
+                     paint.patch->white ? IM_COL32_WHITE : IM_COL32_BLACK);
+}
+
+Rect fitted_scene(const Rect& room, float width, float height) {
+  const float scale = std::min(room.width / width, room.height / height);
+  return {room.x + (room.width - scale * width) / 2, room.y + (room.height - scale * height) / 2,
+          scale * width, scale * height};
+}
+
+namespace {
+Rect rect_of(const Eigen::AlignedBox2d& box) {
+  const Eigen::Vector2f from = box.min().cast<float>(), size = box.sizes().cast<float>();
+  return {from.x(), from.y(), size.x(), size.y()};
+}
+
+// Begins earlier and ends later, as far as 0 and the limit allow.
+void widen(float& begin, float& length, float wanted, float limit) {
+  wanted = std::min(wanted, limit);
+  if (wanted <= length) return;
+  begin = std::clamp(begin - (wanted - length) / 2, 0.f, limit - wanted);
+  length = wanted;
+}
+}  // namespace
+
+const Image& SceneOnScreen::draw(const ViewFrame& shown) {
+  const Image& image = drawing_.draw(shown);
+  width_px_ = image.width;
+  height_px_ = image.height;
+  find_part();
+  return image;
+}
+
+// A camera's place is measured anew in each picture, a little differently: what is shown stays.
+void SceneOnScreen::find_part() {
+  constexpr float still_px = 12;
+  const Rect whole{0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
+  const Rect found = shown_m_ ? rect_of(drawing_.pixels_around(*shown_m_)) : whole;
+  const float moved = std::max({std::abs(found.x - wanted_px_.x), std::abs(found.y - wanted_px_.y),
+                                std::abs(found.right() - wanted_px_.right()),
+                                std::abs(found.bottom() - wanted_px_.bottom())});
+  if (moved > still_px) wanted_px_ = found;
+}
+
+// Room that is left is filled with more of the frame.
+void SceneOnScreen::fill_room(const Rect& room) {
+  part_px_ = wanted_px_;
+  const float ratio = room.width / room.height;
+  widen(part_px_.x, part_px_.width, part_px_.height * ratio, static_cast<float>(width_px_));
+  widen(part_px_.y, part_px_.height, part_px_.width / ratio, static_cast<float>(height_px_));
+}
+
+void SceneOnScreen::place(const std::optional<Rect>& room) {
+  area_.reset();
+  if (!room || width_px_ == 0) return;
+  fill_room(*room);
+  area_ = fitted_scene(*room, part_px_.width, part_px_.height);
+}
+
+Rect SceneOnScreen::part() const {
+  const auto width = static_cast<float>(width_px_), height = static_cast<float>(height_px_);
+  return {part_px_.x / width, part_px_.y / height, part_px_.width / width,
+          part_px_.height / height};
+}
+
+std::optional<double> SceneOnScreen::distance_px(const Eigen::Vector3d& a_m,
+                                                 const Eigen::Vector3d& b_m) const {
+  if (!area_) return std::nullopt;
+  const auto a = drawing_.pixel_of(a_m), b = drawing_.pixel_of(b_m);
+  if (!a || !b) return std::nullopt;
+  return (*a - *b).norm() * static_cast<double>(scale());
+}
+
+std::optional<int> SceneOnScreen::slot_at(float x, float y) const {
+  if (!area_ || !area_->contains(x, y)) return std::nullopt;
+  const Eigen::Vector2d pixel = frame_pixel(x, y);
+  return drawing_.slot_at(pixel.x(), pixel.y());
+}
+
+// Pixel centers are integers in the frame, halves on the screen.
+Eigen::Vector2d SceneOnScreen::frame_pixel(float x, float y) const {
+  return {part_px_.x + (x - area_->x) / scale() - 0.5f,
+          part_px_.y + (y - area_->y) / scale() - 0.5f};
+}
+
+std::optional<Eigen::Vector3d> SceneOnScreen::point_at_height(float x, float y,
+                                                              double height_m) const {
+  if (!area_) return std::nullopt;
+  const float inside_x = std::clamp(x, area_->x, area_->right());
+  const float inside_y = std::clamp(y, area_->y, area_->bottom());
+  return drawing_.point_at_height(frame_pixel(inside_x, inside_y), height_m);
+}
+
+std::optional<int> SceneOnScreen::slot_near(float x, float y, float reach_px) const {
+  if (const auto slot = slot_at(x, y)) return slot;
+  constexpr int n_directions = 16;
+  std::optional<int> near;
+  for (int i = 0; i < n_directions; ++i)
+    for (const float fraction : {0.5f, 1.f}) {
+      const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / n_directions;
+      const float radius = fraction * reach_px;
+      const auto slot = slot_at(x + radius * std::cos(angle), y + radius * std::sin(angle));
+      if (slot && near && slot != near) return std::nullopt;
+      if (slot) near = slot;
+    }
+  return near;
+}
+
+std::vector<PlacedMark> SceneOnScreen::placed(const std::vector<CubeMark>& marks) const {
+  std::vector<PlacedMark> all;
+  if (!area_) return all;
+  for (const CubeMark& mark : marks)
+    if (const auto place = drawing_.label_place(mark.slot))
+      all.push_back({mark, area_->x + (static_cast<float>(place->x() + 0.5) - part_px_.x) * scale(),
+                     area_->y + (static_cast<float>(place->y() + 0.5) - part_px_.y) * scale()});
+  return all;
+}
+
+}  // namespace heft

@@ -1,0 +1,88 @@
+// The look of the participant's screens: paints a page. Calm and of high contrast, dark around the
+// scene, one accent color for what leads on. And where the scene's frame is on it, which takes
+// places between pixels of the window and pixels of the frame, and says which cube a finger means.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/SceneDrawing.h"
+#include "view/screens/Places.h"
+#include "view/screens/Typeface.h"
+#include "window/WrittenTextures.h"
+
+struct ImDrawList;
+
+namespace heft {
+
+/// The scene's frame on the screen.
+struct PaintedScene {
+  unsigned texture = 0;
+  Rect area;
+  Rect part{0, 0, 1, 1};  ///< of the frame that is shown, as fractions of it
+  float opacity = 1;
+};
+
+/// A mark at its place on the screen: the tip of a small flag above a cube.
+struct PlacedMark {
+  CubeMark mark;
+  float x = 0, y = 0;
+};
+
+/// What a page is painted with besides itself.
+struct Paint {
+  const Typeface& typeface;
+  const Measures& measures;
+  WrittenTextures& textures;
+  std::optional<PaintedScene> scene;
+  std::vector<PlacedMark> marks;
+  std::function<bool(const std::string& control)> is_pressed;
+  std::optional<Patch> patch = {};
+};
+
+void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
+
+/// The largest place inside `room`, centered, for a picture of that size.
+Rect fitted_scene(const Rect& room, float width, float height);
+
+class SceneOnScreen {
+ public:
+  explicit SceneOnScreen(const ViewSetup& setup) : drawing_(setup), shown_m_(setup.shown_m) {}
+
+  /// As SceneDrawing::draw.
+  const Image& draw(const ViewFrame& shown);
+
+  /// Where the page has room for it; none: this page has none.
+  void place(const std::optional<Rect>& room);
+  /// Where it is; none: on no page, or nothing is drawn yet.
+  const std::optional<Rect>& area() const { return area_; }
+  /// What of the frame it shows, as fractions of the frame.
+  Rect part() const;
+
+  /// The cube at a pixel of the window, or else the only one within reach of it.
+  std::optional<int> slot_near(float x, float y, float reach_px) const;
+  /// The point at that height over the table that is seen at a pixel of the window, or at the
+  /// scene's pixel next to it.
+  std::optional<Eigen::Vector3d> point_at_height(float x, float y, double height_m) const;
+  /// Pixels of the window between two points of the board frame; none: not both are seen.
+  std::optional<double> distance_px(const Eigen::Vector3d& a_m, const Eigen::Vector3d& b_m) const;
+  /// The marks of cubes that are in the frame.
+  std::vector<PlacedMark> placed(const std::vector<CubeMark>& marks) const;
+
+ private:
+  std::optional<int> slot_at(float x, float y) const;
+  Eigen::Vector2d frame_pixel(float x, float y) const;
+  float scale() const { return area_->width / part_px_.width; }
+  void find_part();
+  void fill_room(const Rect& room);
+
+  SceneDrawing drawing_;
+  std::optional<Eigen::AlignedBox3d> shown_m_;
+  int width_px_ = 0, height_px_ = 0;  ///< of the frame
+  Rect wanted_px_, part_px_;          ///< of the frame, that has to be shown; that is
+  std::optional<Rect> area_;
+};
+
+}  // namespace heft

@@ -1,0 +1,12 @@
+// heft-window.so: this room for whoever goes by view/Window.h.
+#include "view/Window.h"
+#include "window/CardWindow.h"
+#include "window/Displays.h"
+#include "window/TouchDelay.h"
+#include "window/WindowView.h"
+
+extern "C" __attribute__((visibility("default"))) const heft::WindowModule heft_window{
+    [](const heft::ViewSetup& setup) -> std::unique_ptr<heft::ArView> {
+      return std::make_unique<heft::WindowView>(setup);
+    },
+    heft::displays, heft::check_displays, heft::measure_card, heft::touch_delays_s};
