@@ -1,7 +1,5 @@
 #include "tracking/sheets/PdfSheet.h"
 
-#include <cairo-pdf.h>
-#include <cairo.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,89 +10,26 @@
 
 namespace heft {
 
-namespace {
-constexpr double points_per_mm = 72 / 25.4;
-
-void set_gray(cairo_t* context, double gray) {
-  cairo_set_source_rgb(context, gray, gray, gray);
-}
-// A sheet that was printed, measured and glued stays as it is.
-const std::string& new_file(const std::string& path) {
-  require_writable(path);
-  if (!create_file(path, 0666))
-    throw Error(
-        fmt::format("{} is there already and would be written over; name another file, or remove "
-                    "it first",
-                    path));
-  return path;
-}
-}  // namespace
-
-struct PdfSheet::Impl {
-  std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface;
-  std::unique_ptr<cairo_t, void (*)(cairo_t*)> context;
-
-  Impl(const std::string& path, const PointMm& paper_mm)
-      : surface(cairo_pdf_surface_create(path.c_str(), paper_mm.x() * points_per_mm,
-                                         paper_mm.y() * points_per_mm),
-                cairo_surface_destroy),
-        context(cairo_create(surface.get()), cairo_destroy) {
-    cairo_scale(context.get(), points_per_mm, points_per_mm);
-  }
-};
-
 PdfSheet::PdfSheet(const std::string& path, const PointMm& paper_mm, const std::string& title)
-    : impl_(std::make_unique<Impl>(new_file(path), paper_mm)), path_(path) {
-  cairo_pdf_surface_set_metadata(impl_->surface.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
-}
-
-PdfSheet::~PdfSheet() = default;
+    : pen_(make_pdf_pen(path, paper_mm, title)), path_(path) {}
 
 void PdfSheet::tag(const TagPattern& pattern, const std::array<PointMm, 4>& corners_mm) {
-  cairo_t* context = impl_->context.get();
   const PointMm column = (corners_mm[1] - corners_mm[0]) / pattern.border_cells;
   const PointMm row = (corners_mm[3] - corners_mm[0]) / pattern.border_cells;
   const PointMm first = corners_mm[0] - (column + row) * pattern.margin_cells();
-  cairo_new_path(context);
+  std::vector<std::array<PointMm, 4>> black;
   for (int y = 0; y < pattern.n_cells; ++y)
     for (int x = 0; x < pattern.n_cells; ++x) {
       if (pattern.is_white(x, y)) continue;
       const PointMm cell = first + x * column + y * row;
-      const std::array<PointMm, 4> around{cell, cell + column, cell + column + row, cell + row};
-      cairo_new_sub_path(context);
-      for (const PointMm& corner : around) cairo_line_to(context, corner.x(), corner.y());
-      cairo_close_path(context);
+      black.push_back({cell, cell + column, cell + column + row, cell + row});
     }
-  set_gray(context, 0);
-  cairo_fill(context);  // all cells at once: no hairlines between black neighbors
-}
-
-void PdfSheet::lines(std::span<const PointMm> points_mm, const Stroke& stroke) {
-  cairo_t* context = impl_->context.get();
-  cairo_new_path(context);
-  for (const PointMm& point : points_mm) cairo_line_to(context, point.x(), point.y());
-  const std::array<double, 2> dashes_mm{2, 1.5};
-  cairo_set_dash(context, dashes_mm.data(), stroke.dashed ? 2 : 0, 0);
-  cairo_set_line_width(context, stroke.width_mm);
-  set_gray(context, stroke.gray);
-  cairo_stroke(context);
+  pen_->areas(black);
 }
 
 void PdfSheet::line(const PointMm& from_mm, const PointMm& to_mm, const Stroke& stroke) {
   const std::array<PointMm, 2> ends{from_mm, to_mm};
   lines(ends, stroke);
-}
-
-void PdfSheet::text(const PointMm& at_mm, const std::string& text, const Lettering& lettering) {
-  cairo_t* context = impl_->context.get();
-  cairo_select_font_face(context, "sans", CAIRO_FONT_SLANT_NORMAL,
-                         lettering.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, lettering.size_mm);
-  cairo_text_extents_t extents{};
-  if (lettering.centered) cairo_text_extents(context, text.c_str(), &extents);
-  cairo_move_to(context, at_mm.x() - extents.x_advance / 2, at_mm.y());
-  set_gray(context, lettering.gray);
-  cairo_show_text(context, text.c_str());
 }
 
 void PdfSheet::arrow(const PointMm& from_mm, const PointMm& to_mm, const Stroke& stroke) {
@@ -136,17 +71,10 @@ void PdfSheet::ruler_down(const PointMm& from_mm, double tick_mm, bool numbers) 
   }
 }
 
-void PdfSheet::next_page() {
-  cairo_show_page(impl_->context.get());
-}
-
 void PdfSheet::finish() {
-  cairo_surface_finish(impl_->surface.get());
-  for (const cairo_status_t status :
-       {cairo_status(impl_->context.get()), cairo_surface_status(impl_->surface.get())})
-    if (status != CAIRO_STATUS_SUCCESS && status != CAIRO_STATUS_SURFACE_FINISHED)
-      throw Error(fmt::format("can't write {}: {}; does the folder exist, and is there space?",
-                              path_, cairo_status_to_string(status)));
+  if (const std::string wrong = pen_->finish(); !wrong.empty())
+    throw Error(fmt::format("can't write {}: {}; does the folder exist, and is there space?", path_,
+                            wrong));
 }
 
 void write_steps(PdfSheet& sheet, const std::string& heading, std::span<const std::string> steps) {
