@@ -23,9 +23,9 @@ ComparedTrial compared_trial(const TrialRow& trial, std::uint32_t person) {
           person,
           side_chosen(trial),
           trial.outcome == Outcome::difference,
-          trial.choice_correct,
           trial.plan.is_catch,
-          trial.plan.reference_slot.value_or(1) != 1};
+          trial.plan.reference_slot.value_or(1) != 1,
+          trial.choice_correct};
 }
 }  // namespace
 

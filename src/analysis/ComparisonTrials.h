@@ -22,10 +22,10 @@ struct ComparedTrial {
   std::optional<double> response_s;  ///< see response_time_s
   std::uint32_t person = 0;          ///< place in ComparisonTrials::participants
   SideChosen side = SideChosen::none;
-  bool difference = false;      ///< a cube was chosen
+  bool difference : 1 = false;  ///< a cube was chosen
+  bool is_catch : 1 = false;
+  bool reference_on_right : 1 = false;
   std::optional<bool> correct;  ///< it was the heavier one
-  bool is_catch = false;
-  bool reference_on_right = false;
 
   double right_minus_left_g() const { return reference_on_right ? -level_g : level_g; }
 };

@@ -118,7 +118,8 @@ class StaircaseFold {
 
   /// Finished staircases in the order of sessions and estimates, each with the reference of its
   /// trials.
-  const std::vector<StaircaseResult>& results() const { return results_; }
+  const std::vector<StaircaseResult>& results() const& { return results_; }
+  std::vector<StaircaseResult> results() && { return std::move(results_); }
   /// By reference, lightest first, and condition. The paper's figures are beside its references in
   /// C2.
   std::vector<ReferenceJnd> jnds() const;

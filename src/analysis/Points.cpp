@@ -71,13 +71,10 @@ ChoiceBin choice_bin(const Compared& compared, const Trials& bin, const Comparis
   return found;
 }
 
-Quartiles measured(std::string group, double at, const std::vector<double>& values) {
-  return {std::move(group),
-          at,
-          static_cast<int>(values.size()),
-          quantile(values, 0.5).value_or(0),
-          quantile(values, 0.25).value_or(0),
-          quantile(values, 0.75).value_or(0)};
+Quartiles measured(std::string group, double at, const std::deque<double>& values) {
+  const auto found = quartiles({values.begin(), values.end()}).value_or(QuartilesOf{});
+  return {std::move(group), at,          static_cast<int>(values.size()),
+          found.median,     found.lower, found.upper};
 }
 
 void put_comparisons(Points& points, const ComparisonTrials& all) {
@@ -86,7 +83,7 @@ void put_comparisons(Points& points, const ComparisonTrials& all) {
     for (const ComparedTrial& trial : theirs) trials.push_back(&trial);
     for (const Trials& bin : binned(std::move(trials))) {
       points.choices.push_back(choice_bin(compared, bin, all));
-      std::vector<double> times_s;
+      std::deque<double> times_s;
       for (const ComparedTrial* trial : bin)
         if (trial->response_s) times_s.push_back(*trial->response_s);
       if (!times_s.empty())

@@ -85,20 +85,21 @@ struct CountedFold {
     points.add(data);
   }
 
-  void put(Summary& summary) const {
+  // What is large goes as soon as its figures are known, before others take as much.
+  void put(Summary& summary) && {
     summary.n_participants = static_cast<int>(participants.size());
     summary.sorting = sorting.result();
     summary.introduction = introduction.result();
+    summary.times = std::exchange(times, {}).result();
+    summary.points = std::exchange(points, {}).result(comparisons);
     summary.jnd = staircases.jnds();
     summary.sensitivity = sensitivities_of(comparisons);
-    summary.staircases = staircases.results();
     summary.comparison = comparisons_of(comparisons);
-    summary.times = times.result();
     summary.voids = voids.result();
     summary.tracks = tracks.example();
-    summary.all_tracks = tracks.result();
-    summary.points = points.result(comparisons);
+    summary.all_tracks = std::move(tracks).result();
     summary.thresholds = thresholds_of(comparisons, staircases, summary.sensitivity);
+    summary.staircases = std::move(staircases).results();
   }
 };
 

@@ -22,9 +22,15 @@ void TimesFold::add(const SessionData& data) {
 
 std::vector<ResponseTimes> TimesFold::result() const {
   std::vector<ResponseTimes> rows;
-  for (const auto& [key, values] : times_s_)
-    rows.push_back({key.first, key.second, static_cast<int>(values.size()), quantile(values, 0.5),
-                    quantile(values, 0.25), quantile(values, 0.75)});
+  for (const auto& [key, values] : times_s_) {
+    ResponseTimes& row = rows.emplace_back(
+        ResponseTimes{key.first, key.second, static_cast<int>(values.size()), {}, {}, {}});
+    if (const auto found = quartiles({values.begin(), values.end()})) {
+      row.median_s = found->median;
+      row.lower_quartile_s = found->lower;
+      row.upper_quartile_s = found->upper;
+    }
+  }
   return rows;
 }
 

@@ -1,6 +1,7 @@
 // How long answers took, and why attempts are void.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <span>
@@ -30,7 +31,7 @@ class TimesFold {
   std::vector<ResponseTimes> result() const;
 
  private:
-  std::map<std::pair<Task, std::string>, std::vector<double>> times_s_;
+  std::map<std::pair<Task, std::string>, std::deque<double>> times_s_;
 };
 
 struct VoidCount {

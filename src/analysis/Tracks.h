@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/Fold.h"
@@ -37,7 +38,8 @@ struct SessionTracks {
 class TracksFold {
  public:
   void add(const SessionData& data);
-  std::vector<SessionTracks> result() const { return all_; }
+  const std::vector<SessionTracks>& result() const& { return all_; }
+  std::vector<SessionTracks> result() && { return std::move(all_); }
   /// The first finished one of them, or else the first.
   std::optional<SessionTracks> example() const;
 
