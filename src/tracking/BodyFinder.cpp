@@ -78,13 +78,19 @@ std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<Det
   tags = timed(times.refine_s, [&] { return measure_detected(gray, detected, done); });
   const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
   if (!fit || !settings_.refine_edges) return fit;
-  const bool covered_too = tags.size() < few_tags;
+  return with_others(gray, *fit, done, bias, times);
+}
+
+std::optional<BodyFit> BodyFinder::with_others(const Image& gray, const BodyFit& fit,
+                                               std::vector<bool>& done, const BiasPrior& bias,
+                                               TrackerTimes& times) {
+  const bool covered_too = last_tags_.size() < few_tags;
   const auto more = timed(times.refine_s, [&] {
-    return measure_expected(gray, fit->camera_from_body, done, covered_too);
+    return measure_expected(gray, fit.camera_from_body, done, covered_too);
   });
   if (more.empty()) return fit;
-  tags.insert(tags.end(), more.begin(), more.end());
-  return timed(times.pose_s, [&] { return solve_body(tags, fit->camera_from_body, bias); });
+  last_tags_.insert(last_tags_.end(), more.begin(), more.end());
+  return timed(times.pose_s, [&] { return solve_body(last_tags_, fit.camera_from_body, bias); });
 }
 
 Eigen::Array2d BodyFinder::blur_px() const {
@@ -136,19 +142,21 @@ BodyFit BodyFinder::solve_moving(const BodyFit& found, const Velocity& velocity,
   });
 }
 
-std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& expected,
+std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& expected, bool still,
                                               int least_tags, const BiasPrior& prior,
                                               TrackerTimes& times) {
   std::vector<bool> done(body_.tags.size(), false);
   tone_ = {};
-  auto tags = timed(times.refine_s,
-                    [&] { return measure_expected(gray, expected, done, false, last_tags_); });
+  const std::span<const TagObservation> before = still ? last_tags_ : std::span<TagObservation>();
+  auto tags =
+      timed(times.refine_s, [&] { return measure_expected(gray, expected, done, false, before); });
   if (static_cast<int>(tags.size()) < least_tags) return std::nullopt;
   const BiasPrior bias = prior_for(settings_, prior);
   const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
   if (!fit || fit->n_tags < least_tags) return std::nullopt;
   last_tags_ = std::move(tags);
-  return fit;
+  if (last_tags_.size() >= few_tags) return fit;
+  return with_others(gray, *fit, done, bias, times);
 }
 
 std::vector<TagObservation> BodyFinder::measure_detected(const Image& gray,

@@ -52,10 +52,11 @@ class BodyFinder {
                               const std::optional<Pose>& expected, const BiasPrior& prior,
                               TrackerTimes& times);
 
-  /// From where it is expected alone; none unless at least least_tags are there. Tags that were
-  /// seen last are taken to be as blurred as they were.
-  std::optional<BodyFit> find_again(const Image& gray, const Pose& expected, int least_tags,
-                                    const BiasPrior& prior, TrackerTimes& times);
+  /// From where it is expected alone, within half a cell; none unless at least least_tags are
+  /// there, and their cells are theirs. @param still tags that were seen last are taken to be as
+  /// blurred as they were
+  std::optional<BodyFit> find_again(const Image& gray, const Pose& expected, bool still,
+                                    int least_tags, const BiasPrior& prior, TrackerTimes& times);
 
   /// Of what find saw last, the mean blur of its upright edges and of its level ones, px; zero
   /// where nothing was.
@@ -77,6 +78,9 @@ class BodyFinder {
   std::vector<TagObservation> measure_detected(const Image& gray,
                                                const std::vector<DetectedTag>& detected,
                                                std::vector<bool>& done);
+  /// A fit by some of the tags, with those that can be found where it puts them.
+  std::optional<BodyFit> with_others(const Image& gray, const BodyFit& fit, std::vector<bool>& done,
+                                     const BiasPrior& bias, TrackerTimes& times);
   /// @param covered_too tags of which two edges are clear  @param before what was seen last, if
   /// that is to be gone on from
   std::vector<TagObservation> measure_expected(const Image& gray, const Pose& camera_from_body,

@@ -35,6 +35,10 @@ constexpr int pictures_searched_whole = 3;
 // takes several times as long.
 constexpr int pictures_without_a_close_search = 4;
 
+// Of an effector whose tags were not read: what its edges leave more open, such as a slanted tag
+// half under fingers, is read.
+constexpr double sure_quality = 0.5;
+
 constexpr double longest_gap_s = 0.25;  // Drive takes a longer one for a jump, too
 // What no hand with a light box in it does.
 constexpr double fastest_m_s = 5, fastest_rad_s = 30;
@@ -118,8 +122,8 @@ Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings)
 Pose Tracker::SeenEffector::expected_at(double then_s) const {
   const double dt_s = then_s - t_s;
   return normalized(
-      {board_from_effector.position_m + dt_s * velocity.linear_m_s,
-       rotation_from_vector(dt_s * velocity.angular_rad_s) * board_from_effector.orientation});
+      {board_from_effector.position_m + dt_s * next.linear_m_s,
+       rotation_from_vector(dt_s * next.angular_rad_s) * board_from_effector.orientation});
 }
 
 std::vector<DetectedTag> Tracker::detect(TagDetector& detector, const Region& region,
@@ -152,7 +156,7 @@ std::optional<BodyFit> Tracker::find_board() {
   if (settings_.region_of_interest && settings_.refine_edges && last_board_) {
     const int least_tags = std::max(1, (last_n_board_tags_ + 1) / 2);
     const auto fit =
-        board_.find_again(gray_, *last_board_, least_tags, unknown_bias, result_.times);
+        board_.find_again(gray_, *last_board_, true, least_tags, unknown_bias, result_.times);
     // A single tag tells too little to go on without reading it.
     if (fit && fit->n_tags > 1) return fit;
   }
@@ -177,7 +181,7 @@ std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
     const bool moves = tone_.learn(board_.tone(), board->bias_px, board->bias_sd_px);
     expect_picture();
     if (!moves) break;
-    const auto anew = board_.find_again(gray_, board->camera_from_body, tags_that_tell_bias,
+    const auto anew = board_.find_again(gray_, board->camera_from_body, true, tags_that_tell_bias,
                                         unknown_bias, result_.times);
     if (!anew) break;
     board = anew;
@@ -192,6 +196,11 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
   if (seen_ && t_s - seen_->t_s <= longest_gap_s)
     expected = normalized(seen_board.camera_from_body * seen_->expected_at(t_s + seen_->own_row_s));
   if (settings_.region_of_interest && expected && !board_family_tags_) {
+    // What goes on as it did is found by its edges; that they are its tags, their cells say.
+    if (settings_.refine_edges && n_unseen_ == 0) {
+      const auto fit = effector_.find_again(gray_, *expected, false, 1, prior, result_.times);
+      if (fit && fit->quality >= sure_quality) return unrolled(*fit, seen_board, prior, t_s);
+    }
     const Region region = region_around(camera_, effector_.body(), *expected);
     const auto fit =
         effector_.find(gray_, detect(detectors_.back(), region), expected, prior, result_.times);
@@ -268,10 +277,17 @@ void Tracker::take_effector(const BodyFit& fit, double t_s) {
   result_.jump = !seen_ || !could_have_moved(seen_->board_from_effector, pose, dt_s);
   n_unseen_ = 0;
   const bool moves_on = !result_.jump && dt_s > 0;
-  seen_ =
-      SeenEffector{result_.effector_t_s, own_s, pose,
-                   moves_on ? mean_velocity(seen_->board_from_effector, pose, dt_s) : Velocity{},
-                   moves_on ? seen_->n_poses + 1 : 1};
+  SeenEffector now{result_.effector_t_s, own_s, pose, {}, {}, 1};
+  if (moves_on) {
+    const Velocity before = seen_->velocity;
+    now.n_poses = seen_->n_poses + 1;
+    now.next = now.velocity = mean_velocity(seen_->board_from_effector, pose, dt_s);
+    if (now.n_poses > 2) {
+      now.next.linear_m_s += now.velocity.linear_m_s - before.linear_m_s;
+      now.next.angular_rad_s += now.velocity.angular_rad_s - before.angular_rad_s;
+    }
+  }
+  seen_ = now;
   result_.board_from_effector = pose;
   result_.n_effector_tags = fit.n_tags;
   result_.n_effector_faces = fit.n_faces;

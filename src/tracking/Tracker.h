@@ -70,6 +70,7 @@ class Tracker {
     double own_row_s;  ///< by so much later than its picture's
     Pose board_from_effector;
     Velocity velocity;  ///< mean since the picture before
+    Velocity next;      ///< mean until the next picture, if it changes as it did
     int n_poses;        ///< in a row, this one with them
 
     Pose expected_at(double then_s) const;

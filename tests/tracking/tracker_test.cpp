@@ -211,6 +211,40 @@ TEST_F(TrackerOverTime, MotionIsNoJump) {
   }
 }
 
+// Found by its edges where it should be by now: once it is seen to move, nothing is searched for.
+TEST_F(TrackerOverTime, WhatGoesOnAsItDidIsNotSearchedFor) {
+  for (int i = 0; i < 8; ++i) {
+    const Pose truth = held_at(-0.05 + 0.013 * i, 0.01);
+    const auto seen = see(truth, i / 30.0);
+    ASSERT_TRUE(seen.board_from_effector) << i;
+    EXPECT_LT((*seen.board_from_effector * tip_m - truth * tip_m).norm(), 0.0005) << i;
+    if (i >= 3) {
+      EXPECT_EQ(seen.times.detect_s, 0) << i;
+    }
+  }
+}
+
+// ... and it is read when it does not.
+TEST_F(TrackerOverTime, WhatStopsAtOnceIsFoundAllTheSame) {
+  for (int i = 0; i < 4; ++i) see(held_at(0.017 * i, 0), i / 30.0);
+  const auto seen = see(held_at(0.017 * 3, 0), 4 / 30.0);
+  ASSERT_TRUE(seen.board_from_effector);
+  EXPECT_GT(seen.times.detect_s, 0);
+  EXPECT_LT((*seen.board_from_effector * tip_m - held_at(0.017 * 3, 0) * tip_m).norm(), 0.0005);
+}
+
+// Edges alone would take any square for its tag.
+TEST_F(TrackerOverTime, AnotherThingInItsPlaceIsNotTakenForIt) {
+  Apparatus other = apparatus;
+  for (Tag& tag : other.effector.tags) tag.id += 100;
+  SyntheticCamera others_camera(other, {}, 1);
+  const Pose pose = held_at(0, 0);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(see(pose, i / 30.0).board_from_effector);
+  const auto seen = tracker.track(others_camera.picture([&](double) { return pose; }, 0.1, 9), 0.1);
+  EXPECT_TRUE(seen.camera_from_board);
+  EXPECT_FALSE(seen.board_from_effector);
+}
+
 TEST_F(TrackerOverTime, AnEffectorThatIsSomewhereElseJumped) {
   see(held_at(-0.1, 0), 0);
   const auto seen = see(held_at(0.1, 0.03), 1 / 30.0);
