@@ -38,6 +38,45 @@ const TagModel::VectorOwn certainty = [] {
   by.tail<n_reflected>().setConstant(of_light);
   return by;
 }();
+
+// Rays of a row's pixels, one after the other. How far the lens bends them changes slowly: between
+// every eighth pixel it is on a line, to thousandths of a pixel.
+class RowOfRays {
+ public:
+  explicit RowOfRays(const Intrinsics& camera) : camera_(camera) {}
+
+  void start(int x, int y) {
+    y_ = y;
+    end_ = x;
+    bend_ = bend_at(x);
+    by_x_.setZero();
+  }
+
+  /// @param x from start's on
+  Eigen::Vector2d at(int x) {
+    while (x > end_) {
+      const Eigen::Vector2d before = bend_;
+      bend_ = bend_at(end_ += step);
+      by_x_ = (bend_ - before) / step;
+    }
+    return straight(x) + bend_ - (end_ - x) * by_x_;
+  }
+
+ private:
+  static constexpr int step = 8;
+
+  Eigen::Vector2d straight(int x) const {
+    return {(x - camera_.cx_px) / camera_.fx_px, (y_ - camera_.cy_px) / camera_.fy_px};
+  }
+  Eigen::Vector2d bend_at(int x) const {
+    const Eigen::Vector2d flat = straight(x);
+    return undistort(camera_, {x, y_}, flat + bend_) - flat;
+  }
+
+  const Intrinsics& camera_;
+  int y_ = 0, end_ = 0;
+  Eigen::Vector2d bend_ = Eigen::Vector2d::Zero(), by_x_ = Eigen::Vector2d::Zero();
+};
 }  // namespace
 
 TagFit::TagFit(const Image& gray, const Intrinsics& camera, const DenseTag& tag, const Pose& start,
@@ -77,22 +116,21 @@ void TagFit::collect(const Image& gray, const Intrinsics& camera, const Pose& po
   const Eigen::Vector2d near = model_.near_cells(plane);
   // In rows that are offset.
   const int stride = 1 + static_cast<int>(seen_.area_px2 / most_pixels);
-  const Eigen::Vector2d ray_by_pixel(1 / camera.fx_px, 1 / camera.fy_px);
-  Eigen::Vector2d bend = -ray_by_pixel.cwiseProduct(Eigen::Vector2d(camera.cx_px, camera.cy_px));
-  for (int y = y0; y <= y1; ++y)
+  RowOfRays rays(camera);
+  for (int y = y0; y <= y1; ++y) {
+    const std::uint8_t* row = &gray.pixels[static_cast<std::size_t>(y) * gray.row_bytes()];
+    rays.start(x0, y);
     for (int x = x0; x <= x1; ++x) {
       if ((x + (stride > 2 ? 2 * y : y)) % stride != 0) continue;
-      const Eigen::Vector2d pixel(x, y), straight = ray_by_pixel.cwiseProduct(pixel);
-      Eigen::Vector2d ray = undistort(camera, pixel, straight + bend);
-      bend = ray - straight;  // nearly the next one's
+      Eigen::Vector2d ray = rays.at(x);
       if (rows) ray = (*rows)(ray, y, TagHit(plane, ray).point_m);
       const Eigen::Vector2d cell = TagHit(plane, ray).cell;
       if (!((cell.array() > -beyond.array()).all() && (cell.array() < n + beyond.array()).all()))
         continue;
       if ((x + 2 * y) % (flat_stride * stride) != 0 && model_.is_flat(cell, near)) continue;
-      const auto at = static_cast<std::size_t>(y) * gray.row_bytes() + static_cast<std::size_t>(x);
-      pixels_.push_back({ray, static_cast<double>(gray.pixels[at])});
+      pixels_.push_back({ray, static_cast<double>(row[x])});
     }
+  }
 }
 
 // How far off a pixel is that shows another thing, gray levels.

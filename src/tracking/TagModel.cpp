@@ -24,28 +24,25 @@ constexpr int padding = 3;
 
 // A tag's cells along one axis around a place: how much of the blur lies over each of five.
 struct Weights {
+  enum Column { weight, by_place, by_log_blur };
   int first;  ///< cell
-  std::array<double, 5> weight, by_place, by_log_blur;
+  Eigen::Matrix<double, 5, 3> columns;
 };
 
 Weights weights_at(double place, double blur_cells) {
   Weights w;
-  const int cell = static_cast<int>(std::floor(place));
+  const int cell = static_cast<int>(place + padding) - padding;
   w.first = cell - 2;
-  double before = 1, before_by_place = 0, before_by_blur = 0;
+  const double sharp = 1 / blur_cells;
+  Eigen::RowVector3d before(1, 0, 0);
   for (int i = 0; i < 4; ++i) {
-    const double q = (place - (cell - 1 + i)) / blur_cells;
+    const double q = (place - (cell - 1 + i)) * sharp;
     const Normal normal = normal_at(q);
-    const double by_place = normal.density / blur_cells, by_blur = -q * normal.density;
-    const auto k = static_cast<std::size_t>(i);
-    w.weight[k] = before - normal.below;
-    w.by_place[k] = before_by_place - by_place;
-    w.by_log_blur[k] = before_by_blur - by_blur;
-    before = normal.below, before_by_place = by_place, before_by_blur = by_blur;
+    const Eigen::RowVector3d here(normal.below, normal.density * sharp, -q * normal.density);
+    w.columns.row(i) = before - here;
+    before = here;
   }
-  w.weight[4] = before;
-  w.by_place[4] = before_by_place;
-  w.by_log_blur[4] = before_by_blur;
+  w.columns.row(4) = before;
   return w;
 }
 
@@ -64,11 +61,12 @@ TagModel::TagModel(const DenseTag& tag, const ToneCurve& curve)
 
 void TagModel::paint() {
   n_painted_ = pattern_.border_cells + 2 * padding;
+  white_.resize(n_painted_, n_painted_);
   const int margin = pattern_.margin_cells(), last = pattern_.n_cells - 1;
   for (int row = 0; row < n_painted_; ++row)
     for (int column = 0; column < n_painted_; ++column)
-      white_.push_back(pattern_.is_white(std::clamp(column - padding + margin, 0, last),
-                                         std::clamp(row - padding + margin, 0, last)));
+      white_(row, column) = pattern_.is_white(std::clamp(column - padding + margin, 0, last),
+                                              std::clamp(row - padding + margin, 0, last));
 }
 
 bool TagModel::is_clear() const {
@@ -122,12 +120,11 @@ Eigen::Vector2d TagModel::near_cells(const TagPlane& plane) const {
 bool TagModel::is_flat(const Eigen::Vector2d& cell, const Eigen::Vector2d& near) const {
   const auto is_white = [&](double right, double below) {
     const auto place = [&](double at) {
-      return std::clamp(static_cast<int>(std::floor(at)) + padding, 0, n_painted_ - 1);
+      return std::clamp(static_cast<int>(at + padding), 0, n_painted_ - 1);
     };
-    return white_[static_cast<std::size_t>(place(cell.y() + below) * n_painted_ +
-                                           place(cell.x() + right))];
+    return white_(place(cell.y() + below), place(cell.x() + right)) > 0;
   };
-  const std::uint8_t here = is_white(-near.x(), -near.y());
+  const bool here = is_white(-near.x(), -near.y());
   return is_white(near.x(), -near.y()) == here && is_white(-near.x(), near.y()) == here &&
          is_white(near.x(), near.y()) == here;
 }
@@ -135,15 +132,16 @@ bool TagModel::is_flat(const Eigen::Vector2d& cell, const Eigen::Vector2d& near)
 void TagModel::change_own(const VectorOwn& change) {
   own_ += change;
   own_(log_blur) = std::clamp(own_(log_blur), -0.5, 0.5);
+  wider_ = std::exp(own_(log_blur));
 }
 
 double TagModel::gray_level(const Eigen::Vector2d& ray, const TagPlane& plane, const Pose& pose,
                             double bias_px, VectorAll& by) const {
   const TagHit hit(plane, ray);
   // A pixel's size on the tag.
-  const double pixel_m = hit.point_m.z() / seen_.px_per_ray, wider = std::exp(own_(log_blur));
+  const double pixel_m = hit.point_m.z() / seen_.px_per_ray;
   const Eigen::Vector2d cell_by_px = pixel_m * hit.cell_by_slant.rowwise().norm();
-  const Eigen::Vector2d blur = wider * cell_by_px.cwiseProduct(blur_px_);
+  const Eigen::Vector2d blur = wider_ * cell_by_px.cwiseProduct(blur_px_);
   const Weights across = weights_at(hit.cell.x(), blur.x());
   const Weights below = weights_at(hit.cell.y(), blur.y());
   // Seen at a slant, or smeared, the blur lies at a slant on the tag: two terms of Mehler's
@@ -151,40 +149,30 @@ double TagModel::gray_level(const Eigen::Vector2d& ray, const TagPlane& plane, c
   const Eigen::Matrix2d shape = hit.cell_by_slant * blur_shape_ * hit.cell_by_slant.transpose();
   const double correlation = shape(0, 1) / std::sqrt(shape(0, 0) * shape(1, 1));
   const double slanted = correlation * blur.prod(), twice = correlation * correlation / 2;
-  double b = 0, by_blur = 0;
-  Eigen::Vector2d by_cell(0, 0);
   const int first_row = std::clamp(below.first + padding, 0, n_painted_ - 5);
   const int first_column = std::clamp(across.first + padding, 0, n_painted_ - 5);
-  for (std::size_t j = 0; j < 5; ++j) {
-    double row = 0, row_by_place = 0, row_by_blur = 0;
-    const std::uint8_t* white = &white_[static_cast<std::size_t>(
-        (first_row + static_cast<int>(j)) * n_painted_ + first_column)];
-    for (std::size_t i = 0; i < 5; ++i)
-      if (white[i] != 0) {
-        row += across.weight[i];
-        row_by_place += across.by_place[i];
-        row_by_blur += across.by_log_blur[i];
-      }
-    b += below.weight[j] * row + slanted * below.by_place[j] * row_by_place +
-         twice * below.by_log_blur[j] * row_by_blur;
-    by_cell.x() += below.weight[j] * row_by_place;
-    by_cell.y() += below.by_place[j] * row;
-    by_blur += below.weight[j] * row_by_blur + below.by_log_blur[j] * row;
-  }
+  using enum Weights::Column;
+  const Eigen::Matrix<double, 5, 3> rows =
+      white_.block<5, 5>(first_row, first_column) * across.columns;
+  const Eigen::Matrix3d sums = below.columns.transpose() * rows;
+  const double b = sums(weight, weight) + slanted * sums(by_place, by_place) +
+                   twice * sums(by_log_blur, by_log_blur);
+  const Eigen::Vector2d by_cell(sums(weight, by_place), sums(by_place, weight));
+  const double by_blur = sums(weight, by_log_blur) + sums(by_log_blur, weight);
   const Eigen::Vector2d slope = -(hit.cell_by_slant.transpose() * by_cell);
   const double shrinks = -slope.norm() * pixel_m;  // of white, by a pixel of bias
-  b += shrinks * bias_px;
+  const double white = b + shrinks * bias_px;
   const double half = pattern_.border_cells / 2.0;
   const Eigen::Vector2d place = (hit.cell.array() - half) / half;
   const double brighter = 1 + own_(along) * place.x() + own_(down) * place.y();
   Eigen::Matrix<double, n_reflected, 1> powers;
   powers << place, place.cwiseAbs2(), place.prod();
-  const double light = own_(dark) + own_(contrast) * b + own_.tail<n_reflected>().dot(powers);
+  const double light = own_(dark) + own_(contrast) * white + own_.tail<n_reflected>().dot(powers);
   const Stored stored = curve_.stored(light * brighter);
   const double by_light = stored.by_light * brighter, by_b = by_light * own_(contrast);
   const Eigen::Vector3d by_point(by_b * slope.x(), by_b * slope.y(), -by_b * slope.dot(ray));
   const Eigen::Vector3d arm = hit.point_m - pose.position_m;
-  by << arm.cross(by_point), by_point, by_b * shrinks, by_light, by_light * b,
+  by << arm.cross(by_point), by_point, by_b * shrinks, by_light, by_light * white,
       stored.by_light * light * place, by_b * by_blur, by_light * powers;
   return stored.value;
 }

@@ -8,8 +8,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <vector>
 
 #include "base/PoseTypes.h"
 #include "tracking/BodyPose.h"
@@ -78,9 +76,10 @@ class TagModel {
   const ToneCurve& curve_;
   const Eigen::Vector2d blur_px_;
   Eigen::Matrix2d blur_shape_ = Eigen::Matrix2d::Identity();  ///< covariance, times what it may be
-  std::vector<std::uint8_t> white_;
+  Eigen::MatrixXd white_;                                     ///< 0 or 1
   int n_painted_ = 0;
   VectorOwn own_ = VectorOwn::Zero();
+  double wider_ = 1;  ///< what is blurred, by own_(log_blur)
 };
 
 }  // namespace heft
