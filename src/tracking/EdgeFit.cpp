@@ -146,6 +146,7 @@ class StepFit {
     }
     const double inside = light[0] / weights[0], outside = light[1] / weights[1];
     unknowns << 0, 0, inside, outside - inside, 0, guess.blur_px;
+    per_blur_ = 1 / guess.blur_px;
     saturated =
         std::max(inside, outside) > saturated_light && is_clipped(samples, outside > inside);
     // Above saturation the light, the blur and the place can't all be told from one flank.
@@ -171,17 +172,19 @@ class StepFit {
       if (size > far) continue;
       ++n;
       sum += size;
-      const double weight = (size > clip ? clip / size : 1) * per_variance;
+      const double weight = size > clip ? clip / size * per_variance : per_variance;
       const Vector6 weighted = weight * by;
       add_lower(normal_matrix, weighted, by);
       pull += residual * weighted;
     }
     complete_upper(normal_matrix);
+    n_explained_ = n;
     noise = std::max(least_noise, 1.2533 * sum / std::max(1, n));
     const Vector6 change = normal_matrix.llt().solve(pull);
     if (!change.allFinite()) return 1e9;
     unknowns += change;
     unknowns(blur) = std::clamp(unknowns(blur), least_blur_px, most_blur_px);
+    per_blur_ = 1 / unknowns(blur);
     unknowns(contrast) = std::min(unknowns(contrast), most_light_ - unknowns(dark));
     information = normal_matrix;
     return std::abs(change(offset)) + std::abs(change(slope));
@@ -226,14 +229,9 @@ class StepFit {
     return evidence;
   }
 
-  // Fraction of pixels that the model explains.
+  // Fraction of pixels that the model explained at the last step that left out others.
   double explained() const {
-    const double bound = outlier_bound();
-    int n = 0;
-    Vector6 unused;
-    for (const Sample& sample : samples_)
-      if (std::abs(sample.value - model(sample, unused)) < bound) ++n;
-    return static_cast<double>(n) / static_cast<double>(samples_.size());
+    return static_cast<double>(n_explained_) / static_cast<double>(samples_.size());
   }
 
   double outlier_bound() const {
@@ -259,14 +257,14 @@ class StepFit {
   }
 
   double model(const Sample& sample, Vector6& by) const {
-    const double u = sample.along, s = unknowns(blur);
-    const double q = (sample.outward - unknowns(offset) - unknowns(slope) * u) / s;
+    const double u = sample.along;
+    const double q = (sample.outward - unknowns(offset) - unknowns(slope) * u) * per_blur_;
     const Normal step = normal_at(q);
     const double light = unknowns(dark) + unknowns(contrast) * step.below;
     const double brighter = 1 + unknowns(gain) * u;
     const Stored stored = guess_.curve.stored(light * brighter);
     const double by_light = stored.by_light * brighter;
-    const double by_shift = -by_light * unknowns(contrast) * step.density / s;
+    const double by_shift = -by_light * unknowns(contrast) * step.density * per_blur_;
     by << by_shift, by_shift * u, by_light, by_light * step.below, stored.by_light * light * u,
         by_shift * q;
     return stored.value;
@@ -274,7 +272,8 @@ class StepFit {
 
   const std::vector<Sample>& samples_;
   const EdgeGuess& guess_;
-  double blur_sd_px_, most_light_ = 1;
+  double blur_sd_px_, most_light_ = 1, per_blur_ = 1;
+  int n_explained_ = 0;
 };
 
 // Two points at which a straight line's errors are independent: at its best known place, plus and
