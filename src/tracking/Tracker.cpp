@@ -39,11 +39,6 @@ constexpr int pictures_without_a_close_search = 4;
 // half under fingers, is read.
 constexpr double sure_quality = 0.5;
 
-constexpr double longest_gap_s = 0.25;  // Drive takes a longer one for a jump, too
-// What no hand with a light box in it does.
-constexpr double fastest_m_s = 5, fastest_rad_s = 30;
-constexpr double jitter_m = 0.01, jitter_rad = 0.2;
-
 // What the board's bias tells about the effector's. A bias is there where the camera's tone curve
 // is not sRGB; most cameras' is, and then what the board seems to have is noise, which would push a
 // single tag away or closer by tenths of a millimeter.
@@ -52,19 +47,6 @@ BiasPrior bias_of_effector(const BodyFit& board) {
   const double sd_px = std::hypot(board.bias_sd_px, least_bias_sd_px);
   const double mean_px = board.bias_px * believed_fraction(board.bias_px / sd_px);
   return {mean_px, bias_differs_px + bias_differs_relative * std::abs(mean_px)};
-}
-
-// Poses come out of one another picture by picture: rounding must not add up.
-Pose normalized(Pose pose) {
-  pose.orientation.normalize();
-  return pose;
-}
-
-bool could_have_moved(const Pose& from, const Pose& to, double dt_s) {
-  if (dt_s > longest_gap_s) return false;
-  const double way_m = (to.position_m - from.position_m).norm();
-  const double turn_rad = to.orientation.angularDistance(from.orientation);
-  return way_m < fastest_m_s * dt_s + jitter_m && turn_rad < fastest_rad_s * dt_s + jitter_rad;
 }
 
 // The part of the picture in which a body will be, with room for a hand's change of mind.
@@ -117,13 +99,6 @@ Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings)
   detectors_.emplace_back(apparatus.board.family, decimate);
   if (has_effector() && apparatus.effector.family != apparatus.board.family)
     detectors_.emplace_back(apparatus.effector.family, decimate);
-}
-
-Pose Tracker::SeenEffector::expected_at(double then_s) const {
-  const double dt_s = then_s - t_s;
-  return normalized(
-      {board_from_effector.position_m + dt_s * next.linear_m_s,
-       rotation_from_vector(dt_s * next.angular_rad_s) * board_from_effector.orientation});
 }
 
 std::vector<DetectedTag> Tracker::detect(TagDetector& detector, const Region& region,
@@ -193,7 +168,7 @@ std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
 std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double t_s) {
   const BiasPrior prior = bias_of_effector(seen_board);
   std::optional<Pose> expected;
-  if (seen_ && t_s - seen_->t_s <= longest_gap_s)
+  if (seen_ && seen_->tells_of(t_s))
     expected = normalized(seen_board.camera_from_body * seen_->expected_at(t_s + seen_->own_row_s));
   if (settings_.region_of_interest && expected && !board_family_tags_) {
     // What goes on as it did is found by its edges; that they are its tags, their cells say.
@@ -240,17 +215,12 @@ BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrio
   constexpr int rounds = 2;
   for (int round = 0; round < rounds; ++round) {
     const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
-    const double dt_s = t_s + own_row_s(camera_, fit.camera_from_body) - seen_->t_s;
-    if (!(dt_s > 0) || !could_have_moved(seen_->board_from_effector, pose, dt_s)) return fit;
-    const Velocity mean = mean_velocity(seen_->board_from_effector, pose, dt_s);
-    // The first pose of all is a mean over rows: a velocity from it is no trend's beginning.
-    const bool carry_on = seen_->n_poses > 2;
-    const auto now = [&](const Eigen::Vector3d& of_mean, const Eigen::Vector3d& before) {
-      const Eigen::Vector3d in_board = carry_on ? of_mean + (of_mean - before) / 2 : of_mean;
-      return Eigen::Vector3d(seen_board.camera_from_body.orientation * in_board);
-    };
-    velocity = {now(mean.linear_m_s, seen_->velocity.linear_m_s),
-                now(mean.angular_rad_s, seen_->velocity.angular_rad_s)};
+    const double own_s = t_s + own_row_s(camera_, fit.camera_from_body);
+    if (!(own_s > seen_->t_s) || !seen_->could_be_at(pose, own_s)) return fit;
+    const Velocity now =
+        seen_->carried_on(mean_velocity(seen_->board_from_effector, pose, own_s - seen_->t_s), 0.5);
+    const Eigen::Quaterniond& turn = seen_board.camera_from_body.orientation;
+    velocity = {turn * now.linear_m_s, turn * now.angular_rad_s};
     fit = effector_.solve_moving(fit, velocity, prior, result_.times);
   }
   const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
@@ -273,21 +243,11 @@ void Tracker::take_effector(const BodyFit& fit, double t_s) {
   const Pose pose = normalized(result_.camera_from_board->inverse() * fit.camera_from_body);
   const double own_s = own_row_s(camera_, fit.camera_from_body);
   result_.effector_t_s = t_s + own_s;
-  const double dt_s = seen_ ? result_.effector_t_s - seen_->t_s : 0;
-  result_.jump = !seen_ || !could_have_moved(seen_->board_from_effector, pose, dt_s);
+  const double then_s = result_.effector_t_s;
+  result_.jump = !seen_ || !seen_->could_be_at(pose, then_s);
   n_unseen_ = 0;
-  const bool moves_on = !result_.jump && dt_s > 0;
-  SeenEffector now{result_.effector_t_s, own_s, pose, {}, {}, 1};
-  if (moves_on) {
-    const Velocity before = seen_->velocity;
-    now.n_poses = seen_->n_poses + 1;
-    now.next = now.velocity = mean_velocity(seen_->board_from_effector, pose, dt_s);
-    if (now.n_poses > 2) {
-      now.next.linear_m_s += now.velocity.linear_m_s - before.linear_m_s;
-      now.next.angular_rad_s += now.velocity.angular_rad_s - before.angular_rad_s;
-    }
-  }
-  seen_ = now;
+  const bool moves_on = !result_.jump && then_s > seen_->t_s;
+  seen_ = moves_on ? seen_->moved_on(then_s, own_s, pose) : SeenEffector{then_s, own_s, pose};
   result_.board_from_effector = pose;
   result_.n_effector_tags = fit.n_tags;
   result_.n_effector_faces = fit.n_faces;

@@ -9,6 +9,7 @@
 #include "base/PoseTypes.h"
 #include "tracking/BodyFinder.h"
 #include "tracking/MarkerBody.h"
+#include "tracking/SeenEffector.h"
 #include "tracking/TagDetector.h"
 
 namespace heft {
@@ -64,18 +65,6 @@ class Tracker {
   void reset();
 
  private:
-  /// The effector when it was last seen.
-  struct SeenEffector {
-    double t_s;        ///< effector_t_s
-    double own_row_s;  ///< by so much later than its picture's
-    Pose board_from_effector;
-    Velocity velocity;  ///< mean since the picture before
-    Velocity next;      ///< mean until the next picture, if it changes as it did
-    int n_poses;        ///< in a row, this one with them
-
-    Pose expected_at(double then_s) const;
-  };
-
   bool has_effector() const { return !effector_.body().tags.empty(); }
   std::vector<DetectedTag> detect(TagDetector& detector, const Region& region,
                                   EdgeSearch search = EdgeSearch::above_noise);
