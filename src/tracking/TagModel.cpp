@@ -18,31 +18,32 @@ constexpr double most_blur_cells = 0.45;
 constexpr double least_blur_px = 0.29;  // a pixel's own extent: 1 / sqrt(12)
 constexpr double edge_in_blurs = 2.5;
 constexpr double least_contrast = 0.002;  // of the light that shows as white
-// The pattern is painted with its outermost cells carried on, as far as five cells around a pixel
+// The pattern is painted with its outermost cells carried on, as far as four cells around a pixel
 // reach.
 constexpr int padding = 3;
 
-// A tag's cells along one axis around a place: how much of the blur lies over each of five.
+// A tag's cells along one axis around a place: how much of the blur lies over each of four. What
+// lies beyond is 1.5 cells away, 3.3 times the widest blur.
 struct Weights {
   enum Column { weight, by_place, by_log_blur };
   int first;  ///< cell
-  Eigen::Matrix<double, 5, 3> columns;
+  Eigen::Matrix<double, 4, 3> columns;
 };
 
 Weights weights_at(double place, double blur_cells) {
   Weights w;
-  const int cell = static_cast<int>(place + padding) - padding;
-  w.first = cell - 2;
+  const int nearest_edge = static_cast<int>(place + (padding + 0.5)) - padding;
+  w.first = nearest_edge - 2;
   const double sharp = 1 / blur_cells;
   Eigen::RowVector3d before(1, 0, 0);
-  for (int i = 0; i < 4; ++i) {
-    const double q = (place - (cell - 1 + i)) * sharp;
+  for (int i = 0; i < 3; ++i) {
+    const double q = (place - (nearest_edge - 1 + i)) * sharp;
     const Normal normal = normal_at(q);
     const Eigen::RowVector3d here(normal.below, normal.density * sharp, -q * normal.density);
     w.columns.row(i) = before - here;
     before = here;
   }
-  w.columns.row(4) = before;
+  w.columns.row(3) = before;
   return w;
 }
 
@@ -149,11 +150,11 @@ double TagModel::gray_level(const Eigen::Vector2d& ray, const TagPlane& plane, c
   const Eigen::Matrix2d shape = hit.cell_by_slant * blur_shape_ * hit.cell_by_slant.transpose();
   const double correlation = shape(0, 1) / std::sqrt(shape(0, 0) * shape(1, 1));
   const double slanted = correlation * blur.prod(), twice = correlation * correlation / 2;
-  const int first_row = std::clamp(below.first + padding, 0, n_painted_ - 5);
-  const int first_column = std::clamp(across.first + padding, 0, n_painted_ - 5);
+  const int first_row = std::clamp(below.first + padding, 0, n_painted_ - 4);
+  const int first_column = std::clamp(across.first + padding, 0, n_painted_ - 4);
   using enum Weights::Column;
-  const Eigen::Matrix<double, 5, 3> rows =
-      white_.block<5, 5>(first_row, first_column) * across.columns;
+  const Eigen::Matrix<double, 4, 3> rows =
+      white_.block<4, 4>(first_row, first_column) * across.columns;
   const Eigen::Matrix3d sums = below.columns.transpose() * rows;
   const double b = sums(weight, weight) + slanted * sums(by_place, by_place) +
                    twice * sums(by_log_blur, by_log_blur);
