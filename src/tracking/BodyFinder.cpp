@@ -163,6 +163,7 @@ std::vector<TagObservation> BodyFinder::measure_detected(const Image& gray,
                                                          const std::vector<DetectedTag>& detected,
                                                          std::vector<bool>& done) {
   std::vector<TagObservation> tags, fallback;
+  how_.whole = false;
   for (const DetectedTag& found : detected) {
     const auto tag = std::ranges::find(body_.tags, found.id, &Tag::id);
     if (tag == body_.tags.end()) continue;
@@ -185,6 +186,7 @@ std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,
                                                          std::vector<bool>& done, bool covered_too,
                                                          std::span<const TagObservation> before) {
   std::vector<TagObservation> tags;
+  how_.whole = !covered_too;
   for (std::size_t i = 0; i < body_.tags.size(); ++i) {
     if (done[i]) continue;
     const auto corners = projected(camera_, body_.tags[i], camera_from_body);

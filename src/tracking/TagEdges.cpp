@@ -159,8 +159,13 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPa
                         const Corners& corners_px, const EdgeMeasuring& how) {
   std::array<EdgeGuess, 4> guesses = guesses_of(camera, pattern, corners_px, how);
   MeasuredTag tag = unrefined_tag(corners_px);
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < 4; ++i) {
     take_edge(tag.edges[i], fit_edge(gray, guesses[i], how.most_pixels));
+    if (how.whole && tag.edges[i].quality == 0) {
+      tag.quality = tag.agreement = 0;
+      return tag;
+    }
+  }
   if (std::ranges::all_of(tag.edges, tells_blur))
     for (std::size_t i = 0; i < 4; ++i) {
       guesses[i].tells_curve = how.tells_curve;

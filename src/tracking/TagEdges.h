@@ -32,6 +32,7 @@ struct EdgeMeasuring {
   double noise = 0;        ///< sd of the picture's, gray levels; 0: it is not known
   ToneCurve curve{};
   bool tells_curve = false;  ///< evidence of the curve is wanted
+  bool whole = false;  ///< a tag of which an edge is not there is not measured: its quality is 0
 };
 
 /// Edges that are hidden or not there are left where they are expected, with a wide error.

@@ -34,9 +34,9 @@ TEST(MeasuredTag, EdgesThatWereNotFoundLookAsTheOthersDo) {
     }
   Intrinsics camera;
   camera.cx_px = camera.cy_px = margin_px + side_px / 2;
-  const MeasuredTag tag = measure_tag(
-      image, camera, pattern, {Eigen::Vector2d(low, low), {high, low}, {high, high}, {low, high}},
-      {.blur_px = blur_px});
+  const std::array<Eigen::Vector2d, 4> corners_px{
+      Eigen::Vector2d(low, low), {high, low}, {high, high}, {low, high}};
+  const MeasuredTag tag = measure_tag(image, camera, pattern, corners_px, {.blur_px = blur_px});
   int n_found = 0;
   for (const FittedEdge& edge : tag.edges) n_found += edge.quality > 0 ? 1 : 0;
   EXPECT_EQ(n_found, 2);
@@ -45,6 +45,9 @@ TEST(MeasuredTag, EdgesThatWereNotFoundLookAsTheOthersDo) {
     EXPECT_NEAR(edge.dark, stored_of_light(0.1).value, 6);
     EXPECT_NEAR(edge.bright, stored_of_light(0.6).value, 6);
   }
+  EXPECT_GT(tag.quality, 0.4);
+  const EdgeMeasuring whole{.blur_px = blur_px, .whole = true};
+  EXPECT_EQ(measure_tag(image, camera, pattern, corners_px, whole).quality, 0);
 }
 
 // A dark square, blurred more from left to right than up and down. Where that is known, its edges
