@@ -142,18 +142,29 @@ BodyFit BodyFinder::solve_moving(const BodyFit& found, const Velocity& velocity,
   });
 }
 
-std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& expected, bool still,
-                                              int least_tags, const BiasPrior& prior,
+std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& expected,
+                                              const Enough& enough, const BiasPrior& prior,
+                                              TrackerTimes& times) {
+  const double blur_px = how_.blur_px;
+  const auto fit = seen_again(gray, expected, enough, prior, times);
+  if (fit && fit->quality >= enough.quality) return fit;
+  how_.blur_px = blur_px;  // as if nobody had looked
+  return std::nullopt;
+}
+
+std::optional<BodyFit> BodyFinder::seen_again(const Image& gray, const Pose& expected,
+                                              const Enough& enough, const BiasPrior& prior,
                                               TrackerTimes& times) {
   std::vector<bool> done(body_.tags.size(), false);
   tone_ = {};
-  const std::span<const TagObservation> before = still ? last_tags_ : std::span<TagObservation>();
+  const std::span<const TagObservation> before =
+      enough.still ? last_tags_ : std::span<TagObservation>();
   auto tags =
       timed(times.refine_s, [&] { return measure_expected(gray, expected, done, false, before); });
-  if (static_cast<int>(tags.size()) < least_tags) return std::nullopt;
+  if (static_cast<int>(tags.size()) < enough.tags) return std::nullopt;
   const BiasPrior bias = prior_for(settings_, prior);
   const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
-  if (!fit || fit->n_tags < least_tags) return std::nullopt;
+  if (!fit || fit->n_tags < enough.tags) return std::nullopt;
   last_tags_ = std::move(tags);
   if (last_tags_.size() >= few_tags) return fit;
   return with_others(gray, *fit, done, bias, times);

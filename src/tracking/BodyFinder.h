@@ -52,11 +52,16 @@ class BodyFinder {
                               const std::optional<Pose>& expected, const BiasPrior& prior,
                               TrackerTimes& times);
 
-  /// From where it is expected alone, within half a cell; none unless at least least_tags are
-  /// there, and their cells are theirs. @param still tags that were seen last are taken to be as
-  /// blurred as they were
-  std::optional<BodyFit> find_again(const Image& gray, const Pose& expected, bool still,
-                                    int least_tags, const BiasPrior& prior, TrackerTimes& times);
+  /// What is enough to go on from where a body is expected.
+  struct Enough {
+    bool still = true;  ///< tags that were seen last are taken to be as blurred as they were
+    int tags = 1;
+    double quality = 0;
+  };
+  /// From where it is expected alone, within half a cell; none, and no traces, unless that is
+  /// enough. Cells must be its tags'.
+  std::optional<BodyFit> find_again(const Image& gray, const Pose& expected, const Enough& enough,
+                                    const BiasPrior& prior, TrackerTimes& times);
 
   /// Of what find saw last, the mean blur of its upright edges and of its level ones, px; zero
   /// where nothing was.
@@ -78,6 +83,8 @@ class BodyFinder {
   std::vector<TagObservation> measure_detected(const Image& gray,
                                                const std::vector<DetectedTag>& detected,
                                                std::vector<bool>& done);
+  std::optional<BodyFit> seen_again(const Image& gray, const Pose& expected, const Enough& enough,
+                                    const BiasPrior& prior, TrackerTimes& times);
   /// A fit by some of the tags, with those that can be found where it puts them.
   std::optional<BodyFit> with_others(const Image& gray, const BodyFit& fit, std::vector<bool>& done,
                                      const BiasPrior& bias, TrackerTimes& times);

@@ -178,7 +178,6 @@ class StepFit {
       pull += residual * weighted;
     }
     complete_upper(normal_matrix);
-    n_explained_ = n;
     noise = std::max(least_noise, 1.2533 * sum / std::max(1, n));
     const Vector6 change = normal_matrix.llt().solve(pull);
     if (!change.allFinite()) return 1e9;
@@ -229,9 +228,14 @@ class StepFit {
     return evidence;
   }
 
-  // Fraction of pixels that the model explained at the last step that left out others.
+  // Fraction of pixels that the model explains.
   double explained() const {
-    return static_cast<double>(n_explained_) / static_cast<double>(samples_.size());
+    const double bound = outlier_bound();
+    int n = 0;
+    Vector6 unused;
+    for (const Sample& sample : samples_)
+      if (std::abs(sample.value - model(sample, unused)) < bound) ++n;
+    return static_cast<double>(n) / static_cast<double>(samples_.size());
   }
 
   double outlier_bound() const {
@@ -273,7 +277,6 @@ class StepFit {
   const std::vector<Sample>& samples_;
   const EdgeGuess& guess_;
   double blur_sd_px_, most_light_ = 1, per_blur_ = 1;
-  int n_explained_ = 0;
 };
 
 // Two points at which a straight line's errors are independent: at its best known place, plus and

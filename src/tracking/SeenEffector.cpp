@@ -23,11 +23,11 @@ bool SeenEffector::tells_of(double then_s) const {
   return then_s - t_s <= longest_gap_s;
 }
 
-Pose SeenEffector::expected_at(double then_s) const {
+Pose SeenEffector::expected_at(double then_s, const Velocity& by) const {
   const double dt_s = then_s - t_s;
   return normalized(
-      {board_from_effector.position_m + dt_s * next.linear_m_s,
-       rotation_from_vector(dt_s * next.angular_rad_s) * board_from_effector.orientation});
+      {board_from_effector.position_m + dt_s * by.linear_m_s,
+       rotation_from_vector(dt_s * by.angular_rad_s) * board_from_effector.orientation});
 }
 
 bool SeenEffector::could_be_at(const Pose& pose, double then_s) const {

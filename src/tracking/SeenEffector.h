@@ -17,7 +17,9 @@ struct SeenEffector {
   /// Seen so recently that something can be said of it.
   bool tells_of(double then_s) const;
 
-  Pose expected_at(double then_s) const;
+  /// @param by velocity, or next: nearer to where a hand is, and farther off where poses are not
+  /// sure
+  Pose expected_at(double then_s, const Velocity& by) const;
 
   bool could_be_at(const Pose& pose, double then_s) const;
 

@@ -131,7 +131,7 @@ std::optional<BodyFit> Tracker::find_board() {
   if (settings_.region_of_interest && settings_.refine_edges && last_board_) {
     const int least_tags = std::max(1, (last_n_board_tags_ + 1) / 2);
     const auto fit =
-        board_.find_again(gray_, *last_board_, true, least_tags, unknown_bias, result_.times);
+        board_.find_again(gray_, *last_board_, {.tags = least_tags}, unknown_bias, result_.times);
     // A single tag tells too little to go on without reading it.
     if (fit && fit->n_tags > 1) return fit;
   }
@@ -156,8 +156,8 @@ std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
     const bool moves = tone_.learn(board_.tone(), board->bias_px, board->bias_sd_px);
     expect_picture();
     if (!moves) break;
-    const auto anew = board_.find_again(gray_, board->camera_from_body, true, tags_that_tell_bias,
-                                        unknown_bias, result_.times);
+    const auto anew = board_.find_again(gray_, board->camera_from_body,
+                                        {.tags = tags_that_tell_bias}, unknown_bias, result_.times);
     if (!anew) break;
     board = anew;
   }
@@ -167,14 +167,18 @@ std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
 
 std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double t_s) {
   const BiasPrior prior = bias_of_effector(seen_board);
+  const auto expected_by = [&](const Velocity& by) {
+    return normalized(seen_board.camera_from_body * seen_->expected_at(t_s + seen_->own_row_s, by));
+  };
   std::optional<Pose> expected;
-  if (seen_ && seen_->tells_of(t_s))
-    expected = normalized(seen_board.camera_from_body * seen_->expected_at(t_s + seen_->own_row_s));
+  if (seen_ && seen_->tells_of(t_s)) expected = expected_by(seen_->velocity);
   if (settings_.region_of_interest && expected && !board_family_tags_) {
     // What goes on as it did is found by its edges; that they are its tags, their cells say.
     if (settings_.refine_edges && n_unseen_ == 0) {
-      const auto fit = effector_.find_again(gray_, *expected, false, 1, prior, result_.times);
-      if (fit && fit->quality >= sure_quality) return unrolled(*fit, seen_board, prior, t_s);
+      const auto fit =
+          effector_.find_again(gray_, expected_by(seen_->next),
+                               {.still = false, .quality = sure_quality}, prior, result_.times);
+      if (fit) return unrolled(*fit, seen_board, prior, t_s);
     }
     const Region region = region_around(camera_, effector_.body(), *expected);
     const auto fit =
