@@ -12,20 +12,14 @@ struct Counts {
   Tallies difference, wrong_cube, false_alarm, at_zero;
 };
 
-void count(Tallies& tallies, const std::string& participant, bool hit) {
-  Tally& tally = tallies[participant];
-  tally.n_trials += 1;
-  tally.n_hits += hit ? 1 : 0;
-}
-
 void count_trial(Counts& counts, const std::string& participant, const ComparedTrial& trial) {
   const bool equal = trial.level_g == 0;
   counts.n_trials += 1;
-  if (trial.is_catch) count(counts.false_alarm, participant, trial.difference);
-  if (!trial.is_catch) count(counts.difference, participant, trial.difference);
-  if (!trial.is_catch && equal) count(counts.at_zero, participant, trial.difference);
+  if (trial.is_catch) counts.false_alarm[participant].add(trial.difference);
+  if (!trial.is_catch) counts.difference[participant].add(trial.difference);
+  if (!trial.is_catch && equal) counts.at_zero[participant].add(trial.difference);
   if (trial.difference && !equal && trial.correct)
-    count(counts.wrong_cube, participant, !*trial.correct);
+    counts.wrong_cube[participant].add(!*trial.correct);
 }
 
 ComparisonChoices choices(double reference_g, std::optional<double> level_g, const Counts& counts) {

@@ -19,6 +19,12 @@ std::vector<double> Attempt::masses_g() const {
   return masses;
 }
 
+bool Attempt::shows(std::span<const double> masses) const {
+  std::vector<double> shown = masses_g();
+  std::ranges::sort(shown);
+  return std::ranges::equal(shown, masses);
+}
+
 std::optional<std::string> SessionData::model() const {
   for (const LoggedSetup& logged : setups) {
     if (has_person(logged.setup)) continue;

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct Attempt {
 
   bool completed() const { return trial.status == TrialStatus::completed; }
   std::vector<double> masses_g() const;  ///< by slot
+  /// Whether its cubes have these masses, told from light to heavy.
+  bool shows(std::span<const double> masses) const;
 };
 
 /// What became of the camera's pictures, over a session of a person.

@@ -6,23 +6,14 @@
 
 namespace heft {
 
-namespace {
-bool has_published_masses(const Attempt& attempt) {
-  std::vector<double> masses = attempt.masses_g();
-  std::ranges::sort(masses);
-  return std::ranges::equal(masses, published::introduction_masses_g);
-}
-}  // namespace
-
 void IntroductionFold::add(const SessionData& data) {
   for (const Attempt& attempt : data.attempts) {
     if (!attempt.completed() || attempt.trial.plan.task != Task::introduction) continue;
     if (!seen_.insert(data.participant()).second) continue;
     const auto n_selects =
         std::ranges::count(attempt.answers, ActionKind::select, &AnswerRow::action);
-    tally_.n_trials += 1;
-    tally_.n_hits += n_selects == 1 ? 1 : 0;
-    as_published_ = as_published_ && has_published_masses(attempt);
+    tally_.add(n_selects == 1);
+    as_published_ = as_published_ && attempt.shows(published::introduction_masses_g);
   }
 }
 

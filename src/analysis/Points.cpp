@@ -48,20 +48,15 @@ double mean_level_g(const Trials& bin) {
   return sum / static_cast<double>(bin.size());
 }
 
-void count(Tally& tally, bool hit) {
-  tally.n_trials += 1;
-  tally.n_hits += hit ? 1 : 0;
-}
-
 ChoiceBin choice_bin(const Compared& compared, const Trials& bin, const ComparisonTrials& trials) {
   Tallies right, wrong, none;
   for (const ComparedTrial* trial : bin) {
     const std::string& participant = trials.participant(*trial);
     const bool rightly = trial->correct.value_or(false);
-    count(none[participant], !trial->difference);
+    none[participant].add(!trial->difference);
     if (trial->level_g == 0) continue;
-    count(right[participant], trial->difference && rightly);
-    count(wrong[participant], trial->difference && !rightly);
+    right[participant].add(trial->difference && rightly);
+    wrong[participant].add(trial->difference && !rightly);
   }
   ChoiceBin found{compared,       mean_level_g(bin), static_cast<int>(bin.size()),
                   rate_of(right), rate_of(wrong),    rate_of(none)};
@@ -103,7 +98,7 @@ void put_detection(Points& points, const ComparisonTrials& all) {
   for (const auto& [compared, theirs] : all.by_compared())
     for (const ComparedTrial& trial : theirs) {
       auto& [with, without] = people[all.participant(trial)];
-      count(trial.level_g == 0 ? without : with, trial.difference);
+      (trial.level_g == 0 ? without : with).add(trial.difference);
     }
   for (const auto& [participant, tallies] : people) {
     const auto hits = percent_of(tallies.first), alarms = percent_of(tallies.second);
@@ -130,7 +125,7 @@ constexpr int n_tenths = 10;
 void PointsFold::add_sorting(const std::string& participant, const Attempt& attempt) {
   const TrialRow& trial = attempt.trial;
   if (trial.plan.task != Task::sorting || !trial.outcome) return;
-  count(sortings_[participant][trial.plan.condition], trial.outcome == Outcome::correct);
+  sortings_[participant][trial.plan.condition].add(trial.outcome == Outcome::correct);
   if (attempt.cubes.size() == 3 && trial.outcome != Outcome::dont_know)
     count_labels(labels_[trial.plan.condition], attempt);
 }

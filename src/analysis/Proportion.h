@@ -26,6 +26,11 @@ struct EnumNames<IntervalMethod> {
 /// How many of one participant's trials had the property that is counted.
 struct Tally {
   int n_hits = 0, n_trials = 0;
+
+  void add(bool hit) {
+    n_trials += 1;
+    n_hits += hit ? 1 : 0;
+  }
 };
 
 /// Tallies by participant.

@@ -9,18 +9,6 @@
 namespace heft {
 
 namespace {
-void count_one(Tallies& tallies, const std::string& participant, bool hit) {
-  Tally& tally = tallies[participant];
-  tally.n_trials += 1;
-  tally.n_hits += hit ? 1 : 0;
-}
-
-bool has_published_masses(const Attempt& attempt) {
-  std::vector<double> masses = attempt.masses_g();
-  std::ranges::sort(masses);
-  return std::ranges::equal(masses, published::sorting_masses_g);
-}
-
 void put_beside(Proportion& proportion, const published::Percentage& figure) {
   proportion.published_percent = figure.mean_percent;
   proportion.published_sd_percent = figure.sd_percent;
@@ -92,14 +80,14 @@ SortingFold::Counted& SortingFold::counted_in(const std::string& condition) {
 
 void SortingFold::count(Counted& counted, const std::string& participant, const Attempt& attempt) {
   const Outcome outcome = *attempt.trial.outcome;
-  count_one(counted.correct, participant, outcome == Outcome::correct);
-  count_one(counted.incorrect, participant, outcome == Outcome::incorrect);
-  count_one(counted.none, participant, outcome == Outcome::dont_know);
+  counted.correct[participant].add(outcome == Outcome::correct);
+  counted.incorrect[participant].add(outcome == Outcome::incorrect);
+  counted.none[participant].add(outcome == Outcome::dont_know);
   counted.n_trials_by_cubes[static_cast<int>(attempt.cubes.size())] += 1;
-  counted.as_published = counted.as_published && has_published_masses(attempt);
+  counted.as_published = counted.as_published && attempt.shows(published::sorting_masses_g);
   if (outcome == Outcome::dont_know) return;
-  count_one(counted.answered_correct, participant, outcome == Outcome::correct);
-  count_one(counted.answered_incorrect, participant, outcome == Outcome::incorrect);
+  counted.answered_correct[participant].add(outcome == Outcome::correct);
+  counted.answered_incorrect[participant].add(outcome == Outcome::incorrect);
   if (outcome != Outcome::incorrect) return;
   const std::vector<double> masses_g = attempt.masses_g();
   const auto labels = final_labels(attempt.answers, static_cast<int>(masses_g.size()));
