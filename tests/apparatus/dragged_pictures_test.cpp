@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "apparatus/DraggedPictures.h"
+#include "apparatus/ShippedApparatus.h"
 #include "base/Error.h"
 #include "base/Pose.h"
 #include "protocol/Files.h"
@@ -15,15 +16,7 @@ namespace {
 class Dragged : public testing::Test {
  protected:
   PictureParts parts() {
-    const std::string folder = HEFT_SOURCE_DIR "/protocols/apparatus/";
-    PictureParts all{protocol,
-                     *hand,
-                     {load_intrinsics(folder + "synthetic_camera.yaml"),
-                      load_board(folder + "board.toml"), load_effector(folder + "effector.toml")},
-                     "",
-                     clock,
-                     0,
-                     ""};
+    PictureParts all{protocol, *hand, shipped_apparatus(), "", clock, 0, ""};
     all.dragged = effector;
     return all;
   }

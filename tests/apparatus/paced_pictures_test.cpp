@@ -5,6 +5,7 @@
 
 #include "apparatus/FilmedPictures.h"
 #include "apparatus/PacedPictures.h"
+#include "apparatus/ShippedApparatus.h"
 #include "protocol/Files.h"
 #include "tracking/LiveCamera.h"
 #include "tracking/MarkerBody.h"
@@ -124,10 +125,6 @@ TEST(PacedPictures, AJumpInBetweenIsNotForgotten) {
 
 // A live camera of 60 pictures a second, that films nothing.
 TEST(PacedPictures, OfALiveCameraComeAtTheDisplaysRateAndNoneIsDropped) {
-  const std::string folder = HEFT_SOURCE_DIR "/protocols/apparatus/";
-  const Apparatus apparatus{load_intrinsics(folder + "synthetic_camera.yaml"),
-                            load_board(folder + "board.toml"),
-                            load_effector(folder + "effector.toml")};
   std::uint8_t shade = 0;
   const auto grab = [&]() -> std::optional<GrabbedPicture> {
     std::this_thread::sleep_for(std::chrono::microseconds(16667));
@@ -143,7 +140,7 @@ TEST(PacedPictures, OfALiveCameraComeAtTheDisplaysRateAndNoneIsDropped) {
           [&] {
             return std::make_unique<LiveCamera>(grab, CameraMode{640, 480, 60, "YUYV", {}, {}});
           },
-          PictureParts{protocol, *hand, apparatus, "", clock, 0, ""}),
+          PictureParts{protocol, *hand, shipped_apparatus(), "", clock, 0, ""}),
       15);
   EXPECT_EQ(paced.rate_hz(), 60);
   paced.begin_attempt({});

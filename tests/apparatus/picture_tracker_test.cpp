@@ -2,33 +2,26 @@
 #include <gtest/gtest.h>
 
 #include "apparatus/FilmedPictures.h"
+#include "apparatus/ShippedApparatus.h"
 #include "protocol/Files.h"
 #include "tracking/MarkerBody.h"
 
 namespace heft {
 namespace {
 
-const Apparatus& apparatus() {
-  static const std::string folder = std::string(HEFT_SOURCE_DIR) + "/protocols/apparatus/";
-  static const Apparatus shipped{load_intrinsics(folder + "synthetic_camera.yaml"),
-                                 load_board(folder + "board.toml"),
-                                 load_effector(folder + "effector.toml")};
-  return shipped;
-}
-
 std::string trouble_at(PictureTracker& tracker, double t_s) {
   return tracker.track(std::make_shared<const Image>(640, 480, 3), t_s).trouble;
 }
 
 TEST(PictureTracker, ABoardIsLostAfterHalfASecondWithoutIt) {
-  PictureTracker tracker(apparatus());
+  PictureTracker tracker(shipped_apparatus());
   EXPECT_EQ(trouble_at(tracker, 1), "");
   EXPECT_EQ(trouble_at(tracker, 1.4), "");
   EXPECT_EQ(trouble_at(tracker, 1.6), "board_lost");
 }
 
 TEST(PictureTracker, OnePictureWithoutBoardAfterABreakIsNoLostBoard) {
-  PictureTracker tracker(apparatus());
+  PictureTracker tracker(shipped_apparatus());
   trouble_at(tracker, 1);
   tracker.look_anew();  // as after a break, a pause, between attempts
   EXPECT_EQ(trouble_at(tracker, 61), "");

@@ -15,6 +15,11 @@ namespace heft {
 inline const std::vector<std::string> every_bullet{"bullet-ea", "bullet-x", "bullet-lx"};
 inline const std::vector<std::string> every_solver{"bullet-ea", "bullet-x", "bullet-lx", "boxes"};
 
+/// A hand that stays where it is.
+inline auto held(const Pose& pose) {
+  return [pose](double) { return pose; };
+}
+
 inline Cube cube_of(double mass_kg, double x_m = 0, double y_m = 0) {
   Cube cube;
   cube.mass_kg = mass_kg;

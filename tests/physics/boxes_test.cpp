@@ -11,10 +11,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-auto held(const Pose& pose) {
-  return [pose](double) { return pose; };
-}
-
 // Deepest overlap of any two boxes, or of one with the table, m.
 double deepest_m(const Scene& scene, const WorldState& state) {
   std::vector<Box> boxes{box_at(state.clone.pose, scene.effector_size_m)};

@@ -10,10 +10,6 @@ namespace {
 
 const Pose in_the_air{{0, 0, 0.2}, Eigen::Quaterniond::Identity()};
 
-auto held(const Pose& pose) {
-  return [pose](double) { return pose; };
-}
-
 struct Errors {
   double sum = 0;
   int n = 0;

@@ -10,10 +10,6 @@
 namespace heft {
 namespace {
 
-auto held(const Pose& pose) {
-  return [pose](double) { return pose; };
-}
-
 const Pose away = upright_pose({0, 0, 0.3}, 0);
 
 TEST(RestingCubes, StayWhereTheyAre) {

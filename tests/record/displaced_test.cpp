@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/Error.h"
 #include "record/Integrity.h"
 #include "record/LogReader.h"
 #include "record/SessionArchive.h"
 #include "record/SessionLog.h"
+#include "record/failure.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
 
@@ -20,16 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
-
-template <typename Work>
-std::string failure(Work&& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 class displaced : public testing::Test {
  protected:

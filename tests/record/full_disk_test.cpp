@@ -13,6 +13,7 @@
 #include "record/LogReader.h"
 #include "record/SessionArchive.h"
 #include "record/SessionLog.h"
+#include "record/failure.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
 
@@ -83,16 +84,6 @@ std::string answer_until_it_fails(SessionLog& log, std::size_t& n_saved) {
     } catch (const Error& error) {
       return error.what();
     }
-  return "";
-}
-
-template <typename Work>
-std::string failure(Work&& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
   return "";
 }
 

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/Error.h"
 #include "base/TextFile.h"
 #include "record/Integrity.h"
 #include "record/LogReader.h"
@@ -17,6 +16,7 @@
 #include "record/SessionArchive.h"
 #include "record/SessionLog.h"
 #include "record/child.h"
+#include "record/failure.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
 
@@ -25,16 +25,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-template <typename Work>
-std::string failure(Work&& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::string failure_to_start(const std::string& file) {
   return failure([&] { SessionLog::start(file, header_of("P01")); });

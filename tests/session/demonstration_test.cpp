@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 
+#include "apparatus/ShippedApparatus.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/Files.h"
 #include "session/Equipment.h"
@@ -27,13 +28,6 @@ using testing::shared;
 
 const std::string shipped = HEFT_SOURCE_DIR "/protocols/apparatus/";
 
-const Apparatus& apparatus() {
-  static const Apparatus all{load_intrinsics(shipped + "synthetic_camera.yaml"),
-                             load_board(shipped + "board.toml"),
-                             load_effector(shipped + "effector.toml")};
-  return all;
-}
-
 double degrees_from(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return a.angularDistance(b) * 180 / M_PI;
 }
@@ -41,8 +35,8 @@ double degrees_from(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
 // The pictures speak for themselves: a tracker finds in them what is drawn over them.
 TEST(Demonstration, shows_a_filmed_effector_under_its_clone_with_two_faces_to_the_camera) {
   const Protocol protocol;
-  Demonstration demonstration(protocol, apparatus(), 7);
-  Tracker tracker(apparatus());
+  Demonstration demonstration(protocol, shipped_apparatus(), 7);
+  Tracker tracker(shipped_apparatus());
   int n_two_faces = 0;
   constexpr int n_pictures = 60;
   for (int i = 0; i < n_pictures; ++i) {
@@ -64,10 +58,10 @@ TEST(Demonstration, shows_a_filmed_effector_under_its_clone_with_two_faces_to_th
 // Cubes are drawn over the film; where the hand is, they are not.
 TEST(Demonstration, never_draws_a_cube_over_the_hand) {
   const Protocol protocol;
-  Demonstration demonstration(protocol, apparatus(), 7);
+  Demonstration demonstration(protocol, shipped_apparatus(), 7);
   ViewSetup setup;
   setup.stage = stage_of(protocol, 3);
-  setup.camera = apparatus().camera;
+  setup.camera = shipped_apparatus().camera;
   SceneDrawing drawing(setup);
   int n_hand_px = 0, n_hidden_px = 0;
   for (double t_s = 0.5; t_s < 20; t_s += 0.5) {
@@ -157,7 +151,7 @@ struct Demonstrated {
 };
 
 TEST(Demonstration, is_filmed_for_a_person_at_their_page) {
-  const Demonstrated session(apparatus(), true);
+  const Demonstrated session(shipped_apparatus(), true);
   EXPECT_EQ(session.end, RunEnd::finished);
   ASSERT_FALSE(session.shown.empty());
   for (const ViewFrame& picture : session.shown) EXPECT_TRUE(picture.camera);
@@ -165,7 +159,7 @@ TEST(Demonstration, is_filmed_for_a_person_at_their_page) {
 
 TEST(Demonstration, is_not_rendered_for_a_model) {
   const Protocol protocol;
-  Apparatus impossible = apparatus();
+  Apparatus impossible = shipped_apparatus();
   impossible.board.tags[0].corners_m[0].z() = 0.1;
   EXPECT_THROW(Demonstration(protocol, impossible, 7), Error);
   EXPECT_EQ(Demonstrated(impossible, false).end, RunEnd::finished);
@@ -194,8 +188,8 @@ Setup options_of(const std::string& responder, const std::string& tracker) {
 
 TEST(Demonstration, shows_the_printed_board_and_effector_without_a_camera_too) {
   const Apparatus shown = demonstrated_with(options_of("human", "hand"), quick_protocol());
-  EXPECT_EQ(shown.board.tags.size(), apparatus().board.tags.size());
-  EXPECT_EQ(shown.effector.tags.size(), apparatus().effector.tags.size());
+  EXPECT_EQ(shown.board.tags.size(), shipped_apparatus().board.tags.size());
+  EXPECT_EQ(shown.effector.tags.size(), shipped_apparatus().effector.tags.size());
 
   Protocol larger = quick_protocol();
   larger.effector_size_m.x() += 0.02;
@@ -208,7 +202,7 @@ TEST(Demonstration, shows_the_sessions_own_apparatus_where_there_is_one) {
   heft::Setup options = options_of("human", "synthetic");
   options.camera_file = shipped + "synthetic_camera.yaml";
   const Apparatus shown = demonstrated_with(options, quick_protocol());
-  EXPECT_EQ(shown.camera.distortion, apparatus().camera.distortion);
+  EXPECT_EQ(shown.camera.distortion, shipped_apparatus().camera.distortion);
   EXPECT_FALSE(shown.board.tags.empty());
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "apparatus/FilmedPictures.h"
+#include "apparatus/ShippedApparatus.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/Files.h"
 #include "record/EventRow.h"
@@ -36,16 +37,8 @@ using ::testing::SizeIs;
 constexpr double rate_hz = 30;
 constexpr int n_pictures = 4;  // that differ by their noise
 
-const Apparatus& apparatus() {
-  static const std::string folder = HEFT_SOURCE_DIR "/protocols/apparatus/";
-  static const Apparatus shipped{load_intrinsics(folder + "synthetic_camera.yaml"),
-                                 load_board(folder + "board.toml"),
-                                 load_effector(folder + "effector.toml")};
-  return shipped;
-}
-
 std::vector<Image> rendered(std::optional<Pose> effector) {
-  SyntheticCamera camera(apparatus(), {}, 1);
+  SyntheticCamera camera(shipped_apparatus(), {}, 1);
   std::vector<Image> pictures;
   for (std::uint64_t i = 0; i < n_pictures; ++i)
     pictures.push_back(camera.picture([&](double) { return effector; }, 0, i));
@@ -110,7 +103,7 @@ struct LiveSession {
           [this] { return device.grab(); },
           CameraMode{640, 480, rate_hz, "YUYV", {"exposure 4.0 ms"}, {}});
     };
-    CameraPictures pictures(open, {*protocol, *hand, apparatus(), "", clock, 0, ""});
+    CameraPictures pictures(open, {*protocol, *hand, shipped_apparatus(), "", clock, 0, ""});
     return Runner({*protocol, *engine, sink, pictures, *hand, screen, clock, answers_themselves,
                    answers_themselves ? &texts : nullptr},
                   options)
@@ -384,8 +377,9 @@ TEST(FileOfPictures, is_checked_before_the_session_too) {
   const auto protocol = shared(quick_protocol());
   const SessionClock clock = SessionClock::wall_from(0);
   const auto hand = responder_named("simulated").make({});
-  const auto pictures = tracker_named("frames:" + folder.path())
-                            .make({*protocol, *hand, apparatus(), folder.path(), clock, 0, ""});
+  const auto pictures =
+      tracker_named("frames:" + folder.path())
+          .make({*protocol, *hand, shipped_apparatus(), folder.path(), clock, 0, ""});
   const auto names = names_of(pictures->check(15));
   EXPECT_THAT(names, Contains("board"));
   EXPECT_THAT(names, Contains("effector"));
@@ -404,7 +398,7 @@ TEST(RenderedPictures, are_checked_as_a_cameras) {
   const SessionClock clock = SessionClock::wall_from(0);
   const auto hand = responder_named("simulated").make({});
   const auto pictures =
-      tracker_named("synthetic").make({*protocol, *hand, apparatus(), "", clock, 0, ""});
+      tracker_named("synthetic").make({*protocol, *hand, shipped_apparatus(), "", clock, 0, ""});
   for (const CheckResult& result : pictures->check(15))
     if (result.name == "board" || result.name == "effector" || result.name == "light") {
       EXPECT_EQ(result.verdict, CheckVerdict::ok) << result.finding;

@@ -23,6 +23,8 @@ inline MarkerBody grid_board(int columns, int rows, double tag_m, double pitch_m
   return board;
 }
 
+inline const SyntheticCamera::EffectorPath out_of_view = [](double) { return std::nullopt; };
+
 /// @param tag_m 0: none
 inline MarkerBody box_effector(double tag_m) {
   MarkerBody effector;

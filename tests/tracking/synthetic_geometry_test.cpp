@@ -29,8 +29,6 @@ Pose level_at(const Vector3d& position_m) {
   return {position_m, Eigen::Quaterniond::Identity()};
 }
 
-const SyntheticCamera::EffectorPath out_of_view = [](double) { return std::nullopt; };
-
 int green(const Image& image, int x, int y) {
   return image.pixels[static_cast<std::size_t>(y * image.width + x) * 3 + 1];
 }

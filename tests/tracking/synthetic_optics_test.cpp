@@ -16,8 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-const SyntheticCamera::EffectorPath out_of_view = [](double) { return std::nullopt; };
-
 Image still_picture(const Optics& optics, std::uint64_t seed = 1, std::uint64_t number = 0,
                     const Apparatus& apparatus = default_apparatus(640)) {
   SyntheticSettings settings;

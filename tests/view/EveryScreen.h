@@ -9,8 +9,16 @@
 #include "experiment/ScreenTexts.h"
 #include "protocol/Files.h"
 #include "view/ArView.h"
+#include "view/screens/Page.h"
 
 namespace heft {
+
+/// To a hundredth of a pixel.
+inline bool inside(const Rect& inner, const Rect& outer) {
+  constexpr float rounding = 0.01f;
+  return inner.x >= outer.x - rounding && inner.y >= outer.y - rounding &&
+         inner.right() <= outer.right() + rounding && inner.bottom() <= outer.bottom() + rounding;
+}
 
 struct NamedScreen {
   std::string name;

@@ -74,12 +74,6 @@ struct Form {
   double now_s = 0;
 };
 
-bool inside(const Rect& inner, const Rect& outer) {
-  constexpr float rounding = 0.01f;
-  return inner.x >= outer.x - rounding && inner.y >= outer.y - rounding &&
-         inner.right() <= outer.right() + rounding && inner.bottom() <= outer.bottom() + rounding;
-}
-
 void expect_fits(const Form& form) {
   const Rect window{0, 0, form.measures.width, form.measures.height};
   for (const Control& control : form.screen.page().controls) {

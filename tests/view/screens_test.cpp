@@ -25,12 +25,6 @@ using testing::UnorderedElementsAreArray;
 const std::vector<Measures> windows{{800, 480},  {1024, 600},        {1280, 800},      {1920, 1080},
                                     {800, 1280}, {1024, 600, 0.75f}, {1024, 600, 1.3f}};
 
-bool inside(const Rect& inner, const Rect& outer) {
-  constexpr float rounding = 0.01f;
-  return inner.x >= outer.x - rounding && inner.y >= outer.y - rounding &&
-         inner.right() <= outer.right() + rounding && inner.bottom() <= outer.bottom() + rounding;
-}
-
 bool overlap(const Rect& a, const Rect& b) {
   return a.overlaps(b);
 }

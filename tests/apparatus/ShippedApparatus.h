@@ -1,0 +1,20 @@
+// The camera, board and effector that are shipped.
+#pragma once
+
+#include <string>
+
+#include "protocol/Files.h"
+#include "tracking/Intrinsics.h"
+#include "tracking/MarkerBody.h"
+
+namespace heft {
+
+inline const Apparatus& shipped_apparatus() {
+  static const std::string folder = HEFT_SOURCE_DIR "/protocols/apparatus/";
+  static const Apparatus all{load_intrinsics(folder + "synthetic_camera.yaml"),
+                             load_board(folder + "board.toml"),
+                             load_effector(folder + "effector.toml")};
+  return all;
+}
+
+}  // namespace heft
