@@ -12,17 +12,17 @@ namespace heft {
 
 namespace {
 // The log likelihood of one person's answers, and its derivatives by the criteria.
-struct Likelihood {
+struct CriteriaLikelihood {
   double value = 0;
   double by_log_indecision = 0, by_bias = 0;
   std::array<double, 3> information{};  // Fisher's: of log indecision, of bias, of both
 };
 
-Likelihood likelihood(std::span<const SidedAnswers> answers, double sensitivity,
-                      const Criteria& at) {
+CriteriaLikelihood likelihood(std::span<const SidedAnswers> answers, double sensitivity,
+                              const Criteria& at) {
   constexpr double third = fixed_lapse / 3, seen = 1 - fixed_lapse;
   const double indecision = std::exp(at.log_indecision);
-  Likelihood sum;
+  CriteriaLikelihood sum;
   for (const SidedAnswers& n : answers) {
     const double felt = sensitivity * n.level + at.bias;
     const double up = felt - indecision, down = felt + indecision;
@@ -47,9 +47,9 @@ Likelihood likelihood(std::span<const SidedAnswers> answers, double sensitivity,
 }
 
 // The same times the density that the spread gives to the criteria.
-Likelihood posterior(std::span<const SidedAnswers> answers, double sensitivity, const Criteria& at,
-                     const Spread& spread) {
-  Likelihood sum = likelihood(answers, sensitivity, at);
+CriteriaLikelihood posterior(std::span<const SidedAnswers> answers, double sensitivity,
+                             const Criteria& at, const Spread& spread) {
+  CriteriaLikelihood sum = likelihood(answers, sensitivity, at);
   const double precision = 1 / (spread.sd_log_indecision * spread.sd_log_indecision);
   const double bias_precision = 1 / (spread.sd_bias * spread.sd_bias);
   const double off = at.log_indecision - spread.mean_log_indecision;
@@ -61,15 +61,15 @@ Likelihood posterior(std::span<const SidedAnswers> answers, double sensitivity, 
   return sum;
 }
 
-double determinant(const Likelihood& at) {
+double determinant(const CriteriaLikelihood& at) {
   return at.information[0] * at.information[1] - at.information[2] * at.information[2];
 }
 
 // Fisher scoring with steps that shorten until they help. @param at where to begin, then the best
-Likelihood maximize(std::span<const SidedAnswers> answers, double sensitivity, const Spread& spread,
-                    Criteria& at) {
+CriteriaLikelihood maximize(std::span<const SidedAnswers> answers, double sensitivity,
+                            const Spread& spread, Criteria& at) {
   constexpr double good_enough = 1e-5;
-  Likelihood here = posterior(answers, sensitivity, at, spread);
+  CriteriaLikelihood here = posterior(answers, sensitivity, at, spread);
   for (int i = 0; i < 30; ++i) {
     const auto [a, d, both] = here.information;
     const double det = determinant(here);
@@ -80,7 +80,7 @@ Likelihood maximize(std::span<const SidedAnswers> answers, double sensitivity, c
     bool better = false;
     for (int halvings = 0; halvings < 12 && !better; ++halvings, length /= 2) {
       const Criteria there{at.log_indecision + length * to_indecision, at.bias + length * to_bias};
-      const Likelihood next = posterior(answers, sensitivity, there, spread);
+      const CriteriaLikelihood next = posterior(answers, sensitivity, there, spread);
       better = next.value > here.value;
       if (!better) continue;
       at = there;
@@ -94,7 +94,7 @@ Likelihood maximize(std::span<const SidedAnswers> answers, double sensitivity, c
 }  // namespace
 
 LikelyCriteria likely_criteria(PersonAnswers& person, double sensitivity, const Spread& spread) {
-  const Likelihood best = maximize(person.answers, sensitivity, spread, person.criteria);
+  const CriteriaLikelihood best = maximize(person.answers, sensitivity, spread, person.criteria);
   const double det = determinant(best);
   LikelyCriteria likely;
   likely.log_likelihood =

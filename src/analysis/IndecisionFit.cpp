@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,9 +15,8 @@ namespace heft {
 namespace {
 enum Answer : std::size_t { reference, none, comparison };
 enum Unknown : Eigen::Index { sensitivity, indecision, bias, lapse };
-constexpr std::array<const char*, 4> names{"sensitivity", "indecision", "bias", "lapse"};
+constexpr std::array<const char*, 4> indecision_names{"sensitivity", "indecision", "bias", "lapse"};
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_free_lapse = 0.5;
 
 /// From grams to where the search counts levels: from their mean, so that levels far from 0 don't
@@ -200,8 +198,8 @@ Eigen::Matrix4d turn_to(double zero) {
 }
 
 Parameters values(const LikelihoodFit& fit) {
-  Parameters all(names.size());
-  for (std::size_t i = 0; i < names.size(); ++i)
+  Parameters all(indecision_names.size());
+  for (std::size_t i = 0; i < indecision_names.size(); ++i)
     all[static_cast<Eigen::Index>(i)] = fit.parameters[i].value;
   return all;
 }
@@ -273,7 +271,7 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
                                             {0, infinity, true, true},
                                             {-infinity, infinity, true, true},
                                             lapses};
-  LikelihoodFit found{std::vector<LikelihoodParameter>(names.size()), 0};
+  LikelihoodFit found{std::vector<LikelihoodParameter>(indecision_names.size()), 0};
   for (auto& unknown : found.parameters) unknown.exists = false;
   found.parameters[lapse].value = lapses.low;
   double unit = 1;
@@ -290,9 +288,9 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
         found.parameters[static_cast<std::size_t>(unknown)].exists = false;
     fit.log_likelihood = std::max(found.log_likelihood, steps);
   }
-  for (std::size_t i = 0; i < names.size(); ++i)
-    fit.parameters.push_back(
-        parameter(names[i], found.parameters[i], i == sensitivity ? unit : 1, bounds[i].fixed()));
+  for (std::size_t i = 0; i < indecision_names.size(); ++i)
+    fit.parameters.push_back(parameter(indecision_names[i], found.parameters[i],
+                                       i == sensitivity ? unit : 1, bounds[i].fixed()));
   const FittedParameter& s = fit.parameters[sensitivity];
   if (fit.why.empty()) fit.why = why_no_threshold(!s.value, s.low, s.high, reach_of(answers));
   fit.parameters.push_back(fit.identifiable() ? threshold(fit.parameters[sensitivity])

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct Derivatives {
 
 /// @param derivatives to be filled, of the right size; null: not asked for
 using LogLikelihood = std::function<double(const Parameters& at, Derivatives* derivatives)>;
+
+/// A bound that is none.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct ParameterBounds {
   double low = 0, high = 0;   ///< equal: the parameter is fixed; may be infinite

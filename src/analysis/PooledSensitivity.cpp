@@ -120,7 +120,7 @@ double log_indecision_of(const Profiles& people, std::span<const double> times) 
          std::accumulate(times.begin(), times.end(), 0.0);
 }
 
-double largest_level(const std::map<std::string, AnswersByLevel>& people) {
+double largest_level_of_all(const std::map<std::string, AnswersByLevel>& people) {
   double largest_g = 0;
   for (const auto& [participant, answers] : people)
     largest_g = std::max(largest_g, largest_level_of(answers));
@@ -263,7 +263,7 @@ PooledSensitivity pooled_sensitivity(std::map<std::string, AnswersByLevel> all,
   std::erase_if(all, [](const auto& person) { return trials_in(person.second) == 0; });
   for (const auto& [participant, answers] : all) found.n_trials += trials_in(answers);
   found.n = static_cast<int>(all.size());
-  const double largest_g = largest_level(all);
+  const double largest_g = largest_level_of_all(all);
   if (largest_g == 0) {
     found.why = found.n == 0 ? "there are no trials" : "no trial had a difference";
     return found;

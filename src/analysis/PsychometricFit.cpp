@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
-#include <limits>
 
 #include "analysis/Fit.h"
 #include "analysis/MaximumLikelihood.h"
@@ -13,9 +12,8 @@ namespace heft {
 namespace {
 enum Answer : std::size_t { negative, positive };
 enum Unknown : Eigen::Index { place, steepness, guess, lapse };
-constexpr std::array<const char*, 4> names{"threshold", "slope", "guess", "lapse"};
+constexpr std::array<const char*, 4> psychometric_names{"threshold", "slope", "guess", "lapse"};
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_free = 0.5;      // of guess and lapse
 constexpr double furthest_place = 25;  // ranges of the levels
 constexpr double reach = 1.5;          // a threshold's interval: from the middle, in ranges
@@ -227,7 +225,7 @@ std::string no_end(const LikelihoodFit& fit, double step) {
 FittedParameter threshold(const LikelihoodParameter& fitted, const Levels& levels,
                           const PsychometricFunction& function) {
   const auto level = [&](double at) { return function.level(levels.from_axis(at)); };
-  FittedParameter parameter{names[place], level(fitted.value)};
+  FittedParameter parameter{psychometric_names[place], level(fitted.value)};
   const double stretch = function.takes_logarithm() ? *parameter.value : 1;
   if (fitted.se) parameter.se = *fitted.se * levels.range() * stretch;
   parameter.low = level(*fitted.low);
@@ -238,7 +236,7 @@ FittedParameter threshold(const LikelihoodParameter& fitted, const Levels& level
 FittedParameter slope(const LikelihoodParameter& fitted, const Levels& levels,
                       const PsychometricFunction& function) {
   const auto slope_at = [&](double at) { return function.slope(at / levels.range()); };
-  FittedParameter parameter{names[steepness], slope_at(fitted.value)};
+  FittedParameter parameter{psychometric_names[steepness], slope_at(fitted.value)};
   if (fitted.se) parameter.se = *fitted.se / fitted.value * *parameter.value;
   parameter.low = fitted.low ? std::optional(slope_at(*fitted.low)) : std::nullopt;
   parameter.high = fitted.high ? std::optional(slope_at(*fitted.high)) : std::nullopt;
@@ -250,14 +248,14 @@ FittedParameter slope(const LikelihoodParameter& fitted, const Levels& levels,
 
 FittedParameter share(Unknown unknown, const LikelihoodFit& fit) {
   const LikelihoodParameter& fitted = fit.parameters[static_cast<std::size_t>(unknown)];
-  return {names[static_cast<std::size_t>(unknown)], fitted.value, fitted.se, fitted.low,
-          fitted.high};
+  return {psychometric_names[static_cast<std::size_t>(unknown)], fitted.value, fitted.se,
+          fitted.low, fitted.high};
 }
 
 std::vector<FittedParameter> unknown_parameters(const std::vector<ParameterBounds>& bounds) {
   std::vector<FittedParameter> parameters;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    parameters.push_back({names[i]});
+  for (std::size_t i = 0; i < psychometric_names.size(); ++i) {
+    parameters.push_back({psychometric_names[i]});
     parameters.back().fixed = bounds[i].fixed();
     if (bounds[i].fixed()) parameters.back().value = bounds[i].low;
   }

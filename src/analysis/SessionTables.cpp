@@ -34,7 +34,7 @@ Table voids_table(const Summary& summary) {
   return table;
 }
 
-Table choices_table(const Summary& summary) {
+Table protocol_choices_table(const Summary& summary) {
   Table table{"protocol_choices",
               "What the protocol chose where the paper leaves it open",
               {{"protocol", "protocol"}, {"choice", "choice"}, {"value", "value"}},
@@ -47,7 +47,7 @@ Table choices_table(const Summary& summary) {
 }  // namespace
 
 std::vector<Table> session_tables(const Summary& summary) {
-  return {times_table(summary), voids_table(summary), choices_table(summary)};
+  return {times_table(summary), voids_table(summary), protocol_choices_table(summary)};
 }
 
 Table session_list(const Summary& summary) {

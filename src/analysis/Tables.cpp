@@ -12,7 +12,7 @@
 namespace heft {
 
 namespace {
-constexpr std::size_t note_width = 102;
+constexpr std::size_t text_width = 102;
 
 void add_filled(std::vector<Table>& tables, std::vector<Table> more) {
   std::erase_if(more, [](const Table& table) { return table.rows.empty(); });
@@ -92,9 +92,9 @@ std::string readable(const Summary& summary) {
   std::string text = headline(summary) + '\n';
   if (!summary.sessions.empty())
     for (const std::string& sentence : three_sentences(summary))
-      for (const std::string& line : wrapped(sentence, note_width)) text += line + '\n';
+      for (const std::string& line : wrapped(sentence, text_width)) text += line + '\n';
   for (const std::string& note : summary.notes)
-    for (const std::string& line : wrapped(note, note_width)) text += line + '\n';
+    for (const std::string& line : wrapped(note, text_width)) text += line + '\n';
   text += absences(summary);
   for (const Table& table : tables_of(summary)) text += '\n' + as_text(table);
   if (!summary.sessions.empty()) text += '\n' + hypotheses_text(summary);

@@ -18,7 +18,7 @@
 namespace heft::cli {
 
 namespace {
-struct Options {
+struct AnalyseOptions {
   std::string database = "heft.db";
   std::string out;
   std::vector<std::int64_t> sessions;
@@ -26,7 +26,7 @@ struct Options {
 };
 
 // The command as it can be typed again.
-std::string command_of(const Options& options) {
+std::string command_of(const AnalyseOptions& options) {
   std::string command = "heft analyse --db " + shell_quoted(options.database);
   for (std::int64_t id : options.sessions) command += fmt::format(" --session {}", id);
   if (options.mix) command += " --mix";
@@ -40,7 +40,7 @@ void report(const Summary& summary, const std::string& folder) {
   explain_missing_charts(result, folder);
 }
 
-void analyse(const Options& options) {
+void analyse(const AnalyseOptions& options) {
   refuse_special_file(options.database);
   if (!options.out.empty()) refuse_foreign_folder(options.out);
   const Summary summary =
@@ -58,7 +58,7 @@ void analyse(const Options& options) {
 }  // namespace
 
 void add_analyse(Command& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<AnalyseOptions>();
   Command command =
       app.add_command("analyse", "tables, estimates with intervals, charts and a report of a log",
                       {"heft analyse --db heft.db", "heft analyse --db heft.db --out report",

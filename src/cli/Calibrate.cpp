@@ -33,7 +33,7 @@ constexpr const char* doubtful =
     "{} is written, but should not be trusted: see above, and calibrate once more\n";
 constexpr double patience_s = 5;  ///< with a camera that gives no picture
 
-struct Options {
+struct CalibrateOptions {
   std::string source, board, camera_file, effector, out, size;
   std::optional<double> exposure_ms;
   bool shutter = false;
@@ -46,7 +46,7 @@ void write_result(const std::string& path, const std::string& text) {
 }
 
 // How a live camera is to be set while it is calibrated; and so it is set ever after.
-CameraRequest request_of(const Options& options) {
+CameraRequest request_of(const CalibrateOptions& options) {
   constexpr double shortest_ms = 0.1, longest_ms = 100;
   CameraRequest request;
   if (!options.size.empty()) {
@@ -70,8 +70,8 @@ CameraRequest request_of(const Options& options) {
 }
 
 // What was asked of a camera that can't do it, or of pictures that were taken long ago.
-void require_as_asked(const Options& options, const CameraRequest& request, const Camera& camera,
-                      const Image& picture) {
+void require_as_asked(const CalibrateOptions& options, const CameraRequest& request,
+                      const Camera& camera, const Image& picture) {
   if (options.exposure_ms && !camera.is_live())
     throw Error(fmt::format("--exposure-ms: the pictures of {} have been taken; it sets live "
                             "cameras only",
@@ -113,7 +113,7 @@ void say_progress(const ViewCollector& views) {
 }
 
 // Every picture of a file; of a live camera until all is there or the person presses Ctrl-C.
-ViewCollector board_views(Camera& camera, const MarkerBody& board, const Options& options,
+ViewCollector board_views(Camera& camera, const MarkerBody& board, const CalibrateOptions& options,
                           const CameraRequest& request) {
   const StopOnSignal stop;
   const bool live = camera.is_live();
@@ -153,7 +153,7 @@ void say_views(const CameraCalibration& result) {
   say("{}", result.coverage.drawing());
 }
 
-void calibrate_the_camera(const Options& options) {
+void calibrate_the_camera(const CalibrateOptions& options) {
   require_writable(options.out);
   const CameraRequest request = request_of(options);
   const MarkerBody board = load_board(options.board);
@@ -199,7 +199,7 @@ std::vector<TimedView> waved_views(Camera& camera, const MarkerBody& board,
   return views;
 }
 
-void calibrate_the_shutter(const Options& options) {
+void calibrate_the_shutter(const CalibrateOptions& options) {
   if (options.camera_file.empty())
     throw Error("--shutter needs --camera-file: the camera, calibrated already", ExitCode::usage);
   if (!options.size.empty() || options.exposure_ms)
@@ -221,7 +221,7 @@ void calibrate_the_shutter(const Options& options) {
   say("{} is written. Next: heft doctor\n", options.out);
 }
 
-void calibrate_the_effector(const Options& options) {
+void calibrate_the_effector(const CalibrateOptions& options) {
   constexpr double usual_rate_hz = 0;  // no display waits for the pictures
   require_writable(options.out);
   const Intrinsics intrinsics = load_intrinsics(options.camera_file);
@@ -253,7 +253,7 @@ void calibrate_the_effector(const Options& options) {
     say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
 }
 
-void add_source(Command& command, Options& options) {
+void add_source(Command& command, CalibrateOptions& options) {
   command.add_option("--camera", &options.source, "camera:N, video:FILE or frames:FOLDER")
       .required();
 }
@@ -265,7 +265,7 @@ void add_camera(Command& parent) {
        "heft calibrate camera --camera frames:views --board BOARD.toml --out camera.yaml",
        "heft calibrate camera --shutter --camera camera:0 --camera-file camera.yaml \\\n"
        "      --board BOARD.toml --out camera.yaml"});
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   add_source(command, *options);
   command.add_option("--board", &options->board, "board file").required();
   command.add_option("--out", &options->out, "the camera file (OpenCV YAML) to write").required();
@@ -291,7 +291,7 @@ void add_effector(Command& parent) {
       parent.add_command("effector", "where the effector's tags really are, from pictures",
                          {"heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
                           "      --effector EFFECTOR.toml --out MEASURED.toml"});
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   add_source(command, *options);
   command.add_option("--camera-file", &options->camera_file, "the calibrated camera").required();
   command.add_option("--effector", &options->effector, "effector file as designed").required();

@@ -20,7 +20,7 @@ namespace heft::cli {
 
 namespace {
 
-struct Options {
+struct DemoOptions {
   std::string out = "heft-demo";
   std::optional<std::uint64_t> seed;
 };
@@ -28,7 +28,7 @@ struct Options {
 // The shortest session of 90 seeds: who hesitates more takes twice as long.
 constexpr std::uint64_t usual_seed = 75;
 
-SessionRequest demo_session(const Options& options) {
+SessionRequest demo_session(const DemoOptions& options) {
   SessionRequest request;
   request.protocol = load_protocol(installed_file("protocols/paper.toml"));
   GivenOptions given;
@@ -45,7 +45,7 @@ SessionRequest demo_session(const Options& options) {
   return request;
 }
 
-void demo(const Options& options) {
+void demo(const DemoOptions& options) {
   std::filesystem::create_directories(options.out);
   const SessionRequest request = demo_session(options);
   const auto started = std::chrono::steady_clock::now();
@@ -81,7 +81,7 @@ void demo(const Options& options) {
 }  // namespace
 
 void add_demo(Command& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DemoOptions>();
   Command command = app.add_command(
       "demo", "the paper's whole session with a simulated participant, and what was found",
       {"heft demo", "heft demo --seed 42 --out trial-run"});

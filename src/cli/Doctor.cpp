@@ -278,12 +278,12 @@ void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) 
 }  // namespace
 
 void add_doctor(Command& app) {
-  struct Options {
+  struct DoctorOptions {
     std::string db = "heft.db", responder;
     GivenOptions given;
     double rate_hz = 15;
   };
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DoctorOptions>();
   Command command = app.add_command(
       "doctor", "check this machine, a camera too, and list what can be plugged in",
       {"heft doctor", "heft doctor --db lab.db", "heft doctor --tracker camera:0",
@@ -293,7 +293,7 @@ void add_doctor(Command& app) {
   command.add_option("--tracker", &options->given.tracker,
                      "look through this camera: camera:N, video:FILE, frames:FOLDER");
   add_apparatus_options(command, options->given);
-  command.group("Options");
+  command.group("DoctorOptions");
   command.add_option("--display-rate", &options->rate_hz, "pictures a second that are wanted")
       .shows_default();
   command.add_option("--responder", &options->responder, "only describe its parameters");

@@ -19,14 +19,14 @@
 namespace heft::cli {
 
 namespace {
-struct Options {
+struct ExportOptions {
   std::vector<std::string> logs, databases;
   std::string format = "csv", out, key_file;
   bool pseudonymise = false;
 };
 
 // Beside the folder, never in it: the folder is given away.
-std::string key_file_of(const Options& options) {
+std::string key_file_of(const ExportOptions& options) {
   namespace fs = std::filesystem;
   std::string folder = options.out;
   while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
@@ -42,7 +42,7 @@ std::string key_file_of(const Options& options) {
   return file;
 }
 
-std::optional<std::string> key_of(const Options& options) {
+std::optional<std::string> key_of(const ExportOptions& options) {
   if (!options.pseudonymise && options.key_file.empty()) return std::nullopt;
   const PseudonymKey key = pseudonym_key(key_file_of(options));
   say("{} {}: whoever has it can tell a pseudonym's person. Keep it to yourself.\n",
@@ -58,7 +58,7 @@ void tell(const std::vector<ExportedFile>& files) {
   if (files.size() > most_told) say("           and {} more files\n", files.size() - most_told);
 }
 
-void export_to(const Options& options) {
+void export_to(const ExportOptions& options) {
   std::vector<std::string> logs = options.logs;
   logs.insert(logs.end(), options.databases.begin(), options.databases.end());
   if (logs.empty()) logs.emplace_back("heft.db");
@@ -80,7 +80,7 @@ void export_to(const Options& options) {
 }  // namespace
 
 void add_export(Command& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExportOptions>();
   Command command = app.add_command(
       "export", "logs as files for other programs, with a data dictionary",
       {"heft export --db heft.db --format csv --out data",

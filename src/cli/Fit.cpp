@@ -16,7 +16,7 @@
 namespace heft::cli {
 
 namespace {
-struct Options {
+struct FitCommandOptions {
   std::string data, model;
   std::optional<std::string> function, scale, guess, lapse, group_by;
   bool json = false;
@@ -39,7 +39,7 @@ std::optional<double> share(const std::string& option, const std::optional<std::
   return value;
 }
 
-FitOptions fit_options(const Options& options, FitModel model) {
+FitOptions fit_options(const FitCommandOptions& options, FitModel model) {
   FitOptions fit;
   fit.guess = share("--guess", options.guess);
   fit.lapse = share("--lapse", options.lapse);
@@ -53,7 +53,7 @@ FitOptions fit_options(const Options& options, FitModel model) {
   return fit;
 }
 
-void fit(const Options& options) {
+void fit(const FitCommandOptions& options) {
   const FitModel model = *named<FitModel>(options.model);
   const FitOptions how = fit_options(options, model);
   std::vector<NamedFit> fits;
@@ -70,7 +70,7 @@ void fit(const Options& options) {
 }  // namespace
 
 void add_fit(Command& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FitCommandOptions>();
   Command command = app.add_command(
       "fit", "psychometric functions and the choice with indecision, fitted to anybody's data",
       {"heft fit answers.csv --model psychometric --function logistic",

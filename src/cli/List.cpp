@@ -84,11 +84,11 @@ void list(const std::string& db, bool json) {
 }  // namespace
 
 void add_list(Command& app) {
-  struct Options {
+  struct ListOptions {
     std::string db = "heft.db";
     bool json = false;
   };
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ListOptions>();
   Command command = app.add_command("list", "the sessions of a log: who, what, how far, since when",
                                     {"heft list --db lab.db", "heft list --db lab.db --json"});
   command.add_option("--db", &options->db, "the log").shows_default();

@@ -23,7 +23,7 @@ namespace heft::cli {
 
 namespace {
 
-struct Options {
+struct ReplayOptions {
   std::string db = "heft.db";
   std::optional<std::int64_t> session;
   std::string responder, simulator, view;
@@ -33,7 +33,7 @@ struct Options {
   bool judges() const { return !responder.empty() && !rerun; }
 };
 
-void check(const Options& options) {
+void check(const ReplayOptions& options) {
   const auto refuse = [](const char* why) { throw Error(why, ExitCode::usage); };
   if (options.rerun && options.responder.empty())
     refuse("--rerun runs the trials anew with a --responder, and none is named");
@@ -49,7 +49,7 @@ void check(const Options& options) {
         "it takes no --responder");
 }
 
-std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const Options& options) {
+std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const ReplayOptions& options) {
   if (options.session) return {reader.session(*options.session).session_id};
   std::vector<std::int64_t> ids;
   for (const SessionRow& row : reader.sessions()) ids.push_back(row.session_id);
@@ -101,7 +101,7 @@ bool verify(const LogReader& reader, std::int64_t session_id) {
   return !found.first;
 }
 
-void verify_all(const LogReader& reader, const Options& options) {
+void verify_all(const LogReader& reader, const ReplayOptions& options) {
   bool same = true;
   for (const std::string& fault : check_integrity(options.db)) {
     print("the file is damaged: {}\n", fault);
@@ -179,7 +179,7 @@ void print_responder(const OtherResponder& other) {
 }
 
 // The protocol and setup that the question supposes.
-std::pair<Protocol, Setup> supposed(const LoggedSession& session, const Options& options) {
+std::pair<Protocol, Setup> supposed(const LoggedSession& session, const ReplayOptions& options) {
   std::vector<std::string> settings = settings_of(session.setups.front().setup);
   settings.insert(settings.end(), options.set.begin(), options.set.end());
   Protocol protocol =
@@ -228,7 +228,7 @@ OtherResponder run_anew(const LogReader& reader, const LoggedSession& session,
   return compare_sessions(reader, session_id, compute_session(request, runner));
 }
 
-void ask_what_if(const LogReader& reader, const Options& options) {
+void ask_what_if(const LogReader& reader, const ReplayOptions& options) {
   for (const std::int64_t session_id : chosen_sessions(reader, options)) {
     const LoggedSession session = load_session(reader, options.db, session_id);
     const auto [protocol, setup] = supposed(session, options);
@@ -243,7 +243,7 @@ void ask_what_if(const LogReader& reader, const Options& options) {
   }
 }
 
-void judge(const LogReader& reader, const Options& options) {
+void judge(const LogReader& reader, const ReplayOptions& options) {
   std::vector<JudgedSession> judged;
   for (const std::int64_t session_id : chosen_sessions(reader, options)) {
     ProgressBar bar(fmt::format("session {}", session_id));
@@ -265,7 +265,7 @@ ScreenTexts texts_of(const Setup& setup) {
   return load_texts(texts_file("en"));
 }
 
-void show(const LogReader& reader, const Options& options) {
+void show(const LogReader& reader, const ReplayOptions& options) {
   const auto ids = chosen_sessions(reader, options);
   if (ids.size() > 1)
     throw Error(fmt::format("{} holds {} sessions; say with --session which one --view is to show",
@@ -298,7 +298,7 @@ void show(const LogReader& reader, const Options& options) {
 }  // namespace
 
 void add_replay(Command& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReplayOptions>();
   Command command = app.add_command(
       "replay", "verify a log (exit 5 at a divergence), or ask what a session would have been",
       {"heft replay --db lab.db", "heft replay --db lab.db --session 3",

@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* usual_db = "heft.db";
 
-struct Options {
+struct RunOptions {
   std::string protocol, plan;
   std::optional<std::string> participant, db;
   std::optional<std::uint64_t> seed;
@@ -50,11 +50,11 @@ bool is_dragged(const Setup& setup) {
 }
 
 // Nobody takes a session that was played with the mouse for data by leaving an option out.
-Purpose purpose_of(const Options& options, const Setup& setup) {
+Purpose purpose_of(const RunOptions& options, const Setup& setup) {
   return named<Purpose>(options.purpose.value_or(is_dragged(setup) ? "test" : "main")).value();
 }
 
-std::string side_of_controls(const Options& options) {
+std::string side_of_controls(const RunOptions& options) {
   if (options.left_handed && options.controls == "right")
     throw Error("--left-handed is --controls left; expected one of them", ExitCode::usage);
   return options.left_handed ? "left" : options.controls.value_or("right");
@@ -66,7 +66,7 @@ GivenOptions with_text_size(GivenOptions given, const std::optional<double>& tex
   return given;
 }
 
-SessionRequest request_of(const Options& options) {
+SessionRequest request_of(const RunOptions& options) {
   SessionRequest request;
   const GivenOptions given = with_text_size(options.given, options.text_size);
   request.protocol = load_protocol(options.protocol, given.settings);
@@ -103,7 +103,7 @@ std::vector<SessionRow> sessions_in(const std::string& db) {
 }
 
 // What the plan says goes where the command line says nothing.
-void fill_from(const StudyPlan& plan, Options& options) {
+void fill_from(const StudyPlan& plan, RunOptions& options) {
   const auto fill = [](std::optional<std::string>& given,
                        const std::optional<std::string>& planned) {
     if (!given) given = planned;
@@ -115,7 +115,7 @@ void fill_from(const StudyPlan& plan, Options& options) {
   if (options.elsewhere.backup.empty()) options.elsewhere.backup = plan.backup.value_or("");
 }
 
-void give_place(const StudyPlan& plan, const PlannedParticipant& planned, Options& options) {
+void give_place(const StudyPlan& plan, const PlannedParticipant& planned, RunOptions& options) {
   const StudyGroup& group = plan.groups[static_cast<std::size_t>(planned.place.group)];
   options.participant = planned.id;
   options.protocol = group.protocol;
@@ -148,7 +148,7 @@ bool is_asked_and_answered_yes(const std::string& question) {
 }
 
 // What was found of an id is asked about at a terminal; elsewhere only --again goes on with it.
-void refuse_unless_two_people(const std::string& found, Options& options) {
+void refuse_unless_two_people(const std::string& found, RunOptions& options) {
   if (is_asked_and_answered_yes(found + ". Are these two people?")) {
     options.are_two = true;
     return;
@@ -161,7 +161,7 @@ void refuse_unless_two_people(const std::string& found, Options& options) {
 
 // P2 for P02 would take another one's place.
 void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
-                               Options& options) {
+                               RunOptions& options) {
   if (!options.participant || options.again) return;
   for (const SessionRow& session : sessions)
     if (session.header.participant == *options.participant) return;
@@ -174,7 +174,7 @@ void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionR
 
 // People of one group who did different things are no group.
 void refuse_changed_protocol(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
-                             Purpose purpose, const StudyGroup& group, const Options& options) {
+                             Purpose purpose, const StudyGroup& group, const RunOptions& options) {
   const auto [participants, since_the_last] = had_another_protocol(
       plan, sessions, purpose, group.name, load_protocol(group.protocol).sha256);
   if (participants.empty()) return;
@@ -192,7 +192,7 @@ void refuse_changed_protocol(const StudyPlan& plan, const std::vector<SessionRow
       ExitCode::usage);
 }
 
-void take_from_plan(Options& options) {
+void take_from_plan(RunOptions& options) {
   if (!options.protocol.empty())
     throw Error(fmt::format("the plan {} says which protocol is next, expected no other one ({})",
                             options.plan, options.protocol),
@@ -223,7 +223,7 @@ void take_from_plan(Options& options) {
 }
 
 // 1 for 01 would part one person's sessions.
-void refuse_near_id(Options& options) {
+void refuse_near_id(RunOptions& options) {
   if (options.again || options.are_two) return;
   if (const auto near = near_id(*options.participant, sessions_in(*options.db)))
     refuse_unless_two_people(fmt::format("participant \"{}\" is new in {}, but there is \"{}\"",
@@ -256,7 +256,7 @@ void refuse_other_kind(const std::string& path, FileKind expected) {
       ExitCode::usage);
 }
 
-void complete(Options& options) {
+void complete(RunOptions& options) {
   if (options.participant) check_participant(*options.participant);
   if (!options.plan.empty()) {
     refuse_other_kind(options.plan, FileKind::study);
@@ -270,7 +270,7 @@ void complete(Options& options) {
   if (!options.db) options.db = usual_db;
 }
 
-void run(Options options) {
+void run(RunOptions options) {
   complete(options);
   const SessionRequest request = request_of(options);
   refuse_near_id(options);
@@ -291,7 +291,7 @@ void run(Options options) {
 }  // namespace
 
 void add_run(Command& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunOptions>();
   Command command = app.add_command(
       "run", "run one participant's session of a protocol",
       {"heft run protocols/paper.toml --participant 07 --camera-file camera.yaml --db lab.db",

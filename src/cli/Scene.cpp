@@ -21,7 +21,7 @@
 namespace heft::cli {
 
 namespace {
-struct Options {
+struct SceneOptions {
   std::string scene, trajectory, simulator = "boxes";
   double rate_hz = 240;
   bool explain = false;
@@ -71,7 +71,7 @@ bool is_finite(const WorldState& state) {
 }
 
 // Drive takes a longer pause between two poses for a gap in tracking.
-void check(const Options& options) {
+void check(const SceneOptions& options) {
   if (options.rate_hz >= 4 && options.rate_hz <= 1e6) return;
   throw Error(fmt::format("--rate {}: expected 4 to 1000000 Hz", options.rate_hz), ExitCode::usage);
 }
@@ -93,14 +93,14 @@ void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take&
   }
 }
 
-void explain_solves(const Options& options, const Drive& drive) {
+void explain_solves(const SceneOptions& options, const Drive& drive) {
   if (options.explain)
     say("heft: {} hits; {} solves ended before velocities had settled\n", drive.hits(),
         drive.unsettled());
 }
 
 // Climbs the ladder until a simulator models all of the path; only its rows are shown.
-void run_auto(const Options& options, const Scene& scene, const Trajectory& trajectory) {
+void run_auto(const SceneOptions& options, const Scene& scene, const Trajectory& trajectory) {
   const auto explain = [&](const std::string& what) {
     if (options.explain) say("heft: {}\n", what);
   };
@@ -124,7 +124,7 @@ void run_auto(const Options& options, const Scene& scene, const Trajectory& traj
   }
 }
 
-void run_named(const Options& options, const Scene& scene, const Trajectory& trajectory) {
+void run_named(const SceneOptions& options, const Scene& scene, const Trajectory& trajectory) {
   const SimulatorEntry& entry = simulator_named(options.simulator);
   warn_of_simulator(options.simulator);
   if (options.explain)
@@ -149,7 +149,7 @@ void run_named(const Options& options, const Scene& scene, const Trajectory& tra
   }
 }
 
-void run_scene(const Options& options) {
+void run_scene(const SceneOptions& options) {
   check(options);
   simulator_named(options.simulator);  // says so if there is none of that name
   const Scene scene = load_scene(options.scene);
@@ -164,7 +164,7 @@ void add_scene(Command& app) {
       {"heft scene tests/scenes/push_200g.toml --trajectory tests/scenes/push.csv > out.csv",
        "heft scene SCENE.toml --trajectory T.csv --simulator bullet-ea --rate 60",
        "heft scene SCENE.toml --trajectory T.csv --simulator auto --rate 60 --explain > out.csv"});
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SceneOptions>();
   command.add_option("SCENE.toml", &options->scene, "a scene file").required();
   command
       .add_option("--trajectory", &options->trajectory,

@@ -44,14 +44,14 @@ constexpr std::array who_and_what{
                   "what shows the session: window, headless, video:FILE",
                   "window for a person, headless for a model"}};
 
-constexpr std::array display{
+constexpr std::array display_options{
     SessionOption{"--display", &GivenOptions::display,
                   "the number of the display that the window is on (heft doctor lists them)", "0"},
     SessionOption{"--display-file", &GivenOptions::display_file,
                   "the measured display, from heft calibrate display",
                   "display.toml in this folder, if there is one"}};
 
-constexpr std::array apparatus{
+constexpr std::array apparatus_options{
     SessionOption{"--camera-file", &GivenOptions::camera_file,
                   "the camera's calibration, from heft calibrate camera",
                   "camera.yaml in this folder, for synthetic and mouse a made-up one"},
@@ -71,7 +71,7 @@ void add_options(Command& command, GivenOptions& given, std::span<const SessionO
 
 void add_apparatus_options(Command& command, GivenOptions& given) {
   command.group("Apparatus");
-  add_options(command, given, apparatus, false);
+  add_options(command, given, apparatus_options, false);
 }
 
 void add_session_options(Command& command, GivenOptions& given, bool stay) {
@@ -79,8 +79,8 @@ void add_session_options(Command& command, GivenOptions& given, bool stay) {
                      : "Who answers, what films, what shows");
   add_options(command, given, who_and_what, stay);
   if (!stay) command.group("Apparatus");
-  add_options(command, given, apparatus, stay);
-  add_options(command, given, display, stay);
+  add_options(command, given, apparatus_options, stay);
+  add_options(command, given, display_options, stay);
   command.add_flag("--windowed", given.windowed,
                    "the window does not fill the display; F11 changes that, too");
 }
@@ -150,7 +150,7 @@ void warn_of_simulator(const std::string& name) {
 void tell_simulator(const Protocol& protocol, const Setup& options) {
   const SimulatorChoice simulator = protocol_for(protocol, options)->simulator;
   if (!options.simulator_why.empty())
-    say("heft: {}\n", described({simulator.name, simulator.rate_hz, options.simulator_why}));
+    say("heft: {}\n", heft::described({simulator.name, simulator.rate_hz, options.simulator_why}));
   warn_of_simulator(simulator.name);
   for (const std::string& caution : cautions(protocol)) say("heft: {}\n", caution);
 }

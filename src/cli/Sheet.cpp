@@ -15,14 +15,14 @@
 namespace heft::cli {
 
 namespace {
-struct Options {
+struct SheetOptions {
   std::string body, out, paper = "a4";
 };
 
 using LoadBody = MarkerBody (*)(const std::string& path);
 using WriteSheet = void (*)(const MarkerBody& body, Paper paper, const std::string& out);
 
-void draw(const Options& options, const char* what, LoadBody load, WriteSheet write) {
+void draw(const SheetOptions& options, const char* what, LoadBody load, WriteSheet write) {
   const auto paper = named<Paper>(options.paper);
   if (!paper) throw unknown_name("paper", options.paper, EnumNames<Paper>::names);
   write(load(options.body), *paper, options.out);
@@ -36,7 +36,7 @@ void add_body(Command& sheet, const char* name, const char* summary, LoadBody lo
   const std::string example =
       fmt::format("heft sheet {0} --{0} protocols/apparatus/{0}.toml --out {0}.pdf", name);
   Command command = sheet.add_command(name, summary, {example.c_str()});
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SheetOptions>();
   command.add_option(fmt::format("--{}", name), &options->body, fmt::format("{} file", name))
       .required();
   command.add_option("--out", &options->out, "the PDF to write; none is written over").required();

@@ -65,7 +65,7 @@ struct Shown {
   std::vector<LoggedSetup> setups;
 };
 
-Shown read(const std::string& db, std::optional<std::int64_t> session_id) {
+Shown shown_of(const std::string& db, std::optional<std::int64_t> session_id) {
   refuse_special_file(db);
   const LogReader reader(db);
   const auto sessions = reader.sessions();
@@ -210,7 +210,7 @@ Json as_json(const Shown& shown) {
 }
 
 void show(const std::string& db, std::optional<std::int64_t> session_id, bool json) {
-  const Shown shown = read(db, session_id);
+  const Shown shown = shown_of(db, session_id);
   if (json)
     return fmt::print("{}\n", as_json(shown).dump(2, ' ', false, Json::error_handler_t::replace));
   print_head(shown.facts);
@@ -226,12 +226,12 @@ void show(const std::string& db, std::optional<std::int64_t> session_id, bool js
 }  // namespace
 
 void add_show(Command& app) {
-  struct Options {
+  struct ShowOptions {
     std::string db = "heft.db";
     std::optional<std::int64_t> session;
     bool json = false;
   };
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ShowOptions>();
   Command command =
       app.add_command("show", "one session: progress, setups, checks, notes, voids, what was told",
                       {"heft show --db lab.db", "heft show --db lab.db --session 3 --json"});

@@ -17,7 +17,7 @@ namespace heft::cli {
 
 namespace {
 
-struct Options {
+struct SimulateOptions {
   std::string protocol, responder = "simulated", simulator, db = "heft.db";
   std::optional<std::uint64_t> seed;
   int participants = 13;
@@ -26,7 +26,7 @@ struct Options {
   std::vector<std::string> settings;
 };
 
-void simulate_participants(const Options& options) {
+void simulate_participants(const SimulateOptions& options) {
   SimulationRequest request;
   request.protocol = load_protocol(options.protocol, options.settings);
   Setup setup;
@@ -78,7 +78,7 @@ void simulate_participants(const Options& options) {
 }  // namespace
 
 void add_simulate(Command& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateOptions>();
   Command command = app.add_command(
       "simulate", "run many sessions with a simulated responder",
       {"heft simulate protocols/paper.toml --responder simulated --participants 13 --db sim.db",

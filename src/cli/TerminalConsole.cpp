@@ -29,7 +29,7 @@ bool key_waits() {
 
 std::optional<char> next_key() {
   char key = 0;
-  if (!key_waits() || read(STDIN_FILENO, &key, 1) != 1) return std::nullopt;
+  if (!key_waits() || ::read(STDIN_FILENO, &key, 1) != 1) return std::nullopt;
   return key;
 }
 

@@ -22,7 +22,7 @@
 namespace heft::cli {
 
 namespace {
-struct Options {
+struct TrackOptions {
   std::string camera, board, effector;
   std::vector<std::string> frames;
   double rate_hz = 30;
@@ -95,7 +95,7 @@ void each_of_camera(const std::string& source, const TakePicture& take) {
   }
 }
 
-void each_picture(const Options& options, const Intrinsics& camera, const TakePicture& take) {
+void each_picture(const TrackOptions& options, const Intrinsics& camera, const TakePicture& take) {
   const std::vector<std::string>& frames = options.frames;
   const bool one = frames.size() == 1;
   if (one && std::filesystem::is_directory(frames[0]))
@@ -138,7 +138,7 @@ class Sightings {
   Image last_;
 };
 
-void run_track(const Options& options) {
+void run_track(const TrackOptions& options) {
   if (!(options.rate_hz > 0 && options.rate_hz <= 1e6))
     throw Error(fmt::format("--rate {}: expected more than 0 and at most 1000000 pictures a second",
                             options.rate_hz),
@@ -178,7 +178,7 @@ void add_track(Command& app) {
        "heft track --camera-file camera.yaml --board board.toml one.png two.png",
        "heft track --camera-file camera.yaml --board board.toml film.mp4 > poses.csv"});
   command.add_to_help(columns_explained);
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TrackOptions>();
   command.add_option("--camera-file", &options->camera, "the camera's calibration, OpenCV's YAML")
       .required();
   command.add_option("--board", &options->board, "a board file").required();

@@ -10,7 +10,7 @@
 namespace heft {
 
 namespace {
-constexpr std::size_t most_trials = 10'000;  // beyond any session
+constexpr std::size_t most_constant_trials = 10'000;  // beyond any session
 }
 
 void read_keys(TableReader& table, ConstantConfig& config) {
@@ -24,11 +24,12 @@ void check_keys(TableReader& table, const ConstantConfig& config) {
   if (!table.good({"levels"})) return;
   const std::span levels(config.levels);
   const std::size_t n_trials = levels.size() * static_cast<std::size_t>(config.n_per_level);
-  if (n_trials > most_trials)
-    return table.mistake(table.has("n_per_level") ? "n_per_level" : "levels",
-                         fmt::format("{} levels, each {} times, make {} trials, expected at most "
-                                     "{} in all",
-                                     levels.size(), config.n_per_level, n_trials, most_trials));
+  if (n_trials > most_constant_trials)
+    return table.mistake(
+        table.has("n_per_level") ? "n_per_level" : "levels",
+        fmt::format("{} levels, each {} times, make {} trials, expected at most "
+                    "{} in all",
+                    levels.size(), config.n_per_level, n_trials, most_constant_trials));
   for (std::size_t i = 0; i < levels.size(); ++i)
     if (std::ranges::count(levels.first(i), levels[i]) > 0)
       table.mistake("levels", i,

@@ -53,7 +53,7 @@ struct KindKeys {
 
 // A scene may have nothing but keys that a protocol has too, so it comes first; a board likewise
 // before the effector.
-const std::vector<KindKeys>& kinds() {
+const std::vector<KindKeys>& kinds_of_files() {
   static const std::vector<KindKeys> table{
       {FileKind::scene, "cube", {"clone", "friction", "gravity_m_s2", "coupling", "effector"}},
       {FileKind::protocol,
@@ -89,7 +89,7 @@ std::ptrdiff_t matches(const KindKeys& kind, const TomlTable& root) {
 FileKind recognized_kind(const std::string& text, const std::string& file) {
   const TomlTable root = parse_toml(text, file);
   const auto n = [&](const KindKeys& kind) { return matches(kind, root); };
-  const auto best = std::ranges::max_element(kinds(), {}, n);
+  const auto best = std::ranges::max_element(kinds_of_files(), {}, n);
   if (n(*best) > 0) return best->kind;
   Mistakes mistakes(file);
   mistakes.add({},

@@ -35,7 +35,7 @@ std::string flaw(const std::array<Eigen::Vector3d, 4>& c) {
   return "";
 }
 
-constexpr double tolerance_m = 1e-6;  ///< rounding in a hand-written file
+constexpr double grid_tolerance_m = 1e-6;  ///< rounding in a hand-written file
 constexpr Range tag_side_m{0, largest_tag_m, true};
 
 struct Grid {
@@ -55,7 +55,7 @@ void check_pitch(TableReader& table, const Grid& grid, const TagPattern& print) 
   if (!table.good({"tag_m", "pitch_m"})) return;
   const bool shared = has_white_margin(print);  // neighbors can share white, but no code
   const double gap_m = print.margin_m(grid.tag_m) * (shared ? 1 : 2);
-  if (grid.pitch_m < grid.tag_m + gap_m - tolerance_m)
+  if (grid.pitch_m < grid.tag_m + gap_m - grid_tolerance_m)
     table.mistake("pitch_m",
                   fmt::format("pitch_m is {:.6g}, expected at least {:.6g}: tag_m and {:.6g} m of "
                               "{} between two tags",
@@ -98,7 +98,7 @@ bool fits(const Tag& tag, const FaceFrame& face, double white_m) {
   for (const Eigen::Vector3d& corner_m : tag.corners_m) {
     const Eigen::Vector2d out_m = face.flat(corner_m) - center_m;
     const Eigen::Vector2d white_corner_m = center_m + out_m + white_m * out_m.cwiseSign();
-    if (face.inside_m(white_corner_m) < -tolerance_m) return false;
+    if (face.inside_m(white_corner_m) < -grid_tolerance_m) return false;
   }
   return true;
 }

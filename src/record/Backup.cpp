@@ -34,7 +34,7 @@ std::string system_reason() {
 }
 
 // Of the owner's eyes alone, from its first byte on.
-void make_folder(const fs::path& folder) {
+void make_backup_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::create_directories(folder, error)) {
     if (error) fail(folder.string(), error.message());
@@ -116,7 +116,7 @@ std::string backup_name(const std::string& participant, std::int64_t session_id,
 }
 
 void require_backup_folder(const std::string& folder) try {
-  make_folder(folder);
+  make_backup_folder(folder);
   const std::string path = make_part(folder, "written-to-try") + ".part";
   const Part part(path);
   std::ofstream file(path);
@@ -128,7 +128,7 @@ void require_backup_folder(const std::string& folder) try {
 }
 
 std::string back_up(const std::string& db, const std::string& folder, std::int64_t session_id) try {
-  make_folder(folder);
+  make_backup_folder(folder);
   const std::string who = LogReader(db).session(session_id).header.participant;
   const std::string path = make_part(folder, backup_name(who, session_id, utc_now()));
   const std::string made = path + ".part";

@@ -28,12 +28,12 @@ namespace {
       path, HEFT_VERSION));
 }
 
-constexpr int busy_timeout_ms = 5000;
+constexpr int opening_timeout_ms = 5000;
 
 std::unique_ptr<SQLite::Database> opened(const std::string& path, const std::string& file) {
   try {
     auto database =
-        std::make_unique<SQLite::Database>(file, SQLite::OPEN_READWRITE, busy_timeout_ms);
+        std::make_unique<SQLite::Database>(file, SQLite::OPEN_READWRITE, opening_timeout_ms);
     distrust(*database);
     return database;
   } catch (const SQLite::Exception& error) {

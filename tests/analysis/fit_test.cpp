@@ -45,7 +45,7 @@ AnswersByLevel choices_of(const IndecisionParameters& person, const std::vector<
 }
 
 const std::vector<double> seven{1, 2, 3, 4, 5, 6, 7};
-const std::vector<double> masses_g{0, 50, 100, 150, 200, 300};
+const std::vector<double> compared_g{0, 50, 100, 150, 200, 300};
 
 // How often in 100 the 95 % interval of a parameter holds what was put in.
 class Coverage {
@@ -92,7 +92,7 @@ TEST(IndecisionFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   Coverage sensitivity, indecision, bias, threshold;
   RandomStream random(8, "coverage");
   for (int i = 0; i < 1000; ++i) {
-    const Fit fit = fit_indecision(choices_of(person, masses_g, 20, random), options);
+    const Fit fit = fit_indecision(choices_of(person, compared_g, 20, random), options);
     if (!fit.identifiable()) continue;
     sensitivity.add(fit.parameter("sensitivity"), person.sensitivity);
     indecision.add(fit.parameter("indecision"), person.indecision);
@@ -136,7 +136,7 @@ TEST(IndecisionFit, ACoinHasNoThreshold) {
   for (int i = 0; i < 300; ++i) {
     const double indecision = i % 3 * 0.5;
     const FitOptions options{{}, 0, i % 2 == 0 ? std::optional(0.02) : std::nullopt};
-    n += fit_indecision(choices_of({0, indecision, 0.2, 0}, masses_g, 10, random), options)
+    n += fit_indecision(choices_of({0, indecision, 0.2, 0}, compared_g, 10, random), options)
              .identifiable();
   }
   EXPECT_LE(n, 15);

@@ -20,7 +20,7 @@ Protocol two_staircases() {
   return protocol;
 }
 
-struct Session {
+struct Comparing {
   Changes apply(Happening what) { return engine.apply({++t_s, std::move(what)}); }
   std::string refusal(Happening what) { return engine.admit({t_s, std::move(what)}).refusal; }
   TrialPlan start() {
@@ -43,7 +43,7 @@ struct Session {
 const AnswerVetoed by_mistake{"tapped by mistake"};
 
 TEST(VetoedAnswer, is_kept_as_void_and_its_trial_is_presented_again) {
-  Session session;
+  Comparing session;
   session.answer(true);
   const TrialRow answered = *session.answer(true).trial;
   const Changes changes = session.apply(by_mistake);
@@ -62,7 +62,7 @@ TEST(VetoedAnswer, is_kept_as_void_and_its_trial_is_presented_again) {
 }
 
 TEST(VetoedAnswer, can_be_taken_back_once_and_only_while_no_trial_runs) {
-  Session session;
+  Comparing session;
   EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no comparison"));
   session.answer(true);
   session.answer(false);
@@ -75,7 +75,7 @@ TEST(VetoedAnswer, can_be_taken_back_once_and_only_while_no_trial_runs) {
 }
 
 TEST(VetoedAnswer, of_sorting_there_is_none) {
-  Session session;
+  Comparing session;
   while (session.compares()) session.answer(true);
   session.start();
   session.apply(Action{ActionKind::dont_know});
@@ -83,7 +83,7 @@ TEST(VetoedAnswer, of_sorting_there_is_none) {
 }
 
 TEST(VetoedAnswer, takes_its_reversal_and_its_estimates_back) {
-  Session session;
+  Comparing session;
   Changes last;
   bool yes = true;
   while (session.compares()) last = session.answer(yes = !yes);
@@ -98,7 +98,7 @@ TEST(VetoedAnswer, takes_its_reversal_and_its_estimates_back) {
 
 TEST(VetoedAnswer, brings_no_break_again_that_is_over) {
   for (const bool told : {true, false}) {
-    Session session;
+    Comparing session;
     while (session.compares()) session.answer(true);
     ASSERT_TRUE(session.engine.next().rest);
     if (told) session.apply(BreakTaken{"break"});
@@ -115,7 +115,7 @@ TEST(VetoedAnswer, brings_no_break_again_that_is_over) {
 // With vetoes anywhere, what counts is what a session without them has: levels, reversals,
 // estimates.
 RC_GTEST_PROP(VetoedAnswer, leaves_the_procedures_as_if_it_had_not_been, ()) {
-  Session straight, corrected;
+  Comparing straight, corrected;
   std::map<std::string, std::vector<double>> levels, reversals, expected_levels, expected_reversals;
   int n_estimates = 0, n_expected = 0;
   while (straight.compares()) {

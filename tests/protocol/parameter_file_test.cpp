@@ -7,7 +7,7 @@
 namespace heft {
 namespace {
 
-const std::string everything = R"(# a responder
+const std::string parameters_file = R"(# a responder
 zeta = 0.5
 guess = true
 alpha = 3
@@ -15,7 +15,7 @@ cue = "offset"
 )";
 
 TEST(ParameterFile, KeepsTheFilesOrderAndPlaces) {
-  const auto parameters = parse_parameters(everything, "p.toml");
+  const auto parameters = parse_parameters(parameters_file, "p.toml");
   ASSERT_EQ(parameters.size(), 4u);
   EXPECT_EQ(parameters[0].name, "zeta");
   EXPECT_EQ(std::get<double>(parameters[0].value), 0.5);
@@ -33,10 +33,10 @@ TEST(ParameterFile, MayBeEmpty) {
 class BrokenParameters : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenParameters, IsOneMistakeAtItsPlace) {
-  expect_broken(everything, GetParam(), [](auto& text) { parse_parameters(text, "x.toml"); });
+  expect_broken(parameters_file, GetParam(), [](auto& text) { parse_parameters(text, "x.toml"); });
 }
 
-const std::vector<Broken> broken{
+const std::vector<Broken> broken_parameters{
     {"array", {"= 3", "= ^[3]"}, {"alpha is an array"}},
     {"table", {"cue = \"offset\"", "^[cue]"}, {"cue is a table"}},
     {"dotted_key", {"cue =", "^cue.name ="}, {"cue is a table"}},
@@ -45,7 +45,8 @@ const std::vector<Broken> broken{
     {"date", {"0.5", "^2024-05-01"}, {"zeta is a date"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, BrokenParameters, testing::ValuesIn(broken), name_of_broken);
+INSTANTIATE_TEST_SUITE_P(Each, BrokenParameters, testing::ValuesIn(broken_parameters),
+                         name_of_broken);
 
 }  // namespace
 }  // namespace heft

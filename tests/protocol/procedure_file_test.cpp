@@ -12,7 +12,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::string everything = R"(seed = 42
+const std::string procedure_file = R"(seed = 42
 interleave = "round_robin"
 max_lag = 3
 [[staircase]]
@@ -44,7 +44,7 @@ step_scale = "db"
 )";
 
 TEST(ProcedureFile, ReadsEveryKey) {
-  const InterleavedProcedures config = parse_procedure(everything, "all.toml");
+  const InterleavedProcedures config = parse_procedure(procedure_file, "all.toml");
   EXPECT_EQ(config.seed, 42u);
   EXPECT_EQ(config.interleaving.interleave, Interleave::round_robin);
   EXPECT_EQ(config.interleaving.max_lag, 3);
@@ -96,7 +96,7 @@ TEST(ProcedureFile, AbsentKeysHaveTheDocumentedDefaults) {
 }
 
 TEST(ProcedureFile, TakesTheLargestSeed) {
-  const auto file = edited(everything, {"seed = 42", "seed = 9223372036854775807"});
+  const auto file = edited(procedure_file, {"seed = 42", "seed = 9223372036854775807"});
   EXPECT_EQ(parse_procedure(file.text, "f").seed, 9223372036854775807u);
 }
 
@@ -109,10 +109,10 @@ TEST(ProcedureFile, TakesAUtf8FileWithWindowsLineEnds) {
 class BrokenProcedure : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenProcedure, IsOneMistakeAtItsPlace) {
-  expect_broken(everything, GetParam(), [](auto& text) { parse_procedure(text, "x.toml"); });
+  expect_broken(procedure_file, GetParam(), [](auto& text) { parse_procedure(text, "x.toml"); });
 }
 
-const std::vector<Broken> broken{
+const std::vector<Broken> broken_procedures{
     {"unknown_key", {"floor = 0.0", "^flor = 0.0"}, {"flor", "[[staircase]]", "\"floor\""}},
     {"unknown_top_key", {"max_lag = 3", "^maxlag = 3"}, {"maxlag", "\"max_lag\""}},
     {"unlike_any_key", {"max_lag = 3", "^zzzzzzzz = 3"}, {"\"interleave\"", "\"max_lag\""}},
@@ -184,16 +184,17 @@ const std::vector<Broken> broken{
     {"min_trials_beyond_stop", {"min_trials = 4", "min_trials = ^91"}, {"at most stop_trials 90"}},
     {"same_name", {"\"lists\"", "^\"15g\""}, {"already a staircase", "15g", "line 4"}},
     {"staircase_as_table",
-     {everything.substr(everything.find("[[staircase]]")),
+     {procedure_file.substr(procedure_file.find("[[staircase]]")),
       "^[staircase]\nname = \"a\"\nstart = 1\nstep = 1\n"},
      {"staircase is a table", "[[staircase]]"}},
-    {"no_staircase", {everything, "^seed = 42\n"}, {"lacks \"staircase\""}},
-    {"empty_file", {everything, "^"}, {"lacks \"staircase\""}},
+    {"no_staircase", {procedure_file, "^seed = 42\n"}, {"lacks \"staircase\""}},
+    {"empty_file", {procedure_file, "^"}, {"lacks \"staircase\""}},
     {"syntax", {"up = 1", "up = ^\ndown = nonsense = 4"}, {"not valid TOML", "not checked"}},
     {"key_twice", {"min_step = 5", "min_step = 5\nmin_step = ^6"}, {"not valid TOML", "min_step"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, BrokenProcedure, testing::ValuesIn(broken), name_of_broken);
+INSTANTIATE_TEST_SUITE_P(Each, BrokenProcedure, testing::ValuesIn(broken_procedures),
+                         name_of_broken);
 
 const std::string constants = R"(seed = 42
 [[staircase]]

@@ -115,7 +115,7 @@ TEST_P(BrokenQuestionnaire, IsOneMistakeAtItsPlace) {
   expect_broken(every_kind, GetParam(), [](auto& text) { parse_questionnaires(text, "x.toml"); });
 }
 
-const std::vector<Broken> broken{
+const std::vector<Broken> broken_questionnaires{
     {"kind", {"\"slider\"", "^\"slidder\""}, {"kind", "\"slider\"?"}},
     {"unknown_key", {"least = 0", "least = 0\n^step = 2"}, {"unknown key \"step\""}},
     {"kept_key_too", {"\"b\"", "^\"answered_by\""}, {"keeps for itself"}},
@@ -129,7 +129,8 @@ const std::vector<Broken> broken{
     {"two_points", {"to = 5", "to = ^2"}, {"three points"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, BrokenQuestionnaire, ::testing::ValuesIn(broken), name_of_broken);
+INSTANTIATE_TEST_SUITE_P(Each, BrokenQuestionnaire, ::testing::ValuesIn(broken_questionnaires),
+                         name_of_broken);
 
 std::string protocol_asking(const std::string& questionnaires) {
   return "title = \"t\"\n[layout]\nout_of_area = \"together\"\n[screens]\ntext_size = 1.25\n" +

@@ -10,7 +10,7 @@
 namespace heft {
 namespace {
 
-const std::string everything = R"(friction = 0.5
+const std::string scene_file = R"(friction = 0.5
 gravity_m_s2 = 3.7
 [effector]
 size_m = [0.1, 0.03, 0.02]
@@ -35,7 +35,7 @@ yaw_rad = 0.25
 )";
 
 TEST(SceneFile, ReadsEveryKey) {
-  const Scene scene = parse_scene(everything, "all.toml");
+  const Scene scene = parse_scene(scene_file, "all.toml");
   EXPECT_EQ(scene.friction, 0.5);
   EXPECT_EQ(scene.gravity_m_s2, 3.7);
   EXPECT_EQ(scene.effector_size_m, Eigen::Vector3d(0.1, 0.03, 0.02));
@@ -58,7 +58,7 @@ TEST(SceneFile, ReadsEveryKey) {
 
 TEST(SceneFile, NumbersThatPhysicsCanNotBearAreRefusedWhereTheyStand) {
   const auto refusal = [](const std::string& from, const std::string& to) -> std::string {
-    std::string text = everything;
+    std::string text = scene_file;
     try {
       parse_scene(text.replace(text.find(from), from.size(), to), "far.toml");
     } catch (const InvalidFile& error) {
@@ -99,10 +99,10 @@ TEST(SceneFile, CubesMayTouchEachOther) {
 class BrokenScene : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenScene, IsOneMistakeAtItsPlace) {
-  expect_broken(everything, GetParam(), [](auto& text) { parse_scene(text, "x.toml"); });
+  expect_broken(scene_file, GetParam(), [](auto& text) { parse_scene(text, "x.toml"); });
 }
 
-const std::vector<Broken> broken{
+const std::vector<Broken> broken_scenes{
     {"negative_friction", {"0.5", "^-0.5"}, {"friction is -0.5", "at least 0"}},
     {"negative_gravity", {"3.7", "^-3.7"}, {"gravity_m_s2", "at least 0"}},
     {"key_without_unit", {"gravity_m_s2 = 3.7", "^gravity = 3.7"}, {"\"gravity_m_s2\"?"}},
@@ -132,7 +132,7 @@ const std::vector<Broken> broken{
      {"cube 2 overlaps cube 1 (line 14)"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, BrokenScene, testing::ValuesIn(broken), name_of_broken);
+INSTANTIATE_TEST_SUITE_P(Each, BrokenScene, testing::ValuesIn(broken_scenes), name_of_broken);
 
 }  // namespace
 }  // namespace heft

@@ -10,7 +10,7 @@
 namespace heft {
 namespace {
 
-const std::string everything = R"(exposure_s = 0.01
+const std::string camera_file = R"(exposure_s = 0.01
 blur_px = 1.5
 readout_s = 0.02
 vignetting = 0.5
@@ -31,7 +31,7 @@ hand = false
 )";
 
 TEST(SyntheticCameraFile, SetsEveryImperfection) {
-  const SyntheticSettings settings = parse_synthetic_camera(everything, "x.toml");
+  const SyntheticSettings settings = parse_synthetic_camera(camera_file, "x.toml");
   EXPECT_EQ(settings.optics.exposure_s, 0.01);
   EXPECT_EQ(settings.optics.readout_s, 0.02);
   EXPECT_EQ(settings.optics.blur_px, 1.5);
@@ -88,14 +88,14 @@ TEST(SyntheticCameraFile, ShippedIsTheUsualCamera) {
 
 // Any of its keys tells a file of a synthetic camera from one of another kind.
 TEST(SyntheticCameraFile, IsKnownByEachOfItsKeys) {
-  std::istringstream lines(everything);
+  std::istringstream lines(camera_file);
   for (std::string line; std::getline(lines, line);)
     EXPECT_EQ(recognized_kind(line, "x.toml"), FileKind::synthetic_camera) << line;
 }
 
 TEST(SyntheticCameraFile, IsDescribedByWhatIsNotUsual) {
   EXPECT_EQ(described(SyntheticSettings()), "exposure 4 ms, blur 0.6 px, noise 3 levels, sRGB");
-  EXPECT_EQ(described(parse_synthetic_camera(everything, "x.toml")),
+  EXPECT_EQ(described(parse_synthetic_camera(camera_file, "x.toml")),
             "exposure 10 ms, read-out 20 ms, blur 1.5 px, noise 8 levels, gamma 2.2, light 0.4, "
             "shadow 0.4, glare 0.25, film curve 0.75, S-curve 0.6, mosaic, sharpening 1.25, JPEG "
             "85, board's tags by 1.003, effector's tags by 0.998, focal length by 0.995");
@@ -104,10 +104,11 @@ TEST(SyntheticCameraFile, IsDescribedByWhatIsNotUsual) {
 class BrokenSyntheticCamera : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenSyntheticCamera, IsOneMistakeAtItsPlace) {
-  expect_broken(everything, GetParam(), [](auto& text) { parse_synthetic_camera(text, "x.toml"); });
+  expect_broken(camera_file, GetParam(),
+                [](auto& text) { parse_synthetic_camera(text, "x.toml"); });
 }
 
-const Broken broken[] = {
+const Broken broken_cameras[] = {
     {"unknown_key", {"noise_levels", "^noise_level"}, {"\"noise_levels\"?"}},
     {"key_without_unit", {"blur_px", "^blur"}, {"\"blur_px\"?"}},
     {"open_for_too_long", {"= 0.01\n", "= ^0.06\n"}, {"exposure_s is 0.06", "at most 0.05"}},
@@ -133,8 +134,8 @@ const Broken broken[] = {
     {"no_lens", {"= 0.995", "= ^0"}, {"focal_length_scale is 0", "at least 0.9"}},
     {"hand_as_number", {"false", "^1"}, {"true or false"}},
 };
-INSTANTIATE_TEST_SUITE_P(SyntheticCameraFile, BrokenSyntheticCamera, testing::ValuesIn(broken),
-                         name_of_broken);
+INSTANTIATE_TEST_SUITE_P(SyntheticCameraFile, BrokenSyntheticCamera,
+                         testing::ValuesIn(broken_cameras), name_of_broken);
 
 }  // namespace
 }  // namespace heft

@@ -50,7 +50,7 @@ std::string edited(const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }
 
-std::string mistakes_in(const std::string& text) {
+std::string what_is_wrong_in(const std::string& text) {
   try {
     parse_protocol(text, "techniques.toml");
   } catch (const InvalidFile& error) {
@@ -81,13 +81,14 @@ TEST(Techniques, MakeTheScenesCoupling) {
 }
 
 TEST(Techniques, ThatAreNotThereAreNamedWithTheirPlace) {
-  EXPECT_THAT(mistakes_in(edited("technique = \"soft\"", "technique = \"sft\"")),
+  EXPECT_THAT(what_is_wrong_in(edited("technique = \"soft\"", "technique = \"sft\"")),
               HasSubstr("techniques.toml:19:"));
-  EXPECT_THAT(mistakes_in(edited("tied = 3", "tide = 3")), HasSubstr("no technique \"tide\""));
-  EXPECT_THAT(mistakes_in(edited("kind = \"coupled\"", "kind = \"elastic\"")),
+  EXPECT_THAT(what_is_wrong_in(edited("tied = 3", "tide = 3")), HasSubstr("no technique \"tide\""));
+  EXPECT_THAT(what_is_wrong_in(edited("kind = \"coupled\"", "kind = \"elastic\"")),
               HasSubstr("techniques.toml:10:"));
-  EXPECT_THAT(mistakes_in(edited("name = \"tied\"", "name = \"soft\"")), HasSubstr("already a"));
-  EXPECT_THAT(mistakes_in(edited("{ soft = 2, C1 = 1, tied = 3 }", "{ soft = 0 }")),
+  EXPECT_THAT(what_is_wrong_in(edited("name = \"tied\"", "name = \"soft\"")),
+              HasSubstr("already a"));
+  EXPECT_THAT(what_is_wrong_in(edited("{ soft = 2, C1 = 1, tied = 3 }", "{ soft = 0 }")),
               HasSubstr("trials are 0 in all"));
 }
 
@@ -119,7 +120,7 @@ trials = { ratio = 2, C2 = 1, slow = 3 }
 
 std::string mistakes_after(const std::string& from, const std::string& to) {
   std::string text = displacing;
-  return mistakes_in(text.replace(text.find(from), from.size(), to));
+  return what_is_wrong_in(text.replace(text.find(from), from.size(), to));
 }
 
 TEST(Techniques, ThatDisplaceTheCloneAreTheScenes) {

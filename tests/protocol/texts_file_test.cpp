@@ -60,7 +60,7 @@ TEST_P(BrokenTexts, IsOneMistakeAtItsPlace) {
                 [](auto& text) { parse_texts(text, "x.toml"); });
 }
 
-const std::vector<Broken> broken{
+const std::vector<Broken> broken_texts{
     {"missing_key", {"[slots]\nleft = \"Left\"", "^[slots]"}, {"[slots] lacks \"left\""}},
     {"misspelled_key", {"agree =", "^agre ="}, {"\"agre\"", "\"agree\"?"}},
     {"unknown_key", {"[slots]\n", "[slots]\n^top = \"Top\"\n"}, {"unknown key \"top\""}},
@@ -70,7 +70,7 @@ const std::vector<Broken> broken{
     {"number", {"\"Left\"", "^1"}, {"left is 1"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, BrokenTexts, testing::ValuesIn(broken), name_of_broken);
+INSTANTIATE_TEST_SUITE_P(Each, BrokenTexts, testing::ValuesIn(broken_texts), name_of_broken);
 
 TEST(TextsFile, SaysThatTheLanguageIsMissing) {
   const EditedFile file = edited(content_of(texts_path("en")), {"language = \"en\"", ""});

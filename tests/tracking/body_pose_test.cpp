@@ -10,19 +10,20 @@
 namespace heft {
 namespace {
 
-const Intrinsics camera = default_camera(640, 480);
+const Intrinsics camera_640 = default_camera(640, 480);
 const Pose from_board = SyntheticSettings().camera_from_board;
 
 // A tag's edges where they are, moved outwards by bias_px.
 MeasuredTag exact(const Tag& tag, const Pose& pose, double bias_px = 0) {
   std::array<Eigen::Vector2d, 4> corners;
-  for (std::size_t i = 0; i < 4; ++i) corners[i] = project(camera, pose * tag.corners_m[i]);
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = project(camera_640, pose * tag.corners_m[i]);
   MeasuredTag seen = unrefined_tag(corners);
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector3d middle = (tag.corners_m[i] + tag.corners_m[(i + 1) % 4]) / 2;
     const Eigen::Vector2d along = (corners[(i + 1) % 4] - corners[i]).normalized();
     const Eigen::Vector2d outwards = bias_px * Eigen::Vector2d(along.y(), -along.x());
-    seen.edges[i].points_px = {corners[i] + outwards, project(camera, pose * middle) + outwards};
+    seen.edges[i].points_px = {corners[i] + outwards,
+                               project(camera_640, pose * middle) + outwards};
     seen.edges[i].sd_px = 0.02;
   }
   return seen;
@@ -35,7 +36,7 @@ std::vector<TagObservation> observations(const MarkerBody& body, const Pose& pos
     const MeasuredTag seen = exact(tag, pose, bias_px);
     const Eigen::Vector2d a = seen.corners_px[1] - seen.corners_px[0],
                           b = seen.corners_px[3] - seen.corners_px[0];
-    if (a.x() * b.y() - a.y() * b.x() > 50) tags.push_back(observe(camera, tag, seen, true));
+    if (a.x() * b.y() - a.y() * b.x() > 50) tags.push_back(observe(camera_640, tag, seen, true));
   }
   return tags;
 }
@@ -97,7 +98,7 @@ TEST(BodyPose, WithoutTheBiasTheBoardSeemsFurtherAway) {
 TEST(BodyPose, LeavesOutATagThatWasReadWrongly) {
   const MarkerBody board = grid_board(6, 4, .040, .048);
   auto tags = observations(board, from_board);
-  const auto other = observe(camera, board.tags[3], exact(board.tags[9], from_board), true);
+  const auto other = observe(camera_640, board.tags[3], exact(board.tags[9], from_board), true);
   tags[3] = other;
   const auto fit = solve_body(tags, std::nullopt, {0, 0.1});
   ASSERT_TRUE(fit);
@@ -157,14 +158,15 @@ TEST(BodyPose, TagsThatFitNoPoseGiveNone) {
   const MarkerBody board = grid_board(1, 1, .040, .048);
   MeasuredTag crossed = unrefined_tag({Eigen::Vector2d(100, 100), Eigen::Vector2d(300, 300),
                                        Eigen::Vector2d(300, 100), Eigen::Vector2d(100, 300)});
-  EXPECT_FALSE(solve_body({observe(camera, board.tags[0], crossed, true)}, std::nullopt, {0, 0}));
+  EXPECT_FALSE(
+      solve_body({observe(camera_640, board.tags[0], crossed, true)}, std::nullopt, {0, 0}));
 }
 
 TEST(BodyPose, AWhiteBorderWithinBlackIsMovedTheOtherWay) {
   const MarkerBody board = grid_board(6, 4, .040, .048);
   std::vector<TagObservation> tags;
   for (const Tag& tag : board.tags)
-    tags.push_back(observe(camera, tag, exact(tag, from_board, 0.28), false));
+    tags.push_back(observe(camera_640, tag, exact(tag, from_board, 0.28), false));
   const auto fit = solve_body(tags, std::nullopt, {0, 0.5});
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->bias_px, -0.28, 0.002);

@@ -82,21 +82,22 @@ void expect_stored(const Optics& optics, const std::function<double(double)>& ex
         << light;
 }
 
-double srgb(double light) {
+double stored_part(double light) {
   return stored_of_light(light).value / 255;
 }
 
 TEST(SyntheticFaults, FilmHasAToeAndAShoulder) {
   const auto film = [](double light) {  // Narkowicz 2015, exposed by .8
     const double x = 0.8 * light;
-    return srgb(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14));
+    return stored_part(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14));
   };
   Optics optics;
   optics.film_curve = 1;
   expect_stored(optics, film);
   optics.film_curve = 0.25;
-  expect_stored(optics, [&](double light) { return 0.75 * srgb(light) + 0.25 * film(light); });
-  EXPECT_GT(film(0.3), srgb(0.3));
+  expect_stored(optics,
+                [&](double light) { return 0.75 * stored_part(light) + 0.25 * film(light); });
+  EXPECT_GT(film(0.3), stored_part(0.3));
   EXPECT_LT(film(1), 0.9);
   // What saturates the sensor is no brighter than that.
   optics.film_curve = 1;

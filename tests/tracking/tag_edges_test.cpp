@@ -9,7 +9,7 @@
 namespace heft {
 namespace {
 
-constexpr double cell_px = 9;
+constexpr double side_px_of_cell = 9;
 constexpr double blur_px = 0.7;
 constexpr int margin_px = 40;
 
@@ -20,13 +20,14 @@ double covered_from(double edge_px, double at_px) {
 // A dark square on white, and a bar as dark over its upper and its lower edge.
 TEST(MeasuredTag, EdgesThatWereNotFoundLookAsTheOthersDo) {
   const TagPattern pattern = tag_pattern("tag36h11", 0);
-  const double side_px = cell_px * pattern.border_cells, low = margin_px, high = low + side_px;
+  const double side_px = side_px_of_cell * pattern.border_cells, low = margin_px,
+               high = low + side_px;
   Image image(2 * margin_px + static_cast<int>(side_px), 2 * margin_px + static_cast<int>(side_px),
               1);
   const auto inside = [&](double at) { return covered_from(low, at) - covered_from(high, at); };
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
-      const bool barred = std::min(std::abs(y - low), std::abs(y - high)) < cell_px;
+      const bool barred = std::min(std::abs(y - low), std::abs(y - high)) < side_px_of_cell;
       const double dark = barred ? 1 : inside(x) * inside(y);
       image.pixels[static_cast<std::size_t>(y * image.width + x)] =
           static_cast<std::uint8_t>(std::lround(
@@ -54,7 +55,8 @@ TEST(MeasuredTag, EdgesThatWereNotFoundLookAsTheOthersDo) {
 // are where they were, in one fit each; where it has changed since, they are not far.
 TEST(MeasuredTag, IsMeasuredAgainAsBlurredAsItWas) {
   const TagPattern pattern = tag_pattern("tag36h11", 0);
-  const double side_px = cell_px * pattern.border_cells, low = margin_px, high = low + side_px;
+  const double side_px = side_px_of_cell * pattern.border_cells, low = margin_px,
+               high = low + side_px;
   Image image(2 * margin_px + static_cast<int>(side_px), 2 * margin_px + static_cast<int>(side_px),
               1);
   const auto inside = [&](double at, double wider) {
