@@ -94,9 +94,10 @@ void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take&
 }
 
 void explain_solves(const SceneOptions& options, const Drive& drive) {
-  if (options.explain)
-    say("heft: {} hits; {} solves ended before velocities had settled\n", drive.hits(),
-        drive.unsettled());
+  const std::optional<SolveCounts> counts = drive.counts();
+  if (options.explain && counts)
+    say("heft: {} hits; {} solves ended before velocities had settled\n", counts->hits,
+        counts->unsettled);
 }
 
 // Climbs the ladder until a simulator models all of the path; only its rows are shown.
@@ -144,7 +145,7 @@ void run_named(const SceneOptions& options, const Scene& scene, const Trajectory
     const double t_s = trajectory.start_s() + static_cast<double>(n_rows) / options.rate_hz;
     throw Error(
         fmt::format("{} at {:.3f} s: {}; --simulator boxes models this, and --simulator "
-                    "auto goes on with it from here by itself",
+                    "auto runs all of it with what does",
                     entry.name, t_s, outside.what()));
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,10 +49,8 @@ class DecouplingSimulator {
   /// State after the last step.
   virtual WorldState state() const = 0;
 
-  /// How often, since the reset, velocities were taken before its solver had settled on them.
-  virtual long unsettled() const { return 0; }
-  /// How often, since the reset, bodies have hit each other: closed in at once, without duration.
-  virtual long hits() const { return 0; }
+  /// Since the reset; none where the simulator does not count.
+  virtual std::optional<SolveCounts> counts() const { return std::nullopt; }
 };
 
 using MakeSimulator = std::unique_ptr<DecouplingSimulator> (*)();

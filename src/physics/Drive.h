@@ -52,10 +52,7 @@ class Drive {
 
   const WorldState& state() const { return state_; }
 
-  /// As DecouplingSimulator::unsettled.
-  long unsettled() const { return simulator_->unsettled(); }
-  /// As DecouplingSimulator::hits.
-  long hits() const { return simulator_->hits(); }
+  std::optional<SolveCounts> counts() const { return simulator_->counts(); }
 
  private:
   void start(const TargetSample& sample);

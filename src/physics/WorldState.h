@@ -30,4 +30,9 @@ struct WorldState {
 /// 16 hexadecimal digits over the bits of every pose and velocity: equal hashes, equal bits.
 std::string state_hash(const WorldState& state);
 
+struct SolveCounts {
+  long unsettled = 0;  ///< times that velocities were taken before the solver had settled on them
+  long hits = 0;       ///< of bodies: closed in at once, without duration
+};
+
 }  // namespace heft

@@ -30,8 +30,7 @@ Measurement measure_one(const SimulatorEntry& simulator, const BenchScene& scene
   const SceneRun run = run_scene(simulator.make(), scene, rate_hz, rate_hz);
   one.fate = run.fate;
   one.why = run.why;
-  one.unsettled_per_s = static_cast<double>(run.n_unsettled) / scene.duration_s();
-  one.hits_per_s = static_cast<double>(run.n_hits) / scene.duration_s();
+  one.counts = run.counts;
   if (run.fate == Fate::ran) {
     one.error = error_of(run.track, reference, scene);
     one.energy = energy_balance(run.track, scene);
@@ -83,12 +82,16 @@ void write_tables(const StudyOptions& options, const Measurements& measurements)
               "hits_per_s,hand_work_mj,energy_left_mj");
   for (const Measurement& one : measurements.all) {
     const auto known = [&](double value) { return one.fate == Fate::ran ? value : nothing; };
+    const auto per_s = [&](long SolveCounts::*n) {
+      return one.counts ? known(static_cast<double>(*one.counts.*n) / one.scene.duration_s())
+                        : nothing;
+    };
     csv.row(one.simulator, one.rate_hz, one.scene.name, name_of(one.scene.kind),
             one.scene.unique_if_rigid() ? "yes" : "no", name_of(one.fate),
             known(one.error.clone_rms_mm), known(one.error.clone_max_mm),
             known(one.error.clone_turn_rms_deg), known(one.error.cubes_rms_mm),
-            known(one.error.lag_error_g), one.cpu_us_per_s, known(one.unsettled_per_s),
-            known(one.hits_per_s), one.energy ? 1e3 * one.energy->hand_work_j : nothing,
+            known(one.error.lag_error_g), one.cpu_us_per_s, per_s(&SolveCounts::unsettled),
+            per_s(&SolveCounts::hits), one.energy ? 1e3 * one.energy->hand_work_j : nothing,
             one.energy ? 1e3 * one.energy->left_j() : nothing);
   }
   write_references(options, measurements);

@@ -21,7 +21,7 @@ struct Measurement {
   std::string why;
   TrackError error;
   double cpu_us_per_s = 0;  ///< of one core, per simulated second
-  double unsettled_per_s = 0, hits_per_s = 0;
+  std::optional<SolveCounts> counts;  ///< over the scene
   std::optional<EnergyBalance> energy;
 };
 

@@ -63,8 +63,7 @@ SceneRun run_scene(std::unique_ptr<DecouplingSimulator> simulator, const BenchSc
       const double t_s = time_of(path, n, poses_hz);
       const WorldState& state = drive.advance(sample_of(t_s, path.at(t_s)));
       if (n % every == 0) run.track.states.push_back(state);
-      run.n_unsettled = drive.unsettled();
-      run.n_hits = drive.hits();
+      run.counts = drive.counts();
     }
   } catch (const OutsideModel& error) {
     run.fate = Fate::outside_model;

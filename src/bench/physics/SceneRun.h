@@ -41,8 +41,7 @@ struct SceneRun {
   Fate fate = Fate::ran;
   std::string why;       ///< in the simulator's words, unless it ran
   SceneTrack track;      ///< until then
-  long n_unsettled = 0;  ///< solves that ended before velocities had settled
-  long n_hits = 0;
+  std::optional<SolveCounts> counts;
 };
 
 /// Steps along the scene's path at step_rate_hz and keeps states at keep_rate_hz, a divisor of it.

@@ -201,7 +201,7 @@ double BoxWorld::find_contacts(double h_s, double regular_s) {
 }
 
 void BoxWorld::hit(const Driver& driver) {
-  ++n_hits_;
+  ++counts_.hits;
   set_motions(0, {driver});
   for (Body& body : bodies_) body.step.begin(0);
   for (Manifold* manifold : touching_) {
@@ -241,7 +241,7 @@ void BoxWorld::relax() {
     for (Body& body : bodies_) body.step.ahead = body.step.free;
     change_m_s = sweeps(false);
   }
-  if (change_m_s > settled_m_s) ++n_unsettled_;
+  if (change_m_s > settled_m_s) ++counts_.unsettled;
   if (change_m_s > squeezed_m_s) forget_impulses();
 }
 

@@ -26,6 +26,7 @@
 #include <optional>
 #include <vector>
 
+#include "physics/WorldState.h"
 #include "physics/boxes/Manifold.h"
 
 namespace heft::boxes {
@@ -72,9 +73,7 @@ class BoxWorld {
   /// Forgets the contacts that a body has had, and wakes all.
   void forget_contacts(std::size_t i);
 
-  /// Solves that ended before velocities had settled.
-  long unsettled() const { return n_unsettled_; }
-  long hits() const { return n_hits_; }
+  const SolveCounts& counts() const { return counts_; }
 
  private:
   // Two bodies, or a body (first) and the table.
@@ -120,7 +119,7 @@ class BoxWorld {
   double listed_reach_m_ = 0;              ///< 0: to be listed anew
   bool hit_ = false;                       ///< the last step was one
   std::vector<Manifold*> touching_;        ///< of this step, in a sweep's order
-  long n_unsettled_ = 0, n_hits_ = 0;
+  SolveCounts counts_;
   double last_energy_j_ = 0;  ///< of the last sweep's changes
 };
 

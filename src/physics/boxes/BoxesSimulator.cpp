@@ -180,8 +180,9 @@ class BoxesSimulator : public DecouplingSimulator {
   void set_clone_solid(bool solid) override { clone().solid = solid; }
   void place_cube(int cube, const Pose& pose) override;
   WorldState state() const override;
-  long unsettled() const override { return world_ ? world_->unsettled() : 0; }
-  long hits() const override { return world_ ? world_->hits() : 0; }
+  std::optional<SolveCounts> counts() const override {
+    return world_ ? world_->counts() : SolveCounts{};
+  }
 
  private:
   static constexpr std::size_t clone_index = 0;

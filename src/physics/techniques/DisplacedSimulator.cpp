@@ -27,8 +27,7 @@ class DisplacedSimulator : public DecouplingSimulator {
   void set_clone_solid(bool solid) override;
   void place_cube(int cube, const Pose& pose) override;
   WorldState state() const override { return simulator_->state(); }
-  long unsettled() const override { return simulator_->unsettled(); }
-  long hits() const override { return simulator_->hits(); }
+  std::optional<SolveCounts> counts() const override { return simulator_->counts(); }
 
  private:
   void forget();
