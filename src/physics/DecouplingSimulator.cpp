@@ -21,7 +21,7 @@ constexpr MakeSimulator only_for_studies = nullptr;
 constinit auto table = std::to_array<SimulatorEntry>({
     {"boxes",
      "the default: our own solver for a few boxes on a table, exact coupling, true friction disk",
-     make_boxes, "", true, 6},
+     make_boxes, "", true, 7},
     {"bullet", "the same as bullet-lx", make_bullet_lx, "", true, 2},
     {"bullet-lx", "exact coupling, orientation locked to the effector's", make_bullet_lx, "", true,
      2},

@@ -28,6 +28,22 @@ double deepest_m(const Scene& scene, const WorldState& state) {
   return deepest_m;
 }
 
+// However few steps are made: a clone on a spring as stiff as that is where the hand is.
+TEST(Boxes, AStiffCloneStaysOutsideTheCubeThatItPushes) {
+  for (const double stiffness_n_per_m : {500.0, 1500.0, 5000.0, 5e4, 5e5})
+    for (const double rate_hz : {15.0, 30.0, 60.0, 120.0, 240.0}) {
+      Scene scene = one_cube(0.1);
+      scene.coupling.stiffness_n_per_m = stiffness_n_per_m;
+      const Stroke stroke{.speed_m_s = 0.1, .length_m = 0.1};
+      double overlap_m = 0;
+      run(*make_simulator("boxes"), scene, along(stroke), 1.2, rate_hz,
+          [&](double, const Pose&, const WorldState& state) {
+            overlap_m = std::max(overlap_m, deepest_m(scene, state));
+          });
+      EXPECT_LT(overlap_m, 0.02e-3) << stiffness_n_per_m << " N/m at " << rate_hz << " Hz";
+    }
+}
+
 class BoxesLag : public testing::TestWithParam<double> {};
 
 // Long after the start; a tenth of a percent is 2 um for the lightest cube.

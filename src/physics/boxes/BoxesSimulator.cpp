@@ -252,7 +252,7 @@ double BoxesSimulator::regular_piece_s(const Velocity& of_target, double h_s) {
   const bool near = world_->near_driven(near_m + travel_m);
   const double n_swinging = near ? h_s * coupled_.fastest_per_s() / oscillation_rad : 0;
   const double n_turning = h_s * world_->fastest_turn_rad_s() / turn_rad;
-  const double n = std::max(n_turning, n_swinging <= most_pieces ? n_swinging : 0);
+  const double n = std::max(n_turning, n_swinging);
   return h_s / std::clamp(std::ceil(n), 1.0, most_pieces);
 }
 
