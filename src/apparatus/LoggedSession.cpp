@@ -8,6 +8,16 @@
 
 namespace heft {
 
+namespace {
+// Logs from before setups name a simulator only where it was another than the protocol's.
+void tell_simulators(std::vector<LoggedSetup>& setups, const Protocol& protocol) {
+  for (LoggedSetup& logged : setups) {
+    if (logged.setup.simulator.empty()) logged.setup.simulator = protocol.simulator.name;
+    if (!logged.setup.rate_hz) logged.setup.rate_hz = protocol.simulator.rate_hz;
+  }
+}
+}  // namespace
+
 std::optional<Setup> LoggedSession::before() const {
   if (setups.front().from_event > 0) return std::nullopt;
   return setups.front().setup;
@@ -33,11 +43,12 @@ LoggedSession load_session(const LogReader& reader, const std::string& db,
         fmt::format("session {} in {} does not say what it was run with: its setup is "
                     "missing",
                     session_id, db));
-  session.setup = session.setups.back().setup;
   const SessionHeader& header = session.row.header;
   Protocol protocol = parse_protocol(header.protocol_text, header.protocol_name,
                                      settings_of(session.setups.front().setup));
   protocol.name = header.protocol_name;
+  tell_simulators(session.setups, protocol);
+  session.setup = session.setups.back().setup;
   session.protocol = protocol_for(std::move(protocol), session.setup);
   return session;
 }
