@@ -7,6 +7,7 @@
 #include "apparatus/PictureSource.h"
 #include "apparatus/SessionSetup.h"
 #include "base/Error.h"
+#include "physics/DecouplingSimulator.h"
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
 
@@ -21,12 +22,30 @@ std::optional<std::string> first_block_with_trials(const Protocol& protocol) {
       return block_name(block);
   return std::nullopt;
 }
+
+// Hands reach around corners; some simulators would stop in the middle of a trial. What a script's
+// hand does somebody wrote down.
+void require_general_simulator(const Setup& options, const Protocol& protocol, bool is_filmed) {
+  const std::string& name = options.simulator.empty() ? protocol.simulator.name : options.simulator;
+  if (simulator_named(name).for_sessions) return;
+  if (!has_person(options) && !is_filmed) {
+    const ResponderEntry& responder = responder_named(split_name(options.responder).name);
+    if (!responder.touches_cubes || responder.file == ResponderFile::folder) return;
+  }
+  throw Error(
+      fmt::format(
+          "the simulator \"{}\" knows straight strokes at one cube only, and hands do more; "
+          "expected another --simulator, or one in the protocol's [physics]",
+          name),
+      ExitCode::usage);
+}
 }  // namespace
 
 void check(const Setup& options, const Protocol& protocol) {
+  const bool is_filmed = tracker_named(options.tracker).what == TrackerWhat::source;
+  require_general_simulator(options, protocol, is_filmed);
   if (!protocol.require_contact || has_person(options)) return;
   const ResponderEntry& responder = responder_named(split_name(options.responder).name);
-  const bool is_filmed = tracker_named(options.tracker).what == TrackerWhat::source;
   const auto block = first_block_with_trials(protocol);
   if (responder.touches_cubes || is_filmed || !block) return;
   throw Error(

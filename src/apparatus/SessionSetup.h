@@ -59,7 +59,7 @@ void complete_texts(Setup& options);
 
 /// Whether who takes part can do what the protocol asks.
 /// @throws Error (usage) where answers need contact with every cube, and the hand is a model's that
-///   touches none
+///   touches none; where the simulator knows straight strokes alone, and the hand does more
 void check(const Setup& options, const Protocol& protocol);
 
 /// As complete(), for options from a log: the parameters stay those that were read then.

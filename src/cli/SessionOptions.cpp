@@ -164,8 +164,8 @@ std::vector<std::string> cautions(const Protocol& protocol) {
   const std::string& simulator = protocol.simulator.name;
   if (!entry_named("simulator", simulator, simulators()).for_sessions)
     found.push_back(fmt::format(
-        "[physics] simulator = \"{}\" models one straight push: people's sessions refuse "
-        "it, a simulated one ends where a hand does more: use \"boxes\" or \"auto\"",
+        "[physics] simulator = \"{}\" models one straight push: sessions refuse it where a hand "
+        "does more: use \"boxes\" or \"auto\"",
         simulator));
   if (mode == InputMode::hold || mode == InputMode::extrapolate)
     found.push_back(

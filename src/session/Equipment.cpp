@@ -27,17 +27,6 @@ void require_size(const Protocol& protocol, const MarkerBody& effector, const Se
               ExitCode::invalid_file);
 }
 
-// People reach around corners; these would stop in the middle of a trial.
-void require_general_simulator(const std::string& name) {
-  if (simulator_named(name).for_sessions) return;
-  throw Error(
-      fmt::format("the simulator \"{}\" knows straight strokes at one cube only, and people "
-                  "do more; expected another --simulator, or one in the protocol's "
-                  "[physics]",
-                  name),
-      ExitCode::usage);
-}
-
 Apparatus fitting_apparatus(const Protocol& protocol, const Setup& options) {
   Apparatus apparatus = apparatus_of(options);
   if (!apparatus.effector.tags.empty()) require_size(protocol, apparatus.effector, options);
@@ -111,7 +100,6 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const Setup& opti
       has_person_(has_person(options)),
       left_hand_(options.hand == "left"),
       responder_(make_responder(options, seed)) {
-  if (has_person_) require_general_simulator(protocol_->simulator.name);
   const Apparatus apparatus = fitting_apparatus(*protocol_, options);
   setup_ = view_setup(*protocol_, options, apparatus);
   setup_.dragged = dragged_effector(*protocol_, options);
