@@ -69,7 +69,8 @@ Setup setup_in(const SessionHeader& header) try {
   if (json.contains("auto_rate_hz")) take(setup, "auto_rate_hz", json.at("auto_rate_hz"));
   return hashed(setup);
 } catch (const nlohmann::json::exception& error) {
-  throw Error(fmt::format("session.run_options can't be read: {}", error.what()));
+  throw Error(fmt::format("session.run_options is not what heft wrote: {}", error.what()),
+              ExitCode::diverged);
 }
 
 // The setup after a deviation of that kind; none for any other deviation.

@@ -3,6 +3,7 @@
 // anew.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include <array>
 #include <string_view>
@@ -167,8 +168,16 @@ void upgrade(SQLite::Database& database) {
   database.exec(
       "PRAGMA legacy_alter_table = ON");  // nothing is to follow a table that is set aside
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-  if (kind_of(database) == FileKind::older_log) rebuild(database, path);
-  transaction.commit();
+  try {
+    if (kind_of(database) == FileKind::older_log) rebuild(database, path);
+    transaction.commit();
+  } catch (const SQLite::Exception& error) {
+    if (error.getErrorCode() != SQLITE_CONSTRAINT) throw;
+    throw Error(fmt::format("the log holds a row that heft never wrote: {}. Go on with a copy from "
+                            "before it was changed",
+                            error.what()),
+                ExitCode::diverged);
+  }
   database.exec("PRAGMA legacy_alter_table = OFF");
 }
 

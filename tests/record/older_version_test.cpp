@@ -112,6 +112,23 @@ TEST_P(older_version, with_something_foreign_in_it_is_refused_and_left_as_it_is)
   EXPECT_EQ(number(log_, "PRAGMA user_version"), GetParam());
 }
 
+TEST_P(older_version, with_a_cell_that_heft_never_wrote_is_refused_and_left_as_it_is) {
+  for (const char* change : {"UPDATE trial SET choice_correct = 2 WHERE trial_id = 2",
+                             "UPDATE session SET run_options = run_options || 'x'"}) {
+    const std::string copy = log_ + "-whole";
+    fs::copy_file(log_, copy, fs::copy_options::overwrite_existing);
+    sql(std::string("PRAGMA ignore_check_constraints = ON; ") + change);
+    try {
+      LogReader reader(log_);
+      ADD_FAILURE() << "it was opened after " << change;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), ExitCode::diverged) << error.what();
+    }
+    EXPECT_EQ(number(log_, "PRAGMA user_version"), GetParam());
+    fs::copy_file(copy, log_, fs::copy_options::overwrite_existing);
+  }
+}
+
 TEST_P(older_version, keeps_one_older_file_however_often_it_is_tried) {
   std::ofstream(older_file() + ".part") << "cut short";
   sql("CREATE TRIGGER bad AFTER INSERT ON event BEGIN DELETE FROM answer; END");
