@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "base/Clock.h"
@@ -33,6 +35,23 @@ struct ReplayOptions {
   bool judges() const { return !responder.empty() && !rerun; }
 };
 
+// Who asks what else would have been is not to take a key that says nothing of it for one that
+// makes no difference.
+void check_world(const std::vector<std::string>& settings) {
+  constexpr std::array sections{"physics", "coupling", "technique", "layout", "effector"};
+  for (const std::string& setting : settings) {
+    const std::string section = setting.substr(0, setting.find_first_of(".="));
+    if (setting.find('=') == std::string::npos ||
+        std::ranges::find(sections, section) != sections.end())
+      continue;
+    throw Error(fmt::format("--set {}: a replay takes the logged hand through another world, with "
+                            "the logged trials; expected a key of {}. --rerun with a --responder "
+                            "runs the trials anew",
+                            setting, fmt::join(sections, ", ")),
+                ExitCode::usage);
+  }
+}
+
 void check(const ReplayOptions& options) {
   const auto refuse = [](const char* why) { throw Error(why, ExitCode::usage); };
   if (options.rerun && options.responder.empty())
@@ -41,6 +60,7 @@ void check(const ReplayOptions& options) {
     refuse(
         "a --responder judges what was displayed, which --set and --simulator would change; add "
         "--rerun to run the trials anew");
+  if (!options.rerun) check_world(options.set);
   if (options.json && !options.judges())
     refuse("--json is for what a --responder judges, without --rerun");
   if (!options.view.empty() && !options.responder.empty())
@@ -101,6 +121,23 @@ bool verify(const LogReader& reader, std::int64_t session_id) {
   return !found.first;
 }
 
+// What this program is built without another one verifies, from the first line on.
+void require_simulators(const LogReader& reader, const std::vector<std::int64_t>& ids) {
+  for (const std::int64_t id : ids)
+    for (const LoggedSetup& logged : reader.setups(id))
+      for (const SimulatorEntry& entry : simulators())
+        if (entry.name == logged.setup.simulator) simulator_named(entry.name);
+}
+
+// Sessions are numbered from 1, and none is ever taken out.
+bool none_is_missing(const std::vector<std::int64_t>& ids) {
+  std::int64_t next = 1;
+  for (const std::int64_t id : ids)
+    for (; next <= id; ++next)
+      if (next < id) print("session {} is missing: its rows were taken out of the log\n", next);
+  return next == std::ssize(ids) + 1;
+}
+
 void verify_all(const LogReader& reader, const ReplayOptions& options) {
   bool same = true;
   for (const std::string& fault : check_integrity(options.db)) {
@@ -108,8 +145,10 @@ void verify_all(const LogReader& reader, const ReplayOptions& options) {
     same = false;
   }
   try {
-    for (const std::int64_t session_id : chosen_sessions(reader, options))
-      same = verify(reader, session_id) && same;
+    const auto ids = chosen_sessions(reader, options);
+    require_simulators(reader, ids);
+    for (const std::int64_t session_id : ids) same = verify(reader, session_id) && same;
+    if (!options.session) same = none_is_missing(ids) && same;
   } catch (const Error& error) {
     if (same) throw;  // what was asked for is not there
     print("first divergence: no trial: {}\n", error.what());
@@ -318,7 +357,8 @@ void add_replay(Command& app) {
   command.add_option("--simulator", &options->simulator,
                      "run the logged hand through this simulator, and compare lags and paths");
   command.add_option("--set", &options->set,
-                     "change a key of the protocol, such as coupling.stiffness_n_per_m=100");
+                     "change a key of the protocol, such as coupling.stiffness_n_per_m=100: of its "
+                     "physics, coupling, technique, layout or effector, with --rerun any");
   command.add_option("--view", &options->view,
                      "window or video:FILE: show the logged frames, with --set or --simulator also "
                      "the clone as it would be");

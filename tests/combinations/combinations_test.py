@@ -9,6 +9,7 @@ import json
 import os
 import random
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -26,6 +27,7 @@ from protocols import ALL, N_ALL, ONE, PAIRS, TWO, protocol, write_recording  # 
 from session_harness import query  # noqa: E402
 from window_test import Person, Screen  # noqa: E402
 
+GOLDEN_LOGS = ROOT / "tests" / "golden" / "logs"
 CAMERA = ROOT / "protocols" / "apparatus" / "synthetic_camera.yaml"
 RESTING = ["always_yes", "always_no", "coin", "criterion_only"]
 FILMED = ["synthetic", "frames", "video"]
@@ -204,6 +206,40 @@ class Combinations(unittest.TestCase):
 
     # People
 
+    def test_an_older_log_goes_on_with_another_simulator(self):
+        for simulator in ("", "bullet-ea", "boxes"):  # "": the one that it was begun with
+            with self.subTest(simulator=simulator):
+                db = shutil.copy(GOLDEN_LOGS / "version_2.db", self.folder / f"old-{simulator}.db")
+                self.heft("resume", "--db", db, *(["--simulator", simulator] if simulator else []))
+                self.verified(db)
+
+    def test_a_log_that_a_session_was_taken_out_of_says_so(self):
+        db = self.folder / "three.db"
+        for participant in "123":
+            self.heft("run", self.folder / "one.toml", "--participant", participant, "--responder",
+                      "always_no", "--db", db)
+        self.verified(db)
+        log = sqlite3.connect(db)
+        tables = [name for name, in log.execute("select name from sqlite_master where type = 'table'")]
+        columns = {table: [row[1] for row in log.execute(f"pragma table_info({table})")]
+                   for table in tables}
+        for table in sorted(tables, key=lambda name: "session_id" in columns[name]):
+            if "session_id" in columns[table]:
+                log.execute(f"delete from {table} where session_id = 2")
+            elif "trial_id" in columns[table]:
+                log.execute(f"delete from {table} where trial_id in "
+                            "(select trial_id from trial where session_id = 2)")
+        log.commit()
+        log.close()
+        told = self.heft("replay", "--db", db, expect=5).stdout
+        self.assertIn("session 2 is missing", told)
+
+    def test_a_simulator_of_the_studies_alone_is_verified_too(self):
+        db = self.folder / "studies.db"
+        self.heft("run", self.folder / "one.toml", "--participant", "1", "--responder", "simulated",
+                  "--simulator", "bullet-stable-pd", "--db", db)
+        self.verified(db)
+
     def answered(self, db, *command):
         screen = Screen()
         try:
@@ -284,6 +320,9 @@ class Combinations(unittest.TestCase):
          "window"),
         (2, ["--responder", "human", "--view", "window", "--tracker", "hand", "--simulator",
              "push"], "straight strokes"),
+        (2, ["--responder", "simulated", "--simulator", "push"], "straight strokes"),
+        (2, ["--responder", "simulated", "--tracker", "synthetic", "--simulator", "quasi_static"],
+         "straight strokes"),
         (2, ["--responder", "coin", "--tracker", "mouse", "--view", "window"], "hand of its own"),
         (2, ["--responder", "human", "--tracker", "mouse", "--view", "headless"], "window"),
         (2, ["--responder", "human", "--tracker", "mouse:FOLDER/frames"], "nothing after"),
