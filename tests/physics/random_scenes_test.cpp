@@ -146,7 +146,7 @@ Tried tried_track(const std::string& name, const RandomScene& made, int rate_hz)
           std::max(tried.turned_rad, rotation_vector(pose.orientation * start.conjugate()).norm());
     }
   }
-  tried.n_unsettled = simulator->counts().value().unsettled;
+  if (const auto counts = simulator->counts()) tried.n_unsettled = counts->unsettled;
   return tried;
 }
 
