@@ -6,6 +6,9 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "apparatus/LoggedSession.h"
 #include "base/Error.h"
@@ -116,16 +119,29 @@ void print_progress(const std::vector<TrialRow>& trials) {
             escaped_line(trial.void_reason.value_or("")));
 }
 
+std::string in_short(const Setup& setup) {
+  const auto often = [](const std::optional<double>& hz) {
+    return hz ? fmt::format(" at {} Hz", *hz) : std::string{};
+  };
+  const std::string simulator = setup.simulator.empty() ? "of the protocol" : setup.simulator;
+  std::string told = fmt::format("responder {}, tracker {}, simulator {}{}, view {}{}",
+                                 escaped_line(setup.responder), escaped_line(setup.tracker),
+                                 escaped_line(simulator), often(setup.rate_hz),
+                                 escaped_line(setup.view), often(setup.display_rate_hz));
+  for (const auto& [name, value] :
+       {std::pair{"input", setup.input}, {"display", setup.display}, {"language", setup.language}})
+    if (!value.empty()) told += fmt::format(", {} {}", name, escaped_line(value));
+  for (const std::string& setting : settings_of(setup)) told += ", set " + escaped_line(setting);
+  return told;
+}
+
 void print_setups(const std::vector<LoggedSetup>& setups) {
   print("\nsetups\n");
   const Setup* before = nullptr;
   for (const LoggedSetup& logged : setups) {
     print("  from event {}:", logged.from_event);
     if (!before) {
-      const Setup& setup = logged.setup;
-      print(" responder {}, tracker {}, simulator {}, view {}{}\n", escaped_line(setup.responder),
-            escaped_line(setup.tracker), escaped_line(setup.simulator), escaped_line(setup.view),
-            setup.display.empty() ? "" : ", display " + escaped_line(setup.display));
+      print(" {}\n", in_short(logged.setup));
     } else {
       std::string changes;
       for (const auto& [column, from, to] : changes_between(*before, logged.setup))

@@ -349,6 +349,12 @@ class ListAndShow(StudyTest):
         self.assertIn("study mass: 1 of 4", said)
         self.assertNotRegex(said, r"\d+ ?g\b")
 
+    def test_show_tells_what_a_session_was_run_with(self):
+        self.next("--set", "coupling.stiffness_n_per_m=80", "--simulator", "bullet")
+        said = self.run_heft("show", "--db", self.db).stdout
+        self.assertRegex(said, r"simulator bullet at \d+ Hz, view headless at \d+ Hz, input path")
+        self.assertIn(", set coupling.stiffness_n_per_m=80", said)
+
     def test_logs_that_are_none_are_refused(self):
         self.assertIn("there is no file", self.run_heft("list", "--db", self.folder / "no.db",
                                                         expect=1).stderr)
