@@ -243,6 +243,7 @@ class Replaying(SessionTest):
         self.tampered("update session set started_utc = '2020-01-01T00:00:00.000Z'", "header")
         self.tampered("update session set run_options = '{}'", "header")
         self.tampered("update session set protocol_text = ''", "protocol")
+        self.tampered("update event set detail = 'x' where kind = 'setup'", "session 1: DIVERGED")
         self.tampered("update event set detail = 'nothing happened' where event_id = (select "
                       "min(event_id) from event where kind = 'trial_started')", "digest")
 

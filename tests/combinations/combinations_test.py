@@ -204,14 +204,17 @@ class Combinations(unittest.TestCase):
             cases.append(("window", "coin", "--view", "window"))
         self.each(self.follow, cases)
 
-    # People
+    # What logs tell of it
 
     def test_an_older_log_goes_on_with_another_simulator(self):
         for simulator in ("", "bullet-ea", "boxes"):  # "": the one that it was begun with
             with self.subTest(simulator=simulator):
                 db = shutil.copy(GOLDEN_LOGS / "version_2.db", self.folder / f"old-{simulator}.db")
-                self.heft("resume", "--db", db, *(["--simulator", simulator] if simulator else []))
+                self.heft("resume", "--db", db, "--tracker", "hand",
+                          *(["--simulator", simulator] if simulator else []))
                 self.verified(db)
+                resumed, = query(db, "select simulator from setup order by setup_id desc limit 1")
+                self.assertEqual(resumed[0], simulator or "boxes")
 
     def test_a_log_that_a_session_was_taken_out_of_says_so(self):
         db = self.folder / "three.db"
@@ -232,13 +235,24 @@ class Combinations(unittest.TestCase):
         log.commit()
         log.close()
         told = self.heft("replay", "--db", db, expect=5).stdout
-        self.assertIn("session 2 is missing", told)
+        self.assertIn("between sessions 1 and 3", told)
 
     def test_a_simulator_of_the_studies_alone_is_verified_too(self):
         db = self.folder / "studies.db"
         self.heft("run", self.folder / "one.toml", "--participant", "1", "--responder", "simulated",
                   "--simulator", "bullet-stable-pd", "--db", db)
         self.verified(db)
+
+    def test_a_simulator_of_the_studies_after_another_session_is_told_once(self):
+        db = self.folder / "mixed.db"
+        for simulator in ("boxes", "bullet-stable-pd"):
+            self.heft("run", self.folder / "one.toml", "--participant", simulator, "--responder",
+                      "simulated", "--simulator", simulator, "--db", db)
+        told = self.heft("replay", "--db", db).stdout
+        self.assertEqual(told.count("session 1: verified"), 1, told)
+        self.assertEqual(told.count("session 2: verified"), 1, told)
+
+    # People
 
     def answered(self, db, *command):
         screen = Screen()
