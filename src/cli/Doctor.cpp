@@ -293,7 +293,7 @@ void add_doctor(Command& app) {
   command.add_option("--tracker", &options->given.tracker,
                      "look through this camera: camera:N, video:FILE, frames:FOLDER");
   add_apparatus_options(command, options->given);
-  command.group("DoctorOptions");
+  command.group("Options");
   command.add_option("--display-rate", &options->rate_hz, "pictures a second that are wanted")
       .shows_default();
   command.add_option("--responder", &options->responder, "only describe its parameters");
