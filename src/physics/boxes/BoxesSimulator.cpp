@@ -18,7 +18,8 @@ using boxes::Motion;
 using Eigen::Vector3d;
 
 // Near boxes a step is cut into pieces in which the clone's oscillator turns no farther than this,
-// and no box either: a push is taken as steady over a piece, a lever as the same.
+// and no box either: a push is taken as steady over a piece, a lever as the same. Where that would
+// be more pieces than the most, they are longer.
 constexpr double oscillation_rad = 0.4, turn_rad = 0.05;
 // A coupled clone has none; but the cube that it throws ahead and meets again wants short pieces.
 constexpr double coupled_per_s = 190;
