@@ -1,4 +1,5 @@
-// Whether who takes part can give the answers that the protocol takes.
+// Whether who takes part can give the answers that the protocol takes, and the simulator bears what
+// their hand does.
 #include <fmt/format.h>
 
 #include <optional>

@@ -28,12 +28,10 @@ namespace {
       path, HEFT_VERSION));
 }
 
-constexpr int opening_timeout_ms = 5000;
-
 std::unique_ptr<SQLite::Database> opened(const std::string& path, const std::string& file) {
   try {
     auto database =
-        std::make_unique<SQLite::Database>(file, SQLite::OPEN_READWRITE, opening_timeout_ms);
+        std::make_unique<SQLite::Database>(file, SQLite::OPEN_READWRITE, lock_timeout_ms);
     distrust(*database);
     return database;
   } catch (const SQLite::Exception& error) {

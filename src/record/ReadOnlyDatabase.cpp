@@ -32,11 +32,9 @@ void distrust(SQLite::Database& database) {
 }
 
 namespace {
-constexpr int reading_timeout_ms = 5000;
-
 // Opening does not read yet, so a first look is part of it.
 std::unique_ptr<SQLite::Database> opened(const std::string& name, int flags) {
-  auto database = std::make_unique<SQLite::Database>(name, flags, reading_timeout_ms);
+  auto database = std::make_unique<SQLite::Database>(name, flags, lock_timeout_ms);
   distrust(*database);
   database->exec("PRAGMA query_only = ON");
   database->execAndGet("SELECT count(*) FROM sqlite_master");

@@ -12,6 +12,9 @@ class Database;
 
 namespace heft {
 
+/// For how long a statement waits for another program's lock.
+inline constexpr int lock_timeout_ms = 5000;
+
 /// Triggers, views, functions named by the schema and writes to the schema's own tables are off for
 /// this connection, and a word in double quotes is a name or a mistake. To be called before the
 /// first statement; tables, their rules and references work as ever.

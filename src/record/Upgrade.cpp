@@ -172,7 +172,7 @@ void upgrade(SQLite::Database& database) {
     if (kind_of(database) == FileKind::older_log) rebuild(database, path);
     transaction.commit();
   } catch (const SQLite::Exception& error) {
-    if (error.getErrorCode() != SQLITE_CONSTRAINT) throw;
+    if ((error.getErrorCode() & 0xff) != SQLITE_CONSTRAINT) throw;
     throw Error(fmt::format("the log holds a row that heft never wrote: {}. Go on with a copy from "
                             "before it was changed",
                             error.what()),

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "physics/DecouplingSimulator.h"
 #include "protocol/Files.h"
 #include "responders/Hand.h"
 

@@ -6,9 +6,7 @@
 #include "apparatus/FilmedPictures.h"
 #include "apparatus/PacedPictures.h"
 #include "apparatus/ShippedApparatus.h"
-#include "protocol/Files.h"
 #include "tracking/LiveCamera.h"
-#include "tracking/MarkerBody.h"
 
 namespace heft {
 namespace {

@@ -3,8 +3,6 @@
 
 #include "apparatus/FilmedPictures.h"
 #include "apparatus/ShippedApparatus.h"
-#include "protocol/Files.h"
-#include "tracking/MarkerBody.h"
 
 namespace heft {
 namespace {
