@@ -20,7 +20,7 @@ struct Measurement {
   Fate fate = Fate::ran;
   std::string why;
   TrackError error;
-  double cpu_us_per_s = 0;  ///< of one core, per simulated second
+  double cpu_us_per_s = 0;            ///< of one core, per simulated second
   std::optional<SolveCounts> counts;  ///< over the scene
   std::optional<EnergyBalance> energy;
 };

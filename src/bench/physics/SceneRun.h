@@ -39,8 +39,8 @@ struct EnumNames<Fate> {
 
 struct SceneRun {
   Fate fate = Fate::ran;
-  std::string why;       ///< in the simulator's words, unless it ran
-  SceneTrack track;      ///< until then
+  std::string why;   ///< in the simulator's words, unless it ran
+  SceneTrack track;  ///< until then
   std::optional<SolveCounts> counts;
 };
 
