@@ -9,37 +9,37 @@ namespace heft {
 namespace {
 using nlohmann::ordered_json;
 
-ordered_json figure(std::optional<double> value) {
+ordered_json number_json(std::optional<double> value) {
   return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-ordered_json low(const std::optional<Interval>& interval) {
-  return interval ? figure(interval->low) : ordered_json(nullptr);
+ordered_json low_json(const std::optional<Interval>& interval) {
+  return interval ? number_json(interval->low) : ordered_json(nullptr);
 }
 
-ordered_json high(const std::optional<Interval>& interval) {
-  return interval ? figure(interval->high) : ordered_json(nullptr);
+ordered_json high_json(const std::optional<Interval>& interval) {
+  return interval ? number_json(interval->high) : ordered_json(nullptr);
 }
 
 ordered_json proportion_json(const Proportion& proportion) {
   const bool any = proportion.method != IntervalMethod::none;
-  return {{"mean", figure(proportion.mean_percent)},
-          {"sd", figure(proportion.sd_percent)},
-          {"low", low(proportion.interval_percent)},
-          {"high", high(proportion.interval_percent)},
-          {"published", figure(proportion.published_percent)},
-          {"published_sd", figure(proportion.published_sd_percent)},
+  return {{"mean", number_json(proportion.mean_percent)},
+          {"sd", number_json(proportion.sd_percent)},
+          {"low", low_json(proportion.interval_percent)},
+          {"high", high_json(proportion.interval_percent)},
+          {"published", number_json(proportion.published_percent)},
+          {"published_sd", number_json(proportion.published_sd_percent)},
           {"interval", any ? ordered_json(name_of(proportion.method)) : ordered_json(nullptr)},
-          {"pooled", figure(proportion.pooled_percent)},
+          {"pooled", number_json(proportion.pooled_percent)},
           {"n_participants", proportion.n_participants},
           {"n_hits", proportion.trials.n_hits},
           {"n_trials", proportion.trials.n_trials}};
 }
 
 ordered_json rate_json(const Rate& rate) {
-  return {{"percent", figure(rate.percent)},
-          {"low", low(rate.interval_percent)},
-          {"high", high(rate.interval_percent)},
+  return {{"percent", number_json(rate.percent)},
+          {"low", low_json(rate.interval_percent)},
+          {"high", high_json(rate.interval_percent)},
           {"n_hits", rate.trials.n_hits},
           {"n_trials", rate.trials.n_trials}};
 }
@@ -58,7 +58,7 @@ ordered_json sorting_json(const ConditionSorting& sorting) {
           {"answered",
            {{"correct", proportion_json(sorting.answered_correct)},
             {"incorrect", proportion_json(sorting.answered_incorrect)}}},
-          {"chance", figure(sorting.chance_percent())},
+          {"chance", number_json(sorting.chance_percent())},
           {"swapped", swaps_json(sorting)},
           {"n_trials", sorting.n_trials},
           {"n_participants", sorting.n_participants}};
@@ -67,10 +67,10 @@ ordered_json sorting_json(const ConditionSorting& sorting) {
 ordered_json introduction_json(const IntroductionSummary& introduction) {
   const Rate& rate = introduction.first_try;
   return {{"first_try",
-           {{"percent", figure(rate.percent)},
-            {"low", low(rate.interval_percent)},
-            {"high", high(rate.interval_percent)},
-            {"published", figure(introduction.published_percent)},
+           {{"percent", number_json(rate.percent)},
+            {"low", low_json(rate.interval_percent)},
+            {"high", high_json(rate.interval_percent)},
+            {"published", number_json(introduction.published_percent)},
             {"published_n", introduction.published_n ? ordered_json(*introduction.published_n)
                                                      : ordered_json(nullptr)}}},
           {"n_first_try", rate.trials.n_hits},
@@ -83,7 +83,7 @@ ordered_json participants_json(const ReferenceJnd& jnd) {
     const bool exact = one.censored == Censored::none;
     participants.push_back(
         {{"participant", one.participant},
-         {"jnd_g", figure(one.jnd_g)},
+         {"jnd_g", number_json(one.jnd_g)},
          {"censored", exact ? ordered_json(nullptr) : ordered_json(name_of(one.censored))}});
   }
   for (const std::string& one : jnd.missing)
@@ -95,10 +95,10 @@ ordered_json started_json(const std::optional<StartEffect>& starts,
                           StartedJnds StartEffect::*which) {
   if (!starts) return nullptr;
   const StartedJnds& jnds = (*starts).*which;
-  return {{"mean_g", figure(jnds.mean)},
-          {"sd_g", figure(jnds.sd)},
-          {"low_g", low(jnds.interval)},
-          {"high_g", high(jnds.interval)},
+  return {{"mean_g", number_json(jnds.mean)},
+          {"sd_g", number_json(jnds.sd)},
+          {"low_g", low_json(jnds.interval)},
+          {"high_g", high_json(jnds.interval)},
           {"summary",
            jnds.kind == MeanKind::none ? ordered_json(nullptr) : ordered_json(name_of(jnds.kind))},
           {"n", jnds.n()},
@@ -112,17 +112,17 @@ ordered_json jnd_json(const ReferenceJnd& jnd) {
   const auto of_any = [any](auto value) {
     return any ? ordered_json(value) : ordered_json(nullptr);
   };
-  return {{"reference_g", figure(jnd.compared.reference_g)},
+  return {{"reference_g", number_json(jnd.compared.reference_g)},
           {"condition", jnd.compared.condition},
-          {"mean_g", figure(jnd.mean_g)},
-          {"sd_g", figure(jnd.sd_g)},
-          {"low_g", low(jnd.interval_g)},
-          {"high_g", high(jnd.interval_g)},
+          {"mean_g", number_json(jnd.mean_g)},
+          {"sd_g", number_json(jnd.sd_g)},
+          {"low_g", low_json(jnd.interval_g)},
+          {"high_g", high_json(jnd.interval_g)},
           {"from_above", started_json(jnd.starts, &StartEffect::from_above_g)},
           {"from_below", started_json(jnd.starts, &StartEffect::from_below_g)},
           {"above_minus_below", started_json(jnd.starts, &StartEffect::difference_g)},
-          {"published_g", figure(jnd.published_g)},
-          {"published_sd_g", figure(jnd.published_sd_g)},
+          {"published_g", number_json(jnd.published_g)},
+          {"published_sd_g", number_json(jnd.published_sd_g)},
           {"summary", jnd.summary == MeanKind::none ? ordered_json(nullptr)
                                                     : ordered_json(name_of(jnd.summary))},
           {"n", jnd.n()},
@@ -147,21 +147,21 @@ ordered_json jnd_json(const ReferenceJnd& jnd) {
 
 ordered_json sensitivity_json(const ReferenceSensitivity& row) {
   const PooledSensitivity& pooled = row.pooled;
-  return {{"reference_g", figure(row.compared.reference_g)},
+  return {{"reference_g", number_json(row.compared.reference_g)},
           {"condition", row.compared.condition},
           {"n", pooled.n},
           {"n_trials", static_cast<int>(pooled.n_trials)},
           {"identifiable", pooled.identifiable()},
           {"why", pooled.identifiable() ? ordered_json(nullptr) : ordered_json(pooled.why)},
-          {"threshold_75_g", figure(pooled.threshold_75_g)},
-          {"low_g", low(pooled.threshold_interval_g)},
-          {"high_g", high(pooled.threshold_interval_g)},
-          {"sensitivity_per_g", figure(pooled.sensitivity)},
-          {"sensitivity_low_per_g", low(pooled.sensitivity_interval)},
-          {"sensitivity_high_per_g", high(pooled.sensitivity_interval)},
-          {"indecision", figure(pooled.indecision)},
-          {"indecision_low", low(pooled.indecision_interval)},
-          {"indecision_high", high(pooled.indecision_interval)}};
+          {"threshold_75_g", number_json(pooled.threshold_75_g)},
+          {"low_g", low_json(pooled.threshold_interval_g)},
+          {"high_g", high_json(pooled.threshold_interval_g)},
+          {"sensitivity_per_g", number_json(pooled.sensitivity)},
+          {"sensitivity_low_per_g", low_json(pooled.sensitivity_interval)},
+          {"sensitivity_high_per_g", high_json(pooled.sensitivity_interval)},
+          {"indecision", number_json(pooled.indecision)},
+          {"indecision_low", low_json(pooled.indecision_interval)},
+          {"indecision_high", high_json(pooled.indecision_interval)}};
 }
 
 ordered_json quality_json(const Quality& quality) {
@@ -178,7 +178,7 @@ ordered_json quality_json(const Quality& quality) {
                       {"n_attempts", row.n_attempts},
                       {"n_void", row.n_void},
                       {"n_lost", row.n_lost},
-                      {"lost_s", figure(row.lost_s)},
+                      {"lost_s", number_json(row.lost_s)},
                       {"n_impossible", row.n_impossible}});
   for (const ResetRow& row : quality.resets)
     resets.push_back({{"mass", row.mass}, {"n_cubes", row.n_cubes}, {"n_reset", row.n_reset}});
@@ -198,8 +198,8 @@ ordered_json hypotheses_json(const Summary& summary) {
 
 ordered_json choices_json(const ComparisonChoices& choices) {
   ordered_json json;
-  json["reference_g"] = figure(choices.reference_g);
-  if (choices.level_g) json["level_g"] = figure(choices.level_g);
+  json["reference_g"] = number_json(choices.reference_g);
+  if (choices.level_g) json["level_g"] = number_json(choices.level_g);
   json["n_trials"] = choices.n_trials;
   json["difference"] = rate_json(choices.difference);
   json["wrong_cube"] = rate_json(choices.wrong_cube);
@@ -213,9 +213,9 @@ ordered_json times_json(const ResponseTimes& times) {
   return {{"task", name_of(times.task)},
           {"condition", times.condition},
           {"n_trials", times.n_trials},
-          {"median_s", figure(times.median_s)},
-          {"lower_quartile_s", figure(times.lower_quartile_s)},
-          {"upper_quartile_s", figure(times.upper_quartile_s)}};
+          {"median_s", number_json(times.median_s)},
+          {"lower_quartile_s", number_json(times.lower_quartile_s)},
+          {"upper_quartile_s", number_json(times.upper_quartile_s)}};
 }
 
 ordered_json session_json(const SessionSummary& session) {
@@ -254,25 +254,25 @@ ordered_json flow_json(const ParticipantFlow& flow) {
 }
 
 ordered_json threshold_json(const PersonThreshold& person) {
-  return {{"reference_g", figure(person.compared.reference_g)},
+  return {{"reference_g", number_json(person.compared.reference_g)},
           {"condition", person.compared.condition},
           {"participant", person.participant},
           {"identifiable", person.identifiable()},
           {"why", person.identifiable() ? ordered_json(nullptr) : ordered_json(person.why)},
-          {"threshold_75_g", figure(person.threshold_75_g)},
-          {"low_g", low(person.interval_g)},
-          {"high_g", high(person.interval_g)}};
+          {"threshold_75_g", number_json(person.threshold_75_g)},
+          {"low_g", low_json(person.interval_g)},
+          {"high_g", high_json(person.interval_g)}};
 }
 
 ordered_json tracking_json(const PersonTracking& person) {
   const FrameCounts& frames = person.counts.frames;
   return {{"participant", person.participant},
-          {"in_view_percent", figure(person.in_view_percent())},
+          {"in_view_percent", number_json(person.in_view_percent())},
           {"n_lost", person.counts.n_lost},
           {"n_frames", frames.n_frames},
-          {"tracked_percent", figure(person.tracked_percent())},
+          {"tracked_percent", number_json(person.tracked_percent())},
           {"n_jumps", frames.n_jumps},
-          {"mean_quality", figure(frames.mean_quality)}};
+          {"mean_quality", number_json(frames.mean_quality)}};
 }
 
 ordered_json comparison_json(const ComparisonSummary& comparison) {

@@ -62,7 +62,7 @@ ChoiceBin choice_bin(const Compared& compared, const Trials& bin, const Comparis
                   rate_of(right), rate_of(wrong),    rate_of(none)};
   if (trials.participants().size() <= most_lines)
     for (const auto& [participant, tally] : right)
-      found.right_percent_of[participant] = 100.0 * tally.n_hits / tally.n_trials;
+      found.right_percent_of[participant] = tally.percent();
   return found;
 }
 
@@ -90,7 +90,7 @@ void put_comparisons(Points& points, const ComparisonTrials& all) {
 
 std::optional<double> percent_of(const Tally& tally) {
   if (tally.n_trials == 0) return std::nullopt;
-  return 100.0 * tally.n_hits / tally.n_trials;
+  return tally.percent();
 }
 
 void put_detection(Points& points, const ComparisonTrials& all) {

@@ -8,10 +8,6 @@
 namespace heft {
 
 namespace {
-double percent_of(const Tally& tally) {
-  return 100.0 * tally.n_hits / tally.n_trials;
-}
-
 Tally all_together(const Tallies& tallies) {
   Tally all;
   for (const auto& [participant, tally] : tallies) {
@@ -76,14 +72,14 @@ bool all_alike(std::span<const Tally> counted) {
 
 Interval interval_of_alike(std::span<const Tally> counted, double confidence) {
   const double n = static_cast<double>(counted.size());
-  return exact_interval(percent_of(counted[0]) / 100 * n, n, confidence);
+  return exact_interval(counted[0].percent() / 100 * n, n, confidence);
 }
 
 // The mean over participants of each one's share.
 Interval mean_interval(std::span<const Tally> counted, double confidence) {
   if (all_alike(counted)) return interval_of_alike(counted, confidence);
   Moves fractions;
-  for (const Tally& tally : counted) fractions.push_back(percent_of(tally) / 100);
+  for (const Tally& tally : counted) fractions.push_back(tally.percent() / 100);
   const double center = *mean(fractions), n = static_cast<double>(counted.size());
   for (double& fraction : fractions) fraction = (fraction - center) / (n - 1);
   return participants_interval(center, fractions, confidence);
@@ -92,7 +88,7 @@ Interval mean_interval(std::span<const Tally> counted, double confidence) {
 // A share of all trials: a ratio of two sums over participants.
 Interval ratio_interval(std::span<const Tally> counted, const Tally& all) {
   if (all_alike(counted)) return interval_of_alike(counted, confidence_level);
-  const double fraction = percent_of(all) / 100;
+  const double fraction = all.percent() / 100;
   Moves moves;
   for (const Tally& tally : counted)
     moves.push_back((tally.n_hits - fraction * tally.n_trials) / (all.n_trials - tally.n_trials));
@@ -110,13 +106,13 @@ std::optional<Interval> interval_percent_of(const Tallies& tallies, double confi
 Proportion proportion_of(const Tallies& tallies) {
   Proportion proportion;
   std::vector<double> percents;
-  for (const Tally& tally : with_trials(tallies)) percents.push_back(percent_of(tally));
+  for (const Tally& tally : with_trials(tallies)) percents.push_back(tally.percent());
   if (percents.empty()) return proportion;
   proportion.trials = all_together(tallies);
   proportion.n_participants = static_cast<int>(percents.size());
   proportion.mean_percent = mean(percents);
   proportion.sd_percent = sample_sd(percents);
-  proportion.pooled_percent = percent_of(proportion.trials);
+  proportion.pooled_percent = proportion.trials.percent();
   const bool participants_differ = proportion.sd_percent.value_or(0) > 0;
   proportion.method = participants_differ ? IntervalMethod::participants : IntervalMethod::exact;
   proportion.interval_percent = interval_percent_of(tallies, confidence_level);
@@ -127,7 +123,7 @@ Rate rate_of(const Tallies& tallies) {
   const std::vector<Tally> counted = with_trials(tallies);
   Rate rate{all_together(tallies), static_cast<int>(counted.size()), std::nullopt, std::nullopt};
   if (counted.empty()) return rate;
-  rate.percent = percent_of(rate.trials);
+  rate.percent = rate.trials.percent();
   rate.interval_percent =
       percent(counted.size() > 1 ? ratio_interval(counted, rate.trials)
                                  : exact_interval(rate.trials.n_hits, rate.trials.n_trials));
@@ -136,7 +132,7 @@ Rate rate_of(const Tallies& tallies) {
 
 Rate rate_of_people(const Tally& people) {
   if (people.n_trials == 0) return {people, 0, std::nullopt, std::nullopt};
-  return {people, people.n_trials, percent_of(people),
+  return {people, people.n_trials, people.percent(),
           percent(exact_interval(people.n_hits, people.n_trials))};
 }
 

@@ -31,6 +31,7 @@ struct Tally {
     n_trials += 1;
     n_hits += hit ? 1 : 0;
   }
+  double percent() const { return 100.0 * n_hits / n_trials; }  ///< where there are trials
 };
 
 /// Tallies by participant.

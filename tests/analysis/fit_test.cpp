@@ -10,6 +10,7 @@
 #include <limits>
 #include <string_view>
 
+#include "Coverage.h"
 #include "base/Random.h"
 
 namespace heft {
@@ -48,17 +49,10 @@ const std::vector<double> seven{1, 2, 3, 4, 5, 6, 7};
 const std::vector<double> compared_g{0, 50, 100, 150, 200, 300};
 
 // How often in 100 the 95 % interval of a parameter holds what was put in.
-class Coverage {
- public:
-  void add(const FittedParameter& fitted, double truth) {
-    ++n_;
-    n_held_ += (!fitted.low || *fitted.low <= truth) && (!fitted.high || truth <= *fitted.high);
-  }
-  double percent() const { return 100.0 * n_held_ / n_; }
-
- private:
-  int n_ = 0, n_held_ = 0;
-};
+Interval interval_of(const FittedParameter& fitted) {
+  constexpr double open_end = std::numeric_limits<double>::infinity();
+  return {fitted.low.value_or(-open_end), fitted.high.value_or(open_end)};
+}
 
 void expect_to_hold(const Person& person, const FitOptions& options) {
   Coverage threshold, slope;
@@ -68,8 +62,8 @@ void expect_to_hold(const Person& person, const FitOptions& options) {
     const Fit fit = fit_psychometric(answers_of(person, seven, 40, random), options);
     if (!fit.identifiable()) continue;
     ++n_identifiable;
-    threshold.add(fit.parameter("threshold"), person.parameters.threshold);
-    slope.add(fit.parameter("slope"), person.parameters.slope);
+    threshold.add(interval_of(fit.parameter("threshold")), person.parameters.threshold);
+    slope.add(interval_of(fit.parameter("slope")), person.parameters.slope);
   }
   EXPECT_GT(n_identifiable, 850);
   for (const Coverage& coverage : {threshold, slope}) {
@@ -94,10 +88,10 @@ TEST(IndecisionFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   for (int i = 0; i < 1000; ++i) {
     const Fit fit = fit_indecision(choices_of(person, compared_g, 20, random), options);
     if (!fit.identifiable()) continue;
-    sensitivity.add(fit.parameter("sensitivity"), person.sensitivity);
-    indecision.add(fit.parameter("indecision"), person.indecision);
-    bias.add(fit.parameter("bias"), person.bias);
-    threshold.add(fit.parameter("threshold_75_g"), 0.6745 / person.sensitivity);
+    sensitivity.add(interval_of(fit.parameter("sensitivity")), person.sensitivity);
+    indecision.add(interval_of(fit.parameter("indecision")), person.indecision);
+    bias.add(interval_of(fit.parameter("bias")), person.bias);
+    threshold.add(interval_of(fit.parameter("threshold_75_g")), 0.6745 / person.sensitivity);
   }
   for (const Coverage& coverage : {sensitivity, indecision, bias, threshold}) {
     EXPECT_GE(coverage.percent(), 93);

@@ -45,7 +45,7 @@ step = 50
 floor = 0
 )";
 
-std::string edited(const std::string& from, const std::string& to) {
+std::string declared_with(const std::string& from, const std::string& to) {
   std::string text = declared;
   return text.replace(text.find(from), from.size(), to);
 }
@@ -81,14 +81,15 @@ TEST(Techniques, MakeTheScenesCoupling) {
 }
 
 TEST(Techniques, ThatAreNotThereAreNamedWithTheirPlace) {
-  EXPECT_THAT(what_is_wrong_in(edited("technique = \"soft\"", "technique = \"sft\"")),
+  EXPECT_THAT(what_is_wrong_in(declared_with("technique = \"soft\"", "technique = \"sft\"")),
               HasSubstr("techniques.toml:19:"));
-  EXPECT_THAT(what_is_wrong_in(edited("tied = 3", "tide = 3")), HasSubstr("no technique \"tide\""));
-  EXPECT_THAT(what_is_wrong_in(edited("kind = \"coupled\"", "kind = \"elastic\"")),
+  EXPECT_THAT(what_is_wrong_in(declared_with("tied = 3", "tide = 3")),
+              HasSubstr("no technique \"tide\""));
+  EXPECT_THAT(what_is_wrong_in(declared_with("kind = \"coupled\"", "kind = \"elastic\"")),
               HasSubstr("techniques.toml:10:"));
-  EXPECT_THAT(what_is_wrong_in(edited("name = \"tied\"", "name = \"soft\"")),
+  EXPECT_THAT(what_is_wrong_in(declared_with("name = \"tied\"", "name = \"soft\"")),
               HasSubstr("already a"));
-  EXPECT_THAT(what_is_wrong_in(edited("{ soft = 2, C1 = 1, tied = 3 }", "{ soft = 0 }")),
+  EXPECT_THAT(what_is_wrong_in(declared_with("{ soft = 2, C1 = 1, tied = 3 }", "{ soft = 0 }")),
               HasSubstr("trials are 0 in all"));
 }
 

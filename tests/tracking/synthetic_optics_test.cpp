@@ -183,7 +183,7 @@ TEST_P(EveryFamily, IsFoundAgainByTheDetector) {
 INSTANTIATE_TEST_SUITE_P(SyntheticOptics, EveryFamily, testing::ValuesIn(tag_family_names()),
                          [](const auto& tested) { return std::string(tested.param); });
 
-std::string message_of(const Apparatus& apparatus) {
+std::string refusal_of(const Apparatus& apparatus) {
   try {
     SyntheticCamera(apparatus, {}, 1);
   } catch (const Error& error) {
@@ -195,19 +195,19 @@ std::string message_of(const Apparatus& apparatus) {
 TEST(SyntheticOptics, RefusesWhatItCanNotShow) {
   Apparatus apparatus = default_apparatus(640);
   apparatus.board.family = "tag36h12";
-  EXPECT_NE(message_of(apparatus).find("tag36h11"), std::string::npos) << message_of(apparatus);
+  EXPECT_NE(refusal_of(apparatus).find("tag36h11"), std::string::npos) << refusal_of(apparatus);
 
   apparatus = default_apparatus(640);
   apparatus.effector.tags[0].id = 587;
-  EXPECT_NE(message_of(apparatus).find("0 to 586"), std::string::npos) << message_of(apparatus);
+  EXPECT_NE(refusal_of(apparatus).find("0 to 586"), std::string::npos) << refusal_of(apparatus);
 
   apparatus = default_apparatus(640);
   for (Vector3d& corner : apparatus.board.tags[3].corners_m) corner.z() = 0.01;
-  EXPECT_NE(message_of(apparatus).find("tag 3"), std::string::npos) << message_of(apparatus);
+  EXPECT_NE(refusal_of(apparatus).find("tag 3"), std::string::npos) << refusal_of(apparatus);
 
   apparatus = default_apparatus(640);
   apparatus.effector.size_m.x() = 0.07;  // the tip's tag hangs in the air
-  EXPECT_NE(message_of(apparatus).find("tag 30"), std::string::npos) << message_of(apparatus);
+  EXPECT_NE(refusal_of(apparatus).find("tag 30"), std::string::npos) << refusal_of(apparatus);
 }
 
 }  // namespace
