@@ -1,6 +1,6 @@
 # What `cmake --install` and `cpack` put where. Components: heft with its data, bench, and the
-# libraries psychophysics, engine and physics, of which each can be had without those that it does
-# not use.
+# libraries psychophysics, inference, engine and physics, of which each can be had without those that
+# it does not use.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS heft_program COMPONENT heft)
@@ -46,6 +46,7 @@ function(heft_install component)
   endif()
 endfunction()
 heft_install(psychophysics base psychophysics)
+heft_install(inference inference)
 heft_install(engine experiment engine)
 heft_install(physics physics)
 configure_file(.install/heft-config.cmake ${PROJECT_BINARY_DIR}/heft-config.cmake COPYONLY)
@@ -80,7 +81,8 @@ set(CPACK_DEBIAN_BENCH_PACKAGE_RECOMMENDS gnuplot-nox)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libheft-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libmd-dev")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS libbullet-dev)  # heft::physics alone needs it
+# Each is needed by one library alone: heft::physics, heft::inference.
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "libbullet-dev, libnlopt-dev")
 
 include(CPack)
 cpack_add_component(heft GROUP heft)
@@ -89,8 +91,8 @@ Heft runs them in augmented reality, simulates, replays and analyzes them.")
 cpack_add_component(bench GROUP bench)
 cpack_add_component_group(bench DESCRIPTION "Heft's studies of speed and accuracy
 The program heft-bench, which heft bench starts.")
-foreach(component psychophysics engine physics)
+foreach(component psychophysics inference engine physics)
   cpack_add_component(${component} GROUP library)
 endforeach()
-cpack_add_component_group(library DESCRIPTION "Heft's procedures, session engine and physics
+cpack_add_component_group(library DESCRIPTION "Heft's procedures, estimators, session engine and physics
 C++ libraries, for find_package(heft).")

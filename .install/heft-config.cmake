@@ -1,16 +1,29 @@
-# find_package(heft [COMPONENTS psychophysics engine physics]) gives heft::psychophysics... Without
-# COMPONENTS: those that are installed and whose own needs are met. Only physics needs Bullet.
+# find_package(heft [COMPONENTS psychophysics inference engine physics]) gives heft::psychophysics...
+# Without COMPONENTS: those that are installed and whose own needs are met. Only physics needs Bullet,
+# only inference NLopt.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 NO_MODULE)
 find_dependency(fmt)
 
 set(heft_wanted ${heft_FIND_COMPONENTS})
 if(NOT heft_wanted)
-  set(heft_wanted psychophysics engine physics)
+  set(heft_wanted psychophysics inference engine physics)
 endif()
 # The others stand on the first.
 list(PREPEND heft_wanted psychophysics)
 list(REMOVE_DUPLICATES heft_wanted)
+
+# What a component alone needs, as pkg-config has it.
+macro(heft_needs component target module name)
+  find_package(PkgConfig QUIET)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(${target} QUIET IMPORTED_TARGET ${module})
+  endif()
+  if(NOT TARGET PkgConfig::${target})
+    set(heft_${component}_FOUND FALSE)
+    set(heft_why "heft's component ${component} needs ${name}")
+  endif()
+endmacro()
 
 foreach(component ${heft_wanted})
   set(heft_file ${CMAKE_CURRENT_LIST_DIR}/heft-${component}.cmake)
@@ -19,14 +32,9 @@ foreach(component ${heft_wanted})
     set(heft_${component}_FOUND FALSE)
     set(heft_why "heft's component ${component} is not installed")
   elseif(component STREQUAL "physics")
-    find_package(PkgConfig QUIET)
-    if(PkgConfig_FOUND)
-      pkg_check_modules(bullet QUIET IMPORTED_TARGET bullet-float64)
-    endif()
-    if(NOT TARGET PkgConfig::bullet)
-      set(heft_physics_FOUND FALSE)
-      set(heft_why "heft's component physics needs Bullet in double precision (bullet-float64.pc)")
-    endif()
+    heft_needs(physics bullet bullet-float64 "Bullet in double precision (bullet-float64.pc)")
+  elseif(component STREQUAL "inference")
+    heft_needs(inference nlopt nlopt "NLopt (nlopt.pc)")
   endif()
   if(heft_${component}_FOUND)
     include(${heft_file})

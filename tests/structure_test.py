@@ -12,11 +12,12 @@ SRC = ROOT / "src"
 
 # The layer table of README.md. Rooms on one row don't include each other; bench/main.cpp alone, the
 # program heft-bench, stands on cli's command line.
-ROWS_1_2 = {"base", "psychophysics", "experiment", "physics", "tracking"}
+ROWS_1_2 = {"base", "psychophysics", "inference", "experiment", "physics", "tracking"}
 ROW_3 = {"engine", "protocol", "record", "responders", "view"}
 MAY_INCLUDE = {
     "base": set(),
     "psychophysics": {"base"},
+    "inference": {"psychophysics", "base"},
     "experiment": {"psychophysics", "base"},
     "physics": {"base"},
     "tracking": {"base"},
@@ -45,7 +46,7 @@ LIBRARY_ROOMS = {
     r"SDL|imgui|GL/": {"window"},
     r"SQLiteCpp|sqlite3": {"record"},
     r"toml": {"protocol"},
-    r"nlopt": {"analysis"},
+    r"nlopt": {"inference"},
     r"CLI/": {"cli"},
 }
 

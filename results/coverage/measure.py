@@ -1,7 +1,8 @@
 """How often printed 95 % intervals hold the truth, over made-up studies: runs the coverage tests of
-test_analysis at length, or reads what they said, and writes coverage.csv beside this file.
+test_inference and test_analysis at length, or reads what they printed, and writes coverage.csv beside
+this file.
 
-Run: python3 results/coverage/measure.py PATH_TO_TEST_ANALYSIS [STUDIES | FILE_WITH_ITS_OUTPUT COMMIT]
+Run: python3 results/coverage/measure.py FOLDER_OF_TEST_PROGRAMS [STUDIES | FILE_WITH_THEIR_OUTPUT COMMIT]
 """
 import csv
 import os
@@ -23,9 +24,11 @@ FIGURES = [  # what a line says: kind, pattern
 ]
 
 
-def said(program, studies):
-    return subprocess.run([program, "--gtest_filter=CoverageOf.*"], capture_output=True, text=True,
-                          env={**os.environ, "HEFT_STUDIES": str(studies)}).stdout
+def said(folder, studies):
+    return "".join(
+        subprocess.run([Path(folder) / program, "--gtest_filter=CoverageOf.*"], capture_output=True,
+                       text=True, env={**os.environ, "HEFT_STUDIES": str(studies)}).stdout
+        for program in ("test_inference", "test_analysis"))
 
 
 def rows_of(kind, found):
@@ -38,12 +41,12 @@ def rows_of(kind, found):
 
 
 def main():
-    program, what = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "400"
-    lines = (said(program, what) if what.isdigit() else Path(what).read_text()).splitlines()
+    folder, what = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "400"
+    lines = (said(folder, what) if what.isdigit() else Path(what).read_text()).splitlines()
     studies = what if what.isdigit() else "400"
     commit = sys.argv[3] if len(sys.argv) > 3 else subprocess.run(
         ["git", "rev-parse", "--short", "HEAD"], cwd=HERE, capture_output=True, text=True).stdout.strip()
-    command = f"python3 results/coverage/measure.py build/tests/test_analysis {studies}"
+    command = f"python3 results/coverage/measure.py build/tests {studies}"
     rows = []
     for line in lines:
         for kind, pattern in FIGURES:

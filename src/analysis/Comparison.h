@@ -8,7 +8,7 @@
 
 #include "analysis/ComparisonTrials.h"
 #include "analysis/Fold.h"
-#include "analysis/Proportion.h"
+#include "inference/Proportion.h"
 
 namespace heft {
 

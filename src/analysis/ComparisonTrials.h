@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "analysis/Dataset.h"
-#include "analysis/Fit.h"
 #include "analysis/Jnd.h"
+#include "inference/Fit.h"
 
 namespace heft {
 

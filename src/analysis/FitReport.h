@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "analysis/Fit.h"
+#include "inference/Fit.h"
 
 namespace heft {
 

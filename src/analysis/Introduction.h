@@ -7,7 +7,7 @@
 #include <string>
 
 #include "analysis/Fold.h"
-#include "analysis/Proportion.h"
+#include "inference/Proportion.h"
 
 namespace heft {
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/CensoredMean.h"
 #include "analysis/Dataset.h"
-#include "analysis/Statistics.h"
+#include "inference/CensoredMean.h"
+#include "inference/Statistics.h"
 
 namespace heft {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/ComparisonTrials.h"
-#include "analysis/Proportion.h"
+#include "inference/Proportion.h"
 
 namespace heft {
 

@@ -9,7 +9,7 @@
 #include "analysis/ComparisonTrials.h"
 #include "analysis/Fold.h"
 #include "analysis/Jnd.h"
-#include "analysis/PooledSensitivity.h"
+#include "inference/PooledSensitivity.h"
 
 namespace heft {
 

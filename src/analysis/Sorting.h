@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "analysis/Fold.h"
-#include "analysis/Proportion.h"
 #include "experiment/Task.h"
+#include "inference/Proportion.h"
 
 namespace heft {
 

@@ -1,5 +1,5 @@
 // heft fit: the estimators alone, for anybody's data.
-#include "analysis/Fit.h"
+#include "inference/Fit.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "analysis/AnswerData.h"
 #include "analysis/FitReport.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
 #include "cli/Terminal.h"
+#include "inference/AnswerData.h"
 
 namespace heft::cli {
 

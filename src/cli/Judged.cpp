@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "analysis/Statistics.h"
 #include "cli/Terminal.h"
+#include "inference/Statistics.h"
 
 namespace heft::cli {
 

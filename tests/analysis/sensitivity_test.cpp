@@ -6,10 +6,10 @@
 
 #include <iostream>
 
-#include "Coverage.h"
 #include "MadeUpChoosers.h"
 #include "analysis/Notes.h"
 #include "analysis/Summary.h"
+#include "inference/Coverage.h"
 
 namespace heft {
 namespace {

@@ -164,7 +164,7 @@ class Libraries(Installed):
 
     def test_all_that_is_installed_can_be_linked(self):
         prefix = self.install()
-        components = [name for name in ("psychophysics", "engine", "physics")
+        components = [name for name in ("psychophysics", "inference", "engine", "physics")
                       if list(prefix.rglob(f"libheft_{name}.a"))]
         self.assertIn("physics", components)
         self.build_and_run(prefix, *components)

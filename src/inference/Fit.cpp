@@ -1,4 +1,4 @@
-#include "analysis/Fit.h"
+#include "inference/Fit.h"
 
 #include <fmt/format.h>
 

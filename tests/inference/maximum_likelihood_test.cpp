@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/MaximumLikelihood.h"
+#include "inference/MaximumLikelihood.h"
 
 namespace heft {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/Fit.h"
+#include "inference/Fit.h"
 
 namespace heft {
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "analysis/AnswerData.h"
 #include "base/Error.h"
+#include "inference/AnswerData.h"
 
 namespace heft {
 namespace {

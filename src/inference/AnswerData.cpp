@@ -1,4 +1,4 @@
-#include "analysis/AnswerData.h"
+#include "inference/AnswerData.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // Means, spreads and intervals against closed forms and values computed with another program
 // (mpmath, 25 digits).
-#include "analysis/Statistics.h"
+#include "inference/Statistics.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

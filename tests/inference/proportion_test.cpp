@@ -1,5 +1,5 @@
 // Percentages: which interval is used when, and that participants count alike.
-#include "analysis/Proportion.h"
+#include "inference/Proportion.h"
 
 #include <gtest/gtest.h>
 

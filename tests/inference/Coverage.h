@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "analysis/Statistics.h"
+#include "inference/Statistics.h"
 
 namespace heft {
 

@@ -4,8 +4,8 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
-#include "analysis/Fit.h"
-#include "analysis/MaximumLikelihood.h"
+#include "inference/Fit.h"
+#include "inference/MaximumLikelihood.h"
 
 namespace heft {
 

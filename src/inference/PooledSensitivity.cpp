@@ -1,4 +1,4 @@
-#include "analysis/PooledSensitivity.h"
+#include "inference/PooledSensitivity.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <iterator>
 #include <numeric>
 
-#include "analysis/CriteriaFit.h"
-#include "analysis/MaximumLikelihood.h"
-#include "analysis/SensitivityGrid.h"
-#include "analysis/SensitivitySpread.h"
 #include "base/Quantile.h"
 #include "base/Random.h"
+#include "inference/CriteriaFit.h"
+#include "inference/MaximumLikelihood.h"
+#include "inference/SensitivityGrid.h"
+#include "inference/SensitivitySpread.h"
 #include "psychophysics/Normal.h"
 
 namespace heft {

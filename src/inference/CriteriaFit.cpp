@@ -1,11 +1,11 @@
-#include "analysis/CriteriaFit.h"
+#include "inference/CriteriaFit.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
 
-#include "analysis/PooledSensitivity.h"
+#include "inference/PooledSensitivity.h"
 #include "psychophysics/Normal.h"
 
 namespace heft {

@@ -1,4 +1,4 @@
-#include "analysis/Likelihood.h"
+#include "inference/Likelihood.h"
 
 #include <nlopt.h>
 

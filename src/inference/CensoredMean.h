@@ -6,7 +6,7 @@
 // beyond. By maximum likelihood over 1/sigma and mu/sigma, in which it is concave (Olsen 1978). The
 // interval of mu is where the profile falls by at most n_exact/2 log(1 + t^2/(n_exact - 1)), t
 // the 97.5 % quantile of Student's t with n_exact - 1 degrees of freedom: without censoring that is
-// Student's interval itself. tests/analysis/censored_mean_test.cpp shows how often it holds the
+// Student's interval itself. tests/inference/censored_mean_test.cpp shows how often it holds the
 // mean.
 #pragma once
 
@@ -15,8 +15,8 @@
 #include <span>
 #include <string_view>
 
-#include "analysis/Statistics.h"
 #include "base/Names.h"
+#include "inference/Statistics.h"
 #include "psychophysics/ProcedureTypes.h"
 
 namespace heft {

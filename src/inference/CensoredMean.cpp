@@ -1,4 +1,4 @@
-#include "analysis/CensoredMean.h"
+#include "inference/CensoredMean.h"
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>

@@ -1,4 +1,4 @@
-#include "analysis/SensitivityGrid.h"
+#include "inference/SensitivityGrid.h"
 
 #include <algorithm>
 

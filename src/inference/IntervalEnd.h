@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "analysis/Likelihood.h"
+#include "inference/Likelihood.h"
 
 namespace heft {
 

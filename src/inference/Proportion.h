@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "analysis/Statistics.h"
 #include "base/Names.h"
+#include "inference/Statistics.h"
 
 namespace heft {
 

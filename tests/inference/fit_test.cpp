@@ -1,6 +1,6 @@
 // Fits on made-up people: what is found is what was put in, intervals hold it as often as they say,
 // and where nothing can be said nothing is. Against other programs: tests/golden/fit.
-#include "analysis/Fit.h"
+#include "inference/Fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

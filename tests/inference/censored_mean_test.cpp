@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "Coverage.h"
-#include "analysis/CensoredMean.h"
 #include "base/Random.h"
+#include "inference/CensoredMean.h"
 
 namespace heft {
 namespace {

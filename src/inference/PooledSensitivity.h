@@ -28,8 +28,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/Fit.h"
-#include "analysis/Statistics.h"
+#include "inference/Fit.h"
+#include "inference/Statistics.h"
 
 namespace heft {
 

@@ -1,4 +1,4 @@
-#include "analysis/IntervalEnd.h"
+#include "inference/IntervalEnd.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "analysis/CriteriaFit.h"
-#include "analysis/SensitivityGrid.h"
+#include "inference/CriteriaFit.h"
+#include "inference/SensitivityGrid.h"
 
 namespace heft {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "analysis/Fit.h"
-#include "analysis/MaximumLikelihood.h"
+#include "inference/Fit.h"
+#include "inference/MaximumLikelihood.h"
 #include "psychophysics/Normal.h"
 
 namespace heft {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/MaximumLikelihood.h"
+#include "inference/MaximumLikelihood.h"
 
 namespace heft {
 

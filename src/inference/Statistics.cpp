@@ -1,4 +1,4 @@
-#include "analysis/Statistics.h"
+#include "inference/Statistics.h"
 
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>

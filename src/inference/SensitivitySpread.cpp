@@ -1,4 +1,4 @@
-#include "analysis/SensitivitySpread.h"
+#include "inference/SensitivitySpread.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "analysis/MaximumLikelihood.h"
+#include "inference/MaximumLikelihood.h"
 
 #include <cmath>
 
-#include "analysis/IntervalEnd.h"
-#include "analysis/Likelihood.h"
+#include "inference/IntervalEnd.h"
+#include "inference/Likelihood.h"
 
 namespace heft {
 

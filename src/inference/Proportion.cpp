@@ -1,4 +1,4 @@
-#include "analysis/Proportion.h"
+#include "inference/Proportion.h"
 
 #include <algorithm>
 #include <cmath>
