@@ -1,12 +1,13 @@
 #include <algorithm>
 
 #include "apparatus/SessionSetup.h"
+#include "base/DefaultTechniques.h"
 #include "physics/auto/Choice.h"
 
 namespace heft {
 
 SimulatorPick resolve_auto(const Protocol& protocol) {
-  std::vector<std::string> techniques{"C2"};
+  std::vector<std::string> techniques{spring_technique};
   for (const Technique& declared : protocol.techniques) techniques.push_back(declared.name);
   std::vector<SimulatorPick> picks;
   for (const std::string& technique : techniques)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apparatus/EventOutlet.h"
+#include "base/DefaultTechniques.h"
 #include "base/Error.h"
 #include "base/PlugTable.h"
 #include "cli/Installation.h"
@@ -178,7 +179,7 @@ std::vector<std::string> cautions(const Protocol& protocol) {
         "cubes "
         "jump home in most trials, heavy ones hardly ever: use \"together\"");
   if (predict_s > 0) {
-    const Scene scene = scene_of(protocol, "C1", {});
+    const Scene scene = scene_of(protocol, coupled_technique, {});
     const double ahead_m = stroke_m_s * predict_s;
     const double slide_n_per_kg = sliding_force_n(scene.friction, 1, scene.gravity_m_s2);
     const std::string false_mass =

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/DefaultTechniques.h"
 #include "experiment/Task.h"
 #include "psychophysics/Interleaving.h"
 
@@ -46,8 +47,8 @@ struct DemonstrationBlock {
 
 struct IntroductionBlock {
   std::string name;
-  std::vector<double> masses_g;  ///< two; shuffled
-  std::string condition = "C2";  ///< name of the technique
+  std::vector<double> masses_g;              ///< two; shuffled
+  std::string condition = spring_technique;  ///< name of the technique
   WrongAnswer wrong_answer = WrongAnswer::same_layout;
 };
 
@@ -60,7 +61,7 @@ struct TechniqueTrials {
 struct SortingBlock {
   std::string name;
   std::vector<double> masses_g;  ///< two to six
-  std::vector<TechniqueTrials> trials{{"C1", 5}, {"C2", 5}};
+  std::vector<TechniqueTrials> trials{{coupled_technique, 5}, {spring_technique, 5}};
   int max_run = 0;  ///< longest run of one technique; 0: any
   SortingOrders orders = SortingOrders::random;
 
@@ -86,7 +87,7 @@ struct ReferenceCatchTrials {
 
 struct ComparisonBlock {
   std::string name;
-  std::string condition = "C2";  ///< name of the technique
+  std::string condition = spring_technique;  ///< name of the technique
   // Catch trials, of difference 0, drive no staircase: either each trial is one by a coin, or there
   // are so many, one somewhere in every `catch_every` trials and none among the first three; those
   // left over come after the last staircase.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/DefaultTechniques.h"
 #include "experiment/Task.h"
 
 namespace heft {
@@ -15,10 +16,10 @@ struct TrialPlan {
   int attempt = 1;       ///< from 1; +1 after a veto or a lost camera, unchanged after a crash
   std::string block;
   Task task = Task::sorting;
-  std::string condition = "C2";       ///< name of the technique
-  std::string staircase;              ///< empty: none (sorting, introduction, catch trials)
-  std::optional<double> reference_g;  ///< comparisons only
-  std::optional<double> level_g;      ///< comparison - reference, as presented
+  std::string condition = spring_technique;  ///< name of the technique
+  std::string staircase;                     ///< empty: none (sorting, introduction, catch trials)
+  std::optional<double> reference_g;         ///< comparisons only
+  std::optional<double> level_g;             ///< comparison - reference, as presented
   bool is_catch = false;
   bool is_practice = false;
   std::vector<double> masses_g;       ///< by slot, leftmost first

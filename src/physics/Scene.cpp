@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/DefaultTechniques.h"
+
 namespace heft {
 
 void Technique::apply_to(Scene& scene) const {
@@ -19,8 +21,8 @@ Technique technique_named(const std::string& name, const std::vector<Technique>&
       found != declared.end())
     return *found;
   Coupling coupling = defaults;
-  coupling.decoupled = name == "C2";
-  if (name == "C1" || name == "C2") return {name, coupling};
+  coupling.decoupled = name == spring_technique;
+  if (name == coupled_technique || name == spring_technique) return {name, coupling};
   throw std::out_of_range("no technique is named " + name);
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <variant>
 
+#include "base/DefaultTechniques.h"
 #include "experiment/Rows.h"
 #include "protocol/ProcedureReader.h"
 #include "protocol/ProtocolTables.h"
@@ -83,7 +84,7 @@ void read_trials_of_two(TableReader& table, SortingBlock& block) {
   if (table.good({"trials", "c1_trials"}) && c1_trials > trials)
     table.mistake("c1_trials",
                   fmt::format("c1_trials is {}, expected at most trials {}", c1_trials, trials));
-  block.trials = {{"C1", c1_trials}, {"C2", trials - c1_trials}};
+  block.trials = {{coupled_technique, c1_trials}, {spring_technique, trials - c1_trials}};
 }
 
 // Runs of one technique are shortest when the others' trials part those of the commonest.

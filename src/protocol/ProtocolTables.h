@@ -18,8 +18,8 @@ void read_effector(TableReader& reader, Eigen::Vector3d& size_m);
 /// (section 4.2, Parameters), unless somebody says otherwise.
 Coupling read_coupling(TableReader& table, Coupling coupling = {});
 
-/// Techniques as protocols and scenes declare them, [[technique]] each; "C1" and "C2" need no
-/// declaration (paper, 4.1).
+/// Techniques as protocols and scenes declare them, [[technique]] each; those of
+/// base/DefaultTechniques.h need no declaration.
 /// @param defaults of what a spring does not say: the [coupling] table
 std::vector<Technique> read_techniques(TableReader& reader, const Coupling& defaults);
 

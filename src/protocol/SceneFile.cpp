@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/Boxes.h"
+#include "base/DefaultTechniques.h"
 #include "base/Pose.h"
 #include "base/TextFile.h"
 #include "physics/Scene.h"
@@ -88,7 +89,7 @@ void read_scene_technique(TableReader& reader, Scene& scene) {
   if (table) defaults = read_coupling(*table);
   const std::vector<Technique> declared = read_techniques(reader, defaults);
   const TechniqueNames names(declared);
-  std::string technique = declared.empty() ? "C2" : declared.front().name;
+  std::string technique = declared.empty() ? spring_technique : declared.front().name;
   if (table) {
     names.read(*table, technique);
     table->close();

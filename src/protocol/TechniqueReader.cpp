@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/DefaultTechniques.h"
 #include "base/Printable.h"
 #include "protocol/ProcedureReader.h"
 #include "protocol/ProtocolTables.h"
@@ -94,7 +95,8 @@ std::vector<Technique> read_techniques(TableReader& reader, const Coupling& defa
   return techniques;
 }
 
-TechniqueNames::TechniqueNames(const std::vector<Technique>& declared) : names_{"C1", "C2"} {
+TechniqueNames::TechniqueNames(const std::vector<Technique>& declared)
+    : names_{coupled_technique, spring_technique} {
   for (const Technique& technique : declared)
     if (std::ranges::find(names_, technique.name) == names_.end()) names_.push_back(technique.name);
 }

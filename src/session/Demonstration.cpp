@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/DefaultTechniques.h"
 #include "base/Random.h"
 #include "view/Viewpoint.h"
 
@@ -18,7 +19,7 @@ constexpr double roll_rad = 40 * std::numbers::pi / 180;
 TrialPlan plan_of_demonstration() {
   TrialPlan plan;
   plan.block = "demonstration";
-  plan.condition = "C1";
+  plan.condition = coupled_technique;
   plan.masses_g = {mass_g, mass_g, mass_g};
   return plan;
 }

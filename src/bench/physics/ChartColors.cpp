@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "base/DefaultTechniques.h"
+
 namespace heft {
 
 std::string color_of(std::string_view simulator) {
@@ -21,7 +23,7 @@ std::string color_of(std::string_view simulator) {
                                         {"bullet-explicit-held", "#7a0019"},
                                         {"gain", "#b5651d"},
                                         {"speed_limit", "#c2407e"},
-                                        {"C1", "#555555"}}};
+                                        {coupled_technique, "#555555"}}};
   for (const auto& [name, color] : looks)
     if (name == simulator) return color;
   return "#888888";

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/Gnuplot.h"
+#include "base/DefaultTechniques.h"
 #include "base/Pose.h"
 #include "base/Random.h"
 #include "bench/physics/Paths.h"
@@ -244,8 +245,8 @@ void study_input(const StudyOptions& options) {
         const std::vector<TargetSample> samples = samples_of(one, camera_hz, fault);
         for (InputMode mode : all_modes) {
           const InputError error = error_of(mode, one, samples, truth_m);
-          csv.row(one.name, one.decoupled ? "C2" : "C1", camera_hz, words_of(fault), name_of(mode),
-                  error.at_picture_mm, error.at_present_mm, error.fastest_cube_m_s);
+          csv.row(one.name, default_technique(one.decoupled), camera_hz, words_of(fault),
+                  name_of(mode), error.at_picture_mm, error.at_present_mm, error.fastest_cube_m_s);
           const auto dot = [&](double y) {
             return fmt::format("{} {}\n", place + 0.2 * (static_cast<int>(mode) - 1.5), y);
           };

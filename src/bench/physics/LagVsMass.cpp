@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/Gnuplot.h"
+#include "base/DefaultTechniques.h"
 #include "base/Error.h"
 #include "bench/physics/ChartColors.h"
 #include "bench/physics/Paths.h"
@@ -31,12 +32,12 @@ struct Series {
 
 const std::vector<Series>& all_series() {
   static const std::vector<Series> series{
-      {"boxes", "C2", "C2, the paper's spring: boxes (bullet-lx the same)", 720, 106},
-      {"bullet-lx", "C2", "", 0, 0},
-      {"bullet-spring2", "C2", "bullet-spring2", 30, 104},
+      {"boxes", spring_technique, "C2, the paper's spring: boxes (bullet-lx the same)", 720, 106},
+      {"bullet-lx", spring_technique, "", 0, 0},
+      {"bullet-spring2", spring_technique, "bullet-spring2", 30, 104},
       {"boxes", "gain", "gain .95 at 15 g, .6 at 200 g, .2 at 800 g", 830, 74},
       {"boxes", "speed_limit", "speed limit .5, .08, .05 m/s", 830, 44},
-      {"boxes", "C1", "C1, coupled: the same whatever the cube weighs", 720, 4}};
+      {"boxes", coupled_technique, "C1, coupled: the same whatever the cube weighs", 720, 4}};
   return series;
 }
 
@@ -60,7 +61,7 @@ BenchScene push_of(double mass_g, const std::string& technique) {
 
 double expected_mm(const std::string& technique, double mass_g) {
   const double mass_kg = mass_g / 1000;
-  if (technique == "C1") return 0;
+  if (technique == coupled_technique) return 0;
   if (technique == "gain") return 1e3 * travel_m * (1 - gains.at(mass_kg));
   if (technique == "speed_limit")
     return 1e3 * travel_m * (1 - std::min(1.0, limits_m_s.at(mass_kg) / speed_m_s));
@@ -98,7 +99,7 @@ void study_lag(const StudyOptions& options) {
               "simulator,technique,rate_hz,cube_mass_g,lag_at_end_mm,peak_lag_mm,expected_mm");
   std::string data = "$closed_form << END\n";
   for (double mass_g : masses_g(options.quick))
-    data += fmt::format("{} {}\n", mass_g, expected_mm("C2", mass_g));
+    data += fmt::format("{} {}\n", mass_g, expected_mm(spring_technique, mass_g));
   data += "END\n";
   std::string plot =
       "plot $closed_form using 1:2 with lines linewidth 7 linecolor '#cfe0f2' notitle";
@@ -115,7 +116,7 @@ void study_lag(const StudyOptions& options) {
       if (lag) data += fmt::format("{} {}\n", mass_g, end_mm);
     }
     data += "END\n";
-    const bool spring = series.technique == "C2";
+    const bool spring = series.technique == spring_technique;
     const std::string color = color_of(spring ? series.simulator : series.technique);
     plot += fmt::format(", $line{} using 1:2 with lines linewidth {} linecolor '{}' notitle", i,
                         series.is_ours() ? 2.4 : 1.3, color);

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "base/DefaultTechniques.h"
 #include "base/Pose.h"
 #include "bench/physics/Scenes.h"
 
@@ -32,7 +33,7 @@ std::string coupling_text(const Coupling& coupling) {
   return fmt::format(
       "\n[coupling]\ncondition = \"{}\"\nstiffness_n_per_m = {}\ntorsional_stiffness_nm_per_rad = "
       "{}\nclone_mass_kg = {}\ndamping_ratio = {}\n",
-      coupling.decoupled ? "C2" : "C1", coupling.stiffness_n_per_m,
+      default_technique(coupling.decoupled), coupling.stiffness_n_per_m,
       coupling.torsional_stiffness_nm_per_rad, coupling.clone_mass_kg, coupling.damping_ratio);
 }
 
