@@ -42,7 +42,7 @@ std::string SessionData::participant() const {
                    : session.header.participant;
 }
 
-const Setup* SessionData::setup_of(const Attempt& attempt) const {
+const SessionConfig* SessionData::setup_of(const Attempt& attempt) const {
   const auto found =
       std::ranges::find(setups, attempt.trial.setup_index, &LoggedSetup::setup_index);
   return found == setups.end() ? nullptr : &found->setup;

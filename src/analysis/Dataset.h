@@ -77,7 +77,7 @@ struct SessionData {
   /// Who is counted as one. Simulated responders of one name but different models are not.
   std::string participant() const;
   /// What was in force in a trial; null: the log doesn't tell.
-  const Setup* setup_of(const Attempt& attempt) const;
+  const SessionConfig* setup_of(const Attempt& attempt) const;
   TrackingCounts tracking() const;
   bool finished() const { return session.state == SessionState::finished; }
 };

@@ -129,7 +129,7 @@ bool is_order(const std::string& setting) {
   return setting.starts_with(std::string(order_key) + "=");
 }
 
-std::vector<std::string> changed_by(const Setup& setup) {
+std::vector<std::string> changed_by(const SessionConfig& setup) {
   std::vector<std::string> settings = settings_of(setup);
   std::erase_if(settings, is_order);
   return settings;
@@ -161,7 +161,7 @@ void InForce::add(const SessionData& data, const Protocol& protocol) {
   hashes_.insert(header.protocol_sha256);
   seeds_.insert(fmt::format("{}", header.seed));
   for (const LoggedSetup& logged : data.setups) {
-    const Setup& setup = logged.setup;
+    const SessionConfig& setup = logged.setup;
     if (!setup.heft_version.empty())
       programs_.insert(fmt::format("heft {}, {}", setup.heft_version, setup.build));
     // Older logs told what differed from the protocol.

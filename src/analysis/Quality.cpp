@@ -24,7 +24,7 @@ bool was_touched(const Attempt& attempt) {
 
 // The rule that was in force; where the log tells none, that of new protocols.
 double least_answer_s(const SessionData& data, const Attempt& attempt) {
-  const Setup* setup = data.setup_of(attempt);
+  const SessionConfig* setup = data.setup_of(attempt);
   return setup ? setup->min_answer_s.value_or(Onset{}.min_answer_s) : Onset{}.min_answer_s;
 }
 

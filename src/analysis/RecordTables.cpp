@@ -65,7 +65,7 @@ Table dictionary_table(const Summary& summary) {
   explain<AnswerRow>(table, "answer");
   explain<ReversalRow>(table, "reversal");
   explain<EstimateRow>(table, "estimate");
-  explain<Setup>(table, "setup");
+  explain<SessionConfig>(table, "setup");
   explain<FrameRow>(table, "frame");
   return table;
 }

@@ -26,7 +26,7 @@ std::string text_of(const std::optional<Value>& value) {
 }
 
 // As the log's columns are, "" where a setup tells nothing.
-std::vector<std::string> values_of(const Setup& setup) {
+std::vector<std::string> values_of(const SessionConfig& setup) {
   std::vector<std::string> values;
   visit_cells(setup,
               [&](const CellColumn&, const auto& value) { values.push_back(text_of(value)); });
@@ -53,7 +53,8 @@ void SetupsFold::add(const SessionData& data) {
 
 std::vector<SetupValue> SetupsFold::result() const {
   std::vector<CellColumn> columns;
-  visit_cells(Setup{}, [&](const CellColumn& column, const auto&) { columns.push_back(column); });
+  visit_cells(SessionConfig{},
+              [&](const CellColumn& column, const auto&) { columns.push_back(column); });
   std::vector<SetupValue> rows;
   for (const auto& [key, counted] : values_) {
     const CellColumn& column = columns[key.first];

@@ -26,7 +26,8 @@ std::optional<std::string> first_block_with_trials(const Protocol& protocol) {
 
 // Hands reach around corners; some simulators would stop in the middle of a trial. What a script's
 // hand does somebody wrote down.
-void require_general_simulator(const Setup& options, const Protocol& protocol, bool is_filmed) {
+void require_general_simulator(const SessionConfig& options, const Protocol& protocol,
+                               bool is_filmed) {
   const std::string& name = options.simulator.empty() ? protocol.simulator.name : options.simulator;
   if (simulator_named(name).for_sessions) return;
   if (!has_person(options) && !is_filmed) {
@@ -42,7 +43,7 @@ void require_general_simulator(const Setup& options, const Protocol& protocol, b
 }
 }  // namespace
 
-void check(const Setup& options, const Protocol& protocol) {
+void check(const SessionConfig& options, const Protocol& protocol) {
   const bool is_filmed = tracker_named(options.tracker).what == TrackerWhat::source;
   require_general_simulator(options, protocol, is_filmed);
   if (!protocol.require_contact || has_person(options)) return;

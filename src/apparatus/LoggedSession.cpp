@@ -18,12 +18,12 @@ void tell_simulators(std::vector<LoggedSetup>& setups, const Protocol& protocol)
 }
 }  // namespace
 
-std::optional<Setup> LoggedSession::before() const {
+std::optional<SessionConfig> LoggedSession::before() const {
   if (setups.front().from_event > 0) return std::nullopt;
   return setups.front().setup;
 }
 
-const Setup& LoggedSession::setup_of(const TrialRow& trial) const {
+const SessionConfig& LoggedSession::setup_of(const TrialRow& trial) const {
   const auto found = std::ranges::find(setups, trial.setup_index, &LoggedSetup::setup_index);
   return found == setups.end() ? setups.front().setup : found->setup;
 }

@@ -16,15 +16,15 @@ struct LoggedSession {
   std::string db;
   SessionRow row;
   std::vector<LoggedSetup> setups;  ///< at least one
-  Setup setup;                      ///< in force at its end
+  SessionConfig setup;              ///< in force at its end
   /// As the session's file and settings have it, with the simulator of `setup`.
   std::shared_ptr<const Protocol> protocol;
 
   /// What an older log told before its first event.
-  std::optional<Setup> before() const;
+  std::optional<SessionConfig> before() const;
   /// The protocol with what was in force in a trial.
   std::shared_ptr<const Protocol> protocol_of(const TrialRow& trial) const;
-  const Setup& setup_of(const TrialRow& trial) const;
+  const SessionConfig& setup_of(const TrialRow& trial) const;
 };
 
 /// @throws Error when there is no such session, or its protocol or setups can't be read

@@ -62,7 +62,7 @@ const ResponderEntry& checked_responder(const std::string& responder) {
   return entry;
 }
 
-void complete_responder(Setup& options) {
+void complete_responder(SessionConfig& options) {
   options.responder_text.clear();
   if (has_person(options)) return;
   const ResponderEntry& entry = checked_responder(options.responder);
@@ -73,7 +73,7 @@ void complete_responder(Setup& options) {
   }
 }
 
-void complete_tracker(Setup& options) {
+void complete_tracker(SessionConfig& options) {
   const TrackerEntry& tracker = tracker_named(options.tracker);
   options.tracker_text.clear();
   if (!tracker.is_live) options.tracker = with_absolute_path(options.tracker);
@@ -82,7 +82,7 @@ void complete_tracker(Setup& options) {
     options.tracker_text = read_text_file(file);
 }
 
-void find_camera_file(Setup& options, const TrackerEntry& tracker) {
+void find_camera_file(SessionConfig& options, const TrackerEntry& tracker) {
   std::error_code unknown;  // what can't be looked at is not taken
   if (std::filesystem::exists(default_camera_file, unknown)) {
     options.camera_file = default_camera_file;
@@ -97,7 +97,7 @@ void find_camera_file(Setup& options, const TrackerEntry& tracker) {
 }
 
 // Nothing is filmed; but people are shown in the demonstration how the effector is held.
-void complete_unfilmed_apparatus(Setup& options) {
+void complete_unfilmed_apparatus(SessionConfig& options) {
   options.camera_file = options.camera_text = options.board_text = options.effector_text = "";
   if (!has_person(options)) options.board_file = options.effector_file = "";
   if (options.board_file.empty() || options.effector_file.empty()) return;
@@ -105,7 +105,7 @@ void complete_unfilmed_apparatus(Setup& options) {
   read_file(options.effector_file, options.effector_text);
 }
 
-void complete_apparatus(Setup& options) {
+void complete_apparatus(SessionConfig& options) {
   const TrackerEntry& tracker = tracker_named(options.tracker);
   if (!tracker.has_camera && !options.record_camera.empty())
     throw Error(
@@ -121,14 +121,14 @@ void complete_apparatus(Setup& options) {
 }
 
 // What the display's window tells is told anew by each window.
-void forget_display(Setup& options) {
+void forget_display(SessionConfig& options) {
   options.window = options.display = options.display_file = "";
   options.display_w_px = options.display_h_px = {};
   options.display_w_mm = options.display_h_mm = options.refresh_hz = {};
   options.eye_distance_mm = options.display_scale = {};
 }
 
-void complete_display(Setup& options) {
+void complete_display(SessionConfig& options) {
   if (!view_named(split_name(options.view).name).has_screen) return forget_display(options);
   display_number(options);
   std::error_code unknown;
@@ -145,7 +145,7 @@ void complete_display(Setup& options) {
   options.eye_distance_mm = measured.eye_distance_mm;
 }
 
-void check_view(const Setup& options) {
+void check_view(const SessionConfig& options) {
   const auto [name, file] = split_name(options.view);
   const ViewEntry& view = view_named(name);
   if (view.has_file && file.empty())
@@ -159,7 +159,7 @@ void check_view(const Setup& options) {
                 ExitCode::usage);
 }
 
-void check_dragged(const Setup& options) {
+void check_dragged(const SessionConfig& options) {
   if (!has_person(options))
     throw Error(fmt::format("tracker \"mouse\": a person drags the effector, but the responder is "
                             "\"{}\", which has a hand of its own; expected --tracker hand or "
@@ -174,7 +174,7 @@ void check_dragged(const Setup& options) {
         ExitCode::usage);
 }
 
-void check_tracker(const Setup& options) {
+void check_tracker(const SessionConfig& options) {
   if (tracker_named(options.tracker).is_dragged) check_dragged(options);
   if (tracker_named(options.tracker).what == TrackerWhat::settings)
     parse_synthetic_camera(options.tracker_text, split_name(options.tracker).file);
@@ -182,12 +182,12 @@ void check_tracker(const Setup& options) {
 
 }  // namespace
 
-bool runs_on_wall_clock(const Setup& options) {
+bool runs_on_wall_clock(const SessionConfig& options) {
   return has_person(options) || tracker_named(options.tracker).is_live ||
          view_named(split_name(options.view).name).has_screen;
 }
 
-Apparatus apparatus_of(const Setup& options) {
+Apparatus apparatus_of(const SessionConfig& options) {
   if (!tracker_named(options.tracker).has_camera) return {};
   Apparatus apparatus{parse_intrinsics(options.camera_text, options.camera_file),
                       parse_board(options.board_text, options.board_file),
@@ -197,7 +197,7 @@ Apparatus apparatus_of(const Setup& options) {
 }
 
 // A file that was named must be sound, whoever takes part; where no screen is, nobody reads it.
-void complete_texts(Setup& options) {
+void complete_texts(SessionConfig& options) {
   if (!options.texts_file.empty()) {
     if (options.texts_text.empty()) read_file(options.texts_file, options.texts_text);
     parse_texts(options.texts_text, options.texts_file);
@@ -206,7 +206,7 @@ void complete_texts(Setup& options) {
   if (!has_person(options) && !has_screen) options.texts_file = options.texts_text = "";
 }
 
-void complete(Setup& options) {
+void complete(SessionConfig& options) {
   complete_responder(options);
   complete_tracker(options);
   complete_apparatus(options);
@@ -217,7 +217,7 @@ void complete(Setup& options) {
   check(options);
 }
 
-void check(const Setup& options) {
+void check(const SessionConfig& options) {
   if (!has_person(options)) checked_responder(options.responder);
   check_tracker(options);
   check_view(options);
@@ -240,7 +240,7 @@ struct Making {
   ResponderOptions options;
 };
 
-Making making(const std::string& responder, const Setup& setup, std::uint64_t seed) {
+Making making(const std::string& responder, const SessionConfig& setup, std::uint64_t seed) {
   const auto [name, file] = split_name(responder);
   Making made{responder_named(name), {}};
   // A seed of its own: nobody could draw the session's trials from it.
@@ -252,13 +252,13 @@ Making making(const std::string& responder, const Setup& setup, std::uint64_t se
 }
 }  // namespace
 
-std::unique_ptr<Responder> make_responder(const Setup& setup, std::uint64_t seed) {
+std::unique_ptr<Responder> make_responder(const SessionConfig& setup, std::uint64_t seed) {
   // Of a person only the hand is a model's, where no camera films theirs.
   const Making made = making(has_person(setup) ? "simulated" : setup.responder, setup, seed);
   return made.entry.make(made.options);
 }
 
-Setup with_participant(Setup setup, std::uint64_t seed) {
+SessionConfig with_participant(SessionConfig setup, std::uint64_t seed) {
   setup.participant_parameters.clear();
   if (has_person(setup)) return setup;
   const Making made = making(setup.responder, setup, seed);
@@ -267,7 +267,7 @@ Setup with_participant(Setup setup, std::uint64_t seed) {
 }
 
 namespace {
-void resolve_simulator(Setup& setup, const Protocol& protocol) {
+void resolve_simulator(SessionConfig& setup, const Protocol& protocol) {
   if (setup.simulator.empty()) setup.simulator = protocol.simulator.name;
   if (setup.simulator != automatic) {
     setup.rate_hz = protocol.simulator.rate_hz;
@@ -299,14 +299,14 @@ struct Shown {
   }
 };
 
-std::map<std::string, std::string> shown(const Setup& setup) {
+std::map<std::string, std::string> shown(const SessionConfig& setup) {
   std::map<std::string, std::string> values;
   visit_columns(setup, Shown{values});
   return values;
 }
 }  // namespace
 
-Setup in_force(Setup setup, const Protocol& protocol) {
+SessionConfig in_force(SessionConfig setup, const Protocol& protocol) {
   if (setup.simulator.empty() || !setup.rate_hz) resolve_simulator(setup, protocol);
   setup.simulator_edition = simulator_named(setup.simulator).edition;
   setup.display_rate_hz = protocol.display_rate_hz;
@@ -325,7 +325,7 @@ Setup in_force(Setup setup, const Protocol& protocol) {
   return setup;
 }
 
-int display_number(const Setup& setup) {
+int display_number(const SessionConfig& setup) {
   const std::string number = setup.display.substr(0, setup.display.find(' '));
   if (number.empty()) return 0;
   if (number.size() < 3 && std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; }))
@@ -336,11 +336,11 @@ int display_number(const Setup& setup) {
               ExitCode::usage);
 }
 
-bool is_windowed(const Setup& setup) {
+bool is_windowed(const SessionConfig& setup) {
   return setup.window == "window";
 }
 
-Setup with_display(Setup setup, const std::optional<DisplayFacts>& display) {
+SessionConfig with_display(SessionConfig setup, const std::optional<DisplayFacts>& display) {
   if (!display) return setup;
   const auto& [number, name, w_px, h_px, refresh_hz, scale] = *display;
   if (setup.display_w_mm && (setup.display_w_px != w_px || setup.display_h_px != h_px))
@@ -359,7 +359,7 @@ Setup with_display(Setup setup, const std::optional<DisplayFacts>& display) {
   return setup;
 }
 
-Setup with_source_rate(Setup setup, std::optional<double> rate_hz) {
+SessionConfig with_source_rate(SessionConfig setup, std::optional<double> rate_hz) {
   constexpr double same_rate = 0.01;  // 29.97 is 30
   setup.source_rate_hz = rate_hz;
   if (rate_hz && setup.display_rate_hz &&
@@ -368,7 +368,7 @@ Setup with_source_rate(Setup setup, std::optional<double> rate_hz) {
   return setup;
 }
 
-std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const Setup& setup) {
+std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const SessionConfig& setup) {
   if (!setup.simulator.empty()) protocol.simulator.name = setup.simulator;
   if (setup.rate_hz) protocol.simulator.rate_hz = *setup.rate_hz;
   if (const auto mode = named<InputMode>(setup.input)) protocol.simulator.input.mode = *mode;
@@ -376,7 +376,7 @@ std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const Setup& set
   return std::make_shared<const Protocol>(std::move(protocol));
 }
 
-std::vector<SetupChange> changes_between(const Setup& from, const Setup& to) {
+std::vector<SetupChange> changes_between(const SessionConfig& from, const SessionConfig& to) {
   std::vector<SetupChange> changes;
   const auto before = shown(from), after = shown(to);
   for (const auto& [column, value] : after)

@@ -34,7 +34,7 @@ SessionRequest demo_session(const DemoOptions& options) {
   GivenOptions given;
   given.responder = "simulated";
   given.tracker = "synthetic";
-  Setup setup = with_defaults(given);
+  SessionConfig setup = with_defaults(given);
   complete(setup);
   add_questionnaires(setup, request.protocol, texts_file(request.protocol.screens.language));
   request.setup = in_force(std::move(setup), request.protocol);

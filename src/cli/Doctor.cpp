@@ -215,7 +215,7 @@ void check_shutter(Report& report, const Intrinsics& camera) {
 
 // The camera, its calibration, the light, the board: with pictures from it.
 void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
-  Setup options = with_defaults(given);
+  SessionConfig options = with_defaults(given);
   options.view = "headless";
   options.responder = "simulated";
   if (tracker_named(options.tracker).what != TrackerWhat::source)

@@ -11,7 +11,7 @@
 #include "base/TextFile.h"
 #include "cli/Installation.h"
 #include "experiment/ScreenTexts.h"
-#include "experiment/Setup.h"
+#include "experiment/SessionConfig.h"
 #include "protocol/Files.h"
 #include "protocol/Protocol.h"
 
@@ -40,7 +40,7 @@ std::optional<std::string> found_at(const Places& places) {
 // The texts of a session with the questionnaires below them, and which file each came from.
 class Gathered {
  public:
-  explicit Gathered(Setup& setup) : setup_(setup) {
+  explicit Gathered(SessionConfig& setup) : setup_(setup) {
     const ScreenTexts texts = parse_texts(setup.texts_text, setup.texts_file);
     language_ = texts.language;
     for (const auto& [name, questionnaire] : texts.questionnaires)
@@ -84,13 +84,14 @@ class Gathered {
         ExitCode::usage);
   }
 
-  Setup& setup_;
+  SessionConfig& setup_;
   std::string language_;
   std::map<std::string, std::string> file_of_;
 };
 }  // namespace
 
-std::map<std::string, std::string> add_questionnaires(Setup& setup, const Protocol& protocol,
+std::map<std::string, std::string> add_questionnaires(SessionConfig& setup,
+                                                      const Protocol& protocol,
                                                       const std::string& texts_file) {
   if (protocol.screens.questionnaires.empty()) return {};
   if (setup.texts_text.empty()) {

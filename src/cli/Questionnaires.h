@@ -6,20 +6,21 @@
 
 namespace heft {
 struct Protocol;
-struct Setup;
+struct SessionConfig;
 }  // namespace heft
 
 namespace heft::cli {
 
 /// Puts the protocol's questionnaires below the texts that the session's person reads, from
-/// NAME.LANGUAGE.toml beside the protocol (Setup::protocol_file) or in protocols/questionnaires.
-/// Those that the texts have already stay as they are. A model, which reads no other page, gets the
-/// texts for them.
+/// NAME.LANGUAGE.toml beside the protocol (SessionConfig::protocol_file) or in
+/// protocols/questionnaires. Those that the texts have already stay as they are. A model, which
+/// reads no other page, gets the texts for them.
 /// @param texts_file of who has no texts yet
 /// @return the file that each questionnaire of these texts came from, by its name
 /// @throws Error naming what is not there, or two files that have one of a name; InvalidFile where
 ///   a file has mistakes
-std::map<std::string, std::string> add_questionnaires(Setup& setup, const Protocol& protocol,
+std::map<std::string, std::string> add_questionnaires(SessionConfig& setup,
+                                                      const Protocol& protocol,
                                                       const std::string& texts_file);
 
 }  // namespace heft::cli

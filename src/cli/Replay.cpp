@@ -232,12 +232,13 @@ void print_responder(const OtherResponder& other) {
 }
 
 // The protocol and setup that the question supposes.
-std::pair<Protocol, Setup> supposed(const LoggedSession& session, const ReplayOptions& options) {
+std::pair<Protocol, SessionConfig> supposed(const LoggedSession& session,
+                                            const ReplayOptions& options) {
   std::vector<std::string> settings = settings_of(session.setups.front().setup);
   settings.insert(settings.end(), options.set.begin(), options.set.end());
   Protocol protocol =
       parse_protocol(session.row.header.protocol_text, session.row.header.protocol_name, settings);
-  Setup setup = session.setup;
+  SessionConfig setup = session.setup;
   setup.settings = fmt::format("{}", fmt::join(settings, "\n"));
   for (const std::string& set : options.set)
     if (set.starts_with("physics.simulator")) setup.simulator.clear();
@@ -265,7 +266,7 @@ std::pair<Protocol, Setup> supposed(const LoggedSession& session, const ReplayOp
 }
 
 OtherResponder run_anew(const LogReader& reader, const LoggedSession& session,
-                        const Protocol& protocol, const Setup& setup) {
+                        const Protocol& protocol, const SessionConfig& setup) {
   const std::int64_t session_id = session.row.session_id;
   ProgressBar bar(fmt::format("session {}", session_id));
   RunnerOptions runner;
@@ -313,7 +314,7 @@ void judge(const LogReader& reader, const ReplayOptions& options) {
 }
 
 // The words are the log's, where it keeps any.
-ScreenTexts texts_of(const Setup& setup) {
+ScreenTexts texts_of(const SessionConfig& setup) {
   if (!setup.texts_text.empty()) return parse_texts(setup.texts_text, setup.texts_file);
   return load_texts(texts_file("en"));
 }

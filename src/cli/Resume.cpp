@@ -13,17 +13,17 @@
 namespace heft::cli {
 
 namespace {
-void say_next_parts(const Setup& before) {
-  const Setup now = with_next_parts(before);
-  for (const auto option : {&Setup::view, &Setup::record_camera})
+void say_next_parts(const SessionConfig& before) {
+  const SessionConfig now = with_next_parts(before);
+  for (const auto option : {&SessionConfig::view, &SessionConfig::record_camera})
     if (now.*option != before.*option)
       say("{} is there already; from here on it is {}\n", before.*option, now.*option);
 }
 
 // What another responder, tracker or view needs, and the session did without so far.
 GivenOptions with_missing_files(const LoggedSession& session, GivenOptions again) {
-  const Setup& setup = session.setup;
-  const Setup defaults = with_defaults(again);
+  const SessionConfig& setup = session.setup;
+  const SessionConfig defaults = with_defaults(again);
   const auto fill = [](std::optional<std::string>& given, const std::string& held,
                        const std::string& fallback) {
     if (!given && held.empty() && !fallback.empty()) given = fallback;
@@ -59,7 +59,7 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id,
             const GivenOptions& again, const Elsewhere& elsewhere, bool unblind, bool go_on,
             bool keys) {
   LoggedSession session = session_to_resume(db, session_id);
-  const Setup before = session.setup;
+  const SessionConfig before = session.setup;
   change(session, with_missing_files(session, again));
   if (keys) session.setup.keys = "yes";
   session.setup.backup = backup_of(session, elsewhere);

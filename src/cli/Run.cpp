@@ -45,12 +45,12 @@ void check_participant(const std::string& id) {
     throw Error(fmt::format("--participant: the id {}", *wrong), ExitCode::usage);
 }
 
-bool is_dragged(const Setup& setup) {
+bool is_dragged(const SessionConfig& setup) {
   return tracker_named(setup.tracker).is_dragged;
 }
 
 // Nobody takes a session that was played with the mouse for data by leaving an option out.
-Purpose purpose_of(const RunOptions& options, const Setup& setup) {
+Purpose purpose_of(const RunOptions& options, const SessionConfig& setup) {
   return named<Purpose>(options.purpose.value_or(is_dragged(setup) ? "test" : "main")).value();
 }
 
@@ -70,7 +70,7 @@ SessionRequest request_of(const RunOptions& options) {
   SessionRequest request;
   const GivenOptions given = with_text_size(options.given, options.text_size);
   request.protocol = load_protocol(options.protocol, given.settings);
-  Setup setup = with_defaults(given);
+  SessionConfig setup = with_defaults(given);
   const std::string texts =
       texts_file(options.language.value_or(request.protocol.screens.language));
   setup.texts_file = texts;
@@ -200,7 +200,7 @@ void take_from_plan(RunOptions& options) {
   const StudyPlan plan = load_study(options.plan);
   fill_from(plan, options);
   if (!options.db) options.db = usual_db;
-  const Setup setup = with_defaults(options.given);
+  const SessionConfig setup = with_defaults(options.given);
   const Purpose purpose = has_person(setup) ? purpose_of(options, setup) : Purpose::simulated;
   const std::vector<SessionRow> sessions = sessions_in(*options.db);
   const PlannedParticipant planned =

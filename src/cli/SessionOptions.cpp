@@ -116,8 +116,8 @@ std::string or_shipped(const std::optional<std::string>& given, const char* ship
 }
 }  // namespace
 
-Setup with_defaults(const GivenOptions& given) {
-  Setup options;
+SessionConfig with_defaults(const GivenOptions& given) {
+  SessionConfig options;
   options.responder = given.responder.value_or("human");
   const bool person = has_person(options);
   options.tracker = given.tracker.value_or(person ? "camera:0" : "hand");
@@ -137,7 +137,7 @@ Setup with_defaults(const GivenOptions& given) {
   return options;
 }
 
-void complete_and_tell(Setup& options) {
+void complete_and_tell(SessionConfig& options) {
   const bool named = !options.camera_file.empty();
   complete(options);
   if (!named && !options.camera_file.empty()) say("camera calibration: {}\n", default_camera_file);
@@ -148,7 +148,7 @@ void warn_of_simulator(const std::string& name) {
   if (!entry.warning.empty()) say("heft: {} {}\n", entry.name, entry.warning);
 }
 
-void tell_simulator(const Protocol& protocol, const Setup& options) {
+void tell_simulator(const Protocol& protocol, const SessionConfig& options) {
   const SimulatorChoice simulator = protocol_for(protocol, options)->simulator;
   if (!options.simulator_why.empty())
     say("heft: {}\n", heft::described({simulator.name, simulator.rate_hz, options.simulator_why}));

@@ -31,18 +31,18 @@ void add_session_options(Command& command, GivenOptions& given, bool stay = fals
 /// A person is filmed and has a window; a model is neither unless somebody says so. Files of the
 /// apparatus that are not given are the shipped ones; a real camera's calibration never is, it
 /// stays empty.
-Setup with_defaults(const GivenOptions& given);
+SessionConfig with_defaults(const GivenOptions& given);
 
 /// Completes the options, and says on stderr which calibration is taken where nobody named one.
 /// @throws Error as complete()
-void complete_and_tell(Setup& options);
+void complete_and_tell(SessionConfig& options);
 
 /// Says on stderr what is known to be wrong with a simulator, if anything.
 void warn_of_simulator(const std::string& name);
 
 /// The same of the simulator that a session starts with, and the protocol's cautions; of `auto`,
 /// which the options have resolved, what it is and why.
-void tell_simulator(const Protocol& protocol, const Setup& options);
+void tell_simulator(const Protocol& protocol, const SessionConfig& options);
 
 /// What somebody should know before using a valid protocol, a sentence each; mostly nothing.
 std::vector<std::string> cautions(const Protocol& protocol);
@@ -73,7 +73,7 @@ void say_finished(const SessionResult& result, const std::string& db);
 
 struct CommandedSession {
   const Protocol& protocol;
-  const Setup& setup;
+  const SessionConfig& setup;
   std::string db;
   bool unblind = false;
   bool go_on_unchecked = false;

@@ -119,7 +119,7 @@ void print_progress(const std::vector<TrialRow>& trials) {
             escaped_line(trial.void_reason.value_or("")));
 }
 
-std::string in_short(const Setup& setup) {
+std::string in_short(const SessionConfig& setup) {
   const auto often = [](const std::optional<double>& hz) {
     return hz ? fmt::format(" at {} Hz", *hz) : std::string{};
   };
@@ -137,7 +137,7 @@ std::string in_short(const Setup& setup) {
 
 void print_setups(const std::vector<LoggedSetup>& setups) {
   print("\nsetups\n");
-  const Setup* before = nullptr;
+  const SessionConfig* before = nullptr;
   for (const LoggedSetup& logged : setups) {
     print("  from event {}:", logged.from_event);
     if (!before) {

@@ -29,7 +29,7 @@ struct SimulateOptions {
 void simulate_participants(const SimulateOptions& options) {
   SimulationRequest request;
   request.protocol = load_protocol(options.protocol, options.settings);
-  Setup setup;
+  SessionConfig setup;
   setup.responder = options.responder;
   setup.simulator = options.simulator;
   setup.settings = fmt::format("{}", fmt::join(options.settings, "\n"));

@@ -38,7 +38,7 @@ namespace {
 // Trials that a simulated participant takes; none where there is no end to them.
 std::optional<int> simulated_trials(const Protocol& protocol, std::uint64_t seed) {
   constexpr int enough_trials = 2000;
-  Setup setup;
+  SessionConfig setup;
   setup.responder = "simulated";
   complete(setup);
   std::atomic<bool> stop = false;

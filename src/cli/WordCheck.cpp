@@ -9,7 +9,7 @@
 #include "base/TextFile.h"
 #include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
-#include "experiment/Setup.h"
+#include "experiment/SessionConfig.h"
 #include "protocol/Files.h"
 #include "protocol/Protocol.h"
 #include "view/screens/TextFit.h"
@@ -65,7 +65,7 @@ struct SessionWords {
 
 SessionWords words_of(const Protocol& protocol, const std::string& protocol_file,
                       const std::string& language) {
-  Setup setup;
+  SessionConfig setup;
   setup.texts_file = texts_file(language);
   setup.texts_text = read_text_file(setup.texts_file);
   setup.protocol_file = protocol_file;

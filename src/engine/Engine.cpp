@@ -105,7 +105,7 @@ void Engine::fold(const Event& event, Changes& changes) {
     return void_trial(voided->reason, event.t_s, changes);
   if (const auto* vetoed = event.as<AnswerVetoed>())
     return veto_answer(vetoed->reason, event.t_s, changes);
-  if (const auto* setup = event.as<Setup>()) {
+  if (const auto* setup = event.as<SessionConfig>()) {
     set_up(*setup, changes);
   } else if (event.as<SessionPaused>()) {
     paused_ = true;
@@ -141,7 +141,7 @@ void Engine::fold(const Event& event, Changes& changes) {
   }
 }
 
-void Engine::set_up(const Setup& setup, Changes& changes) {
+void Engine::set_up(const SessionConfig& setup, Changes& changes) {
   ++n_setups_;
   changes.setup = setup;
   onset_ = {setup.gap_s.value_or(0), setup.min_answer_s.value_or(0)};

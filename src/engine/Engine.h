@@ -115,7 +115,7 @@ class Engine {
   void act(const Action& action, double t_s, Changes& changes);
   void complete(Outcome outcome, double t_s, Changes& changes);
   void void_trial(const std::string& reason, double t_s, Changes& changes);
-  void set_up(const Setup& setup, Changes& changes);
+  void set_up(const SessionConfig& setup, Changes& changes);
   void begin_gap(double t_s);
   void keep_answer(const TrialRow& row, const Changes& changes);
   void veto_answer(const std::string& reason, double t_s, Changes& changes);

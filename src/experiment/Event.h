@@ -10,7 +10,7 @@
 
 #include "experiment/Action.h"
 #include "experiment/Check.h"
-#include "experiment/Setup.h"
+#include "experiment/SessionConfig.h"
 #include "experiment/Task.h"
 
 namespace heft {
@@ -61,7 +61,7 @@ struct SessionEnded {
   bool operator==(const SessionEnded&) const = default;
 };
 
-// What only fills columns of the projected rows (Setup too):
+// What only fills columns of the projected rows (SessionConfig too):
 
 /// The first presented frame with all cubes on it.
 struct CubesShown {
@@ -141,9 +141,9 @@ struct ActionRefused {
 
 using Happening =
     std::variant<TrialStarted, Action, TrialVoided, SessionPaused, SessionContinued, CubesReset,
-                 DemonstrationShown, SessionResumed, SessionEnded, Setup, CubesShown, CubeTouch,
-                 EffectorLost, EffectorFound, Consent, TextShown, BreakTaken, Note, Deviation,
-                 Unblinding, CameraReport, CheckResult, ActionRefused, AnswerVetoed>;
+                 DemonstrationShown, SessionResumed, SessionEnded, SessionConfig, CubesShown,
+                 CubeTouch, EffectorLost, EffectorFound, Consent, TextShown, BreakTaken, Note,
+                 Deviation, Unblinding, CameraReport, CheckResult, ActionRefused, AnswerVetoed>;
 
 /// The names that the kinds have in the log, in the order of Happening.
 enum class EventKind {

@@ -10,7 +10,7 @@
 
 #include "base/PoseTypes.h"
 #include "experiment/Column.h"
-#include "experiment/Setup.h"
+#include "experiment/SessionConfig.h"
 #include "experiment/Task.h"
 #include "experiment/TrialPlan.h"
 #include "psychophysics/ProcedureTypes.h"
@@ -219,7 +219,7 @@ struct EnumNames<SessionState> {
 /// Everything one event changes in the log; written in the transaction that writes the event.
 struct Changes {
   int attempt_index = 0;  ///< of the attempt the event belongs to; 0: none
-  std::optional<Setup> setup;
+  std::optional<SessionConfig> setup;
   std::optional<TrialRow> trial;
   std::vector<CubeRow> cubes;
   std::vector<AnswerRow> answers;

@@ -29,7 +29,7 @@ class ToRow {
   ToRow& detail(const Value& value) {
     if constexpr (std::is_enum_v<Value>)
       row_.detail = name_of(value);
-    else if constexpr (std::same_as<Value, Setup>)
+    else if constexpr (std::same_as<Value, SessionConfig>)
       row_.detail = to_json(value);
     else
       row_.detail = value;
@@ -79,7 +79,7 @@ class FromRow {
   FromRow& detail(Value& value) {
     if constexpr (std::is_enum_v<Value>)
       value = named_in<Value>(row_.detail);
-    else if constexpr (std::same_as<Value, Setup>)
+    else if constexpr (std::same_as<Value, SessionConfig>)
       value = setup_from_json(row_.detail);
     else
       value = row_.detail;
@@ -156,7 +156,7 @@ struct Tell {
     row.detail(resumed.utc).duration(resumed.away_s, /*if_none=*/0.0);
   }
   void operator()(RowOf<SessionEnded> auto& ended) const { row.detail(ended.how); }
-  void operator()(RowOf<Setup> auto& setup) const { row.detail(setup); }
+  void operator()(RowOf<SessionConfig> auto& setup) const { row.detail(setup); }
   void operator()(RowOf<CubeTouch> auto& touch) const {
     row.slot(touch.slot)
         .duration(touch.ended_after_s)

@@ -256,11 +256,11 @@ std::vector<ExportTable> export_tables(const ParticipantColumns& participants) {
       table<SessionHeader>("participants", "a session",
                            "session r JOIN session s USING (session_id)", "r.session_id",
                            {session_id()}, about_participants(participants)),
-      table<Setup>("setups", "what was in force from an event on", of_session("setup"),
-                   "r.setup_id",
-                   {session_id(), participant(), id("setup_id", "number of the setup in its log"),
-                    id("setup_index", "counts a session's setups from 1"),
-                    id("from_event_id", "event from which on it was in force; none: the start")}),
+      table<SessionConfig>(
+          "setups", "what was in force from an event on", of_session("setup"), "r.setup_id",
+          {session_id(), participant(), id("setup_id", "number of the setup in its log"),
+           id("setup_index", "counts a session's setups from 1"),
+           id("from_event_id", "event from which on it was in force; none: the start")}),
       table<FrameRow>("frames", "a displayed frame", of_session("frame"), "r.frame_id",
                       {session_id(), participant(), trial_id(), id("frame_id", "counts in order")}),
   };

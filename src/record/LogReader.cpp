@@ -185,11 +185,11 @@ std::vector<LoggedEvent> LogReader::events(std::int64_t session_id,
 
 std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
   // Their files' contents stand in the events, or in an older session's header.
-  std::deque<Setup> told;
+  std::deque<SessionConfig> told;
   const SessionRow row = session(session_id);
   if (const auto first = OlderSetups(row.header).first()) told.push_back(*first);
   for (const LoggedEvent& logged : impl_->events(row, "kind IN ('setup', 'deviation')"))
-    if (const auto* setup = logged.event.as<Setup>()) told.push_back(*setup);
+    if (const auto* setup = logged.event.as<SessionConfig>()) told.push_back(*setup);
   const auto setup_from = [&](Cells& cells) {
     LoggedSetup logged{cells.integer(), cells.integer(), {}};
     if (!told.empty()) {
@@ -205,7 +205,7 @@ std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
           "SELECT setup_id, setup_index, (SELECT count(*) FROM event e WHERE e.session_id = "
           "?1 AND e.event_id <= from_event_id), {} FROM setup WHERE session_id = ?1 ORDER "
           "BY setup_index",
-          columns_of<Setup>()),
+          columns_of<SessionConfig>()),
       session_id);
 }
 

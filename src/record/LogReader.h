@@ -35,7 +35,7 @@ struct LoggedEvent {
 struct LoggedSetup {
   int setup_index = 0;  ///< from 1
   int from_event = 0;   ///< the session's event that told it, from 1; 0: an older log's header
-  Setup setup;
+  SessionConfig setup;
 };
 
 /// How well the effector was tracked.

@@ -17,28 +17,28 @@ namespace {
 
 struct TextOption {
   const char* name;
-  std::string Setup::*value;
+  std::string SessionConfig::*value;
 };
-constexpr std::array text_options{TextOption{"responder", &Setup::responder},
-                                  TextOption{"responder_text", &Setup::responder_text},
-                                  TextOption{"tracker", &Setup::tracker},
-                                  TextOption{"tracker_text", &Setup::tracker_text},
-                                  TextOption{"view", &Setup::view},
-                                  TextOption{"simulator", &Setup::simulator},
-                                  TextOption{"auto_simulator", &Setup::simulator},
-                                  TextOption{"auto_why", &Setup::simulator_why},
-                                  TextOption{"camera_file", &Setup::camera_file},
-                                  TextOption{"camera_text", &Setup::camera_text},
-                                  TextOption{"board_file", &Setup::board_file},
-                                  TextOption{"board_text", &Setup::board_text},
-                                  TextOption{"effector_file", &Setup::effector_file},
-                                  TextOption{"effector_text", &Setup::effector_text},
-                                  TextOption{"texts_file", &Setup::texts_file},
-                                  TextOption{"texts_text", &Setup::texts_text},
-                                  TextOption{"handed", &Setup::handed},
-                                  TextOption{"record_camera", &Setup::record_camera}};
+constexpr std::array text_options{TextOption{"responder", &SessionConfig::responder},
+                                  TextOption{"responder_text", &SessionConfig::responder_text},
+                                  TextOption{"tracker", &SessionConfig::tracker},
+                                  TextOption{"tracker_text", &SessionConfig::tracker_text},
+                                  TextOption{"view", &SessionConfig::view},
+                                  TextOption{"simulator", &SessionConfig::simulator},
+                                  TextOption{"auto_simulator", &SessionConfig::simulator},
+                                  TextOption{"auto_why", &SessionConfig::simulator_why},
+                                  TextOption{"camera_file", &SessionConfig::camera_file},
+                                  TextOption{"camera_text", &SessionConfig::camera_text},
+                                  TextOption{"board_file", &SessionConfig::board_file},
+                                  TextOption{"board_text", &SessionConfig::board_text},
+                                  TextOption{"effector_file", &SessionConfig::effector_file},
+                                  TextOption{"effector_text", &SessionConfig::effector_text},
+                                  TextOption{"texts_file", &SessionConfig::texts_file},
+                                  TextOption{"texts_text", &SessionConfig::texts_text},
+                                  TextOption{"handed", &SessionConfig::handed},
+                                  TextOption{"record_camera", &SessionConfig::record_camera}};
 
-void take(Setup& setup, std::string_view option, const std::string& value) {
+void take(SessionConfig& setup, std::string_view option, const std::string& value) {
   if (option == "auto_rate_hz") setup.rate_hz = number_in(value);
   for (const TextOption& text : text_options)
     // What `auto` was comes after `simulator`, which then says "auto"; elsewhere it is empty.
@@ -50,7 +50,7 @@ std::string hash_of(const std::string& text) {
   return text.empty() ? "" : sha256(text);
 }
 
-Setup hashed(Setup setup) {
+SessionConfig hashed(SessionConfig setup) {
   setup.camera_sha256 = hash_of(setup.camera_text);
   setup.board_sha256 = hash_of(setup.board_text);
   setup.effector_sha256 = hash_of(setup.effector_text);
@@ -58,8 +58,8 @@ Setup hashed(Setup setup) {
   return setup;
 }
 
-Setup setup_in(const SessionHeader& header) try {
-  Setup setup;
+SessionConfig setup_in(const SessionHeader& header) try {
+  SessionConfig setup;
   setup.simulator_edition = 1;
   setup.heft_version = header.heft_version;
   setup.build = header.build;
@@ -74,7 +74,7 @@ Setup setup_in(const SessionHeader& header) try {
 }
 
 // The setup after a deviation of that kind; none for any other deviation.
-std::optional<Setup> after(const Deviation& deviation, Setup setup) {
+std::optional<SessionConfig> after(const Deviation& deviation, SessionConfig setup) {
   const auto json = nlohmann::json::parse(deviation.text, nullptr, false);
   if (!json.is_object() || !json.contains("option") || !json.contains("to")) return std::nullopt;
   if (!json["option"].is_string() || !json["to"].is_string()) return std::nullopt;
@@ -91,7 +91,7 @@ OlderSetups::OlderSetups(const SessionHeader& header) {
 
 Event OlderSetups::told(Event event) {
   if (!now_) return event;
-  if (const auto* setup = event.as<Setup>()) now_ = *setup;
+  if (const auto* setup = event.as<SessionConfig>()) now_ = *setup;
   const auto* deviation = event.as<Deviation>();
   if (const auto changed = deviation ? after(*deviation, *now_) : std::nullopt)
     event.what = *(now_ = changed);

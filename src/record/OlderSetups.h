@@ -18,13 +18,13 @@ class OlderSetups {
 
   /// What it was started with, before the first event. A simulator that was not named is the
   /// protocol's and stays empty.
-  const std::optional<Setup>& first() const { return first_; }
+  const std::optional<SessionConfig>& first() const { return first_; }
 
   /// The event, or the setup that came into force with it.
   Event told(Event event);
 
  private:
-  std::optional<Setup> first_, now_;
+  std::optional<SessionConfig> first_, now_;
 };
 
 }  // namespace heft

@@ -190,9 +190,9 @@ void RowWriter::write_event_row(std::int64_t session_id, int attempt_index, cons
 }
 
 std::int64_t RowWriter::write_setup(std::int64_t session_id, std::optional<std::int64_t> event_id,
-                                    const Setup& setup) {
+                                    const SessionConfig& setup) {
   static const std::string sql =
-      keyed_insert<Setup>("setup", "session_id, from_event_id, setup_index");
+      keyed_insert<SessionConfig>("setup", "session_id, from_event_id, setup_index");
   static const std::string n_before = "SELECT count(*) FROM setup WHERE session_id = ?";
   insert(sql, setup, session_id, event_id, first_cell(n_before, session_id).value() + 1);
   return database_.getLastInsertRowid();

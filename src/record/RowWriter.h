@@ -38,7 +38,7 @@ class RowWriter {
   /// @param event_id that told it; none: an older log's header did
   /// @return its id
   std::int64_t write_setup(std::int64_t session_id, std::optional<std::int64_t> event_id,
-                           const Setup& setup);
+                           const SessionConfig& setup);
 
   /// How many events and frames the session has now: call it before each commit, so that rows cut
   /// off at the end are missed.

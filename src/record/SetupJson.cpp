@@ -62,17 +62,17 @@ struct Read {
 
 }  // namespace
 
-std::string to_json(const Setup& setup) {
+std::string to_json(const SessionConfig& setup) {
   Json json = Json::object();
   visit_columns(setup, Write{json});
   visit_contents(setup, Write{json});
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Setup setup_from_json(const std::string& text) try {
+SessionConfig setup_from_json(const std::string& text) try {
   const Json json = Json::parse(text);
   if (!json.is_object()) throw Error("a setup can't be read: expected a JSON object");
-  Setup setup;
+  SessionConfig setup;
   visit_columns(setup, Read{json});
   visit_contents(setup, Read{json});
   return setup;

@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "experiment/Setup.h"
+#include "experiment/SessionConfig.h"
 
 namespace heft {
 
-std::string to_json(const Setup& setup);
+std::string to_json(const SessionConfig& setup);
 
 /// What the text does not have keeps its default: it came after the text was written.
 /// @throws Error when it is no such object
-Setup setup_from_json(const std::string& text);
+SessionConfig setup_from_json(const std::string& text);
 
 }  // namespace heft

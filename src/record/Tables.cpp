@@ -40,11 +40,12 @@ std::string tables() {
              "CREATE TABLE participant_info (\n  {},\n  key TEXT NOT NULL,\n  value TEXT NOT "
              "NULL,\n  PRIMARY KEY (session_id, key)\n) STRICT;\n",
              of_session) +
-         table<Setup>("setup",
-                      fmt::format("setup_id INTEGER PRIMARY KEY,\n  {},\n  setup_index INTEGER NOT "
-                                  "NULL CHECK (setup_index >= 1),\n  from_event_id INTEGER",
-                                  of_session),
-                      ",\n  UNIQUE (session_id, setup_index)") +
+         table<SessionConfig>(
+             "setup",
+             fmt::format("setup_id INTEGER PRIMARY KEY,\n  {},\n  setup_index INTEGER NOT "
+                         "NULL CHECK (setup_index >= 1),\n  from_event_id INTEGER",
+                         of_session),
+             ",\n  UNIQUE (session_id, setup_index)") +
          table<TrialRow>("trial",
                          fmt::format("trial_id INTEGER PRIMARY KEY,\n  {},\n  setup_id INTEGER "
                                      "REFERENCES setup",

@@ -110,7 +110,7 @@ void tell_setups(SQLite::Database& database, std::int64_t session_id, const Sess
     if (const auto trial = events.getColumn(1); !trial.isNull())
       run(point, setup_id, trial.getInt64());
     const Event told = older.told({0, Deviation{events.getColumn(2)}});
-    if (const auto* setup = told.as<Setup>())
+    if (const auto* setup = told.as<SessionConfig>())
       setup_id = writer.write_setup(session_id, events.getColumn(0).getInt64(), *setup);
   }
 }

@@ -74,7 +74,7 @@ class Minds {
   const Mind& in_force(const TrialRow& trial) {
     Mind& mind = minds_[trial.setup_index];
     if (mind.responder) return mind;
-    const Setup& logged = session_.setup_of(trial);
+    const SessionConfig& logged = session_.setup_of(trial);
     const bool same = split_name(named_.responder).file.empty() &&
                       split_name(logged.responder).name == named_.responder;
     mind.responder = make_responder(same ? logged : named_, session_.row.header.seed);
@@ -83,8 +83,8 @@ class Minds {
   }
 
  private:
-  static Setup named(const std::string& responder) {
-    Setup setup;
+  static SessionConfig named(const std::string& responder) {
+    SessionConfig setup;
     setup.responder = responder;
     if (has_person(setup))
       throw Error("a person can't judge a log; expected a model as --responder", ExitCode::usage);
@@ -93,7 +93,7 @@ class Minds {
   }
 
   const LoggedSession& session_;
-  Setup named_;
+  SessionConfig named_;
   std::map<int, Mind> minds_;
 };
 

@@ -87,7 +87,7 @@ RowText text_of(const ParticipantParameterRow& row) {
                row);
 }
 
-RowText text_of(const Setup& setup, int number, int from_event) {
+RowText text_of(const SessionConfig& setup, int number, int from_event) {
   RowText text = texts("setup", fmt::format("setup {}", number), 0, at_its_end, setup);
   add(text, "from_event", from_event);
   return text;
@@ -100,7 +100,7 @@ void put(std::map<std::string, RowText>& rows, RowText row) {
   rows.insert_or_assign(std::move(key), std::move(row));
 }
 
-void put(Projection& projection, const Setup& setup, int from_event) {
+void put(Projection& projection, const SessionConfig& setup, int from_event) {
   projection.setups.push_back(setup);
   put(projection.rows, text_of(setup, static_cast<int>(projection.setups.size()), from_event));
 }
@@ -129,7 +129,7 @@ void put(Projection& projection, const Changes& changes, int& n_answers) {
 
 Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed,
                         const std::vector<LoggedEvent>& events,
-                        const std::optional<Setup>& before) {
+                        const std::optional<SessionConfig>& before) {
   Projection projection;
   Engine engine(std::move(plan), seed, before ? 1 : 0);
   if (before) put(projection, *before, 0);

@@ -47,7 +47,7 @@ struct AttemptFold {
 struct Projection {
   std::map<int, AttemptFold> attempts;  ///< by attempt index
   std::map<std::string, RowText> rows;  ///< by table and key
-  std::vector<Setup> setups;            ///< in order; a trial's setup_index counts them from 1
+  std::vector<SessionConfig> setups;    ///< in order; a trial's setup_index counts them from 1
   SessionState state = SessionState::running;
   int n_events = 0;
   double last_s = 0;  ///< of the last event
@@ -58,7 +58,7 @@ struct Projection {
 /// @param before what a log older than version 3 told in its header; none: the events tell it
 Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed,
                         const std::vector<LoggedEvent>& events,
-                        const std::optional<Setup>& before = std::nullopt);
+                        const std::optional<SessionConfig>& before = std::nullopt);
 
 /// The rows that the log holds, by the same keys.
 std::map<std::string, RowText> logged_rows(const LogReader& reader, std::int64_t session_id);

@@ -146,7 +146,7 @@ class Verifier {
   }
 
   void compare_attempt(int index, const AttemptFold& attempt, const std::vector<FrameRow>& frames) {
-    const Setup& setup = session_.setup_of(attempt.row);
+    const SessionConfig& setup = session_.setup_of(attempt.row);
     const auto protocol = session_.protocol_of(attempt.row);
     FrameCheckOptions options;
     options.equal_bits = setup.build == build_name();

@@ -16,7 +16,8 @@ bool has_size(const MarkerBody& effector, const Eigen::Vector3d& size_m) {
 }
 
 // What people hold must be what the simulated one looks like.
-void require_size(const Protocol& protocol, const MarkerBody& effector, const Setup& options) {
+void require_size(const Protocol& protocol, const MarkerBody& effector,
+                  const SessionConfig& options) {
   const Eigen::Vector3d& size_m = protocol.effector_size_m;
   if (has_size(effector, size_m)) return;
   throw Error(fmt::format("{} is {:.4g} x {:.4g} x {:.4g} m, but the protocol's [effector] size_m "
@@ -26,7 +27,7 @@ void require_size(const Protocol& protocol, const MarkerBody& effector, const Se
               ExitCode::invalid_file);
 }
 
-Apparatus fitting_apparatus(const Protocol& protocol, const Setup& options) {
+Apparatus fitting_apparatus(const Protocol& protocol, const SessionConfig& options) {
   Apparatus apparatus = apparatus_of(options);
   if (!apparatus.effector.tags.empty()) require_size(protocol, apparatus.effector, options);
   return apparatus;
@@ -34,7 +35,7 @@ Apparatus fitting_apparatus(const Protocol& protocol, const Setup& options) {
 
 // What the demonstration shows where the session itself films nothing: the board and effector that
 // would be filmed, as far as the options have them. Of another size than these there is no print.
-Apparatus unfilmed_apparatus(const Protocol& protocol, const Setup& options) {
+Apparatus unfilmed_apparatus(const Protocol& protocol, const SessionConfig& options) {
   if (!has_person(options) || options.board_text.empty()) return {};
   Apparatus apparatus{{},
                       parse_board(options.board_text, options.board_file),
@@ -63,7 +64,8 @@ Eigen::AlignedBox3d working_box(const Protocol& protocol) {
           Eigen::Vector3d(stage.slots_m.back().x() + beside_m, back_m, layout.cube_size_m)};
 }
 
-ViewSetup view_setup(const Protocol& protocol, const Setup& options, const Apparatus& apparatus) {
+ViewSetup view_setup(const Protocol& protocol, const SessionConfig& options,
+                     const Apparatus& apparatus) {
   ViewSetup setup;
   setup.stage = stage_of(protocol, 3);
   if (!apparatus.board.tags.empty()) setup.camera = apparatus.camera;
@@ -83,14 +85,15 @@ ViewSetup view_setup(const Protocol& protocol, const Setup& options, const Appar
 }
 
 // Where a model's hand would rest; none where it is not dragged.
-std::shared_ptr<DraggedEffector> dragged_effector(const Protocol& protocol, const Setup& options) {
+std::shared_ptr<DraggedEffector> dragged_effector(const Protocol& protocol,
+                                                  const SessionConfig& options) {
   constexpr double hover_m = 0.005;
   if (!tracker_named(options.tracker).is_dragged) return {};
   return std::make_shared<DraggedEffector>(resting_pose(stage_of(protocol, 3), hover_m));
 }
 }  // namespace
 
-Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const Setup& options,
+Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const SessionConfig& options,
                      std::uint64_t seed)
     : clock(runs_on_wall_clock(options) ? SessionClock::wall_from(0)
                                         : SessionClock::virtual_from(0)),

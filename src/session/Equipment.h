@@ -13,14 +13,15 @@ namespace heft {
 class Equipment {
  public:
   /// @throws Error (device_missing) when a camera or display is not there; Error as complete()
-  Equipment(std::shared_ptr<const Protocol> protocol, const Setup& options, std::uint64_t seed);
+  Equipment(std::shared_ptr<const Protocol> protocol, const SessionConfig& options,
+            std::uint64_t seed);
   Equipment(const Equipment&) = delete;
 
   SessionParts parts(Engine& engine, EventSink& sink);
 
   /// The setup with what only the opened devices and the responder tell.
   /// @throws Error (invalid_file) when the display is not the one that was measured
-  Setup told_by_devices(const Setup& setup) const {
+  SessionConfig told_by_devices(const SessionConfig& setup) const {
     return with_display(with_participant(with_source_rate(setup, pictures_->rate_hz()), seed_),
                         view_->display());
   }

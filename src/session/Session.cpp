@@ -28,7 +28,7 @@ std::string next_part(const std::string& path) {
   return candidate;
 }
 
-Setup with_next_parts(Setup options) {
+SessionConfig with_next_parts(SessionConfig options) {
   const auto [view, file] = split_name(options.view);
   if (!file.empty()) options.view = view + ":" + next_part(file);
   if (!options.record_camera.empty()) options.record_camera = next_part(options.record_camera);
@@ -63,7 +63,7 @@ void refuse_repetition(const SessionRequest& request) {
 }
 
 // The `session` row of a request that starts now.
-SessionHeader header_of(const SessionRequest& request, const Setup& setup) {
+SessionHeader header_of(const SessionRequest& request, const SessionConfig& setup) {
   SessionHeader header;
   header.participant = request.participant;
   header.protocol_name = request.protocol.name;
@@ -141,7 +141,7 @@ EventSink& heard_by_others(std::optional<AnnouncingSink>& announcing, SessionLog
 }
 
 // From here on this is in force.
-void tell_setup(Engine& engine, EventSink& sink, const Setup& setup) {
+void tell_setup(Engine& engine, EventSink& sink, const SessionConfig& setup) {
   const Event event{engine.last_s(), setup};
   sink.append(event, engine.apply(event), Durability::buffered);
 }
@@ -169,7 +169,7 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   refuse_repetition(request);
   const auto protocol = protocol_for(request.protocol, request.setup);
   Equipment equipment(protocol, request.setup, request.seed);
-  const Setup setup = equipment.told_by_devices(request.setup);
+  const SessionConfig setup = equipment.told_by_devices(request.setup);
   Engine engine(protocol, request.seed);
   const Event told{0, setup};
   const RecordedEvent first{told, engine.apply(told)};
@@ -209,7 +209,7 @@ void change_setup(LoggedSession& session, const GivenOptions& again) {
                             "--set",
                             session.row.session_id),
                 ExitCode::usage);
-  Setup setup = session.setup;
+  SessionConfig setup = session.setup;
   // What `auto` was at the start it stays, whatever the error table says now.
   const bool stays_auto = again.simulator == automatic && !setup.simulator_why.empty();
   if (again.simulator && !stays_auto && !is_same_simulator(*again.simulator, setup.simulator)) {
@@ -263,7 +263,7 @@ SessionResult resume_session(const LoggedSession& session, const RunnerOptions& 
   reopened.close_attempt(void_interrupted);
   const double now_s = log_time(std::max(last_s, seconds_since(session.row.header.started_utc)));
   reopened.append({now_s, SessionResumed{utc_now(), now_s - last_s}});
-  if (const Setup setup = equipment.told_by_devices(session.setup);
+  if (const SessionConfig setup = equipment.told_by_devices(session.setup);
       setup != session.setups.back().setup)
     tell_setup(reopened.engine, sink, setup);
   sink.flush();  // all of the return or nothing of it
@@ -283,7 +283,7 @@ void abort_session(const LoggedSession& session) {
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {
   const auto protocol = protocol_for(request.protocol, request.setup);
   Equipment equipment(protocol, request.setup, request.seed);
-  const Setup setup = equipment.told_by_devices(request.setup);
+  const SessionConfig setup = equipment.told_by_devices(request.setup);
   RecordedSession recorded(header_of(request, setup));
   Engine engine(protocol, request.seed);
   tell_setup(engine, recorded, setup);

@@ -15,7 +15,7 @@ namespace heft {
 
 struct SessionRequest {
   Protocol protocol;
-  Setup setup;  ///< completed
+  SessionConfig setup;  ///< completed
   std::string participant;
   std::string db = "heft.db";
   std::uint64_t seed = 0;
@@ -71,6 +71,6 @@ RecordedSession compute_session(const SessionRequest& request, const RunnerOptio
 std::string next_part(const std::string& path);
 
 /// The options with free paths for the view's video and the kept camera pictures.
-Setup with_next_parts(Setup options);
+SessionConfig with_next_parts(SessionConfig options);
 
 }  // namespace heft

@@ -12,7 +12,7 @@ namespace heft {
 
 struct SimulationRequest {
   Protocol protocol;
-  Setup setup;  ///< in force
+  SessionConfig setup;  ///< in force
   std::string db = "heft.db";
   std::uint64_t seed = 0;
   int participants = 1;

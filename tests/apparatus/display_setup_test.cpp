@@ -10,7 +10,7 @@ namespace {
 const DisplayFacts lab{1, "DELL", 1024, 600, 60, 1.5};
 
 TEST(DisplaySetup, HasWhatTheWindowTells) {
-  const heft::Setup setup = with_display({}, lab);
+  const SessionConfig setup = with_display({}, lab);
   EXPECT_EQ(setup.display, "1 DELL");
   EXPECT_EQ(setup.display_w_px, 1024);
   EXPECT_EQ(setup.display_h_px, 600);
@@ -19,11 +19,11 @@ TEST(DisplaySetup, HasWhatTheWindowTells) {
   EXPECT_EQ(setup.window, "full screen");
   EXPECT_FALSE(setup.display_w_mm) << "nobody measured it";
   EXPECT_EQ(display_number(setup), 1) << "a resumed session takes the same";
-  EXPECT_EQ(with_display({}, std::nullopt), heft::Setup{});
+  EXPECT_EQ(with_display({}, std::nullopt), SessionConfig{});
 }
 
 TEST(DisplaySetup, AnotherDisplayThanTheMeasuredOneIsRefused) {
-  heft::Setup measured;
+  SessionConfig measured;
   measured.display_file = "/lab/display.toml";
   measured.display_w_px = 1920;
   measured.display_h_px = 1080;
@@ -42,7 +42,7 @@ TEST(DisplaySetup, AnotherDisplayThanTheMeasuredOneIsRefused) {
 }
 
 TEST(DisplaySetup, ADisplayIsNamedByItsNumber) {
-  heft::Setup setup;
+  SessionConfig setup;
   EXPECT_EQ(display_number(setup), 0);
   for (const char* wrong : {"left", "-1", "1x", "999"}) {
     setup.display = wrong;

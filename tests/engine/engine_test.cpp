@@ -349,7 +349,7 @@ TEST(Engine, keeps_the_deepest_push_and_the_largest_lag_of_each_cube) {
 
 TEST(Engine, tells_what_a_participant_was_drawn_as_once) {
   Session session;
-  heft::Setup setup;
+  SessionConfig setup;
   const auto told = [&] { return session.engine.apply({++session.t_s, setup}).parameters; };
   EXPECT_TRUE(told().empty());
   setup.participant_parameters = {{"hold_s", 0.3}, {"p", 0.5}};
@@ -597,7 +597,7 @@ Event random_event(RandomStream& stream, double t_s) {
       DemonstrationShown{},
       SessionResumed{},
       SessionEnded{static_cast<Ending>(stream.below(2))},
-      Setup{},
+      SessionConfig{},
       CubesShown{},
       CubeTouch{slot, value},
       EffectorLost{},

@@ -18,7 +18,7 @@ class OnsetRules : public ::testing::Test {
   OnsetRules() { told(gap_s, min_answer_s); }
 
   void told(std::optional<double> gap, std::optional<double> min_answer) {
-    heft::Setup setup;
+    SessionConfig setup;
     setup.gap_s = gap;
     setup.min_answer_s = min_answer;
     engine.apply({t_s, setup});

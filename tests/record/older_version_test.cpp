@@ -77,7 +77,7 @@ TEST_P(older_version, tells_what_each_trial_was_run_with) {
   EXPECT_EQ(trials.back().setup_index, static_cast<int>(resumed.size()));
   int n_told = 0;
   for (const LoggedEvent& logged : reader.events(2))
-    n_told += logged.event.as<heft::Setup>() ? 1 : 0;
+    n_told += logged.event.as<SessionConfig>() ? 1 : 0;
   EXPECT_EQ(n_told, static_cast<int>(resumed.size()) - 1);
 }
 

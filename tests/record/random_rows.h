@@ -101,8 +101,8 @@ inline Pose pose() {
   return made;
 }
 
-inline Setup any_setup() {
-  Setup setup;
+inline SessionConfig any_setup() {
+  SessionConfig setup;
   setup.responder = "model:" + plain();
   setup.simulator = plain();
   setup.rate_hz = maybe(finite_number);

@@ -59,7 +59,7 @@ RC_GTEST_PROP(round_trip, every_row_is_read_as_it_was_written, ()) {
 TEST(round_trip, a_drawn_participant_is_read_with_the_setup_that_told_it) {
   const TemporaryFolder folder;
   SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
-  heft::Setup setup;
+  SessionConfig setup;
   setup.participant_parameters = {{"hold_s", 0.1 + 0.2}};
   Changes changes;
   changes.setup = setup;

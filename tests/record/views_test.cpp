@@ -77,7 +77,7 @@ TEST_F(views, a_comparison_has_its_comparison_mass_and_no_third_cube) {
 
 // 40 px of 0.15 mm are 6 mm; seen from 450 mm 0.7639 degrees, of which the arc is 0.76394.
 TEST_F(views, a_frame_tells_the_clones_offset_as_it_was_seen) {
-  heft::Setup setup;
+  SessionConfig setup;
   setup.display_w_px = 1000;
   setup.display_w_mm = 150;
   setup.eye_distance_mm = 450;

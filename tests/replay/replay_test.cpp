@@ -73,7 +73,7 @@ class Replay : public ::testing::Test {
     header.seed = 5;
     header.heft_version = "test";
     header.build = build_name();
-    heft::Setup setup;
+    SessionConfig setup;
     setup.tracker = "camera:0";  // whose pictures and touches keep no common beat
     header.purpose = Purpose::test;
     header.responder = "late";

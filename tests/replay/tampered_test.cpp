@@ -158,7 +158,7 @@ TEST_F(TamperedReplay, what_no_log_holds_is_named) {
 
 TEST_F(TamperedReplay, run_options_change_nothing_but_the_digest) {
   store(session());
-  const heft::Setup before = load_session(LogReader(file), file, 1).setup;
+  const SessionConfig before = load_session(LogReader(file), file, 1).setup;
   ASSERT_EQ(change("UPDATE session SET run_options = '{}'"), 1);
   EXPECT_EQ(load_session(LogReader(file), file, 1).setup, before);
   EXPECT_THAT(divergence(), HasSubstr("header"));

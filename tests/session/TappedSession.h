@@ -16,7 +16,7 @@ struct TappedSession {
       : texts(std::move(read)),
         protocol(shared(std::move(made))),
         screen(texts, std::move(next_tap), window, left_handed) {
-    Setup setup;
+    SessionConfig setup;
     setup.gap_s = gap_s;
     setup.min_answer_s = min_answer_s;
     engine.apply({0, setup});

@@ -110,14 +110,14 @@ TEST_F(AutoSimulator, gives_way_to_one_that_is_named_when_the_session_goes_on) {
 TEST_F(AutoSimulator, may_be_asked_for_in_the_protocol) {
   request.setup.simulator.clear();
   request.protocol.simulator.name = "auto";
-  const heft::Setup resolved = in_force(request.setup, request.protocol);
+  const SessionConfig resolved = in_force(request.setup, request.protocol);
   EXPECT_EQ(protocol_for(request.protocol, resolved)->simulator.name,
             resolve_auto(request.protocol).simulator);
 }
 
 TEST_F(AutoSimulator, leaves_no_trace_where_nobody_asked_for_it) {
   request.setup.simulator = "bullet";
-  const heft::Setup resolved = in_force(request.setup, request.protocol);
+  const SessionConfig resolved = in_force(request.setup, request.protocol);
   EXPECT_EQ(resolved.simulator_why, "");
   EXPECT_EQ(resolved.rate_hz, request.protocol.simulator.rate_hz);
   EXPECT_EQ(protocol_for(request.protocol, resolved)->simulator.name, "bullet");

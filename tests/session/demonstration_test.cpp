@@ -166,7 +166,7 @@ TEST(Demonstration, is_not_rendered_for_a_model) {
 }
 
 // A person's session as the command line sets it up.
-Apparatus demonstrated_with(Setup options, const Protocol& protocol) {
+Apparatus demonstrated_with(SessionConfig options, const Protocol& protocol) {
   setenv("SDL_VIDEODRIVER", "offscreen", 1);
   options.view = "window";
   options.board_file = shipped + "board.toml";
@@ -179,8 +179,8 @@ Apparatus demonstrated_with(Setup options, const Protocol& protocol) {
   return equipment.parts(engine, sink).apparatus;
 }
 
-Setup options_of(const std::string& responder, const std::string& tracker) {
-  Setup options;
+SessionConfig options_of(const std::string& responder, const std::string& tracker) {
+  SessionConfig options;
   options.responder = responder;
   options.tracker = tracker;
   return options;
@@ -199,7 +199,7 @@ TEST(Demonstration, shows_the_printed_board_and_effector_without_a_camera_too) {
 }
 
 TEST(Demonstration, shows_the_sessions_own_apparatus_where_there_is_one) {
-  heft::Setup options = options_of("human", "synthetic");
+  SessionConfig options = options_of("human", "synthetic");
   options.camera_file = shipped + "synthetic_camera.yaml";
   const Apparatus shown = demonstrated_with(options, quick_protocol());
   EXPECT_EQ(shown.camera.distortion, shipped_apparatus().camera.distortion);

@@ -212,7 +212,7 @@ TEST(Questionnaires, ThatTheTextsLackAreNotedAndPassedOver) {
 SessionRequest asked_model() {
   SessionRequest request;
   request.protocol = asking();
-  Setup setup;
+  SessionConfig setup;
   setup.responder = "coin";
   setup.texts_file = "texts.toml";
   setup.texts_text = text_with(all);

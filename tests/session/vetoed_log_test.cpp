@@ -59,7 +59,7 @@ class ToldSession {
     return told;
   }
 
-  heft::Setup setup;
+  SessionConfig setup;
   std::shared_ptr<const Protocol> protocol;
   Engine engine{protocol, 7};
   RecordedSession recorded;

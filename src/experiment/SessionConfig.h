@@ -13,7 +13,7 @@
 
 namespace heft {
 
-struct Setup {
+struct SessionConfig {
   std::string responder = "simulated";
   std::string tracker = "hand";
   std::string view = "headless";
@@ -49,12 +49,12 @@ struct Setup {
   std::string protocol_file, backup;
   std::string responder_text, tracker_text, camera_text, board_text, effector_text, texts_text;
 
-  bool operator==(const Setup&) const = default;
+  bool operator==(const SessionConfig&) const = default;
 };
 
 /// Calls visit(column, field) for each column of the table `setup`.
 template <typename Row, typename Visit>
-requires std::same_as<std::remove_const_t<Row>, Setup>
+requires std::same_as<std::remove_const_t<Row>, SessionConfig>
 void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"responder", "", "who answered: human, or a model NAME[:FILE]", 3},
         row.responder);
@@ -127,7 +127,7 @@ void visit_columns(Row& row, Visit&& visit) {
 
 /// What only the event keeps: places, the contents of its files, and the drawn participant.
 template <typename Row, typename Visit>
-requires std::same_as<std::remove_const_t<Row>, Setup>
+requires std::same_as<std::remove_const_t<Row>, SessionConfig>
 void visit_contents(Row& row, Visit&& visit) {
   visit("participant_parameters", row.participant_parameters);
   visit("protocol_file", row.protocol_file);
@@ -141,10 +141,10 @@ void visit_contents(Row& row, Visit&& visit) {
 }
 
 /// Its changes to the protocol, KEY=VALUE each.
-std::vector<std::string> settings_of(const Setup& setup);
+std::vector<std::string> settings_of(const SessionConfig& setup);
 
 /// A person answers, not a model.
-inline bool has_person(const Setup& setup) {
+inline bool has_person(const SessionConfig& setup) {
   return setup.responder == "human";
 }
 
