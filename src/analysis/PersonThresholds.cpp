@@ -1,30 +1,11 @@
 #include "analysis/PersonThresholds.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace heft {
 
 namespace {
-void put_fitted(PersonThreshold& one, const AnswersByLevel& answers) {
-  const Fit fit = fit_indecision(answers, {.lapse = fixed_lapse});
-  one.why = fit.why;
-  if (!fit.identifiable()) return;
-  const FittedParameter& threshold = fit.parameter("threshold_75_g");
-  one.threshold_75_g = threshold.value;
-  one.interval_g = Interval{threshold.low.value_or(0), *threshold.high};
-}
-
-void put_own(PersonThreshold& one, const AnswersByLevel& answers, const OwnSensitivity& own) {
-  one.why = too_little(answers);
-  if (one.why.empty())
-    one.why = why_no_threshold(!own.high, own.low, own.high, {largest_level_of(answers)});
-  if (!one.identifiable()) return;
-  one.threshold_75_g = z_75 / own.value;
-  one.interval_g = Interval{z_75 / *own.high, z_75 / *own.low};
-}
-
 using Key = std::pair<Compared, std::string>;
 
 // Null: too few people to draw on.
@@ -83,12 +64,16 @@ std::vector<PersonThreshold> thresholds_of(const ComparisonTrials& trials,
   for (const auto& [compared, theirs] : trials.by_compared())
     for (const auto& [participant, answers] : answers_by_side(trials, compared)) {
       const Key key{compared, participant};
-      PersonThreshold& row = rows.emplace_back(PersonThreshold{
-          compared, participant, static_cast<int>(trials_in(answers)), {}, {}, {}, {}, {}, {}});
-      if (const OwnSensitivity* own = own_of(key, pooled))
-        put_own(row, answers, *own);
-      else
-        put_fitted(row, answers);
+      const auto [threshold_g, interval_g, why] = own_threshold(answers, own_of(key, pooled));
+      PersonThreshold& row = rows.emplace_back(PersonThreshold{compared,
+                                                               participant,
+                                                               static_cast<int>(trials_in(answers)),
+                                                               threshold_g,
+                                                               interval_g,
+                                                               why,
+                                                               {},
+                                                               {},
+                                                               {}});
       if (const auto found = jnds.find(key); found != jnds.end()) row.jnd = found->second;
       if (const auto found = results.find(key); found != results.end())
         put_starts(row, found->second);

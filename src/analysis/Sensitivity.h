@@ -24,9 +24,4 @@ inline std::vector<ReferenceSensitivity> sensitivities_of(std::span<const Sessio
   return sensitivities_of(folded<ComparisonTrials>(sessions));
 }
 
-/// The interval of the second threshold divided by the first, both identifiable and of one study:
-/// each bootstrap sample draws the same people at both.
-Interval threshold_ratio_interval(const PooledSensitivity& first, const PooledSensitivity& second,
-                                  double confidence = confidence_level);
-
 }  // namespace heft

@@ -12,7 +12,6 @@
 #include "base/Random.h"
 #include "inference/CriteriaFit.h"
 #include "inference/MaximumLikelihood.h"
-#include "inference/SensitivityGrid.h"
 #include "inference/SensitivitySpread.h"
 #include "psychophysics/Normal.h"
 
@@ -288,6 +287,31 @@ PooledSensitivity pooled_sensitivity(std::map<std::string, AnswersByLevel> all,
         fmt::format("{} participants are too few to tell how people differ, expected {} or more",
                     found.n, least_people);
   return found;
+}
+
+OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* own) {
+  if (own == nullptr) {
+    const Fit fit = fit_indecision(answers, {.lapse = fixed_lapse});
+    if (!fit.identifiable()) return {{}, {}, fit.why};
+    const FittedParameter& threshold = fit.parameter("threshold_75_g");
+    return {threshold.value, Interval{threshold.low.value_or(0), *threshold.high}, ""};
+  }
+  std::string why = too_little(answers);
+  if (why.empty())
+    why = why_no_threshold(!own->high, own->low, own->high, {largest_level_of(answers)});
+  if (!why.empty()) return {{}, {}, why};
+  return {z_75 / own->value, Interval{z_75 / *own->high, z_75 / *own->low}, ""};
+}
+
+Interval threshold_ratio_interval(const PooledSensitivity& first, const PooledSensitivity& second,
+                                  double confidence) {
+  std::vector<double> ratios;
+  const std::size_t n =
+      std::min(first.sensitivity_samples.size(), second.sensitivity_samples.size());
+  for (std::size_t i = 0; i < n; ++i)
+    ratios.push_back(first.sensitivity_samples[i] / second.sensitivity_samples[i]);
+  return symmetric_interval(*first.sensitivity / *second.sensitivity, ratios,
+                            static_cast<std::size_t>(std::min(first.n, second.n)), confidence);
 }
 
 }  // namespace heft

@@ -85,4 +85,20 @@ Interval symmetric_interval(double estimate, const std::vector<double>& samples,
 PooledSensitivity pooled_sensitivity(std::map<std::string, AnswersByLevel> people,
                                      const std::set<std::string>& study);
 
+/// One person's at one reference.
+struct OwnThreshold {
+  std::optional<double> threshold_75_g;  ///< none: not identifiable
+  std::optional<Interval> interval_g;    ///< see OwnSensitivity; of fewer people profile likelihood
+  std::string why;                       ///< not identifiable; empty: it is
+};
+
+/// @param answers  left, none, right by signed level in g
+/// @param own  of the same answers among several people's; null: too few people to draw on
+OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* own);
+
+/// The interval of the second threshold divided by the first, both identifiable and of one study:
+/// each bootstrap sample draws the same people at both.
+Interval threshold_ratio_interval(const PooledSensitivity& first, const PooledSensitivity& second,
+                                  double confidence = confidence_level);
+
 }  // namespace heft

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::Pair;
 
 const AnswerFormat psychometric{};
-const AnswerFormat indecision{FitModel::indecision, std::nullopt, false};
+const AnswerFormat indecision_file{FitModel::indecision, std::nullopt, false};
 
 AnswersByLevel only_group(const std::string& text, const AnswerFormat& format) {
   const auto groups = parse_answers(text, "data.csv", format);
@@ -37,9 +37,9 @@ TEST(AnswerData, ALevelThatWasNotShownIsNone) {
 }
 
 TEST(AnswerData, Choices) {
-  EXPECT_EQ(
-      only_group("level_g,answer\n-5,comparison\n-5,none\n-5,reference\n-5,none\n", indecision),
-      (AnswersByLevel{{-5, {1, 2, 1}}}));
+  EXPECT_EQ(only_group("level_g,answer\n-5,comparison\n-5,none\n-5,reference\n-5,none\n",
+                       indecision_file),
+            (AnswersByLevel{{-5, {1, 2, 1}}}));
 }
 
 TEST(AnswerData, GroupsAreTextInTheOrderOfTheirFirstRows) {
@@ -87,8 +87,9 @@ TEST(AnswerData, WrongRowsAreRefusedInTheirPlace) {
       {counts + "1,1,1e10\n", "data.csv:2:5: \"1e10\""},
       {"x,response\n1,2\n", "data.csv:2:3: response is \"2\", expected 0 or 1"},
       {"x,response\n1,yes\n", "data.csv:2:3: response is \"yes\""},
-      {"level_g,answer\n1,Comparison\n", "data.csv:2:3: answer is \"Comparison\"", indecision},
-      {"x,response\n1,1\n", "data.csv:1:1: expected a header with level_g and answer", indecision},
+      {"level_g,answer\n1,Comparison\n", "data.csv:2:3: answer is \"Comparison\"", indecision_file},
+      {"x,response\n1,1\n", "data.csv:1:1: expected a header with level_g and answer",
+       indecision_file},
       {counts + "-1,1,2\n", "expected 0 or more", {FitModel::psychometric, {}, true}},
   };
   for (const Refused& each : refused)
