@@ -115,10 +115,10 @@ std::vector<Noted> noted_in(const std::vector<LoggedEvent>& events) {
 EventCounts count_events(const std::vector<LoggedEvent>& events) {
   EventCounts counts;
   for (const LoggedEvent& logged : events) {
-    counts.notes += logged.event.kind() == EventKind::note ? 1 : 0;
-    counts.deviations += logged.event.kind() == EventKind::deviation ? 1 : 0;
-    counts.unblindings += logged.event.kind() == EventKind::unblinding ? 1 : 0;
-    counts.effector_lost += logged.event.kind() == EventKind::effector_lost ? 1 : 0;
+    counts.notes += logged.event.is<Note>() ? 1 : 0;
+    counts.deviations += logged.event.is<Deviation>() ? 1 : 0;
+    counts.unblindings += logged.event.is<Unblinding>() ? 1 : 0;
+    counts.effector_lost += logged.event.is<EffectorLost>() ? 1 : 0;
     if (const auto* consent = logged.event.as<Consent>()) counts.consented = consent->agreed;
     if (const auto* check = logged.event.as<CheckResult>()) {
       counts.checks_failed += check->verdict == CheckVerdict::failed ? 1 : 0;
@@ -135,9 +135,10 @@ struct Declared {
   ExclusionRules exclusion;
 };
 
-constexpr std::array counted_kinds{
-    EventKind::note,   EventKind::deviation, EventKind::unblinding,   EventKind::check,
-    EventKind::camera, EventKind::consent,   EventKind::effector_lost};
+constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviation>,
+                                   event_kind<Unblinding>,   event_kind<CheckResult>,
+                                   event_kind<CameraReport>, event_kind<Consent>,
+                                   event_kind<EffectorLost>};
 
 Declared declared_in(const std::string& protocol_text) {
   Declared declared{staircases_without_jnd(protocol_text), {}, {}};

@@ -52,7 +52,7 @@ struct EventCounts {
 /// A note, deviation, unblinding or a check that was not passed.
 struct Noted {
   double t_s = 0;
-  EventKind kind = EventKind::note;
+  EventKind kind = event_kind<Note>;
   std::string text;
 };
 

@@ -27,21 +27,8 @@ using Json = nlohmann::ordered_json;
 
 // What is told of the session's course, in order; trials are counted instead.
 bool is_worth_telling(const Event& event) {
-  switch (event.kind()) {
-    case EventKind::note:
-    case EventKind::deviation:
-    case EventKind::unblinding:
-    case EventKind::paused:
-    case EventKind::continued:
-    case EventKind::resumed:
-    case EventKind::rest:
-    case EventKind::consent:
-    case EventKind::answer_vetoed:
-    case EventKind::ended:
-      return true;
-    default:
-      return false;
-  }
+  return event.is<Note, Deviation, Unblinding, SessionPaused, SessionContinued, SessionResumed,
+                  BreakTaken, Consent, AnswerVetoed, SessionEnded>();
 }
 
 struct BlockProgress {

@@ -10,18 +10,15 @@
 namespace heft {
 
 namespace {
-template <typename... Kinds>
-bool is_any_of(const Happening& what) {
-  return (std::holds_alternative<Kinds>(what) || ...);
-}
+template <typename... Handlers>
+struct Cases : Handlers... {
+  using Handlers::operator()...;
+};
+template <typename... Handlers>
+Cases(Handlers...) -> Cases<Handlers...>;
 
-bool belongs_to_attempt(const Happening& what) {
-  return is_any_of<Action, CubesReset, CubesShown, CubeTouch, EffectorLost, EffectorFound>(what);
-}
-
-bool decides_course(const Happening& what) {
-  return is_any_of<TrialStarted, TrialVoided, SessionPaused, SessionContinued, DemonstrationShown,
-                   SessionResumed, SessionEnded, AnswerVetoed>(what);
+EventRole role_of(const EventPayload& what) {
+  return std::visit([](const auto& payload) { return payload.event_type.role; }, what);
 }
 }  // namespace
 
@@ -39,14 +36,19 @@ Admission Engine::admit(Event event) const {
 std::optional<std::string> Engine::refusal(const Event& event) const {
   if (!(event.t_s >= last_s_))
     return fmt::format("time {} s comes before the last event's {} s", event.t_s, last_s_);
-  if (belongs_to_attempt(event.what)) {
-    if (!open_) return "no trial is running";
-    if (paused_) return "the session is paused";
-    return open_->refusal(event);
+  switch (role_of(event.what)) {
+    case EventRole::attempt:
+      if (!open_) return "no trial is running";
+      if (paused_) return "the session is paused";
+      return open_->refusal(event);
+    case EventRole::course:
+      if (over_) return "the session has ended";
+      return course_refusal(event);
+    case EventRole::setting:
+    case EventRole::recorded:
+      break;
   }
-  if (!decides_course(event.what)) return std::nullopt;  // only kept
-  if (over_) return "the session has ended";
-  return course_refusal(event);
+  return std::nullopt;
 }
 
 std::optional<std::string> Engine::course_refusal(const Event& event) const {
@@ -98,47 +100,56 @@ Changes Engine::apply(const AdmittedEvent& admitted) {
   return changes;
 }
 
+// A payload without a case here does not compile, unless it is only recorded.
 void Engine::fold(const Event& event, Changes& changes) {
-  if (event.as<TrialStarted>()) return start_trial(event.t_s, changes);
-  if (const auto* action = event.as<Action>()) return act(*action, event.t_s, changes);
-  if (const auto* voided = event.as<TrialVoided>())
-    return void_trial(voided->reason, event.t_s, changes);
-  if (const auto* vetoed = event.as<AnswerVetoed>())
-    return veto_answer(vetoed->reason, event.t_s, changes);
-  if (const auto* setup = event.as<SessionConfig>()) {
-    set_up(*setup, changes);
-  } else if (event.as<SessionPaused>()) {
-    paused_ = true;
-    set_state(SessionState::paused, changes);
-  } else if (event.as<SessionContinued>() || event.as<SessionResumed>()) {
-    paused_ = false;
-    if (event.as<SessionResumed>()) n_voids_ = 0;  // somebody has looked
-    set_state(SessionState::running, changes);
-  } else if (event.as<DemonstrationShown>()) {
-    end_rest();
-    answered_.reset();
-    enter_block(block_ + 1);
-  } else if (const auto* ended = event.as<SessionEnded>()) {
-    over_ = true;
-    set_state(ended->how == Ending::finished ? SessionState::finished : SessionState::aborted,
-              changes);
-  } else if (const auto* taken = event.as<BreakTaken>()) {
-    if (rest_ && rest_->name == taken->name) end_rest();
-  } else if (event.as<CubesShown>()) {
-    open_->show(event.t_s);
-    changes.trial = open_->row();
-  } else if (const auto* contact = event.as<CubeTouch>()) {
-    open_->touch(*contact, event.t_s);
-    changes.trial = open_->row();
-    changes.cubes = {open_->cubes()[static_cast<std::size_t>(contact->slot - 1)]};
-  } else if (const auto* reset = event.as<CubesReset>()) {
-    open_->reset(*reset);
-    changes.cubes = open_->cubes();
-  } else if (event.as<EffectorLost>()) {
-    open_->lose_effector();
-  } else if (event.as<EffectorFound>()) {
-    open_->find_effector();
-  }
+  const double t_s = event.t_s;
+  const auto set_paused = [&](bool paused) {
+    paused_ = paused;
+    set_state(paused ? SessionState::paused : SessionState::running, changes);
+  };
+  const Cases fold_payload{
+      [&](const TrialStarted&) { start_trial(t_s, changes); },
+      [&](const Action& action) { act(action, t_s, changes); },
+      [&](const TrialVoided& voided) { void_trial(voided.reason, t_s, changes); },
+      [&](const AnswerVetoed& vetoed) { veto_answer(vetoed.reason, t_s, changes); },
+      [&](const SessionConfig& setup) { set_up(setup, changes); },
+      [&](const SessionPaused&) { set_paused(true); },
+      [&](const SessionContinued&) { set_paused(false); },
+      [&](const SessionResumed&) {
+        n_voids_ = 0;  // somebody has looked
+        set_paused(false);
+      },
+      [&](const SessionEnded& ended) {
+        over_ = true;
+        const bool finished = ended.how == Ending::finished;
+        set_state(finished ? SessionState::finished : SessionState::aborted, changes);
+      },
+      [&](const DemonstrationShown&) {
+        end_rest();
+        answered_.reset();
+        enter_block(block_ + 1);
+      },
+      [&](const BreakTaken& taken) {
+        if (rest_ && rest_->name == taken.name) end_rest();
+      },
+      [&](const CubesShown&) {
+        open_->show(t_s);
+        changes.trial = open_->row();
+      },
+      [&](const CubeTouch& contact) {
+        open_->touch(contact, t_s);
+        changes.trial = open_->row();
+        changes.cubes = {open_->cubes()[static_cast<std::size_t>(contact.slot - 1)]};
+      },
+      [&](const CubesReset& reset) {
+        open_->reset(reset);
+        changes.cubes = open_->cubes();
+      },
+      [&](const EffectorLost&) { open_->lose_effector(); },
+      [&](const EffectorFound&) { open_->find_effector(); },
+      [](const Recorded auto&) {},
+  };
+  std::visit(fold_payload, event.what);
 }
 
 void Engine::set_up(const SessionConfig& setup, Changes& changes) {

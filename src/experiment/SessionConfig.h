@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "experiment/Column.h"
+#include "experiment/EventType.h"
 
 namespace heft {
 
 struct SessionConfig {
+  static constexpr EventType event_type{"setup", EventRole::setting};
   std::string responder = "simulated";
   std::string tracker = "hand";
   std::string view = "headless";
@@ -49,6 +51,7 @@ struct SessionConfig {
   std::string protocol_file, backup;
   std::string responder_text, tracker_text, camera_text, board_text, effector_text, texts_text;
 
+  static void event_columns(auto& setup, auto& row) { row.detail(setup); }
   bool operator==(const SessionConfig&) const = default;
 };
 

@@ -34,7 +34,7 @@ std::string event_line(const Event& event, const AnnouncedEvent& about) {
   }
   if (row.slot) line["slot"] = *row.slot;
   if (row.label) line["label"] = name_of(*row.label);
-  if (!row.detail.empty() && row.kind != EventKind::setup)
+  if (!row.detail.empty() && row.kind != event_kind<SessionConfig>)
     line["detail"] = begun(row.detail, longest_detail);
   return line.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
 }

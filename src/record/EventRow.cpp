@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
                           row.t_s, expected, row.detail));
 }
 
-// Puts what an event tells into the row's columns.
+// Puts a payload into the row's columns.
 class ToRow {
  public:
   explicit ToRow(EventRow& row) : row_(row) {}
@@ -134,66 +134,15 @@ class FromRow {
   Json json_;
 };
 
-// Where each kind of event keeps what it tells, both ways.
-template <typename Row>
-struct Tell {
-  Row& row;
-
-  // Trial started, continued, cubes shown, effector lost and found: there is nothing to tell.
-  void operator()(auto&) const {}
-  void operator()(RowOf<Action> auto& action) const {
-    row.detail(action.kind).slot(action.slot).label(action.label);
-  }
-  void operator()(RowOf<TrialVoided> auto& voided) const { row.detail(voided.reason); }
-  void operator()(RowOf<SessionPaused> auto& paused) const { row.detail(paused.reason); }
-  void operator()(RowOf<CubesReset> auto& reset) const {
-    row.slot(reset.slot)
-        .detail_is(reset.slot ? "out_of_area" : "button",
-                   "\"button\", or \"out_of_area\" with a cube's slot");
-  }
-  void operator()(RowOf<DemonstrationShown> auto& shown) const { row.detail(shown.block); }
-  void operator()(RowOf<SessionResumed> auto& resumed) const {
-    row.detail(resumed.utc).duration(resumed.away_s, /*if_none=*/0.0);
-  }
-  void operator()(RowOf<SessionEnded> auto& ended) const { row.detail(ended.how); }
-  void operator()(RowOf<SessionConfig> auto& setup) const { row.detail(setup); }
-  void operator()(RowOf<CubeTouch> auto& touch) const {
-    row.slot(touch.slot)
-        .duration(touch.ended_after_s)
-        .push(touch)
-        .detail_is(touch.ended_after_s ? "ended" : "began",
-                   "\"began\", or \"ended\" with a duration");
-  }
-  void operator()(RowOf<Consent> auto& consent) const {
-    row.json("agreed", consent.agreed);
-    row.json("language", consent.language).json("sha256", consent.sha256);
-  }
-  void operator()(RowOf<TextShown> auto& text) const {
-    row.json("page", text.page).json("language", text.language).json("sha256", text.sha256);
-  }
-  void operator()(RowOf<BreakTaken> auto& taken) const {
-    row.detail(taken.name).duration(taken.duration_s);
-  }
-  void operator()(RowOf<Note> auto& note) const { row.detail(note.text); }
-  void operator()(RowOf<Deviation> auto& deviation) const { row.detail(deviation.text); }
-  void operator()(RowOf<Unblinding> auto& unblinding) const { row.detail(unblinding.who); }
-  void operator()(RowOf<CameraReport> auto& report) const {
-    row.json("shown", report.n_shown).json("dropped", report.n_dropped);
-    row.json("late", report.n_late);
-  }
-  void operator()(RowOf<CheckResult> auto& check) const {
-    row.json("name", check.name).json("verdict", check.verdict).json("finding", check.finding);
-  }
-  void operator()(RowOf<AnswerVetoed> auto& vetoed) const { row.detail(vetoed.reason); }
-  void operator()(RowOf<ActionRefused> auto& refused) const {
-    row.json("action", refused.action.kind).json("reason", refused.reason);
-    row.slot(refused.action.slot).label(refused.action.label);
-  }
-};
+// Both ways. A payload with fields that declares no columns does not compile.
+void convert(auto& payload, auto& row) {
+  using Payload = std::remove_const_t<std::remove_reference_t<decltype(payload)>>;
+  if constexpr (!std::is_empty_v<Payload>) Payload::event_columns(payload, row);
+}
 
 template <std::size_t... Kinds>
-Happening empty_of(EventKind kind, std::index_sequence<Kinds...>) {
-  Happening what;
+EventPayload empty_of(EventKind kind, std::index_sequence<Kinds...>) {
+  EventPayload what;
   ((static_cast<std::size_t>(kind) == Kinds ? void(what.emplace<Kinds>()) : void()), ...);
   return what;
 }
@@ -205,15 +154,16 @@ EventRow row_of(const Event& event) {
   row.t_s = event.t_s;
   row.kind = event.kind();
   ToRow to(row);
-  std::visit(Tell<ToRow>{to}, event.what);
+  std::visit([&](const auto& payload) { convert(payload, to); }, event.what);
   to.finish();
   return row;
 }
 
 Event event_of(const EventRow& row) {
-  Happening what = empty_of(row.kind, std::make_index_sequence<std::variant_size_v<Happening>>());
+  EventPayload what =
+      empty_of(row.kind, std::make_index_sequence<std::variant_size_v<EventPayload>>());
   FromRow from(row);
-  std::visit(Tell<FromRow>{from}, what);
+  std::visit([&](auto& payload) { convert(payload, from); }, what);
   return {row.t_s, std::move(what)};
 }
 

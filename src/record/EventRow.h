@@ -12,7 +12,7 @@ namespace heft {
 struct EventRow {
   int attempt_index = 0;  ///< 0: none
   double t_s = 0;
-  EventKind kind = EventKind::note;
+  EventKind kind = event_kind<Note>;
   std::optional<int> slot;
   std::optional<Label> label;
   std::string detail;

@@ -36,7 +36,7 @@ class Journal {
   void emit(const AdmittedEvent& admitted, Durability durability);
 
   /// An event of now, on disk when this returns.
-  void emit_now(Happening what) { emit({now_s(), std::move(what)}, Durability::acknowledged); }
+  void emit_now(EventPayload what) { emit({now_s(), std::move(what)}, Durability::acknowledged); }
 
   /// Leaves the session so that it can be resumed: an open attempt is void and will run again with
   /// the same draws.

@@ -70,7 +70,7 @@ TEST_F(ReportFolder, AnswersFirstAndHoldsWhatAReviewerAsksFor) {
   SessionData data = session(1, "a");
   add_sortings(data, "C2", Outcome::correct, 8);
   data.setups[0].setup.simulator = "boxes";
-  data.noted = {{12.5, EventKind::deviation, "the lamp <fell>"}};
+  data.noted = {{12.5, event_kind<Deviation>, "the lamp <fell>"}};
   std::vector<SessionData> sessions(13, data);
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     sessions[i].session.session_id = static_cast<int>(i) + 1;

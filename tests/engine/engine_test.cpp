@@ -51,8 +51,8 @@ struct Session {
     return engine.admit(action(t_s + 1, kind, slot, label)).refusal;
   }
   TrialPlan start() {
-    does(EventKind::trial_started);
-    does(EventKind::cubes_shown);
+    does(event_kind<TrialStarted>);
+    does(event_kind<CubesShown>);
     return *engine.next().plan;
   }
   int slot_of(double mass_g) const {
@@ -69,7 +69,7 @@ struct Session {
   }
   // Everything before the first sorting trial.
   void reach_sorting() {
-    does(EventKind::demonstration_shown);
+    does(event_kind<DemonstrationShown>);
     start();
     acts(ActionKind::select, slot_of(800));
   }
@@ -88,7 +88,7 @@ struct Session {
 TEST(Engine, goes_through_the_blocks_in_order) {
   Session session;
   EXPECT_EQ(session.engine.next().kind, Next::Kind::demonstration);
-  session.does(EventKind::demonstration_shown);
+  session.does(event_kind<DemonstrationShown>);
   EXPECT_EQ(session.engine.next().kind, Next::Kind::trial);
   EXPECT_EQ(session.engine.next().plan->task, Task::introduction);
   EXPECT_EQ(session.engine.next().plan->condition, "C2");
@@ -110,7 +110,7 @@ TEST(Engine, goes_through_the_blocks_in_order) {
 
 TEST(Engine, ends_the_introduction_on_the_right_answer_only) {
   Session session;
-  session.does(EventKind::demonstration_shown);
+  session.does(event_kind<DemonstrationShown>);
   session.start();
   const Changes wrong = session.acts(ActionKind::select, session.slot_of(15));
   EXPECT_EQ(wrong.trial->status, TrialStatus::open);
@@ -129,12 +129,12 @@ TEST(Engine, reshuffles_after_a_wrong_introduction_where_the_protocol_says_so) {
   int moved = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Session session(protocol, seed);
-    session.does(EventKind::demonstration_shown);
+    session.does(event_kind<DemonstrationShown>);
     const TrialPlan before = session.start();
     session.acts(ActionKind::select, session.slot_of(15));
     EXPECT_EQ(session.engine.next().plan->n_reshuffles, 1);
     EXPECT_THAT(session.refusal(ActionKind::select, 1), HasSubstr("not appeared"));
-    session.does(EventKind::cubes_shown);
+    session.does(event_kind<CubesShown>);
     if (session.engine.next().plan->masses_g != before.masses_g) ++moved;
   }
   EXPECT_GT(moved, 8);
@@ -231,7 +231,7 @@ TEST(Engine, runs_both_staircases_to_their_estimates_and_finishes) {
     EXPECT_DOUBLE_EQ(*estimate.jnd_g, sum / (estimate.n_reversals - 2));
   }
   EXPECT_EQ(session.engine.next().kind, Next::Kind::finish);
-  EXPECT_EQ(session.does(EventKind::ended, "finished").state, SessionState::finished);
+  EXPECT_EQ(session.does(event_kind<SessionEnded>, "finished").state, SessionState::finished);
   EXPECT_EQ(session.engine.next().kind, Next::Kind::over);
 }
 
@@ -241,7 +241,7 @@ TEST(Engine, a_veto_repeats_the_trial_with_a_new_order_and_leaves_the_staircase)
     Session session(small_protocol(), seed);
     session.reach_comparison();
     const TrialPlan before = session.start();
-    const Changes voided = session.does(EventKind::voided, "veto");
+    const Changes voided = session.does(event_kind<TrialVoided>, "veto");
     EXPECT_EQ(voided.trial->status, TrialStatus::voided);
     EXPECT_THAT(voided.trial->void_reason, Optional(std::string("veto")));
     EXPECT_TRUE(voided.reversals.empty());
@@ -261,8 +261,8 @@ TEST(Engine, a_crash_repeats_the_attempt_with_the_same_draws) {
   session.reach_sorting();
   const TrialPlan before = session.start();
   session.acts(ActionKind::label, 1, Label::heaviest);
-  session.does(EventKind::voided, "interrupted");
-  session.does(EventKind::resumed);
+  session.does(event_kind<TrialVoided>, "interrupted");
+  session.does(event_kind<SessionResumed>);
   const TrialPlan after = *session.engine.next().plan;
   EXPECT_EQ(after.attempt, before.attempt);
   EXPECT_EQ(after.masses_g, before.masses_g);
@@ -275,30 +275,30 @@ TEST(Engine, three_voids_of_one_trial_pause_the_session_but_crashes_do_not_count
   session.reach_sorting();
   for (int crash = 0; crash < 5; ++crash) {
     session.start();
-    session.does(EventKind::voided, "interrupted");
+    session.does(event_kind<TrialVoided>, "interrupted");
   }
   EXPECT_EQ(session.engine.state(), SessionState::running);
   for (int i = 0; i < max_voids; ++i) {
     session.start();
-    const Changes voided = session.does(EventKind::voided, "camera_lost");
+    const Changes voided = session.does(event_kind<TrialVoided>, "camera_lost");
     EXPECT_EQ(voided.state.has_value(), i + 1 == max_voids);
   }
   EXPECT_EQ(session.engine.next().kind, Next::Kind::paused);
   EXPECT_TRUE(session.engine.needs_somebody());
-  session.does(EventKind::continued);
+  session.does(event_kind<SessionContinued>);
   EXPECT_EQ(session.engine.next().plan->attempt, 4);
 }
 
 TEST(Engine, refuses_answers_while_paused_and_before_the_cubes_appear) {
   Session session;
   session.reach_sorting();
-  session.does(EventKind::trial_started);
+  session.does(event_kind<TrialStarted>);
   EXPECT_THAT(session.refusal(ActionKind::dont_know), HasSubstr("not appeared"));
-  session.does(EventKind::cubes_shown);
-  session.does(EventKind::paused, "camera_lost");
+  session.does(event_kind<CubesShown>);
+  session.does(event_kind<SessionPaused>, "camera_lost");
   EXPECT_EQ(session.engine.screen().screen, Screen::paused);
   EXPECT_THAT(session.refusal(ActionKind::dont_know), HasSubstr("paused"));
-  session.does(EventKind::continued);
+  session.does(event_kind<SessionContinued>);
   EXPECT_EQ(session.refusal(ActionKind::dont_know), "");
 }
 
@@ -309,10 +309,10 @@ TEST(Engine, keeps_account_of_time_and_contacts) {
   const double shown_s = session.t_s;
   session.touches(2, 0.75);                                  // began t+1, ended t+2
   session.touches(2, 0.5);                                   // t+3, t+4
-  session.does(EventKind::effector_lost);                    // t+5
-  session.does(EventKind::paused, "camera_lost");            // t+6: lost for 1 s
-  session.does(EventKind::continued);                        // t+7: paused for 1 s
-  session.does(EventKind::effector_found);                   // t+8: lost for 1 s more
+  session.does(event_kind<EffectorLost>);                    // t+5
+  session.does(event_kind<SessionPaused>, "camera_lost");    // t+6: lost for 1 s
+  session.does(event_kind<SessionContinued>);                // t+7: paused for 1 s
+  session.does(event_kind<EffectorFound>);                   // t+8: lost for 1 s more
   const Changes done = session.acts(ActionKind::dont_know);  // t+9
   const TrialRow& row = *done.trial;
   EXPECT_EQ(row.shown_s, shown_s);
@@ -367,7 +367,7 @@ TEST(Engine, requires_contact_with_every_cube_where_the_protocol_says_so) {
   Protocol protocol = small_protocol();
   protocol.require_contact = true;
   Session session(protocol);
-  session.does(EventKind::demonstration_shown);
+  session.does(event_kind<DemonstrationShown>);
   session.start();
   EXPECT_THAT(session.refusal(ActionKind::select, 1), HasSubstr("touched"));
   session.touches(1, 0.1);
@@ -494,7 +494,7 @@ std::vector<std::pair<std::string, double>> course(std::uint64_t seed, auto veto
   for (int n = 0; session.engine.next().kind == Next::Kind::trial; ++n) {
     const TrialPlan plan = session.start();
     if (plan.attempt <= 2 && vetoed(n)) {
-      session.does(EventKind::voided, n % 2 ? "veto" : "interrupted");
+      session.does(event_kind<TrialVoided>, n % 2 ? "veto" : "interrupted");
       continue;
     }
     session.acts(ActionKind::no_difference);
@@ -569,12 +569,12 @@ TEST(Engine, balanced_orders_use_each_order_once_before_any_twice) {
 
 TEST(Engine, an_impossible_event_throws_and_changes_nothing) {
   Session session;
-  EXPECT_THROW(session.engine.apply(event(1, EventKind::trial_started)), Error);
+  EXPECT_THROW(session.engine.apply(event(1, event_kind<TrialStarted>)), Error);
   EXPECT_EQ(session.engine.n_events(), 0);
-  session.does(EventKind::demonstration_shown);
-  EXPECT_THAT(session.engine.admit(event(0.5, EventKind::trial_started)).refusal,
+  session.does(event_kind<DemonstrationShown>);
+  EXPECT_THAT(session.engine.admit(event(0.5, event_kind<TrialStarted>)).refusal,
               HasSubstr("comes before"));
-  EXPECT_THAT(session.engine.admit(event(5, EventKind::ended, "finished")).refusal,
+  EXPECT_THAT(session.engine.admit(event(5, event_kind<SessionEnded>, "finished")).refusal,
               HasSubstr("not everything is done"));
 }
 
@@ -585,7 +585,7 @@ Event random_event(RandomStream& stream, double t_s) {
   const auto label =
       stream.coin(0.5) ? std::optional(static_cast<Label>(stream.below(9))) : std::nullopt;
   const auto value = stream.coin(0.5) ? std::optional(stream.uniform() * 2 - 0.5) : std::nullopt;
-  const std::vector<Happening> all{
+  const std::vector<EventPayload> all{
       TrialStarted{},
       Action{static_cast<ActionKind>(stream.below(EnumNames<ActionKind>::names.size())), some_slot,
              label},
@@ -611,19 +611,19 @@ Event random_event(RandomStream& stream, double t_s) {
 Event likely_event(const Engine& engine, RandomStream& stream, double t_s) {
   switch (engine.next().kind) {
     case Next::Kind::demonstration:
-      return event(t_s, EventKind::demonstration_shown);
+      return event(t_s, event_kind<DemonstrationShown>);
     case Next::Kind::trial:
-      return event(t_s, EventKind::trial_started);
+      return event(t_s, event_kind<TrialStarted>);
     case Next::Kind::paused:
-      return event(t_s, EventKind::continued);
+      return event(t_s, event_kind<SessionContinued>);
     case Next::Kind::act:
-      if (!engine.screen().can_answer) return event(t_s, EventKind::cubes_shown);
+      if (!engine.screen().can_answer) return event(t_s, event_kind<CubesShown>);
       if (engine.next().plan->task != Task::sorting && stream.coin(0.6))
         return action(t_s, ActionKind::select, static_cast<int>(stream.below(2)) + 1);
       return action(t_s, engine.next().plan->task == Task::sorting ? ActionKind::dont_know
                                                                    : ActionKind::no_difference);
     default:
-      return event(t_s, EventKind::ended, "finished");
+      return event(t_s, event_kind<SessionEnded>, "finished");
   }
 }
 

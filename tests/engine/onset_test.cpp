@@ -23,8 +23,8 @@ class OnsetRules : public ::testing::Test {
     setup.min_answer_s = min_answer;
     engine.apply({t_s, setup});
   }
-  void at(double event_s, Happening what) { engine.apply({t_s = event_s, std::move(what)}); }
-  std::string refusal(double event_s, Happening what) const {
+  void at(double event_s, EventPayload what) { engine.apply({t_s = event_s, std::move(what)}); }
+  std::string refusal(double event_s, EventPayload what) const {
     return engine.admit({event_s, std::move(what)}).refusal;
   }
   // The introduction's trial, from its start to the right answer, its cubes shown at once.

@@ -21,8 +21,8 @@ Protocol two_staircases() {
 }
 
 struct Comparing {
-  Changes apply(Happening what) { return engine.apply({++t_s, std::move(what)}); }
-  std::string refusal(Happening what) { return engine.admit({t_s, std::move(what)}).refusal; }
+  Changes apply(EventPayload what) { return engine.apply({++t_s, std::move(what)}); }
+  std::string refusal(EventPayload what) { return engine.admit({t_s, std::move(what)}).refusal; }
   TrialPlan start() {
     apply(TrialStarted{});
     apply(CubesShown{});

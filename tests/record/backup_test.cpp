@@ -43,7 +43,7 @@ class Backup : public testing::Test {
   void write_session(const std::string& participant, int n_events = 12) {
     SessionLog log = SessionLog::start(db, header_of(participant));
     for (int n = 1; n <= n_events; ++n)
-      log.append(event(n, EventKind::note, std::string(200, 'x')), {}, Durability::acknowledged);
+      log.append(event(n, event_kind<Note>, std::string(200, 'x')), {}, Durability::acknowledged);
     log.add_info("age", "30");
   }
 
@@ -67,7 +67,7 @@ TEST_F(Backup, HasEverySessionOfTheLog) {
 TEST_F(Backup, CanBeWrittenToAsALog) {
   const std::string copy = back_up(db, folder, 1);
   SessionLog log = SessionLog::reopen(copy, 1);
-  log.append(event(99, EventKind::note, "more"), {}, Durability::acknowledged);
+  log.append(event(99, event_kind<Note>, "more"), {}, Durability::acknowledged);
   EXPECT_EQ(LogReader(copy).events(1).size(), LogReader(db).events(1).size() + 1);
 }
 

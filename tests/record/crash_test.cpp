@@ -27,7 +27,7 @@ void append_numbered(SessionLog& log, int number) {
   const bool starts = number % 3 == 1;
   Changes changes =
       starts ? starting(sorting_trial(attempt_index, number)) : of_attempt(attempt_index);
-  log.append(event(number, starts ? EventKind::trial_started : EventKind::note), changes,
+  log.append(event(number, starts ? event_kind<TrialStarted> : event_kind<Note>), changes,
              Durability::acknowledged);
   log.add_frame(frame(attempt_index, number));
 }
@@ -69,7 +69,7 @@ void expect_can_go_on(const std::string& file) {
   const bool has_session = std::filesystem::exists(file) && !LogReader(file).sessions().empty();
   SessionLog log =
       has_session ? SessionLog::reopen(file, 1) : SessionLog::start(file, header_of("P01"));
-  log.append(event(1000, EventKind::ended, "finished"), {}, Durability::acknowledged);
+  log.append(event(1000, event_kind<SessionEnded>, "finished"), {}, Durability::acknowledged);
   const LogReader reader(file);
   EXPECT_EQ(reader.events(log.session_id()).back().event.t_s, 1000);
   EXPECT_FALSE(reader.first_broken_digest(log.session_id()));

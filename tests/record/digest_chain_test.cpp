@@ -95,11 +95,11 @@ TEST(digest_chain, goes_on_after_a_transaction_that_was_rolled_back) {
   const TemporaryFolder folder;
   RecordedSession session(header_of("P01")), broken(header_of("P02"));
   for (RecordedSession* each : {&session, &broken}) {
-    each->append(event(1, EventKind::trial_started), starting(sorting_trial(1, 1)),
+    each->append(event(1, event_kind<TrialStarted>), starting(sorting_trial(1, 1)),
                  Durability::acknowledged);
     each->add_frame(frame(1, 2));
   }
-  broken.append(event(3, EventKind::note), of_attempt(7), Durability::acknowledged);
+  broken.append(event(3, event_kind<Note>), of_attempt(7), Durability::acknowledged);
   SessionArchive archive(folder.file("log.db"));
   EXPECT_THROW(archive.store(broken), Error);
   const std::int64_t stored = archive.store(session);
@@ -112,13 +112,14 @@ TEST(digest_chain, goes_on_where_an_interrupted_attempt_was_cut_off) {
   const std::string file = folder.file("log.db");
   {
     SessionLog log = SessionLog::start(file, header_of("P01"));
-    log.append(event(1, EventKind::trial_started), starting(sorting_trial(1, 1)),
+    log.append(event(1, event_kind<TrialStarted>), starting(sorting_trial(1, 1)),
                Durability::acknowledged);
     for (double t_s : {1.1, 1.2}) log.add_frame(frame(1, t_s));
   }
   SessionLog log = SessionLog::reopen(file, 1);
-  log.append(event(2, EventKind::voided, "interrupted"), of_attempt(1), Durability::acknowledged);
-  log.append(event(3, EventKind::trial_started), starting(sorting_trial(2, 3)),
+  log.append(event(2, event_kind<TrialVoided>, "interrupted"), of_attempt(1),
+             Durability::acknowledged);
+  log.append(event(3, event_kind<TrialStarted>), starting(sorting_trial(2, 3)),
              Durability::acknowledged);
   log.add_frame(frame(2, 3.1));
   log.add_frame(frame(1, 3.2));

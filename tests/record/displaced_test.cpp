@@ -26,7 +26,7 @@ class displaced : public testing::Test {
   displaced() { note(1); }
 
   void note(double t_s) {
-    log_->append(event(t_s, EventKind::note, "kept"), {}, Durability::acknowledged);
+    log_->append(event(t_s, event_kind<Note>, "kept"), {}, Durability::acknowledged);
   }
   std::string failure_of_note() {
     return failure([&] { note(2); });

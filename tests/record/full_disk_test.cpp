@@ -67,7 +67,7 @@ Event seventh_answer() {
 void start_trial_seven(SessionLog& log) {
   TrialRow trial = sorting_trial(1, 1);
   trial.plan.trial_number = 7;
-  log.append(event(1, EventKind::trial_started), starting(trial), Durability::acknowledged);
+  log.append(event(1, event_kind<TrialStarted>), starting(trial), Durability::acknowledged);
 }
 
 Changes with_answer(const Event& answer) {
@@ -110,7 +110,7 @@ TEST(full_disk, a_full_disk_is_told_and_all_acknowledged_answers_are_kept) {
                       HasSubstr(file), HasSubstr("the disk is full"), HasSubstr("Free some space"),
                       HasSubstr("heft resume --db " + file)));
     // Whoever goes on hears it again; nothing may follow a lost answer.
-    EXPECT_EQ(failure([&] { log.append(event(9, EventKind::note), {}, Durability::buffered); }),
+    EXPECT_EQ(failure([&] { log.append(event(9, event_kind<Note>), {}, Durability::buffered); }),
               message);
     EXPECT_EQ(failure([&] { log.add_frame(frame(1, 9)); }), message);
     EXPECT_EQ(failure([&] { log.flush(); }), message);
@@ -151,7 +151,7 @@ TEST(full_disk, a_read_only_disk_is_told) {
   const std::string file = disk.file("log.db");
   {
     SessionLog log = SessionLog::start(file, header_of("P01"));
-    log.append(event(1, EventKind::note), {}, Durability::acknowledged);
+    log.append(event(1, event_kind<Note>), {}, Durability::acknowledged);
   }
   const std::string folder = std::filesystem::path(file).parent_path();
   ASSERT_EQ(::mount("tmpfs", folder.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, "size=1m"), 0);
@@ -208,7 +208,7 @@ TEST(full_disk, a_stored_session_is_whole_or_not_there) {
   const TemporaryFolder folder;
   const std::string file = folder.file("log.db");
   RecordedSession small(header_of("P01")), large(header_of("P02"));
-  small.append(event(1, EventKind::note), {}, Durability::acknowledged);
+  small.append(event(1, event_kind<Note>), {}, Durability::acknowledged);
   for (int i = 0; i < 5000; ++i) large.add_frame(frame(0, i));
   SessionArchive archive(file);
   archive.store(small);

@@ -20,7 +20,7 @@ class hostile : public testing::Test {
  protected:
   hostile() {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
-    log.append(event(1, EventKind::note, "here"), {}, Durability::acknowledged);
+    log.append(event(1, event_kind<Note>, "here"), {}, Durability::acknowledged);
   }
   void put_in(const std::string& sql) { SQLite::Database(file_, SQLite::OPEN_READWRITE).exec(sql); }
 
@@ -43,7 +43,7 @@ TEST_F(hostile, its_triggers_do_not_run) {
       "CREATE TRIGGER spy AFTER INSERT ON event BEGIN INSERT INTO loot VALUES (new.detail); END");
   try {
     SessionLog log = SessionLog::reopen(file_, 1);
-    log.append(event(2, EventKind::note, "secret"), {}, Durability::acknowledged);
+    log.append(event(2, event_kind<Note>, "secret"), {}, Durability::acknowledged);
   } catch (const std::exception&) {  // to refuse it altogether is as good
   }
   SQLite::Database plain(file_, SQLite::OPEN_READONLY);

@@ -22,7 +22,7 @@ class locked : public testing::Test {
   locked() { other_.exec("BEGIN IMMEDIATE"); }
 
   void note(const std::string& text, Durability durability = Durability::acknowledged) {
-    log_.append(event(++t_s_, EventKind::note, text), {}, durability);
+    log_.append(event(++t_s_, event_kind<Note>, text), {}, durability);
   }
   std::vector<std::string> notes() {
     std::vector<std::string> found;

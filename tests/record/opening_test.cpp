@@ -34,7 +34,7 @@ class opening : public testing::Test {
  protected:
   void write_log() {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
-    log.append(event(1, EventKind::note, "here"), {}, Durability::acknowledged);
+    log.append(event(1, event_kind<Note>, "here"), {}, Durability::acknowledged);
   }
 
   TemporaryFolder folder_;
@@ -102,12 +102,12 @@ TEST_F(opening, a_reopened_session_goes_on) {
   write_log();
   {
     SessionLog log = SessionLog::reopen(file_, 1);
-    log.append(event(2, EventKind::resumed), starting(sorting_trial(1, 2)),
+    log.append(event(2, event_kind<SessionResumed>), starting(sorting_trial(1, 2)),
                Durability::acknowledged);
   }
   {
     SessionLog log = SessionLog::reopen(file_, 1);
-    log.append(event(3, EventKind::note), of_attempt(1), Durability::acknowledged);
+    log.append(event(3, event_kind<Note>), of_attempt(1), Durability::acknowledged);
   }
   const auto events = LogReader(file_).events(1);
   ASSERT_EQ(events.size(), 3u);
@@ -119,7 +119,7 @@ TEST_F(opening, what_resume_looks_for_is_found) {
     SessionLog log = SessionLog::start(file_, header_of(participant));
     Changes changes;
     changes.state = state;
-    log.append(event(1, EventKind::note), changes, Durability::acknowledged);
+    log.append(event(1, event_kind<Note>), changes, Durability::acknowledged);
   };
   add("P01", SessionState::finished);
   add("P01", SessionState::paused);
@@ -235,7 +235,7 @@ TEST_F(opening, a_finished_log_is_read_where_nothing_can_be_written) {
 TEST_F(opening, a_log_whose_end_lies_beside_it_is_not_read_without_it) {
   Child owner([&](int out) {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
-    log.append(event(1, EventKind::note), {}, Durability::acknowledged);
+    log.append(event(1, event_kind<Note>), {}, Durability::acknowledged);
     say(out, "!");
     ::pause();
   });

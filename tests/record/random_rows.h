@@ -114,7 +114,7 @@ inline SessionConfig any_setup() {
   return setup;
 }
 
-inline Happening any_happening() {
+inline EventPayload any_payload() {
   switch (*rc::gen::inRange(0, 13)) {
     case 0:
       return Action{any_of<ActionKind>(), maybe(slot), maybe(any_of<Label>)};
@@ -146,7 +146,7 @@ inline Happening any_happening() {
 }
 
 inline Event any_event() {
-  return {time_s(), any_happening()};
+  return {time_s(), any_payload()};
 }
 
 inline TrialRow any_trial(int attempt_index) {

@@ -30,26 +30,26 @@ class reading : public testing::Test {
 
 TEST_F(reading, acknowledged_events_are_seen_at_once_with_all_buffered_before_them) {
   SessionLog log = SessionLog::start(file_, header_of("P01"));
-  log.append(event(1, EventKind::trial_started), starting(sorting_trial(1, 1)),
+  log.append(event(1, event_kind<TrialStarted>), starting(sorting_trial(1, 1)),
              Durability::acknowledged);
   EXPECT_EQ(n_events(), 1u);
   log.add_frame(frame(1, 2));
-  log.append(event(2, EventKind::cubes_shown), of_attempt(1), Durability::buffered);
+  log.append(event(2, event_kind<CubesShown>), of_attempt(1), Durability::buffered);
   EXPECT_EQ(n_events(), 1u);
   EXPECT_EQ(n_frames(), 0u);
-  log.append(event(3, EventKind::note), of_attempt(1), Durability::acknowledged);
+  log.append(event(3, event_kind<Note>), of_attempt(1), Durability::acknowledged);
   EXPECT_EQ(n_events(), 3u);
   EXPECT_EQ(n_frames(), 1u);
-  EXPECT_EQ(LogReader(file_).events(1)[1].event.kind(), EventKind::cubes_shown);
+  EXPECT_EQ(LogReader(file_).events(1)[1].event.kind(), event_kind<CubesShown>);
 }
 
 TEST_F(reading, buffered_rows_are_seen_after_a_flush_and_at_the_end) {
   {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
-    log.append(event(1, EventKind::note), {}, Durability::buffered);
+    log.append(event(1, event_kind<Note>), {}, Durability::buffered);
     log.flush();
     EXPECT_EQ(n_events(), 1u);
-    log.append(event(2, EventKind::note), {}, Durability::buffered);
+    log.append(event(2, event_kind<Note>), {}, Durability::buffered);
     EXPECT_EQ(n_events(), 1u);
   }
   EXPECT_EQ(n_events(), 2u);
@@ -57,17 +57,17 @@ TEST_F(reading, buffered_rows_are_seen_after_a_flush_and_at_the_end) {
 
 TEST_F(reading, buffered_rows_are_written_once_a_second_has_passed) {
   SessionLog log = SessionLog::start(file_, header_of("P01"));
-  log.append(event(1, EventKind::note), {}, Durability::buffered);
+  log.append(event(1, event_kind<Note>), {}, Durability::buffered);
   std::this_thread::sleep_for(std::chrono::milliseconds(1010));
-  log.append(event(2, EventKind::note), {}, Durability::buffered);
+  log.append(event(2, event_kind<Note>), {}, Durability::buffered);
   EXPECT_EQ(n_events(), 2u);
 }
 
 TEST_F(reading, a_reader_stays_with_the_moment_it_was_opened) {
   SessionLog log = SessionLog::start(file_, header_of("P01"));
-  log.append(event(1, EventKind::note), {}, Durability::acknowledged);
+  log.append(event(1, event_kind<Note>), {}, Durability::acknowledged);
   const LogReader before(file_);
-  log.append(event(2, EventKind::note), {}, Durability::acknowledged);
+  log.append(event(2, event_kind<Note>), {}, Durability::acknowledged);
   EXPECT_EQ(before.events(1).size(), 1u);
   EXPECT_EQ(n_events(), 2u);
 }
@@ -76,7 +76,7 @@ TEST_F(reading, a_reader_in_another_process_never_meets_half_an_event) {
   Child writer([&](int out) {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     for (int n = 1; n <= 300; ++n) {
-      log.append(event(n, EventKind::trial_started), starting(sorting_trial(n, n)),
+      log.append(event(n, event_kind<TrialStarted>), starting(sorting_trial(n, n)),
                  Durability::acknowledged);
       if (n == 1) say(out, "!");
     }
@@ -101,7 +101,7 @@ class damage : public reading {
     Changes changes = starting(sorting_trial(1, 1));
     changes.answers = {{1, 2, ActionKind::label, 2, Label::heaviest}};
     changes.reversals = {{1, "15g", 1, 100, 50, 50}};
-    log.append(event(1, EventKind::trial_started), changes, Durability::acknowledged);
+    log.append(event(1, event_kind<TrialStarted>), changes, Durability::acknowledged);
     log.add_frame(frame(1, 2));
   }
 

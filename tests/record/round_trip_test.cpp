@@ -78,12 +78,12 @@ TEST(round_trip, a_changed_trial_and_its_cubes_take_the_place_of_the_old_rows) {
   const TemporaryFolder folder;
   SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
   TrialRow trial = sorting_trial(1, 2.5);
-  log.append(event(2.5, EventKind::trial_started), starting(trial), Durability::acknowledged);
+  log.append(event(2.5, event_kind<TrialStarted>), starting(trial), Durability::acknowledged);
   trial.status = TrialStatus::completed;
   trial.plan.masses_g = {15, 200, 800};
   Changes changes = starting(trial);
   changes.cubes = {{1, 2, 200, 4, 1.25, 3.0, 4.0}};
-  log.append(event(5, EventKind::action, "validate"), changes, Durability::acknowledged);
+  log.append(event(5, event_kind<Action>, "validate"), changes, Durability::acknowledged);
 
   const LogReader reader(folder.file("log.db"));
   ASSERT_EQ(reader.trials(1).size(), 1u);
@@ -99,7 +99,7 @@ TEST(round_trip, a_later_session_in_the_same_file_has_its_own_attempts) {
     SessionLog log = SessionLog::start(folder.file("log.db"), header_of(participant));
     TrialRow trial = sorting_trial(1, 1);
     trial.plan.block = participant;
-    log.append(event(1, EventKind::trial_started), starting(trial), Durability::acknowledged);
+    log.append(event(1, event_kind<TrialStarted>), starting(trial), Durability::acknowledged);
   }
   const LogReader reader(folder.file("log.db"));
   EXPECT_EQ(reader.sessions().size(), 2u);

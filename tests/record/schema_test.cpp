@@ -19,7 +19,7 @@ class schema_rules : public testing::Test {
   void SetUp() override {
     {
       SessionLog log = SessionLog::start(file_, header_of("P01"));
-      log.append(event(1, EventKind::trial_started), starting(sorting_trial(1, 1)),
+      log.append(event(1, event_kind<TrialStarted>), starting(sorting_trial(1, 1)),
                  Durability::acknowledged);
       Changes changes = of_attempt(1);
       const Event answer = action(2, ActionKind::label, 2, Label::heaviest);

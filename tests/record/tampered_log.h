@@ -29,7 +29,7 @@ class TamperedLog : public testing::Test {
   void write_session(const std::string& participant) {
     SessionLog log = SessionLog::start(original_, header_of(participant));
     for (int n = 1; n <= 2; ++n) {
-      log.append(event(n, EventKind::trial_started), starting(sorting_trial(n, n)),
+      log.append(event(n, event_kind<TrialStarted>), starting(sorting_trial(n, n)),
                  Durability::acknowledged);
       log.append(action(n + 0.25, ActionKind::label, 2, Label::heaviest), of_attempt(n),
                  Durability::acknowledged);

@@ -24,7 +24,7 @@ class views : public testing::Test {
   // Masses by slot: 800, 15, 200 g. Shown at 11 s, validated at 31.5 s.
   void complete_sorting(int attempt_index, const std::vector<Event>& answers) {
     TrialRow trial = sorting_trial(attempt_index, 10);
-    log_.append(event(10, EventKind::trial_started), starting(trial), Durability::buffered);
+    log_.append(event(10, event_kind<TrialStarted>), starting(trial), Durability::buffered);
     for (const Event& answer : answers) {
       Changes changes = of_attempt(attempt_index);
       changes.answers = {answer_of(attempt_index, answer)};
@@ -36,7 +36,7 @@ class views : public testing::Test {
     trial.validated_s = trial.ended_s = 31.5;
     trial.paused_s = 4;
     trial.lost_s = 0.25;
-    log_.append(event(31.5, EventKind::note), starting(trial), Durability::acknowledged);
+    log_.append(event(31.5, event_kind<Note>), starting(trial), Durability::acknowledged);
   }
 
   TemporaryFolder folder_;
@@ -54,7 +54,7 @@ TEST_F(views, a_trial_row_has_its_masses_participant_and_pushes) {
   TrialRow trial = sorting_trial(1, 10);
   Changes changes = starting(trial);
   changes.cubes = {{1, 1, 800, 2, 1.5, {}, {}}, {1, 3, 200, 3, 0.25, {}, {}}};
-  log_.append(event(10, EventKind::trial_started), changes, Durability::acknowledged);
+  log_.append(event(10, event_kind<TrialStarted>), changes, Durability::acknowledged);
   EXPECT_EQ(of("SELECT participant || ' ' || cube1_mass_g || ' ' || cube2_mass_g || ' ' || "
                "cube3_mass_g FROM v_trial"),
             "P07 800.0 15.0 200.0");
@@ -69,7 +69,7 @@ TEST_F(views, a_comparison_has_its_comparison_mass_and_no_third_cube) {
   trial.plan.reference_g = 200;
   trial.plan.level_g = 75;
   trial.plan.masses_g = {275, 200};
-  log_.append(event(10, EventKind::trial_started), starting(trial), Durability::acknowledged);
+  log_.append(event(10, event_kind<TrialStarted>), starting(trial), Durability::acknowledged);
   EXPECT_EQ(of("SELECT comparison_g FROM v_trial"), "275.0");
   EXPECT_EQ(of("SELECT cube3_mass_g FROM v_trial"), "NULL");
   EXPECT_EQ(of("SELECT count(*) FROM v_sorting"), "0");
@@ -86,7 +86,7 @@ TEST_F(views, a_frame_tells_the_clones_offset_as_it_was_seen) {
   log_.append(Event{9, setup}, told, Durability::acknowledged);
   TrialRow trial = sorting_trial(1, 10);
   trial.setup_index = 1;
-  log_.append(event(10, EventKind::trial_started), starting(trial), Durability::acknowledged);
+  log_.append(event(10, event_kind<TrialStarted>), starting(trial), Durability::acknowledged);
   FrameRow frame;
   frame.attempt_index = 1;
   frame.clone_offset_px = 40;
@@ -108,7 +108,7 @@ TEST_F(views, jnd_names_the_reference_of_its_staircase) {
   Changes changes = starting(trial);
   changes.estimates = {
       {"fine", "mean_of_reversals", 101.5, {}, {}, 32, 10, 1, 0, Finish::reversals, {}}};
-  log_.append(event(10, EventKind::trial_started), changes, Durability::acknowledged);
+  log_.append(event(10, event_kind<TrialStarted>), changes, Durability::acknowledged);
   EXPECT_EQ(of("SELECT participant || ' ' || staircase || ' ' || reference_g || ' ' || jnd_g || ' "
                "' || n_trials || ' ' || reason FROM v_jnd"),
             "P07 fine 800.0 101.5 32 reversals");
@@ -139,7 +139,7 @@ TEST_F(views, void_attempts_are_no_sorting_results) {
   TrialRow trial = sorting_trial(1, 10);
   trial.status = TrialStatus::voided;
   trial.void_reason = "camera";
-  log_.append(event(10, EventKind::trial_started), starting(trial), Durability::acknowledged);
+  log_.append(event(10, event_kind<TrialStarted>), starting(trial), Durability::acknowledged);
   EXPECT_EQ(of("SELECT count(*) FROM v_sorting"), "0");
   EXPECT_EQ(of("SELECT status || ' ' || void_reason FROM v_trial"), "void camera");
 }

@@ -20,7 +20,7 @@ inline std::vector<Event> events_of(const RecordedSession& session, EventKind ki
 /// The pages of texts in the order that they were shown in.
 inline std::vector<std::string> pages_of(const RecordedSession& session) {
   std::vector<std::string> pages;
-  for (const Event& event : events_of(session, EventKind::text_shown))
+  for (const Event& event : events_of(session, event_kind<TextShown>))
     pages.push_back(event.as<TextShown>()->page);
   return pages;
 }

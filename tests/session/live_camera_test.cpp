@@ -182,11 +182,11 @@ std::vector<FrameRow> frames_between(const LiveSession& session, double from_s, 
 }
 
 void expect_void_and_again(Does what) {
-  const auto session = session_with(what, films_again_after(EventKind::voided), 0.3);
+  const auto session = session_with(what, films_again_after(event_kind<TrialVoided>), 0.3);
   EXPECT_EQ(session->run(), RunEnd::finished);
-  const auto paused = session->events(EventKind::paused),
-             continued = session->events(EventKind::continued),
-             voided = session->events(EventKind::voided);
+  const auto paused = session->events(event_kind<SessionPaused>),
+             continued = session->events(event_kind<SessionContinued>),
+             voided = session->events(event_kind<TrialVoided>);
   ASSERT_THAT(paused, SizeIs(1));
   ASSERT_THAT(continued, SizeIs(1));
   ASSERT_THAT(voided, SizeIs(1));
@@ -212,24 +212,24 @@ TEST(LiveCamera, that_is_unplugged_does_the_same) {
 }
 
 TEST(LiveCamera, that_is_back_soon_voids_nothing) {
-  const auto session = session_with(Does::freeze, films_again_after(EventKind::paused), 5);
+  const auto session = session_with(Does::freeze, films_again_after(event_kind<SessionPaused>), 5);
   EXPECT_EQ(session->run(), RunEnd::finished);
-  EXPECT_THAT(session->events(EventKind::paused), SizeIs(1));
-  EXPECT_THAT(session->events(EventKind::continued), SizeIs(1));
-  EXPECT_THAT(session->events(EventKind::voided), IsEmpty());
+  EXPECT_THAT(session->events(event_kind<SessionPaused>), SizeIs(1));
+  EXPECT_THAT(session->events(event_kind<SessionContinued>), SizeIs(1));
+  EXPECT_THAT(session->events(event_kind<TrialVoided>), IsEmpty());
   EXPECT_EQ(session->engine->n_attempts(), 2);
 }
 
 TEST(LiveCamera, that_does_not_see_the_effector_pauses_nothing) {
   const auto lost_and_found = [](LiveSession& session) {
-    if (!session.events(EventKind::effector_lost).empty()) session.device.does = Does::film;
-    return !session.events(EventKind::effector_found).empty();
+    if (!session.events(event_kind<EffectorLost>).empty()) session.device.does = Does::film;
+    return !session.events(event_kind<EffectorFound>).empty();
   };
   const auto session = session_with(Does::film_no_effector, lost_and_found, 0.3);
   EXPECT_EQ(session->run(), RunEnd::finished);
-  EXPECT_THAT(session->events(EventKind::effector_found), SizeIs(1));
-  EXPECT_THAT(session->events(EventKind::paused), IsEmpty());
-  EXPECT_THAT(session->events(EventKind::voided), IsEmpty());
+  EXPECT_THAT(session->events(event_kind<EffectorFound>), SizeIs(1));
+  EXPECT_THAT(session->events(event_kind<SessionPaused>), IsEmpty());
+  EXPECT_THAT(session->events(event_kind<TrialVoided>), IsEmpty());
   EXPECT_EQ(session->engine->n_attempts(), 2);
 }
 
@@ -239,12 +239,12 @@ TEST(LiveCamera, is_not_lost_because_nobody_asked_it) {
   LiveSession session(5, patient);
   session.clock.restart(1000);
   EXPECT_EQ(session.run(), RunEnd::finished);
-  EXPECT_THAT(session.events(EventKind::paused), IsEmpty());
+  EXPECT_THAT(session.events(event_kind<SessionPaused>), IsEmpty());
 }
 
 std::vector<std::string> reasons_of_pauses(const LiveSession& session) {
   std::vector<std::string> reasons;
-  for (const Event& event : session.events(EventKind::paused))
+  for (const Event& event : session.events(event_kind<SessionPaused>))
     reasons.push_back(event.as<SessionPaused>()->reason);
   return reasons;
 }
@@ -266,7 +266,7 @@ TEST(LiveCamera, counts_a_lost_board_from_the_trials_start_on) {
         if (screen.screen == Screen::rest) {
           running->device.does = Does::film_no_board;
           n_frames = n;
-        } else if (n > n_frames || !running->events(EventKind::paused).empty()) {
+        } else if (n > n_frames || !running->events(event_kind<SessionPaused>).empty()) {
           running->device.does = Does::film;
         }
         return patient(picture, screen);
@@ -298,14 +298,15 @@ TEST(LiveCamera, counts_a_lost_board_and_drops_from_the_end_of_a_pause_on) {
     } else if (n_frames == 0 && status.paused && monotonic_s() - held_since_s > out_of_view_s) {
       n_frames = n;
       console.commands.push_back({ConsoleCommandKind::go_on, {}});
-    } else if (n_frames > 0 && (n > n_frames || session.events(EventKind::paused).size() > 1)) {
+    } else if (n_frames > 0 &&
+               (n > n_frames || session.events(event_kind<SessionPaused>).size() > 1)) {
       session.device.does = Does::film;
       is_over = true;
     }
   };
   EXPECT_EQ(session.run(&console), RunEnd::finished);
   EXPECT_THAT(reasons_of_pauses(session), ElementsAre("experimenter"));
-  EXPECT_THAT(session.events(EventKind::voided), IsEmpty());
+  EXPECT_THAT(session.events(event_kind<TrialVoided>), IsEmpty());
   ASSERT_GT(testing::frames_of(session.sink).size(), n_frames);
   EXPECT_EQ(testing::frames_of(session.sink)[n_frames].n_dropped, 0);
 }
@@ -317,7 +318,7 @@ TEST(LiveCamera, that_voided_a_trial_three_times_may_hiccup_after_a_resume) {
   bool resumed = false, hiccuped = false;
   std::size_t n_voided = 0;
   LiveSession session(0.3, [&](const ViewFrame& picture, const ScreenState& screen) {
-    const auto films_after = resumed ? EventKind::paused : EventKind::voided;
+    const auto films_after = resumed ? event_kind<SessionPaused> : event_kind<TrialVoided>;
     const std::size_t n = running->events(films_after).size();
     if (n > n_voided) {
       running->device.does = Does::film;
@@ -332,11 +333,11 @@ TEST(LiveCamera, that_voided_a_trial_three_times_may_hiccup_after_a_resume) {
   });
   running = &session;
   EXPECT_EQ(session.run(), RunEnd::paused);
-  EXPECT_THAT(session.events(EventKind::voided), SizeIs(3));
+  EXPECT_THAT(session.events(event_kind<TrialVoided>), SizeIs(3));
   session.device.does = Does::film;
   session.resume();
   resumed = true;
-  n_voided = session.events(EventKind::paused).size();
+  n_voided = session.events(event_kind<SessionPaused>).size();
   EXPECT_EQ(session.run(), RunEnd::finished);
   EXPECT_TRUE(hiccuped);
   EXPECT_EQ(session.engine->n_completed(), 2);
@@ -348,7 +349,7 @@ TEST(LiveCamera, films_while_a_model_answers) {
   session.hand = responder_named("coin").make({});
   session.answers_themselves = false;
   EXPECT_EQ(session.run(), RunEnd::finished);
-  EXPECT_THAT(session.events(EventKind::paused), IsEmpty());
+  EXPECT_THAT(session.events(event_kind<SessionPaused>), IsEmpty());
   EXPECT_EQ(session.engine->n_completed(), 2);
 }
 
@@ -362,7 +363,7 @@ TEST(LiveCamera, is_checked_before_the_session_and_that_is_logged) {
   LiveSession session(5, patient);
   session.run();
   std::vector<std::string> checks;
-  for (const Event& event : session.events(EventKind::check))
+  for (const Event& event : session.events(event_kind<CheckResult>))
     checks.push_back(event.as<CheckResult>()->name);
   for (const char* what :
        {"camera", "frame rate", "exposure", "print scale", "light", "board", "effector", "latency"})

@@ -64,13 +64,13 @@ TEST(Person, goes_through_all_pages_and_trials) {
       ElementsAre("consent", "welcome", "about_you", "demonstration", "instructions_sorting",
                   "trial_sorting", "rest", "instructions_introduction", "trial_introduction",
                   "how_decided", "thanks"));
-  const Event consented = session.events(EventKind::consent).at(0);
+  const Event consented = session.events(event_kind<Consent>).at(0);
   const Consent& consent = *consented.as<Consent>();
   EXPECT_TRUE(consent.agreed);
   EXPECT_EQ(consent.language, "fr");
   EXPECT_EQ(consent.sha256.size(), 64U);
   EXPECT_EQ(session.engine.n_completed(), 3);
-  EXPECT_GE(session.events(EventKind::rest).at(0).as<BreakTaken>()->duration_s, 0.1);
+  EXPECT_GE(session.events(event_kind<BreakTaken>).at(0).as<BreakTaken>()->duration_s, 0.1);
 }
 
 TEST(Person, who_does_not_agree_takes_no_part) {
@@ -87,7 +87,7 @@ TEST(Person, who_does_not_agree_takes_no_part) {
 TEST(Person, answers_are_logged_at_the_time_of_the_touch_and_shown_at_once) {
   Session session(quick_protocol());
   session.run();
-  const auto actions = session.events(EventKind::action);
+  const auto actions = session.events(event_kind<Action>);
   ASSERT_EQ(actions.size(), 8U);
   EXPECT_THAT(session.screen.screens,
               Contains(Field(&ScreenState::labels,
@@ -105,8 +105,8 @@ TEST(Person, a_touch_that_can_not_be_taken_is_kept_as_refused_and_ends_nothing) 
     return patient(picture, screen);
   });
   EXPECT_EQ(session.run(), RunEnd::finished);
-  ASSERT_EQ(session.events(EventKind::refused).size(), 1U);
-  const Event refused = session.events(EventKind::refused)[0];
+  ASSERT_EQ(session.events(event_kind<ActionRefused>).size(), 1U);
+  const Event refused = session.events(event_kind<ActionRefused>)[0];
   EXPECT_EQ(refused.as<ActionRefused>()->action, Action{ActionKind::validate});
   EXPECT_THAT(refused.as<ActionRefused>()->reason, HasSubstr("label"));
 }
@@ -129,8 +129,8 @@ TEST(Person, a_touch_on_the_page_before_means_nothing_on_this_one) {
   });
   EXPECT_EQ(session.run(), RunEnd::finished);
   EXPECT_GE(n_late, 3);
-  EXPECT_EQ(session.events(EventKind::action).size(), 8U) << "those that were meant, and no other";
-  EXPECT_THAT(session.events(EventKind::refused), IsEmpty());
+  EXPECT_EQ(session.events(event_kind<Action>).size(), 8U) << "those that were meant, and no other";
+  EXPECT_THAT(session.events(event_kind<ActionRefused>), IsEmpty());
 }
 
 TEST(Person, what_they_tell_about_themselves_is_kept) {
@@ -161,8 +161,8 @@ TEST(Person, the_cubes_go_back_at_a_touch) {
     return patient(picture, screen);
   });
   EXPECT_EQ(session.run(), RunEnd::finished);
-  ASSERT_EQ(session.events(EventKind::cubes_reset).size(), 1U);
-  EXPECT_EQ(session.events(EventKind::cubes_reset)[0].as<CubesReset>()->slot, std::nullopt)
+  ASSERT_EQ(session.events(event_kind<CubesReset>).size(), 1U);
+  EXPECT_EQ(session.events(event_kind<CubesReset>)[0].as<CubesReset>()->slot, std::nullopt)
       << "all of them, by the button";
 }
 
@@ -174,7 +174,8 @@ TEST(Person, who_closes_the_window_can_come_back) {
   });
   EXPECT_EQ(session.run(), RunEnd::stopped);
   EXPECT_EQ(session.engine.state(), SessionState::paused);
-  EXPECT_EQ(session.events(EventKind::voided).at(0).as<TrialVoided>()->reason, void_interrupted);
+  EXPECT_EQ(session.events(event_kind<TrialVoided>).at(0).as<TrialVoided>()->reason,
+            void_interrupted);
 }
 
 TEST(Person, every_picture_has_its_times) {
@@ -187,7 +188,7 @@ TEST(Person, every_picture_has_its_times) {
     EXPECT_LE(*frame.simulated_s, frame.present_s);
     EXPECT_TRUE(frame.n_dropped);
   }
-  EXPECT_EQ(session.events(EventKind::camera).size(), 2U);
+  EXPECT_EQ(session.events(event_kind<CameraReport>).size(), 2U);
 }
 
 // Commands come when a trial's screen is up, one after the other.
@@ -206,13 +207,14 @@ TEST(Experimenter, holds_the_session_and_lets_it_go_on) {
   ScriptedConsole console({{ConsoleCommandKind::pause, {}}, {ConsoleCommandKind::go_on, {}}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::finished);
-  EXPECT_EQ(session.events(EventKind::paused).at(0).as<SessionPaused>()->reason, "experimenter");
-  EXPECT_EQ(session.events(EventKind::continued).size(), 1U);
+  EXPECT_EQ(session.events(event_kind<SessionPaused>).at(0).as<SessionPaused>()->reason,
+            "experimenter");
+  EXPECT_EQ(session.events(event_kind<SessionContinued>).size(), 1U);
   EXPECT_THAT(session.screen.screens, Contains(Field(&ScreenState::screen, Screen::paused)));
   EXPECT_THAT(pages_of(session.sink),
               ElementsAre("welcome", "instructions_sorting", "trial_sorting", "paused",
                           "trial_sorting", "thanks"));
-  EXPECT_THAT(session.events(EventKind::voided), IsEmpty());
+  EXPECT_THAT(session.events(event_kind<TrialVoided>), IsEmpty());
 }
 
 // Every status is held against what stood on the screen when it was shown.
@@ -275,7 +277,7 @@ class FailedCheck : public ::testing::Test {
   }
   std::vector<std::string> notes() const {
     std::vector<std::string> texts;
-    for (const Event& event : session.events(EventKind::note))
+    for (const Event& event : session.events(event_kind<Note>))
       texts.push_back(event.as<Note>()->text);
     return texts;
   }
@@ -295,7 +297,7 @@ TEST_F(FailedCheck, is_asked_about_and_the_session_begins_when_the_experimenter_
   EXPECT_THAT(console.asked, ElementsAre(HasSubstr("nothing was shown")));
   EXPECT_THAT(console.said, Contains(HasSubstr("FAILED   board: not seen")));
   EXPECT_THAT(notes(), ElementsAre("failed check: board; the experimenter goes on"));
-  EXPECT_LE(session.events(EventKind::note)[0].t_s, session.events(EventKind::text_shown)[0].t_s);
+  EXPECT_LE(session.events(event_kind<Note>)[0].t_s, session.events(event_kind<TextShown>)[0].t_s);
 }
 
 TEST_F(FailedCheck, leaves_the_session_to_be_resumed_when_they_do_not) {
@@ -316,7 +318,7 @@ TEST_F(FailedCheck, ends_the_session_to_be_resumed_where_nobody_can_be_asked) {
     EXPECT_THAT(error.what(), HasSubstr("--go-on"));
   }
   EXPECT_THAT(console.said, Contains(HasSubstr("FAILED   board: not seen")));
-  EXPECT_THAT(session.events(EventKind::check), ::testing::SizeIs(2));
+  EXPECT_THAT(session.events(event_kind<CheckResult>), ::testing::SizeIs(2));
   EXPECT_THAT(session.screen.screens, IsEmpty());
   EXPECT_EQ(session.engine.state(), SessionState::paused);
 }
@@ -333,7 +335,7 @@ TEST_F(FailedCheck, is_made_again_until_it_succeeds) {
   n_failures = 3;
   EXPECT_EQ(run(), RunEnd::finished);
   EXPECT_THAT(console.asked, ::testing::SizeIs(3));
-  EXPECT_THAT(session.events(EventKind::check), ::testing::SizeIs(8)) << "each is logged";
+  EXPECT_THAT(session.events(event_kind<CheckResult>), ::testing::SizeIs(8)) << "each is logged";
   EXPECT_THAT(notes(), IsEmpty());
 }
 
@@ -359,8 +361,9 @@ TEST(Experimenter, vetoes_a_trial_and_it_comes_again) {
   ScriptedConsole console({{ConsoleCommandKind::veto, "disturbance"}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::finished);
-  ASSERT_EQ(session.events(EventKind::voided).size(), 1U);
-  EXPECT_EQ(session.events(EventKind::voided)[0].as<TrialVoided>()->reason, "veto: disturbance");
+  ASSERT_EQ(session.events(event_kind<TrialVoided>).size(), 1U);
+  EXPECT_EQ(session.events(event_kind<TrialVoided>)[0].as<TrialVoided>()->reason,
+            "veto: disturbance");
   EXPECT_EQ(session.engine.n_attempts(), 3);
   EXPECT_EQ(session.engine.n_completed(), 2);
 }
@@ -380,7 +383,7 @@ TEST(Experimenter, takes_the_last_answer_back_and_its_trial_comes_again) {
     console.commands.push_back({ConsoleCommandKind::veto_answer, "once more"});
   };
   EXPECT_EQ(session.run(&console), RunEnd::finished);
-  const auto events = session.events(EventKind::answer_vetoed);
+  const auto events = session.events(event_kind<AnswerVetoed>);
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].as<AnswerVetoed>()->reason, "tapped by mistake");
   EXPECT_THAT(console.said, Contains(HasSubstr("presented again")));
@@ -402,7 +405,7 @@ TEST(Person, who_declines_by_mistake_can_take_it_back) {
   EXPECT_THAT(pages_of(session.sink),
               ElementsAre("consent", "declined", "consent", "welcome", "instructions_sorting",
                           "trial_sorting", "thanks"));
-  const auto consents = session.events(EventKind::consent);
+  const auto consents = session.events(event_kind<Consent>);
   ASSERT_EQ(consents.size(), 2U);
   EXPECT_FALSE(consents[0].as<Consent>()->agreed);
   EXPECT_TRUE(consents[1].as<Consent>()->agreed);
@@ -501,7 +504,7 @@ TEST(Experimenter, notes_takes_a_break_and_ends) {
                            {ConsoleCommandKind::end, {}}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::stopped);
-  EXPECT_EQ(session.events(EventKind::note).at(0).as<Note>()->text, "door slammed");
+  EXPECT_EQ(session.events(event_kind<Note>).at(0).as<Note>()->text, "door slammed");
   EXPECT_EQ(session.engine.state(), SessionState::paused);
 }
 
@@ -509,7 +512,7 @@ TEST(Experimenter, gets_the_break_that_was_asked_for) {
   ScriptedConsole console({{ConsoleCommandKind::rest, {}}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::finished);
-  EXPECT_EQ(session.events(EventKind::rest).at(0).as<BreakTaken>()->name, "asked for");
+  EXPECT_EQ(session.events(event_kind<BreakTaken>).at(0).as<BreakTaken>()->name, "asked for");
 }
 
 TEST(Person, who_comes_back_takes_the_break_that_was_asked_for_and_not_ended) {
@@ -521,18 +524,19 @@ TEST(Person, who_comes_back_takes_the_break_that_was_asked_for_and_not_ended) {
     return std::vector{touch(TouchKind::close)};
   });
   EXPECT_EQ(session.run(&console), RunEnd::stopped);
-  EXPECT_THAT(session.events(EventKind::rest), IsEmpty());
+  EXPECT_THAT(session.events(event_kind<BreakTaken>), IsEmpty());
   RecordedSession sink{SessionHeader{}};
   EXPECT_EQ(go_on(session, sink), RunEnd::finished);
   EXPECT_THAT(pages_of(sink), ElementsAre("rest", "trial_sorting", "thanks"));
-  EXPECT_EQ(testing::events_of(sink, EventKind::rest).at(0).as<BreakTaken>()->name, "asked for");
+  EXPECT_EQ(testing::events_of(sink, event_kind<BreakTaken>).at(0).as<BreakTaken>()->name,
+            "asked for");
 }
 
 TEST(Experimenter, is_blind_until_they_unblind_themselves) {
   ScriptedConsole console({{ConsoleCommandKind::unblind, {}}});
   Session session(quick_protocol());
   session.run(&console);
-  EXPECT_EQ(session.events(EventKind::unblinding).size(), 1U);
+  EXPECT_EQ(session.events(event_kind<Unblinding>).size(), 1U);
   EXPECT_FALSE(console.shown.front().plan);
   bool saw_plan = false;
   for (const ConsoleStatus& status : console.shown) saw_plan = saw_plan || status.plan.has_value();

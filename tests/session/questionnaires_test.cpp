@@ -204,7 +204,7 @@ TEST(Questionnaires, ThatTheTextsLackAreNotedAndPassedOver) {
   TappedSession session(asking(), texts_with({"nasa_tlx"}), std::ref(person));
   ASSERT_EQ(session.run(), RunEnd::finished);
   std::vector<std::string> notes;
-  for (const Event& event : testing::events_of(session.sink, EventKind::note))
+  for (const Event& event : testing::events_of(session.sink, event_kind<Note>))
     notes.push_back(event.as<Note>()->text);
   EXPECT_THAT(notes, Contains(::testing::HasSubstr("\"presence\"")));
 }
@@ -256,7 +256,7 @@ TEST(Questionnaires, DoNotChangeWhatAModelAnswersInTrials) {
   unasked.protocol.screens.questionnaires.clear();
   const auto actions_of = [](const RecordedSession& session) {
     std::vector<Action> actions;
-    for (const Event& event : testing::events_of(session, EventKind::action))
+    for (const Event& event : testing::events_of(session, event_kind<Action>))
       actions.push_back(*event.as<Action>());
     return actions;
   };

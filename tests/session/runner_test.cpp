@@ -133,9 +133,9 @@ TEST(Runner, runs_a_whole_session_to_its_end) {
   Bench bench(small_protocol());
   EXPECT_EQ(bench.run(), RunEnd::finished);
   EXPECT_EQ(bench.engine.state(), SessionState::finished);
-  EXPECT_EQ(bench.events(EventKind::demonstration_shown).size(), 1u);
-  ASSERT_EQ(bench.events(EventKind::rest).size(), 1u);
-  EXPECT_EQ(bench.events(EventKind::rest)[0].as<BreakTaken>()->duration_s, 60);
+  EXPECT_EQ(bench.events(event_kind<DemonstrationShown>).size(), 1u);
+  ASSERT_EQ(bench.events(event_kind<BreakTaken>).size(), 1u);
+  EXPECT_EQ(bench.events(event_kind<BreakTaken>)[0].as<BreakTaken>()->duration_s, 60);
 }
 
 TEST(Runner, every_displayed_picture_is_a_frame_at_the_display_rate) {
@@ -154,9 +154,9 @@ TEST(Runner, an_effector_out_of_view_voids_nothing_and_hides_the_clone) {
     picture.sample.tracked = t_s < 0.3 || t_s > 0.7;
   });
   EXPECT_EQ(bench.run(), RunEnd::finished);
-  EXPECT_THAT(bench.events(EventKind::voided), ElementsAre());
-  EXPECT_EQ(bench.events(EventKind::effector_lost).size(), 2u);
-  EXPECT_EQ(bench.events(EventKind::effector_found).size(), 2u);
+  EXPECT_THAT(bench.events(event_kind<TrialVoided>), ElementsAre());
+  EXPECT_EQ(bench.events(event_kind<EffectorLost>).size(), 2u);
+  EXPECT_EQ(bench.events(event_kind<EffectorFound>).size(), 2u);
   for (const DisplayedFrame& frame : bench.view.frames) {
     EXPECT_EQ(frame.clone.has_value(), frame.tracked);
     EXPECT_EQ(frame.cubes.size(), 3u) << "cubes keep their state";
@@ -185,9 +185,9 @@ TEST(Runner, a_short_camera_loss_pauses_the_trial_and_it_goes_on) {
     if (attempt == 1 && t_s > 0.3 && t_s < 3) picture.trouble = "camera_lost";
   });
   EXPECT_EQ(bench.run(), RunEnd::finished);
-  EXPECT_THAT(bench.events(EventKind::voided), ElementsAre());
-  ASSERT_EQ(bench.events(EventKind::paused).size(), 1u);
-  EXPECT_EQ(bench.events(EventKind::paused)[0].as<SessionPaused>()->reason, "camera_lost");
+  EXPECT_THAT(bench.events(event_kind<TrialVoided>), ElementsAre());
+  ASSERT_EQ(bench.events(event_kind<SessionPaused>).size(), 1u);
+  EXPECT_EQ(bench.events(event_kind<SessionPaused>)[0].as<SessionPaused>()->reason, "camera_lost");
   EXPECT_NEAR(bench.trials()[0].paused_s, 2.7, 0.1);
 }
 
@@ -237,12 +237,12 @@ TEST(Runner, a_pushed_cube_that_leaves_its_area_comes_back_once_untouched) {
   protocol.layout.area_m = {0.4, 0.16};
   Bench bench(protocol, push);
   bench.run();
-  const auto back = bench.events(EventKind::cubes_reset);
+  const auto back = bench.events(event_kind<CubesReset>);
   ASSERT_FALSE(back.empty());
   EXPECT_EQ(back[0].as<CubesReset>()->slot, 2) << "out of its area, not by the button";
-  const auto contacts = bench.events(EventKind::cube_contact);
+  const auto contacts = bench.events(event_kind<CubeTouch>);
   ASSERT_GE(contacts.size(), 2u);
-  EXPECT_EQ(contacts[0].what, Happening(CubeTouch{2, std::nullopt})) << "it began";
+  EXPECT_EQ(contacts[0].what, EventPayload(CubeTouch{2, std::nullopt})) << "it began";
   EXPECT_GT(back[0].t_s, contacts[0].t_s);
   EXPECT_NEAR(bench.view.frames.back().cubes[1].position_m.y(), 0, 1e-6);
   for (const FrameRow& frame : bench.frames())
@@ -259,7 +259,7 @@ TEST(Runner, all_cubes_go_back_at_once_where_the_protocol_says_so) {
   protocol.layout.out_of_area = OutOfArea::together;
   Bench bench(protocol, push);
   bench.run();
-  const auto back = bench.events(EventKind::cubes_reset);
+  const auto back = bench.events(event_kind<CubesReset>);
   ASSERT_GE(back.size(), 3u);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(back[static_cast<std::size_t>(i)].as<CubesReset>()->slot, i + 1);
@@ -276,7 +276,7 @@ TEST(Runner, cubes_stay_where_the_protocol_says_so) {
     picture.sample.pose = hand_at(0, std::min(-0.15 + 0.3 * t_s, 0.1));
   });
   bench.run();
-  EXPECT_THAT(bench.events(EventKind::cubes_reset), ElementsAre());
+  EXPECT_THAT(bench.events(event_kind<CubesReset>), ElementsAre());
   EXPECT_GT(bench.view.frames.back().cubes[1].position_m.y(), 0.08);
 }
 
@@ -324,8 +324,8 @@ TEST(Runner, a_reshuffled_introduction_shows_new_cubes_once_the_effector_is_clea
     Bench bench(protocol);
     bench.engine = Engine(bench.protocol, seed);
     EXPECT_EQ(bench.run(), RunEnd::finished);
-    const auto n_answers = bench.events(EventKind::action).size();
-    EXPECT_EQ(bench.events(EventKind::cubes_shown).size(), n_answers);
+    const auto n_answers = bench.events(event_kind<Action>).size();
+    EXPECT_EQ(bench.events(event_kind<CubesShown>).size(), n_answers);
     most_shown = std::max(most_shown, static_cast<int>(n_answers));
   }
   EXPECT_GT(most_shown, 1) << "no seed gave a wrong first answer; the test shows nothing";

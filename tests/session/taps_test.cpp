@@ -46,7 +46,7 @@ std::vector<double> answer_times_s(const TappedSession& session) {
 }
 
 std::size_t n_actions(const TappedSession& session) {
-  return testing::events_of(session.sink, EventKind::action).size();
+  return testing::events_of(session.sink, event_kind<Action>).size();
 }
 
 // Taps everything twice, 60 to 600 ms apart, each time on any control that is there.
@@ -148,7 +148,7 @@ TEST(Taps, of_two_thousand_wild_ones_none_answers_unseen_cubes) {
     ASSERT_EQ(session.run(), RunEnd::finished);
     for (const double t_s : answer_times_s(session)) EXPECT_GE(t_s, testing::min_answer_s - 1e-5);
     n_answers += n_actions(session);
-    for (const Event& event : testing::events_of(session.sink, EventKind::refused)) {
+    for (const Event& event : testing::events_of(session.sink, event_kind<ActionRefused>)) {
       ++n_refused;
       EXPECT_FALSE(event.as<ActionRefused>()->reason.empty());
     }

@@ -133,7 +133,7 @@ class TouchedWindow : public ::testing::Test {
         ElementsAre("consent", "welcome", "about_you", "demonstration", "instructions_sorting",
                     "trial_sorting", "rest", "instructions_introduction", "trial_introduction",
                     "instructions_comparison", "trial_comparison", "how_decided", "thanks"));
-    EXPECT_THAT(events_of(sink, EventKind::consent), SizeIs(1));
+    EXPECT_THAT(events_of(sink, event_kind<Consent>), SizeIs(1));
     const auto& info = sink.header().participant_info;
     EXPECT_EQ(info.size(), 8U);
     EXPECT_EQ(info.at("handedness"), "both");
@@ -145,10 +145,10 @@ class TouchedWindow : public ::testing::Test {
     std::vector<Action> answers;
     for (const Touch& touch : fingers->given)
       if (touch.kind == TouchKind::action) answers.push_back(touch.action);
-    const auto logged = events_of(sink, EventKind::action);
+    const auto logged = events_of(sink, event_kind<Action>);
     ASSERT_EQ(logged.size(), answers.size());
     for (std::size_t i = 0; i < answers.size(); ++i) {
-      EXPECT_EQ(logged[i].what, Happening(answers[i])) << i;
+      EXPECT_EQ(logged[i].what, EventPayload(answers[i])) << i;
     }
     std::vector<std::optional<Label>> first_trial;
     for (std::size_t i = 0; i < 5; ++i) first_trial.push_back(logged.at(i).as<Action>()->label);
@@ -170,7 +170,7 @@ TEST_F(TouchedWindow, takes_a_person_through_a_whole_session) {
   EXPECT_EQ(engine.state(), SessionState::finished);
   EXPECT_EQ(engine.n_completed(), 2 + 1 + 4);
   EXPECT_EQ(engine.n_attempts(), engine.n_completed());
-  EXPECT_THAT(events_of(sink, EventKind::note), IsEmpty()) << "no tap was one too many";
+  EXPECT_THAT(events_of(sink, event_kind<Note>), IsEmpty()) << "no tap was one too many";
   expect_every_page();
   expect_every_answer();
 }

@@ -22,7 +22,7 @@ class ToldSession {
     tell(setup);
   }
 
-  Changes tell(Happening what) {
+  Changes tell(EventPayload what) {
     const Event event{++t_s, std::move(what)};
     Changes changes = engine.apply(event);
     recorded.append(event, changes, Durability::buffered);
