@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/Error.h"
+#include "psychophysics/Procedure.h"
 
 namespace heft {
 
@@ -15,6 +16,20 @@ void tell_simulators(std::vector<LoggedSetup>& setups, const Protocol& protocol)
     if (logged.setup.simulator.empty()) logged.setup.simulator = protocol.simulator.name;
     if (!logged.setup.rate_hz) logged.setup.rate_hz = protocol.simulator.rate_hz;
   }
+}
+
+// A session keeps the rule that its first estimates were recorded by, also when it is resumed.
+void keep_censoring_rule(Protocol& protocol, int log_version) {
+  constexpr int first_with_cut_moves = 6;
+  if (log_version >= first_with_cut_moves) return;
+  for (Block& block : protocol.blocks)
+    if (auto* comparison = std::get_if<ComparisonBlock>(&block))
+      for (ReferenceStaircase& entry : comparison->staircases)
+        if (const auto* up_down = std::get_if<UpDownConfig>(entry.staircase.kind.get())) {
+          UpDownConfig config = *up_down;
+          config.censoring = CensoringRule::levels_at_bounds;
+          entry.staircase = {entry.staircase.name, config};
+        }
 }
 }  // namespace
 
@@ -47,6 +62,7 @@ LoggedSession load_session(const LogReader& reader, const std::string& db,
   Protocol protocol = parse_protocol(header.protocol_text, header.protocol_name,
                                      settings_of(session.setups.front().setup));
   protocol.name = header.protocol_name;
+  keep_censoring_rule(protocol, header.log_version);
   tell_simulators(session.setups, protocol);
   session.setup = session.setups.back().setup;
   session.protocol = protocol_for(std::move(protocol), session.setup);

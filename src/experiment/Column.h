@@ -14,7 +14,7 @@
 namespace heft {
 
 /// The version of the log that this program writes.
-inline constexpr int todays_log_version = 5;
+inline constexpr int todays_log_version = 6;
 
 struct LogColumn {
   std::string_view name;

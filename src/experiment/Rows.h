@@ -184,13 +184,16 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(
       LogColumn{
           "reason", "",
-          "why the procedure ended: by its reversals, or because it had all the trials that it "
-          "may have, as constant stimuli always do"},
+          "why the procedure ended: by its reversals, because it had all the trials that it may "
+          "have, as constant stimuli always do, or because its estimate is as precise as asked"},
       row.reason);
-  visit(LogColumn{"censored", "",
-                  "whether a bound or the limit of trials cut it short; not told before version 3",
-                  3},
-        row.censored);
+  visit(
+      LogColumn{
+          "censored", "",
+          "whether a bound cut a move that it depends on (before version 6: whether a reversal "
+          "that counts was at a bound), or the limit of trials cut it short",
+          3},
+      row.censored);
 }
 
 /// A number that a simulated participant was drawn as. A session has it once, unless somebody else

@@ -38,11 +38,12 @@ struct Reversal {
   double step_before = 0, step_after = 0;  ///< in force before and after it, in its own direction
 };
 
-/// Why a procedure ended: by its reversals, or because it had all the trials that it may have.
-enum class Finish { reversals, trials };
+/// Why a procedure ended: by its reversals, because it had all the trials that it may have, or
+/// because its estimate is as precise as was asked for.
+enum class Finish { reversals, trials, precision };
 template <>
 struct EnumNames<Finish> {
-  static constexpr std::array<std::string_view, 2> names{"reversals", "trials"};
+  static constexpr std::array<std::string_view, 3> names{"reversals", "trials", "precision"};
 };
 
 /// What one answer did.
@@ -51,8 +52,9 @@ struct Update {
   std::optional<Finish> finish;
 };
 
-/// Whether an estimate is cut short. above, below: it leans on the ceiling, the floor, so the true
-/// value may lie beyond; unsettled: on both, or the trials ran out before the reversals.
+/// Whether an estimate is censored. above, below: the ceiling, the floor cut moves that it depends
+/// on, so that the true value may lie beyond; unsettled: both did, or the trials ran out before the
+/// reversals.
 enum class Censored { none, above, below, unsettled };
 template <>
 struct EnumNames<Censored> {

@@ -23,12 +23,15 @@ double held_finite(double level) {
 }
 }  // namespace
 
-UpDown::UpDown(UpDownConfig config) : config_(std::move(config)) {
-  planned_ = config_.at_bound == AtBound::clamp ? presented(config_.start) : config_.start;
-}
+UpDown::UpDown(UpDownConfig config) : config_(std::move(config)), target_(config_.start) {}
 
 double UpDown::level() const {
-  return presented(planned_);
+  return presented(target_);
+}
+
+// What the next step starts from.
+double UpDown::inner_level() const {
+  return config_.at_bound == AtBound::clamp ? presented(target_) : target_;
 }
 
 Update UpDown::respond(bool positive, std::optional<double> shown) {
@@ -37,7 +40,7 @@ Update UpDown::respond(bool positive, std::optional<double> shown) {
   ++n_trials_;
   Update update;
   const std::optional<Move> move = due_move(positive);
-  if (move && move->is_reversal) update.reversal = add_reversal(move->direction, shown_level);
+  if (move && move->is_reversal) update.reversal = add_reversal(*move, shown_level);
   update.finish = finish_ = reason_to_finish();
   if (move && !finish_) make(*move);
   return update;
@@ -65,17 +68,25 @@ std::vector<Estimate> UpDown::estimates() const {
 
 // By the reversals that count, or where there are none by the level that it got to.
 Censored UpDown::censored() const {
-  bool at_floor = false, at_ceiling = false;
-  const auto look_at = [&](double level) {
-    at_floor = at_floor || (config_.floor && level <= *config_.floor);
-    at_ceiling = at_ceiling || (config_.ceiling && level >= *config_.ceiling);
+  const Censored last = estimate() ? Censored::none : side_of(target_, level());
+  const bool below = cut_below_ || last == Censored::below;
+  const bool above = cut_above_ || last == Censored::above;
+  if (below != above) return above ? Censored::above : Censored::below;
+  return above || finish_ == Finish::trials ? Censored::unsettled : Censored::none;
+}
+
+// The bound that cut the move to `target`, by more than rounding; by the older rule, the one that
+// the level shown was at.
+Censored UpDown::side_of(double target, double shown) const {
+  const bool by_level = config_.censoring == CensoringRule::levels_at_bounds;
+  const auto is_beyond = [&](double beyond, double bound) {
+    return by_level ? beyond >= 0 : beyond > 1e-9 * std::abs(bound);
   };
-  for (std::size_t i = static_cast<std::size_t>(config_.discard_reversals); i < reversals_.size();
-       ++i)
-    look_at(reversals_[i].level);
-  if (!estimate()) look_at(level());
-  if (at_floor != at_ceiling) return at_ceiling ? Censored::above : Censored::below;
-  return at_ceiling || finish_ == Finish::trials ? Censored::unsettled : Censored::none;
+  const double level = by_level ? shown : target;
+  if (config_.floor && is_beyond(*config_.floor - level, *config_.floor)) return Censored::below;
+  if (config_.ceiling && is_beyond(level - *config_.ceiling, *config_.ceiling))
+    return Censored::above;
+  return Censored::none;
 }
 
 std::optional<UpDown::Direction> UpDown::due_direction(bool positive) {
@@ -96,15 +107,23 @@ std::optional<UpDown::Move> UpDown::due_move(bool positive) {
   const bool new_step = turned && config_.change_step == ChangeStep::before_move;
   last_due_ = direction;
   const double size = step(*direction, reversals_.size() + (new_step ? 1 : 0));
-  Move move{*direction, landed(moved(planned_, *direction, size)), turned};
+  Move move{*direction, landed(moved(inner_level(), *direction, size)), turned, turned};
   if (config_.bound_is_reversal && passes_bound(move)) move.is_reversal = true;
   return move;
 }
 
-Reversal UpDown::add_reversal(Direction direction, double shown_level) {
-  const std::size_t n_before = reversals_.size();
-  reversals_.push_back({static_cast<int>(n_before) + 1, shown_level, step(direction, n_before),
-                        step(direction, n_before + 1)});
+// A reversal that a bound made, though nothing turned, is cut by that bound.
+Reversal UpDown::add_reversal(const Move& move, double shown_level) {
+  const int n_before = static_cast<int>(reversals_.size());
+  const auto n = static_cast<std::size_t>(n_before);
+  reversals_.push_back(
+      {n_before + 1, shown_level, step(move.direction, n), step(move.direction, n + 1)});
+  if (n_before >= config_.discard_reversals) {
+    Censored side = side_of(target_, shown_level);
+    if (side == Censored::none && !move.turned) side = side_of(move.target, shown_level);
+    cut_below_ = cut_below_ || side == Censored::below;
+    cut_above_ = cut_above_ || side == Censored::above;
+  }
   return reversals_.back();
 }
 
@@ -130,7 +149,7 @@ double UpDown::moved(double level, Direction direction, double step) const {
 double UpDown::landed(double target) const {
   if (config_.step_scale != StepScale::linear) return target;
   const bool has_zero = config_.floor == 0.0 || config_.ceiling == 0.0;
-  return has_zero && std::abs(target) <= 1e-9 * std::abs(target - planned_) ? 0 : target;
+  return has_zero && std::abs(target) <= 1e-9 * std::abs(target - inner_level()) ? 0 : target;
 }
 
 double UpDown::presented(double level) const {
@@ -146,7 +165,7 @@ bool UpDown::passes_bound(const Move& move) const {
 
 void UpDown::make(const Move& move) {
   if (passes_bound(move)) ++(move.direction == Direction::down ? n_floor_ : n_ceiling_);
-  planned_ = config_.at_bound == AtBound::clamp ? presented(move.target) : move.target;
+  target_ = move.target;
 }
 
 std::optional<Finish> UpDown::reason_to_finish() const {

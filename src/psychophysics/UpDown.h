@@ -47,6 +47,11 @@ struct EnumNames<ChangeStep> {
   static constexpr std::array<std::string_view, 2> names{"before_move", "after_move"};
 };
 
+/// What makes an estimate censored: a bound that cut the move to the level of a reversal that
+/// counts, or, as sessions of logs before version 6 recorded it, every such reversal at a bound,
+/// also where a step ended on it exactly.
+enum class CensoringRule { cut_moves, levels_at_bounds };
+
 struct UpDownConfig {
   static constexpr std::string_view kind = "up_down";
   using Procedure = class UpDown;
@@ -76,6 +81,7 @@ struct UpDownConfig {
   int min_trials = 0;     ///< reversals end it only from this many trials on; more are recorded
   int stop_trials = 200;  ///< a hard limit
   int discard_reversals = 2;
+  CensoringRule censoring = CensoringRule::cut_moves;  ///< no key of a file
 };
 
 class UpDown {
@@ -116,27 +122,31 @@ class UpDown {
 
   struct Move {
     Direction direction;
-    double target;  ///< inner level that it leads to, not yet held within the bounds
+    double target;  ///< level that it leads to, not yet held within the bounds
     bool is_reversal;
+    bool turned;  ///< opposite to the due move before it
   };
 
   std::optional<Direction> due_direction(bool positive);
   std::optional<Move> due_move(bool positive);
-  Reversal add_reversal(Direction direction, double shown_level);
+  Reversal add_reversal(const Move& move, double shown_level);
   void make(const Move& move);
   double step(Direction direction, std::size_t n_reversals) const;
   double moved(double level, Direction direction, double step) const;
   double landed(double target) const;
   double presented(double level) const;
+  double inner_level() const;
   bool passes_bound(const Move& move) const;
+  Censored side_of(double target, double shown) const;
   Censored censored() const;
   std::optional<Finish> reason_to_finish() const;
 
   UpDownConfig config_;
-  double planned_ = 0;
+  double target_ = 0;  ///< level that the last move led to, not held within the bounds
   int n_positive_ = 0, n_negative_ = 0;  ///< consecutive, since the last due move
   std::optional<Direction> last_due_;
   std::vector<Reversal> reversals_;
+  bool cut_below_ = false, cut_above_ = false;  ///< reversals that count, by a bound
   int n_trials_ = 0, n_floor_ = 0, n_ceiling_ = 0;
   std::optional<Finish> finish_;
 };

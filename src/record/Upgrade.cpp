@@ -1,6 +1,6 @@
 // Logs of versions 1 to 3: their tables are made anew and their rows copied over as they are, so
-// that one program text serves all versions from there on. Of version 4 only the views are made
-// anew.
+// that one program text serves all versions from there on. Those of versions 4 and 5 only get the
+// views of today and the words that the closed lists have since.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -22,8 +22,8 @@ namespace heft::schema {
 
 namespace {
 
-constexpr int without_setups = 2;  // version 1 differs in columns that may be NULL alone
-constexpr int with_todays_tables = 4;
+constexpr int without_setups = 2;      // version 1 differs in columns that may be NULL alone
+constexpr int with_todays_tables = 4;  // and later
 
 std::vector<std::string> tables_of(int version) {
   std::vector<std::string> tables{"session", "participant_info", "trial",    "event", "cube",
@@ -125,7 +125,10 @@ void copy_rows_without_setups(SQLite::Database& database) {
        "'cubes_reset' AND (e.slot IS NULL OR e.slot = o.slot))");
 }
 
-void renew_views(SQLite::Database& database) {
+void renew_views_and_lists(SQLite::Database& database) {
+  for (const ClosedList& list : closed_lists())
+    for (const std::string_view name : list.names)
+      database.exec(fmt::format("INSERT OR IGNORE INTO {} VALUES ('{}')", list.table, name));
   for (const char* view : {"v_frame", "v_sorting", "v_trial", "v_jnd"})
     database.exec(fmt::format("DROP VIEW IF EXISTS {}", view));
   database.exec(views);
@@ -139,7 +142,7 @@ void renew_views(SQLite::Database& database) {
 
 void rebuild(SQLite::Database& database, const std::string& path) {
   const int version = database.execAndGet("PRAGMA user_version").getInt();
-  if (version == with_todays_tables) return renew_views(database);
+  if (version >= with_todays_tables) return renew_views_and_lists(database);
   const std::vector<std::string> older_tables = tables_of(version);
   refuse_foreign(database, older_tables);
   set_aside(database, older_tables);

@@ -78,14 +78,72 @@ TEST(Censoring, IsNoneWhereTheReversalsThatCountKeepAwayFromTheBounds) {
             Censored::none);
 }
 
-TEST(Censoring, IsToTheSideWhereReversalsStandAtABound) {
-  EXPECT_EQ(censored({.start = 0, .step = 10, .floor = 0, .stop_reversals = 4}, "+-+-+-+-"),
+/// The paper's staircase for 200 g (its table 2), whose steps lead to 0 exactly.
+const UpDownConfig paper_200g{.start = 600, .step = 150, .halve_every = 2, .floor = 0};
+
+TEST(Censoring, IsNoneWhereAStepEndsOnTheBoundExactly) {
+  UpDown staircase(paper_200g);
+  const test::Trace trace = test::answer(staircase, "++++-++-+-+-+-+");
+  // The third reversal, at 0, counts.
+  EXPECT_THAT(trace.reversal_levels, ElementsAre(0, 150, 0, 75, 37.5, 75, 56.25, 75, 65.625, 75));
+  EXPECT_EQ(staircase.n_floor(), 0);
+  EXPECT_EQ(staircase.estimates().front().censored, Censored::none);
+  EXPECT_EQ(staircase.estimate(), 459.375 / 8);
+  const UpDownConfig upwards{.start = -600, .step = 150, .halve_every = 2, .ceiling = 0};
+  EXPECT_EQ(censored(upwards, "----+--+-+-+-+-"), Censored::none);
+}
+
+TEST(Censoring, IsToTheSideWhereABoundCutAMoveToAReversalThatCounts) {
+  // As above, but at 0 a difference is seen once more.
+  EXPECT_EQ(censored(paper_200g, "++++-+++-+-+-+-+"), Censored::below);
+  const UpDownConfig upwards{.start = -600, .step = 150, .halve_every = 2, .ceiling = 0};
+  EXPECT_EQ(censored(upwards, "----+---+-+-+-+-"), Censored::above);
+  const UpDownConfig both{.start = 0, .step = 10, .floor = 0, .ceiling = 15, .stop_reversals = 4};
+  EXPECT_EQ(censored(both, "--+--+-"), Censored::above);  // 15 was to be 20, twice
+  EXPECT_EQ(censored(both, "-+-++-"), Censored::below);   // 0 was to be -10
+  EXPECT_EQ(censored(both, "-+--+++-"), Censored::unsettled);
+}
+
+TEST(Censoring, IsNoneWhereOnlyDiscardedReversalsWereCut) {
+  EXPECT_EQ(censored(paper_200g, "++++++-+-+-+-+-+"), Censored::none);
+}
+
+TEST(Censoring, IsByTheInnerLevelWhereOnlyWhatIsShownStaysAtTheBound) {
+  UpDownConfig config{.start = 5, .step = 10, .floor = 0, .stop_reversals = 3};
+  config.at_bound = AtBound::virtual_level;
+  // Inner levels 5 -5 -15 -5 -15: that of the third reversal is beyond the floor.
+  EXPECT_EQ(censored(config, "++-+-"), Censored::below);
+}
+
+TEST(Censoring, IsToTheSideOfABoundThatMadeTheReversal) {
+  const UpDownConfig config{
+      .start = 20, .step = 10, .floor = 0, .bound_is_reversal = true, .stop_reversals = 3};
+  // 20 10 0 10 0: the third reversal is a move from 0 that the floor cut.
+  EXPECT_EQ(censored(config, "++-++"), Censored::below);
+}
+
+TEST(Censoring, IsNoneWhereOnlyRoundingIsBeyondTheBound) {
+  UpDownConfig config{.start = 0.1, .step = 0.1, .ceiling = 0.3, .stop_reversals = 1};
+  config.discard_reversals = 0;
+  ASSERT_GT(0.1 + 0.1 + 0.1, 0.3);
+  EXPECT_EQ(censored(config, "--+"), Censored::none);
+}
+
+// Logs before version 6.
+TEST(Censoring, ByTheOlderRuleIsToTheSideWhereReversalsStandAtABound) {
+  const auto older = [](UpDownConfig config, std::string_view answers) {
+    config.censoring = CensoringRule::levels_at_bounds;
+    return censored(config, answers);
+  };
+  EXPECT_EQ(older(paper_200g, "++++-++-+-+-+-+"), Censored::below);
+  EXPECT_EQ(older({.start = 0, .step = 10, .floor = 0, .stop_reversals = 4}, "+-+-+-+-"),
             Censored::below);
-  EXPECT_EQ(censored({.start = 0, .step = 10, .ceiling = 0, .stop_reversals = 4}, "-+-+-+-+"),
+  EXPECT_EQ(older({.start = 0, .step = 10, .ceiling = 0, .stop_reversals = 4}, "-+-+-+-+"),
             Censored::above);
-  EXPECT_EQ(censored({.start = 0, .step = 10, .floor = 0, .ceiling = 10, .stop_reversals = 4},
-                     "-+-+-+-+"),
-            Censored::unsettled);
+  EXPECT_EQ(
+      older({.start = 0, .step = 10, .floor = 0, .ceiling = 10, .stop_reversals = 4}, "-+-+-+-+"),
+      Censored::unsettled);
+  EXPECT_EQ(older(test::paper_15g(), "+++-+-+-+-+-+-+-"), Censored::none);
 }
 
 TEST(Censoring, IsToTheSideWhereSomebodyAlwaysAnswersAlike) {
@@ -95,6 +153,9 @@ TEST(Censoring, IsToTheSideWhereSomebodyAlwaysAnswersAlike) {
 }
 
 TEST(Censoring, IsUnsettledWhereTheTrialsRanOutFirst) {
+  // At the floor, but not yet cut there.
+  EXPECT_EQ(censored({.start = 2, .step = 1, .floor = 0, .stop_trials = 3}, "+++"),
+            Censored::unsettled);
   EXPECT_EQ(censored({.start = 5, .step = 1, .stop_trials = 5}, "+++++"), Censored::unsettled);
   EXPECT_EQ(censored({.start = 5, .step = 1, .stop_trials = 6}, "+-+-+-"), Censored::unsettled);
 }

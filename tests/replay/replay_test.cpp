@@ -60,7 +60,7 @@ class Replay : public ::testing::Test {
            ("heft-replay-" + std::to_string(::getpid()) + ".db");
   }
   void TearDown() override {
-    for (const char* end : {"", "-wal", "-shm", "-lock", ".v2", ".v3", ".v4"})
+    for (const char* end : {"", "-wal", "-shm", "-lock", ".v2", ".v3", ".v4", ".v5"})
       std::filesystem::remove(path.string() + end);
   }
 
@@ -102,7 +102,7 @@ class Replay : public ::testing::Test {
 };
 
 TEST_F(Replay, logs_of_earlier_programs_are_verified) {
-  for (const char* name : {"version_2.db", "version_3.db", "version_4.db"}) {
+  for (const char* name : {"version_2.db", "version_3.db", "version_4.db", "version_5.db"}) {
     const auto options = std::filesystem::copy_options::overwrite_existing;
     std::filesystem::copy_file(std::filesystem::path(HEFT_SOURCE_DIR) / "tests/golden/logs" / name,
                                path, options);
