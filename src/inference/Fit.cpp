@@ -49,6 +49,15 @@ std::string too_little(const AnswersByLevel& answers) {
   return "";
 }
 
+std::string too_little_chosen(const AnswersByLevel& answers) {
+  const auto [first, none, last] = totals(answers);
+  if (none > 0 && first + last == 0)
+    return "no cube was ever chosen: a criterion beyond all levels shown explains that, whatever "
+           "the "
+           "sensitivity";
+  return too_little(answers);
+}
+
 namespace {
 // Of one level where only the answers first...last are given, beyond the least of each.
 double log_likelihood_of(const std::array<double, 3>& n, std::span<const double> least,
@@ -94,11 +103,15 @@ LogShare log_share(double n, double p) {
   return {n * std::log(share), n / share, -n / share / share};
 }
 
-std::string why_no_threshold(bool separated, const std::optional<double>& low,
-                             const std::optional<double>& high, const LevelReach& reach) {
+std::string why_no_threshold(const SensitivityRange& range, const LevelReach& reach) {
+  const auto& [low, high, separated] = range;
+  if (range.flat())
+    return "the likelihood is flat: nearly all answers are the same, so that no sensitivity is "
+           "ruled "
+           "out; a criterion lies beyond all levels shown";
   if (separated)
-    return "there is separation: the levels part the answers without overlap, so that any "
-           "sensitivity that is large enough fits as well; levels between are missing";
+    return "there is separation: the levels part the answers with hardly any overlap, so that any "
+           "sensitivity that is large enough fits within 95 %; levels between are missing";
   if (high && *high < 0) return "the answers go against the level: sensitivity is negative";
   if (!low || *low <= 0)
     return "no sensitivity: its 95 % interval holds 0, so the answers don't surely follow the "

@@ -73,10 +73,16 @@ struct LevelReach {
   bool is_range = false;  ///< otherwise the largest level
 };
 LevelReach reach_of(const AnswersByLevel& answers);
+/// A sensitivity's 95 % interval, per gram; an end at infinity is none.
+struct SensitivityRange {
+  std::optional<double> low{}, high{};
+  bool separated = false;  ///< any that is large enough fits within 95 %
+
+  bool flat() const { return !low && !high && !separated; }  ///< none is ruled out
+};
 /// Why a sensitivity gives no threshold, in the words that heft fit and the report share; empty: it
-/// does. Ends of the interval at infinity are none.
-std::string why_no_threshold(bool separated, const std::optional<double>& low,
-                             const std::optional<double>& high, const LevelReach& reach);
+/// does.
+std::string why_no_threshold(const SensitivityRange& range, const LevelReach& reach);
 /// How often each answer was given, at any level.
 std::array<double, 3> totals(const AnswersByLevel& answers);
 double trials_in(const AnswersByLevel& answers);
@@ -84,6 +90,8 @@ double trials_in(const AnswersByLevel& answers);
 double largest_level_of(const AnswersByLevel& answers);
 /// What no model could do with: "there are no trials", "there is one level"... Empty: nothing.
 std::string too_little(const AnswersByLevel& answers);
+/// The same of choices (reference, none, comparison; or left, none, right).
+std::string too_little_chosen(const AnswersByLevel& answers);
 /// What the likelihood comes to where the curves are ever steeper: a cut between two neighboring
 /// answers is a step between two levels, or at one, and there any share is within reach.
 /// @param least of each answer at any level, by guesses and lapses; as many as there are answers

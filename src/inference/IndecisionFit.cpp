@@ -265,7 +265,7 @@ FittedParameter threshold(const FittedParameter& s) {
 }  // namespace
 
 Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
-  Fit fit{{}, std::nullopt, trials_in(answers), answers.size(), too_little(answers)};
+  Fit fit{{}, std::nullopt, trials_in(answers), answers.size(), too_little_chosen(answers)};
   const ParameterBounds lapses{options.lapse.value_or(0), options.lapse.value_or(most_free_lapse)};
   const std::vector<ParameterBounds> bounds{{-infinity, infinity, true, true},
                                             {0, infinity, true, true},
@@ -292,7 +292,8 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
     fit.parameters.push_back(parameter(indecision_names[i], found.parameters[i],
                                        i == sensitivity ? unit : 1, bounds[i].fixed()));
   const FittedParameter& s = fit.parameters[sensitivity];
-  if (fit.why.empty()) fit.why = why_no_threshold(!s.value, s.low, s.high, reach_of(answers));
+  if (fit.why.empty())
+    fit.why = why_no_threshold({s.low, s.high, !s.value && s.low}, reach_of(answers));
   fit.parameters.push_back(fit.identifiable() ? threshold(fit.parameters[sensitivity])
                                               : FittedParameter{"threshold_75_g"});
   return fit;

@@ -102,6 +102,26 @@ class Samples {
   std::vector<std::size_t> places_;  // by person: among those of the study
 };
 
+// Where a likelihood has fallen far enough, a place on the grid; none: nowhere on this side.
+std::optional<double> end_of(const OnGrid& log_likelihood, double drop, std::ptrdiff_t direction) {
+  const auto best = std::ranges::max_element(log_likelihood);
+  const double least = *best - drop;
+  const auto last = direction < 0 ? log_likelihood.begin() : log_likelihood.end() - 1;
+  for (auto inner = best; inner != last; inner += direction) {
+    const double here = *inner, next = *(inner + direction);
+    if (next <= least)
+      return static_cast<double>(inner - log_likelihood.begin()) +
+             static_cast<double>(direction) * (here - least) / (here - next);
+  }
+  return std::nullopt;
+}
+
+// No sensitivity on the grid is ruled out.
+bool is_flat(const OnGrid& log_likelihood) {
+  const auto [least, most] = std::ranges::minmax(log_likelihood);
+  return most - least < interval_drop;
+}
+
 // Of people who are drawn so often, what is likeliest together.
 double sensitivity_of(std::span<const OnGrid> people, std::span<const double> times) {
   return sensitivity_at(top_of(sum_of(people, times)));
@@ -119,17 +139,12 @@ double log_indecision_of(const Profiles& people, std::span<const double> times) 
          std::accumulate(times.begin(), times.end(), 0.0);
 }
 
-double largest_level_of_all(const std::map<std::string, AnswersByLevel>& people) {
-  double largest_g = 0;
+AnswersByLevel together(const std::map<std::string, AnswersByLevel>& people) {
+  AnswersByLevel sum;
   for (const auto& [participant, answers] : people)
-    largest_g = std::max(largest_g, largest_level_of(answers));
-  return largest_g;
-}
-
-// Where the grid ends, more would fit as well.
-bool is_separated(const PooledSensitivity& found, double largest_g) {
-  return found.sensitivity_interval->low > 0 &&
-         *found.sensitivity * largest_g >= 0.5 * sensitivity_at(n_grid - 1);
+    for (const auto& [level_g, n] : answers)
+      for (std::size_t k = 0; k < n.size(); ++k) sum[level_g][k] += n[k];
+  return sum;
 }
 
 std::vector<SidedAnswers> answers_on_scale(const AnswersByLevel& by_level, double largest_g) {
@@ -145,6 +160,7 @@ void put_own_interval(PooledSensitivity& found, const AnswersByLevel& answers) {
   const FittedParameter& s = fit.parameter("sensitivity");
   found.why = fit.why;
   found.sensitivity = s.value;
+  if (!s.value) found.indecision.reset();
   if (s.low && s.high) found.sensitivity_interval = Interval{*s.low, *s.high};
   if (!found.identifiable()) return;
   const FittedParameter& threshold = fit.parameter("threshold_75_g");
@@ -187,26 +203,13 @@ void put_pooled(PooledSensitivity& found, std::span<const OnGrid> in_common,
     *figure /= largest_g;
   for (double& sample : samples) sample /= largest_g;
   found.sensitivity_samples = std::move(samples);
-  found.why = why_no_threshold(is_separated(found, largest_g), found.sensitivity_interval->low,
-                               found.sensitivity_interval->high, {largest_g});
+  const auto [low, high] = *found.sensitivity_interval;
+  const bool has_end = end_of(sum_of(in_common, drawn.once()), interval_drop, 1).has_value();
+  found.why = why_no_threshold({low, high, low > 0 && !has_end}, {largest_g});
   if (!found.identifiable()) return;
   found.threshold_75_g = z_75 / *found.sensitivity;
   found.threshold_interval_g =
       Interval{z_75 / found.sensitivity_interval->high, z_75 / found.sensitivity_interval->low};
-}
-
-// Where a likelihood has fallen far enough, a place on the grid; none: nowhere on this side.
-std::optional<double> end_of(const OnGrid& log_likelihood, double drop, std::ptrdiff_t direction) {
-  const auto best = std::ranges::max_element(log_likelihood);
-  const double least = *best - drop;
-  const auto last = direction < 0 ? log_likelihood.begin() : log_likelihood.end() - 1;
-  for (auto inner = best; inner != last; inner += direction) {
-    const double here = *inner, next = *(inner + direction);
-    if (next <= least)
-      return static_cast<double>(inner - log_likelihood.begin()) +
-             static_cast<double>(direction) * (here - least) / (here - next);
-  }
-  return std::nullopt;
 }
 
 // As far as Student's t goes instead of the normal distribution, with a degree of freedom less for
@@ -260,24 +263,28 @@ PooledSensitivity pooled_sensitivity(std::map<std::string, AnswersByLevel> all,
                                      const std::set<std::string>& study) {
   PooledSensitivity found;
   std::erase_if(all, [](const auto& person) { return trials_in(person.second) == 0; });
-  for (const auto& [participant, answers] : all) found.n_trials += trials_in(answers);
+  const AnswersByLevel answers_of_all = together(all);
+  found.n_trials = trials_in(answers_of_all);
   found.n = static_cast<int>(all.size());
-  const double largest_g = largest_level_of_all(all);
-  if (largest_g == 0) {
-    found.why = found.n == 0 ? "there are no trials" : "no trial had a difference";
-    return found;
-  }
+  const double largest_g = largest_level_of(answers_of_all);
+  found.why = found.n > 0 && largest_g == 0 ? "no trial had a difference"
+                                            : too_little_chosen(answers_of_all);
+  if (!found.identifiable()) return found;
   const Samples samples(all, study);
   std::vector<PersonAnswers> people;
   for (const auto& [participant, answers] : all)
     people.push_back({answers_on_scale(answers, largest_g), {}});
   const Profiles by_person = profiles(people);
-  found.sensitivity = sensitivity_of(by_person.log_likelihood, samples.once()) / largest_g;
-  put_indecision(found, by_person, samples);
   if (found.n >= least_people)
     for (std::size_t i = 0; const auto& [participant, answers] : all)
       found.people[participant] =
           own_sensitivity(by_person.log_likelihood[i++], trials_in(answers), largest_g);
+  if (found.n > 1 && is_flat(sum_of(by_person.log_likelihood, samples.once()))) {
+    found.why = why_no_threshold({}, {largest_g});
+    return found;
+  }
+  found.sensitivity = sensitivity_of(by_person.log_likelihood, samples.once()) / largest_g;
+  put_indecision(found, by_person, samples);
   if (found.n == 1)
     put_own_interval(found, all.begin()->second);
   else if (found.n >= least_people)
@@ -296,9 +303,10 @@ OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* 
     const FittedParameter& threshold = fit.parameter("threshold_75_g");
     return {threshold.value, Interval{threshold.low.value_or(0), *threshold.high}, ""};
   }
-  std::string why = too_little(answers);
+  std::string why = too_little_chosen(answers);
+  const bool separated = !own->high && own->low.value_or(0) > 0;
   if (why.empty())
-    why = why_no_threshold(!own->high, own->low, own->high, {largest_level_of(answers)});
+    why = why_no_threshold({own->low, own->high, separated}, {largest_level_of(answers)});
   if (!why.empty()) return {{}, {}, why};
   return {z_75 / own->value, Interval{z_75 / *own->high, z_75 / *own->low}, ""};
 }

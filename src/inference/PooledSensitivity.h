@@ -57,7 +57,7 @@ struct PooledSensitivity {
   std::optional<double> threshold_75_g;      ///< 75 % correct in a forced choice without bias
   std::optional<Interval> threshold_interval_g;
   /// Of the median person: half the width between the criteria, in SDs of what is felt. Also where
-  /// there is no threshold.
+  /// there is no threshold; none where the likelihood is flat in the sensitivity.
   std::optional<double> indecision;
   std::optional<Interval> indecision_interval;
   /// By participant, of those with a trial; empty: too few to draw on.

@@ -177,7 +177,8 @@ std::string why_no_choice(const AnswersByLevel& answers) {
 
 TEST(IndecisionFit, SaysWhyThereIsNoThreshold) {
   EXPECT_THAT(why_no_choice({}), HasSubstr("no trials"));
-  EXPECT_THAT(why_no_choice({{0, {0, 9, 0}}, {90, {0, 9, 0}}}), HasSubstr("all answers"));
+  EXPECT_THAT(why_no_choice({{0, {0, 9, 0}}, {90, {0, 9, 0}}}), HasSubstr("no cube was ever"));
+  EXPECT_THAT(why_no_choice({{0, {9, 0, 0}}, {90, {9, 0, 0}}}), HasSubstr("all answers"));
   EXPECT_THAT(why_no_choice({{50, {5, 5, 5}}}), HasSubstr("one level"));
   EXPECT_THAT(why_no_choice({{-50, {10, 0, 0}}, {0, {0, 9, 0}}, {50, {0, 0, 10}}}),
               HasSubstr("separation"));
