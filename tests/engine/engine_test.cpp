@@ -10,9 +10,8 @@
 
 #include "base/Error.h"
 #include "base/Random.h"
+#include "engine/Plans.h"
 #include "psychophysics/Procedure.h"
-#include "record/EventRow.h"
-#include "session/Protocols.h"
 
 namespace heft {
 namespace {
@@ -20,15 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Optional;
 using testing::shared;
-using testing::small_protocol;
-
-Event event(double t_s, EventKind kind, std::string detail = {}) {
-  EventRow row;
-  row.t_s = t_s;
-  row.kind = kind;
-  row.detail = std::move(detail);
-  return event_of(row);
-}
+using testing::small_plan;
 
 Event action(double t_s, ActionKind kind, std::optional<int> slot = {},
              std::optional<Label> label = {}) {
@@ -37,12 +28,10 @@ Event action(double t_s, ActionKind kind, std::optional<int> slot = {},
 
 // Drives an engine as the runner does, a second an event.
 struct Session {
-  explicit Session(Protocol protocol = small_protocol(), std::uint64_t seed = 7)
-      : engine(shared(std::move(protocol)), seed) {}
+  explicit Session(SessionPlan session_plan = small_plan(), std::uint64_t seed = 7)
+      : engine(shared(std::move(session_plan)), seed) {}
 
-  Changes does(EventKind kind, std::string detail = {}) {
-    return engine.apply(event(++t_s, kind, std::move(detail)));
-  }
+  Changes does(EventPayload what) { return engine.apply({++t_s, std::move(what)}); }
   Changes acts(ActionKind kind, std::optional<int> slot = {}, std::optional<Label> label = {}) {
     return engine.apply(action(++t_s, kind, slot, label));
   }
@@ -51,8 +40,8 @@ struct Session {
     return engine.admit(action(t_s + 1, kind, slot, label)).refusal;
   }
   TrialPlan start() {
-    does(event_kind<TrialStarted>);
-    does(event_kind<CubesShown>);
+    does(TrialStarted{});
+    does(CubesShown{});
     return *engine.next().plan;
   }
   int slot_of(double mass_g) const {
@@ -69,7 +58,7 @@ struct Session {
   }
   // Everything before the first sorting trial.
   void reach_sorting() {
-    does(event_kind<DemonstrationShown>);
+    does(DemonstrationShown{});
     start();
     acts(ActionKind::select, slot_of(800));
   }
@@ -88,7 +77,7 @@ struct Session {
 TEST(Engine, goes_through_the_blocks_in_order) {
   Session session;
   EXPECT_EQ(session.engine.next().kind, Next::Kind::demonstration);
-  session.does(event_kind<DemonstrationShown>);
+  session.does(DemonstrationShown{});
   EXPECT_EQ(session.engine.next().kind, Next::Kind::trial);
   EXPECT_EQ(session.engine.next().plan->task, Task::introduction);
   EXPECT_EQ(session.engine.next().plan->condition, "C2");
@@ -110,7 +99,7 @@ TEST(Engine, goes_through_the_blocks_in_order) {
 
 TEST(Engine, ends_the_introduction_on_the_right_answer_only) {
   Session session;
-  session.does(event_kind<DemonstrationShown>);
+  session.does(DemonstrationShown{});
   session.start();
   const Changes wrong = session.acts(ActionKind::select, session.slot_of(15));
   EXPECT_EQ(wrong.trial->status, TrialStatus::open);
@@ -124,17 +113,17 @@ TEST(Engine, ends_the_introduction_on_the_right_answer_only) {
 }
 
 TEST(Engine, reshuffles_after_a_wrong_introduction_where_the_protocol_says_so) {
-  Protocol protocol = small_protocol();
-  std::get<IntroductionBlock>(protocol.blocks[1]).wrong_answer = WrongAnswer::reshuffle;
+  SessionPlan session_plan = small_plan();
+  std::get<IntroductionBlock>(session_plan.blocks[1]).wrong_answer = WrongAnswer::reshuffle;
   int moved = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    Session session(protocol, seed);
-    session.does(event_kind<DemonstrationShown>);
+    Session session(session_plan, seed);
+    session.does(DemonstrationShown{});
     const TrialPlan before = session.start();
     session.acts(ActionKind::select, session.slot_of(15));
     EXPECT_EQ(session.engine.next().plan->n_reshuffles, 1);
     EXPECT_THAT(session.refusal(ActionKind::select, 1), HasSubstr("not appeared"));
-    session.does(event_kind<CubesShown>);
+    session.does(CubesShown{});
     if (session.engine.next().plan->masses_g != before.masses_g) ++moved;
   }
   EXPECT_GT(moved, 8);
@@ -231,17 +220,17 @@ TEST(Engine, runs_both_staircases_to_their_estimates_and_finishes) {
     EXPECT_DOUBLE_EQ(*estimate.jnd_g, sum / (estimate.n_reversals - 2));
   }
   EXPECT_EQ(session.engine.next().kind, Next::Kind::finish);
-  EXPECT_EQ(session.does(event_kind<SessionEnded>, "finished").state, SessionState::finished);
+  EXPECT_EQ(session.does(SessionEnded{}).state, SessionState::finished);
   EXPECT_EQ(session.engine.next().kind, Next::Kind::over);
 }
 
 TEST(Engine, a_veto_repeats_the_trial_with_a_new_order_and_leaves_the_staircase) {
   int moved = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    Session session(small_protocol(), seed);
+    Session session(small_plan(), seed);
     session.reach_comparison();
     const TrialPlan before = session.start();
-    const Changes voided = session.does(event_kind<TrialVoided>, "veto");
+    const Changes voided = session.does(TrialVoided{"veto"});
     EXPECT_EQ(voided.trial->status, TrialStatus::voided);
     EXPECT_THAT(voided.trial->void_reason, Optional(std::string("veto")));
     EXPECT_TRUE(voided.reversals.empty());
@@ -261,8 +250,8 @@ TEST(Engine, a_crash_repeats_the_attempt_with_the_same_draws) {
   session.reach_sorting();
   const TrialPlan before = session.start();
   session.acts(ActionKind::label, 1, Label::heaviest);
-  session.does(event_kind<TrialVoided>, "interrupted");
-  session.does(event_kind<SessionResumed>);
+  session.does(TrialVoided{"interrupted"});
+  session.does(SessionResumed{});
   const TrialPlan after = *session.engine.next().plan;
   EXPECT_EQ(after.attempt, before.attempt);
   EXPECT_EQ(after.masses_g, before.masses_g);
@@ -275,30 +264,30 @@ TEST(Engine, three_voids_of_one_trial_pause_the_session_but_crashes_do_not_count
   session.reach_sorting();
   for (int crash = 0; crash < 5; ++crash) {
     session.start();
-    session.does(event_kind<TrialVoided>, "interrupted");
+    session.does(TrialVoided{"interrupted"});
   }
   EXPECT_EQ(session.engine.state(), SessionState::running);
   for (int i = 0; i < max_voids; ++i) {
     session.start();
-    const Changes voided = session.does(event_kind<TrialVoided>, "camera_lost");
+    const Changes voided = session.does(TrialVoided{"camera_lost"});
     EXPECT_EQ(voided.state.has_value(), i + 1 == max_voids);
   }
   EXPECT_EQ(session.engine.next().kind, Next::Kind::paused);
   EXPECT_TRUE(session.engine.needs_somebody());
-  session.does(event_kind<SessionContinued>);
+  session.does(SessionContinued{});
   EXPECT_EQ(session.engine.next().plan->attempt, 4);
 }
 
 TEST(Engine, refuses_answers_while_paused_and_before_the_cubes_appear) {
   Session session;
   session.reach_sorting();
-  session.does(event_kind<TrialStarted>);
+  session.does(TrialStarted{});
   EXPECT_THAT(session.refusal(ActionKind::dont_know), HasSubstr("not appeared"));
-  session.does(event_kind<CubesShown>);
-  session.does(event_kind<SessionPaused>, "camera_lost");
+  session.does(CubesShown{});
+  session.does(SessionPaused{"camera_lost"});
   EXPECT_EQ(session.engine.screen().screen, Screen::paused);
   EXPECT_THAT(session.refusal(ActionKind::dont_know), HasSubstr("paused"));
-  session.does(event_kind<SessionContinued>);
+  session.does(SessionContinued{});
   EXPECT_EQ(session.refusal(ActionKind::dont_know), "");
 }
 
@@ -309,10 +298,10 @@ TEST(Engine, keeps_account_of_time_and_contacts) {
   const double shown_s = session.t_s;
   session.touches(2, 0.75);                                  // began t+1, ended t+2
   session.touches(2, 0.5);                                   // t+3, t+4
-  session.does(event_kind<EffectorLost>);                    // t+5
-  session.does(event_kind<SessionPaused>, "camera_lost");    // t+6: lost for 1 s
-  session.does(event_kind<SessionContinued>);                // t+7: paused for 1 s
-  session.does(event_kind<EffectorFound>);                   // t+8: lost for 1 s more
+  session.does(EffectorLost{});                              // t+5
+  session.does(SessionPaused{"camera_lost"});                // t+6: lost for 1 s
+  session.does(SessionContinued{});                          // t+7: paused for 1 s
+  session.does(EffectorFound{});                             // t+8: lost for 1 s more
   const Changes done = session.acts(ActionKind::dont_know);  // t+9
   const TrialRow& row = *done.trial;
   EXPECT_EQ(row.shown_s, shown_s);
@@ -364,10 +353,10 @@ TEST(Engine, tells_what_a_participant_was_drawn_as_once) {
 }
 
 TEST(Engine, requires_contact_with_every_cube_where_the_protocol_says_so) {
-  Protocol protocol = small_protocol();
-  protocol.require_contact = true;
-  Session session(protocol);
-  session.does(event_kind<DemonstrationShown>);
+  SessionPlan session_plan = small_plan();
+  session_plan.require_contact = true;
+  Session session(session_plan);
+  session.does(DemonstrationShown{});
   session.start();
   EXPECT_THAT(session.refusal(ActionKind::select, 1), HasSubstr("touched"));
   session.touches(1, 0.1);
@@ -378,9 +367,9 @@ TEST(Engine, requires_contact_with_every_cube_where_the_protocol_says_so) {
 }
 
 TEST(Engine, catch_trials_show_equal_masses_and_drive_no_staircase) {
-  Protocol protocol = small_protocol();
-  std::get<ComparisonBlock>(protocol.blocks[4]).catch_fraction = 0.5;
-  Session session(protocol);
+  SessionPlan session_plan = small_plan();
+  std::get<ComparisonBlock>(session_plan.blocks[4]).catch_fraction = 0.5;
+  Session session(session_plan);
   session.reach_comparison();
   int n_catch = 0, n = 0;
   while (session.engine.next().kind == Next::Kind::trial) {
@@ -398,8 +387,8 @@ TEST(Engine, catch_trials_show_equal_masses_and_drive_no_staircase) {
 }
 
 // The trials of one comparison block, answered by coins; some attempts are void.
-std::vector<TrialPlan> plans_of(const Protocol& protocol, std::uint64_t seed) {
-  Session session(protocol, seed);
+std::vector<TrialPlan> plans_of(const SessionPlan& session_plan, std::uint64_t seed) {
+  Session session(session_plan, seed);
   session.reach_comparison();
   RandomStream answers(seed, "answers");
   std::vector<TrialPlan> plans;
@@ -411,13 +400,13 @@ std::vector<TrialPlan> plans_of(const Protocol& protocol, std::uint64_t seed) {
 }
 
 TEST(Engine, catch_trials_in_a_fixed_number_come_as_planned_whatever_is_answered) {
-  Protocol protocol = small_protocol();
-  auto& block = std::get<ComparisonBlock>(protocol.blocks[4]);
+  SessionPlan session_plan = small_plan();
+  auto& block = std::get<ComparisonBlock>(session_plan.blocks[4]);
   block.catch_every = 5;
   block.sides = Sides::balanced;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     block.catch_trials = {{15, 4}, {200, static_cast<int>(seed) % 7}};
-    const std::vector<TrialPlan> plans = plans_of(protocol, seed);
+    const std::vector<TrialPlan> plans = plans_of(session_plan, seed);
     std::map<double, int> caught;
     int n_caught = 0;
     std::map<std::string, std::vector<int>> slots;
@@ -454,16 +443,16 @@ ProcedureConfig constant(const std::string& name) {
   return {name, ConstantConfig{.levels = {-10, 0, 20, 80}, .n_per_level = 3}};
 }
 
-Protocol constant_protocol() {
-  Protocol protocol = small_protocol();
-  auto& block = std::get<ComparisonBlock>(protocol.blocks[4]);
+SessionPlan constant_plan() {
+  SessionPlan session_plan = small_plan();
+  auto& block = std::get<ComparisonBlock>(session_plan.blocks[4]);
   block.staircases = {{15, constant("constant")}, {200, testing::staircase("200g", 600, 150)}};
-  protocol.blocks = {block};
-  return protocol;
+  session_plan.blocks = {block};
+  return session_plan;
 }
 
 TEST(Engine, constant_stimuli_run_beside_a_staircase_and_end_without_a_jnd) {
-  Session session(constant_protocol());
+  Session session(constant_plan());
   std::map<double, int> counts;
   std::vector<EstimateRow> estimates;
   while (session.engine.next().kind == Next::Kind::trial) {
@@ -489,12 +478,12 @@ TEST(Engine, constant_stimuli_run_beside_a_staircase_and_end_without_a_jnd) {
 
 // (staircase, level) of every completed trial; vetoes where `vetoed` says so.
 std::vector<std::pair<std::string, double>> course(std::uint64_t seed, auto vetoed) {
-  Session session(constant_protocol(), seed);
+  Session session(constant_plan(), seed);
   std::vector<std::pair<std::string, double>> course;
   for (int n = 0; session.engine.next().kind == Next::Kind::trial; ++n) {
     const TrialPlan plan = session.start();
     if (plan.attempt <= 2 && vetoed(n)) {
-      session.does(event_kind<TrialVoided>, n % 2 ? "veto" : "interrupted");
+      session.does(TrialVoided{n % 2 ? "veto" : "interrupted"});
       continue;
     }
     session.acts(ActionKind::no_difference);
@@ -513,11 +502,11 @@ TEST(Engine, void_trials_consume_no_constant_level) {
 TEST(Engine, an_answer_is_positive_by_the_blocks_rule) {
   for (const PositiveAnswer rule : {PositiveAnswer::any_choice, PositiveAnswer::correct_choice})
     for (const bool choose_reference : {false, true}) {
-      Protocol protocol = small_protocol();
-      auto& block = std::get<ComparisonBlock>(protocol.blocks.back());
+      SessionPlan session_plan = small_plan();
+      auto& block = std::get<ComparisonBlock>(session_plan.blocks.back());
       block.positive_answer = rule;
       block.staircases.resize(1);
-      Session session(protocol);
+      Session session(session_plan);
       session.reach_comparison();
       const TrialPlan plan = session.start();
       const int comparison = 3 - *plan.reference_slot;
@@ -529,12 +518,12 @@ TEST(Engine, an_answer_is_positive_by_the_blocks_rule) {
 }
 
 TEST(Engine, sorting_blocks_hold_the_planned_conditions_and_runs) {
-  Protocol protocol = small_protocol();
-  auto& block = std::get<SortingBlock>(protocol.blocks[2]);
+  SessionPlan session_plan = small_plan();
+  auto& block = std::get<SortingBlock>(session_plan.blocks[2]);
   block.trials = {{"C1", 5}, {"C2", 5}};
   block.max_run = 2;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    Session session(protocol, seed);
+    Session session(session_plan, seed);
     session.reach_sorting();
     int n_c1 = 0, run = 0;
     std::optional<std::string> last;
@@ -551,11 +540,11 @@ TEST(Engine, sorting_blocks_hold_the_planned_conditions_and_runs) {
 }
 
 TEST(Engine, balanced_orders_use_each_order_once_before_any_twice) {
-  Protocol protocol = small_protocol();
-  auto& block = std::get<SortingBlock>(protocol.blocks[2]);
+  SessionPlan session_plan = small_plan();
+  auto& block = std::get<SortingBlock>(session_plan.blocks[2]);
   block.trials = {{"C1", 6}, {"C2", 6}};
   block.orders = SortingOrders::balanced;
-  Session session(protocol);
+  Session session(session_plan);
   session.reach_sorting();
   std::map<std::string, std::set<std::vector<double>>> orders;
   while (session.engine.next().plan->task == Task::sorting) {
@@ -569,12 +558,11 @@ TEST(Engine, balanced_orders_use_each_order_once_before_any_twice) {
 
 TEST(Engine, an_impossible_event_throws_and_changes_nothing) {
   Session session;
-  EXPECT_THROW(session.engine.apply(event(1, event_kind<TrialStarted>)), Error);
+  EXPECT_THROW(session.engine.apply(Event{1, TrialStarted{}}), Error);
   EXPECT_EQ(session.engine.n_events(), 0);
-  session.does(event_kind<DemonstrationShown>);
-  EXPECT_THAT(session.engine.admit(event(0.5, event_kind<TrialStarted>)).refusal,
-              HasSubstr("comes before"));
-  EXPECT_THAT(session.engine.admit(event(5, event_kind<SessionEnded>, "finished")).refusal,
+  session.does(DemonstrationShown{});
+  EXPECT_THAT(session.engine.admit(Event{0.5, TrialStarted{}}).refusal, HasSubstr("comes before"));
+  EXPECT_THAT(session.engine.admit(Event{5, SessionEnded{}}).refusal,
               HasSubstr("not everything is done"));
 }
 
@@ -611,25 +599,25 @@ Event random_event(RandomStream& stream, double t_s) {
 Event likely_event(const Engine& engine, RandomStream& stream, double t_s) {
   switch (engine.next().kind) {
     case Next::Kind::demonstration:
-      return event(t_s, event_kind<DemonstrationShown>);
+      return Event{t_s, DemonstrationShown{}};
     case Next::Kind::trial:
-      return event(t_s, event_kind<TrialStarted>);
+      return Event{t_s, TrialStarted{}};
     case Next::Kind::paused:
-      return event(t_s, event_kind<SessionContinued>);
+      return Event{t_s, SessionContinued{}};
     case Next::Kind::act:
-      if (!engine.screen().can_answer) return event(t_s, event_kind<CubesShown>);
+      if (!engine.screen().can_answer) return Event{t_s, CubesShown{}};
       if (engine.next().plan->task != Task::sorting && stream.coin(0.6))
         return action(t_s, ActionKind::select, static_cast<int>(stream.below(2)) + 1);
       return action(t_s, engine.next().plan->task == Task::sorting ? ActionKind::dont_know
                                                                    : ActionKind::no_difference);
     default:
-      return event(t_s, event_kind<SessionEnded>, "finished");
+      return Event{t_s, SessionEnded{}};
   }
 }
 
 RC_GTEST_PROP(EngineProperty, random_events_keep_every_promise, (std::uint64_t seed)) {
   RandomStream stream(seed, "events");
-  Engine engine(shared(small_protocol()), seed);
+  Engine engine(shared(small_plan()), seed);
   std::vector<Event> folded;
   std::map<int, TrialStatus> status;
   std::map<std::string, int> n_reversals;
@@ -662,7 +650,7 @@ RC_GTEST_PROP(EngineProperty, random_events_keep_every_promise, (std::uint64_t s
         RC_ASSERT(!labels[a] || labels[a] != labels[b]);
   }
   // The same events fold to the same state.
-  Engine again(shared(small_protocol()), seed);
+  Engine again(shared(small_plan()), seed);
   for (const Event& e : folded) again.apply(e);
   RC_ASSERT(again.n_completed() == engine.n_completed());
   RC_ASSERT(again.next().kind == engine.next().kind);

@@ -2,14 +2,14 @@
 #include <gmock/gmock.h>
 
 #include "engine/Engine.h"
-#include "session/Protocols.h"
+#include "engine/Plans.h"
 
 namespace heft {
 namespace {
 
 using ::testing::HasSubstr;
 using testing::shared;
-using testing::small_protocol;
+using testing::small_plan;
 
 constexpr double gap_s = 0.6, min_answer_s = 0.5;
 
@@ -37,9 +37,9 @@ class OnsetRules : public ::testing::Test {
   }
 
   Engine engine{[] {
-                  Protocol protocol = small_protocol();
-                  protocol.blocks.erase(protocol.blocks.begin());  // its demonstration
-                  return shared(protocol);
+                  SessionPlan session_plan = small_plan();
+                  session_plan.blocks.erase(session_plan.blocks.begin());  // its demonstration
+                  return shared(session_plan);
                 }(),
                 7};
   double t_s = 0;

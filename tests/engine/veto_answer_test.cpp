@@ -4,7 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "engine/Engine.h"
-#include "session/Protocols.h"
+#include "engine/Plans.h"
 
 namespace heft {
 namespace {
@@ -14,10 +14,11 @@ using ::testing::IsEmpty;
 using testing::shared;
 using ::testing::SizeIs;
 
-Protocol two_staircases() {
-  Protocol protocol = testing::small_protocol();
-  protocol.blocks = {protocol.blocks.back(), BreakBlock{"break", 1}, protocol.blocks[2]};
-  return protocol;
+SessionPlan two_staircases() {
+  SessionPlan session_plan = testing::small_plan();
+  session_plan.blocks = {session_plan.blocks.back(), BreakBlock{"break", 1},
+                         session_plan.blocks[2]};
+  return session_plan;
 }
 
 struct Comparing {

@@ -1,38 +1,17 @@
 // Small protocols made in code, for tests of the session room.
 #pragma once
 
-#include <memory>
-
+#include "engine/Plans.h"
 #include "protocol/Protocol.h"
-#include "psychophysics/Procedure.h"
 
 namespace heft::testing {
-
-inline ProcedureConfig staircase(const std::string& name, double start_g, double step_g,
-                                 int stop_trials = 30) {
-  UpDownConfig config;
-  config.start = start_g;
-  config.step = step_g;
-  config.halve_every = 2;
-  config.floor = 0;
-  config.stop_reversals = 4;
-  config.stop_trials = stop_trials;
-  config.discard_reversals = 2;
-  return {name, config};
-}
 
 /// Demonstration, introduction, four sorting trials, a break, two staircases.
 inline Protocol small_protocol() {
   Protocol protocol;
   protocol.name = "small";
   protocol.text = "small";
-  IntroductionBlock introduction{"introduction", {15, 800}};
-  SortingBlock sorting{"sorting", {15, 200, 800}, {{"C1", 2}, {"C2", 2}}, 2};
-  ComparisonBlock comparison;
-  comparison.name = "comparison";
-  comparison.staircases = {{15, staircase("15g", 175, 50)}, {200, staircase("200g", 600, 150)}};
-  protocol.blocks = {DemonstrationBlock{"demonstration", 20}, introduction, sorting,
-                     BreakBlock{"break", 60}, comparison};
+  protocol.blocks = small_plan().blocks;
   return protocol;
 }
 
@@ -75,10 +54,6 @@ inline Protocol whole_protocol(double display_rate_hz, int stop_reversals) {
 inline Protocol comparing_alone(Protocol protocol) {
   protocol.blocks = {short_comparison(3)};
   return protocol;
-}
-
-inline std::shared_ptr<const Protocol> shared(Protocol protocol) {
-  return std::make_shared<const Protocol>(std::move(protocol));
 }
 
 }  // namespace heft::testing

@@ -1,0 +1,42 @@
+// Small session plans made in code.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "experiment/Block.h"
+#include "psychophysics/Procedure.h"
+
+namespace heft::testing {
+
+inline ProcedureConfig staircase(const std::string& name, double start_g, double step_g,
+                                 int stop_trials = 30) {
+  UpDownConfig config;
+  config.start = start_g;
+  config.step = step_g;
+  config.halve_every = 2;
+  config.floor = 0;
+  config.stop_reversals = 4;
+  config.stop_trials = stop_trials;
+  config.discard_reversals = 2;
+  return {name, config};
+}
+
+/// Demonstration, introduction, four sorting trials, a break, two staircases.
+inline SessionPlan small_plan() {
+  IntroductionBlock introduction{"introduction", {15, 800}};
+  SortingBlock sorting{"sorting", {15, 200, 800}, {{"C1", 2}, {"C2", 2}}, 2};
+  ComparisonBlock comparison;
+  comparison.name = "comparison";
+  comparison.staircases = {{15, staircase("15g", 175, 50)}, {200, staircase("200g", 600, 150)}};
+  return {{DemonstrationBlock{"demonstration", 20}, introduction, sorting, BreakBlock{"break", 60},
+           comparison}};
+}
+
+template <typename Plan>
+std::shared_ptr<const Plan> shared(Plan plan) {
+  return std::make_shared<const Plan>(std::move(plan));
+}
+
+}  // namespace heft::testing
