@@ -30,7 +30,7 @@ Engine::Engine(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed, int 
 
 Admission Engine::admit(Event event) const {
   if (auto why = refusal(event)) return {std::nullopt, std::move(*why)};
-  return {AdmittedEvent(std::move(event)), {}};
+  return {AdmittedEvent(std::move(event), n_events_), {}};
 }
 
 std::optional<std::string> Engine::refusal(const Event& event) const {
@@ -83,11 +83,13 @@ Changes Engine::apply(const Event& event) {
   if (!admission.admitted)
     throw Error(fmt::format("event \"{}\" at {} s can't come now: {}", name_of(event.kind()),
                             event.t_s, admission.refusal));
-  return apply(*admission.admitted);
+  return *apply(*admission.admitted).changes;
 }
 
-Changes Engine::apply(const AdmittedEvent& admitted) {
+Applied Engine::apply(const AdmittedEvent& admitted) {
   const Event& event = admitted.event();
+  if (admitted.n_events_ != n_events_)
+    if (auto why = refusal(event)) return {std::nullopt, std::move(*why)};
   Changes changes;
   if (open_) {
     open_->account(event.t_s, paused_);
@@ -97,7 +99,7 @@ Changes Engine::apply(const AdmittedEvent& admitted) {
   ++n_events_;
   fold(event, changes);
   next_ = what_next();
-  return changes;
+  return {std::move(changes), {}};
 }
 
 // A payload without a case here does not compile, unless it is only recorded.

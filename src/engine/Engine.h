@@ -39,20 +39,27 @@ struct Next {
   std::optional<BreakBlock> rest;                   ///< a break to take first
 };
 
-/// An event that the engine has said can come now. Still so while only contacts end in between.
+/// An event that the engine has admitted after so many events.
 class AdmittedEvent {
  public:
   const Event& event() const { return event_; }
 
  private:
   friend class Engine;
-  explicit AdmittedEvent(Event event) : event_(std::move(event)) {}
+  AdmittedEvent(Event event, int n_events) : event_(std::move(event)), n_events_(n_events) {}
   Event event_;
+  int n_events_;
 };
 
 /// Either the event, or why it can't come now.
 struct Admission {
   std::optional<AdmittedEvent> admitted;
+  std::string refusal;
+};
+
+/// Either every row that an event changes, or why it can't come any more.
+struct Applied {
+  std::optional<Changes> changes;
   std::string refusal;
 };
 
@@ -68,8 +75,10 @@ class Engine {
 
   Admission admit(Event event) const;
 
-  /// Folds one event. @return every row that it changes
-  Changes apply(const AdmittedEvent& event);
+  /// Folds an event. Where others were folded since it was admitted it is admitted once more; a
+  /// refusal leaves the state as it was.
+  Applied apply(const AdmittedEvent& admitted);
+  /// @return every row that it changes
   /// @throws Error with the refusal, leaving the state as it was
   Changes apply(const Event& event);
 

@@ -14,8 +14,8 @@ namespace heft {
 /// order, with the next acknowledged event or within a second. A sink in memory keeps both alike.
 enum class Durability { acknowledged, buffered };
 
-/// Another program keeps the log locked. Nothing is lost: an event or a frame that was given is
-/// kept and written, in its order, by the first flush() that succeeds.
+/// Another process has locked the database. Nothing is lost: what was given is kept and written, in
+/// its order, by the first call that can write.
 class LogBusy : public Error {
  public:
   using Error::Error;
@@ -33,9 +33,8 @@ class EventSink {
   /// Takes a displayed frame; frames keep their order among the events.
   virtual void add_frame(const FrameRow& frame) = 0;
 
-  /// What the participant told about themselves (table participant_info), at once to where it
-  /// stays.
-  /// @throws Error as append(); after LogBusy it has to be given again
+  /// What the participant said about themselves (table participant_info); acknowledged.
+  /// @throws Error as append()
   virtual void add_info(const std::string& key, const std::string& value) = 0;
 
   /// Puts everything taken so far where it stays.

@@ -61,6 +61,7 @@ class SessionLog::Impl {
   RowWriter writer_;
   std::int64_t session_id_ = 0;
   std::vector<RecordedEntry> waiting_;  ///< taken, in order, not yet written
+  std::vector<std::pair<std::string, std::string>> waiting_info_;  ///< what the participant told
   std::chrono::steady_clock::time_point waiting_since_;
   std::string failure_;     ///< once a call has thrown
   bool is_locked_ = false;  ///< by another program, as the last call has thrown
@@ -126,14 +127,12 @@ void SessionLog::Impl::add_frame(const FrameRow& frame) {
 }
 
 void SessionLog::Impl::add_info(const std::string& key, const std::string& value) {
-  flush();
+  refuse_after_failure();
+  waiting_info_.emplace_back(key, value);
   try {
-    // With its digest, or not at all.
-    SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
-    writer_.write_info(session_id_, key, value);
-    transaction.commit();
-    file_.check_in_place();
+    commit_waiting();
   } catch (const std::exception& error) {
+    if (!is_busy(error) && !waiting_info_.empty()) waiting_info_.pop_back();
     fail(fmt::format("what the participant told ({})", key), error);
   }
 }
@@ -186,10 +185,11 @@ void SessionLog::Impl::commit_or_fail(const std::string& what) {
 
 void SessionLog::Impl::commit_waiting() {
   file_.check_in_place();
-  if (waiting_.empty() && !is_locked_) return;
+  if (waiting_.empty() && waiting_info_.empty() && !is_locked_) return;
   try {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
     for (const RecordedEntry& entry : waiting_) writer_.write(session_id_, entry);
+    for (const auto& [key, value] : waiting_info_) writer_.write_info(session_id_, key, value);
     writer_.write_counts(session_id_);
     transaction.commit();
   } catch (...) {
@@ -197,6 +197,7 @@ void SessionLog::Impl::commit_waiting() {
     throw;
   }
   waiting_.clear();
+  waiting_info_.clear();
   forget_lock();
   file_.check_in_place();
 }

@@ -40,8 +40,8 @@ class SessionLog final : public EventSink {
   /// trial's first row brings its cubes along: they are written from the plan's masses.
   /// @throws Error when it could not be saved: what, why (disk full, ...), what to do. The log is
   ///   then closed: nothing of the event is in it, and every later call throws the same error, so
-  ///   that no later event can follow a lost one. LogBusy when another program's lock has been in
-  ///   the way for a second: the event is kept, and flush() tries again without waiting.
+  ///   that no later event can follow a lost one. LogBusy when another process has locked the
+  ///   database for a second: the event is kept, and the next call tries again without waiting.
   void append(const Event& event, const Changes& changes, Durability durability) override;
 
   /// @throws Error as append() when the buffer was due and could not be saved

@@ -140,7 +140,7 @@ Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t s
       projection.refused = {logged, admission.refusal};
       return projection;
     }
-    const Changes changes = engine.apply(*admission.admitted);
+    const Changes changes = *engine.apply(*admission.admitted).changes;
     if (changes.attempt_index != logged.attempt_index) {
       projection.refused = {logged, fmt::format("it is logged with attempt {}, but belongs to {}",
                                                 logged.attempt_index, changes.attempt_index)};

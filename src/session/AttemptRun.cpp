@@ -77,7 +77,7 @@ bool AttemptRun::run_picture() {
   take_actions(shown);
   if (!trial_goes_on()) return false;
   if (!parts_.texts && !parts_.responder.has_more(picture->sample.t_capture_s)) {
-    journal_.leave("the responder has nothing more to do");
+    control_.leave("the responder has nothing more to do");
     throw Error(
         fmt::format("the responder has nothing more to do in trial {}, but the trial is "
                     "still open; everything so far is saved",
@@ -89,7 +89,8 @@ bool AttemptRun::run_picture() {
 // The next picture, at its time. None: the attempt is over, or the session is to be left.
 std::optional<Picture> AttemptRun::next_picture() {
   for (;;) {
-    if (control_.leaving()) return std::nullopt;
+    control_.wait_while_held();
+    if (control_.leaving() || is_over()) return std::nullopt;
     listen();
     if (auto picture = parts_.pictures.next()) {
       if (!wait_until(start_s_ + picture->sample.t_capture_s)) return std::nullopt;
@@ -97,7 +98,7 @@ std::optional<Picture> AttemptRun::next_picture() {
       continue;  // of before a pause
     }
     if (parts_.pictures.ended()) {
-      journal_.leave("there are no more pictures");
+      control_.leave("there are no more pictures");
       throw Error("the pictures have ended but the session has not; everything so far is saved");
     }
     take_touches(control_.wait(look_up_s));
@@ -127,7 +128,7 @@ bool AttemptRun::wait_until(double t_s) {
 void AttemptRun::require_sight(const FrameRow& row) {
   if (row.tracked || parts_.clock.is_wall()) seen_s_ = row.t_s;
   if (row.t_s - seen_s_ <= longest_unseen_s) return;
-  journal_.leave("the effector was not seen");
+  control_.leave("the effector was not seen");
   throw Error(
       fmt::format("the effector was in no picture for {:g} s, and nobody is here to see to it; "
                   "everything so far is saved. Look at the camera's file, its pictures and the "
@@ -221,6 +222,7 @@ void AttemptRun::take_touches(const std::vector<Touch>& touches) {
     if (!trial_goes_on()) break;  // meant for a screen that is not there any more
     changed = take_touch(touch) || changed;
   }
+  control_.wait_while_held();  // what was done is shown once it is on disk
   if (changed && trial_goes_on()) screen_.present(shown_, engine().screen());
 }
 
@@ -234,20 +236,16 @@ bool AttemptRun::take_touch(const Touch& touch) {
   if (touch.kind != TouchKind::action) return false;
   const double t_s =
       std::max(log_time(parts_.clock.session_s(touch.monotonic_s)), engine().last_s());
-  const Admission admission = engine().admit({t_s, touch.action});
-  if (!admission.admitted) {
-    journal_.emit({t_s, ActionRefused{touch.action, admission.refusal}}, Durability::acknowledged);
-    return false;
-  }
-  answer(*admission.admitted, touch.action);
-  return true;
+  const std::string refusal = answer(touch.action, t_s);
+  if (refusal.empty()) return true;
+  journal_.emit({t_s, ActionRefused{touch.action, refusal}}, Durability::acknowledged);
+  return false;
 }
 
 void AttemptRun::put_cubes_back() {
   const Admission admission = engine().admit({journal_.now_s(), CubesReset{}});
   if (!admission.admitted) return;  // they are not there yet
-  journal_.emit(*admission.admitted, Durability::acknowledged);
-  world_->request_reset();
+  if (journal_.emit(*admission.admitted, Durability::acknowledged).empty()) world_->request_reset();
 }
 
 void AttemptRun::take_actions(const ShownFrame& shown) {
@@ -256,9 +254,8 @@ void AttemptRun::take_actions(const ShownFrame& shown) {
   for (const TimedAction& action : actions) {
     // Its own time, which may lie before the newest picture's, but not before an event.
     const double t_s = std::max(start_s_ + log_time(action.t_s), engine().last_s());
-    const Admission admission = engine().admit({t_s, Action(action)});
-    if (!admission.admitted) refuse_model(action, admission.refusal);
-    answer(*admission.admitted, action);
+    const std::string refusal = answer(action, t_s);
+    if (!refusal.empty()) refuse_model(action, refusal);
     if (!trial_goes_on()) return;
   }
 }
@@ -266,22 +263,26 @@ void AttemptRun::take_actions(const ShownFrame& shown) {
 // What a model does wrong is a mistake in it, not in an answer.
 void AttemptRun::refuse_model(const TimedAction& action, const std::string& why) {
   const int trial_number = engine().next().plan->trial_number;
-  journal_.leave("the responder's action was refused");
+  control_.leave("the responder's action was refused");
   throw Error(fmt::format("trial {}: the responder's \"{}\"{} at {:.3f} s can't be taken: {}",
                           trial_number, name_of(action.kind),
                           action.slot ? fmt::format(" of cube {}", *action.slot) : "", action.t_s,
                           why));
 }
 
-void AttemptRun::answer(const AdmittedEvent& admitted, const Action& action) {
-  const TrialPlan before = *engine().next().plan;
+// @return why it is refused; empty: it is taken
+std::string AttemptRun::answer(const Action& action, double t_s) {
+  const Admission admission = engine().admit({t_s, action});
+  if (!admission.admitted) return admission.refusal;
+  const int n_reshuffles = engine().next().plan->n_reshuffles;
   // What is still being touched is let go of before an answer can close the trial.
-  if (engine().ends_trial(action))
-    log_events(world_->end_contacts(admitted.event().t_s - start_s_));
-  journal_.emit(admitted, Durability::acknowledged);
+  if (engine().ends_trial(action)) log_events(world_->end_contacts(t_s - start_s_));
+  if (std::string why = journal_.emit(*admission.admitted, Durability::acknowledged); !why.empty())
+    return why;
   const Next& after = engine().next();
-  if (after.kind == Next::Kind::act && after.plan->n_reshuffles > before.n_reshuffles)
+  if (after.kind == Next::Kind::act && after.plan->n_reshuffles > n_reshuffles)
     world_->rearrange(*after.plan);
+  return {};
 }
 
 }  // namespace heft

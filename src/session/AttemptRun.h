@@ -42,7 +42,7 @@ class AttemptRun {
   void put_cubes_back();
   void take_actions(const ShownFrame& shown);
   [[noreturn]] void refuse_model(const TimedAction& action, const std::string& why);
-  void answer(const AdmittedEvent& admitted, const Action& action);
+  std::string answer(const Action& action, double t_s);
 
   const SessionParts& parts_;
   const RunnerOptions& options_;

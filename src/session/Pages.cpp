@@ -151,6 +151,7 @@ TouchKind Pages::show(ScreenState screen, double least_s, const Moving& frame_at
   const double since_s = clock.now_s();
   const double step_s = frame_at ? 1 / protocol_.display_rate_hz : still_page_step_s;
   while (!control_.leaving()) {
+    control_.wait_while_held();  // a page that is turned acknowledges what was given on it
     const double now_s = clock.now_s(), elapsed_s = now_s - since_s;
     screen.wait_s = std::max(0.0, least_s - elapsed_s);
     if (!texts_ && screen.wait_s == 0) return TouchKind::next;  // only looked on at

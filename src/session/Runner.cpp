@@ -9,41 +9,25 @@
 
 namespace heft {
 
-namespace {
-constexpr double longest_wait_alone_s = 30, longest_wait_leaving_s = 10;
-}  // namespace
-
 Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
     : parts_(parts),
       options_(options),
       journal_(parts.engine, parts.sink, parts.clock, options.progress),
       screen_(journal_, parts.view, parts.texts, parts.asked),
-      control_(journal_, screen_, options.console, options.stop, parts.has_screen),
+      control_(journal_, screen_, options, parts.has_screen, parts.texts != nullptr),
       pages_(parts.protocol, journal_, control_, screen_, parts.texts, parts.before,
              {&parts.responder, parts.asked}) {
   control_.on_check([this] { check_apparatus(); });
   // One of the protocol the engine knows to be due; one that was asked for it does not.
   if (parts.before.in_break && !parts.engine.next().rest) control_.want_rest();
-  journal_.while_locked([this](double waited_s) { return wait_for_log(waited_s); });
 }
 
 RunEnd Runner::run() {
-  if (!begin()) return RunEnd::declined;
-  const RunEnd end = run_blocks();
+  const RunEnd end = begin() ? run_blocks() : RunEnd::declined;
   if (end == RunEnd::stopped) journal_.leave("stopped by the operator");
-  journal_.flush();
+  control_.save();
   if (end == RunEnd::finished && pages_.has_reader()) pages_.thanks();
   return end;
-}
-
-// A person's session waits as long as the experimenter likes; nobody would come to help a model's.
-bool Runner::wait_for_log(double waited_s) {
-  const std::string why = "the log is kept locked by another program; waiting";
-  const std::string told = why + " until it lets go. Nothing is lost; close that program";
-  if (waited_s == 0) options_.console ? options_.console->say(told) : options_.tell(told);
-  control_.stand_still(why);
-  if (control_.leaving()) return waited_s < longest_wait_leaving_s;
-  return pages_.has_reader() || waited_s < longest_wait_alone_s;
 }
 
 // Looked at until nothing fails any more, or the experimenter decides.
@@ -86,8 +70,7 @@ SessionControl::Answer Runner::ask_whether_failures_matter() {
 
 void Runner::refuse_unchecked(const std::string& failed) {
   journal_.emit_now(Note{fmt::format("failed check: {}; nobody could be asked", failed)});
-  journal_.leave("failed check: " + failed);
-  journal_.flush();
+  control_.leave("failed check: " + failed);
   throw Error(
       fmt::format("the check of the apparatus failed ({}), and without a terminal nobody can be "
                   "asked. Nothing was shown to the participant. See to it and go on with heft "
@@ -107,6 +90,7 @@ bool Runner::begin() {
 
 RunEnd Runner::run_blocks() {
   for (;;) {
+    control_.wait_while_held();
     pages_.questionnaires_before(block_to_come());
     if (control_.leaving()) return RunEnd::stopped;
     if (const auto rest = parts_.engine.next().rest) {

@@ -2,20 +2,16 @@
 // demonstration, one attempt after the other.
 #pragma once
 
-#include <atomic>
-#include <functional>
-
 #include "apparatus/PictureSource.h"
 #include "engine/Engine.h"
 #include "record/EventSink.h"
 #include "responders/Responder.h"
 #include "session/Console.h"
 #include "session/Pages.h"
+#include "session/RunnerOptions.h"
 #include "view/ArView.h"
 
 namespace heft {
-
-class EventOutlet;
 
 /// What a session is run with.
 struct SessionParts {
@@ -33,23 +29,6 @@ struct SessionParts {
   bool left_hand = false;    ///< holds the effector in it
   const ScreenTexts* asked =
       nullptr;  ///< of questionnaires that the responder is asked; null: none
-};
-
-struct RunnerOptions {
-  bool keep_frames = true;
-  /// Called after every event, for a progress bar.
-  std::function<void(const Engine&)> progress = [](const Engine&) {};
-  /// Set from a signal handler to stop at the next picture; the session can be resumed.
-  const std::atomic<bool>* stop = nullptr;
-  /// What is to be said where there is no console.
-  std::function<void(const std::string&)> tell = [](const std::string&) {};
-  Console* console = nullptr;  ///< the experimenter's; only on a wall clock
-  /// Other recorders, told of each event that is on disk; null: there are none.
-  EventOutlet* events = nullptr;
-  /// Where the session's number is put once it is in the log; null: nobody asks.
-  std::int64_t* begun = nullptr;
-  /// Go on although the check failed, where nobody can be asked.
-  bool go_on_unchecked = false;
 };
 
 enum class RunEnd {
@@ -71,7 +50,6 @@ class Runner {
 
  private:
   RunEnd run_blocks();
-  bool wait_for_log(double waited_s);
   bool begin();
   void check_apparatus();
   std::string failed_checks();

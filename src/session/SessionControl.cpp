@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/Clock.h"
 #include "base/Sha256.h"
 #include "protocol/Files.h"
 
@@ -33,30 +34,89 @@ void ParticipantScreen::log_text(const ScreenTexts& texts, const std::string& pa
 
 namespace {
 constexpr double holding_step_s = 0.05;
+constexpr double longest_wait_alone_s = 30, longest_wait_leaving_s = 10;
+constexpr std::string_view database_locked = "database locked by another process";
 }  // namespace
 
 std::vector<Touch> SessionControl::wait(double seconds) {
+  wait_while_held();
   if (!journal_.clock().is_wall()) return {};
   std::vector<Touch> touches = poll(seconds);
-  while (holding_ && !leaving()) {  // what is touched meanwhile means nothing
-    screen_.present({}, journal_.engine().screen());
-    poll(holding_step_s);
-  }
+  if (holding_) wait_while_held();
   return touches;
 }
 
-void SessionControl::stand_still(const std::string& why) {
-  status.trouble = why;
-  if (journal_.clock().is_wall()) screen_.present({}, journal_.engine().screen());
+void SessionControl::wait_while_held() {
+  std::optional<double> busy_since_s;
+  for (;;) {
+    if (journal_.busy() && !busy_since_s) {
+      busy_since_s = monotonic_s();
+      const std::string locked =
+          "Database locked by another process; retrying. Nothing is lost. "
+          "Close the other program to continue.";
+      console_ ? console_->say(locked) : tell_(locked);
+    }
+    if (busy_since_s) {
+      pause_for_database();
+      if (journal_.flush()) busy_since_s.reset();
+    }
+    if (!busy_since_s && (!holding_ || leaving())) break;
+    if (busy_since_s && gives_up_after(monotonic_s() - *busy_since_s))
+      throw LogBusy(*journal_.busy());
+    stand_still(busy_since_s.has_value());
+  }
+  continue_after_database();
+}
+
+// Where there is a wall clock; a command may have continued the session meanwhile.
+void SessionControl::pause_for_database() {
+  if (!journal_.clock().is_wall() || journal_.engine().state() != SessionState::running) return;
+  journal_.emit_now(SessionPaused{std::string(database_locked)});
+  paused_for_database_ = true;
+}
+
+void SessionControl::continue_after_database() {
+  if (!std::exchange(paused_for_database_, false)) return;
+  const Engine& engine = journal_.engine();
+  const bool is_paused = engine.state() == SessionState::paused;
+  if (is_paused && !holding_ && !engine.needs_somebody()) journal_.emit_now(SessionContinued{});
+}
+
+bool SessionControl::gives_up_after(double waited_s) const {
+  if (leaving()) return waited_s >= longest_wait_leaving_s;
+  return !has_person_ && waited_s >= longest_wait_alone_s;
+}
+
+// What is touched meanwhile means nothing.
+void SessionControl::stand_still(bool is_locked) {
+  if (is_locked) status.trouble = std::string(database_locked) + "; retrying";
+  if (journal_.clock().is_wall()) {
+    ScreenState screen = journal_.engine().screen();
+    screen.screen = Screen::paused;
+    screen_.present({}, screen);
+  }
   poll(holding_step_s);
-  status.trouble.clear();
+  if (is_locked) status.trouble.clear();
+}
+
+void SessionControl::save() {
+  journal_.flush();
+  wait_while_held();
+}
+
+void SessionControl::leave(const std::string& why) {
+  journal_.leave(why);
+  save();
 }
 
 SessionControl::Answer SessionControl::ask_to_go_on(const std::string& question) {
   if (!console_ || !console_->ask_to_go_on(question)) return Answer::nobody_there;
   answer_.reset();
   asking_ = true;
-  while (!answer_ && !leaving()) poll(holding_step_s);
+  while (!answer_ && !leaving()) {
+    wait_while_held();
+    poll(holding_step_s);
+  }
   asking_ = false;
   return answer_.value_or(Answer::leave);
 }
@@ -99,13 +159,7 @@ void SessionControl::show() {
 void SessionControl::obey(const ConsoleCommand& command) {
   switch (command.kind) {
     case ConsoleCommandKind::pause:
-      if (journal_.engine().state() == SessionState::paused)
-        return console_->say("the session is paused already");
-      if (journal_.engine().next().kind == Next::Kind::over)
-        return console_->say("the session is over; there is nothing to pause");
-      journal_.emit_now(SessionPaused{"experimenter"});
-      holding_ = true;
-      return;
+      return pause();
     case ConsoleCommandKind::go_on:
       return go_on();
     case ConsoleCommandKind::veto:
@@ -116,7 +170,7 @@ void SessionControl::obey(const ConsoleCommand& command) {
       return check();
     case ConsoleCommandKind::note:
       journal_.emit_now(Note{command.text});
-      return console_->say("noted");
+      return confirm("noted");
     case ConsoleCommandKind::rest:
       rest_wanted_ = true;
       return console_->say("a break comes before the next trial");
@@ -129,21 +183,39 @@ void SessionControl::obey(const ConsoleCommand& command) {
   }
 }
 
+void SessionControl::pause() {
+  if (journal_.engine().next().kind == Next::Kind::over)
+    return console_->say("the session is over; there is nothing to pause");
+  if (paused_for_database_ && !holding_) {
+    holding_ = true;
+    return console_->say("the session stays paused until you continue it");
+  }
+  if (journal_.engine().state() == SessionState::paused)
+    return console_->say("the session is paused already");
+  journal_.emit_now(SessionPaused{"experimenter"});
+  holding_ = true;
+}
+
+// Nothing that is not on disk is reported as done.
+void SessionControl::confirm(const std::string& done) {
+  console_->say(journal_.busy() ? done + "; not saved yet" : done);
+}
+
 void SessionControl::go_on() {
   if (asking_) {
     answer_ = Answer::go_on;
     return;
   }
   if (!holding_) return console_->say("the session is not held; it goes on by itself");
-  journal_.emit_now(SessionContinued{});
   holding_ = false;
+  if (!paused_for_database_) journal_.emit_now(SessionContinued{});
 }
 
 void SessionControl::veto(const std::string& why) {
   if (!journal_.engine().trial_is_open())
     return console_->say("no trial is open; an answered trial stays as it is");
   journal_.emit_now(TrialVoided{"veto: " + why});
-  console_->say("the trial is void and will be presented again");
+  confirm("the trial is void and will be presented again");
 }
 
 // A trial that has begun since then is run again after it, with the same draws.
@@ -155,7 +227,7 @@ void SessionControl::veto_answer(const std::string& why) {
     return console_->say("no comparison was answered whose answer could be taken back");
   if (engine.trial_is_open()) journal_.emit_now(TrialVoided{std::string(void_interrupted)});
   journal_.emit_now(AnswerVetoed{why});
-  console_->say("the last answer is void; its cubes will be presented again");
+  confirm("the last answer is void; its cubes will be presented again");
 }
 
 // Not in the middle of a trial, whose pictures it would take away.

@@ -10,6 +10,7 @@
 #include "experiment/ScreenTexts.h"
 #include "session/Console.h"
 #include "session/Journal.h"
+#include "session/RunnerOptions.h"
 #include "view/ArView.h"
 
 namespace heft {
@@ -50,27 +51,39 @@ class ParticipantScreen {
   std::string page_;  // of texts, that stands there
 };
 
-/// Runs what goes on while a session waits: keeps the screen alive, listens to the experimenter,
-/// holds the session while they want it held, and puts what waits in memory on disk.
+/// What happens while a session waits: the screen is kept alive, the experimenter's commands are
+/// obeyed, what waits in memory is written. Events come only from here while the session's own
+/// steps stand still: between two pictures, and on pages.
 class SessionControl {
  public:
-  /// @param console may be null  @param stop set from a signal handler; may be null
   /// @param has_screen whether `screen` can wait; otherwise this waits by itself
-  SessionControl(Journal& journal, ParticipantScreen& screen, Console* console,
-                 const std::atomic<bool>* stop, bool has_screen)
+  /// @param has_person who would be lost if the session gave up
+  SessionControl(Journal& journal, ParticipantScreen& screen, const RunnerOptions& options,
+                 bool has_screen, bool has_person)
       : journal_(journal),
         screen_(screen),
-        console_(console),
-        stop_(stop),
-        has_screen_(has_screen) {}
+        console_(options.console),
+        stop_(options.stop),
+        tell_(options.tell),
+        has_screen_(has_screen),
+        has_person_(has_person) {}
 
   /// Waits up to `seconds`, or as long as the experimenter holds the session; returns early with
   /// what the participant touched. On a virtual clock it returns at once.
   std::vector<Touch> wait(double seconds);
 
-  /// Keeps the screen and the console alive a little while, in a session that can't go on at
-  /// present; what is touched meanwhile means nothing.
-  void stand_still(const std::string& why);
+  /// Waits, in a paused session, as long as the experimenter holds it or another process locks the
+  /// database, so that acknowledged events are not on disk. Call it between the steps of a session,
+  /// before anything is shown that acknowledges an event: the state may change meanwhile.
+  /// @throws LogBusy when the database stays locked: for a person never, for a model after half a
+  ///   minute, sooner when the session is to be left
+  void wait_while_held();
+
+  /// Writes everything, waiting as above.
+  void save();
+
+  /// Leaves the session as Journal::leave, and saves it.
+  void leave(const std::string& why);
 
   /// What the experimenter says to that question.
   enum class Answer {
@@ -110,17 +123,25 @@ class SessionControl {
   void check();
   void unblind();
   void go_on();
+  void pause();
+  void confirm(const std::string& done);
+  void pause_for_database();
+  void continue_after_database();
+  bool gives_up_after(double waited_s) const;
+  void stand_still(bool is_locked);
   void show();
 
   Journal& journal_;
   ParticipantScreen& screen_;
   Console* console_;
   const std::atomic<bool>* stop_;
-  bool has_screen_;
+  std::function<void(const std::string&)> tell_;
+  bool has_screen_, has_person_;
   std::function<void()> check_;
   std::optional<Answer> answer_;  // to what is being asked
   std::optional<bool> full_screen_;
   bool leaving_ = false, holding_ = false, asking_ = false;
+  bool paused_for_database_ = false;
   bool rest_wanted_ = false, check_wanted_ = false, unblinded_ = false;
 };
 

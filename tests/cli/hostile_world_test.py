@@ -116,7 +116,7 @@ class UnderARunningSession(SessionTest):
         self.assertIsNone(self.process.poll(), "it did not wait")
         other.execute("rollback")
         other.close()
-        self.assertIn("kept locked by another program; waiting", self.ends_with(0))
+        self.assertIn("Database locked by another process; retrying.", self.ends_with(0))
         self.run_heft("replay", "--db", self.db)
         whole = self.folder / "whole.db"
         self.session(whole, protocol="jnd")

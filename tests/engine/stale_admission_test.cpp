@@ -1,0 +1,104 @@
+// An event that is admitted and applied later, after others: it is admitted once more.
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include "base/Random.h"
+#include "engine/Engine.h"
+#include "engine/Plans.h"
+
+namespace heft {
+namespace {
+
+using ::testing::HasSubstr;
+
+SessionPlan comparing() {
+  return {{testing::small_plan().blocks.back()}};
+}
+
+class StaleAdmission : public ::testing::Test {
+ protected:
+  StaleAdmission() {
+    apply(TrialStarted{});
+    apply(CubesShown{});
+  }
+  void apply(EventPayload what) { engine.apply({++t_s, std::move(what)}); }
+  AdmittedEvent answer() const { return *engine.admit({t_s + 100, chosen}).admitted; }
+  // Nothing of a refused event is in the state.
+  void expect_refusal(const AdmittedEvent& stale, const std::string& why) {
+    const int n_events = engine.n_events();
+    const double last_s = engine.last_s();
+    const Applied applied = engine.apply(stale);
+    EXPECT_FALSE(applied.changes);
+    EXPECT_THAT(applied.refusal, HasSubstr(why));
+    EXPECT_EQ(engine.n_events(), n_events);
+    EXPECT_EQ(engine.last_s(), last_s);
+  }
+
+  const Action chosen{ActionKind::select, 1};
+  Engine engine{testing::shared(comparing()), 7};
+  double t_s = 0;
+};
+
+TEST_F(StaleAdmission, of_an_answer_is_refused_after_a_pause) {
+  const AdmittedEvent stale = answer();
+  apply(SessionPaused{"database locked"});
+  expect_refusal(stale, "paused");
+  apply(SessionContinued{});
+  EXPECT_TRUE(engine.apply(stale).changes) << "it can come again";
+}
+
+TEST_F(StaleAdmission, of_an_answer_is_refused_after_a_veto) {
+  const AdmittedEvent stale = answer();
+  apply(TrialVoided{"veto: disturbance"});
+  expect_refusal(stale, "no trial is running");
+  apply(TrialStarted{});
+  expect_refusal(stale, "not appeared");
+}
+
+TEST_F(StaleAdmission, of_an_answer_is_refused_after_another_answer) {
+  const AdmittedEvent first = answer(), second = answer();
+  EXPECT_TRUE(engine.apply(first).changes);
+  expect_refusal(second, "no trial is running");
+}
+
+TEST_F(StaleAdmission, is_refused_after_a_later_event) {
+  const AdmittedEvent stale = answer();
+  t_s += 200;
+  apply(Note{"the phone rang"});
+  expect_refusal(stale, "before the last event");
+}
+
+TEST_F(StaleAdmission, holds_where_only_contacts_end_in_between) {
+  apply(CubeTouch{1});
+  const AdmittedEvent stale = answer();
+  apply(CubeTouch{1, 0.5});
+  EXPECT_EQ(engine.apply(stale).changes->trial->chosen_slot, 1);
+}
+
+// Applied after any other events, an admitted event does what the same event would do unadmitted.
+RC_GTEST_PROP(StaleAdmissionProperty, is_as_good_as_none, (std::uint64_t seed)) {
+  RandomStream stream(seed, "stale");
+  Engine engine(testing::shared(comparing()), seed), plain(testing::shared(comparing()), seed);
+  const std::vector<EventPayload> all{
+      TrialStarted{},       CubesShown{},       Action{ActionKind::select, 1},
+      SessionPaused{"why"}, SessionContinued{}, TrialVoided{"why"},
+      AnswerVetoed{"why"},  Note{"why"},        CubeTouch{1}};
+  std::vector<AdmittedEvent> held;
+  for (int i = 0; i < 200; ++i) {
+    const Event event{static_cast<double>(i), all[stream.below(all.size())]};
+    if (const Admission admission = engine.admit(event); admission.admitted)
+      held.push_back(*admission.admitted);
+    if (held.empty() || stream.coin(0.5)) continue;
+    const AdmittedEvent chosen = held[stream.below(held.size())];
+    const std::string refusal = plain.admit(chosen.event()).refusal;
+    const Applied applied = engine.apply(chosen);
+    RC_ASSERT(applied.refusal == refusal);
+    RC_ASSERT(applied.changes.has_value() == refusal.empty());
+    if (applied.changes) plain.apply(chosen.event());
+    RC_ASSERT(engine.n_events() == plain.n_events());
+    RC_ASSERT(engine.n_completed() == plain.n_completed());
+  }
+}
+
+}  // namespace
+}  // namespace heft
