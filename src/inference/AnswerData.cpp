@@ -44,7 +44,7 @@ class AnswerReader {
   Row header_;
   std::size_t level_ = 0, answer_ = 0, n_positive_ = 0, n_ = 0;
   bool is_counted_ = false;
-  std::optional<std::size_t> group_by_;
+  std::optional<std::size_t> group_by_, person_;
   std::vector<AnswerGroup> groups_;
   std::map<std::string, std::size_t> group_places_;
   std::vector<Mistake> mistakes_;
@@ -83,6 +83,7 @@ void AnswerReader::read_header() {
   n_positive_ = column("n_positive").value_or(0);
   n_ = column("n").value_or(0);
   if (!is_counted_) answer_ = *column(indecision ? "answer" : "response");
+  person_ = has({"person"}) ? column("person") : column("participant");
   if (!format_.group_by) return;
   group_by_ = column(*format_.group_by);
   std::vector<std::string_view> names;
@@ -97,9 +98,10 @@ void AnswerReader::read_row(const Row& row) {
   const std::optional<double> at = level(row[level_]);
   const std::optional<std::array<double, 3>> n = answers(row);
   if (!at || !n) return;
-  AnswersByLevel& all = group(row).answers;
+  AnswerGroup& its = group(row);
   if (*n == std::array<double, 3>{}) return;  // the level was not shown
-  for (std::size_t k = 0; k < n->size(); ++k) all[*at][k] += (*n)[k];
+  for (std::size_t k = 0; k < n->size(); ++k) its.answers[*at][k] += (*n)[k];
+  if (person_) its.people.insert(row[*person_].text);
 }
 
 std::optional<double> AnswerReader::level(const CsvCell& cell) {
@@ -159,7 +161,7 @@ std::optional<std::array<double, 3>> AnswerReader::one_answer(const CsvCell& cel
 AnswerGroup& AnswerReader::group(const Row& row) {
   const std::string name = group_by_ ? row[*group_by_].text : "";
   const auto [place, is_new] = group_places_.try_emplace(name, groups_.size());
-  if (is_new) groups_.push_back({group_by_ ? std::optional(name) : std::nullopt, {}});
+  if (is_new) groups_.push_back({group_by_ ? std::optional(name) : std::nullopt, {}, {}});
   return groups_[place->second];
 }
 

@@ -3,6 +3,8 @@
 // none). Columns stand in any order, and others may stand beside them.
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,8 @@ struct EnumNames<FitModel> {
 struct AnswerGroup {
   std::optional<std::string> name;  ///< the text in the column that groups; none: there is none
   AnswersByLevel answers;           ///< of levels that were shown
+  /// Who answered, where a column `person` or `participant` says so.
+  std::set<std::string> people{};
 };
 
 struct AnswerFormat {

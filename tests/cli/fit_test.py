@@ -55,6 +55,17 @@ class Fit(unittest.TestCase):
         self.data.write_bytes(text.encode("utf-8"))
         return fits(self.data, *words)
 
+    def test_people_who_are_pooled_are_warned_of(self):
+        trials = [f"{level},{int(level > 2 + person)},P{person},{'ab'[person]}"
+                  for level in range(1, 6) for person in (0, 1) for _ in range(3)]
+        for column in ("participant", "person"):
+            data = f"x,response,{column},room\n" + "\n".join(trials) + "\n"
+            _, _, message = self.run_on(data, *PSYCHOMETRIC)
+            self.assertIn("warning: trials of 2 people are pooled", message)
+            for group in (column, "room"):  # each of one person
+                self.assertEqual(self.run_on(data, *PSYCHOMETRIC, "--by", group)[2], "")
+        self.assertEqual(self.run_on(RISING, *PSYCHOMETRIC)[2], "")
+
     def test_json_has_the_names_of_the_contract(self):
         (fit,) = self.fits_of(RISING, *PSYCHOMETRIC)
         self.assertEqual(list(fit), ["group", "parameters", "log_likelihood", "n_trials",

@@ -24,6 +24,18 @@ AnswersByLevel only_group(const std::string& text, const AnswerFormat& format) {
   return groups.at(0).answers;
 }
 
+TEST(AnswerData, SaysWhoAnsweredInEachGroup) {
+  const auto people = [](const std::string& header) {
+    return parse_answers("x,response,room," + header + "\n1,0,a,P1\n1,1,a,P2\n2,1,b,P1\n",
+                         "data.csv", {FitModel::psychometric, "room", false});
+  };
+  for (const char* column : {"person", "participant"}) {
+    EXPECT_THAT(people(column).at(0).people, ElementsAre("P1", "P2"));
+    EXPECT_THAT(people(column).at(1).people, ElementsAre("P1"));
+  }
+  EXPECT_TRUE(people("who").at(0).people.empty());
+}
+
 TEST(AnswerData, CountsAndSingleTrialsComeToTheSame) {
   const AnswersByLevel expected{{1, {2, 1, 0}}, {2.5, {0, 2, 0}}};
   EXPECT_EQ(only_group("x,n_positive,n\n1,1,3\n2.5,2,2\n", psychometric), expected);
