@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 #include <set>
 
 #include "analysis/Jnd.h"
 #include "base/Error.h"
 #include "protocol/Protocol.h"
+#include "record/Export.h"
 
 namespace heft {
 
@@ -173,18 +175,38 @@ SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& 
 }
 }  // namespace
 
-LoggedSessions::LoggedSessions(std::string database, const std::vector<std::int64_t>& session_ids)
-    : database_(std::move(database)), log_(database_) {
+LoggedSessions::LoggedSessions(const std::vector<std::string>& databases,
+                               const std::vector<std::int64_t>& session_ids) {
+  if (databases.size() > 1 && !session_ids.empty())
+    throw Error("--session names sessions of a single log; give one --db", ExitCode::usage);
   const std::set named(session_ids.begin(), session_ids.end());
-  session_ids_.assign(named.begin(), named.end());
-  if (session_ids_.empty()) session_ids_ = log_.session_ids();
-  for (const std::int64_t id : session_ids_)
-    purposes_[std::string(name_of(log_.session(id).header.purpose))] += 1;
+  std::set<std::string> files;
+  for (const std::string& database : databases) {
+    if (!files.insert(std::filesystem::weakly_canonical(database).string()).second)
+      throw Error(fmt::format("{} is given twice", database), ExitCode::usage);
+    OneLog& log =
+        logs_.emplace_back(OneLog{database, LogReader(database), {named.begin(), named.end()}});
+    if (log.session_ids.empty()) log.session_ids = log.reader.session_ids();
+    for (const std::int64_t id : log.session_ids)
+      purposes_[std::string(name_of(log.reader.session(id).header.purpose))] += 1;
+  }
+}
+
+std::string LoggedSessions::database() const {
+  std::string all;
+  for (const OneLog& log : logs_) all += (all.empty() ? "" : ", ") + log.name;
+  return all;
 }
 
 void LoggedSessions::each(const std::function<void(const SessionData&)>& use) const {
   DeclaredByText declared_by_text;
-  for (const std::int64_t id : session_ids_) use(read_session(log_, id, declared_by_text));
+  for (const OneLog& log : logs_)
+    for (const std::int64_t id : log.session_ids) {
+      SessionData data = read_session(log.reader, id, declared_by_text);
+      std::string& participant = data.session.header.participant;
+      if (logs_.size() > 1) participant = person_name(log.name, participant);
+      use(data);
+    }
 }
 
 void refuse_mixed_purposes(const LoggedSessions& sessions) {

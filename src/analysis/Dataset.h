@@ -103,27 +103,35 @@ struct SessionRows {
 SessionData join_rows(const SessionRow& session, const SessionRows& rows);
 
 struct Dataset {
-  std::string database;  ///< the log's file name, as given
+  std::string database;  ///< the logs' file names, as given
   std::vector<SessionData> sessions;
 };
 
-/// The sessions of a log, read one by one: of a thousand no more than one is in memory.
+/// The sessions of one or several logs, read one by one: of a thousand no more than one is in
+/// memory.
 class LoggedSessions {
  public:
-  /// @param session_ids which; empty: all
-  /// @throws Error when the file can't be read or has no such session
-  LoggedSessions(std::string database, const std::vector<std::int64_t>& session_ids);
+  /// @param session_ids which, of a single log; empty: all
+  /// @throws Error when a file can't be read, is given twice or has no such session; (usage) when
+  ///   sessions of several logs are named
+  LoggedSessions(const std::vector<std::string>& databases,
+                 const std::vector<std::int64_t>& session_ids);
 
-  const std::string& database() const { return database_; }
-  /// May be called again, and gives the same.
+  /// The logs' files, as given.
+  std::string database() const;
+  /// May be called again, and gives the same. Of several logs participants have person_name().
   void each(const std::function<void(const SessionData&)>& use) const;
   /// By name, how many sessions have each.
   const std::map<std::string, int>& purposes() const { return purposes_; }
 
  private:
-  std::string database_;
-  LogReader log_;
-  std::vector<std::int64_t> session_ids_;
+  struct OneLog {
+    std::string name;
+    LogReader reader;
+    std::vector<std::int64_t> session_ids;
+  };
+
+  std::vector<OneLog> logs_;
   std::map<std::string, int> purposes_;
 };
 

@@ -153,7 +153,7 @@ Summary summarize(const Dataset& dataset, const std::string& command) {
 }
 
 Summary analyze(const AnalysisOptions& options) {
-  const LoggedSessions sessions(options.database, options.session_ids);
+  const LoggedSessions sessions(options.databases, options.session_ids);
   if (!options.mix) refuse_mixed_purposes(sessions);
   const auto each = [&](const std::function<void(const SessionData&)>& use) { sessions.each(use); };
   return summarize(sessions.database(), each, options.command);

@@ -28,8 +28,8 @@
 namespace heft {
 
 struct AnalysisOptions {
-  std::string database;                   ///< the log's file
-  std::vector<std::int64_t> session_ids;  ///< empty: all
+  std::vector<std::string> databases;     ///< the logs' files
+  std::vector<std::int64_t> session_ids;  ///< of a single log; empty: all
   bool mix = false;                       ///< put sessions of several purposes together
   std::string command;                    ///< what was typed; stands below every chart
 };
@@ -91,9 +91,8 @@ struct Summary {
   bool simulated() const { return data == "simulated" || data == "human and simulated"; }
 };
 
-/// Reads the log and summarizes it.
-/// @throws Error when the file can't be read, has no such session, or holds several purposes and
-///   they were not to be mixed
+/// Reads the logs and summarizes them together; people of several logs are told apart.
+/// @throws Error as LoggedSessions, or when they hold several purposes that were not to be mixed
 Summary analyze(const AnalysisOptions& options);
 
 /// The same for data at hand.

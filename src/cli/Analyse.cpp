@@ -19,7 +19,7 @@ namespace heft::cli {
 
 namespace {
 struct AnalyseOptions {
-  std::string database = "heft.db";
+  std::vector<std::string> databases;
   std::string out;
   std::vector<std::int64_t> sessions;
   bool json = false, mix = false;
@@ -27,7 +27,9 @@ struct AnalyseOptions {
 
 // The command as it can be typed again.
 std::string command_of(const AnalyseOptions& options) {
-  std::string command = "heft analyse --db " + shell_quoted(options.database);
+  std::string command = "heft analyse";
+  for (const std::string& database : options.databases)
+    command += " --db " + shell_quoted(database);
   for (std::int64_t id : options.sessions) command += fmt::format(" --session {}", id);
   if (options.mix) command += " --mix";
   if (!options.out.empty()) command += " --out " + shell_quoted(options.out);
@@ -40,11 +42,12 @@ void report(const Summary& summary, const std::string& folder) {
   explain_missing_charts(result, folder);
 }
 
-void analyse(const AnalyseOptions& options) {
-  refuse_special_file(options.database);
+void analyse(AnalyseOptions options) {
+  if (options.databases.empty()) options.databases = {"heft.db"};
+  for (const std::string& database : options.databases) refuse_special_file(database);
   if (!options.out.empty()) refuse_foreign_folder(options.out);
   const Summary summary =
-      analyze({options.database, options.sessions, options.mix, command_of(options)});
+      analyze({options.databases, options.sessions, options.mix, command_of(options)});
   if (options.json)
     fmt::print("{}", as_json(summary));
   else
@@ -59,11 +62,13 @@ void analyse(const AnalyseOptions& options) {
 
 void add_analyse(Command& app) {
   const auto options = std::make_shared<AnalyseOptions>();
-  Command command =
-      app.add_command("analyse", "tables, estimates with intervals, charts and a report of a log",
-                      {"heft analyse --db heft.db", "heft analyse --db heft.db --out report",
-                       "heft analyse --db heft.db --session 3 4 --json"});
-  command.add_option("--db", &options->database, "the log").shows_default();
+  Command command = app.add_command(
+      "analyse", "tables, estimates with intervals, charts and a report of logs",
+      {"heft analyse --db heft.db", "heft analyse --db heft.db --out report",
+       "heft analyse --db heft.db --session 3 4 --json", "heft analyse --db lab1.db --db lab2.db"});
+  command.add_option(
+      "--db", &options->databases,
+      "the log (default: heft.db); of several, people named alike are different ones");
   command.add_option("--out", &options->out,
                      "a new or empty folder for CSV, charts, summary.json and report.html");
   command.add_sessions(options->sessions, "only these sessions (default: all)");

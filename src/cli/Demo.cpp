@@ -60,7 +60,7 @@ void demo(const DemoOptions& options) {
 
   const std::string report = options.out + "/report";
   const Summary summary =
-      analyze({request.db,
+      analyze({{request.db},
                {result.session_id},
                false,
                fmt::format("heft analyse --db {} --session {} --out {}", shell_quoted(request.db),

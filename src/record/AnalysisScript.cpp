@@ -37,7 +37,7 @@ models <- answered[answered$responder != "human", ]
 models <- models[!duplicated(key(models)), ]
 person_of <- function(table) {
   model <- models$responder[match(key(table), key(models))]
-  ifelse(is.na(model), as.character(table$participant), paste0(table$participant, " (", model, ")"))
+  ifelse(is.na(model), as.character(table$person), paste0(table$person, " (", model, ")"))
 }
 trials$person <- person_of(trials)
 choices$person <- person_of(choices)

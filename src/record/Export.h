@@ -25,6 +25,12 @@ struct ExportedFile {
   std::optional<std::int64_t> n_rows;
 };
 
+/// Who is one person where several logs are read together: people named alike in two labs' logs are
+/// two. @param log its name
+inline std::string person_name(const std::string& log, const std::string& participant) {
+  return log + ": " + participant;
+}
+
 struct ExportRequest {
   std::vector<std::string> logs;
   ExportFormat format = ExportFormat::csv;
@@ -32,7 +38,8 @@ struct ExportRequest {
   std::optional<std::string> key = {};  ///< of the pseudonyms; none: names stay (Pseudonyms.h)
 };
 
-/// All sessions of the logs together; the column `log` says whose.
+/// All sessions of the logs together; the column `log` says whose. `person` is the participant; of
+/// several logs person_name().
 /// - csv: trials.csv, wide.csv, choices.csv, answers.csv, reversals.csv, estimates.csv, cubes.csv,
 ///   participants.csv, setups.csv, frames.csv where frames were kept, dictionary.csv, analysis.R.
 /// - psych-ds: the same as data/description-..._data.csv, with dataset_description.json.

@@ -60,12 +60,12 @@ std::vector<BidsPerson> people_of(const ExportSource& source) {
         {"participant", "", "", "", "s.participant", Privacy::person},
         {"task", "", "", "", "r.task"}}});
   std::vector<BidsPerson> people;
-  std::map<std::string, std::size_t> places;
+  std::map<std::pair<std::size_t, std::string>, std::size_t> places;  // by log and name
   std::set<std::string> taken;
   for (std::size_t log = 0; log < source.n_logs(); ++log)
     source.each_row(sessions, log, "", [&](const ExportCells& cells) {
       const std::string& name = cells[2].text;
-      const auto [place, is_new] = places.try_emplace(name, people.size());
+      const auto [place, is_new] = places.try_emplace({log, name}, people.size());
       if (is_new) people.push_back({name, label_of(name, taken), {}});
       std::vector<BidsSession>& theirs = people[place->second].sessions;
       if (theirs.empty() || theirs.back().log != log || theirs.back().session_id != cells[1].text)

@@ -9,6 +9,7 @@
 
 #include "base/Error.h"
 #include "base/TextFile.h"
+#include "record/Export.h"
 #include "record/Failures.h"
 #include "record/LogFile.h"
 #include "record/Pseudonyms.h"
@@ -118,7 +119,10 @@ void ExportSource::each_row(const ExportTable& table, std::size_t log, const std
   while (query.executeStep()) {
     for (std::size_t i = 1; i < cells.size(); ++i) {
       cells[i] = cell_of(query.getColumn(static_cast<int>(i) - 1));
-      if (key_) make_private(cells[i], table.columns[i - 1].privacy, *key_);
+      const ExportColumn& column = table.columns[i - 1];
+      if (key_) make_private(cells[i], column.privacy, *key_);
+      if (column.name == "person" && n_logs() > 1)
+        cells[i].text = person_name(logs_[log].name, cells[i].text);
     }
     take(cells);
   }

@@ -89,6 +89,14 @@ ExportColumn session_id() {
 ExportColumn participant() {
   return {"participant", "", "who took part", "", "s.participant", Privacy::person};
 }
+ExportColumn person() {
+  return {"person",
+          "",
+          "who took part, unique among several logs: then the log's name and participant",
+          "",
+          "s.participant",
+          Privacy::person};
+}
 ExportColumn trial_id() {
   return id("trial_id", "number of the attempt at a trial in its log");
 }
@@ -160,6 +168,7 @@ void add_cube_masses(std::vector<ExportColumn>& columns) {
 ExportTable wide_table() {
   std::vector<ExportColumn> columns{
       participant(),
+      person(),
       {"session", "", "number of the session in its log", "", "s.session_id"},
       {"date", "", "when the session started, ISO 8601", "", "s.started_utc", Privacy::year},
       {"expName", "", "name of the protocol's file", "", "s.protocol_name"},
@@ -195,6 +204,7 @@ ExportTable choice_table() {
   const std::string on_right = "r.reference_slot IS NULL OR r.reference_slot = 1";
   std::vector<ExportColumn> columns{session_id(),
                                     participant(),
+                                    person(),
                                     trial_id(),
                                     {"compared", "", "what is one fit: technique and reference", "",
                                      "r.condition || printf(' %.6g g', r.reference_g)"}};
@@ -239,30 +249,32 @@ std::vector<ExportTable> export_tables(const ParticipantColumns& participants) {
       "response_time_s", "s", "validated_s - shown_s - paused_s - lost_s", "", response_time_sql};
   return {
       table<TrialRow>("trials", "an attempt at a planned trial", of_session("trial"), "r.trial_id",
-                      {session_id(), participant(), trial_id(),
+                      {session_id(), participant(), person(), trial_id(),
                        id("setup_id", "what was in force; in setups.csv")},
                       {response_time}),
       wide_table(),
       choice_table(),
       table<AnswerRow>(
           "answers", "an action of the participant", of_trial("answer"), "r.answer_id",
-          {session_id(), participant(), trial_id(), id("answer_id", "counts in order")}),
+          {session_id(), participant(), person(), trial_id(), id("answer_id", "counts in order")}),
       table<ReversalRow>("reversals", "a reversal of a staircase", of_session("reversal"),
-                         "r.rowid", {session_id(), participant(), trial_id()}),
+                         "r.rowid", {session_id(), participant(), person(), trial_id()}),
       table<EstimateRow>("estimates", "what one method makes of a staircase",
-                         of_session("estimate"), "r.rowid", {session_id(), participant()}),
+                         of_session("estimate"), "r.rowid",
+                         {session_id(), participant(), person()}),
       table<CubeRow>("cubes", "a cube of an attempt at a trial", of_trial("cube"),
-                     "r.trial_id, r.slot", {session_id(), participant(), trial_id()}),
+                     "r.trial_id, r.slot", {session_id(), participant(), person(), trial_id()}),
       table<SessionHeader>("participants", "a session",
                            "session r JOIN session s USING (session_id)", "r.session_id",
-                           {session_id()}, about_participants(participants)),
+                           {session_id(), person()}, about_participants(participants)),
       table<SessionConfig>(
           "setups", "what was in force from an event on", of_session("setup"), "r.setup_id",
-          {session_id(), participant(), id("setup_id", "number of the setup in its log"),
+          {session_id(), participant(), person(), id("setup_id", "number of the setup in its log"),
            id("setup_index", "counts a session's setups from 1"),
            id("from_event_id", "event from which on it was in force; none: the start")}),
-      table<FrameRow>("frames", "a displayed frame", of_session("frame"), "r.frame_id",
-                      {session_id(), participant(), trial_id(), id("frame_id", "counts in order")}),
+      table<FrameRow>(
+          "frames", "a displayed frame", of_session("frame"), "r.frame_id",
+          {session_id(), participant(), person(), trial_id(), id("frame_id", "counts in order")}),
   };
 }
 

@@ -95,10 +95,10 @@ TEST(Dataset, SimulatedRespondersOfOneNameAreSeveralParticipants) {
 TEST_F(LogFile, SeveralPurposesAreRefused) {
   write_session("a", Purpose::main);
   write_session("b", Purpose::main);
-  EXPECT_NO_THROW(refuse_mixed_purposes({path(), {}}));
+  EXPECT_NO_THROW(refuse_mixed_purposes({{path()}, {}}));
   write_session("c", Purpose::pilot);
   try {
-    refuse_mixed_purposes({path(), {}});
+    refuse_mixed_purposes({{path()}, {}});
     FAIL() << "several purposes were not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::usage);
@@ -109,7 +109,7 @@ TEST_F(LogFile, SeveralPurposesAreRefused) {
 
 TEST_F(LogFile, IsReadBack) {
   write_session("P01", Purpose::main);
-  const Summary summary = analyze({path(), {}, false, ""});
+  const Summary summary = analyze({{path()}, {}, false, ""});
   EXPECT_EQ(summary.sessions.size(), 1);
   EXPECT_EQ(summary.data, "human");
   EXPECT_EQ(summary.sorting[1].n_trials, 1);
@@ -121,11 +121,24 @@ TEST_F(LogFile, IsReadBack) {
 TEST_F(LogFile, PurposesAreMixedOnlyOnDemandAndSessionsCanBeNamed) {
   write_session("P01", Purpose::main);
   write_session("P02", Purpose::pilot);
-  EXPECT_THROW(analyze({path(), {}, false, ""}), Error);
-  EXPECT_EQ(analyze({path(), {}, true, ""}).sorting[1].n_trials, 2);
-  EXPECT_EQ(analyze({path(), {2}, false, ""}).sorting[1].n_trials, 1);
-  EXPECT_EQ(analyze({path(), {2, 2}, false, ""}).sorting[1].n_trials, 1);
-  EXPECT_THROW(analyze({path(), {3}, false, ""}), Error);
+  EXPECT_THROW(analyze({{path()}, {}, false, ""}), Error);
+  EXPECT_EQ(analyze({{path()}, {}, true, ""}).sorting[1].n_trials, 2);
+  EXPECT_EQ(analyze({{path()}, {2}, false, ""}).sorting[1].n_trials, 1);
+  EXPECT_EQ(analyze({{path()}, {2, 2}, false, ""}).sorting[1].n_trials, 1);
+  EXPECT_THROW(analyze({{path()}, {3}, false, ""}), Error);
+}
+
+TEST_F(LogFile, PeopleNamedAlikeInTwoLogsAreTwo) {
+  write_session("P01", Purpose::main);
+  const std::string other = path() + "2";
+  std::filesystem::copy(path(), other);
+  const Summary summary = analyze({{path(), other}, {}, false, ""});
+  EXPECT_EQ(summary.n_participants, 2);
+  EXPECT_EQ(summary.sorting[1].correct.n_participants, 2);
+  EXPECT_EQ(summary.sessions.at(1).participant, other + ": P01");
+  EXPECT_EQ(summary.database, path() + ", " + other);
+  EXPECT_THROW(analyze({{path(), path()}, {}, false, ""}), Error);
+  EXPECT_THROW(analyze({{path(), other}, {1}, false, ""}), Error);
 }
 
 // A figure of those who count is made of the log read again.
@@ -134,7 +147,7 @@ TEST_F(LogFile, WhoIsLeftOutIsInNoFigure) {
   write_session("touched nothing, left out", Purpose::main,
                 protocol + "\n[exclusion]\nimpossible_answers = 0.5\n");
   write_session("touched nothing", Purpose::main, protocol);
-  const Summary summary = analyze({path(), {}, false, ""});
+  const Summary summary = analyze({{path()}, {}, false, ""});
   EXPECT_EQ(summary.sessions.size(), 2);
   EXPECT_TRUE(summary.participants.at(1).excluded());
   EXPECT_EQ(summary.n_participants, 1);

@@ -8,8 +8,10 @@ import csv
 import json
 import re
 import resource
+import shutil
 import sqlite3
 import stat
+import subprocess
 from statistics import mean, stdev
 
 from session_harness import PROTOCOLS, SessionTest, change, main, query
@@ -20,7 +22,7 @@ TABLES = {"trials": "trial", "answers": "answer", "reversals": "reversal", "esti
 LEFT_OUT = {"participants": {"protocol_text", "run_options", "n_events", "n_frames", "info_digest",
                              "digest"}, "frames": {"digest"}}
 # All names that only CSV files have.
-ADDED = {"log", "participant", "session_id", "response_time_s"}
+ADDED = {"log", "participant", "person", "session_id", "response_time_s"}
 TASKS = {"introduction", "sorting", "comparison"}
 
 
@@ -132,6 +134,47 @@ class Export(SessionTest):
         for file in (self.folder / "data").iterdir():
             self.assertEqual(file.read_bytes(), (self.folder / "again" / file.name).read_bytes())
         self.assertIn("given twice", self.export("b.db", "./b.db", out="twice", expect=2).stderr)
+
+    def test_people_named_alike_in_two_logs_are_two(self):
+        self.simulate("a.db")
+        self.simulate("b.db", seed=6)
+        self.export("a.db", out="one")
+        alone = self.rows("trials", "one")
+        self.assertEqual({row["person"] for row in alone}, {"sim-0001", "sim-0002"})
+        self.export("a.db", "b.db")
+        people = {f"{log}: sim-000{i}" for log in ("a.db", "b.db") for i in (1, 2)}
+        for file in (self.folder / "data").glob("*.csv"):
+            rows = self.rows(file.stem)
+            if file.stem != "dictionary" and rows:
+                self.assertLessEqual({row["person"] for row in rows}, people, file)
+                self.assertTrue(all(row["person"] == f"{row['log']}: {row['participant']}"
+                                    for row in rows), file)
+        self.assertEqual({row["person"] for row in self.rows("participants")}, people)
+        summary = json.loads(self.run_heft("analyse", "--db", "a.db", "--db", "b.db", "--json", "--mix",
+                                           cwd=self.folder).stdout)
+        self.assertEqual({row["participant"] for row in summary["participants"]},
+                         {f"{person} (simulated)" for person in people})
+        self.assertEqual((summary["n_participants"], summary["database"]), (4, "a.db, b.db"))
+        apart = [json.loads(self.run_heft("analyse", "--db", db, "--json", cwd=self.folder).stdout)
+                 for db in ("a.db", "b.db")]
+        of = lambda summary: summary["sorting"]["C2"]["correct"]
+        self.assertAlmostEqual(of(summary)["mean"], mean(of(one)["mean"] for one in apart))
+        self.assertEqual(of(summary)["n_participants"], 4)
+        for file in ("a.db", "./a.db"):
+            self.assertIn("given twice", self.run_heft("analyse", "--db", "a.db", "--db", file,
+                                                       cwd=self.folder, expect=2).stderr)
+        self.assertIn("single log", self.run_heft("analyse", "--db", "a.db", "--db", "b.db",
+                                                  "--session", 1, cwd=self.folder, expect=2).stderr)
+        script = (self.folder / "data" / "analysis.R").read_text()
+        self.assertNotIn("table$participant", script)
+        if shutil.which("Rscript"):
+            printed = subprocess.run(["Rscript", "analysis.R"], cwd=self.folder / "data", text=True,
+                                     capture_output=True, check=True).stdout
+            self.assertIn("heft export: 4 participants", printed)
+        self.export("a.db", "b.db", format="bids", out="bids")
+        self.assertEqual([row["participant_id"] for row in
+                          self.table(self.folder / "bids" / "participants.tsv")],
+                         ["sub-sim0001", "sub-sim0002", "sub-sim0001x2", "sub-sim0002x2"])
 
     def test_nothing_is_overwritten(self):
         self.simulate("lab.db", participants=1)

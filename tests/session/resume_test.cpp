@@ -98,7 +98,7 @@ class Resumed : public ::testing::Test {
   }
   SessionData analysed() const {
     std::optional<SessionData> first;
-    LoggedSessions(request.db, {}).each([&](const SessionData& data) {
+    LoggedSessions({request.db}, {}).each([&](const SessionData& data) {
       if (!first) first = data;
     });
     return first.value();
