@@ -12,7 +12,6 @@
 #include "analysis/Published.h"
 #include "protocol/Protocol.h"
 #include "protocol/TomlDocument.h"
-#include "psychophysics/Procedure.h"
 
 namespace heft {
 
@@ -242,9 +241,8 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
     for (const Block& block : parse_protocol(protocol_text, "protocol").blocks)
       if (const auto* comparison = std::get_if<ComparisonBlock>(&block))
         for (const ReferenceStaircase& entry : comparison->staircases)
-          if (!std::ranges::count(Procedure(entry.staircase).estimates(), jnd_method,
-                                  &Estimate::method))
-            names.insert(entry.staircase.name);
+          if (!std::ranges::count(entry.staircase.estimates(), jnd_method, &Estimate::method))
+            names.insert(entry.staircase.name());
   } catch (const InvalidFile&) {
   }
   return names;

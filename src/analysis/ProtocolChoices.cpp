@@ -7,9 +7,8 @@
 #include <variant>
 
 #include "base/Error.h"
-#include "protocol/ProcedureReader.h"
 #include "protocol/StudyPlan.h"
-#include "psychophysics/Procedure.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 
@@ -84,10 +83,11 @@ class Collector {
     add("sides of the reference", std::string(name_of(block.sides)));
     add("moves a staircase down", std::string(name_of(block.positive_answer)));
     for (const ReferenceStaircase& entry : block.staircases) {
-      const ProcedureConfig& procedure = entry.staircase;
-      if (const auto* config = std::get_if<UpDownConfig>(procedure.kind.get()))
-        add(fmt::format("staircase {}, start and steps", procedure.name), course_text(*config));
-      add(fmt::format("staircase {}", procedure.name), described(procedure));
+      const Procedure& procedure = entry.staircase;
+      if (const auto* staircase = procedure.get_if<UpDown>())
+        add(fmt::format("staircase {}, start and steps", procedure.name()),
+            course_text(staircase->config()));
+      add(fmt::format("staircase {}", procedure.name()), ProcedureKinds::described(procedure));
     }
   }
 
@@ -110,7 +110,8 @@ class Collector {
     const std::string halved = config.halve_every > 0
                                    ? fmt::format(", halved every {} reversals", config.halve_every)
                                    : "";
-    return fmt::format("from {:g} g, steps {:g} {}{}", config.start, config.step, unit, halved);
+    return fmt::format("from {:g} g, steps {:g} {}{}", config.start, config.step.value_or(0), unit,
+                       halved);
   }
   static std::string input_text(const DriveInput& input) {
     return fmt::format("{}, {}", name_of(input.mode),

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/Error.h"
-#include "psychophysics/Procedure.h"
+#include "psychophysics/UpDown.h"
 
 namespace heft {
 
@@ -25,10 +25,10 @@ void keep_censoring_rule(Protocol& protocol, int log_version) {
   for (Block& block : protocol.blocks)
     if (auto* comparison = std::get_if<ComparisonBlock>(&block))
       for (ReferenceStaircase& entry : comparison->staircases)
-        if (const auto* up_down = std::get_if<UpDownConfig>(entry.staircase.kind.get())) {
-          UpDownConfig config = *up_down;
+        if (const auto* up_down = entry.staircase.get_if<UpDown>()) {
+          UpDownConfig config = up_down->config();
           config.censoring = CensoringRule::levels_at_bounds;
-          entry.staircase = {entry.staircase.name, config};
+          entry.staircase = {entry.staircase.name(), config};
         }
 }
 }  // namespace

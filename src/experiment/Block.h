@@ -75,8 +75,8 @@ struct SortingBlock {
 /// One procedure of a comparison block and the reference it compares with.
 struct ReferenceStaircase {
   double reference_g = 0;
-  ProcedureConfig staircase;  ///< of any kind; levels are comparison - reference, g
-  std::string condition{};    ///< its own technique; empty: the block's
+  Procedure staircase;      ///< before its first trial; levels are comparison - reference, g
+  std::string condition{};  ///< its own technique; empty: the block's
 };
 
 /// So many trials of a comparison block compare a reference with its equal.

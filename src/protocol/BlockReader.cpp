@@ -9,7 +9,6 @@
 #include "experiment/Rows.h"
 #include "protocol/ProcedureReader.h"
 #include "protocol/ProtocolTables.h"
-#include "psychophysics/Procedure.h"
 
 namespace heft {
 
@@ -118,9 +117,9 @@ Block read_sorting(TableReader& table, NamesInUse& names) {
 }
 
 // paired = true: one staircase from `start`, one from `start_below`, otherwise alike.
-std::vector<ProcedureConfig> pair_of(TableReader& table, const ProcedureConfig& read,
-                                     std::optional<double> start_below) {
-  const auto* above = std::get_if<UpDownConfig>(&*read.kind);
+std::vector<StaircaseSettings> pair_of(TableReader& table, const StaircaseSettings& read,
+                                       std::optional<double> start_below) {
+  const auto* above = std::get_if<UpDownConfig>(&read.config);
   if (!above) {
     table.mistake("paired", "paired is for up_down staircases, which have a start to pair");
     return {};
@@ -153,15 +152,15 @@ std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, Na
     table.mistake("start_below",
                   "start_below without paired = true, which makes a second "
                   "staircase that starts there");
-  const auto procedure = read_procedure(table);
-  if (!procedure) return {};
+  const auto settings = read_staircase(table);
+  if (!settings) return {};
   if (table.has("reference_g") && table.good({"reference_g"}))
-    check_lightest(table, *procedure, reference_g);
+    check_beside(table, *settings, reference_g);
   std::vector<ReferenceStaircase> staircases;
-  for (ProcedureConfig& one :
-       paired ? pair_of(table, *procedure, start_below) : std::vector{*procedure}) {
+  for (const StaircaseSettings& one :
+       paired ? pair_of(table, *settings, start_below) : std::vector{*settings}) {
     names.staircases.check(table, one.name);
-    staircases.push_back({reference_g, std::move(one), condition});
+    staircases.push_back({reference_g, one.procedure(), condition});
   }
   return staircases;
 }

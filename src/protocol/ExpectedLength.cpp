@@ -3,19 +3,17 @@
 #include <algorithm>
 
 #include "base/Random.h"
-#include "psychophysics/Procedure.h"
 
 namespace heft {
 
 namespace {
 // Trials that one observer takes; level by level it says yes where the difference, with noise in
 // proportion to the threshold, is beyond the threshold.
-int simulated_trials(const ProcedureConfig& config, double threshold_g, std::uint64_t observer) {
+int simulated_trials(Procedure procedure, double threshold_g, std::uint64_t observer) {
   constexpr double noise_per_threshold = 0.4;
   constexpr int enough_trials = 1000;  // steps too small for their start never get anywhere
   RandomStream stream(0, "expected length", observer);
-  const RandomStream levels = level_stream(observer, config.name);
-  Procedure procedure(config);
+  const RandomStream levels = level_stream(observer, procedure.name());
   while (!procedure.finished() && procedure.n_trials() < enough_trials) {
     const double level_g = procedure.next_level(levels);
     const double seen_g = level_g + noise_per_threshold * threshold_g * stream.normal();
@@ -24,14 +22,14 @@ int simulated_trials(const ProcedureConfig& config, double threshold_g, std::uin
   return procedure.n_trials();
 }
 
-double mean_trials(const ProcedureConfig& config, double largest_threshold_g) {
-  if (const auto planned = Procedure(config).planned_trials()) return *planned;
+double mean_trials(const Procedure& procedure, double largest_threshold_g) {
+  if (const auto planned = procedure.planned_trials()) return *planned;
   constexpr int n_observers = 200;
   double total = 0;
   for (int i = 0; i < n_observers; ++i) {
     const double fraction = 0.25 + 0.75 * (i + 0.5) / n_observers;
     total +=
-        simulated_trials(config, fraction * largest_threshold_g, static_cast<std::uint64_t>(i));
+        simulated_trials(procedure, fraction * largest_threshold_g, static_cast<std::uint64_t>(i));
   }
   return total / n_observers;
 }
@@ -41,7 +39,7 @@ double largest_start_g(const ComparisonBlock& block, double reference_g) {
   double largest_g = 0;
   for (const ReferenceStaircase& other : block.staircases)
     if (other.reference_g == reference_g)
-      for (double level_g : Procedure(other.staircase).planned_levels())
+      for (double level_g : other.staircase.planned_levels())
         largest_g = std::max(largest_g, level_g);
   return largest_g;
 }

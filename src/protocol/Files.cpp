@@ -111,10 +111,10 @@ InterleavedProcedures parse_procedure(const std::string& text, const std::string
   config.interleaving = read_interleaving(reader);
   UniqueNames names("staircase");
   for (TableReader& table : reader.tables("staircase")) {
-    auto procedure = read_procedure(table);
-    if (!procedure) continue;
-    names.check(table, procedure->name);
-    config.staircases.push_back(std::move(*procedure));
+    const auto settings = read_staircase(table);
+    if (!settings) continue;
+    names.check(table, settings->name);
+    config.staircases.push_back(settings->procedure());
   }
   reader.close();
   mistakes.throw_if_any();

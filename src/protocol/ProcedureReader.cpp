@@ -3,39 +3,45 @@
 #include <fmt/format.h>
 
 #include "base/Printable.h"
-#include "protocol/KindReaders.h"
-#include "psychophysics/Procedure.h"
 
 namespace heft {
 
-std::optional<ProcedureConfig> read_procedure(TableReader& table) {
-  std::string name;
+Procedure StaircaseSettings::procedure() const {
+  return std::visit(
+      [&](const auto& of_kind) {
+        return of_kind.check().empty() ? Procedure(name, of_kind)
+                                       : Procedure(name, ConstantConfig{.levels = {0}});
+      },
+      config);
+}
+
+std::optional<StaircaseSettings> read_staircase(TableReader& table) {
+  StaircaseSettings settings;
   table.require({"name"});
-  table.read("name", name);
+  table.read("name", settings.name);
   const bool has_kind = table.has("kind");
   const auto kind = has_kind ? table.read_nearest_name("kind", ProcedureKinds::names)
                              : table.read_name("kind", ProcedureKinds::names);
   if (has_kind && !kind) return std::nullopt;
-  KindConfig config;
-  if (kind) config = ProcedureKinds::defaults(*kind);
-  std::visit([&](auto& keys) { read_keys(table, keys); }, config);
-  table.close();
-  std::visit([&](const auto& keys) { check_keys(table, keys); }, config);
-  return ProcedureConfig{name, config};
+  if (kind) settings.config = ProcedureKinds::defaults(*kind);
+  std::visit(
+      [&](auto& config) {
+        table.read_keys(config);
+        table.close();
+        table.note(config.check());
+      },
+      settings.config);
+  return settings;
 }
 
-void check_lightest(TableReader& table, const ProcedureConfig& config, double reference_g) {
-  std::visit([&](const auto& kind) { check_lightest(table, kind, reference_g); }, *config.kind);
-}
-
-std::string described(const ProcedureConfig& config) {
-  return std::visit([](const auto& kind) { return described(kind); }, *config.kind);
+void check_beside(TableReader& table, const StaircaseSettings& settings, double reference_g) {
+  table.note(std::visit([&](const auto& config) { return config.check_beside(reference_g); },
+                        settings.config));
 }
 
 InterleaveConfig read_interleaving(TableReader& table) {
   InterleaveConfig config;
-  table.read("interleave", config.interleave);
-  table.read("max_lag", config.max_lag);
+  table.read_keys(config);
   return config;
 }
 

@@ -8,19 +8,26 @@
 
 #include "protocol/TableReader.h"
 #include "psychophysics/Interleaving.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 
-/// Reads name, kind and the kind's keys, closes the table and checks the keys against each other;
-/// keys that only the caller knows must be read before. None where the kind is none that there is:
-/// its keys are not looked at.
-std::optional<ProcedureConfig> read_procedure(TableReader& table);
+/// A staircase as its table has it, which may be one with mistakes.
+struct StaircaseSettings {
+  std::string name;
+  ProcedureKinds::Config config;
 
-/// Notes every level that would make a comparison, reference_g + level, weigh 0 g or less.
-void check_lightest(TableReader& table, const ProcedureConfig& config, double reference_g);
+  /// Where the settings have mistakes, which the reader has noted, another one stands in.
+  Procedure procedure() const;
+};
 
-/// What a report says was chosen.
-std::string described(const ProcedureConfig& config);
+/// Reads name, kind and the kind's keys, closes the table and checks the settings; keys that only
+/// the caller knows must be read before. None where the kind is unknown: its keys are not looked
+/// at.
+std::optional<StaircaseSettings> read_staircase(TableReader& table);
+
+/// Notes what makes the settings unfit for levels that are differences from a reference.
+void check_beside(TableReader& table, const StaircaseSettings& settings, double reference_g);
 
 /// Reads `interleave` and `max_lag`.
 InterleaveConfig read_interleaving(TableReader& table);

@@ -9,21 +9,6 @@
 
 namespace heft {
 
-bool Range::holds(double value) const {
-  return std::isfinite(value) && (low_open ? value > low : value >= low) &&
-         (high_open ? value < high : value <= high);
-}
-
-std::string Range::text() const {
-  std::string text;
-  if (low == least)
-    text += fmt::format(" above 0 ({} or more)", least);
-  else if (low > -furthest)
-    text += fmt::format("{} {}", low_open ? " above" : ", at least", low);
-  if (high < furthest) text += fmt::format(" and {} {}", high_open ? "below" : "at most", high);
-  return text;
-}
-
 namespace {
 // The nearest key; one that goes on after the written one (most likely with its unit) is nearest.
 std::optional<std::string> meant(std::string_view written,
@@ -81,6 +66,20 @@ bool TableReader::good(std::initializer_list<std::string_view> keys) const {
   return std::ranges::none_of(keys, [&](std::string_view key) { return mistaken_.contains(key); });
 }
 
+void TableReader::note(const ConfigMistakes& mistakes) {
+  const auto mistaken_before = mistaken_;
+  for (const ConfigMistake& one : mistakes) {
+    if (std::ranges::any_of(one.keys, [&](auto key) { return mistaken_before.contains(key); }))
+      continue;
+    const auto there = std::ranges::find_if(one.keys, [&](auto key) { return has(key); });
+    const std::string_view key = there == one.keys.end() ? one.keys.front() : *there;
+    if (one.index)
+      mistake(key, *one.index, one.text());
+    else
+      mistake(key, one.what.starts_with("lacks") ? title_ + " " + one.text() : one.text());
+  }
+}
+
 std::optional<double> TableReader::number(const TomlNode& node, std::string_view key,
                                           const Range& range) {
   std::optional<double> value;
@@ -115,9 +114,8 @@ std::optional<std::int64_t> TableReader::whole(std::string_view key, const Whole
   const bool too_large =
       std::holds_alternative<TomlOverflow>(entry->node.value) || (value && *value > range.high);
   refuse(entry->node, key,
-         too_large || range.high < WholeRange{}.high
-             ? fmt::format("a whole number from {} to {}", range.low, range.high)
-             : fmt::format("a whole number, at least {}", range.low));
+         too_large ? fmt::format("a whole number from {} to {}", range.low, range.high)
+                   : range.text());
   return std::nullopt;
 }
 

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <initializer_list>
-#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -14,35 +13,14 @@
 #include <string_view>
 #include <vector>
 
-#include "base/Names.h"
+#include "base/Keys.h"
 #include "protocol/TomlDocument.h"
 
 namespace heft {
 
-/// Beyond this much of any unit lies no experiment, only overflow.
-inline constexpr double furthest = 1e12;
-/// Below this much of what must be above zero lies only underflow.
-inline constexpr double least = 1e-9;
-
-/// The numbers a key takes.
-struct Range {
-  double low = -furthest, high = furthest;
-  bool low_open = false, high_open = false;
-  bool holds(double value) const;
-  std::string text() const;  ///< what it adds to "a number", e.g. ", at least 0"
-};
-inline constexpr Range any_number{};
-inline constexpr Range above_zero{least, furthest};
-inline constexpr Range zero_or_more{0};
 /// Places and sizes in meters.
 inline constexpr Range on_earth{-1e6, 1e6};
 inline constexpr Range size_on_earth{least, 1e6};
-
-/// Whole numbers that a key takes.
-struct WholeRange {
-  std::int64_t low = 0;
-  std::int64_t high = std::numeric_limits<int>::max();
-};
 
 class TableReader {
  public:
@@ -73,6 +51,14 @@ class TableReader {
   void read(std::string_view key, Enum& field) {
     const auto name = read_name(key, EnumNames<Enum>::names);
     if (name) field = *named<Enum>(*name);
+  }
+  /// Every key that the config's visit_keys declares.
+  template <typename Config>
+  void read_keys(Config& config) {
+    visit_keys(config, [&](const ConfigKey& key, auto& field, const auto&... range) {
+      if (key.is_required) require({key.name});
+      read(key.name, field, range...);
+    });
   }
   /// One of `names`; none where the key is absent or its value a mistake.
   std::optional<std::string> read_name(std::string_view key,
@@ -107,6 +93,9 @@ class TableReader {
   std::vector<std::string> keys() const;
   /// Whether no mistake was noted at any of these keys.
   bool good(std::initializer_list<std::string_view> keys) const;
+  /// Notes what a config's check() found, once the table is closed: each mistake at the first of
+  /// its keys that is there, and not where a mistake was noted at one of them.
+  void note(const ConfigMistakes& mistakes);
   /// Notes a mistake at the key's value, or at the table where the key is absent.
   void mistake(std::string_view key, const std::string& message);
   /// Notes a mistake at the i-th value of an array.

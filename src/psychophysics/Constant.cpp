@@ -1,9 +1,48 @@
 #include "psychophysics/Constant.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
+#include <set>
 #include <span>
 
 namespace heft {
+
+ConfigMistakes ConstantConfig::check() const {
+  constexpr std::size_t most_trials = 10'000;  // beyond any session
+  ConfigMistakes mistakes = out_of_range(*this);
+  if (n_per_level < 1) return mistakes;
+  const std::size_t n_trials = levels.size() * static_cast<std::size_t>(n_per_level);
+  if (n_trials > most_trials) {
+    mistakes.push_back({{"n_per_level", "levels"},
+                        fmt::format("{} levels, each {} times, make {} trials", levels.size(),
+                                    n_per_level, n_trials),
+                        fmt::format("at most {} in all", most_trials)});
+    return mistakes;
+  }
+  std::set<double> before;
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    if (!before.insert(levels[i]).second)
+      mistakes.push_back({{"levels"},
+                          fmt::format("levels has {} twice", levels[i]),
+                          "different levels: n_per_level says how often each comes",
+                          i});
+  return mistakes;
+}
+
+ConfigMistakes ConstantConfig::check_beside(double reference) const {
+  ConfigMistakes mistakes;
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    if (levels[i] <= -reference)
+      mistakes.push_back(
+          {{"levels"},
+           fmt::format("levels has {}: beside a reference of {} g the comparison would weigh 0 g "
+                       "or less",
+                       levels[i], reference),
+           fmt::format("above {}", -reference),
+           i});
+  return mistakes;
+}
 
 std::vector<double> constant_schedule(const ConstantConfig& config, RandomStream stream) {
   std::vector<double> schedule;

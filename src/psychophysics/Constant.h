@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/Keys.h"
 #include "base/Random.h"
 #include "psychophysics/ProcedureTypes.h"
 
@@ -27,14 +28,29 @@ struct ConstantConfig {
   std::vector<double> levels{};  ///< different ones, at least one
   int n_per_level = 1;
   ConstantOrder order = ConstantOrder::blocks;
+
+  ConfigMistakes check() const;
+  /// Mistakes where levels are differences from a reference: the comparison must weigh something.
+  ConfigMistakes check_beside(double reference) const;
 };
+template <typename Config, typename Visit>
+requires ConfigOf<Config, ConstantConfig>
+void visit_keys(Config& config, Visit&& visit) {
+  visit(ConfigKey{"levels", "all levels, each different", true, "constant levels {} g"},
+        config.levels, any_number);
+  visit(ConfigKey{"n_per_level", "times that each comes", true, "each {} times"},
+        config.n_per_level, WholeRange{1});
+  visit(ConfigKey{"order", "rounds of all levels, or all trials shuffled", false, "order {}"},
+        config.order);
+}
 
 /// The level of each trial: a function of the stream alone.
 std::vector<double> constant_schedule(const ConstantConfig& config, RandomStream stream);
 
 class Constant {
  public:
-  explicit Constant(ConstantConfig config) : config_(std::move(config)) {}
+  /// @throws InvalidConfig with all that config.check() finds
+  explicit Constant(ConstantConfig config) : config_(valid_config(std::move(config))) {}
 
   /// Undefined after the end.
   double next_level(const RandomStream& stream) const;
@@ -43,7 +59,7 @@ class Constant {
   /// One, without a value: its trials are there, a threshold is none without a fit.
   std::vector<Estimate> estimates() const;
 
-  int n_trials() const { return n_trials_; }
+  const ConstantConfig& config() const { return config_; }
   std::optional<int> planned_trials() const;
   std::vector<double> planned_levels() const { return config_.levels; }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "psychophysics/Procedure.h"
-
 namespace heft {
 
 namespace {
@@ -34,11 +32,15 @@ std::size_t next_in_turn(const std::vector<std::size_t>& candidates,
 }
 }  // namespace
 
+ConfigMistakes InterleaveConfig::check() const {
+  return out_of_range(*this);
+}
+
 std::optional<std::size_t> next_staircase(std::span<const Procedure> staircases,
                                           const InterleaveConfig& config,
                                           std::optional<std::size_t> previous,
                                           RandomStream& stream) {
-  const std::vector<std::size_t> candidates = may_run(staircases, config.max_lag);
+  const std::vector<std::size_t> candidates = may_run(staircases, valid_config(config).max_lag);
   if (candidates.empty()) return std::nullopt;
   if (candidates.size() == 1 || config.interleave == Interleave::sequential)
     return candidates.front();

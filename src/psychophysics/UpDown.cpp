@@ -1,5 +1,7 @@
 #include "psychophysics/UpDown.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -13,17 +15,89 @@ double listed_step(const std::vector<double>& steps, std::size_t n_reversals) {
 }
 
 double halved_step(const UpDownConfig& config, std::size_t n_reversals) {
-  if (config.halve_every == 0) return std::max(config.step, config.min_step);
+  const double step = config.step.value_or(0);
+  if (config.halve_every == 0) return std::max(step, config.min_step);
   const int halvings = static_cast<int>(n_reversals) / config.halve_every;
-  return std::max(std::ldexp(config.step, -halvings), config.min_step);
+  return std::max(std::ldexp(step, -halvings), config.min_step);
 }
 
 double held_finite(double level) {
   return std::clamp(level, -largest_level, largest_level);
 }
+
+void check_steps(const UpDownConfig& config, ConfigMistakes& mistakes) {
+  if (!config.step && config.steps.empty())
+    mistakes.push_back({{"step", "steps"}, R"(lacks "step" or "steps")", "one of them"});
+  const auto only_one = [&](std::string_view key) {
+    mistakes.push_back({{key, "steps"},
+                        fmt::format("{} together with steps", key),
+                        "only one of them: the list says every step"});
+  };
+  if (!config.steps.empty()) {
+    if (config.step) only_one("step");
+    if (config.halve_every != 0) only_one("halve_every");
+    if (config.min_step != 0) only_one("min_step");
+  } else if (config.step && config.min_step > *config.step) {
+    mistakes.push_back({{"min_step", "step"},
+                        fmt::format("min_step is {}", config.min_step),
+                        fmt::format("at most the step {}", *config.step)});
+  }
+}
+
+void check_bounds(const UpDownConfig& config, ConfigMistakes& mistakes) {
+  const auto& [start, floor, ceiling] = std::tie(config.start, config.floor, config.ceiling);
+  if (floor && ceiling && *floor >= *ceiling) {
+    mistakes.push_back({{"floor", "ceiling"},
+                        fmt::format("floor is {}", *floor),
+                        fmt::format("below the ceiling {}", *ceiling)});
+    return;
+  }
+  if (floor && start < *floor)
+    mistakes.push_back({{"start", "floor"},
+                        fmt::format("start is {}", start),
+                        fmt::format("at least the floor {}", *floor)});
+  if (ceiling && start > *ceiling)
+    mistakes.push_back({{"start", "ceiling"},
+                        fmt::format("start is {}", start),
+                        fmt::format("at most the ceiling {}", *ceiling)});
+}
 }  // namespace
 
-UpDown::UpDown(UpDownConfig config) : config_(std::move(config)), target_(config_.start) {}
+ConfigMistakes UpDownConfig::check() const {
+  ConfigMistakes mistakes = out_of_range(*this);
+  check_steps(*this, mistakes);
+  check_bounds(*this, mistakes);
+  if (discard_reversals >= stop_reversals)
+    mistakes.push_back(
+        {{"discard_reversals", "stop_reversals"},
+         fmt::format("discard_reversals is {} and stop_reversals {}: no reversal is left for the "
+                     "estimate",
+                     discard_reversals, stop_reversals),
+         "fewer to discard"});
+  if (min_trials > stop_trials)
+    mistakes.push_back({{"min_trials", "stop_trials"},
+                        fmt::format("min_trials is {}", min_trials),
+                        fmt::format("at most stop_trials {}", stop_trials)});
+  return mistakes;
+}
+
+ConfigMistakes UpDownConfig::check_beside(double reference) const {
+  if (floor && *floor < 0)
+    return {{{"floor"},
+             fmt::format("floor is {}: beside a reference of {} g the comparison could get the "
+                         "lighter one, for which this staircase's answers mean the opposite",
+                         *floor, reference),
+             "0 or more"}};
+  if (!floor && step_scale == StepScale::linear)
+    return {
+        {{"floor", "step_scale"},
+         R"(lacks "floor": its linear steps could make the comparison lighter than the reference)",
+         "a floor of 0 or more"}};
+  return {};
+}
+
+UpDown::UpDown(UpDownConfig config)
+    : config_(valid_config(std::move(config))), target_(config_.start) {}
 
 double UpDown::level() const {
   return presented(target_);

@@ -12,7 +12,7 @@
 // Staircase Procedure toolkit change the step before the reversal's own move, pychoacoustics after
 // it. PsychoPy clamps and counts no clamp as a reversal; expyfun clamps and lets its user choose
 // (repeat_limit); Palamedes with truncate = "no" and the Unity toolkit without strict limits let
-// the inner level go on beyond the bound. PsychoPy with applyInitialRule and Palamedes are
+// the inner level continue beyond the bound. PsychoPy with applyInitialRule and Palamedes are
 // 1-up-1-down until the first reversal.
 #pragma once
 
@@ -21,6 +21,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/Keys.h"
 #include "base/Random.h"
 #include "psychophysics/ProcedureTypes.h"
 
@@ -32,15 +33,16 @@ struct EnumNames<StepScale> {
   static constexpr std::array<std::string_view, 3> names{"linear", "db", "log10"};
 };
 
-/// At a bound, either the level itself stops there, or it goes on inside and only what is presented
-/// stays at the bound.
+/// At a bound, either the level itself stops there, or it continues beyond and only what is
+/// presented stays at the bound.
 enum class AtBound { clamp, virtual_level };
 template <>
 struct EnumNames<AtBound> {
   static constexpr std::array<std::string_view, 2> names{"clamp", "virtual"};
 };
 
-/// Whether the step that a reversal changes is in force for the move it makes, or from the next.
+/// Whether the step that a reversal changes applies to the move that it makes, or from the next one
+/// on.
 enum class ChangeStep { before_move, after_move };
 template <>
 struct EnumNames<ChangeStep> {
@@ -52,16 +54,21 @@ struct EnumNames<ChangeStep> {
 /// also where a step ended on it exactly.
 enum class CensoringRule { cut_moves, levels_at_bounds };
 
+/// Ten decades at once leave every scale of levels.
+constexpr double largest_step(StepScale scale) {
+  return scale == StepScale::linear ? furthest : scale == StepScale::db ? 200 : 10;
+}
+
 struct UpDownConfig {
   static constexpr std::string_view kind = "up_down";
   using Procedure = class UpDown;
 
   double start = 0;
-  /// Steps in force after 0, 1, 2... reversals; the last one repeats. Used when not empty;
-  /// otherwise `step`, halved every `halve_every` reversals (0: never) and at least `min_step`.
+  /// Steps after 0, 1, 2... reversals; the last one repeats. Used when not empty; otherwise `step`,
+  /// halved every `halve_every` reversals (0: never) and at least `min_step`.
   std::vector<double> steps{};
-  std::vector<double> steps_up{};  ///< own list for upward moves; empty: the same as down
-  double step = 0;
+  std::vector<double> steps_up{};  ///< for upward moves; empty: the same as down
+  std::optional<double> step{};
   int halve_every = 0;
   double min_step = 0;
   StepScale step_scale = StepScale::linear;
@@ -71,10 +78,10 @@ struct UpDownConfig {
       false;  ///< 1-up-1-down until the first reversal, and for the answer making it
   std::optional<double> floor{}, ceiling{};  ///< none: no bound
   AtBound at_bound = AtBound::clamp;
-  /// A due move that would pass the bound counts as a reversal too, also when it goes on in the
-  /// direction of the last one; whether it would is judged by the step in force without it. So
-  /// someone who always says yes ends by reversals, with an estimate at the floor. Reaching the
-  /// bound exactly is no reversal, and no answer makes two.
+  /// A due move that would pass the bound counts as a reversal too, also when it has the
+  /// direction of the last one; whether it would is judged by the step without it. So someone who
+  /// always says yes ends by reversals, with an estimate at the floor. Reaching the bound exactly
+  /// is no reversal, and no answer makes two.
   bool bound_is_reversal = false;
   ChangeStep change_step = ChangeStep::before_move;
   int stop_reversals = 10;
@@ -82,10 +89,56 @@ struct UpDownConfig {
   int stop_trials = 200;  ///< a hard limit
   int discard_reversals = 2;
   CensoringRule censoring = CensoringRule::cut_moves;  ///< no key of a file
+
+  ConfigMistakes check() const;
+  /// Mistakes where levels are differences from a reference: a difference that is perceived, or
+  /// not, means the opposite where the comparison is the lighter one, so that levels must not get
+  /// there.
+  ConfigMistakes check_beside(double reference) const;
 };
+template <typename Config, typename Visit>
+requires ConfigOf<Config, UpDownConfig>
+void visit_keys(Config& config, Visit&& visit) {
+  visit(ConfigKey{"step_scale", "what steps are: differences, or ratios in dB or decades"},
+        config.step_scale);
+  const bool is_ratio = config.step_scale != StepScale::linear;
+  const Range steps{0, largest_step(config.step_scale), true};
+  visit(ConfigKey{"start", "first level", true}, config.start, is_ratio ? above_zero : any_number);
+  visit(ConfigKey{"step", "first step"}, config.step, steps);
+  visit(ConfigKey{"halve_every", "reversals after which the step halves; 0: never"},
+        config.halve_every, WholeRange{});
+  visit(ConfigKey{"min_step", "smallest step"}, config.min_step, Range{0, steps.high});
+  visit(ConfigKey{"steps", "instead: steps after 0, 1, 2... reversals; the last one repeats"},
+        config.steps, steps);
+  visit(ConfigKey{"steps_up", "the same for upward moves, where they differ"}, config.steps_up,
+        steps);
+  const Range levels = is_ratio ? zero_or_more : any_number;
+  visit(ConfigKey{"floor", "lowest level", false, "floor {} g"}, config.floor, levels);
+  visit(ConfigKey{"ceiling", "highest level", false, "ceiling {} g"}, config.ceiling, levels);
+  visit(ConfigKey{"up", "negative answers in a row before a move up"}, config.up, WholeRange{1});
+  visit(ConfigKey{"down", "positive answers in a row before a move down"}, config.down,
+        WholeRange{1});
+  visit(ConfigKey{"initial_1up1down", "1-up-1-down until the first reversal"},
+        config.initial_1up1down);
+  visit(ConfigKey{"at_bound", "the level stops at a bound, or only what is presented does"},
+        config.at_bound);
+  visit(ConfigKey{"bound_is_reversal", "a move that a bound cuts counts as a reversal"},
+        config.bound_is_reversal);
+  visit(ConfigKey{"change_step", "whether a reversal's own move has the new step", false,
+                  "step changes {}"},
+        config.change_step);
+  visit(ConfigKey{"stop_reversals", "reversals that end it"}, config.stop_reversals, WholeRange{1});
+  visit(ConfigKey{"min_trials", "trials before which reversals don't end it"}, config.min_trials,
+        WholeRange{});
+  visit(ConfigKey{"stop_trials", "trials that end it", false, "at most {} trials"},
+        config.stop_trials, WholeRange{1});
+  visit(ConfigKey{"discard_reversals", "first reversals that the estimate leaves out"},
+        config.discard_reversals, WholeRange{});
+}
 
 class UpDown {
  public:
+  /// @throws InvalidConfig with all that config.check() finds
   explicit UpDown(UpDownConfig config);
 
   /// Level to present next: the planned level held within the bounds.

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "analysis/ProtocolChoices.h"
-#include "psychophysics/Procedure.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 namespace {

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "experiment/Block.h"
-#include "psychophysics/Procedure.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft::testing {
 
-inline ProcedureConfig staircase(const std::string& name, double start_g, double step_g,
-                                 int stop_trials = 30) {
+inline Procedure staircase(const std::string& name, double start_g, double step_g,
+                           int stop_trials = 30) {
   UpDownConfig config;
   config.start = start_g;
   config.step = step_g;

@@ -11,7 +11,7 @@
 #include "base/Error.h"
 #include "base/Random.h"
 #include "engine/Plans.h"
-#include "psychophysics/Procedure.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 namespace {
@@ -439,7 +439,7 @@ TEST(Engine, catch_trials_in_a_fixed_number_come_as_planned_whatever_is_answered
   }
 }
 
-ProcedureConfig constant(const std::string& name) {
+Procedure constant(const std::string& name) {
   return {name, ConstantConfig{.levels = {-10, 0, 20, 80}, .n_per_level = 3}};
 }
 
@@ -505,7 +505,7 @@ TEST(Engine, an_answer_is_positive_by_the_blocks_rule) {
       SessionPlan session_plan = small_plan();
       auto& block = std::get<ComparisonBlock>(session_plan.blocks.back());
       block.positive_answer = rule;
-      block.staircases.resize(1);
+      block.staircases.pop_back();
       Session session(session_plan);
       session.reach_comparison();
       const TrialPlan plan = session.start();

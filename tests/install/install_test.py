@@ -170,6 +170,7 @@ class Libraries(Installed):
         self.build_and_run(prefix, *components)
         self.assertRegex(self.must(self.folder / "build/fit").stdout,
                          r"75 % correct at \d+\.\d g, 95 % interval \d+\.\d to \d+\.\d g")
+        self.assertRegex(self.must(self.folder / "build/own_session").stdout, r"own: 6[0-9]")
 
     def test_what_is_not_installed_is_named(self):
         prefix = self.install("--component", "psychophysics")

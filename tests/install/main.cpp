@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "psychophysics/Procedure.h"
+#include "psychophysics/UpDown.h"
 
 int main() {
   heft::UpDownConfig rule;
@@ -11,7 +12,7 @@ int main() {
   rule.floor = 0;
   rule.stop_reversals = 12;
   rule.discard_reversals = 4;
-  heft::Procedure staircase({"mass", rule});
+  heft::Procedure staircase("mass", rule);
   const heft::RandomStream stream = heft::level_stream(1, "mass");  // for kinds that draw levels
   constexpr double threshold_g = 62;                                // of a person who never errs
   while (!staircase.finished()) {

@@ -2,7 +2,7 @@
 
 #include "EditedFile.h"
 #include "protocol/ExpectedLength.h"
-#include "psychophysics/Procedure.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 namespace {
@@ -35,10 +35,8 @@ TEST(ExpectedLength, CountsCatchTrials) {
 
 TEST(ExpectedLength, EndsWhereAStaircaseGetsNowhere) {
   ComparisonBlock block;
-  block.staircases.resize(1);
-  block.staircases[0].reference_g = 1;
-  block.staircases[0].staircase = {
-      "long", UpDownConfig{.start = 1e6, .step = 1e-6, .stop_trials = 2'000'000'000}};
+  block.staircases = {
+      {1, {"long", UpDownConfig{.start = 1e6, .step = 1e-6, .stop_trials = 2'000'000'000}}, {}}};
   Protocol protocol;
   protocol.blocks = {block};
   EXPECT_LE(expected_length(protocol).trials, 1000);

@@ -4,7 +4,7 @@
 #include "EditedFile.h"
 #include "protocol/Files.h"
 #include "psychophysics/Interleaving.h"
-#include "psychophysics/Procedure.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 namespace {
@@ -49,8 +49,8 @@ TEST(ProcedureFile, ReadsEveryKey) {
   EXPECT_EQ(config.interleaving.interleave, Interleave::round_robin);
   EXPECT_EQ(config.interleaving.max_lag, 3);
   ASSERT_EQ(config.staircases.size(), 2u);
-  EXPECT_EQ(config.staircases[0].name, "15g");
-  const auto& first = std::get<UpDownConfig>(*config.staircases[0].kind);
+  EXPECT_EQ(config.staircases[0].name(), "15g");
+  const auto& first = config.staircases[0].get_if<UpDown>()->config();
   EXPECT_EQ(first.start, 175);
   EXPECT_EQ(first.step, 50);
   EXPECT_EQ(first.halve_every, 2);
@@ -67,7 +67,7 @@ TEST(ProcedureFile, ReadsEveryKey) {
   EXPECT_EQ(first.min_trials, 4);
   EXPECT_EQ(first.stop_trials, 90);
   EXPECT_EQ(first.discard_reversals, 3);
-  const auto& second = std::get<UpDownConfig>(*config.staircases[1].kind);
+  const auto& second = config.staircases[1].get_if<UpDown>()->config();
   EXPECT_THAT(second.steps, ElementsAre(8, 4.5, 2));
   EXPECT_THAT(second.steps_up, ElementsAre(3));
   EXPECT_EQ(second.step_scale, StepScale::db);
@@ -78,7 +78,7 @@ TEST(ProcedureFile, AbsentKeysHaveTheDocumentedDefaults) {
       parse_procedure("[[staircase]]\nname = \"a\"\nstart = 10\nstep = 2\n", "short.toml");
   EXPECT_EQ(config.interleaving.interleave, Interleave::random);
   EXPECT_EQ(config.interleaving.max_lag, 0);
-  const auto& staircase = std::get<UpDownConfig>(*config.staircases.at(0).kind);
+  const auto& staircase = config.staircases.at(0).get_if<UpDown>()->config();
   EXPECT_EQ(staircase.up, 1);
   EXPECT_EQ(staircase.down, 1);
   EXPECT_EQ(staircase.halve_every, 0);
@@ -103,7 +103,7 @@ TEST(ProcedureFile, TakesTheLargestSeed) {
 TEST(ProcedureFile, TakesAUtf8FileWithWindowsLineEnds) {
   const std::string text =
       "# größe\r\n[[staircase]]\r\nname = \"große Stufe\"\r\nstart = 1\r\nstep = 1\r\n";
-  EXPECT_EQ(parse_procedure(text, "f").staircases.at(0).name, "große Stufe");
+  EXPECT_EQ(parse_procedure(text, "f").staircases.at(0).name(), "große Stufe");
 }
 
 class BrokenProcedure : public testing::TestWithParam<Broken> {};
@@ -213,12 +213,12 @@ n_per_level = 1
 TEST(ProcedureFile, ReadsConstantStimuli) {
   const auto staircases = parse_procedure(constants, "f").staircases;
   ASSERT_EQ(staircases.size(), 2u);
-  EXPECT_EQ(staircases[0].name, "a");
-  const auto& first = std::get<ConstantConfig>(*staircases[0].kind);
+  EXPECT_EQ(staircases[0].name(), "a");
+  const auto& first = staircases[0].get_if<Constant>()->config();
   EXPECT_THAT(first.levels, ElementsAre(-20, 0, 20.5));
   EXPECT_EQ(first.n_per_level, 4);
   EXPECT_EQ(first.order, ConstantOrder::shuffled);
-  EXPECT_EQ(std::get<ConstantConfig>(*staircases[1].kind).order, ConstantOrder::blocks);
+  EXPECT_EQ(staircases[1].get_if<Constant>()->config().order, ConstantOrder::blocks);
 }
 
 class BrokenConstants : public testing::TestWithParam<Broken> {};

@@ -7,7 +7,7 @@
 
 #include "EditedFile.h"
 #include "base/Sha256.h"
-#include "psychophysics/Procedure.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 namespace {
@@ -67,8 +67,8 @@ TEST(PaperProtocol, HasThePapersStaircases) {
   EXPECT_EQ(comparison.interleaving.interleave, Interleave::random);
   std::vector<std::vector<double>> table;
   for (const auto& [reference_g, procedure, technique] : comparison.staircases) {
-    const auto& staircase = std::get<UpDownConfig>(*procedure.kind);
-    table.push_back({reference_g, staircase.start, staircase.step});
+    const auto& staircase = procedure.get_if<UpDown>()->config();
+    table.push_back({reference_g, staircase.start, staircase.step.value()});
     EXPECT_EQ(staircase.halve_every, 2);
     EXPECT_EQ(staircase.stop_reversals, 10);
     EXPECT_EQ(staircase.discard_reversals, 2);
@@ -125,7 +125,7 @@ TEST(PaperProtocol, SpellsOutTheDefaultsOfBlocks) {
   EXPECT_EQ(comparison.positive_answer, ComparisonBlock{}.positive_answer);
   EXPECT_EQ(comparison.interleaving.interleave, InterleaveConfig{}.interleave);
   EXPECT_EQ(comparison.interleaving.max_lag, InterleaveConfig{}.max_lag);
-  const auto& written = std::get<UpDownConfig>(*comparison.staircases[0].staircase.kind);
+  const auto& written = comparison.staircases[0].staircase.get_if<UpDown>()->config();
   const UpDownConfig defaults;
   EXPECT_EQ(written.min_step, defaults.min_step);
   EXPECT_EQ(written.step_scale, defaults.step_scale);
@@ -149,10 +149,10 @@ TEST(Protocol, APairIsOneStaircaseFromAboveAndOneFromBelowOtherwiseAlike) {
   const auto& block = std::get<ComparisonBlock>(protocol.blocks[0]);
   ASSERT_EQ(block.staircases.size(), 2U);
   const auto of = [&](std::size_t i) {
-    return std::get<UpDownConfig>(*block.staircases[i].staircase.kind);
+    return block.staircases[i].staircase.get_if<UpDown>()->config();
   };
-  EXPECT_EQ(block.staircases[0].staircase.name, "s from above");
-  EXPECT_EQ(block.staircases[1].staircase.name, "s from below");
+  EXPECT_EQ(block.staircases[0].staircase.name(), "s from above");
+  EXPECT_EQ(block.staircases[1].staircase.name(), "s from below");
   EXPECT_EQ(of(0).start, 90);
   EXPECT_EQ(of(1).start, 3);  // the floor, where nothing else is said
   EXPECT_EQ(of(0).step, of(1).step);
@@ -170,9 +170,9 @@ TEST(RecommendedProtocol, StartsEachReferenceFromAboveAndFromNearZero) {
   EXPECT_EQ(comparison.sides, Sides::random);
   std::map<double, std::pair<int, int>> starts;  // above, near zero
   for (const auto& [reference_g, procedure, technique] : comparison.staircases) {
-    const auto& staircase = std::get<UpDownConfig>(*procedure.kind);
-    ++(staircase.start > 2 * staircase.step ? starts[reference_g].first
-                                            : starts[reference_g].second);
+    const auto& staircase = procedure.get_if<UpDown>()->config();
+    ++(staircase.start > 2 * *staircase.step ? starts[reference_g].first
+                                             : starts[reference_g].second);
   }
   EXPECT_EQ(starts,
             (std::map<double, std::pair<int, int>>{{15, {1, 1}}, {200, {1, 1}}, {800, {1, 1}}}));

@@ -32,22 +32,21 @@ std::uint64_t any_seed() {
 
 /// The levels that a procedure presents, answered by `answer(trial)`, `looks` looks a trial.
 template <typename Answers>
-std::vector<double> presented(const ProcedureConfig& config, std::uint64_t seed, int looks,
+std::vector<double> presented(Procedure procedure, std::uint64_t seed, int looks,
                               const Answers& answer) {
-  Procedure procedure(config);
   std::vector<double> levels;
   while (!procedure.finished()) {
     double level = 0;
     for (int look = 0; look < looks; ++look)
-      level = procedure.next_level(level_stream(seed, config.name));
+      level = procedure.next_level(level_stream(seed, procedure.name()));
     levels.push_back(level);
     procedure.respond(answer(), level);
   }
   return levels;
 }
 
-std::vector<double> presented(const ProcedureConfig& config, std::uint64_t seed) {
-  return presented(config, seed, 1, [] { return Response{true}; });
+std::vector<double> presented(const Procedure& procedure, std::uint64_t seed) {
+  return presented(procedure, seed, 1, [] { return Response{true}; });
 }
 
 RC_GTEST_PROP(ConstantProperty, EveryLevelComesAsOftenAsWanted, ()) {
@@ -70,7 +69,7 @@ RC_GTEST_PROP(ConstantProperty, EveryBlockHoldsEachLevelOnce, ()) {
 }
 
 RC_GTEST_PROP(ConstantProperty, OnlyTheSeedOrdersTheTrials, ()) {
-  const ProcedureConfig config{"s", any_constant()};
+  const Procedure config("s", any_constant());
   const std::uint64_t seed = any_seed();
   const auto by_chance = [] {
     return Response{*rc::gen::arbitrary<bool>(),
@@ -80,7 +79,7 @@ RC_GTEST_PROP(ConstantProperty, OnlyTheSeedOrdersTheTrials, ()) {
 }
 
 RC_GTEST_PROP(ConstantProperty, AVoidTrialConsumesNothing, ()) {
-  const ProcedureConfig config{"s", any_constant()};
+  const Procedure config("s", any_constant());
   const std::uint64_t seed = any_seed();
   const int looks = *rc::gen::inRange(2, 5);
   RC_ASSERT(presented(config, seed, looks, [] { return Response{}; }) == presented(config, seed));
@@ -88,7 +87,7 @@ RC_GTEST_PROP(ConstantProperty, AVoidTrialConsumesNothing, ()) {
 
 RC_GTEST_PROP(ConstantProperty, EndsByItsTrialsAndEstimatesNothing, ()) {
   const ConstantConfig config = any_constant();
-  Procedure procedure(ProcedureConfig{"s", config});
+  Procedure procedure("s", config);
   const auto planned = procedure.planned_trials();
   for (int trial = 1; trial <= planned; ++trial) {
     RC_ASSERT(!procedure.finished());

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "psychophysics/Procedure.h"
+#include "psychophysics/UpDown.h"
 #include "psychophysics/staircases.h"
 
 namespace heft {
@@ -18,8 +18,7 @@ using testing::ElementsAre;
 std::vector<Procedure> staircases_of(std::initializer_list<int> lengths) {
   std::vector<Procedure> staircases;
   for (int length : lengths)
-    staircases.emplace_back(
-        ProcedureConfig{"s", UpDownConfig{.start = 10, .step = 1, .stop_trials = length}});
+    staircases.emplace_back("s", UpDownConfig{.start = 10, .step = 1, .stop_trials = length});
   return staircases;
 }
 

@@ -1,9 +1,8 @@
 // Procedures as one value: each kind behaves as it does alone.
-#include "psychophysics/Procedure.h"
-
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
+#include "psychophysics/ProcedureKinds.h"
 #include "psychophysics/staircases.h"
 
 namespace heft {
@@ -21,7 +20,7 @@ TEST(Procedure, KindsHaveTheirNamesInFiles) {
 RC_GTEST_PROP(ProcedureProperty, UpDownIsTheStaircaseItself, ()) {
   const UpDownConfig config = *test::any_staircase();
   UpDown alone(config);
-  Procedure procedure(ProcedureConfig{"s", config});
+  Procedure procedure("s", config);
   RC_ASSERT(procedure.name() == "s");
   RC_ASSERT(!procedure.planned_trials());
   while (!alone.finished()) {
@@ -55,16 +54,14 @@ TEST(Procedure, AnyChoiceIsPositive) {
 }
 
 TEST(Procedure, TellsWhatItPlans) {
-  EXPECT_THAT(Procedure(ProcedureConfig{"s", test::paper_15g()}).planned_levels(),
-              ElementsAre(175));
-  const Procedure constant(
-      ProcedureConfig{"s", ConstantConfig{.levels = {5, -5, 20}, .n_per_level = 7}});
+  EXPECT_THAT(Procedure("s", test::paper_15g()).planned_levels(), ElementsAre(175));
+  const Procedure constant("s", ConstantConfig{.levels = {5, -5, 20}, .n_per_level = 7});
   EXPECT_THAT(constant.planned_levels(), ElementsAre(5, -5, 20));
   EXPECT_THAT(constant.planned_trials(), Optional(21));
 }
 
 Censored censored(const UpDownConfig& config, std::string_view answers) {
-  Procedure procedure(ProcedureConfig{"s", config});
+  Procedure procedure("s", config);
   for (char sign : answers)
     if (!procedure.finished())
       procedure.respond({sign == '+'}, procedure.next_level(RandomStream(1, "")));

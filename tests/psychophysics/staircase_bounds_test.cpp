@@ -113,16 +113,8 @@ TEST(UpDown, BoundIsJudgedByTheStepWithoutItsReversal) {
   EXPECT_EQ(staircase.reversals()[0].step_after, 4);
 }
 
-TEST(UpDown, StartBeyondABoundIsPresentedAtIt) {
-  UpDownConfig config = fixed_step(10, 1);
-  config.floor = 12;
-  EXPECT_THAT(answer(config, "-").levels, ElementsAre(12, 13));
-  config.at_bound = AtBound::virtual_level;
-  EXPECT_THAT(answer(config, "---").levels, ElementsAre(12, 12, 12, 13));
-}
-
 TEST(UpDown, LevelsAndEstimateStayFinite) {
-  UpDownConfig config = fixed_step(1, 3000);
+  UpDownConfig config = fixed_step(1, 200);
   config.step_scale = StepScale::db;
   config.discard_reversals = 0;
   config.stop_reversals = 20;

@@ -74,21 +74,10 @@ TEST(UpDown, LeastTrialsMayEndItOnAnAnswerWithoutReversal) {
   EXPECT_EQ(staircase.finish(), Finish::reversals);
 }
 
-TEST(UpDown, TrialLimitBeatsLeastTrials) {
-  UpDownConfig config = fixed_step(10, 1);
-  config.stop_reversals = 1;
-  config.min_trials = 50;
-  config.stop_trials = 4;
-  UpDown staircase(config);
-  answer(staircase, "+-+-+-");
-  EXPECT_EQ(staircase.n_trials(), 4);
-  EXPECT_EQ(staircase.finish(), Finish::trials);
-}
-
 TEST(UpDown, EstimateNeedsMoreReversalsThanAreDiscarded) {
   UpDownConfig config = fixed_step(10, 1);
-  config.stop_reversals = 2;
   config.discard_reversals = 2;
+  config.stop_trials = 3;
   UpDown staircase(config);
   answer(staircase, "+-+");
   EXPECT_TRUE(staircase.finished());

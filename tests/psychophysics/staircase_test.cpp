@@ -11,6 +11,7 @@ namespace {
 
 using test::answer;
 using test::fixed_step;
+using test::listed_steps;
 using test::paper_15g;
 using test::Trace;
 using testing::ElementsAre;
@@ -57,9 +58,8 @@ TEST(UpDown, FirstDueMoveIsNoReversalInEitherDirection) {
 }
 
 TEST(UpDown, ListOfStepsRepeatsItsLast) {
-  UpDownConfig config = fixed_step(100, 0);
-  config.steps = {8, 4, 1};
-  EXPECT_THAT(answer(config, "+-+-+-").levels, ElementsAre(100, 92, 96, 95, 96, 95, 96));
+  EXPECT_THAT(answer(listed_steps(100, {8, 4, 1}), "+-+-+-").levels,
+              ElementsAre(100, 92, 96, 95, 96, 95, 96));
 }
 
 TEST(UpDown, HalvedStepsStopAtTheSmallest) {
@@ -74,8 +74,7 @@ TEST(UpDown, StepsWithoutHalvingStay) {
 }
 
 TEST(UpDown, OwnStepsUpwards) {
-  UpDownConfig config = fixed_step(100, 0);
-  config.steps = {4, 2};
+  UpDownConfig config = listed_steps(100, {4, 2});
   config.steps_up = {12, 6, 3};
   UpDown staircase(config);
   EXPECT_THAT(answer(staircase, "+-+-").levels, ElementsAre(100, 96, 102, 100, 103));

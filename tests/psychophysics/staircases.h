@@ -15,9 +15,14 @@ inline UpDownConfig paper_15g() {
   return {.start = 175, .step = 50, .halve_every = 2, .floor = 0};
 }
 
-/// 1-up-1-down with one step, without bounds.
+/// 1-up-1-down with one step, without bounds; every reversal counts.
 inline UpDownConfig fixed_step(double start, double step) {
-  return {.start = start, .step = step};
+  return {.start = start, .step = step, .discard_reversals = 0};
+}
+
+/// The same with a list of steps.
+inline UpDownConfig listed_steps(double start, std::vector<double> steps) {
+  return {.start = start, .steps = std::move(steps), .discard_reversals = 0};
 }
 
 struct Trace {
@@ -47,35 +52,38 @@ inline Trace answer(const UpDownConfig& config, std::string_view answers) {
   return answer(staircase, answers);
 }
 
-/// Any sensible staircase; levels and steps are multiples of 1/4 so that arithmetic is exact.
+/// Any valid staircase; levels and linear steps are multiples of 1/4 so that arithmetic is exact.
 inline rc::Gen<UpDownConfig> any_staircase() {
   return rc::gen::exec([] {
     const auto quarter = [](int from, int to) { return *rc::gen::inRange(from, to) / 4.0; };
     const auto choice = [] { return *rc::gen::arbitrary<bool>(); };
     UpDownConfig config;
-    config.start = quarter(-400, 400);
+    config.step_scale = *rc::gen::element(StepScale::linear, StepScale::db, StepScale::log10);
+    const bool is_ratio = config.step_scale != StepScale::linear;
+    const int most = config.step_scale == StepScale::log10 ? 40 : 200;
+    config.start = is_ratio ? quarter(1, 400) : quarter(-400, 400);
     if (choice()) {
       config.steps = *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(
-          rc::gen::map(rc::gen::inRange(1, 200), [](int n) { return n / 4.0; })));
-      if (choice()) config.steps_up = {quarter(1, 200)};
+          rc::gen::map(rc::gen::inRange(1, most), [](int n) { return n / 4.0; })));
+      if (choice()) config.steps_up = {quarter(1, most)};
     } else {
-      config.step = quarter(1, 200);
+      config.step = quarter(1, most);
       config.halve_every = *rc::gen::inRange(0, 4);
-      config.min_step = std::min(config.step, quarter(0, 20));
+      config.min_step = std::min(*config.step, quarter(0, 20));
     }
-    config.step_scale = *rc::gen::element(StepScale::linear, StepScale::db, StepScale::log10);
     config.up = *rc::gen::inRange(1, 4);
     config.down = *rc::gen::inRange(1, 4);
     config.initial_1up1down = choice();
     if (choice()) config.floor = config.start - quarter(0, 400);
-    if (choice()) config.ceiling = config.start + quarter(0, 400);
+    if (is_ratio && config.floor) config.floor = std::max(*config.floor, 0.0);
+    if (choice()) config.ceiling = config.start + quarter(1, 400);
     config.at_bound = choice() ? AtBound::clamp : AtBound::virtual_level;
     config.bound_is_reversal = choice();
     config.change_step = choice() ? ChangeStep::before_move : ChangeStep::after_move;
     config.stop_reversals = *rc::gen::inRange(1, 15);
-    config.min_trials = *rc::gen::inRange(0, 40);
     config.stop_trials = *rc::gen::inRange(1, 100);
-    config.discard_reversals = *rc::gen::inRange(0, 5);
+    config.min_trials = *rc::gen::inRange(0, std::min(40, config.stop_trials + 1));
+    config.discard_reversals = *rc::gen::inRange(0, std::min(5, config.stop_reversals));
     return config;
   });
 }

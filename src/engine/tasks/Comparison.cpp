@@ -4,7 +4,6 @@
 #include <array>
 
 #include "engine/tasks/TaskRules.h"
-#include "psychophysics/Procedure.h"
 
 namespace heft {
 
@@ -68,12 +67,8 @@ const TaskRules comparison_rules{
     [](const TaskState&, ScreenState&) {}};
 
 ComparisonRun::ComparisonRun(const ComparisonBlock& block) : block_(block) {
-  for (const ReferenceStaircase& entry : block_.staircases)
-    staircases_.emplace_back(entry.staircase);
+  for (const ReferenceStaircase& entry : block_.staircases) staircases_.push_back(entry.staircase);
 }
-ComparisonRun::ComparisonRun(ComparisonRun&&) noexcept = default;
-ComparisonRun& ComparisonRun::operator=(ComparisonRun&&) noexcept = default;
-ComparisonRun::~ComparisonRun() = default;
 
 bool ComparisonRun::done() const {
   return std::ranges::none_of(staircases_, is_unfinished) && n_caught_ >= n_planned(block_);
@@ -125,7 +120,7 @@ TrialPlan ComparisonRun::plan(const TrialKey& key) const {
   TrialPlan plan = key.plan(block_.name, Task::comparison,
                             reference.condition.empty() ? block_.condition : reference.condition);
   plan.is_catch = is_catch;
-  if (!is_catch) plan.staircase = reference.staircase.name;
+  if (!is_catch) plan.staircase = reference.staircase.name();
   plan.level_g =
       is_catch ? 0 : staircases_[index].next_level(level_stream(key.seed, plan.staircase));
   plan.reference_g = reference.reference_g;
@@ -141,7 +136,7 @@ void ComparisonRun::complete(Changes& changes) {
   if (changes.trial->plan.is_catch) ++n_caught_;
   const std::string& name = changes.trial->plan.staircase;
   for (std::size_t i = 0; i < staircases_.size(); ++i)
-    if (block_.staircases[i].staircase.name == name) respond(i, changes);
+    if (staircases_[i].name() == name) respond(i, changes);
 }
 
 void ComparisonRun::respond(std::size_t index, Changes& changes) {

@@ -18,9 +18,6 @@ namespace heft {
 class ComparisonRun {
  public:
   explicit ComparisonRun(const ComparisonBlock& block);
-  ComparisonRun(ComparisonRun&&) noexcept;
-  ComparisonRun& operator=(ComparisonRun&&) noexcept;
-  ~ComparisonRun();
 
   TrialPlan plan(const TrialKey& key) const;
   bool done() const;

@@ -1,0 +1,48 @@
+// The closed list of the kinds of procedures that files can name. A further one is an entry here
+// and a file beside this one: its settings, with visit_keys, check and check_beside, and the kind.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "psychophysics/Constant.h"
+#include "psychophysics/Procedure.h"
+#include "psychophysics/UpDown.h"
+
+namespace heft {
+
+template <typename... KindConfig>
+struct KindsOfProcedure {
+  using Config = std::variant<KindConfig...>;
+  static constexpr std::array<std::string_view, sizeof...(KindConfig)> names{KindConfig::kind...};
+
+  /// The defaults of the kind of that name, one of `names`.
+  static Config defaults(std::string_view name) {
+    Config config;
+    ((name == KindConfig::kind ? void(config = KindConfig{}) : void()), ...);
+    return config;
+  }
+
+  /// Calls visit with the defaults of every kind.
+  template <typename Visit>
+  static void for_each(Visit&& visit) {
+    (visit(KindConfig{}), ...);
+  }
+
+  /// What a report says was chosen; empty for a kind that no file can name.
+  static std::string described(const Procedure& procedure) {
+    std::string text;
+    const auto describe = [&](const auto* kind) {
+      if (kind) text = keys_report(kind->config());
+    };
+    (describe(procedure.get_if<typename KindConfig::Procedure>()), ...);
+    return text;
+  }
+};
+
+/// The first is what a file means that names none.
+using ProcedureKinds = KindsOfProcedure<UpDownConfig, ConstantConfig>;
+
+}  // namespace heft
