@@ -17,12 +17,12 @@ void add_jnds(Table& table, const ReferenceJnd& jnd, std::string_view staircases
   const auto published = [&](const std::optional<double>& figure) {
     return number(as_published ? figure : std::nullopt);
   };
-  table.rows.push_back({mass(jnd.compared.reference_g), word(jnd.compared.condition),
-                        word(std::string(staircases)), number(jnds.mean), number(jnds.sd),
-                        low(jnds.interval), high(jnds.interval), kind_word(jnds.kind),
-                        count(jnds.n()), count(jnds.n_censored(Censored::above)),
-                        count(jnds.n_censored(Censored::below)), count(jnds.n_missing),
-                        published(jnd.published_g), published(jnd.published_sd_g)});
+  table.rows.push_back(
+      {mass(jnd.compared.reference_g), word(jnd.compared.condition), word(std::string(staircases)),
+       number(jnds.mean), number(jnds.sd), low(jnds.interval), high(jnds.interval),
+       kind_word(jnds.kind), count(jnds.n()), count(jnds.n_censored(Censored::above)),
+       count(jnds.n_censored(Censored::below)), count(jnds.n_missing), published(jnd.published_g),
+       published(jnd.published_sd_g), word(jnd.compared.method)});
 }
 
 Table jnd_table(const Summary& summary) {
@@ -41,7 +41,8 @@ Table jnd_table(const Summary& summary) {
                {"n_censored_below", "below"},
                {"n_missing", "missing"},
                {"published_g", "published g"},
-               {"published_sd_g", "published SD"}},
+               {"published_sd_g", "published SD"},
+               {"method", "method"}},
               {},
               "n participants; SD between them (n-1). The paper's JND: it moves with the criterion "
               "as much as with what is perceived, and with where its staircase began: where they "
@@ -162,7 +163,10 @@ Table staircase_list(const Summary& summary) {
                {"n_reversals", "reversals"},
                {"n_floor", "floor hits"},
                {"n_ceiling", "ceiling hits"},
-               {"reason", "ended by"}},
+               {"reason", "ended by"},
+               {"method", "method"},
+               {"low_g", "from g"},
+               {"high_g", "to g"}},
               {},
               ""};
   for (const StaircaseResult& result : summary.staircases)
@@ -171,7 +175,8 @@ Table staircase_list(const Summary& summary) {
          mass(result.compared.reference_g), word(result.compared.condition), shown_jnd(result),
          named_cell(result.censored), word(result.why), number(result.start_g),
          count(result.n_trials), count(result.n_reversals), count(result.n_floor),
-         count(result.n_ceiling), word(result.at_trial_limit ? "trials" : "reversals")});
+         count(result.n_ceiling), named_cell(result.reason), word(result.compared.method),
+         number(result.low_g), number(result.high_g)});
   return table;
 }
 

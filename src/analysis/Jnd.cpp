@@ -7,16 +7,19 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <ranges>
 
 #include "analysis/Fold.h"
 #include "analysis/Published.h"
 #include "protocol/Protocol.h"
 #include "protocol/TomlDocument.h"
+#include "psychophysics/Constant.h"
 
 namespace heft {
 
 namespace {
-// What each of a session's staircases that estimate a JND compared with, from its trials.
+// What each of a session's staircases that estimate a JND compared with, from its trials. One that
+// did not finish has not logged its method: most likely it is the paper's.
 std::map<std::string, Compared> compared_by(const SessionData& data) {
   std::map<std::string, Compared> staircases;
   for (const Attempt& attempt : data.attempts) {
@@ -25,6 +28,9 @@ std::map<std::string, Compared> compared_by(const SessionData& data) {
         !data.without_jnd.contains(plan.staircase))
       staircases.emplace(plan.staircase, Compared{*plan.reference_g, plan.condition});
   }
+  for (const EstimateRow& row : data.estimates | std::views::reverse)  // the first one stands
+    if (const auto found = staircases.find(row.staircase); found != staircases.end())
+      found->second.method = row.method;
   return staircases;
 }
 
@@ -83,6 +89,7 @@ Censored direction_of(const EstimateRow& row, const Course& course) {
 std::string why_censored(const EstimateRow& row, Censored told) {
   if (told == Censored::above) return "at the ceiling";
   if (told == Censored::below) return "at the floor";
+  if (row.method != jnd_method) return told == Censored::unsettled ? "indeterminate" : "";
   if (row.n_reversals < least_reversals) return fmt::format("{} reversals", row.n_reversals);
   if (row.reason == Finish::trials) return "trial limit";
   return told == Censored::unsettled ? "at both bounds" : "";
@@ -110,12 +117,11 @@ std::vector<StaircaseResult> results_of(const SessionData& data) {
   std::vector<StaircaseResult> results;
   for (const EstimateRow& row : data.estimates) {
     const auto compared = staircases.find(row.staircase);
-    if (row.method != jnd_method || compared == staircases.end()) continue;
-    StaircaseResult result{data.session.session_id, data.participant(),
-                           row.staircase,           compared->second,
-                           finite(row.jnd_g),       row.n_trials,
-                           row.n_reversals,         row.n_floor,
-                           row.n_ceiling,           row.reason == Finish::trials};
+    if (compared == staircases.end() || row.method != compared->second.method) continue;
+    StaircaseResult result{
+        data.session.session_id, data.participant(), row.staircase,      compared->second,
+        finite(row.jnd_g),       finite(row.low_g),  finite(row.high_g), row.n_trials,
+        row.n_reversals,         row.n_floor,        row.n_ceiling,      row.reason};
     judge(result, row, courses[row.staircase]);
     results.push_back(std::move(result));
   }
@@ -202,7 +208,7 @@ void add_staircase(ReferenceJnd& jnd, const StaircaseResult& result) {
   jnd.mean_trials += (result.n_trials - jnd.mean_trials) / jnd.n_staircases;
   jnd.least_trials = std::min(jnd.least_trials, result.n_trials);
   jnd.most_trials = std::max(jnd.most_trials, result.n_trials);
-  jnd.n_trial_limit += result.at_trial_limit ? 1 : 0;
+  jnd.n_trial_limit += result.reason == Finish::trials ? 1 : 0;
   jnd.n_floor += result.n_floor;
   jnd.n_ceiling += result.n_ceiling;
   jnd.n_floor_staircases += result.n_floor > 0 ? 1 : 0;
@@ -222,7 +228,7 @@ ReferenceJnd jnd_at(const Compared& compared, std::span<const StaircaseResult> r
   put_participants(jnd, results, began);
   put_mean(jnd);
   const auto figure = published::jnd_at(compared.reference_g);
-  if (figure && compared.condition == "C2") {
+  if (figure && compared.condition == "C2" && compared.method == jnd_method) {
     jnd.published_g = figure->mean_g;
     jnd.published_sd_g = figure->sd_g;
   }
@@ -241,8 +247,7 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
     for (const Block& block : parse_protocol(protocol_text, "protocol").blocks)
       if (const auto* comparison = std::get_if<ComparisonBlock>(&block))
         for (const ReferenceStaircase& entry : comparison->staircases)
-          if (!std::ranges::count(entry.staircase.estimates(), jnd_method, &Estimate::method))
-            names.insert(entry.staircase.name());
+          if (entry.staircase.get_if<Constant>()) names.insert(entry.staircase.name());
   } catch (const InvalidFile&) {
   }
   return names;

@@ -16,13 +16,15 @@
 
 namespace heft {
 
-/// The estimates that are summarized: mean level of a staircase's reversals but the first ones.
+/// The paper's JND: mean level of a staircase's reversals but the first ones.
 inline constexpr std::string_view jnd_method = "mean_of_reversals";
 
-/// What a staircase compared with, and how the clone was coupled; ordered by reference.
+/// What a staircase compared with, how the clone was coupled, and how the JND is estimated: the
+/// first of its procedure's methods. Ordered by reference.
 struct Compared {
   double reference_g = 0;
   std::string condition;
+  std::string method{jnd_method};
 
   auto operator<=>(const Compared&) const = default;
 };
@@ -32,10 +34,11 @@ struct StaircaseResult {
   std::int64_t session_id = 0;
   std::string participant, staircase;
   Compared compared;
-  std::optional<double> jnd_g;  ///< as logged; none: it ended with too few reversals
+  std::optional<double> jnd_g;          ///< as logged; none: it ended with too few reversals
+  std::optional<double> low_g, high_g;  ///< its interval; none: the method gives none
   int n_trials = 0, n_reversals = 0;
   int n_floor = 0, n_ceiling = 0;  ///< moves that a bound cut short
-  bool at_trial_limit = false;     ///< ended by it, not by reversals
+  Finish reason = Finish::reversals;
   /// above, below: the JND is known to lie beyond `shown_g` only. unsettled: not even that.
   Censored censored = Censored::none;
   std::string why{};  ///< "at the ceiling", "trial limit", "3 reversals"...; empty: it settled
@@ -106,7 +109,7 @@ struct ReferenceJnd {
   StartedJnds as_published() const;
 };
 
-/// Names of a protocol's staircases whose kind has no jnd_method; none where the text is no
+/// Names of a protocol's staircases whose kind estimates nothing; none where the text is no
 /// protocol.
 std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 

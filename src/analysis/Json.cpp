@@ -114,6 +114,7 @@ ordered_json jnd_json(const ReferenceJnd& jnd) {
   };
   return {{"reference_g", number_json(jnd.compared.reference_g)},
           {"condition", jnd.compared.condition},
+          {"method", jnd.compared.method},
           {"mean_g", number_json(jnd.mean_g)},
           {"sd_g", number_json(jnd.sd_g)},
           {"low_g", low_json(jnd.interval_g)},

@@ -227,6 +227,38 @@ TEST(Jnd, ConstantStimuliAreNoStaircaseThatLacksAJnd) {
   EXPECT_EQ(example_tracks({&data, 1})->tracks[0].staircase, "15g");
 }
 
+TEST(Jnd, EstimatesOfAnyProcedureAreThereWithTheirIntervals) {
+  SessionData data = session(1, "a");
+  add_staircase(data, "15g", 15, 100);
+  add_staircase(data, "other", 15, 80, 40);
+  data.estimates[1].method = "mean_of_posterior";
+  data.estimates[1].low_g = 70;
+  data.estimates[1].high_g = 95;
+  data.estimates[1].n_reversals = 0;
+  data.estimates[1].reason = Finish::precision;
+  data.estimates.push_back(data.estimates[1]);
+  data.estimates[2].method = "mode_of_posterior";  // the first method stands for the staircase
+  data.estimates[2].jnd_g = 60;
+  const auto jnds = jnd_of({&data, 1});
+  ASSERT_EQ(jnds.size(), 2);  // never averaged over methods
+  EXPECT_EQ(jnds[0].compared.method, "mean_of_posterior");
+  EXPECT_EQ(jnds[0].mean_g, 80);
+  EXPECT_EQ(jnds[0].n_unfinished, 0);
+  EXPECT_FALSE(jnds[0].published_g);
+  EXPECT_EQ(jnds[1].compared.method, jnd_method);
+  EXPECT_EQ(jnds[1].mean_g, 100);
+  const auto results = staircase_results({&data, 1});
+  ASSERT_EQ(results.size(), 2);
+  EXPECT_EQ(results[1].censored, Censored::none);
+  EXPECT_EQ(results[1].why, "");  // it has no reversals that could be too few
+  EXPECT_EQ(results[1].low_g, 70);
+  EXPECT_EQ(results[1].high_g, 95);
+  data.estimates[1].reason = Finish::trials;  // as planned
+  EXPECT_EQ(staircase_results({&data, 1})[1].censored, Censored::none);
+  data.estimates[1].censored = Censored::above;
+  EXPECT_EQ(staircase_results({&data, 1})[1].censored, Censored::above);
+}
+
 TEST(Jnd, AProtocolTellsWhichStaircasesHaveNone) {
   const std::string block = "title = \"t\"\n[[block]]\nkind = \"comparison\"\nname = \"c\"\n";
   const std::string up_down =
