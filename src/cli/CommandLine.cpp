@@ -197,10 +197,10 @@ Option& Option::one_of(const std::vector<std::string>& names) {
 }
 
 Command Command::add_command(const std::string& name, const std::string& summary,
-                             std::initializer_list<const char*> examples) {
+                             const std::vector<std::string>& examples) {
   CLI::App& command = *app_.add_subcommand(name, summary);
-  std::string footer = examples.size() == 0 ? "" : "Examples:";
-  for (const char* example : examples) footer += fmt::format("\n  {}", example);
+  std::string footer = examples.empty() ? "" : "Examples:";
+  for (const std::string& example : examples) footer += fmt::format("\n  {}", example);
   command.footer(footer);
   return Command(command);
 }

@@ -48,7 +48,7 @@ class Command {
 
   /// A command of this one; its --help ends with examples, a line each.
   Command add_command(const std::string& name, const std::string& summary,
-                      std::initializer_list<const char*> examples = {});
+                      const std::vector<std::string>& examples = {});
   /// @param name "--db", or "PROTOCOL" for what is told by its place
   Option add_option(const std::string& name, Destination destination, const std::string& help);
   void add_flag(const std::string& name, bool& flag, const std::string& help);

@@ -13,7 +13,7 @@ namespace heft::cli {
 
 namespace {
 // Of the one RawTerminal, for the signal handlers; written before these are installed.
-termios found{}, raw{};
+termios as_it_was{}, raw{};
 std::atomic<bool> is_raw{false};
 struct sigaction stopping_before {
 }, continuing_before{};
@@ -32,7 +32,7 @@ void set(const termios& settings) {
 void stop(int) {
   const int error = errno;
   if (is_raw.exchange(false)) {
-    set(found);
+    set(as_it_was);
     constexpr std::string_view clear = "\r\033[J";
     [[maybe_unused]] const auto written = write(STDERR_FILENO, clear.data(), clear.size());
   }
@@ -64,8 +64,8 @@ void handle(int signal, void (*handler)(int), struct sigaction& held) {
 
 RawTerminal::RawTerminal() : is_there_(isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1) {
   if (!is_there_) return;
-  tcgetattr(STDIN_FILENO, &found);
-  raw = found;
+  tcgetattr(STDIN_FILENO, &as_it_was);
+  raw = as_it_was;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // single keys; Ctrl-C stays a signal
   handle(SIGTSTP, stop, stopping_before);
   handle(SIGCONT, go_on, continuing_before);
@@ -76,7 +76,7 @@ RawTerminal::~RawTerminal() {
   if (!is_there_) return;
   sigaction(SIGTSTP, &stopping_before, nullptr);
   sigaction(SIGCONT, &continuing_before, nullptr);
-  if (is_raw.exchange(false)) set(found);
+  if (is_raw.exchange(false)) set(as_it_was);
 }
 
 bool RawTerminal::listens() {

@@ -165,10 +165,12 @@ class Conversation(unittest.TestCase):
         lines = answers_to_lines([True] * 500)
         events = heft(toml([self.STAIRCASE]), lines)[1]
         self.assertEqual(events[-2], {"event": "finished", "staircase": "15g", "reason": "trials",
-                                      "estimate": None, "n_trials": 200})
+                                      "estimate": None, "low": None, "high": None,
+                                      "n_trials": 200})
         events = heft(toml([self.STAIRCASE | {"bound_is_reversal": True}]), lines)[1]
         self.assertEqual(events[-2], {"event": "finished", "staircase": "15g", "estimate": 0,
-                                      "reason": "reversals", "n_trials": 13})
+                                      "low": None, "high": None, "reason": "reversals",
+                                      "n_trials": 13})
 
     def interleaved(self, **keys):
         """Three different staircases; answers and voids at random. -> events, answers by trial"""
