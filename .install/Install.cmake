@@ -47,7 +47,7 @@ function(heft_install component)
 endfunction()
 heft_install(psychophysics base psychophysics)
 heft_install(inference inference)
-heft_install(engine experiment engine)
+heft_install(engine experiment tasks engine)
 heft_install(physics physics)
 configure_file(.install/heft-config.cmake ${PROJECT_BINARY_DIR}/heft-config.cmake COPYONLY)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/heft-config-version.cmake

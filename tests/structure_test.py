@@ -12,21 +12,22 @@ SRC = ROOT / "src"
 
 # The layer table of README.md. Rooms on one row don't include each other; bench/main.cpp alone, the
 # program heft-bench, stands on cli's command line.
-ROWS_1_2 = {"base", "psychophysics", "inference", "experiment", "physics", "tracking"}
+ROWS_1_2 = {"base", "psychophysics", "inference", "experiment", "tasks", "physics", "tracking"}
 ROW_3 = {"engine", "protocol", "record", "responders", "view"}
 MAY_INCLUDE = {
     "base": set(),
     "psychophysics": {"base"},
     "inference": {"psychophysics", "base"},
     "experiment": {"psychophysics", "base"},
+    "tasks": {"psychophysics", "experiment", "base"},
     "physics": {"base"},
     "tracking": {"base"},
-    "engine": {"experiment", "psychophysics", "base"},
-    "protocol": {"experiment", "base", "physics", "psychophysics", "tracking"},
-    "record": {"experiment", "psychophysics", "base"},
-    "responders": {"experiment", "psychophysics", "base"},
-    "view": {"experiment", "base", "tracking"},
-    "window": {"view", "experiment", "tracking", "base"},
+    "engine": {"tasks", "experiment", "psychophysics", "base"},
+    "protocol": {"tasks", "experiment", "base", "physics", "psychophysics", "tracking"},
+    "record": {"tasks", "experiment", "psychophysics", "base"},
+    "responders": {"tasks", "experiment", "psychophysics", "base"},
+    "view": {"tasks", "experiment", "base", "tracking"},
+    "window": {"view", "tasks", "experiment", "tracking", "base"},
     "apparatus": ROWS_1_2 | ROW_3 - {"engine"},
     "analysis": ROWS_1_2 | {"protocol", "record", "responders", "view"},
     "replay": ROWS_1_2 | ROW_3 | {"apparatus"},

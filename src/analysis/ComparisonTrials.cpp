@@ -7,12 +7,12 @@ namespace heft {
 namespace {
 bool is_usable(const Attempt& attempt) {
   const TrialRow& trial = attempt.trial;
-  return attempt.completed() && trial.plan.task == Task::comparison && trial.outcome &&
+  return attempt.completed() && trial.plan.task == "comparison" && trial.outcome &&
          trial.plan.reference_g && trial.plan.level_g && !trial.plan.is_practice;
 }
 
 SideChosen side_chosen(const TrialRow& trial) {
-  if (trial.outcome != Outcome::difference || !trial.chosen_slot) return SideChosen::none;
+  if (trial.outcome != "difference" || !trial.chosen_slot) return SideChosen::none;
   return *trial.chosen_slot == 1 ? SideChosen::left : SideChosen::right;
 }
 
@@ -22,7 +22,7 @@ ComparedTrial compared_trial(const TrialRow& trial, std::uint32_t person) {
           response_time_s(trial),
           person,
           side_chosen(trial),
-          trial.outcome == Outcome::difference,
+          trial.outcome == "difference",
           trial.plan.is_catch,
           trial.plan.reference_slot.value_or(1) != 1,
           trial.choice_correct};

@@ -14,7 +14,7 @@ void count_attempt(ParticipantRow& row, const SessionData& data, const Attempt& 
   row.n_impossible += is_impossible(data, attempt) ? 1 : 0;
   if (!attempt.trial.plan.is_catch) return;
   row.n_catch += 1;
-  row.n_false_alarms += attempt.trial.outcome == Outcome::difference ? 1 : 0;
+  row.n_false_alarms += attempt.trial.outcome == "difference" ? 1 : 0;
 }
 
 std::string beyond(int n, int of, const std::optional<double>& largest, std::string_view what) {

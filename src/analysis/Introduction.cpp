@@ -8,10 +8,9 @@ namespace heft {
 
 void IntroductionFold::add(const SessionData& data) {
   for (const Attempt& attempt : data.attempts) {
-    if (!attempt.completed() || attempt.trial.plan.task != Task::introduction) continue;
+    if (!attempt.completed() || attempt.trial.plan.task != "introduction") continue;
     if (!seen_.insert(data.participant()).second) continue;
-    const auto n_selects =
-        std::ranges::count(attempt.answers, ActionKind::select, &AnswerRow::action);
+    const auto n_selects = std::ranges::count(attempt.answers, "select", &AnswerRow::action);
     tally_.add(n_selects == 1);
     as_published_ = as_published_ && attempt.shows(published::introduction_masses_g);
   }

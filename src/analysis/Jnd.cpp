@@ -24,7 +24,7 @@ std::map<std::string, Compared> compared_by(const SessionData& data) {
   std::map<std::string, Compared> staircases;
   for (const Attempt& attempt : data.attempts) {
     const TrialPlan& plan = attempt.trial.plan;
-    if (plan.task == Task::comparison && !plan.staircase.empty() && plan.reference_g &&
+    if (plan.task == "comparison" && !plan.staircase.empty() && plan.reference_g &&
         !data.without_jnd.contains(plan.staircase))
       staircases.emplace(plan.staircase, Compared{*plan.reference_g, plan.condition});
   }
@@ -245,7 +245,7 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
   std::set<std::string> names;
   try {
     for (const Block& block : parse_protocol(protocol_text, "protocol").blocks)
-      if (const auto* comparison = std::get_if<ComparisonBlock>(&block))
+      if (const auto* comparison = block_as<Comparison::Block>(block))
         for (const ReferenceStaircase& entry : comparison->staircases)
           if (entry.staircase.get_if<Constant>()) names.insert(entry.staircase.name());
   } catch (const InvalidFile&) {

@@ -114,8 +114,10 @@ void count_labels(LabelMatrix& matrix, const Attempt& attempt) {
   for (std::size_t slot = 0; slot < 3; ++slot) {
     const auto rank = static_cast<std::size_t>(
         std::ranges::count_if(masses_g, [&](double mass_g) { return mass_g < masses_g[slot]; }));
-    if (labels[slot] && *labels[slot] <= Label::heaviest)
-      matrix.at(rank).at(static_cast<std::size_t>(*labels[slot])) += 1;
+    const auto words = Sorting::labels_for(3);
+    const auto word = std::find(words.begin(), words.end(), labels[slot]);
+    if (word != words.end())
+      matrix.at(rank).at(static_cast<std::size_t>(word - words.begin())) += 1;
   }
 }
 
@@ -124,16 +126,16 @@ constexpr int n_tenths = 10;
 
 void PointsFold::add_sorting(const std::string& participant, const Attempt& attempt) {
   const TrialRow& trial = attempt.trial;
-  if (trial.plan.task != Task::sorting || !trial.outcome) return;
-  sortings_[participant][trial.plan.condition].add(trial.outcome == Outcome::correct);
-  if (attempt.cubes.size() == 3 && trial.outcome != Outcome::dont_know)
+  if (trial.plan.task != "sorting" || !trial.outcome) return;
+  sortings_[participant][trial.plan.condition].add(trial.outcome == "correct");
+  if (attempt.cubes.size() == 3 && trial.outcome != "dont_know")
     count_labels(labels_[trial.plan.condition], attempt);
 }
 
 void PointsFold::add_times(const SessionData& data) {
-  std::map<Task, std::vector<const Attempt*>> by_task;
+  std::map<Task, std::vector<const Attempt*>, InTaskOrder> by_task;
   for (const Attempt& attempt : data.attempts)
-    if (attempt.completed() && attempt.trial.plan.task != Task::introduction)
+    if (attempt.completed() && attempt.trial.plan.task != "introduction")
       by_task[attempt.trial.plan.task].push_back(&attempt);
   for (const auto& [task, attempts] : by_task)
     for (std::size_t i = 0; i < attempts.size(); ++i)

@@ -11,6 +11,7 @@
 
 #include "analysis/ComparisonTrials.h"
 #include "inference/Proportion.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -73,10 +74,10 @@ class PointsFold {
   void add_times(const SessionData& data);
   void add_lags(const Attempt& attempt);
 
-  std::map<std::string, std::map<std::string, Tally>> sortings_;        // participant, condition
-  std::map<std::string, LabelMatrix> labels_;                           // condition
-  std::map<Task, std::map<int, std::deque<double>>> times_s_;           // tenth of the trials
-  std::map<std::string, std::map<double, std::deque<double>>> lag_mm_;  // condition, mass
+  std::map<std::string, std::map<std::string, Tally>> sortings_;  // participant, condition
+  std::map<std::string, LabelMatrix> labels_;                     // condition
+  std::map<Task, std::map<int, std::deque<double>>, InTaskOrder> times_s_;  // tenth of the trials
+  std::map<std::string, std::map<double, std::deque<double>>> lag_mm_;      // condition, mass
 };
 
 Points points_of(std::span<const SessionData> sessions);

@@ -9,6 +9,7 @@
 #include "base/Error.h"
 #include "protocol/StudyPlan.h"
 #include "psychophysics/ProcedureKinds.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -56,23 +57,19 @@ class Collector {
   }
 
   void operator()(const DemonstrationBlock&) {}
-  void operator()(const IntroductionBlock& block) {
-    add("wrong introduction answer", std::string(name_of(block.wrong_answer)));
-  }
-  void operator()(const SortingBlock& block) {
-    add("sorting orders", std::string(name_of(block.orders)));
-    std::string counts, names;
-    for (const auto& [technique, trials] : block.trials) {
-      counts += fmt::format("{}{}", counts.empty() ? "" : " and ", trials);
-      names += (names.empty() ? "" : " and ") + technique;
-    }
-    add(names, fmt::format("{} shuffled, longest run {}", counts,
-                           block.max_run > 0 ? fmt::format("{}", block.max_run) : "any"));
+  void operator()(const TaskBlock& block) {
+    Tasks::call(block.task().name, [&]<typename Kind>() {
+      const auto& keys = *block.as<typename Kind::Block>();
+      if constexpr (requires { keys.choices(); })
+        for (auto& [choice, value] : keys.choices()) add(choice, value);
+      else
+        (*this)(keys);
+    });
   }
   void operator()(const BreakBlock& block) {
     add(block.name, fmt::format("a break of at least {:g} s", block.least_duration_s));
   }
-  void operator()(const ComparisonBlock& block) {
+  void operator()(const Comparison::Block& block) {
     const InterleaveConfig& interleaving = block.interleaving;
     add("interleaving",
         fmt::format("{}{}", name_of(interleaving.interleave),
@@ -94,7 +91,7 @@ class Collector {
   std::vector<ProtocolChoice> choices;
 
  private:
-  static std::string catch_text(const ComparisonBlock& block) {
+  static std::string catch_text(const Comparison::Block& block) {
     if (block.catch_trials.empty()) return fmt::format("{:g} %", 100 * block.catch_fraction);
     std::string text;
     for (const auto& [reference_g, trials] : block.catch_trials)

@@ -59,7 +59,7 @@ constexpr std::array masses_g{20.0, 100.0, 300.0, 700.0, 1000.0};
 using LossKey = std::tuple<Task, std::string, std::size_t>;
 
 LossKey key_of(const TrialPlan& plan) {
-  const bool compared = plan.task == Task::comparison && plan.level_g;
+  const bool compared = plan.task == "comparison" && plan.level_g;
   return {plan.task, plan.condition, compared ? band_of(*plan.level_g, differences_g) + 1 : 0};
 }
 

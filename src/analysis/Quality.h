@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/Fold.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -26,7 +27,7 @@ struct CountedRow {
 
 /// What can go with level and condition, and must not.
 struct LossRow {
-  Task task = Task::sorting;
+  Task task;
   std::string condition;
   std::string difference;  ///< comparisons: "0 g", "1-100 g"...; otherwise empty
   int n_attempts = 0, n_void = 0, n_lost = 0;  ///< n_lost: the effector was out of view
@@ -64,8 +65,9 @@ class QualityFold {
 
  private:
   Sums sums_;
-  std::map<std::tuple<Task, std::string, std::size_t>, LossRow> losses_;  // by band of differences
-  std::map<std::size_t, ResetRow> resets_;                                // by band of masses
+  std::map<std::tuple<Task, std::string, std::size_t>, LossRow, InTaskOrder>
+      losses_;                              // by band of differences
+  std::map<std::size_t, ResetRow> resets_;  // by band of masses
 };
 
 inline Quality quality_of(std::span<const SessionData> sessions) {

@@ -41,8 +41,8 @@ std::vector<std::optional<Label>> final_labels(std::span<const AnswerRow> answer
   for (const AnswerRow& answer : answers) {
     if (!answer.slot || *answer.slot < 1 || *answer.slot > n_slots) continue;
     auto& given = labels[static_cast<std::size_t>(*answer.slot - 1)];
-    if (answer.action == ActionKind::unlabel) given.reset();
-    if (answer.action != ActionKind::label || !answer.label) continue;
+    if (answer.action == "unlabel") given.reset();
+    if (answer.action != "label" || !answer.label) continue;
     std::ranges::replace(labels, answer.label, std::optional<Label>());
     given = answer.label;
   }
@@ -62,9 +62,9 @@ std::optional<Swap> swap_of(std::span<const double> masses_g,
   if (!light || !intermediate || !heavy || light == intermediate || light == heavy ||
       intermediate == heavy)
     return std::nullopt;
-  const bool light_right = light == Label::lightest;
-  const bool intermediate_right = intermediate == Label::intermediate;
-  const bool heavy_right = heavy == Label::heaviest;
+  const bool light_right = light == "lightest";
+  const bool intermediate_right = intermediate == "intermediate";
+  const bool heavy_right = heavy == "heaviest";
   if (light_right && intermediate_right) return std::nullopt;
   if (heavy_right) return Swap::light_intermediate;
   if (light_right) return Swap::intermediate_heavy;
@@ -80,15 +80,15 @@ SortingFold::Counted& SortingFold::counted_in(const std::string& condition) {
 
 void SortingFold::count(Counted& counted, const std::string& participant, const Attempt& attempt) {
   const Outcome outcome = *attempt.trial.outcome;
-  counted.correct[participant].add(outcome == Outcome::correct);
-  counted.incorrect[participant].add(outcome == Outcome::incorrect);
-  counted.none[participant].add(outcome == Outcome::dont_know);
+  counted.correct[participant].add(outcome == "correct");
+  counted.incorrect[participant].add(outcome == "incorrect");
+  counted.none[participant].add(outcome == "dont_know");
   counted.n_trials_by_cubes[static_cast<int>(attempt.cubes.size())] += 1;
   counted.as_published = counted.as_published && attempt.shows(published::sorting_masses_g);
-  if (outcome == Outcome::dont_know) return;
-  counted.answered_correct[participant].add(outcome == Outcome::correct);
-  counted.answered_incorrect[participant].add(outcome == Outcome::incorrect);
-  if (outcome != Outcome::incorrect) return;
+  if (outcome == "dont_know") return;
+  counted.answered_correct[participant].add(outcome == "correct");
+  counted.answered_incorrect[participant].add(outcome == "incorrect");
+  if (outcome != "incorrect") return;
   const std::vector<double> masses_g = attempt.masses_g();
   const auto labels = final_labels(attempt.answers, static_cast<int>(masses_g.size()));
   if (const auto swap = swap_of(masses_g, labels))
@@ -98,7 +98,7 @@ void SortingFold::count(Counted& counted, const std::string& participant, const 
 void SortingFold::add(const SessionData& data) {
   const std::string participant = data.participant();
   for (const Attempt& attempt : data.attempts) {
-    if (attempt.trial.plan.task != Task::sorting) continue;
+    if (attempt.trial.plan.task != "sorting") continue;
     Counted& counted = counted_in(attempt.trial.plan.condition);
     if (attempt.completed() && attempt.trial.outcome) count(counted, participant, attempt);
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/Fold.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -18,7 +19,7 @@ std::optional<double> response_time_s(const TrialRow& trial);
 
 /// Completed trials of one task in one condition, all participants together.
 struct ResponseTimes {
-  Task task = Task::sorting;
+  Task task;
   std::string condition;
   int n_trials = 0;  ///< with a response time
   std::optional<double> median_s, lower_quartile_s, upper_quartile_s;
@@ -31,7 +32,7 @@ class TimesFold {
   std::vector<ResponseTimes> result() const;
 
  private:
-  std::map<std::pair<Task, std::string>, std::deque<double>> times_s_;
+  std::map<std::pair<Task, std::string>, std::deque<double>, InTaskOrder> times_s_;
 };
 
 struct VoidCount {

@@ -23,9 +23,9 @@ std::vector<Track> tracks_of(const SessionData& data) {
       continue;
     track_of(tracks, plan)
         .points.push_back({*plan.level_g,
-                           attempt.trial.outcome == Outcome::difference && *plan.level_g != 0 &&
+                           attempt.trial.outcome == "difference" && *plan.level_g != 0 &&
                                !attempt.trial.choice_correct.value_or(true),
-                           attempt.trial.outcome == Outcome::difference, attempt.is_reversal});
+                           attempt.trial.outcome == "difference", attempt.is_reversal});
   }
   for (const StaircaseResult& result : staircase_results({&data, 1}))
     for (Track& track : tracks)

@@ -6,6 +6,7 @@
 
 #include "base/Error.h"
 #include "psychophysics/UpDown.h"
+#include "tasks/Comparison.h"
 
 namespace heft {
 
@@ -23,7 +24,7 @@ void keep_censoring_rule(Protocol& protocol, int log_version) {
   constexpr int first_with_cut_moves = 6;
   if (log_version >= first_with_cut_moves) return;
   for (Block& block : protocol.blocks)
-    if (auto* comparison = std::get_if<ComparisonBlock>(&block))
+    if (auto* comparison = block_as<Comparison::Block>(block))
       for (ReferenceStaircase& entry : comparison->staircases)
         if (const auto* up_down = entry.staircase.get_if<UpDown>()) {
           UpDownConfig config = up_down->config();

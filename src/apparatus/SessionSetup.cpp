@@ -373,6 +373,7 @@ std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const SessionCon
   if (setup.rate_hz) protocol.simulator.rate_hz = *setup.rate_hz;
   if (const auto mode = named<InputMode>(setup.input)) protocol.simulator.input.mode = *mode;
   if (setup.predict_s) protocol.simulator.input.predict_s = *setup.predict_s;
+  take_questions(protocol, setup.texts_text, setup.texts_file);
   return std::make_shared<const Protocol>(std::move(protocol));
 }
 

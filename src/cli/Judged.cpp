@@ -7,6 +7,7 @@
 
 #include "cli/Terminal.h"
 #include "inference/Statistics.h"
+#include "tasks/Tasks.h"
 
 namespace heft::cli {
 
@@ -64,7 +65,7 @@ void print_agreement(const Agreement& group) {
   }
   print_detection("logged", group.logged);
   print_detection("responder", group.judged);
-  if (group.task == Task::comparison && !group.logged)
+  if (task_named(group.task).detects && !group.logged)
     print("    no d': that takes trials with a difference and without (catch trials)\n");
 }
 

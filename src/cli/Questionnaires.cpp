@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "base/Error.h"
@@ -93,14 +94,14 @@ class Gathered {
 std::map<std::string, std::string> add_questionnaires(SessionConfig& setup,
                                                       const Protocol& protocol,
                                                       const std::string& texts_file) {
-  if (protocol.screens.questionnaires.empty()) return {};
+  const std::set<std::string> asked = questionnaires_of(protocol);
+  if (asked.empty()) return {};
   if (setup.texts_text.empty()) {
     setup.texts_file = fs::absolute(texts_file).lexically_normal().string();
     setup.texts_text = read_text_file(setup.texts_file);
   }
   Gathered gathered(setup);
-  for (const auto& [after, names] : protocol.screens.questionnaires)
-    for (const std::string& name : names) gathered.add(name);
+  for (const std::string& name : asked) gathered.add(name);
   return gathered.file_of();
 }
 

@@ -85,23 +85,34 @@ std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int pa
   return std::nullopt;
 }
 
+// "10 s per comparison trial, 25 s per sorting trial"
+std::string assumed_text(const Protocol& protocol, const TrialDurations& durations) {
+  std::string text;
+  for (const auto& [task, seconds] : durations)
+    if (std::ranges::any_of(protocol.blocks, [&](const Block& block) {
+          const auto* trials = std::get_if<TaskBlock>(&block);
+          return trials && trials->task().name == task;
+        }))
+      text += fmt::format("{}{:g} s per {} trial", text.empty() ? "" : ", ", seconds, task);
+  return text;
+}
+
 std::string described(const Protocol& protocol, std::vector<std::string>& cautions) {
   constexpr int participants = 6;
-  const TrialDurations durations;
+  const TrialDurations durations = assumed_durations();
   ExpectedLength length = expected_length(protocol, durations);
   std::string simulated;
   if (length.staircases > 0)
     if (const auto taken = trials_of_simulated(protocol, participants, cautions)) {
       length.minutes +=
-          (taken->mean - length.trials) * (durations.comparison_s + protocol.onset.gap_s) / 60;
+          (taken->mean - length.trials) * (durations.at("comparison") + protocol.onset.gap_s) / 60;
       length.trials = taken->mean;
       simulated = fmt::format(" ({} to {} in {} simulated participants)", taken->least, taken->most,
                               participants);
     }
-  std::string text = fmt::format(
-      "about {:.0f} trials{} and {:.0f} minutes (assuming {:.0f} s a sorting trial, "
-      "{:.0f} s a comparison)",
-      length.trials, simulated, length.minutes, durations.sorting_s, durations.comparison_s);
+  std::string text =
+      fmt::format("about {:.0f} trials{} and {:.0f} minutes (assuming {})", length.trials,
+                  simulated, length.minutes, assumed_text(protocol, durations));
   if (protocol.simulator.name == "auto") text += "; " + described(resolve_auto(protocol));
   return text;
 }

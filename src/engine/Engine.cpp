@@ -64,7 +64,7 @@ std::optional<std::string> Engine::course_refusal(const Event& event) const {
   }
   if (const auto* vetoed = event.as<AnswerVetoed>()) {
     if (open_) return "the trial that is running must be voided first";
-    if (!vetoable()) return "no comparison was answered that could be taken back";
+    if (!vetoable()) return "no trial was answered whose answer could be taken back";
     if (vetoed->reason.empty()) return "it gives no reason";
   }
   if (event.as<SessionPaused>() && paused_) return "the session is paused already";
@@ -169,7 +169,7 @@ void Engine::start_trial(double t_s, Changes& changes) {
   row.attempt_index = ++n_attempts_;
   row.setup_index = n_setups_;
   row.started_s = t_s;
-  open_.emplace(row, *next_.plan, plan_->require_contact, onset_.min_answer_s);
+  open_.emplace(row, attempt_at(*next_.plan), plan_->require_contact, onset_.min_answer_s);
   end_rest();
   begun_.insert(open_->plan().block);
   changes.attempt_index = n_attempts_;
@@ -178,46 +178,28 @@ void Engine::start_trial(double t_s, Changes& changes) {
 }
 
 void Engine::act(const Action& action, double t_s, Changes& changes) {
-  const int n_wrong = open_->n_wrong();
-  const auto outcome = open_->act(action, t_s);
-  changes.answers = {{n_attempts_, t_s, action.kind, action.slot, action.label}};
-  if (outcome) return complete(*outcome, t_s, changes);
-  if (const auto* introduction = std::get_if<IntroductionRun>(&run_);
-      introduction && open_->n_wrong() > n_wrong) {
-    const TrialPlan& plan = open_->plan();
-    const auto anew =
-        introduction->rearranged({seed_, plan.trial_number, plan.attempt}, open_->n_wrong());
-    if (anew) {
-      open_->rearrange(*anew);
-      changes.cubes = open_->cubes();
-    }
-  }
+  const int n_reshuffles = open_->plan().n_reshuffles;
+  open_->act(action, t_s);
+  changes.answers = {{n_attempts_, t_s, action.kind, action.slot, action.label, action.value}};
+  if (open_->has_ended()) return complete(t_s, changes);
+  if (open_->plan().n_reshuffles != n_reshuffles) changes.cubes = open_->cubes();
   changes.trial = open_->row();
 }
 
-void Engine::complete(Outcome outcome, double t_s, Changes& changes) {
-  open_->complete(outcome, t_s);
+void Engine::complete(double t_s, Changes& changes) {
+  open_->complete(t_s);
   changes.trial = open_->row();
   open_.reset();
   begin_gap(t_s);
   ++n_completed_;
   attempt_ = 1;
   n_voids_ = 0;
-  const bool done = std::visit(
-      [&](auto& run) {
-        if constexpr (requires { run.complete(changes); }) {
-          run.complete(changes);
-          return run.done();
-        }
-        return true;
-      },
-      run_);
+  run_->complete(*changes.trial, changes);
   keep_answer(*changes.trial, changes);
-  if (done) enter_block(block_ + 1);
+  if (run_->finished()) enter_block(block_ + 1);
 }
 
 void Engine::keep_answer(const TrialRow& row, const Changes& changes) {
-  if (!std::holds_alternative<ComparisonRun>(run_)) return answered_.reset();
   if (!answered_ || answered_->block != block_) answered_ = Answered{block_, {}, {}, false};
   answered_->vetoed = false;
   answered_->trials.push_back(row);
@@ -236,6 +218,7 @@ void Engine::veto_answer(const std::string& reason, double t_s, Changes& changes
   row.void_reason = std::string(answer_vetoed) + reason;
   row.outcome.reset();
   row.choice_correct.reset();
+  row.value.reset();
   changes.attempt_index = row.attempt_index;
   changes.trial = row;
   changes.withdrawn_reversals = answered_->last.reversals;
@@ -244,8 +227,7 @@ void Engine::veto_answer(const std::string& reason, double t_s, Changes& changes
   rest_.reset();
   for (const TrialRow& trial : answered_->trials) {
     Changes again;
-    again.trial = trial;
-    std::get<ComparisonRun>(run_).complete(again);
+    run_->complete(trial, again);
   }
   --n_completed_;
   attempt_ = row.plan.attempt + 1;
@@ -281,21 +263,20 @@ void Engine::end_rest() {
 }
 
 void Engine::enter_block(std::size_t index) {
-  run_ = std::monostate{};
+  run_.reset();
   for (block_ = index; block_ < plan_->blocks.size(); ++block_) {
     const Block& block = plan_->blocks[block_];
     if (const auto* rest = std::get_if<BreakBlock>(&block)) {
       if (block_ >= rested_) rest_ = *rest;
       continue;
     }
-    if (const auto* introduction = std::get_if<IntroductionBlock>(&block))
-      run_ = IntroductionRun(*introduction);
-    else if (const auto* sorting = std::get_if<SortingBlock>(&block))
-      run_ = SortingRun(*sorting, seed_);
-    else if (const auto* comparison = std::get_if<ComparisonBlock>(&block))
-      run_ = ComparisonRun(*comparison);
+    if (const auto* trials = std::get_if<TaskBlock>(&block)) run_ = trials->run(seed_);
     return;
   }
+}
+
+std::unique_ptr<TaskTrial> Engine::attempt_at(const TrialPlan& plan) const {
+  return std::get<TaskBlock>(plan_->blocks[block_]).trial(plan, seed_);
 }
 
 Next Engine::what_next() const {
@@ -317,12 +298,7 @@ Next Engine::what_next() const {
     return next;
   }
   next.kind = Next::Kind::trial;
-  const TrialKey key{seed_, n_completed_ + 1, attempt_};
-  std::visit(
-      [&](const auto& run) {
-        if constexpr (requires { run.plan(key); }) next.plan = run.plan(key);
-      },
-      run_);
+  next.plan = run_->plan({seed_, n_completed_ + 1, attempt_});
   return next;
 }
 
@@ -331,7 +307,7 @@ ScreenState Engine::screen() const {
   if (open_)
     screen = open_->screen();
   else if (next_.kind == Next::Kind::trial)
-    screen = screen_of(*next_.plan);
+    screen = screen_of(*attempt_at(*next_.plan));
   if (next_.kind == Next::Kind::demonstration) screen.screen = Screen::demonstration;
   if (next_.rest) screen.screen = Screen::rest;
   if (paused_) screen.screen = Screen::paused;
@@ -344,8 +320,7 @@ ScreenState Engine::screen_with_cubes() const {
 }
 
 std::optional<std::string> Engine::survivor() const {
-  const auto* comparison = std::get_if<ComparisonRun>(&run_);
-  return comparison ? comparison->survivor() : std::nullopt;
+  return run_ ? run_->survivor() : std::nullopt;
 }
 
 }  // namespace heft

@@ -13,10 +13,7 @@
 #include <vector>
 
 #include "engine/RunningAttempt.h"
-#include "engine/tasks/Comparison.h"
-#include "engine/tasks/Introduction.h"
-#include "engine/tasks/Sorting.h"
-#include "experiment/Block.h"
+#include "tasks/SessionPlan.h"
 
 namespace heft {
 
@@ -93,7 +90,7 @@ class Engine {
   /// When the next trial may start, in session time: once the gap after the last one is over.
   double trial_due_s() const { return trial_due_s_; }
 
-  /// The comparison whose answer can be vetoed; none: there is none, or what came after stands.
+  /// The trial whose answer can be vetoed; null: there is none, or what came after stands.
   const TrialRow* vetoable() const {
     return answered_ && !answered_->vetoed ? &answered_->trials.back() : nullptr;
   }
@@ -114,15 +111,12 @@ class Engine {
   std::optional<std::string> survivor() const;
 
  private:
-  /// What a block's tasks have come to; none: it has no trials, or all blocks are done.
-  using BlockRun = std::variant<std::monostate, IntroductionRun, SortingRun, ComparisonRun>;
-
   std::optional<std::string> refusal(const Event& event) const;
   std::optional<std::string> course_refusal(const Event& event) const;
   void fold(const Event& event, Changes& changes);
   void start_trial(double t_s, Changes& changes);
   void act(const Action& action, double t_s, Changes& changes);
-  void complete(Outcome outcome, double t_s, Changes& changes);
+  void complete(double t_s, Changes& changes);
   void void_trial(const std::string& reason, double t_s, Changes& changes);
   void set_up(const SessionConfig& setup, Changes& changes);
   void begin_gap(double t_s);
@@ -133,6 +127,8 @@ class Engine {
   void enter_block(std::size_t index);
   void end_rest();
   Next what_next() const;
+  /// An attempt at a trial of the current block.
+  std::unique_ptr<TaskTrial> attempt_at(const TrialPlan& plan) const;
 
   std::shared_ptr<const SessionPlan> plan_;
   std::uint64_t seed_;
@@ -144,13 +140,13 @@ class Engine {
   double last_s_ = 0, trial_due_s_ = 0;
   bool paused_ = false, over_ = false;
 
-  std::size_t block_ = 0;  // of the next or open trial
-  BlockRun run_;           // of that block
+  std::size_t block_ = 0;         // of the next or open trial
+  std::unique_ptr<TaskRun> run_;  // of that block; null: it has no trials, or all are done
   std::set<std::string> begun_;
   std::optional<BreakBlock> rest_;
   std::size_t rested_ = 0;  // breaks before this block are over, whatever is taken back later
 
-  /// Of the comparison block that was answered last, what is needed to take its last answer back.
+  /// Of the block of trials that was answered last, what is needed to take its last answer back.
   struct Answered {
     std::size_t block = 0;
     std::vector<TrialRow> trials;  // those that count

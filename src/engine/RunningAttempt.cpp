@@ -10,8 +10,15 @@ namespace {
 
 using Refusal = std::optional<std::string>;
 
-bool names_cube(ActionKind kind) {
-  return kind == ActionKind::select || kind == ActionKind::label || kind == ActionKind::unlabel;
+// Why an action has not the columns that its kind fills.
+Refusal column_refusal(const ActionSpec& spec, const Action& action) {
+  if (spec.slot != action.slot.has_value())
+    return action.slot ? "it takes no cube" : "it names no cube";
+  if (spec.label != action.label.has_value())
+    return action.label ? "it takes no label" : "it names no label";
+  if (spec.value != action.value.has_value())
+    return action.value ? "it takes no value" : "it gives no value";
+  return std::nullopt;
 }
 
 std::optional<double> larger(std::optional<double> a, std::optional<double> b) {
@@ -32,7 +39,8 @@ std::vector<CubeRow> fresh_cubes(int attempt_index, const TrialPlan& plan) {
 
 }  // namespace
 
-ScreenState screen_of(const TrialPlan& plan) {
+ScreenState screen_of(const TaskTrial& trial) {
+  const TrialPlan& plan = trial.plan();
   ScreenState screen;
   screen.screen = Screen::trial;
   screen.task = plan.task;
@@ -41,36 +49,38 @@ ScreenState screen_of(const TrialPlan& plan) {
   screen.attempt = plan.attempt;
   screen.n_reshuffles = plan.n_reshuffles;
   screen.can_answer = false;
+  trial.show(screen);
   return screen;
 }
 
-RunningAttempt::RunningAttempt(const TrialRow& row, const TrialPlan& plan, bool require_contact,
-                               double min_answer_s)
-    : rules_(&rules_of(plan.task)),
-      state_{plan, std::vector<std::optional<Label>>(plan.masses_g.size()), 0, {}, {}, {}},
+RunningAttempt::RunningAttempt(const TrialRow& row, std::unique_ptr<TaskTrial> trial,
+                               bool require_contact, double min_answer_s)
+    : trial_(std::move(trial)),
       row_(row),
       require_contact_(require_contact),
       min_answer_s_(min_answer_s),
       accounted_s_(row.started_s),
-      cubes_(fresh_cubes(row.attempt_index, plan)),
-      contact_since_s_(plan.masses_g.size()) {}
+      cubes_(fresh_cubes(row.attempt_index, plan())),
+      contact_since_s_(plan().masses_g.size()) {}
 
 TrialRow RunningAttempt::row() const {
   TrialRow row = row_;
-  row.plan = state_.plan;
-  row.chosen_slot = state_.chosen_slot;
-  row.choice_correct = state_.choice_correct;
-  row.value = state_.value;
+  row.plan = plan();
+  const TrialResult& result = trial_->result();
+  row.outcome = result.outcome;
+  row.chosen_slot = result.chosen_slot;
+  row.choice_correct = result.choice_correct;
+  row.value = result.value;
   return row;
 }
 
 ScreenState RunningAttempt::screen(bool cubes_shown) const {
-  ScreenState screen = screen_of(plan());
+  ScreenState screen = screen_of(*trial_);
   screen.touch_first = require_contact_ && !all_touched();
   screen.can_answer = cubes_shown && !screen.touch_first;
   if (cubes_shown_ && min_answer_s_ > 0) screen.answers_from_s = answers_from_s_ - row_.started_s;
   screen.n_choices = n_choices_;
-  rules_->show(state_, screen);
+  trial_->show(screen);
   return screen;
 }
 
@@ -85,20 +95,16 @@ Refusal RunningAttempt::refusal(const Event& event) const {
 }
 
 Refusal RunningAttempt::action_refusal(const Action& action, double t_s) const {
-  if (std::ranges::find(rules_->offered, action.kind) == rules_->offered.end())
-    return fmt::format("a {} trial has no \"{}\"", name_of(plan().task), name_of(action.kind));
+  const ActionSpec* spec = trial_->declaration().action(action.kind);
+  if (!spec) return fmt::format("a {} trial has no \"{}\"", plan().task, action.kind);
   if (!cubes_shown_) return "the cubes have not appeared yet";
   if (t_s < answers_from_s_)
     return fmt::format("it comes within {:g} s of the cubes", min_answer_s_);
-  if (names_cube(action.kind) != action.slot.has_value())
-    return action.slot ? "it takes no cube" : "it names no cube";
+  if (Refusal refusal = column_refusal(*spec, action)) return refusal;
   if (action.slot && !has_cube(*action.slot))
     return fmt::format("there is no cube {}", *action.slot);
-  if ((action.kind == ActionKind::label) != action.label.has_value())
-    return action.label ? "it takes no label" : "it names no label";
-  if (const Refusal refusal = rules_->refusal(state_, action)) return refusal;
-  const bool is_final = action.kind != ActionKind::label && action.kind != ActionKind::unlabel;
-  if (is_final && require_contact_ && !all_touched()) return "not every cube was touched yet";
+  if (Refusal refusal = trial_->refusal(action)) return refusal;
+  if (!spec->is_step && require_contact_ && !all_touched()) return "not every cube was touched yet";
   return std::nullopt;
 }
 
@@ -159,25 +165,25 @@ void RunningAttempt::reset(const CubesReset& reset) {
     if (!reset.slot || *reset.slot == cube.slot) ++cube.n_resets;
 }
 
-std::optional<Outcome> RunningAttempt::act(const Action& action, double t_s) {
+void RunningAttempt::act(const Action& action, double t_s) {
   if (!row_.first_choice_s) row_.first_choice_s = t_s;
   if (ends_trial(action)) row_.validated_s = t_s;
-  if (names_cube(action.kind)) ++n_choices_;
-  return rules_->act(state_, action);
+  if (action.slot) ++n_choices_;
+  const int n_reshuffles = plan().n_reshuffles;
+  trial_->take(action);
+  if (plan().n_reshuffles != n_reshuffles) rearrange();
 }
 
-void RunningAttempt::rearrange(const TrialPlan& plan) {
-  std::vector<CubeRow> fresh = fresh_cubes(row_.attempt_index, plan);
+void RunningAttempt::rearrange() {
+  std::vector<CubeRow> fresh = fresh_cubes(row_.attempt_index, plan());
   for (std::size_t i = 0; i < fresh.size(); ++i) fresh[i].n_resets = cubes_[i].n_resets;
-  state_.plan = plan;
   cubes_ = std::move(fresh);
   contact_since_s_.assign(cubes_.size(), std::nullopt);
   cubes_shown_ = false;
 }
 
-void RunningAttempt::complete(Outcome outcome, double t_s) {
+void RunningAttempt::complete(double t_s) {
   row_.status = TrialStatus::completed;
-  row_.outcome = outcome;
   row_.ended_s = t_s;
 }
 

@@ -2,29 +2,30 @@
 // and where the time went. Knows nothing of blocks and staircases; that is the engine's.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/tasks/TaskRules.h"
 #include "experiment/Event.h"
 #include "experiment/Rows.h"
 #include "experiment/ScreenState.h"
+#include "tasks/TaskRun.h"
 
 namespace heft {
 
 /// The screen of a trial whose cubes are not there yet.
-ScreenState screen_of(const TrialPlan& plan);
+ScreenState screen_of(const TaskTrial& trial);
 
 class RunningAttempt {
  public:
   /// @param row attempt and setup index and the start's time are taken from it
   /// @param require_contact refuse final answers until every cube was touched
   /// @param min_answer_s refuse all answers until the cubes were there for so long
-  RunningAttempt(const TrialRow& row, const TrialPlan& plan, bool require_contact,
+  RunningAttempt(const TrialRow& row, std::unique_ptr<TaskTrial> trial, bool require_contact,
                  double min_answer_s = 0);
 
-  const TrialPlan& plan() const { return state_.plan; }
+  const TrialPlan& plan() const { return trial_->plan(); }
   TrialRow row() const;
   const std::vector<CubeRow>& cubes() const { return cubes_; }
   ScreenState screen() const { return screen(cubes_shown_); }
@@ -45,18 +46,15 @@ class RunningAttempt {
   void find_effector() { effector_lost_ = false; }
 
   /// Whether an action that is not refused would end the trial.
-  bool ends_trial(const Action& action) const { return rules_->ends_trial(state_, action); }
+  bool ends_trial(const Action& action) const { return trial_->ends(action); }
 
-  /// Folds an action. @return the outcome where it ends the trial
-  std::optional<Outcome> act(const Action& action, double t_s);
+  /// Folds an action. Where the task puts new cubes in the slots, their contacts count from here.
+  void act(const Action& action, double t_s);
+  /// An action has ended the trial.
+  bool has_ended() const { return trial_->result().outcome.has_value(); }
 
-  /// New cubes in the slots after a wrong introduction answer; their contacts count from here.
-  void rearrange(const TrialPlan& plan);
-
-  void complete(Outcome outcome, double t_s);
+  void complete(double t_s);
   void make_void(const std::string& reason, double t_s);
-
-  int n_wrong() const { return state_.n_wrong; }
 
  private:
   std::optional<std::string> action_refusal(const Action& action, double t_s) const;
@@ -65,9 +63,10 @@ class RunningAttempt {
   bool has_cube(int slot) const { return slot >= 1 && slot <= plan().n_slots(); }
   bool all_touched() const;
 
-  const TaskRules* rules_;
-  TaskState state_;
-  TrialRow row_;  // but for what the state holds
+  void rearrange();
+
+  std::unique_ptr<TaskTrial> trial_;
+  TrialRow row_;  // but for the plan and the result
   bool require_contact_;
   double min_answer_s_;
   double accounted_s_;

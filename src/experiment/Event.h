@@ -113,8 +113,8 @@ struct CubeTouch {
   bool operator==(const CubeTouch&) const = default;
 };
 
-/// The answer to the comparison that was answered last does not count: it is presented again, and
-/// its procedure is as if it had not been asked.
+/// The answer to the trial that was answered last does not count: it is presented again, and its
+/// block is as if it had not been answered.
 struct AnswerVetoed {
   static constexpr EventType event_type{"answer_vetoed", EventRole::course};
   std::string reason;  ///< not empty
@@ -204,7 +204,7 @@ struct ActionRefused {
   std::string reason;
   static void event_columns(auto& refused, auto& row) {
     row.json("action", refused.action.kind).json("reason", refused.reason);
-    row.slot(refused.action.slot).label(refused.action.label);
+    row.slot(refused.action.slot).label(refused.action.label).number(refused.action.value);
   }
   bool operator==(const ActionRefused&) const = default;
 };

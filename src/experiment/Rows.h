@@ -125,9 +125,10 @@ void visit_columns(Row& row, Visit&& visit) {
 struct AnswerRow {
   int attempt_index = 0;
   double t_s = 0;
-  ActionKind action = ActionKind::validate;
+  ActionKind action;
   std::optional<int> slot;
   std::optional<Label> label;
+  std::optional<double> value{};
 };
 template <typename Row, typename Visit>
 requires RowOf<Row, AnswerRow>
@@ -136,6 +137,7 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"action", "", "what the participant did"}, row.action);
   visit(LogColumn{"slot", "", "with which cube, 1 leftmost", 1, "BETWEEN 1 AND 6"}, row.slot);
   visit(LogColumn{"label", "", "label that was given"}, row.label);
+  visit(LogColumn{"value", "", "number that was given, in the task's unit", 6}, row.value);
 }
 
 struct ReversalRow {

@@ -3,6 +3,7 @@
 // right.
 #pragma once
 
+#include <any>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,7 +39,7 @@ struct EnumNames<Screen> {
 /// Which page it is: what is touched on one means nothing on another.
 struct PageId {
   Screen screen = Screen::welcome;
-  Task task = Task::sorting;
+  Task task = {};
   int trial_number = 0, attempt = 0, n_reshuffles = 0;
   std::string form = {};  ///< questionnaire: its name and what it is about
 
@@ -47,20 +48,21 @@ struct PageId {
 
 struct ScreenState {
   Screen screen = Screen::welcome;
-  Task task = Task::sorting;  ///< trial and instructions
-  int n_slots = 0;            ///< trial only
+  Task task = {};   ///< trial and instructions
+  int n_slots = 0;  ///< trial only
   /// Trial: which one, so that the page of one is not taken for another's.
   int trial_number = 0, attempt = 0, n_reshuffles = 0;
   /// Trial: between two trials, how far what was there has faded, 0...1; the trial is the next one.
   std::optional<double> faded = {};
-  std::vector<std::optional<Label>> labels = {};  ///< sorting: given so far, by slot
+  /// Trial: the Offer of its task; empty: that of a trial without answers.
+  std::any offer = {};
   bool can_answer = true;  ///< false until the cubes are there, and touched where that is asked for
   bool touch_first = false;  ///< trial: every cube is to be touched first, and not all of them were
   /// Trial: earlier answers, in seconds since its start, are refused; none: it takes any.
   std::optional<double> answers_from_s = {};
-  bool can_validate = false;  ///< sorting: every cube has a label
-  bool try_again = false;     ///< introduction: the cube chosen last was not the heaviest
-  int n_choices = 0;          ///< select, label and unlabel actions so far in this trial
+  bool can_validate = false;  ///< an answer in several steps (labels of all cubes) is complete
+  bool try_again = false;     ///< the answer given last was wrong, and the task asks again
+  int n_choices = 0;          ///< actions with a cube so far in this trial
   double wait_s = 0;          ///< pages: the button to go on appears in so many seconds
   std::map<std::string, std::string> entries = {};  ///< forms: what was answered before
   /// Questionnaire: its name, and what its entries' keys begin with ("sorting.nasa_tlx.").

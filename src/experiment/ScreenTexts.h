@@ -32,10 +32,10 @@ struct ScreenTexts {
 /// The page of texts that a screen shows: its name, with the task's where there is a page for each
 /// ("trial_sorting"). Buttons, places and a trial's hints are on pages of their own, and so is each
 /// questionnaire.
-inline std::string text_page(Screen screen, Task task) {
+inline std::string text_page(Screen screen, const Task& task) {
   const std::string name(name_of(screen));
   const bool by_task = screen == Screen::instructions || screen == Screen::trial;
-  return by_task ? name + '_' + std::string(name_of(task)) : name;
+  return by_task ? name + '_' + task : name;
 }
 
 inline std::string text_page(const ScreenState& state) {

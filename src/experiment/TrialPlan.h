@@ -15,7 +15,7 @@ struct TrialPlan {
   int trial_number = 0;  ///< planned trial, from 1; attempts share it
   int attempt = 1;       ///< from 1; +1 after a veto or a lost camera, unchanged after a crash
   std::string block;
-  Task task = Task::sorting;
+  Task task;
   std::string condition = spring_technique;  ///< name of the technique
   std::string staircase;                     ///< empty: none (sorting, introduction, catch trials)
   std::optional<double> reference_g;         ///< comparisons only

@@ -1,43 +1,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <span>
 #include <variant>
 
 #include "base/DefaultTechniques.h"
+#include "base/PlugTable.h"
 #include "experiment/Rows.h"
 #include "protocol/ProcedureReader.h"
 #include "protocol/ProtocolTables.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
 namespace {
-constexpr Range catch_fractions{0, 1, false, true};
-
 struct NamesInUse {
   const TechniqueNames& techniques;
   UniqueNames blocks{"block"}, staircases{"staircase"};
 };
-
-// A task whose cubes weigh the same has no right answer.
-void read_masses(TableReader& table, std::vector<double>& masses_g, std::size_t fewest,
-                 std::size_t most) {
-  table.require({"masses_g"});
-  table.read("masses_g", masses_g, above_zero);
-  if (!table.has("masses_g") || !table.good({"masses_g"})) return;
-  if (masses_g.size() < fewest || masses_g.size() > most)
-    table.mistake("masses_g",
-                  fmt::format("masses_g has {} masses, expected {}: one a cube", masses_g.size(),
-                              fewest == most ? fmt::format("{}", most)
-                                             : fmt::format("{} to {}", fewest, most)));
-  for (std::size_t i = 0; i < masses_g.size(); ++i)
-    if (std::ranges::count(std::span(masses_g).first(i), masses_g[i]) > 0)
-      table.mistake("masses_g", i,
-                    fmt::format("masses_g has {} g twice, expected different masses: equal ones "
-                                "have no right answer",
-                                masses_g[i]));
-}
 
 Block read_demonstration(TableReader& table, NamesInUse&) {
   DemonstrationBlock block;
@@ -47,35 +28,21 @@ Block read_demonstration(TableReader& table, NamesInUse&) {
   return block;
 }
 
-Block read_introduction(TableReader& table, NamesInUse& names) {
-  IntroductionBlock block;
-  table.read("name", block.name);
-  read_masses(table, block.masses_g, 2, 2);
-  names.techniques.read(table, block.condition);
-  table.read("wrong_answer", block.wrong_answer);
-  table.close();
-  return block;
-}
-
-constexpr int most_trials = 500;  // beyond any session, and what drawing their order takes
-
 // trials = { C1 = 5, C2 = 5 }
-void read_trials_by_technique(TableReader& table, SortingBlock& block, NamesInUse& names) {
+std::vector<TechniqueTrials> read_trials_by_technique(TableReader& table, NamesInUse& names) {
   auto counts = table.table("trials");
-  block.trials.clear();
+  std::vector<TechniqueTrials> trials;
   for (const std::string& technique : counts->keys()) {
     int n = 0;
     counts->read(technique, n, {0, most_trials});
     names.techniques.check(*counts, technique, technique);
-    block.trials.push_back({technique, n});
+    trials.push_back({technique, n});
   }
-  if (block.n_trials() < 1 || block.n_trials() > most_trials)
-    table.mistake("trials", fmt::format("trials are {} in all, expected 1 to {}", block.n_trials(),
-                                        most_trials));
+  return trials;
 }
 
 // trials = 10, c1_trials = 5: as it was written before techniques had names
-void read_trials_of_two(TableReader& table, SortingBlock& block) {
+std::vector<TechniqueTrials> read_trials_of_two(TableReader& table) {
   int trials = 10, c1_trials = 5;
   table.require({"trials", "c1_trials"});
   table.read("trials", trials, {1, most_trials});
@@ -83,37 +50,7 @@ void read_trials_of_two(TableReader& table, SortingBlock& block) {
   if (table.good({"trials", "c1_trials"}) && c1_trials > trials)
     table.mistake("c1_trials",
                   fmt::format("c1_trials is {}, expected at most trials {}", c1_trials, trials));
-  block.trials = {{coupled_technique, c1_trials}, {spring_technique, trials - c1_trials}};
-}
-
-// Runs of one technique are shortest when the others' trials part those of the commonest.
-void check_longest_run(TableReader& table, const SortingBlock& block) {
-  if (!table.good({"trials", "c1_trials", "max_run"}) || block.max_run == 0) return;
-  int commonest = 0;
-  for (const TechniqueTrials& some : block.trials) commonest = std::max(commonest, some.trials);
-  const int others = block.n_trials() - commonest;
-  const int shortest = (commonest + others) / (others + 1);
-  if (block.max_run < shortest)
-    table.mistake(
-        "max_run",
-        fmt::format("max_run is {}, but {} trials of one technique and {} of others can't "
-                    "be ordered without a longer run, expected at least {}, or 0 for any",
-                    block.max_run, commonest, others, shortest));
-}
-
-Block read_sorting(TableReader& table, NamesInUse& names) {
-  SortingBlock block;
-  table.read("name", block.name);
-  read_masses(table, block.masses_g, 2, FrameRow::most_cubes);
-  if (table.has_table("trials"))
-    read_trials_by_technique(table, block, names);
-  else
-    read_trials_of_two(table, block);
-  table.read("max_run", block.max_run);
-  table.read("orders", block.orders);
-  table.close();
-  check_longest_run(table, block);
-  return block;
+  return {{coupled_technique, c1_trials}, {spring_technique, trials - c1_trials}};
 }
 
 // paired = true: one staircase from `start`, one from `start_below`, otherwise alike.
@@ -166,7 +103,7 @@ std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, Na
 }
 
 // catch_trials = { 15g = 10, 200g = 10 } by reference, or a number for all of them together.
-void read_catch_trials(TableReader& table, ComparisonBlock& block) {
+void read_catch_trials(TableReader& table, Comparison::Block& block) {
   std::vector<double> references_g;
   for (const ReferenceStaircase& entry : block.staircases)
     if (std::ranges::count(references_g, entry.reference_g) == 0)
@@ -192,32 +129,102 @@ void read_catch_trials(TableReader& table, ComparisonBlock& block) {
     if (n >= n_references) block.catch_trials.push_back({reference_g, n / n_references});
 }
 
-void read_catches(TableReader& table, ComparisonBlock& block) {
-  table.read("catch_fraction", block.catch_fraction, catch_fractions);
+void read_catches(TableReader& table, Comparison::Block& block) {
   const bool has_number = table.has("catch_trials");
-  if (has_number && block.catch_fraction > 0)
-    table.mistake("catch_fraction",
-                  "catch_fraction together with catch_trials, expected one of "
-                  "them: a coin each trial, or a fixed number");
   if (table.has("catch_every") && !has_number)
     table.mistake("catch_every", "catch_every without catch_trials, which it spreads");
   table.read("catch_every", block.catch_every, {4, most_trials});
   read_catch_trials(table, block);
 }
 
-Block read_comparison(TableReader& table, NamesInUse& names) {
-  ComparisonBlock block;
-  table.require({"staircase"});
+// Reads a block's keys into its fields, by their types.
+class KeyReader {
+ public:
+  KeyReader(TableReader& table, NamesInUse& names) : table_(table), names_(names) {}
+
+  template <typename Field>
+  void operator()(const BlockKey& key, Field&& field) {
+    if (key.required) table_.require({key.name});
+    read(key, field);
+  }
+
+  /// What is wrong between the fields, but for what was noted already.
+  void note(const KeyMistake& wrong) {
+    const auto is_good = [&](const std::string& key) { return table_.good({key}); };
+    if (!is_good(wrong.key) || !std::ranges::all_of(wrong.also, is_good)) return;
+    if (wrong.index)
+      table_.mistake(wrong.key, *wrong.index, wrong.message);
+    else
+      table_.mistake(wrong.key, wrong.message);
+  }
+
+ private:
+  static Range range_of(const BlockKey& key) {
+    return {std::max(key.low, any_number.low), std::min(key.high, any_number.high), false,
+            key.high_open};
+  }
+
+  template <typename Number>
+  requires requires(TableReader table, Number number) { table.read("", number, any_number); }
+  void read(const BlockKey& key, Number& field) { table_.read(key.name, field, range_of(key)); }
+  void read(const BlockKey& key, int& field) {
+    WholeRange range;
+    range.low = static_cast<std::int64_t>(std::max(key.low, 0.0));
+    if (std::isfinite(key.high)) range.high = static_cast<std::int64_t>(key.high);
+    table_.read(key.name, field, range);
+  }
+  void read(const BlockKey& key, bool& field) { table_.read(key.name, field); }
+  void read(const BlockKey& key, std::string& field) { table_.read(key.name, field); }
+  template <typename Enum>
+  requires std::is_enum_v<Enum>
+  void read(const BlockKey& key, Enum& field) { table_.read(key.name, field); }
+  template <typename Keys>
+  requires requires(Keys keys, KeyReader reader) { keys.visit_keys(reader); }
+  void read(const BlockKey& key, std::optional<Keys>& field) {
+    table_.in_table(key.name, [&](TableReader& inner) {
+      field.emplace().visit_keys(KeyReader(inner, names_));
+    });
+  }
+
+  void read(const BlockKey&, ByTechnique<std::string>& field) {
+    names_.techniques.read(table_, field.name);
+  }
+  void read(const BlockKey&, std::vector<TechniqueTrials>& trials) {
+    trials = table_.has_table("trials") ? read_trials_by_technique(table_, names_)
+                                        : read_trials_of_two(table_);
+  }
+  void read(const BlockKey&, TrialsOfEachMass<std::vector<TechniqueTrials>>& field) {
+    if (table_.has_table("trials")) {
+      field.trials = read_trials_by_technique(table_, names_);
+      return;
+    }
+    TechniqueTrials all{spring_technique, 1};
+    table_.require({"trials_per_mass"});
+    table_.read("trials_per_mass", all.trials, {1, most_trials});
+    names_.techniques.read(table_, all.technique);
+    field.trials = {all};
+  }
+  void read(const BlockKey&, InterleaveConfig& field) { field = read_interleaving(table_); }
+  void read(const BlockKey& key, std::vector<ReferenceStaircase>& field) {
+    for (TableReader& staircase : table_.tables(key.name))
+      std::ranges::move(read_reference_staircases(staircase, names_), std::back_inserter(field));
+  }
+  void read(const BlockKey&, CatchTrials<Comparison::Block>& field) {
+    read_catches(table_, field.block);
+  }
+
+  TableReader& table_;
+  NamesInUse& names_;
+};
+
+template <typename Kind>
+Block read_trials(TableReader& table, NamesInUse& names) {
+  typename Kind::Block block;
   table.read("name", block.name);
-  names.techniques.read(table, block.condition);
-  table.read("positive_answer", block.positive_answer);
-  table.read("sides", block.sides);
-  block.interleaving = read_interleaving(table);
-  for (TableReader& staircase : table.tables("staircase"))
-    std::ranges::move(read_reference_staircases(staircase, names),
-                      std::back_inserter(block.staircases));
-  read_catches(table, block);
+  KeyReader keys(table, names);
+  block.visit_keys(keys);
   table.close();
+  for (const KeyMistake& wrong : block.check()) keys.note(wrong);
   return block;
 }
 
@@ -233,20 +240,25 @@ struct BlockKind {
   std::string_view name;
   Block (*read)(TableReader& table, NamesInUse& names);
 };
-constexpr std::array kinds{
-    BlockKind{"demonstration", read_demonstration}, BlockKind{"introduction", read_introduction},
-    BlockKind{"sorting", read_sorting}, BlockKind{"comparison", read_comparison},
-    BlockKind{"break", read_break}};
+
+const std::vector<BlockKind>& block_kinds() {
+  static const auto kinds = [] {
+    std::vector<BlockKind> all{{"demonstration", read_demonstration}};
+    Tasks::each([&]<typename Kind>() { all.push_back({Kind::task.name, read_trials<Kind>}); });
+    all.push_back({"break", read_break});
+    return all;
+  }();
+  return kinds;
+}
 
 // A misspelled kind is noted, and the block is checked as what it was most likely meant to be.
 std::optional<Block> read_block(TableReader& table, NamesInUse& names) {
-  std::array<std::string_view, kinds.size()> kind_names;
-  std::ranges::transform(kinds, kind_names.begin(), &BlockKind::name);
-  const auto name = table.read_nearest_name("kind", kind_names);
+  const std::span<const BlockKind> kinds(block_kinds());
+  const auto name = table.read_nearest_name("kind", names_in(kinds));
   if (!name) return std::nullopt;
   table.require({"name"});
   Block block = std::ranges::find(kinds, *name, &BlockKind::name)->read(table, names);
-  std::visit([&](const auto& read) { names.blocks.check(table, read.name); }, block);
+  names.blocks.check(table, block_name(block));
   return block;
 }
 

@@ -1,17 +1,19 @@
 // How long a session will be: a forecast for planning, not a promise.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "protocol/Protocol.h"
 
 namespace heft {
 
-/// Seconds a trial takes, on the average. Assumed: the paper sets no time limit and gives no
-/// times. Replace them by what your own participants take.
-struct TrialDurations {
-  double introduction_s = 15;
-  double sorting_s = 25;
-  double comparison_s = 10;
-};
+/// Seconds that a trial takes on average, by task.
+using TrialDurations = std::map<std::string, double>;
+
+/// What the tasks assume: the paper sets no time limit and gives no times. Replace them by what
+/// your own participants take.
+TrialDurations assumed_durations();
 
 struct ExpectedLength {
   double trials = 0;   ///< with catch trials
@@ -25,6 +27,7 @@ struct ExpectedLength {
 /// planned at its reference (an adaptive one's start) and all of it; an
 /// observer perceives a difference of 1.4 times its threshold in 84 % of trials. The same protocol
 /// always gives the same forecast.
-ExpectedLength expected_length(const Protocol& protocol, const TrialDurations& durations = {});
+ExpectedLength expected_length(const Protocol& protocol,
+                               const TrialDurations& durations = assumed_durations());
 
 }  // namespace heft

@@ -14,6 +14,7 @@ struct InterleavedProcedures;
 struct MarkerBody;
 struct Parameter;
 struct Scene;
+struct SessionPlan;
 struct ScreenTexts;
 struct SyntheticSettings;
 
@@ -93,8 +94,8 @@ SyntheticSettings parse_synthetic_camera(const std::string& text, const std::str
 std::string described(const SyntheticSettings& settings);
 
 /// Every word that a participant reads, in one language: its code and one table a page; which pages
-/// and keys there must be is listed once, in TextsFile.cpp. Line ends are LF, and spaces at a
-/// text's beginning and end are dropped.
+/// and keys there must be is listed once, in TextsFile.cpp and by the tasks (require_words). Line
+/// ends are LF, and spaces at a text's beginning and end are dropped.
 /// @throws InvalidFile with every missing, unknown or empty page and key at its line and column
 ScreenTexts parse_texts(const std::string& text, const std::string& file);
 
@@ -102,6 +103,16 @@ ScreenTexts parse_texts(const std::string& text, const std::string& file);
 /// file's text may be written below a text file's.
 /// @throws InvalidFile with every mistake at its line and column
 ScreenTexts parse_questionnaires(const std::string& text, const std::string& file);
+
+/// A text file need not have the words of every task; a session needs those of its own.
+/// @param file that the texts are from, for the message
+/// @throws Error (invalid file) naming the words of the plan's tasks that are missing
+void require_words(const ScreenTexts& texts, const SessionPlan& plan, const std::string& file);
+
+/// Gives blocks the questions that their trials ask, in the words of a session's texts.
+/// @param text of the session's text file, with its questionnaires; empty: it has none
+/// @throws InvalidFile as parse_texts
+void take_questions(SessionPlan& plan, const std::string& text, const std::string& file);
 
 /// @throws Error when the file can't be read, InvalidFile as parse_texts
 ScreenTexts load_texts(const std::string& path);

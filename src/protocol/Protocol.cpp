@@ -96,11 +96,11 @@ void read_screens(TableReader& reader, ScreensChosen& screens) {
 
 // How many cubes the block with most of them shows.
 int most_cubes(const std::vector<Block>& blocks) {
-  std::size_t most = 2;
+  int most = 2;
   for (const Block& block : blocks)
-    if (const auto* sorting = std::get_if<SortingBlock>(&block))
-      most = std::max(most, sorting->masses_g.size());
-  return static_cast<int>(most);
+    if (const auto* trials = std::get_if<TaskBlock>(&block))
+      most = std::max(most, trials->most_cubes());
+  return most;
 }
 
 void check_fit(TableReader& table, const Layout& layout, int n_cubes) {
@@ -170,6 +170,16 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
   reader.close();
   mistakes.throw_if_any();
   return protocol;
+}
+
+std::set<std::string> questionnaires_of(const Protocol& protocol) {
+  std::set<std::string> all;
+  for (const auto& [after, names] : protocol.screens.questionnaires)
+    all.insert(names.begin(), names.end());
+  for (const Block& block : protocol.blocks)
+    if (const auto* trials = std::get_if<TaskBlock>(&block))
+      if (const auto name = trials->questionnaire()) all.insert(*name);
+  return all;
 }
 
 std::vector<Eigen::Vector3d> slot_positions(const Layout& layout, int n) {

@@ -3,14 +3,15 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "experiment/Block.h"
 #include "experiment/Stage.h"
 #include "physics/DriveInput.h"
 #include "physics/Scene.h"
 #include "protocol/AnalysisPlan.h"
+#include "tasks/SessionPlan.h"
 
 namespace heft {
 
@@ -84,6 +85,9 @@ struct Protocol : SessionPlan {
   AnalysisPlan analysis;
   ExclusionRules exclusion;
 };
+
+/// The questionnaires that are asked at the end, after blocks, or of which trials ask a question.
+std::set<std::string> questionnaires_of(const Protocol& protocol);
 
 /// Centers of n cubes in a row along x, leftmost first.
 std::vector<Eigen::Vector3d> slot_positions(const Layout& layout, int n);

@@ -10,6 +10,8 @@
 #include "experiment/ScreenTexts.h"
 #include "protocol/Files.h"
 #include "protocol/TableReader.h"
+#include "tasks/SessionPlan.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -31,14 +33,7 @@ constexpr std::array required_pages{
              "eyesight_lenses ar_experience ar_experience_never ar_experience_once_or_twice "
              "ar_experience_several_times ar_experience_often"},
     PageKeys{"demonstration", "title text"},
-    PageKeys{"instructions_introduction", "title text"},
-    PageKeys{"instructions_sorting", "title text"},
-    PageKeys{"instructions_comparison", "title text"},
     PageKeys{"trial", "wait_for_cubes touch_every_cube", "next_cubes drag_effector"},
-    PageKeys{"trial_introduction", "question try_again"},
-    PageKeys{"trial_sorting",
-             "question tap_a_cube lightest intermediate heaviest validate dont_know"},
-    PageKeys{"trial_comparison", "question no_difference"},
     PageKeys{"rest", "title text time_left"},
     PageKeys{"paused", "title text"},
     PageKeys{"how_decided",
@@ -49,6 +44,21 @@ constexpr std::array required_pages{
 /// May be missing, too.
 constexpr std::array later_pages{PageKeys{"declined", "title text take_back leave"},
                                  PageKeys{"setting_up", "title text"}};
+
+struct TaskPage {
+  std::string page;
+  std::string_view keys;
+};
+
+// A task's two pages. They may be missing, or lack keys: a session with the task refuses them.
+std::vector<TaskPage> pages_of(std::string_view task) {
+  std::vector<TaskPage> pages;
+  Tasks::call(task, [&]<typename Kind>() {
+    pages = {{text_page(Screen::instructions, Kind::task.name), "title text"},
+             {text_page(Screen::trial, Kind::task.name), Kind::texts}};
+  });
+  return pages;
+}
 
 std::string trimmed(const std::string& text) {
   std::string kept;
@@ -219,10 +229,44 @@ ScreenTexts parse_texts(const std::string& text, const std::string& file) {
   for (const PageKeys& keys : later_pages)
     if (auto table = reader.table(keys.page))
       texts.pages.emplace(keys.page, read_page(*table, keys));
+  for (const std::string_view task : words_of<Task>())
+    for (const TaskPage& page : pages_of(task))
+      if (auto table = reader.table(page.page))
+        texts.pages.emplace(page.page, read_page(*table, {page.page, "", page.keys}));
   read_questionnaires(reader, texts);
   reader.close();
   mistakes.throw_if_any();
   return texts;
+}
+
+void require_words(const ScreenTexts& texts, const SessionPlan& plan, const std::string& file) {
+  std::vector<std::string> missing;
+  for (const Block& block : plan.blocks) {
+    const auto* trials = std::get_if<TaskBlock>(&block);
+    if (!trials) continue;
+    for (const TaskPage& page : pages_of(trials->task().name)) {
+      std::istringstream words{std::string(page.keys)};
+      for (std::string key; words >> key;)
+        if (std::string text = fmt::format("[{}] {}", page.page, key);
+            texts.if_any(page.page, key).empty() && std::ranges::count(missing, text) == 0)
+          missing.push_back(std::move(text));
+    }
+  }
+  if (!missing.empty())
+    throw Error(fmt::format("{} lacks words of the protocol's tasks: {}; add them, or use another "
+                            "text file",
+                            file, fmt::join(missing, ", ")),
+                ExitCode::invalid_file);
+}
+
+void take_questions(SessionPlan& plan, const std::string& text, const std::string& file) {
+  std::optional<ScreenTexts> texts;
+  for (Block& block : plan.blocks) {
+    auto* trials = std::get_if<TaskBlock>(&block);
+    if (text.empty() || !trials || !trials->questionnaire()) continue;
+    if (!texts) texts = parse_texts(text, file);
+    trials->read_question(texts->questionnaires);
+  }
 }
 
 ScreenTexts load_texts(const std::string& path) {

@@ -11,6 +11,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/PoseTypes.h"
+#include "tasks/Tasks.h"
 
 namespace SQLite {
 class Column;
@@ -45,6 +46,13 @@ class Cells {
   template <typename Enum>
   requires std::is_enum_v<Enum>
   void read(Enum& value) { value = name<Enum>(); }
+  template <typename List>
+  void read(Word<List>& word) {
+    word = text();
+    if (const auto words = words_of<Word<List>>();
+        std::ranges::find(words, std::string_view(word)) == words.end())
+      refuse_name(word, quoted_list(words));
+  }
   template <typename Value>
   void read(std::optional<Value>& value) {
     value.reset();

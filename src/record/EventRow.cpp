@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "record/RowSql.h"
 #include "record/SetupJson.h"
 
 namespace heft {
@@ -37,7 +38,8 @@ class ToRow {
   }
   void detail_is(std::string_view text, std::string_view) { row_.detail = text; }
   ToRow& slot(std::optional<int> slot) { return set(row_.slot, slot); }
-  ToRow& label(std::optional<Label> label) { return set(row_.label, label); }
+  ToRow& label(const std::optional<Label>& label) { return set(row_.label, label); }
+  ToRow& number(std::optional<double> number) { return set(row_.value, number); }
   ToRow& push(const CubeTouch& touch) {
     row_.deepest_push_m = touch.deepest_push_m;
     row_.peak_lag_m = touch.peak_lag_m;
@@ -77,7 +79,7 @@ class FromRow {
 
   template <typename Value>
   FromRow& detail(Value& value) {
-    if constexpr (std::is_enum_v<Value>)
+    if constexpr (is_listed<Value>)
       value = named_in<Value>(row_.detail);
     else if constexpr (std::same_as<Value, SessionConfig>)
       value = setup_from_json(row_.detail);
@@ -90,6 +92,7 @@ class FromRow {
   }
   FromRow& slot(auto& slot) { return take(slot, row_.slot, "a cube's slot"); }
   FromRow& label(std::optional<Label>& label) { return take(label, row_.label, "a label"); }
+  FromRow& number(std::optional<double>& number) { return take(number, row_.value, "a number"); }
   FromRow& push(CubeTouch& touch) {
     touch.deepest_push_m = row_.deepest_push_m;
     touch.peak_lag_m = row_.peak_lag_m;
@@ -104,7 +107,7 @@ class FromRow {
   FromRow& json(const char* key, Value& value) try {
     if (json_.is_null()) json_ = Json::parse(row_.detail, nullptr, /*allow_exceptions=*/false);
     if (!json_.is_object()) refuse(row_, "a JSON object");
-    if constexpr (std::is_enum_v<Value>)
+    if constexpr (is_listed<Value>)
       value = named_in<Value>(json_.at(key).template get<std::string>());
     else
       value = json_.at(key).template get<Value>();
@@ -124,10 +127,15 @@ class FromRow {
     }
     return *this;
   }
-  template <typename Enum>
-  Enum named_in(const std::string& text) {
-    if (const auto value = named<Enum>(text)) return *value;
-    refuse(row_, quoted_list(EnumNames<Enum>::names));
+  template <typename Listed>
+  Listed named_in(const std::string& text) {
+    const auto names = listed_names<Listed>();
+    const auto found = std::ranges::find(names, text);
+    if (found == names.end()) refuse(row_, quoted_list(names));
+    if constexpr (is_word<Listed>)
+      return Listed(*found);
+    else
+      return static_cast<Listed>(found - names.begin());
   }
 
   const EventRow& row_;
@@ -173,7 +181,8 @@ std::string text_of(const Event& event) {
   if (row.slot) text += fmt::format(" cube {}", *row.slot);
   if (row.label) text += fmt::format(" {}", name_of(*row.label));
   text += fmt::format(" at {} s", row.t_s);
-  if (row.value) text += fmt::format(", {} s", *row.value);
+  const bool is_number = event.is<Action, ActionRefused>();
+  if (row.value) text += fmt::format(", {}{}", *row.value, is_number ? "" : " s");
   if (row.deepest_push_m && row.peak_lag_m)
     text += fmt::format(", {} m deep, {} m behind", *row.deepest_push_m, *row.peak_lag_m);
   return text;

@@ -29,7 +29,8 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"slot", "", "to which cube, 1 leftmost", 1, "BETWEEN 1 AND 6"}, row.slot);
   visit(LogColumn{"label", "", "with which label"}, row.label);
   visit(LogColumn{"detail", "", "the action, the reason, a text, or JSON, by kind"}, row.detail);
-  visit(LogColumn{"value", "", "a duration in seconds, by kind"}, row.value);
+  visit(LogColumn{"value", "", "a duration in seconds or the number that was given, by kind"},
+        row.value);
   visit_push_columns(row, visit);
 }
 

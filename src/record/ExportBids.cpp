@@ -10,6 +10,7 @@
 #include <set>
 
 #include "record/ExportFolder.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -91,12 +92,6 @@ void write_json(ExportFolder& folder, const std::string& name, const ordered_jso
 ordered_json sidecar_of(const ExportTable& table, ordered_json json) {
   for (const ExportColumn& column : table.columns) json[column.name] = column_json(column);
   return json;
-}
-
-const char* description_of(const std::string& task) {
-  if (task == "introduction") return "Which of two cubes of very different mass is heavier";
-  if (task == "sorting") return "Cubes are pushed and told from the lightest to the heaviest";
-  return "Which of two cubes is heavier, or is there no difference";
 }
 
 class BidsExport {
@@ -219,7 +214,7 @@ class BidsExport {
   }
 
   void write_sidecars(const std::string& task) {
-    const ordered_json told{{"TaskName", task}, {"TaskDescription", description_of(task)}};
+    const ordered_json told{{"TaskName", task}, {"TaskDescription", task_named(task).about}};
     const std::string stem = "task-" + task_label(task);
     write_json(folder_, stem + "_beh.json", sidecar_of(trials_, told));
     write_json(folder_, stem + "_events.json", sidecar_of(events_, ordered_json::object()));

@@ -12,7 +12,7 @@
 
 #include "experiment/EachCell.h"
 #include "record/EventRow.h"
-#include "record/SessionHeader.h"
+#include "record/RowSql.h"
 
 namespace heft {
 
@@ -33,8 +33,8 @@ struct Plain<std::optional<Value>> {
 template <typename Value>
 std::string levels() {
   using Inner = typename Plain<Value>::type;
-  if constexpr (std::is_enum_v<Inner>)
-    return fmt::format("{}", fmt::join(EnumNames<Inner>::names, "|"));
+  if constexpr (is_listed<Inner>)
+    return fmt::format("{}", fmt::join(listed_names<Inner>(), "|"));
   else
     return std::is_same_v<Inner, bool> ? "0|1" : "";
 }

@@ -6,14 +6,10 @@
 namespace heft {
 
 namespace {
-template <typename Enum>
-constexpr ClosedList list() {
-  return {closed_list<Enum>, EnumNames<Enum>::names};
+template <typename Listed>
+ClosedList list() {
+  return {closed_list<Listed>, listed_names<Listed>()};
 }
-constexpr std::array lists{list<Task>(),         list<Label>(),   list<ActionKind>(),
-                           list<TrialStatus>(),  list<Outcome>(), list<EventKind>(),
-                           list<SessionState>(), list<Finish>(),  list<Censored>(),
-                           list<Purpose>()};
 
 std::string attempt_of(std::string_view table) {
   return fmt::format(
@@ -35,7 +31,19 @@ std::vector<std::string_view> columns_in(std::string_view list) {
 }  // namespace
 
 std::span<const ClosedList> closed_lists() {
+  static const std::array lists{list<TrialStatus>(), list<EventKind>(), list<SessionState>(),
+                                list<Finish>(),      list<Censored>(),  list<Purpose>()};
   return lists;
+}
+
+std::vector<std::string_view> words_for(std::string_view table, const TaskDeclaration& task) {
+  std::vector<std::string_view> words;
+  if (table == closed_list<Task>) words = {task.name};
+  if (table == closed_list<Label>) words = {task.labels.begin(), task.labels.end()};
+  if (table == closed_list<Outcome>) words = {task.outcomes.begin(), task.outcomes.end()};
+  if (table == closed_list<ActionKind>)
+    for (const ActionSpec& action : task.actions) words.push_back(action.kind);
+  return words;
 }
 
 std::string in_session(std::string_view table, std::string_view id, std::string_view columns,

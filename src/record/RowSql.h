@@ -16,6 +16,7 @@
 #include "experiment/EachCell.h"
 #include "experiment/Event.h"
 #include "record/SessionHeader.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -48,11 +49,31 @@ inline constexpr std::string_view closed_list<Purpose> = "list_purpose";
 
 struct ClosedList {
   std::string_view table;
-  std::span<const std::string_view> names;
+  std::vector<std::string_view> names;
 };
 
-/// All of them.
+/// Whether a value is one of a closed list's names.
+template <typename Value>
+inline constexpr bool is_listed = std::is_enum_v<Value> || is_word<Value>;
+
+template <typename Listed>
+std::vector<std::string_view> listed_names() {
+  if constexpr (is_word<Listed>)
+    return words_of<Listed>();
+  else
+    return {EnumNames<Listed>::names.begin(), EnumNames<Listed>::names.end()};
+}
+
+/// Those that the program closes, filled when a log is made.
 std::span<const ClosedList> closed_lists();
+
+/// The lists of the tasks' words. A task's words are added, with its name and edition, when its
+/// first trial starts: so a further task needs no further version of the log.
+inline constexpr std::array<std::string_view, 4> word_lists{
+    closed_list<Task>, closed_list<Label>, closed_list<ActionKind>, closed_list<Outcome>};
+
+/// What a task adds to the list of that table.
+std::vector<std::string_view> words_for(std::string_view table, const TaskDeclaration& task);
 
 /// Each column's name and declaration, those of versions up to `version`.
 class ColumnSql {
@@ -84,7 +105,7 @@ class ColumnSql {
   }
   template <typename Value>
   static std::string type_of() {
-    if constexpr (std::is_enum_v<Value> || std::same_as<Value, std::string>)
+    if constexpr (is_listed<Value> || std::same_as<Value, std::string>)
       return "TEXT";
     else if constexpr (std::floating_point<Value>)
       return "REAL";
@@ -93,7 +114,7 @@ class ColumnSql {
   }
   template <typename Value>
   static std::string checked(const CellColumn& column) {
-    if constexpr (std::is_enum_v<Value>)
+    if constexpr (is_listed<Value>)
       return fmt::format(" REFERENCES {}", closed_list<Value>);
     else if constexpr (std::same_as<Value, bool>)
       return fmt::format(" CHECK ({} IN (0, 1))", column.name);

@@ -55,6 +55,7 @@ void RowWriter::insert(const std::string& sql, const Row& row, const Keys&... ke
 void RowWriter::forget() {
   last_attempt_.reset();
   log_version_.reset();
+  tasks_.clear();
   n_new_events_ = n_new_frames_ = 0;
   chain_.forget();
 }
@@ -202,6 +203,7 @@ void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {
   static const std::string sql =
       upsert_sql("trial", fmt::format("session_id, setup_id, {}", columns_of<TrialRow>()),
                  "session_id, attempt_index");
+  if (tasks_.insert(trial.plan.task).second) schema::add_words(database_, trial.plan.task);
   insert(sql, trial, session_id, setup_id(session_id, trial.setup_index));
   write_masses(session_id, trial);
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "record/Digests.h"
@@ -82,6 +83,7 @@ class RowWriter {
   std::map<std::string, std::unique_ptr<SQLite::Statement>> statements_;
   std::optional<Attempt> last_attempt_;
   std::optional<std::pair<std::int64_t, int>> log_version_;  ///< of the session written last
+  std::set<std::string> tasks_;                              ///< whose words are in the log
   int n_new_events_ = 0, n_new_frames_ = 0;                  ///< not yet counted
   DigestChain chain_;
   RowDigest digest_;  ///< of the row being written

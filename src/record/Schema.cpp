@@ -3,9 +3,11 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
+#include "record/Binding.h"
 #include "record/RowSql.h"
 
 namespace heft::schema {
@@ -44,6 +46,33 @@ const std::map<std::string, std::string>& objects_of_a_log() {
   return objects;
 }
 
+// Whether a list of words holds what tasks of ours bring, and all of it that the tasks with trials
+// in the log bring today; what an older edition of a task had not may be missing.
+bool is_ours(SQLite::Database& database, std::string_view list) {
+  std::set<std::string> found;
+  SQLite::Statement entries(database, fmt::format("SELECT name, task, edition FROM {}", list));
+  while (entries.executeStep()) {
+    const std::string word = entries.getColumn(0), name = entries.getColumn(1);
+    const int edition = entries.getColumn(2);
+    if (place_of(name) == words_of<Task>().size()) return false;
+    const TaskDeclaration& task = task_named(name);
+    const auto words = words_for(list, task);
+    if (edition < 1 || edition > task.edition ||
+        std::ranges::find(words, std::string_view(word)) == words.end())
+      return false;
+    found.insert(word);
+  }
+  SQLite::Statement tasks(database, "SELECT name, edition FROM list_task");
+  while (tasks.executeStep()) {
+    const std::string name = tasks.getColumn(0);
+    if (place_of(name) == words_of<Task>().size()) return false;
+    if (tasks.getColumn(1).getInt() != task_named(name).edition) continue;
+    for (const std::string_view word : words_for(list, task_named(name)))
+      if (!found.contains(std::string(word))) return false;
+  }
+  return true;
+}
+
 std::vector<std::string> changed_lists(SQLite::Database& database) {
   std::vector<std::string> changed;
   for (const ClosedList& list : closed_lists()) {
@@ -53,6 +82,8 @@ std::vector<std::string> changed_lists(SQLite::Database& database) {
     while (query.executeStep()) found.insert(query.getColumn(0).getString());
     if (found != names) changed.push_back(fmt::format("the entries of {}", list.table));
   }
+  for (const std::string_view list : word_lists)
+    if (!is_ours(database, list)) changed.push_back(fmt::format("the entries of {}", list));
   return changed;
 }
 }  // namespace
@@ -90,6 +121,20 @@ std::vector<std::string> foreign_objects(SQLite::Database& database) {
     if (!found.contains(name)) foreign.push_back(name + ", which is missing");
   if (foreign.empty()) foreign = changed_lists(database);
   return foreign;
+}
+
+void add_words(SQLite::Database& database, std::string_view name) {
+  const TaskDeclaration& task = task_named(name);
+  for (const std::string_view list : word_lists) {
+    SQLite::Statement insert(database, fmt::format("{} ON CONFLICT DO NOTHING",
+                                                   insert_sql(list, "name, task, edition")));
+    for (const std::string_view word : words_for(list, task))
+      run(insert, std::string(word), std::string(task.name), task.edition);
+  }
+}
+
+const std::string& made_by(const std::string& object) {
+  return objects_of_a_log().at(object);
 }
 
 }  // namespace heft::schema

@@ -32,6 +32,13 @@ void create(SQLite::Database& database);
 /// entries of closed lists likewise; one line each. Empty: it is as this program made it.
 std::vector<std::string> foreign_objects(SQLite::Database& database);
 
+/// Adds what a task brings to the lists of words, unless it is there.
+/// @throws Error (usage) for a task that is none of ours
+void add_words(SQLite::Database& database, std::string_view task);
+
+/// The statement that makes a table or index of today's log: "table answer".
+const std::string& made_by(const std::string& object);
+
 /// Brings an older log up to date, in one transaction of its own. What sessions of versions 1 and 2
 /// were run with, which stood in their headers, becomes rows of `setup`; digests stay as they were.
 /// @throws Error (diverged) naming what is foreign in it; SQLite::Exception

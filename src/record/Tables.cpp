@@ -19,6 +19,11 @@ std::string list_tables() {
   std::string sql;
   for (const ClosedList& list : closed_lists())
     sql += fmt::format("CREATE TABLE {} (name TEXT PRIMARY KEY) STRICT;\n", list.table);
+  for (const std::string_view list : word_lists)
+    sql += fmt::format(
+        "CREATE TABLE {} (name TEXT PRIMARY KEY, task TEXT NOT NULL, edition INTEGER NOT NULL) "
+        "STRICT;\n",
+        list);
   return sql;
 }
 

@@ -1,6 +1,7 @@
 // Logs of versions 1 to 3: their tables are made anew and their rows copied over as they are, so
-// that one program text serves all versions from there on. Those of versions 4 and 5 only get the
-// views of today and the words that the closed lists have since.
+// that one program text serves all versions from there on. Of versions 4 and 5 only the views, the
+// answers and the lists of the tasks' words are made anew, and the closed lists get the names that
+// they have since.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -23,7 +24,7 @@ namespace heft::schema {
 namespace {
 
 constexpr int without_setups = 2;      // version 1 differs in columns that may be NULL alone
-constexpr int with_todays_tables = 4;  // and later
+constexpr int with_todays_frames = 4;  // and later
 
 std::vector<std::string> tables_of(int version) {
   std::vector<std::string> tables{"session", "participant_info", "trial",    "event", "cube",
@@ -31,6 +32,7 @@ std::vector<std::string> tables_of(int version) {
   if (version <= without_setups) return tables;
   tables.emplace_back("setup");
   for (const ClosedList& list : closed_lists()) tables.emplace_back(list.table);
+  for (const std::string_view list : word_lists) tables.emplace_back(list);
   return tables;
 }
 constexpr std::array older_others{"index event_by_session", "index answer_by_trial",
@@ -125,12 +127,40 @@ void copy_rows_without_setups(SQLite::Database& database) {
        "'cubes_reset' AND (e.slot IS NULL OR e.slot = o.slot))");
 }
 
-void renew_views_and_lists(SQLite::Database& database) {
+// Words are those of the tasks that the log has trials of, in the order of their first ones.
+void tell_words(SQLite::Database& database) {
+  std::vector<std::string> tasks;
+  SQLite::Statement query(database, "SELECT task FROM trial GROUP BY task ORDER BY min(trial_id)");
+  while (query.executeStep()) tasks.push_back(query.getColumn(0).getString());
+  for (const std::string& task : tasks) {
+    if (place_of(task) == words_of<Task>().size())
+      throw Error(fmt::format("the log holds a trial of no task of heft's: {}", task),
+                  ExitCode::diverged);
+    add_words(database, task);
+  }
+}
+
+void renew_answers_and_words(SQLite::Database& database) {
+  std::vector<std::string> tables{"answer"};
+  tables.insert(tables.end(), word_lists.begin(), word_lists.end());
+  database.exec("DROP INDEX answer_by_trial");
+  for (const std::string& table : tables) {
+    database.exec(fmt::format("ALTER TABLE {} RENAME TO {}", table, older(table)));
+    database.exec(made_by("table " + table));
+  }
+  copy(database, "answer");
+  database.exec(made_by("index answer_by_trial"));
+  for (const std::string& table : tables) database.exec(fmt::format("DROP TABLE {}", older(table)));
+  tell_words(database);
+}
+
+void renew(SQLite::Database& database) {
   for (const ClosedList& list : closed_lists())
     for (const std::string_view name : list.names)
       database.exec(fmt::format("INSERT OR IGNORE INTO {} VALUES ('{}')", list.table, name));
   for (const char* view : {"v_frame", "v_sorting", "v_trial", "v_jnd"})
     database.exec(fmt::format("DROP VIEW IF EXISTS {}", view));
+  renew_answers_and_words(database);
   database.exec(views);
   database.exec(fmt::format("PRAGMA user_version = {}", current_version));
   if (const auto foreign = foreign_objects(database); !foreign.empty())
@@ -142,7 +172,7 @@ void renew_views_and_lists(SQLite::Database& database) {
 
 void rebuild(SQLite::Database& database, const std::string& path) {
   const int version = database.execAndGet("PRAGMA user_version").getInt();
-  if (version >= with_todays_tables) return renew_views_and_lists(database);
+  if (version >= with_todays_frames) return renew(database);
   const std::vector<std::string> older_tables = tables_of(version);
   refuse_foreign(database, older_tables);
   set_aside(database, older_tables);
@@ -157,6 +187,7 @@ void rebuild(SQLite::Database& database, const std::string& path) {
   copy(database, "trial", ", is_practice", ", 0");  // there was none
   for (const char* table : {"participant_info", "event", "answer", "reversal", "estimate", "frame"})
     copy(database, table);
+  tell_words(database);
   if (version <= without_setups)
     for (const auto& [id, header] : sessions_in(database, path)) tell_setups(database, id, header);
   for (const std::string& table : older_tables)

@@ -1,63 +1,38 @@
 #include "replay/Judging.h"
 
 #include <algorithm>
+#include <memory>
+#include <span>
 #include <tuple>
 
 #include "base/Error.h"
-#include "engine/tasks/TaskRules.h"
 #include "replay/LoggedFrames.h"
 #include "responders/Responder.h"
+#include "tasks/SessionPlan.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
 namespace {
 
-// What a trial's actions came to, by the rules of its task.
-struct Answered {
-  TaskState state;
-  std::optional<Outcome> outcome;
-};
-
-Answered answered(const TrialPlan& plan, const std::vector<Action>& actions) {
-  Answered answered;
-  answered.state.plan = plan;
-  answered.state.labels.resize(plan.masses_g.size());
-  for (const Action& action : actions)
-    answered.outcome = rules_of(plan.task).act(answered.state, action);
-  return answered;
+// The actions that make one answer: up to the first that is no step of it.
+std::span<const Action> one_answer(std::span<const Action> actions, const TaskDeclaration& task) {
+  for (std::size_t i = 0; i < actions.size(); ++i)
+    if (const ActionSpec* spec = task.action(actions[i].kind); spec && !spec->is_step)
+      return actions.first(i + 1);
+  return {};
 }
 
-std::vector<Action> actions_for(const Answer& answer, Task task) {
-  if (answer.slot) return {{ActionKind::select, answer.slot, {}}};
-  if (answer.labels.empty())
-    return {{task == Task::sorting ? ActionKind::dont_know : ActionKind::no_difference}};
-  std::vector<Action> actions;
-  for (std::size_t i = 0; i < answer.labels.size(); ++i)
-    actions.push_back({ActionKind::label, static_cast<int>(i) + 1, answer.labels[i]});
-  actions.push_back({ActionKind::validate});
-  return actions;
-}
-
-std::string name_of_answer(const Answered& answer) {
-  const TrialPlan& plan = answer.state.plan;
-  switch (plan.task) {
-    case Task::introduction:
-      return answer.outcome == Outcome::correct ? "heaviest" : "other";
-    case Task::comparison:
-      if (!answer.state.chosen_slot) return "none";
-      return answer.state.chosen_slot == plan.reference_slot ? "reference" : "comparison";
-    case Task::sorting:
-      break;
+// What an answer comes to by the rules of the trial's task. @return null: it can't be taken
+std::unique_ptr<TaskTrial> answered(const TaskBlock& block, const TrialPlan& plan,
+                                    std::uint64_t seed, std::span<const Action> actions) {
+  auto trial = block.trial(plan, seed);
+  const auto answer = one_answer(actions, block.task());
+  for (const Action& action : answer) {
+    if (trial->refusal(action)) return nullptr;
+    trial->take(action);
   }
-  return std::string(name_of(answer.outcome.value()));
-}
-
-// Somebody who doesn't know says nothing of any cube, whatever labels were tried before.
-std::vector<std::string> label_names(const Answered& answer) {
-  std::vector<std::string> names;
-  for (const auto& label : answer.state.labels)
-    names.emplace_back(label && answer.outcome != Outcome::dont_know ? name_of(*label) : "none");
-  return names;
+  return answer.empty() ? nullptr : std::move(trial);
 }
 
 // The responder of the question under each of the session's setups, with the stage as it was then.
@@ -97,22 +72,21 @@ class Minds {
   std::map<int, Mind> minds_;
 };
 
-// The attempt's actions that make its one answer, and after how many events the last of them came.
+// The attempt's actions, and after how many events its one answer came.
 std::pair<std::vector<Action>, int> logged_answer(const AttemptFold& attempt) {
+  const TaskDeclaration& task = task_named(attempt.first_plan.task);
   std::vector<Action> actions;
-  int before = 0;
   for (const AttemptEvent& event : attempt.events) {
     const auto* action = event.event.as<Action>();
     if (!action) continue;
     actions.push_back(*action);
-    before = event.before;
-    if (attempt.first_plan.task == Task::introduction) break;
+    if (!one_answer(actions, task).empty()) return {actions, event.before};
   }
-  return {actions, before};
+  return {actions, 0};
 }
 
 void judge(const AttemptFold& attempt, const std::vector<FrameRow>& rows, const Minds::Mind& mind,
-           Judgments& judgments) {
+           std::uint64_t seed, Judgments& judgments) {
   const TrialPlan& plan = attempt.first_plan;
   const auto [actions, before] = logged_answer(attempt);
   const std::vector<DisplayedFrame> frames = seen_frames(attempt, rows, before);
@@ -120,30 +94,23 @@ void judge(const AttemptFold& attempt, const std::vector<FrameRow>& rows, const 
     ++judgments.n_without_frames;
     return;
   }
+  const TaskBlock& block = task_block(*mind.protocol, plan.block);
+  ScreenState screen;
+  block.trial(plan, seed)->show(screen);
   const TrialView view{plan.trial_number, plan.attempt, plan.task,
-                       stage_of(*mind.protocol, plan.n_slots())};
+                       stage_of(*mind.protocol, plan.n_slots()), screen.offer};
   const auto answer = mind.responder->judge(view, frames);
-  if (!answer) {
+  const auto logged = answered(block, plan, seed, actions);
+  const auto judged = answer ? answered(block, plan, seed, answer->actions) : nullptr;
+  if (!judged || !logged) {
     ++judgments.n_without_answer;
     return;
   }
   judgments.shown_s += frames.back().t_s;
-  const Answered logged = answered(plan, actions);
-  const Answered judged = answered(plan, actions_for(*answer, plan.task));
-  JudgedTrial trial{plan.trial_number,
-                    plan.task,
-                    plan.condition,
-                    plan.reference_g,
-                    std::ranges::min(plan.masses_g) < std::ranges::max(plan.masses_g),
-                    name_of_answer(logged),
-                    name_of_answer(judged),
-                    {},
-                    {}};
-  if (plan.task == Task::sorting) {
-    trial.logged_labels = label_names(logged);
-    trial.judged_labels = label_names(judged);
-  }
-  judgments.trials.push_back(std::move(trial));
+  judgments.trials.push_back({plan.trial_number, plan.task, plan.condition, plan.reference_g,
+                              std::ranges::min(plan.masses_g) < std::ranges::max(plan.masses_g),
+                              logged->answer(), judged->answer(), logged->labels(),
+                              judged->labels()});
 }
 
 void count(const JudgedTrial& trial, const std::string& answer, DetectionCounts& counts) {
@@ -163,7 +130,7 @@ Judgments judge_session(const LogReader& reader, const LoggedSession& session,
   for (const auto& [index, attempt] : fold.attempts) {
     if (attempt.row.status == TrialStatus::completed)
       judge(attempt, reader.frames(session.row.session_id, index), minds.in_force(attempt.row),
-            judgments);
+            session.row.header.seed, judgments);
     progress(++n_done / static_cast<double>(fold.attempts.size()));
   }
   return judgments;
@@ -186,7 +153,7 @@ std::vector<Agreement> agreements(const std::vector<JudgedTrial>& trials) {
     Agreement agreement;
     DetectionCounts logged, judged;
   };
-  std::map<std::tuple<Task, std::string, std::optional<double>>, Counted> groups;
+  std::map<std::tuple<Task, std::string, std::optional<double>>, Counted, InTaskOrder> groups;
   for (const JudgedTrial& trial : trials) {
     auto& [agreement, logged, judged] = groups[{trial.task, trial.condition, trial.reference_g}];
     agreement.task = trial.task;
@@ -200,7 +167,7 @@ std::vector<Agreement> agreements(const std::vector<JudgedTrial>& trials) {
   }
   std::vector<Agreement> agreements;
   for (auto& [key, group] : groups) {
-    if (group.agreement.task == Task::comparison) {
+    if (task_named(group.agreement.task).detects) {
       group.agreement.logged = detection(group.logged);
       group.agreement.judged = detection(group.judged);
     }

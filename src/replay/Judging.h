@@ -14,18 +14,16 @@
 
 namespace heft {
 
-/// Two answers to one trial, of the participant and of the responder who saw the same.
-/// comparison: "reference", "comparison" (the cube that was chosen) or "none";
-/// sorting: "correct", "incorrect", "dont_know";
-/// introduction: "heaviest", "other" (the first choice).
+/// Two answers to one trial, of the participant and of the responder who saw the same, in the words
+/// of TaskTrial::answer(): "reference", "comparison" (the cube that was chosen) or "none".
 struct JudgedTrial {
   int trial_number = 0;
-  Task task = Task::sorting;
+  Task task;
   std::string condition;  ///< technique
   std::optional<double> reference_g;
   bool has_difference = true;  ///< between the cubes' masses
   std::string logged, judged;
-  /// sorting: by slot, "none" for a cube without one
+  /// Of tasks that give labels: by slot, "none" for a cube without one.
   std::vector<std::string> logged_labels, judged_labels;
 };
 
@@ -55,12 +53,12 @@ struct Confusion {
 
 /// Trials of one task, technique and reference.
 struct Agreement {
-  Task task = Task::sorting;
+  Task task;
   std::string condition;
   std::optional<double> reference_g;
   Confusion answers;
-  Confusion labels;  ///< sorting: of each cube
-  /// Comparisons, where there are trials with and without a difference (catch trials).
+  Confusion labels;  ///< of each cube, where the task gives labels
+  /// Of a task that detects, where there are trials with and without a difference (catch trials).
   std::optional<Detection> logged, judged;
 };
 

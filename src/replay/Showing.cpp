@@ -39,7 +39,6 @@ class Show {
     screen.screen = Screen::trial;
     screen.task = plan.task;
     screen.n_slots = plan.n_slots();
-    screen.labels.resize(plan.masses_g.size());
     return screen;
   }
 

@@ -6,6 +6,7 @@
 
 #include "replay/AttemptReplay.h"
 #include "replay/LoggedFrames.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -51,14 +52,14 @@ void add_attempt(const AttemptFold& attempt, const std::vector<FrameRow>& frames
 }
 
 bool is_right(const TrialRow& row) {
-  return row.plan.task == Task::comparison ? row.choice_correct.value_or(false)
-                                           : row.outcome == Outcome::correct;
+  return row.choice_correct.value_or(row.outcome == "correct");
 }
 
 using Kind = std::pair<Task, std::string>;
 
-void count(const std::vector<TrialRow>& rows, std::map<Kind, OutcomeDifference>& outcomes,
-           int OutcomeDifference::*n, int OutcomeDifference::*n_correct) {
+void count(const std::vector<TrialRow>& rows,
+           std::map<Kind, OutcomeDifference, InTaskOrder>& outcomes, int OutcomeDifference::*n,
+           int OutcomeDifference::*n_correct) {
   for (const TrialRow& row : rows) {
     if (row.status != TrialStatus::completed) continue;
     OutcomeDifference& outcome = outcomes[{row.plan.task, row.plan.condition}];
@@ -94,7 +95,7 @@ std::vector<PathDifference> compare_paths(const LogReader& reader, const LoggedS
                                           const Protocol& protocol) {
   const std::int64_t session_id = session.row.session_id;
   const Projection fold = sound_fold(reader, session);
-  std::map<Kind, Paths> by_kind;
+  std::map<Kind, Paths, InTaskOrder> by_kind;
   for (const auto& [index, attempt] : fold.attempts)
     add_attempt(attempt, reader.frames(session_id, index), protocol,
                 by_kind[{attempt.first_plan.task, attempt.first_plan.condition}]);
@@ -122,7 +123,7 @@ OtherResponder compare_sessions(const LogReader& reader, std::int64_t session_id
       estimates[row.staircase].would_be_g = row.jnd_g;
     }
   }
-  std::map<Kind, OutcomeDifference> outcomes;
+  std::map<Kind, OutcomeDifference, InTaskOrder> outcomes;
   count(reader.trials(session_id), outcomes, &OutcomeDifference::n_logged,
         &OutcomeDifference::n_logged_correct);
   count(trials, outcomes, &OutcomeDifference::n_would_be, &OutcomeDifference::n_would_be_correct);

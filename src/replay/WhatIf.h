@@ -19,7 +19,7 @@ struct NoticedDifference {
 
 /// How far bodies end up from where they were logged, over all frames of one kind of trial.
 struct PathDifference {
-  Task task = Task::sorting;
+  Task task;
   std::string condition;  ///< technique
   int n_pictures = 0;
   double clone_rms_m = 0, clone_max_m = 0;
@@ -44,7 +44,7 @@ struct EstimateDifference {
 };
 
 struct OutcomeDifference {
-  Task task = Task::sorting;
+  Task task;
   std::string condition;                   ///< technique
   int n_logged = 0, n_logged_correct = 0;  ///< completed trials, and those rightly answered
   int n_would_be = 0, n_would_be_correct = 0;

@@ -18,8 +18,7 @@ constexpr double waits_for_cubes_s = 60;
 }  // namespace
 
 Answering::Answering(std::uint64_t seed, const TrialView& trial, double tap_interval_s)
-    : task_(trial.task),
-      frame_interval_s_(1 / trial.stage.display_rate_hz),
+    : frame_interval_s_(1 / trial.stage.display_rate_hz),
       tap_interval_s_(tap_interval_s),
       stream_(trial_stream(seed, "taps", trial)) {}
 
@@ -32,27 +31,23 @@ double Answering::interval_s() {
 }
 
 void Answering::give(const Answer& answer, double first_tap_s) {
+  if (answer.actions.empty()) return;
   free_ = false;
-  chosen_ = answer.slot;
-  to_validate_ = !answer.labels.empty();
-  if (to_validate_) return queue_labels(answer, first_tap_s);
-  if (answer.slot) return queue_.push_back({{ActionKind::select, answer.slot, {}}, first_tap_s});
-  const auto none = task_ == Task::sorting ? ActionKind::dont_know : ActionKind::no_difference;
-  queue_.push_back({{none, {}, {}}, first_tap_s});
-}
-
-void Answering::queue_labels(const Answer& answer, double first_tap_s) {
-  std::vector<int> slots;
-  for (std::size_t i = 0; i < answer.labels.size(); ++i) slots.push_back(static_cast<int>(i) + 1);
-  stream_.shuffle(std::span(slots));
-  const auto label_of = [&](int slot) { return answer.labels[static_cast<std::size_t>(slot - 1)]; };
+  std::vector<Action> steps = answer.actions;
+  const Action last = steps.back();
+  chosen_ = last.slot;
+  steps.pop_back();
+  if (steps.empty()) return queue_.push_back({last, first_tap_s});
+  last_ = last;
+  stream_.shuffle(std::span(steps));
   double t_s = first_tap_s;
-  const auto tap = [&](int slot, Label label) {
-    queue_.push_back({{ActionKind::label, slot, label}, t_s});
+  const auto tap = [&](const Action& action) {
+    queue_.push_back({action, t_s});
     t_s += interval_s();
   };
-  if (answer.first_label_corrected) tap(slots.front(), label_of(slots.back()));
-  for (int slot : slots) tap(slot, label_of(slot));
+  if (answer.first_step_corrected)
+    tap({steps.front().kind, steps.front().slot, steps.back().label});
+  for (const Action& step : steps) tap(step);
 }
 
 std::vector<TimedAction> Answering::see(const DisplayedFrame& frame, const ScreenState& screen) {
@@ -66,11 +61,11 @@ std::vector<TimedAction> Answering::see(const DisplayedFrame& frame, const Scree
 }
 
 void Answering::look_for_outcome(double t_s, const ScreenState& screen) {
-  if (to_validate_ && screen.can_validate) {
-    to_validate_ = false;
-    queue_.push_back({{ActionKind::validate, {}, {}}, last_tap_s_ + interval_s()});
+  if (last_ && screen.can_validate) {
+    queue_.push_back({*last_, last_tap_s_ + interval_s()});
+    last_.reset();
   } else if (screen.try_again && screen.n_choices > n_choices_before_) {
-    wrong_slots_.push_back(chosen_.value());
+    if (chosen_) wrong_slots_.push_back(*chosen_);
     free_ = true;
   } else if (t_s > last_tap_s_ + patience_s) {
     ++n_refused_;

@@ -10,7 +10,6 @@
 #include "experiment/Action.h"
 #include "experiment/DisplayedFrame.h"
 #include "experiment/ScreenState.h"
-#include "responders/Decision.h"
 #include "responders/Responder.h"
 
 namespace heft {
@@ -30,26 +29,24 @@ class Answering {
 
   /// No answer is under way: none given yet, or the last one was wrong or not taken.
   bool free() const { return free_; }
-  /// Introduction: slots chosen wrongly so far, oldest first.
+  /// Slots chosen wrongly so far, oldest first, where the task asks again.
   const std::vector<int>& wrong_slots() const { return wrong_slots_; }
   bool cubes_seen() const { return cubes_seen_; }
   /// Going on is pointless: several answers were not taken, or the cubes never appeared.
   bool gave_up(double t_s) const;
 
  private:
-  void queue_labels(const Answer& answer, double first_tap_s);
   void look_for_outcome(double t_s, const ScreenState& screen);
   std::vector<TimedAction> due(double t_s, const ScreenState& screen);
   double interval_s();
 
-  Task task_;
   double frame_interval_s_;
   double tap_interval_s_;
   RandomStream stream_;
   bool cubes_seen_ = false;
   bool free_ = true;
-  bool to_validate_ = false;
   std::deque<TimedAction> queue_;
+  std::optional<Action> last_;  // of an answer in steps, once the screen shows them complete
   double last_tap_s_ = 0;
   int n_choices_before_ = 0;
   std::optional<int> chosen_;

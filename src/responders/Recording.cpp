@@ -12,25 +12,26 @@
 #include <system_error>
 
 #include "base/TextFile.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> columns{"trial_number", "t_s", "action", "slot", "label"};
-enum Column : std::size_t { trial_number, time, action, slot, label };
-
-bool needs_slot(ActionKind kind) {
-  return kind == ActionKind::select || kind == ActionKind::label || kind == ActionKind::unlabel;
-}
+constexpr std::array<std::string_view, 6> columns{"trial_number", "t_s",   "action",
+                                                  "slot",         "label", "value"};
+enum Column : std::size_t { trial_number, time, action, slot, label, number };
 
 class Reader {
  public:
   explicit Reader(const std::string& file) : file_(file) {}
 
   void header(std::string_view line) {
-    if (!std::ranges::equal(cells_of(line), columns))
+    const auto cells = cells_of(line);
+    if (std::ranges::equal(cells, columns)) return;
+    n_columns_ = columns.size() - 1;  // recordings from before there was a value
+    if (!std::ranges::equal(cells, std::span(columns).first(n_columns_)))
       mistake(1, 1, fmt::format("expected the header {}", fmt::join(columns, ",")));
   }
 
@@ -38,10 +39,10 @@ class Reader {
     line_ = line;
     number_ = number;
     cells_ = cells_of(line);
-    if (cells_.size() == columns.size()) return cells();
+    if (cells_.size() == n_columns_) return cells();
     mistake(number, 1,
-            fmt::format("{} cells, expected {} ({})", cells_.size(), columns.size(),
-                        fmt::join(columns, ",")));
+            fmt::format("{} cells, expected {} ({})", cells_.size(), n_columns_,
+                        fmt::join(std::span(columns).first(n_columns_), ",")));
   }
 
   RecordedActions actions;
@@ -53,10 +54,12 @@ class Reader {
     const int trial = whole_number(trial_number);
     TimedAction read;
     read.t_s = seconds();
-    read.kind = kind();
-    if (!named<ActionKind>(cells_[action])) return;
-    read.slot = slot_of(read.kind);
-    read.label = label_of(read.kind);
+    const ActionSpec* spec = action_named(cells_[action]);
+    if (!spec) return mistake(action, expected_name(cells_[action], words_of<ActionKind>()));
+    read.kind = ActionKind(spec->kind);
+    read.slot = slot_of(*spec);
+    read.label = label_of(*spec);
+    read.value = value_of(*spec);
     if (mistakes.size() == before) keep(trial, read);
   }
 
@@ -82,25 +85,33 @@ class Reader {
     return value.value_or(0);
   }
 
-  ActionKind kind() {
-    const auto kind = named<ActionKind>(cells_[action]);
-    if (!kind) mistake(action, expected_name(cells_[action], EnumNames<ActionKind>::names));
-    return kind.value_or(ActionKind::validate);
+  std::optional<int> slot_of(const ActionSpec& spec) {
+    if (spec.slot) return whole_number(slot);
+    return nothing(slot, spec);
   }
 
-  std::optional<int> slot_of(ActionKind kind) {
-    if (needs_slot(kind)) return whole_number(slot);
-    if (!cells_[slot].empty()) mistake(slot, fmt::format("{} takes no slot", name_of(kind)));
+  std::optional<Label> label_of(const ActionSpec& spec) {
+    if (!spec.label) return nothing(label, spec);
+    const auto words = words_of<Label>();
+    if (std::ranges::find(words, cells_[label]) != words.end()) return Label(cells_[label]);
+    mistake(label, expected_name(cells_[label], words));
     return std::nullopt;
   }
 
-  std::optional<Label> label_of(ActionKind kind) {
-    const auto read = named<Label>(cells_[label]);
-    if (kind == ActionKind::label) {
-      if (!read) mistake(label, expected_name(cells_[label], EnumNames<Label>::names));
-      return read;
+  std::optional<double> value_of(const ActionSpec& spec) {
+    if (n_columns_ <= number) {
+      if (spec.value) mistake(action, "expected a column value, which it fills");
+      return std::nullopt;
     }
-    if (!cells_[label].empty()) mistake(label, fmt::format("{} takes no label", name_of(kind)));
+    if (!spec.value) return nothing(number, spec);
+    const auto value = number_in(cells_[number]);
+    if (!value) mistake(number, "expected a number");
+    return value;
+  }
+
+  std::nullopt_t nothing(Column column, const ActionSpec& spec) {
+    if (!cells_[column].empty())
+      mistake(column, fmt::format("{} takes no {}", spec.kind, columns[column]));
     return std::nullopt;
   }
 
@@ -127,6 +138,7 @@ class Reader {
   std::string file_;
   std::string_view line_;
   int number_ = 0;
+  std::size_t n_columns_ = columns.size();
   std::vector<std::string_view> cells_;
 };
 

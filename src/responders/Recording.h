@@ -1,6 +1,6 @@
 // A recorded participant as a folder: trial_<trial_number>.csv, the effector's trajectory
-// (experiment/Trajectory.h), and actions.csv: trial_number,t_s,action,slot,label. Times count from
-// the trial's start.
+// (experiment/Trajectory.h), and actions.csv: trial_number,t_s,action,slot,label,value (value may
+// be left out). Times count from the trial's start.
 #pragma once
 
 #include <map>

@@ -6,6 +6,7 @@
 // attempt, so a trial that a crash cut short runs again exactly as it would have.
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -22,23 +23,17 @@
 #include "experiment/ScreenState.h"
 #include "experiment/Stage.h"
 #include "experiment/Task.h"
+#include "tasks/Answer.h"
 
 namespace heft {
-
-/// What a participant has made up their mind to say of a trial.
-struct Answer {
-  std::optional<int> slot;             ///< comparison: the heavier cube, none: no difference;
-                                       ///< introduction: the heaviest cube; from 1
-  std::vector<Label> labels;           ///< sorting: by slot; empty: I don't know
-  bool first_label_corrected = false;  ///< sorting: the first label is put wrong and moved
-};
 
 /// What a participant sees when a trial begins.
 struct TrialView {
   int trial_number = 0;
   int attempt = 1;
-  Task task = Task::sorting;
+  Task task;
   Stage stage;
+  std::any offer = {};  ///< of the task, before any answer
 };
 
 struct HandSample {
@@ -65,8 +60,8 @@ class Responder {
   virtual bool has_more(double t_s) const = 0;
 
   /// Its one answer to a whole trial, whoever's hand moved in it: what its mind says to all of
-  /// these frames, and in the introduction its first choice. Changes nothing of the trial that it
-  /// is in.
+  /// these frames, the first one where the task asks again. Changes nothing of the trial that it is
+  /// in.
   /// @return none: it has no answer to this trial
   virtual std::optional<Answer> judge(const TrialView& trial [[maybe_unused]],
                                       std::span<const DisplayedFrame> frames

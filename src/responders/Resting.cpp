@@ -17,7 +17,7 @@ constexpr double hover_m = 0.005;
 constexpr double tap_interval_s = 0.7;
 
 /// Gives the answer to a trial.
-/// @param wrong_slots introduction: slots chosen wrongly so far, oldest first
+/// @param wrong_slots chosen wrongly so far, oldest first, where the task asks again
 using Mind = std::function<Answer(std::span<const int> wrong_slots)>;
 /// Makes the mind for one trial.
 using MakeMind = std::function<Mind(const TrialView& trial)>;
@@ -63,25 +63,13 @@ class Resting : public Responder {
   std::optional<RandomStream> delays_;
 };
 
-Answer any_answer(Task task, int n_slots, RandomStream& stream) {
-  if (task == Task::comparison)
-    return {.slot = 1 + static_cast<int>(stream.below(static_cast<std::uint64_t>(n_slots))),
-            .labels = {}};
-  std::vector<double> values;
-  for (int i = 0; i < n_slots; ++i) values.push_back(stream.uniform());
-  return {.slot = {}, .labels = labels_in_order(values)};
-}
-
-// Finds a difference with a probability, whatever there is. The introduction takes no "none": it
-// tries one cube after the other, from the left.
+// Finds a difference with a probability, whatever there is.
 std::unique_ptr<Responder> make_blind(std::uint64_t seed, double p_different) {
   return std::make_unique<Resting>(seed, [=](const TrialView& trial) -> Mind {
     RandomStream stream = trial_stream(seed, "blind answer", trial);
-    return [task = trial.task, n = trial.stage.n_slots(), p_different,
-            stream](std::span<const int> wrong_slots) mutable -> Answer {
-      if (task == Task::introduction)
-        return {.slot = 1 + static_cast<int>(wrong_slots.size()) % n, .labels = {}};
-      return stream.coin(p_different) ? any_answer(task, n, stream) : Answer{};
+    return [trial, p_different, stream](std::span<const int> wrong_slots) mutable {
+      const bool differ = stream.coin(p_different);
+      return blind_answer(trial, {trial.stage.n_slots(), differ, wrong_slots}, stream);
     };
   });
 }

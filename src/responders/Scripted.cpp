@@ -6,66 +6,26 @@
 
 #include "responders/Recording.h"
 #include "responders/Responder.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
 namespace {
-// Labels recorded just before "validate" take a frame or two to be on the screen.
-constexpr double waits_for_validate_s = 1;
-
-bool offered(Task task, ActionKind kind) {
-  switch (kind) {
-    case ActionKind::select:
-      return task != Task::sorting;
-    case ActionKind::no_difference:
-      return task == Task::comparison;
-    case ActionKind::label:
-    case ActionKind::unlabel:
-    case ActionKind::validate:
-    case ActionKind::dont_know:
-      break;
-  }
-  return task == Task::sorting;
-}
+// Steps recorded just before what completes them take a frame or two to be on the screen.
+constexpr double waits_for_steps_s = 1;
 
 void check(const std::vector<RecordedAction>& actions, const TrialView& trial) {
+  const TaskDeclaration& task = task_named(trial.task);
   std::vector<Mistake> mistakes;
   for (const auto& [action, place] : actions) {
-    if (!offered(trial.task, action.kind))
-      mistakes.push_back({place, fmt::format("a {} trial has no action \"{}\"", name_of(trial.task),
-                                             name_of(action.kind))});
+    if (!task.action(action.kind))
+      mistakes.push_back(
+          {place, fmt::format("a {} trial has no action \"{}\"", trial.task, action.kind)});
     if (action.slot && *action.slot > trial.stage.n_slots())
       mistakes.push_back({place, fmt::format("slot {}, but trial {} has {} cubes", *action.slot,
                                              trial.trial_number, trial.stage.n_slots())});
   }
   if (!mistakes.empty()) throw InvalidFile(std::move(mistakes));
-}
-
-// What recorded actions come to; none: the trial is still open after them.
-std::optional<Answer> answer_of(const std::vector<RecordedAction>& actions,
-                                const TrialView& trial) {
-  std::vector<std::optional<Label>> labels(trial.stage.slots_m.size());
-  for (const auto& [action, place] : actions) {
-    switch (action.kind) {
-      case ActionKind::select:
-        return Answer{.slot = action.slot, .labels = {}};
-      case ActionKind::no_difference:
-      case ActionKind::dont_know:
-        return Answer{};
-      case ActionKind::label:
-        std::ranges::replace(labels, action.label, std::optional<Label>());
-        [[fallthrough]];
-      case ActionKind::unlabel:
-        labels.at(static_cast<std::size_t>(action.slot.value() - 1)) = action.label;
-        break;
-      case ActionKind::validate:
-        Answer sorted;
-        for (const auto& label : labels)
-          if (label) sorted.labels.push_back(*label);
-        if (sorted.labels.size() == labels.size()) return sorted;
-    }
-  }
-  return std::nullopt;
 }
 
 class Scripted : public Responder {
@@ -80,6 +40,7 @@ class Scripted : public Responder {
     trajectory_ = &trajectory->second;
     const auto& actions = recording_.actions[trial.trial_number];
     check(actions, trial);
+    task_ = &task_named(trial.task);
     to_do_.clear();
     for (const RecordedAction& recorded : actions) to_do_.push_back(recorded.action);
     end_s_ = trajectory_->end_s();
@@ -102,7 +63,7 @@ class Scripted : public Responder {
     const double earliest_s = std::max(frame.t_s, screen.answers_from_s.value_or(frame.t_s));
     if (earliest_s >= frame.t_s + frame_interval_s_) return actions;
     while (!to_do_.empty() && to_do_.front().t_s < frame.t_s + frame_interval_s_) {
-      if (to_do_.front().kind == ActionKind::validate && !screen.can_validate) break;
+      if (needs_steps(to_do_.front()) && !screen.can_validate) break;
       actions.push_back(to_do_.front());
       actions.back().t_s = std::max(actions.back().t_s, earliest_s);
       to_do_.pop_front();
@@ -112,7 +73,7 @@ class Scripted : public Responder {
   }
 
   bool has_more(double t_s) const override {
-    return paused_ || t_s <= end_s_ + (to_do_.empty() ? 0 : waits_for_validate_s);
+    return paused_ || t_s <= end_s_ + (to_do_.empty() ? 0 : waits_for_steps_s);
   }
 
   std::optional<Answer> judge(const TrialView& trial,
@@ -120,11 +81,20 @@ class Scripted : public Responder {
     const auto actions = recording_.actions.find(trial.trial_number);
     if (actions == recording_.actions.end()) return std::nullopt;
     check(actions->second, trial);
-    return answer_of(actions->second, trial);
+    const TaskDeclaration& task = task_named(trial.task);
+    Answer answer;
+    for (const RecordedAction& recorded : actions->second) {
+      answer.actions.push_back(recorded.action);
+      if (!task.action(recorded.action.kind)->is_step) return answer;
+    }
+    return std::nullopt;  // the trial is still open after them
   }
 
  private:
+  bool needs_steps(const Action& action) const { return task_->action(action.kind)->after_steps; }
+
   Recording recording_;
+  const TaskDeclaration* task_ = nullptr;
   const Trajectory* trajectory_ = nullptr;
   std::deque<TimedAction> to_do_;
   Pose last_pose_;

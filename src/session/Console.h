@@ -15,7 +15,7 @@ enum class ConsoleCommandKind {
   pause,  ///< the session stands still, an open trial too
   go_on,
   veto,         ///< the open trial is void and will be presented again; text: why
-  veto_answer,  ///< the same of the comparison that was answered last; text: why
+  veto_answer,  ///< the same of the trial that was answered last; text: why
   check,        ///< look at the apparatus once more
   note,         ///< text
   rest,         ///< a break before the next trial

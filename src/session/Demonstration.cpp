@@ -5,6 +5,7 @@
 
 #include "base/DefaultTechniques.h"
 #include "base/Random.h"
+#include "tasks/Sorting.h"
 #include "view/Viewpoint.h"
 
 namespace heft {
@@ -54,7 +55,7 @@ Demonstration::Demonstration(const Protocol& protocol, const Apparatus& apparatu
       effector_size_m_(protocol.effector_size_m),
       hand_(hand_for(seed)),
       world_(protocol, plan_of_demonstration()) {
-  hand_->begin_trial({0, 1, Task::sorting, stage_of(protocol, 3)});
+  hand_->begin_trial({0, 1, Sorting::task.name, stage_of(protocol, 3)});
   if (apparatus.board.tags.empty()) return;
   const SyntheticSettings settings = camera_settings(left_hand);
   camera_.emplace(apparatus, settings, seed);
@@ -77,7 +78,6 @@ void Demonstration::advance() {
   // It looks again and again: what it would answer is not taken.
   ScreenState screen;
   screen.screen = Screen::trial;
-  screen.labels.resize(3);
   hand_->see(last_.frame, screen);
 }
 

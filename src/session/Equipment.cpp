@@ -33,6 +33,15 @@ Apparatus fitting_apparatus(const Protocol& protocol, const SessionConfig& optio
   return apparatus;
 }
 
+void require_questions(const Protocol& protocol) {
+  for (const Block& block : protocol.blocks)
+    if (const auto* trials = std::get_if<TaskBlock>(&block); trials && trials->lacks_question())
+      throw Error(fmt::format("block {} asks a question of the questionnaire {} that the session's "
+                              "texts do not have; expected one that is answered on the screen",
+                              trials->name(), *trials->questionnaire()),
+                  ExitCode::invalid_file);
+}
+
 // What the demonstration shows where the session itself films nothing: the board and effector that
 // would be filmed, as far as the options have them. Of another size than these there is no print.
 Apparatus unfilmed_apparatus(const Protocol& protocol, const SessionConfig& options) {
@@ -51,11 +60,10 @@ Apparatus unfilmed_apparatus(const Protocol& protocol, const SessionConfig& opti
 // fore half, behind it all that cubes can be pushed.
 Eigen::AlignedBox3d working_box(const Protocol& protocol) {
   const Layout& layout = protocol.layout;
-  std::size_t n = 3;
+  int n = 3;
   for (const Block& block : protocol.blocks)
-    if (const auto* sorting = std::get_if<SortingBlock>(&block))
-      n = std::max(n, sorting->masses_g.size());
-  const Stage stage = stage_of(protocol, static_cast<int>(n));
+    if (const auto* trials = std::get_if<TaskBlock>(&block)) n = std::max(n, trials->most_cubes());
+  const Stage stage = stage_of(protocol, n);
   const double beside_m = layout.cube_size_m / 2 + layout.gap_m;
   const double front_m = layout.row_y_m - layout.cube_size_m / 2 - layout.start_distance_m -
                          stage.effector_size_m.x() / 2;
@@ -113,6 +121,8 @@ Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const SessionConf
        options.record_camera, options.tracker_text, left_hand_, setup_.dragged});
   const ViewEntry& view = view_named(split_name(options.view).name);
   has_screen_ = view.has_screen;
+  if (!setup_.texts.pages.empty()) require_questions(*protocol_);
+  if (has_person_ || has_screen_) require_words(setup_.texts, *protocol_, options.texts_file);
   view_ = view.make(setup_);
 }
 

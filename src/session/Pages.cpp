@@ -48,7 +48,7 @@ void Pages::show_form(Screen screen) {
 
 // Blocks of one task have one page: those of a block that has begun were read by whoever left that
 // page before; not by a person who goes on where a model began.
-void Pages::instructions(const std::string& block, Task task) {
+void Pages::instructions(const std::string& block, const Task& task) {
   const bool left_before = gone_.pages.contains(text_page(Screen::instructions, task));
   if (instructed_.contains(block) || (left_before && journal_.engine().has_begun(block))) return;
   const TouchKind end = show(ScreenState{.screen = Screen::instructions, .task = task});

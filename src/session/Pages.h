@@ -43,7 +43,7 @@ class Pages {
   bool welcome();
 
   /// Those of a block, unless they were read before.
-  void instructions(const std::string& block, Task task);
+  void instructions(const std::string& block, const Task& task);
 
   /// The demonstration, for as long as the block says and until the person goes on.
   /// @param apparatus, left_hand as Demonstration

@@ -243,7 +243,7 @@ void change_setup(LoggedSession& session, const GivenOptions& again) {
     complete(setup);
   }
   if (!again.texts_file && setup.texts_text.empty() &&
-      !session.protocol->screens.questionnaires.empty()) {
+      !questionnaires_of(*session.protocol).empty()) {
     setup.texts_file = session.setup.texts_file;  // a model is asked by them
     setup.texts_text = session.setup.texts_text;
   }

@@ -224,7 +224,7 @@ void SessionControl::veto_answer(const std::string& why) {
   if (engine.next().kind == Next::Kind::over)
     return console_->say("the session is over; its answers stay as they are");
   if (!engine.vetoable())
-    return console_->say("no comparison was answered whose answer could be taken back");
+    return console_->say("no trial was answered whose answer could be taken back");
   if (engine.trial_is_open()) journal_.emit_now(TrialVoided{std::string(void_interrupted)});
   journal_.emit_now(AnswerVetoed{why});
   confirm("the last answer is void; its cubes will be presented again");

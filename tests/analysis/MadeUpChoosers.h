@@ -95,7 +95,7 @@ inline void compare(SessionData& data, const Chooser& chooser, const ComparisonD
     const bool chosen = answer != 1;
     const int slot = answer == 0 ? 1 : 2;
     if (chosen) {
-      attempt.trial.outcome = Outcome::difference;
+      attempt.trial.outcome = "difference";
       attempt.trial.chosen_slot = slot;
       attempt.trial.choice_correct = level_g > 0 && slot != reference_slot;
     }

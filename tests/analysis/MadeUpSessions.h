@@ -50,7 +50,7 @@ inline Attempt& add_attempt(SessionData& data, Task task, std::vector<double> ma
 
 inline AnswerRow label(int slot, Label given) {
   AnswerRow row;
-  row.action = ActionKind::label;
+  row.action = "label";
   row.slot = slot;
   row.label = given;
   return row;
@@ -58,13 +58,13 @@ inline AnswerRow label(int slot, Label given) {
 
 inline AnswerRow select(int slot) {
   AnswerRow row;
-  row.action = ActionKind::select;
+  row.action = "select";
   row.slot = slot;
   return row;
 }
 
 inline Attempt& add_sorting(SessionData& data, const std::string& condition, Outcome outcome) {
-  Attempt& attempt = add_attempt(data, Task::sorting, {15, 200, 800});
+  Attempt& attempt = add_attempt(data, "sorting", {15, 200, 800});
   attempt.trial.plan.condition = condition;
   attempt.trial.outcome = outcome;
   return attempt;
@@ -75,26 +75,26 @@ inline void add_sortings(SessionData& data, const std::string& condition, Outcom
 }
 
 inline Attempt& add_introduction(SessionData& data, int n_selects) {
-  Attempt& attempt = add_attempt(data, Task::introduction, {15, 800});
+  Attempt& attempt = add_attempt(data, "introduction", {15, 800});
   for (int i = 0; i < n_selects; ++i) attempt.answers.push_back(select(2));
-  attempt.trial.outcome = Outcome::correct;
+  attempt.trial.outcome = "correct";
   return attempt;
 }
 
 /// A comparison whose answer is "no difference".
 inline Attempt& add_comparison(SessionData& data, const std::string& staircase, double reference_g,
                                double level_g) {
-  Attempt& attempt = add_attempt(data, Task::comparison, {reference_g, reference_g + level_g});
+  Attempt& attempt = add_attempt(data, "comparison", {reference_g, reference_g + level_g});
   attempt.trial.plan.staircase = staircase;
   attempt.trial.plan.reference_g = reference_g;
   attempt.trial.plan.level_g = level_g;
   attempt.trial.plan.reference_slot = 1;
-  attempt.trial.outcome = Outcome::no_difference;
+  attempt.trial.outcome = "no_difference";
   return attempt;
 }
 
 inline void choose(Attempt& attempt, bool rightly) {
-  attempt.trial.outcome = Outcome::difference;
+  attempt.trial.outcome = "difference";
   attempt.trial.chosen_slot = rightly ? 2 : 1;
   attempt.trial.choice_correct = rightly;
 }

@@ -76,7 +76,7 @@ TEST(Timing, ResponseTimeIsWithoutPausesAndLosses) {
 TEST(Timing, MediansPerTaskAndConditionOfCompletedTrials) {
   SessionData data = session(1, "a");
   for (double time_s : {1.0, 9.0, 2.0}) {
-    Attempt& attempt = add_sorting(data, "C1", Outcome::correct);
+    Attempt& attempt = add_sorting(data, "C1", "correct");
     attempt.trial.shown_s = 100;
     attempt.trial.validated_s = 100 + time_s;
   }
@@ -91,7 +91,7 @@ TEST(Timing, MediansPerTaskAndConditionOfCompletedTrials) {
 TEST(Timing, VoidsByReasonMostFrequentFirst) {
   SessionData data = session(1, "a");
   for (const char* reason : {"board lost", "interrupted", "interrupted"}) {
-    Attempt& attempt = add_sorting(data, "C1", Outcome::correct);
+    Attempt& attempt = add_sorting(data, "C1", "correct");
     attempt.trial.status = TrialStatus::voided;
     attempt.trial.void_reason = reason;
   }

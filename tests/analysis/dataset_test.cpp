@@ -43,6 +43,7 @@ class LogFile : public testing::Test {
     Changes started;
     started.attempt_index = 1;
     TrialRow trial;
+    trial.plan.task = "sorting";
     trial.attempt_index = 1;
     trial.plan.trial_number = 1;
     trial.plan.condition = "C2";
@@ -51,12 +52,11 @@ class LogFile : public testing::Test {
     log.append({0, TrialStarted{}}, started, Durability::acknowledged);
     Changes validated = started;
     validated.trial->status = TrialStatus::completed;
-    validated.trial->outcome = Outcome::incorrect;
-    validated.answers = {label(1, Label::heaviest), label(2, Label::intermediate),
-                         label(3, Label::lightest)};
+    validated.trial->outcome = "incorrect";
+    validated.answers = {label(1, "heaviest"), label(2, "intermediate"), label(3, "lightest")};
     for (AnswerRow& answer : validated.answers) answer.attempt_index = 1;
     validated.state = SessionState::finished;
-    log.append({9, Action{ActionKind::validate}}, validated, Durability::acknowledged);
+    log.append({9, Action{"validate"}}, validated, Durability::acknowledged);
   }
 
  private:
@@ -71,8 +71,8 @@ TEST(Dataset, JoinsTheRowsOfAnAttempt) {
     rows.trials.push_back(trial);
     for (int slot : {2, 1}) rows.cubes.push_back({index, slot, 100.0 * index + slot, 0, 0, {}, {}});
   }
-  rows.answers.push_back({2, 1, ActionKind::validate, {}, {}});
-  rows.answers.push_back({7, 1, ActionKind::validate, {}, {}});  // of no attempt
+  rows.answers.push_back({2, 1, "validate", {}, {}});
+  rows.answers.push_back({7, 1, "validate", {}, {}});  // of no attempt
   rows.reversals.push_back({2, "15g", 1, 100, 50, 50});
   const SessionData data = join_rows({}, rows);
   ASSERT_EQ(data.attempts.size(), 2);

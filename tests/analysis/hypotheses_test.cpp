@@ -19,9 +19,9 @@ std::vector<SessionData> c1_study(const std::vector<int>& n_right, int n_answere
   for (int right : n_right) {
     const auto id = static_cast<std::int64_t>(sessions.size()) + 1;
     sessions.push_back(session(id, std::to_string(id)));
-    add_sortings(sessions.back(), "C1", Outcome::correct, right);
-    add_sortings(sessions.back(), "C1", Outcome::incorrect, n_answered - right);
-    add_sortings(sessions.back(), "C1", Outcome::dont_know, n_trials - n_answered);
+    add_sortings(sessions.back(), "C1", "correct", right);
+    add_sortings(sessions.back(), "C1", "incorrect", n_answered - right);
+    add_sortings(sessions.back(), "C1", "dont_know", n_trials - n_answered);
   }
   return sessions;
 }

@@ -5,6 +5,7 @@
 
 #include "analysis/ProtocolChoices.h"
 #include "psychophysics/ProcedureKinds.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 namespace {
@@ -43,7 +44,7 @@ TEST(ProtocolChoices, name_what_the_paper_leaves_open) {
 
 TEST(ProtocolChoices, name_constant_stimuli) {
   Protocol protocol = shipped("quick.toml");
-  auto& block = std::get<ComparisonBlock>(protocol.blocks.back());
+  auto& block = *block_as<Comparison::Block>(protocol.blocks.back());
   block.staircases = {{200, {"c", ConstantConfig{.levels = {-5, 12.5}, .n_per_level = 9}}}};
   EXPECT_EQ(value_of(choices_in(protocol), "staircase c"),
             "constant levels -5, 12.5 g, each 9 times, in blocks");

@@ -21,7 +21,7 @@ Summary summary_of(double reference_g, Purpose purpose = Purpose::main) {
     const char* responder = purpose == Purpose::main ? "human" : "simulated";
     SessionData data = session(id, std::to_string(id), purpose, responder);
     add_introduction(data, 1);
-    add_sortings(data, "C1", Outcome::correct, 2);
+    add_sortings(data, "C1", "correct", 2);
     add_staircase(data, "s", reference_g, jnd_g);
     sessions.push_back(data);
   }

@@ -57,8 +57,8 @@ TEST(Quality, CountsLossesByLevel) {
 
 TEST(Quality, CountsResetsByMass) {
   SessionData data = session(1, "a");
-  add_sorting(data, "C2", Outcome::correct).cubes[0].n_resets = 2;
-  add_sorting(data, "C2", Outcome::correct);
+  add_sorting(data, "C2", "correct").cubes[0].n_resets = 2;
+  add_sorting(data, "C2", "correct");
   const Quality quality = quality_of({&data, 1});
   ASSERT_EQ(quality.resets.size(), 3);  // 15, 200 and 800 g
   EXPECT_EQ(quality.resets[0].n_cubes, 2);

@@ -39,7 +39,7 @@ class ReportFolder : public testing::Test {
 Summary summary_with_everything() {
   SessionData data = session(1, "it's <P01>", Purpose::simulated, "simulated");
   add_introduction(data, 1);
-  add_sortings(data, "C1", Outcome::correct, 2);  // and nothing in C2
+  add_sortings(data, "C1", "correct", 2);  // and nothing in C2
   add_staircase(data, "15g", 15, 100);
   add_staircase(data, "800g", 800, 700);
   return summarize({"x.db", {data}}, "heft analyse --db x.db --out 'a folder'");
@@ -68,7 +68,7 @@ TEST_F(ReportFolder, PageIsSelfContainedAndEscaped) {
 
 TEST_F(ReportFolder, AnswersFirstAndHoldsWhatAReviewerAsksFor) {
   SessionData data = session(1, "a");
-  add_sortings(data, "C2", Outcome::correct, 8);
+  add_sortings(data, "C2", "correct", 8);
   data.setups[0].setup.simulator = "boxes";
   data.noted = {{12.5, event_kind<Deviation>, "the lamp <fell>"}};
   std::vector<SessionData> sessions(13, data);

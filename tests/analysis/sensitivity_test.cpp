@@ -65,7 +65,7 @@ TEST(AnswersBySide, SignTheLevelByWhereTheHeavierStood) {
   choose(on_left, true);
   Attempt& on_right = add_comparison(data, "s", 200, 50);
   on_right.trial.plan.reference_slot = 2;
-  on_right.trial.outcome = Outcome::difference;
+  on_right.trial.outcome = "difference";
   on_right.trial.chosen_slot = 1;
   add_comparison(data, "", 200, 0).trial.plan.is_catch = true;
   const auto trials = folded<ComparisonTrials>({&data, 1});

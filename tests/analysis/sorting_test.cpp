@@ -16,7 +16,7 @@ using namespace made_up;
 using testing::ElementsAre;
 using Labels = std::array<std::optional<Label>, 3>;
 
-constexpr Label L = Label::lightest, I = Label::intermediate, H = Label::heaviest;
+constexpr Label L = "lightest", I = "intermediate", H = "heaviest";
 constexpr std::array masses_g{15.0, 200.0, 800.0};
 
 std::optional<Swap> swapped(Label light, Label intermediate, Label heavy) {
@@ -56,7 +56,7 @@ RC_GTEST_PROP(Swap, DoesNotDependOnWhereTheCubesStand, ()) {
 
 TEST(FinalLabels, AUsedLabelMovesAndAnUnlabelRemoves) {
   AnswerRow unlabel;
-  unlabel.action = ActionKind::unlabel;
+  unlabel.action = "unlabel";
   unlabel.slot = 3;
   const std::vector<AnswerRow> answers{label(1, L), label(2, L), label(3, I), unlabel, label(1, H)};
   EXPECT_THAT(final_labels(answers, 3),
@@ -65,10 +65,10 @@ TEST(FinalLabels, AUsedLabelMovesAndAnUnlabelRemoves) {
 
 TEST(Sorting, PercentagesOverAllAndOverAnsweredTrials) {
   SessionData a = session(1, "a"), b = session(2, "b");
-  add_sortings(a, "C1", Outcome::correct, 1);
-  add_sortings(a, "C1", Outcome::incorrect, 1);
-  add_sortings(a, "C1", Outcome::dont_know, 3);
-  add_sortings(b, "C1", Outcome::dont_know, 5);  // answered none
+  add_sortings(a, "C1", "correct", 1);
+  add_sortings(a, "C1", "incorrect", 1);
+  add_sortings(a, "C1", "dont_know", 3);
+  add_sortings(b, "C1", "dont_know", 5);  // answered none
   const auto sorting = sorting_of(std::vector{a, b});
   EXPECT_EQ(sorting[0].n_trials, 10);
   EXPECT_DOUBLE_EQ(*sorting[0].correct.mean_percent, 10);
@@ -83,8 +83,8 @@ TEST(Sorting, PercentagesOverAllAndOverAnsweredTrials) {
 
 TEST(Sorting, SessionsOfOneParticipantCountTogether) {
   SessionData first = session(1, "a"), again = session(2, "a");
-  add_sortings(first, "C2", Outcome::correct, 5);
-  add_sortings(again, "C2", Outcome::incorrect, 5);
+  add_sortings(first, "C2", "correct", 5);
+  add_sortings(again, "C2", "incorrect", 5);
   const auto sorting = sorting_of(std::vector{first, again});
   EXPECT_EQ(sorting[1].n_participants, 1);
   EXPECT_DOUBLE_EQ(*sorting[1].correct.mean_percent, 50);
@@ -92,25 +92,25 @@ TEST(Sorting, SessionsOfOneParticipantCountTogether) {
 
 TEST(Sorting, OnlyCompletedTrialsCount) {
   SessionData data = session(1, "a");
-  add_sorting(data, "C2", Outcome::correct);
-  add_sorting(data, "C2", Outcome::incorrect).trial.status = TrialStatus::voided;
-  add_sorting(data, "C2", Outcome::incorrect).trial.status = TrialStatus::open;
+  add_sorting(data, "C2", "correct");
+  add_sorting(data, "C2", "incorrect").trial.status = TrialStatus::voided;
+  add_sorting(data, "C2", "incorrect").trial.status = TrialStatus::open;
   EXPECT_EQ(sorting_of({&data, 1})[1].n_trials, 1);
 }
 
 TEST(Sorting, CountsSwapsOfIncorrectTrials) {
   SessionData data = session(1, "a");
-  add_sorting(data, "C2", Outcome::incorrect).answers = {label(1, I), label(2, L), label(3, H)};
-  add_sorting(data, "C2", Outcome::correct).answers = {label(1, L), label(2, I), label(3, H)};
+  add_sorting(data, "C2", "incorrect").answers = {label(1, I), label(2, L), label(3, H)};
+  add_sorting(data, "C2", "correct").answers = {label(1, L), label(2, I), label(3, H)};
   EXPECT_THAT(sorting_of({&data, 1})[1].swaps, ElementsAre(1, 0, 0, 0));
 }
 
 TEST(Sorting, ChanceIsOneOfTheOrdersOfAsManyCubes) {
   SessionData data = session(1, "a");
   EXPECT_FALSE(sorting_of({&data, 1})[1].chance_percent());
-  add_sorting(data, "C2", Outcome::correct);
+  add_sorting(data, "C2", "correct");
   EXPECT_DOUBLE_EQ(*sorting_of({&data, 1})[1].chance_percent(), 100.0 / 6);
-  add_sorting(data, "C2", Outcome::correct).cubes = cubes({15, 100, 250, 800});
+  add_sorting(data, "C2", "correct").cubes = cubes({15, 100, 250, 800});
   EXPECT_DOUBLE_EQ(*sorting_of({&data, 1})[1].chance_percent(), (100.0 / 6 + 100.0 / 24) / 2);
   EXPECT_DOUBLE_EQ(chance_percent(2), 50);
   EXPECT_DOUBLE_EQ(chance_percent(5), 100.0 / 120);
@@ -118,10 +118,10 @@ TEST(Sorting, ChanceIsOneOfTheOrdersOfAsManyCubes) {
 
 TEST(Sorting, PublishedFiguresNeedThePublishedMasses) {
   SessionData data = session(1, "a");
-  add_sorting(data, "C1", Outcome::correct);
+  add_sorting(data, "C1", "correct");
   EXPECT_EQ(sorting_of({&data, 1})[0].correct.published_percent, 6.2);
   EXPECT_EQ(sorting_of({&data, 1})[0].answered_correct.published_percent, 10.1);
-  add_sorting(data, "C1", Outcome::correct).cubes = cubes({15, 250, 800});
+  add_sorting(data, "C1", "correct").cubes = cubes({15, 250, 800});
   EXPECT_FALSE(sorting_of({&data, 1})[0].correct.published_percent.has_value());
 }
 

@@ -24,9 +24,9 @@ using testing::Not;
 SessionData full_session(std::int64_t id, const std::string& participant) {
   SessionData data = session(id, participant);
   add_introduction(data, 1);
-  add_sortings(data, "C1", Outcome::dont_know, 5);
-  add_sortings(data, "C2", Outcome::correct, static_cast<int>(id) + 1);
-  add_sortings(data, "C2", Outcome::incorrect, 1);
+  add_sortings(data, "C1", "dont_know", 5);
+  add_sortings(data, "C2", "correct", static_cast<int>(id) + 1);
+  add_sortings(data, "C2", "incorrect", 1);
   add_staircase(data, "15g", 15, 100 + 10 * static_cast<double>(id));
   add_staircase(data, "200g", 200, 200);
   return data;
@@ -119,7 +119,7 @@ TEST(Summary, AnOrdinaryLogHasNoNotes) {
 TEST(Summary, NothingIsSaidClearly) {
   EXPECT_THAT(text_of({}), HasSubstr("x.db holds no sessions."));
   SessionData data = session(1, "a");
-  add_sorting(data, "C1", Outcome::correct).trial.status = TrialStatus::voided;
+  add_sorting(data, "C1", "correct").trial.status = TrialStatus::voided;
   const std::string text = text_of({data});
   EXPECT_THAT(text, HasSubstr("No trial was completed"));
   EXPECT_THAT(text, HasSubstr("Sorting: no completed trials."));
@@ -138,12 +138,12 @@ TEST(Summary, HypothesesCarryTheirExperiment) {
 
 TEST(Hypotheses, TellChanceForAsManyCubesAsThereWere) {
   SessionData data = session(1, "a");
-  add_sorting(data, "C2", Outcome::correct);
+  add_sorting(data, "C2", "correct");
   const auto told = [&] {
     return summarize({"log.db", {data}}, "heft analyse").hypotheses[1].figures.back();
   };
   EXPECT_EQ(told(), "a random order is right in 16.7 % of trials");
-  add_sorting(data, "C2", Outcome::correct).cubes = cubes({15, 100, 250, 800});
+  add_sorting(data, "C2", "correct").cubes = cubes({15, 100, 250, 800});
   EXPECT_EQ(told(),
             "a random order is right in 10.4 % of trials: 16.7 % of 1 trials with 3 cubes, 4.2 % "
             "of 1 trials with 4 cubes");

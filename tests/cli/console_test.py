@@ -232,12 +232,14 @@ class Console(AtAConsole):
         self.assertTrue(self.terminal.wait_for(
             lambda: self.n("void", "and detail = 'veto: the cat is on the table'") == 1 or
             "no trial is open" in self.terminal.shown))
+        self.terminal.press("x4")  # that of the introduction
+        self.assertTrue(self.terminal.wait_for(lambda: self.n("answer_vetoed") == 1))
         self.terminal.press("x4")
-        self.shows("no comparison was answered")
+        self.shows("no trial was answered")
         self.terminal.press("r")
         self.terminal.press("ey")
         self.assertTrue(self.terminal.wait_for(lambda: self.terminal.program.poll() is not None))
-        self.assertEqual(self.n("answer_vetoed"), 0)
+        self.assertEqual(self.n("answer_vetoed"), 1)
 
     def test_it_shows_which_page_the_participant_reads(self):
         self.shows("  welcome  nothing tracked  ")

@@ -113,9 +113,9 @@ class Export(SessionTest):
             for name in names - in_log - ADDED:
                 self.assertRegex(name, "^(parameter|info)_", file)
         levels = {(entry["file"], entry["column"]): entry["levels"] for entry in entries}
-        self.assertEqual(levels["trials.csv", "task"],
-                         "|".join(name for (name,) in query(db, "select name from list_task order "
-                                                                "by rowid")))
+        # The dictionary has the words of every task; the log those of the tasks that it has trials of.
+        self.assertLessEqual({name for (name,) in query(db, "select name from list_task")},
+                             set(levels["trials.csv", "task"].split("|")))
         self.assertEqual(levels["trials.csv", "is_catch"], "0|1")
         units = {(entry["file"], entry["column"]): entry["unit"] for entry in entries}
         self.assertEqual(units["frames.csv", "effector_x_m"], "m")

@@ -5,8 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "experiment/Block.h"
 #include "psychophysics/ProcedureKinds.h"
+#include "tasks/SessionPlan.h"
+#include "tasks/Tasks.h"
 
 namespace heft::testing {
 
@@ -25,9 +26,9 @@ inline Procedure staircase(const std::string& name, double start_g, double step_
 
 /// Demonstration, introduction, four sorting trials, a break, two staircases.
 inline SessionPlan small_plan() {
-  IntroductionBlock introduction{"introduction", {15, 800}};
-  SortingBlock sorting{"sorting", {15, 200, 800}, {{"C1", 2}, {"C2", 2}}, 2};
-  ComparisonBlock comparison;
+  Introduction::Block introduction{"introduction", {15, 800}};
+  Sorting::Block sorting{"sorting", {15, 200, 800}, {{"C1", 2}, {"C2", 2}}, 2};
+  Comparison::Block comparison;
   comparison.name = "comparison";
   comparison.staircases = {{15, staircase("15g", 175, 50)}, {200, staircase("200g", 600, 150)}};
   return {{DemonstrationBlock{"demonstration", 20}, introduction, sorting, BreakBlock{"break", 60},

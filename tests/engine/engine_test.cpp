@@ -12,6 +12,7 @@
 #include "base/Random.h"
 #include "engine/Plans.h"
 #include "psychophysics/ProcedureKinds.h"
+#include "tasks/Offers.h"
 
 namespace heft {
 namespace {
@@ -60,13 +61,13 @@ struct Session {
   void reach_sorting() {
     does(DemonstrationShown{});
     start();
-    acts(ActionKind::select, slot_of(800));
+    acts("select", slot_of(800));
   }
   void reach_comparison() {
     reach_sorting();
-    while (engine.next().plan->task == Task::sorting) {
+    while (engine.next().plan->task == "sorting") {
       start();
-      acts(ActionKind::dont_know);
+      acts("dont_know");
     }
   }
 
@@ -79,20 +80,20 @@ TEST(Engine, goes_through_the_blocks_in_order) {
   EXPECT_EQ(session.engine.next().kind, Next::Kind::demonstration);
   session.does(DemonstrationShown{});
   EXPECT_EQ(session.engine.next().kind, Next::Kind::trial);
-  EXPECT_EQ(session.engine.next().plan->task, Task::introduction);
+  EXPECT_EQ(session.engine.next().plan->task, "introduction");
   EXPECT_EQ(session.engine.next().plan->condition, "C2");
   session.start();
-  session.acts(ActionKind::select, session.slot_of(800));
+  session.acts("select", session.slot_of(800));
   for (int n = 2; n <= 5; ++n) {
-    EXPECT_EQ(session.engine.next().plan->task, Task::sorting);
+    EXPECT_EQ(session.engine.next().plan->task, "sorting");
     EXPECT_EQ(session.engine.next().plan->trial_number, n);
     EXPECT_FALSE(session.engine.next().rest);
     session.start();
-    session.acts(ActionKind::dont_know);
+    session.acts("dont_know");
   }
   ASSERT_TRUE(session.engine.next().rest);
   EXPECT_EQ(session.engine.next().rest->name, "break");
-  EXPECT_EQ(session.engine.next().plan->task, Task::comparison);
+  EXPECT_EQ(session.engine.next().plan->task, "comparison");
   session.start();
   EXPECT_FALSE(session.engine.next().rest) << "a break is never inside a trial";
 }
@@ -101,28 +102,28 @@ TEST(Engine, ends_the_introduction_on_the_right_answer_only) {
   Session session;
   session.does(DemonstrationShown{});
   session.start();
-  const Changes wrong = session.acts(ActionKind::select, session.slot_of(15));
+  const Changes wrong = session.acts("select", session.slot_of(15));
   EXPECT_EQ(wrong.trial->status, TrialStatus::open);
   EXPECT_EQ(wrong.answers.size(), 1u);
   EXPECT_TRUE(session.engine.screen().try_again);
-  EXPECT_THAT(session.refusal(ActionKind::dont_know), HasSubstr("introduction"));
-  const Changes right = session.acts(ActionKind::select, session.slot_of(800));
+  EXPECT_THAT(session.refusal("dont_know"), HasSubstr("introduction"));
+  const Changes right = session.acts("select", session.slot_of(800));
   EXPECT_EQ(right.trial->status, TrialStatus::completed);
-  EXPECT_EQ(right.trial->outcome, Outcome::correct);
-  EXPECT_EQ(session.engine.next().plan->task, Task::sorting);
+  EXPECT_EQ(right.trial->outcome, "correct");
+  EXPECT_EQ(session.engine.next().plan->task, "sorting");
 }
 
 TEST(Engine, reshuffles_after_a_wrong_introduction_where_the_protocol_says_so) {
   SessionPlan session_plan = small_plan();
-  std::get<IntroductionBlock>(session_plan.blocks[1]).wrong_answer = WrongAnswer::reshuffle;
+  block_as<Introduction::Block>(session_plan.blocks[1])->wrong_answer = WrongAnswer::reshuffle;
   int moved = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Session session(session_plan, seed);
     session.does(DemonstrationShown{});
     const TrialPlan before = session.start();
-    session.acts(ActionKind::select, session.slot_of(15));
+    session.acts("select", session.slot_of(15));
     EXPECT_EQ(session.engine.next().plan->n_reshuffles, 1);
-    EXPECT_THAT(session.refusal(ActionKind::select, 1), HasSubstr("not appeared"));
+    EXPECT_THAT(session.refusal("select", 1), HasSubstr("not appeared"));
     session.does(CubesShown{});
     if (session.engine.next().plan->masses_g != before.masses_g) ++moved;
   }
@@ -134,33 +135,33 @@ TEST(Engine, labels_are_mutually_exclusive_and_can_be_corrected) {
   Session session;
   session.reach_sorting();
   session.start();
-  session.acts(ActionKind::label, 1, Label::heaviest);
-  session.acts(ActionKind::label, 2, Label::heaviest);
-  EXPECT_EQ(session.engine.screen().labels[0], std::nullopt) << "a used label moves";
-  EXPECT_THAT(session.engine.screen().labels[1], Optional(Label::heaviest));
-  session.acts(ActionKind::label, 2, Label::lightest);
-  EXPECT_THAT(session.engine.screen().labels[1], Optional(Label::lightest));
-  session.acts(ActionKind::unlabel, 2);
-  EXPECT_EQ(session.engine.screen().labels[1], std::nullopt);
-  EXPECT_THAT(session.refusal(ActionKind::unlabel, 2), HasSubstr("no label"));
-  EXPECT_THAT(session.refusal(ActionKind::select, 2), HasSubstr("no \"select\""));
-  EXPECT_THAT(session.refusal(ActionKind::label, 4, Label::lightest), HasSubstr("no cube 4"));
-  EXPECT_THAT(session.refusal(ActionKind::label, 1), HasSubstr("names no label"));
+  session.acts("label", 1, "heaviest");
+  session.acts("label", 2, "heaviest");
+  EXPECT_EQ(labels_on(session.engine.screen())[0], std::nullopt) << "a used label moves";
+  EXPECT_EQ(labels_on(session.engine.screen())[1], "heaviest");
+  session.acts("label", 2, "lightest");
+  EXPECT_EQ(labels_on(session.engine.screen())[1], "lightest");
+  session.acts("unlabel", 2);
+  EXPECT_EQ(labels_on(session.engine.screen())[1], std::nullopt);
+  EXPECT_THAT(session.refusal("unlabel", 2), HasSubstr("no label"));
+  EXPECT_THAT(session.refusal("select", 2), HasSubstr("no \"select\""));
+  EXPECT_THAT(session.refusal("label", 4, "lightest"), HasSubstr("no cube 4"));
+  EXPECT_THAT(session.refusal("label", 1), HasSubstr("names no label"));
 }
 
 TEST(Engine, refuses_validate_until_all_three_labels_are_set) {
   Session session;
   session.reach_sorting();
   session.start();
-  EXPECT_THAT(session.refusal(ActionKind::validate), HasSubstr("not all cubes"));
-  session.acts(ActionKind::label, session.slot_of(15), Label::lightest);
-  session.acts(ActionKind::label, session.slot_of(200), Label::intermediate);
+  EXPECT_THAT(session.refusal("validate"), HasSubstr("not all cubes"));
+  session.acts("label", session.slot_of(15), "lightest");
+  session.acts("label", session.slot_of(200), "intermediate");
   EXPECT_FALSE(session.engine.screen().can_validate);
-  EXPECT_THAT(session.refusal(ActionKind::validate), HasSubstr("not all cubes"));
-  session.acts(ActionKind::label, session.slot_of(800), Label::heaviest);
+  EXPECT_THAT(session.refusal("validate"), HasSubstr("not all cubes"));
+  session.acts("label", session.slot_of(800), "heaviest");
   EXPECT_TRUE(session.engine.screen().can_validate);
-  const Changes done = session.acts(ActionKind::validate);
-  EXPECT_EQ(done.trial->outcome, Outcome::correct);
+  const Changes done = session.acts("validate");
+  EXPECT_EQ(done.trial->outcome, "correct");
   EXPECT_EQ(done.trial->validated_s, session.t_s);
 }
 
@@ -168,12 +169,12 @@ TEST(Engine, marks_a_swapped_pair_incorrect_and_dont_know_as_itself) {
   Session session;
   session.reach_sorting();
   session.start();
-  session.acts(ActionKind::label, session.slot_of(15), Label::intermediate);
-  session.acts(ActionKind::label, session.slot_of(200), Label::lightest);
-  session.acts(ActionKind::label, session.slot_of(800), Label::heaviest);
-  EXPECT_EQ(session.acts(ActionKind::validate).trial->outcome, Outcome::incorrect);
+  session.acts("label", session.slot_of(15), "intermediate");
+  session.acts("label", session.slot_of(200), "lightest");
+  session.acts("label", session.slot_of(800), "heaviest");
+  EXPECT_EQ(session.acts("validate").trial->outcome, "incorrect");
   session.start();
-  EXPECT_EQ(session.acts(ActionKind::dont_know).trial->outcome, Outcome::dont_know);
+  EXPECT_EQ(session.acts("dont_know").trial->outcome, "dont_know");
 }
 
 TEST(Engine, a_select_ends_a_comparison_at_once_and_drives_its_staircase) {
@@ -182,8 +183,8 @@ TEST(Engine, a_select_ends_a_comparison_at_once_and_drives_its_staircase) {
   const TrialPlan plan = session.start();
   EXPECT_DOUBLE_EQ(plan.masses_g[*plan.reference_slot == 1 ? 0 : 1], *plan.reference_g);
   const int lighter = *plan.reference_slot;
-  const Changes done = session.acts(ActionKind::select, lighter);
-  EXPECT_EQ(done.trial->outcome, Outcome::difference);
+  const Changes done = session.acts("select", lighter);
+  EXPECT_EQ(done.trial->outcome, "difference");
   EXPECT_EQ(done.trial->choice_correct, false);
   EXPECT_EQ(done.trial->chosen_slot, lighter);
   // Any choice is a positive answer in the paper's rule: this staircase goes down.
@@ -193,7 +194,7 @@ TEST(Engine, a_select_ends_a_comparison_at_once_and_drives_its_staircase) {
       EXPECT_LT(*next.level_g, *plan.level_g);
       break;
     }
-    session.acts(ActionKind::no_difference);
+    session.acts("no_difference");
   }
 }
 
@@ -206,8 +207,7 @@ TEST(Engine, runs_both_staircases_to_their_estimates_and_finishes) {
   while (session.engine.next().kind == Next::Kind::trial) {
     session.start();
     const bool alike = ++n % 3 == 0;
-    const Changes done =
-        alike ? session.acts(ActionKind::no_difference) : session.acts(ActionKind::select, 1);
+    const Changes done = alike ? session.acts("no_difference") : session.acts("select", 1);
     estimates.insert(estimates.end(), done.estimates.begin(), done.estimates.end());
     reversals.insert(reversals.end(), done.reversals.begin(), done.reversals.end());
   }
@@ -249,14 +249,14 @@ TEST(Engine, a_crash_repeats_the_attempt_with_the_same_draws) {
   Session session;
   session.reach_sorting();
   const TrialPlan before = session.start();
-  session.acts(ActionKind::label, 1, Label::heaviest);
+  session.acts("label", 1, "heaviest");
   session.does(TrialVoided{"interrupted"});
   session.does(SessionResumed{});
   const TrialPlan after = *session.engine.next().plan;
   EXPECT_EQ(after.attempt, before.attempt);
   EXPECT_EQ(after.masses_g, before.masses_g);
   session.start();
-  EXPECT_EQ(session.engine.screen().labels[0], std::nullopt) << "labels start anew";
+  EXPECT_EQ(labels_on(session.engine.screen())[0], std::nullopt) << "labels start anew";
 }
 
 TEST(Engine, three_voids_of_one_trial_pause_the_session_but_crashes_do_not_count) {
@@ -282,13 +282,13 @@ TEST(Engine, refuses_answers_while_paused_and_before_the_cubes_appear) {
   Session session;
   session.reach_sorting();
   session.does(TrialStarted{});
-  EXPECT_THAT(session.refusal(ActionKind::dont_know), HasSubstr("not appeared"));
+  EXPECT_THAT(session.refusal("dont_know"), HasSubstr("not appeared"));
   session.does(CubesShown{});
   session.does(SessionPaused{"camera_lost"});
   EXPECT_EQ(session.engine.screen().screen, Screen::paused);
-  EXPECT_THAT(session.refusal(ActionKind::dont_know), HasSubstr("paused"));
+  EXPECT_THAT(session.refusal("dont_know"), HasSubstr("paused"));
   session.does(SessionContinued{});
-  EXPECT_EQ(session.refusal(ActionKind::dont_know), "");
+  EXPECT_EQ(session.refusal("dont_know"), "");
 }
 
 TEST(Engine, keeps_account_of_time_and_contacts) {
@@ -296,13 +296,13 @@ TEST(Engine, keeps_account_of_time_and_contacts) {
   session.reach_sorting();
   session.start();  // shown at t
   const double shown_s = session.t_s;
-  session.touches(2, 0.75);                                  // began t+1, ended t+2
-  session.touches(2, 0.5);                                   // t+3, t+4
-  session.does(EffectorLost{});                              // t+5
-  session.does(SessionPaused{"camera_lost"});                // t+6: lost for 1 s
-  session.does(SessionContinued{});                          // t+7: paused for 1 s
-  session.does(EffectorFound{});                             // t+8: lost for 1 s more
-  const Changes done = session.acts(ActionKind::dont_know);  // t+9
+  session.touches(2, 0.75);                        // began t+1, ended t+2
+  session.touches(2, 0.5);                         // t+3, t+4
+  session.does(EffectorLost{});                    // t+5
+  session.does(SessionPaused{"camera_lost"});      // t+6: lost for 1 s
+  session.does(SessionContinued{});                // t+7: paused for 1 s
+  session.does(EffectorFound{});                   // t+8: lost for 1 s more
+  const Changes done = session.acts("dont_know");  // t+9
   const TrialRow& row = *done.trial;
   EXPECT_EQ(row.shown_s, shown_s);
   EXPECT_EQ(row.first_contact_s, shown_s + 1);
@@ -358,23 +358,23 @@ TEST(Engine, requires_contact_with_every_cube_where_the_protocol_says_so) {
   Session session(session_plan);
   session.does(DemonstrationShown{});
   session.start();
-  EXPECT_THAT(session.refusal(ActionKind::select, 1), HasSubstr("touched"));
+  EXPECT_THAT(session.refusal("select", 1), HasSubstr("touched"));
   session.touches(1, 0.1);
   EXPECT_FALSE(session.engine.screen().can_answer);
   session.touches(2, 0.1);
   EXPECT_TRUE(session.engine.screen().can_answer);
-  EXPECT_EQ(session.refusal(ActionKind::select, 1), "");
+  EXPECT_EQ(session.refusal("select", 1), "");
 }
 
 TEST(Engine, catch_trials_show_equal_masses_and_drive_no_staircase) {
   SessionPlan session_plan = small_plan();
-  std::get<ComparisonBlock>(session_plan.blocks[4]).catch_fraction = 0.5;
+  block_as<Comparison::Block>(session_plan.blocks[4])->catch_fraction = 0.5;
   Session session(session_plan);
   session.reach_comparison();
   int n_catch = 0, n = 0;
   while (session.engine.next().kind == Next::Kind::trial) {
     const TrialPlan plan = session.start();
-    const Changes done = session.acts(ActionKind::select, 1);
+    const Changes done = session.acts("select", 1);
     ++n;
     if (!plan.is_catch) continue;
     ++n_catch;
@@ -394,14 +394,14 @@ std::vector<TrialPlan> plans_of(const SessionPlan& session_plan, std::uint64_t s
   std::vector<TrialPlan> plans;
   while (session.engine.next().kind == Next::Kind::trial) {
     plans.push_back(session.start());
-    session.acts(ActionKind::select, answers.coin(0.5) ? 1 : 2);
+    session.acts("select", answers.coin(0.5) ? 1 : 2);
   }
   return plans;
 }
 
 TEST(Engine, catch_trials_in_a_fixed_number_come_as_planned_whatever_is_answered) {
   SessionPlan session_plan = small_plan();
-  auto& block = std::get<ComparisonBlock>(session_plan.blocks[4]);
+  auto& block = *block_as<Comparison::Block>(session_plan.blocks[4]);
   block.catch_every = 5;
   block.sides = Sides::balanced;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
@@ -445,7 +445,7 @@ Procedure constant(const std::string& name) {
 
 SessionPlan constant_plan() {
   SessionPlan session_plan = small_plan();
-  auto& block = std::get<ComparisonBlock>(session_plan.blocks[4]);
+  auto& block = *block_as<Comparison::Block>(session_plan.blocks[4]);
   block.staircases = {{15, constant("constant")}, {200, testing::staircase("200g", 600, 150)}};
   session_plan.blocks = {block};
   return session_plan;
@@ -457,7 +457,7 @@ TEST(Engine, constant_stimuli_run_beside_a_staircase_and_end_without_a_jnd) {
   std::vector<EstimateRow> estimates;
   while (session.engine.next().kind == Next::Kind::trial) {
     const TrialPlan plan = session.start();
-    const Changes done = session.acts(ActionKind::select, 1);
+    const Changes done = session.acts("select", 1);
     if (plan.staircase == "constant") {
       ++counts[*plan.level_g];
       EXPECT_DOUBLE_EQ(plan.masses_g[0] + plan.masses_g[1], 30 + *plan.level_g);
@@ -486,7 +486,7 @@ std::vector<std::pair<std::string, double>> course(std::uint64_t seed, auto veto
       session.does(TrialVoided{n % 2 ? "veto" : "interrupted"});
       continue;
     }
-    session.acts(ActionKind::no_difference);
+    session.acts("no_difference");
     course.emplace_back(plan.staircase, *plan.level_g);
   }
   return course;
@@ -503,14 +503,14 @@ TEST(Engine, an_answer_is_positive_by_the_blocks_rule) {
   for (const PositiveAnswer rule : {PositiveAnswer::any_choice, PositiveAnswer::correct_choice})
     for (const bool choose_reference : {false, true}) {
       SessionPlan session_plan = small_plan();
-      auto& block = std::get<ComparisonBlock>(session_plan.blocks.back());
+      auto& block = *block_as<Comparison::Block>(session_plan.blocks.back());
       block.positive_answer = rule;
       block.staircases.pop_back();
       Session session(session_plan);
       session.reach_comparison();
       const TrialPlan plan = session.start();
       const int comparison = 3 - *plan.reference_slot;
-      session.acts(ActionKind::select, choose_reference ? *plan.reference_slot : comparison);
+      session.acts("select", choose_reference ? *plan.reference_slot : comparison);
       const bool positive = rule == PositiveAnswer::any_choice || !choose_reference;
       const double step_g = *session.engine.next().plan->level_g - *plan.level_g;
       EXPECT_EQ(step_g < 0, positive) << name_of(rule) << choose_reference;
@@ -519,7 +519,7 @@ TEST(Engine, an_answer_is_positive_by_the_blocks_rule) {
 
 TEST(Engine, sorting_blocks_hold_the_planned_conditions_and_runs) {
   SessionPlan session_plan = small_plan();
-  auto& block = std::get<SortingBlock>(session_plan.blocks[2]);
+  auto& block = *block_as<Sorting::Block>(session_plan.blocks[2]);
   block.trials = {{"C1", 5}, {"C2", 5}};
   block.max_run = 2;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
@@ -527,13 +527,13 @@ TEST(Engine, sorting_blocks_hold_the_planned_conditions_and_runs) {
     session.reach_sorting();
     int n_c1 = 0, run = 0;
     std::optional<std::string> last;
-    while (session.engine.next().plan->task == Task::sorting) {
+    while (session.engine.next().plan->task == "sorting") {
       const TrialPlan plan = session.start();
       if (plan.condition == "C1") ++n_c1;
       run = plan.condition == last ? run + 1 : 1;
       last = plan.condition;
       EXPECT_LE(run, 2);
-      session.acts(ActionKind::dont_know);
+      session.acts("dont_know");
     }
     EXPECT_EQ(n_c1, 5);
   }
@@ -541,16 +541,16 @@ TEST(Engine, sorting_blocks_hold_the_planned_conditions_and_runs) {
 
 TEST(Engine, balanced_orders_use_each_order_once_before_any_twice) {
   SessionPlan session_plan = small_plan();
-  auto& block = std::get<SortingBlock>(session_plan.blocks[2]);
+  auto& block = *block_as<Sorting::Block>(session_plan.blocks[2]);
   block.trials = {{"C1", 6}, {"C2", 6}};
   block.orders = SortingOrders::balanced;
   Session session(session_plan);
   session.reach_sorting();
   std::map<std::string, std::set<std::vector<double>>> orders;
-  while (session.engine.next().plan->task == Task::sorting) {
+  while (session.engine.next().plan->task == "sorting") {
     const TrialPlan plan = session.start();
     orders[plan.condition].insert(plan.masses_g);
-    session.acts(ActionKind::dont_know);
+    session.acts("dont_know");
   }
   EXPECT_EQ(orders["C1"].size(), 6u);
   EXPECT_EQ(orders["C2"].size(), 6u);
@@ -571,12 +571,12 @@ Event random_event(RandomStream& stream, double t_s) {
   const int slot = static_cast<int>(stream.below(5));
   const auto some_slot = stream.coin(0.7) ? std::optional(slot) : std::nullopt;
   const auto label =
-      stream.coin(0.5) ? std::optional(static_cast<Label>(stream.below(9))) : std::nullopt;
+      stream.coin(0.5) ? std::optional(Label(Sorting::labels.at(stream.below(9)))) : std::nullopt;
   const auto value = stream.coin(0.5) ? std::optional(stream.uniform() * 2 - 0.5) : std::nullopt;
+  static const auto kinds = words_of<ActionKind>();
   const std::vector<EventPayload> all{
       TrialStarted{},
-      Action{static_cast<ActionKind>(stream.below(EnumNames<ActionKind>::names.size())), some_slot,
-             label},
+      Action{ActionKind(kinds.at(stream.below(kinds.size()))), some_slot, label},
       TrialVoided{stream.coin(0.5) ? "camera_lost" : std::string(void_interrupted)},
       TrialVoided{},
       SessionPaused{"why"},
@@ -606,10 +606,9 @@ Event likely_event(const Engine& engine, RandomStream& stream, double t_s) {
       return Event{t_s, SessionContinued{}};
     case Next::Kind::act:
       if (!engine.screen().can_answer) return Event{t_s, CubesShown{}};
-      if (engine.next().plan->task != Task::sorting && stream.coin(0.6))
-        return action(t_s, ActionKind::select, static_cast<int>(stream.below(2)) + 1);
-      return action(t_s, engine.next().plan->task == Task::sorting ? ActionKind::dont_know
-                                                                   : ActionKind::no_difference);
+      if (engine.next().plan->task != "sorting" && stream.coin(0.6))
+        return action(t_s, "select", static_cast<int>(stream.below(2)) + 1);
+      return action(t_s, engine.next().plan->task == "sorting" ? "dont_know" : "no_difference");
     default:
       return Event{t_s, SessionEnded{}};
   }
@@ -644,7 +643,7 @@ RC_GTEST_PROP(EngineProperty, random_events_keep_every_promise, (std::uint64_t s
     }
     for (const ReversalRow& row : changes.reversals)
       RC_ASSERT(row.number == ++n_reversals[row.staircase]);
-    const auto labels = engine.screen().labels;
+    const auto labels = labels_on(engine.screen());
     for (std::size_t a = 0; a < labels.size(); ++a)
       for (std::size_t b = a + 1; b < labels.size(); ++b)
         RC_ASSERT(!labels[a] || labels[a] != labels[b]);

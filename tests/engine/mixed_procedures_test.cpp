@@ -52,8 +52,8 @@ Procedure any_procedure(const std::string& name) {
   }
 }
 
-ComparisonBlock any_block() {
-  ComparisonBlock block;
+Comparison::Block any_block() {
+  Comparison::Block block;
   block.name = "comparison";
   const int n = *rc::gen::inRange(1, 5);
   for (int i = 0; i < n; ++i)
@@ -105,8 +105,8 @@ struct Folded {
 
 // Sees what is above the threshold.
 Action answer(const TrialPlan& plan, double threshold_g) {
-  if (plan.is_catch || *plan.level_g <= threshold_g) return {ActionKind::no_difference, {}, {}};
-  return {ActionKind::select, plan.reference_slot == 1 ? 2 : 1, {}};
+  if (plan.is_catch || *plan.level_g <= threshold_g) return {"no_difference", {}, {}};
+  return {"select", plan.reference_slot == 1 ? 2 : 1, {}};
 }
 
 /// To the end; after each answer `happens()` says what else comes: 1 a void before it, 2 a veto of
@@ -143,7 +143,8 @@ RC_GTEST_PROP(MixedProcedures, FoldAgainToTheSameSession, (std::uint64_t seed)) 
   Folded quiet(plan, seed);
   run(quiet, threshold_g, [] { return 0; });
   RC_ASSERT(quiet.estimates == session.estimates);
-  RC_ASSERT(quiet.estimates.size() == std::get<ComparisonBlock>(plan->blocks[0]).staircases.size());
+  RC_ASSERT(quiet.estimates.size() ==
+            block_as<Comparison::Block>(plan->blocks[0])->staircases.size());
 }
 
 RC_GTEST_PROP(MixedProcedures, ContinueWhereTheyWereInterrupted, (std::uint64_t seed)) {
@@ -163,7 +164,7 @@ RC_GTEST_PROP(MixedProcedures, ContinueWhereTheyWereInterrupted, (std::uint64_t 
 
 TEST(MixedProcedures, AnOwnProceduresIntervalReachesItsRow) {
   auto plan = std::make_shared<SessionPlan>();
-  ComparisonBlock block;
+  Comparison::Block block;
   block.name = "comparison";
   block.staircases = {{15, {"own", test::Bisection(0, 100, 25)}, {}}};
   plan->blocks = {block};

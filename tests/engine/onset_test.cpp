@@ -32,7 +32,7 @@ class OnsetRules : public ::testing::Test {
     at(start_s, TrialStarted{});
     at(start_s, CubesShown{});
     const auto& masses_g = engine.next().plan->masses_g;
-    at(answer_s, Action{ActionKind::select, masses_g[0] > masses_g[1] ? 1 : 2});
+    at(answer_s, Action{"select", masses_g[0] > masses_g[1] ? 1 : 2});
     return answer_s;
   }
 
@@ -45,7 +45,7 @@ class OnsetRules : public ::testing::Test {
   double t_s = 0;
 };
 
-const Action dont_know{ActionKind::dont_know};
+const Action dont_know{"dont_know"};
 
 TEST_F(OnsetRules, a_trial_starts_once_the_gap_after_the_last_one_is_over) {
   EXPECT_EQ(engine.trial_due_s(), 0) << "none before the first";
@@ -65,20 +65,19 @@ TEST_F(OnsetRules, no_answer_is_taken_before_the_cubes_were_there_for_long_enoug
   at(engine.trial_due_s(), TrialStarted{});
   const double shown_s = t_s + 2;
   at(shown_s, CubesShown{});
-  EXPECT_THAT(refusal(shown_s + 0.499, Action{ActionKind::select, 1}), HasSubstr("within 0.5 s"));
-  EXPECT_EQ(refusal(shown_s + 0.501, Action{ActionKind::select, 1}), "");
+  EXPECT_THAT(refusal(shown_s + 0.499, Action{"select", 1}), HasSubstr("within 0.5 s"));
+  EXPECT_EQ(refusal(shown_s + 0.501, Action{"select", 1}), "");
   const ScreenState screen = engine.screen();
   EXPECT_TRUE(screen.can_answer) << "the buttons are live with the cubes";
   EXPECT_NEAR(screen.answers_from_s.value(), 2.5, 1e-6) << "since the trial's start";
-  EXPECT_EQ(refusal(engine.last_s() + *screen.answers_from_s - 2, Action{ActionKind::select, 1}),
-            "");
+  EXPECT_EQ(refusal(engine.last_s() + *screen.answers_from_s - 2, Action{"select", 1}), "");
 }
 
 TEST_F(OnsetRules, labels_wait_like_choices) {
   introduce(1, 4);
   at(5, TrialStarted{});
   at(5, CubesShown{});
-  EXPECT_THAT(refusal(5.4, Action{ActionKind::label, 1, Label::lightest}), HasSubstr("within"));
+  EXPECT_THAT(refusal(5.4, Action{"label", 1, "lightest"}), HasSubstr("within"));
   EXPECT_THAT(refusal(5.4, dont_know), HasSubstr("within"));
   EXPECT_EQ(refusal(5.6, dont_know), "");
 }
@@ -87,8 +86,7 @@ TEST_F(OnsetRules, a_refused_answer_that_is_told_changes_nothing) {
   at(1, TrialStarted{});
   at(1, CubesShown{});
   const ScreenState before = engine.screen();
-  const Changes changes =
-      engine.apply({1.2, ActionRefused{{ActionKind::select, 1}, "it comes too early"}});
+  const Changes changes = engine.apply({1.2, ActionRefused{{"select", 1}, "it comes too early"}});
   EXPECT_FALSE(changes.trial);
   EXPECT_TRUE(changes.answers.empty());
   EXPECT_EQ(changes.attempt_index, 1) << "but it is known which trial it was meant for";
@@ -106,7 +104,7 @@ TEST_F(OnsetRules, between_two_trials_the_screen_is_the_next_ones_without_cubes)
   introduce(1, 4);
   const ScreenState screen = engine.screen();
   EXPECT_EQ(screen.screen, Screen::trial);
-  EXPECT_EQ(screen.task, Task::sorting);
+  EXPECT_EQ(screen.task, "sorting");
   EXPECT_EQ(screen.trial_number, 2);
   EXPECT_FALSE(screen.can_answer);
   at(5, TrialStarted{});
@@ -117,7 +115,7 @@ TEST_F(OnsetRules, between_two_trials_the_screen_is_the_next_ones_without_cubes)
 
 TEST_F(OnsetRules, a_break_that_was_taken_is_not_due_again) {
   introduce(1, 4);
-  while (engine.next().plan->task == Task::sorting) {
+  while (engine.next().plan->task == "sorting") {
     at(std::max(t_s, engine.trial_due_s()), TrialStarted{});
     at(t_s, CubesShown{});
     at(t_s + 1, dont_know);

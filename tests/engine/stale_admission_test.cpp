@@ -34,7 +34,7 @@ class StaleAdmission : public ::testing::Test {
     EXPECT_EQ(engine.last_s(), last_s);
   }
 
-  const Action chosen{ActionKind::select, 1};
+  const Action chosen{"select", 1};
   Engine engine{testing::shared(comparing()), 7};
   double t_s = 0;
 };
@@ -79,10 +79,9 @@ TEST_F(StaleAdmission, holds_where_only_contacts_end_in_between) {
 RC_GTEST_PROP(StaleAdmissionProperty, is_as_good_as_none, (std::uint64_t seed)) {
   RandomStream stream(seed, "stale");
   Engine engine(testing::shared(comparing()), seed), plain(testing::shared(comparing()), seed);
-  const std::vector<EventPayload> all{
-      TrialStarted{},       CubesShown{},       Action{ActionKind::select, 1},
-      SessionPaused{"why"}, SessionContinued{}, TrialVoided{"why"},
-      AnswerVetoed{"why"},  Note{"why"},        CubeTouch{1}};
+  const std::vector<EventPayload> all{TrialStarted{},       CubesShown{},       Action{"select", 1},
+                                      SessionPaused{"why"}, SessionContinued{}, TrialVoided{"why"},
+                                      AnswerVetoed{"why"},  Note{"why"},        CubeTouch{1}};
   std::vector<AdmittedEvent> held;
   for (int i = 0; i < 200; ++i) {
     const Event event{static_cast<double>(i), all[stream.below(all.size())]};

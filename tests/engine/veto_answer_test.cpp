@@ -31,11 +31,9 @@ struct Comparing {
   }
   Changes answer(bool yes) {
     start();
-    return apply(yes ? Action{ActionKind::select, 1} : Action{ActionKind::no_difference});
+    return apply(yes ? Action{"select", 1} : Action{"no_difference"});
   }
-  bool compares() const {
-    return engine.next().plan && engine.next().plan->task == Task::comparison;
-  }
+  bool compares() const { return engine.next().plan && engine.next().plan->task == "comparison"; }
 
   Engine engine{shared(two_staircases()), 7};
   double t_s = 0;
@@ -64,7 +62,7 @@ TEST(VetoedAnswer, is_kept_as_void_and_its_trial_is_presented_again) {
 
 TEST(VetoedAnswer, can_be_taken_back_once_and_only_while_no_trial_runs) {
   Comparing session;
-  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no comparison"));
+  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no trial was answered"));
   session.answer(true);
   session.answer(false);
   session.start();
@@ -72,15 +70,21 @@ TEST(VetoedAnswer, can_be_taken_back_once_and_only_while_no_trial_runs) {
   session.apply(TrialVoided{std::string(void_interrupted)});
   EXPECT_THAT(session.refusal(AnswerVetoed{}), HasSubstr("reason"));
   session.apply(by_mistake);
-  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no comparison"));
+  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no trial was answered"));
 }
 
-TEST(VetoedAnswer, of_sorting_there_is_none) {
+TEST(VetoedAnswer, of_sorting_is_presented_again) {
   Comparing session;
   while (session.compares()) session.answer(true);
-  session.start();
-  session.apply(Action{ActionKind::dont_know});
-  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no comparison"));
+  const TrialPlan answered = session.start();
+  session.apply(Action{"dont_know"});
+  const int n_completed = session.engine.n_completed();
+  session.apply(by_mistake);
+  EXPECT_EQ(session.engine.n_completed(), n_completed - 1);
+  const TrialPlan again = session.start();
+  EXPECT_EQ(again.task, "sorting");
+  EXPECT_EQ(again.trial_number, answered.trial_number);
+  EXPECT_EQ(again.condition, answered.condition);
 }
 
 TEST(VetoedAnswer, takes_its_reversal_and_its_estimates_back) {
@@ -108,7 +112,7 @@ TEST(VetoedAnswer, brings_no_break_again_that_is_over) {
     session.apply(by_mistake);
     EXPECT_FALSE(session.engine.next().rest);
     while (session.compares()) session.answer(true);
-    EXPECT_EQ(session.engine.next().plan->task, Task::sorting);
+    EXPECT_EQ(session.engine.next().plan->task, "sorting");
     EXPECT_FALSE(session.engine.next().rest) << "it was taken before the answer was taken back";
   }
 }

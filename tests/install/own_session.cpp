@@ -24,7 +24,7 @@ struct Bisection {
 
 int main() {
   heft::UpDownConfig rule{.start = 175, .step = 50, .halve_every = 2, .floor = 0};
-  heft::ComparisonBlock block;
+  heft::Comparison::Block block;
   block.name = "comparison";
   block.staircases = {{15, {"own", Bisection{0, 400}}, {}}, {15, {"15g", rule}, {}}};
   auto plan = std::make_shared<heft::SessionPlan>();
@@ -36,9 +36,9 @@ int main() {
     engine.apply(heft::Event{t_s += 1, heft::TrialStarted{}});
     engine.apply(heft::Event{t_s += 1, heft::CubesShown{}});
     const heft::TrialPlan trial = *engine.next().plan;
-    heft::Action answer{heft::ActionKind::no_difference, {}, {}};
+    heft::Action answer{heft::"no_difference", {}, {}};
     if (*trial.level_g > threshold_g)
-      answer = {heft::ActionKind::select, trial.reference_slot == 1 ? 2 : 1, {}};
+      answer = {heft::"select", trial.reference_slot == 1 ? 2 : 1, {}};
     for (const heft::EstimateRow& row : engine.apply(heft::Event{t_s += 1, answer}).estimates) {
       std::printf("%s: %.2f g\n", row.staircase.c_str(), *row.jnd_g);
       ++n_estimates;

@@ -122,7 +122,7 @@ const Broken blocks[] = {
      {"lacks \"kind\"", "\"sorting\""}},
     {"unknown_kind",
      {"\"sorting\"", "^\"questionnaire\""},
-     {"kind is \"questionnaire\"", "\"comparison\" or \"break\""}},
+     {"kind is \"questionnaire\"", "\"comparison\", \"estimation\" or \"break\""}},
     {"misspelled_kind_key",
      {"kind = \"sorting\"", "^knd = \"sorting\""},
      {"unknown key \"knd\"", "\"kind\"?"}},

@@ -3,6 +3,7 @@
 #include "EditedFile.h"
 #include "protocol/ExpectedLength.h"
 #include "psychophysics/ProcedureKinds.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 namespace {
@@ -18,9 +19,10 @@ TEST(ExpectedLength, OfThePapersStaircases) {
 
 TEST(ExpectedLength, AddsUpBlocks) {
   Protocol protocol;
-  protocol.blocks = {DemonstrationBlock{"d", 30}, IntroductionBlock{}, SortingBlock{},
+  protocol.blocks = {DemonstrationBlock{"d", 30}, Introduction::Block{}, Sorting::Block{},
                      BreakBlock{"b", 60}};
-  const ExpectedLength length = expected_length(protocol, {12, 20, 5});
+  const ExpectedLength length =
+      expected_length(protocol, {{"introduction", 12}, {"sorting", 20}, {"comparison", 5}});
   EXPECT_DOUBLE_EQ(length.trials, 11);
   EXPECT_DOUBLE_EQ(length.minutes, (30 + 12.6 + 10 * 20.6 + 60) / 60.0);
 }
@@ -29,12 +31,12 @@ TEST(ExpectedLength, CountsCatchTrials) {
   Protocol protocol = load_protocol(shipped_path("jnd"));
   protocol.blocks = {protocol.blocks.back()};
   const double without = expected_length(protocol).trials;
-  std::get<ComparisonBlock>(protocol.blocks.back()).catch_fraction = 0.2;
+  block_as<Comparison::Block>(protocol.blocks.back())->catch_fraction = 0.2;
   EXPECT_NEAR(expected_length(protocol).trials, without / 0.8, 1e-9);
 }
 
 TEST(ExpectedLength, EndsWhereAStaircaseGetsNowhere) {
-  ComparisonBlock block;
+  Comparison::Block block;
   block.staircases = {
       {1, {"long", UpDownConfig{.start = 1e6, .step = 1e-6, .stop_trials = 2'000'000'000}}, {}}};
   Protocol protocol;
@@ -43,7 +45,7 @@ TEST(ExpectedLength, EndsWhereAStaircaseGetsNowhere) {
 }
 
 TEST(ExpectedLength, CountsTheTrialsOfConstantStimuli) {
-  ComparisonBlock block;
+  Comparison::Block block;
   block.staircases = {{15, {"constant", ConstantConfig{.levels = {10, 20, 40}, .n_per_level = 12}}},
                       {200, {"other", ConstantConfig{.levels = {10}, .n_per_level = 4}}}};
   Protocol protocol;

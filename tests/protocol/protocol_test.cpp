@@ -8,6 +8,7 @@
 #include "EditedFile.h"
 #include "base/Sha256.h"
 #include "psychophysics/ProcedureKinds.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 namespace {
@@ -47,10 +48,10 @@ TEST(PaperProtocol, HasThePapersBlocks) {
   EXPECT_EQ(protocol.layout.cube_size_m, 0.035);
   ASSERT_EQ(protocol.blocks.size(), 5u);
   EXPECT_TRUE(std::holds_alternative<DemonstrationBlock>(protocol.blocks[0]));
-  const auto& introduction = std::get<IntroductionBlock>(protocol.blocks[1]);
+  const auto& introduction = *block_as<Introduction::Block>(protocol.blocks[1]);
   EXPECT_THAT(introduction.masses_g, ElementsAre(15, 800));
   EXPECT_EQ(introduction.condition, "C2");
-  const auto& sorting = std::get<SortingBlock>(protocol.blocks[2]);
+  const auto& sorting = *block_as<Sorting::Block>(protocol.blocks[2]);
   EXPECT_THAT(sorting.masses_g, ElementsAre(15, 200, 800));
   EXPECT_EQ(sorting.n_trials(), 10);
   EXPECT_EQ(sorting.trials.at(0).technique, "C1");
@@ -60,7 +61,7 @@ TEST(PaperProtocol, HasThePapersBlocks) {
 
 TEST(PaperProtocol, HasThePapersStaircases) {
   const Protocol protocol = shipped("paper");
-  const auto& comparison = std::get<ComparisonBlock>(protocol.blocks.at(4));
+  const auto& comparison = *block_as<Comparison::Block>(protocol.blocks.at(4));
   EXPECT_EQ(comparison.condition, "C2");
   EXPECT_EQ(comparison.catch_fraction, 0);
   EXPECT_EQ(comparison.positive_answer, PositiveAnswer::any_choice);
@@ -111,18 +112,18 @@ TEST(PaperProtocol, SpellsOutTheDefaults) {
 
 TEST(PaperProtocol, SpellsOutTheDefaultsOfBlocks) {
   const Protocol paper = shipped("paper");
-  const auto& introduction = std::get<IntroductionBlock>(paper.blocks[1]);
-  EXPECT_EQ(introduction.condition, IntroductionBlock{}.condition);
-  EXPECT_EQ(introduction.wrong_answer, IntroductionBlock{}.wrong_answer);
-  const auto& sorting = std::get<SortingBlock>(paper.blocks[2]);
-  EXPECT_EQ(sorting.max_run, SortingBlock{}.max_run);
-  EXPECT_EQ(sorting.orders, SortingBlock{}.orders);
+  const auto& introduction = *block_as<Introduction::Block>(paper.blocks[1]);
+  EXPECT_EQ(introduction.condition, Introduction::Block{}.condition);
+  EXPECT_EQ(introduction.wrong_answer, Introduction::Block{}.wrong_answer);
+  const auto& sorting = *block_as<Sorting::Block>(paper.blocks[2]);
+  EXPECT_EQ(sorting.max_run, Sorting::Block{}.max_run);
+  EXPECT_EQ(sorting.orders, Sorting::Block{}.orders);
   EXPECT_EQ(std::get<BreakBlock>(paper.blocks[3]).least_duration_s, BreakBlock{}.least_duration_s);
-  const auto& comparison = std::get<ComparisonBlock>(paper.blocks[4]);
-  EXPECT_EQ(comparison.condition, ComparisonBlock{}.condition);
-  EXPECT_EQ(comparison.catch_fraction, ComparisonBlock{}.catch_fraction);
-  EXPECT_EQ(comparison.sides, ComparisonBlock{}.sides);
-  EXPECT_EQ(comparison.positive_answer, ComparisonBlock{}.positive_answer);
+  const auto& comparison = *block_as<Comparison::Block>(paper.blocks[4]);
+  EXPECT_EQ(comparison.condition, Comparison::Block{}.condition);
+  EXPECT_EQ(comparison.catch_fraction, Comparison::Block{}.catch_fraction);
+  EXPECT_EQ(comparison.sides, Comparison::Block{}.sides);
+  EXPECT_EQ(comparison.positive_answer, Comparison::Block{}.positive_answer);
   EXPECT_EQ(comparison.interleaving.interleave, InterleaveConfig{}.interleave);
   EXPECT_EQ(comparison.interleaving.max_lag, InterleaveConfig{}.max_lag);
   const auto& written = comparison.staircases[0].staircase.get_if<UpDown>()->config();
@@ -146,7 +147,7 @@ TEST(Protocol, APairIsOneStaircaseFromAboveAndOneFromBelowOtherwiseAlike) {
       "[[block.staircase]]\nname = \"s\"\npaired = true\nreference_g = 200\nstart = 90\n"
       "step = 5\nfloor = 3\n",
       "pair.toml");
-  const auto& block = std::get<ComparisonBlock>(protocol.blocks[0]);
+  const auto& block = *block_as<Comparison::Block>(protocol.blocks[0]);
   ASSERT_EQ(block.staircases.size(), 2U);
   const auto of = [&](std::size_t i) {
     return block.staircases[i].staircase.get_if<UpDown>()->config();
@@ -162,7 +163,7 @@ TEST(Protocol, APairIsOneStaircaseFromAboveAndOneFromBelowOtherwiseAlike) {
 
 TEST(RecommendedProtocol, StartsEachReferenceFromAboveAndFromNearZero) {
   const Protocol protocol = shipped("recommended");
-  const auto& comparison = std::get<ComparisonBlock>(protocol.blocks.back());
+  const auto& comparison = *block_as<Comparison::Block>(protocol.blocks.back());
   EXPECT_EQ(comparison.catch_fraction, 0);
   std::map<double, int> catches;
   for (const auto& [reference_g, trials] : comparison.catch_trials) catches[reference_g] = trials;

@@ -67,7 +67,7 @@ TEST(Study, ItsProtocolTakesTheOrder) {
     const Protocol protocol = load_protocol(protocols + "paper.toml", {order_setting(order)});
     BlockOrder found;
     for (const Block& block : protocol.blocks) {
-      const std::string name = std::visit([](const auto& any) { return any.name; }, block);
+      const std::string name = block_name(block);
       if (std::ranges::count(order, name) > 0) found.push_back(name);
     }
     EXPECT_EQ(found, order);

@@ -5,6 +5,7 @@
 #include "physics/Scene.h"
 #include "protocol/Files.h"
 #include "protocol/Protocol.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 namespace {
@@ -61,10 +62,10 @@ std::string what_is_wrong_in(const std::string& text) {
 
 TEST(Techniques, AreDeclaredAndNamed) {
   const Protocol protocol = parse_protocol(declared, "techniques.toml");
-  const auto& sorting = std::get<SortingBlock>(protocol.blocks[0]);
+  const auto& sorting = *block_as<Sorting::Block>(protocol.blocks[0]);
   EXPECT_EQ(sorting.n_trials(), 6);
   EXPECT_EQ(sorting.masses_g.size(), 4u);
-  const auto& comparison = std::get<ComparisonBlock>(protocol.blocks[1]);
+  const auto& comparison = *block_as<Comparison::Block>(protocol.blocks[1]);
   EXPECT_EQ(comparison.condition, "soft");
   EXPECT_EQ(comparison.staircases[0].condition, "");
   EXPECT_EQ(comparison.staircases[1].condition, "C2");

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
+#include "base/Error.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/Files.h"
+#include "tasks/SessionPlan.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 namespace {
@@ -49,8 +52,35 @@ TEST(TextsFile, EveryScreenHasItsPage) {
   const auto n_screens = static_cast<std::size_t>(Screen::questionnaire);  // pages of their own
   ASSERT_EQ(n_screens + 1, EnumNames<Screen>::names.size());
   for (std::size_t screen = 0; screen < n_screens; ++screen)
-    for (const Task task : {Task::introduction, Task::sorting, Task::comparison})
+    for (const Task task : words_of<Task>())
       EXPECT_TRUE(texts.pages.contains(text_page(static_cast<Screen>(screen), task)));
+}
+
+// A lab's own file from before a task serves every protocol without that task.
+TEST(TextsFile, MayLackATaskAndIsRefusedForItsProtocolsOnly) {
+  for (const std::string_view task : words_of<Task>()) {
+    std::string text = content_of(texts_path("en"));
+    const std::string page = text_page(Screen::trial, task);
+    const auto begin = text.find('[' + page + ']');
+    ASSERT_NE(begin, std::string::npos);
+    text.erase(begin, text.find("\n[", begin) - begin);
+    const ScreenTexts texts = parse_texts(text, "own.toml");
+    for (const std::string_view other : words_of<Task>()) {
+      SessionPlan plan;
+      Tasks::call(other, [&]<typename Kind>() { plan.blocks = {typename Kind::Block{}}; });
+      if (other != task) {
+        EXPECT_NO_THROW(require_words(texts, plan, "own.toml")) << task << ' ' << other;
+        continue;
+      }
+      try {
+        require_words(texts, plan, "own.toml");
+        ADD_FAILURE() << task;
+      } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("own.toml lacks"));
+        EXPECT_THAT(error.what(), testing::HasSubstr('[' + page + "] question"));
+      }
+    }
+  }
 }
 
 class BrokenTexts : public testing::TestWithParam<Broken> {};

@@ -61,7 +61,7 @@ class SmallDisk {
 };
 
 Event seventh_answer() {
-  return action(8, ActionKind::label, 2, Label::heaviest);
+  return action(8, "label", 2, "heaviest");
 }
 
 void start_trial_seven(SessionLog& log) {

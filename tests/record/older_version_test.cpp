@@ -215,6 +215,22 @@ TEST_F(version_4, with_something_foreign_in_it_is_refused_and_left_as_it_is) {
   EXPECT_EQ(log.execAndGet("PRAGMA user_version").getInt(), 4);
 }
 
+// Its lists had the words of every task there was.
+TEST_F(version_4, of_the_program_before_gets_the_words_of_its_tasks_and_a_value_for_answers) {
+  const std::string log = folder_.file("version_5.db");
+  fs::copy_file(fs::path(HEFT_SOURCE_DIR) / "tests/golden/logs/version_5.db", log);
+  fs::permissions(log, fs::perms::owner_write, fs::perm_options::add);
+  const auto number = [&](const char* query) {
+    return SQLite::Database(log, SQLite::OPEN_READONLY).execAndGet(query).getInt();
+  };
+  const int n_answers = number("SELECT count(*) FROM answer");
+  const LogReader reader(log);
+  EXPECT_THAT(reader.foreign_objects(), testing::IsEmpty());
+  EXPECT_EQ(number("SELECT count(*) FROM answer WHERE value IS NULL"), n_answers);
+  EXPECT_EQ(number("SELECT count(DISTINCT task) FROM trial"),
+            number("SELECT count(*) FROM list_task WHERE edition = 1"));
+}
+
 INSTANTIATE_TEST_SUITE_P(versions, older_version, testing::Values(1, 2));
 
 }  // namespace

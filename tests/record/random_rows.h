@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "record/RowSql.h"
 #include "record/rows.h"
+#include "tasks/Tasks.h"
 
 namespace heft::test {
 
@@ -72,10 +74,16 @@ inline bool flag() {
   return *rc::gen::arbitrary<bool>();
 }
 
-template <typename Enum>
-Enum any_of() {
-  const auto n = static_cast<int>(EnumNames<Enum>::names.size());
-  return static_cast<Enum>(*rc::gen::inRange(0, n));
+template <typename Listed>
+Listed any_of() {
+  if constexpr (is_word<Listed>) {  // of one task: a log has the words of those that it has trials
+                                    // of
+    const auto words = words_for(closed_list<Listed>, Sorting::task);
+    return words.at(*rc::gen::inRange<std::size_t>(0, words.size()));
+  } else {
+    const auto n = static_cast<int>(EnumNames<Listed>::names.size());
+    return static_cast<Listed>(*rc::gen::inRange(0, n));
+  }
 }
 
 // With every sign of zero, as physics may be given it.
@@ -117,7 +125,7 @@ inline SessionConfig any_setup() {
 inline EventPayload any_payload() {
   switch (*rc::gen::inRange(0, 13)) {
     case 0:
-      return Action{any_of<ActionKind>(), maybe(slot), maybe(any_of<Label>)};
+      return Action{any_of<ActionKind>(), maybe(slot), maybe(any_of<Label>), maybe(number)};
     case 1:
       return TrialVoided{words()};
     case 2:
@@ -245,8 +253,8 @@ inline Changes any_changes(const TrialRow& trial, int number, Written& written) 
   Changes changes = starting(trial);
   for (int slot = 1; slot <= trial.plan.n_slots(); ++slot)
     changes.cubes.push_back(any_cube(trial, slot));
-  changes.answers.push_back(
-      {trial.attempt_index, time_s(), any_of<ActionKind>(), maybe(slot), maybe(any_of<Label>)});
+  changes.answers.push_back({trial.attempt_index, time_s(), any_of<ActionKind>(), maybe(slot),
+                             maybe(any_of<Label>), maybe(heft::test::number)});
   changes.reversals.push_back({trial.attempt_index, words(), number, heft::test::number(),
                                heft::test::number(), heft::test::number()});
   changes.estimates.push_back({words() + std::to_string(number), words(), maybe(heft::test::number),

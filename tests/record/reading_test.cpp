@@ -99,7 +99,7 @@ class damage : public reading {
   void SetUp() override {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     Changes changes = starting(sorting_trial(1, 1));
-    changes.answers = {{1, 2, ActionKind::label, 2, Label::heaviest}};
+    changes.answers = {{1, 2, "label", 2, "heaviest"}};
     changes.reversals = {{1, "15g", 1, 100, 50, 50}};
     log.append(event(1, event_kind<TrialStarted>), changes, Durability::acknowledged);
     log.add_frame(frame(1, 2));

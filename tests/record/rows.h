@@ -86,7 +86,7 @@ inline std::string text(const CubeRow& c) {
                 c.last_contact_s, c.n_resets, c.deepest_push_m, c.peak_lag_m);
 }
 inline std::string text(const AnswerRow& a) {
-  return joined(a.attempt_index, a.t_s, a.action, a.slot, a.label);
+  return joined(a.attempt_index, a.t_s, a.action, a.slot, a.label, a.value);
 }
 inline std::string text(const ReversalRow& r) {
   return joined(r.staircase, r.number, r.attempt_index, r.level_g, r.step_before_g, r.step_after_g);
@@ -153,7 +153,7 @@ inline Event action(double t_s, ActionKind kind, std::optional<int> slot = std::
 
 inline AnswerRow answer_of(int attempt_index, const Event& event) {
   const Action& action = *event.as<Action>();
-  return {attempt_index, event.t_s, action.kind, action.slot, action.label};
+  return {attempt_index, event.t_s, action.kind, action.slot, action.label, action.value};
 }
 
 /// An open sorting trial of 15, 200 and 800 g.
@@ -162,6 +162,7 @@ inline TrialRow sorting_trial(int attempt_index, double started_s) {
   trial.attempt_index = attempt_index;
   trial.plan.trial_number = attempt_index;
   trial.plan.block = "sorting";
+  trial.plan.task = "sorting";
   trial.plan.masses_g = {800, 15, 200};
   trial.started_s = started_s;
   return trial;

@@ -1,4 +1,6 @@
 // The file itself keeps the rules: types, references, names and ranges, whoever writes to it.
+#include "record/Schema.h"
+
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +12,7 @@
 #include "record/SessionLog.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
+#include "tasks/Tasks.h"
 
 namespace heft::test {
 namespace {
@@ -22,7 +25,7 @@ class schema_rules : public testing::Test {
       log.append(event(1, event_kind<TrialStarted>), starting(sorting_trial(1, 1)),
                  Durability::acknowledged);
       Changes changes = of_attempt(1);
-      const Event answer = action(2, ActionKind::label, 2, Label::heaviest);
+      const Event answer = action(2, "label", 2, "heaviest");
       changes.answers = {answer_of(1, answer)};
       changes.reversals = {{1, "15g", 1, 100, 50, 50}};
       changes.estimates = {{"15g",
@@ -53,9 +56,15 @@ class schema_rules : public testing::Test {
     }
   }
 
-  template <typename Enum>
+  // Of the tasks' words those of the one task that the log has a trial of.
+  template <typename Listed>
   void expect_exactly_the_names(const std::string& table, const std::string& column) {
-    for (const std::string_view name : EnumNames<Enum>::names)
+    std::vector<std::string_view> names;
+    if constexpr (is_word<Listed>)
+      names = words_for(closed_list<Listed>, Sorting::task);
+    else
+      names = listed_names<Listed>();
+    for (const std::string_view name : names)
       EXPECT_TRUE(accepts(fmt::format("UPDATE {} SET {} = '{}'", table, column, name))) << name;
     EXPECT_FALSE(accepts(fmt::format("UPDATE {} SET {} = 'foo'", table, column))) << column;
     EXPECT_FALSE(accepts(fmt::format("UPDATE {} SET {} = ''", table, column))) << column;
@@ -83,7 +92,7 @@ TEST_F(schema_rules, every_table_is_strict) {
                 ->execAndGet("SELECT count(*) FROM pragma_table_list WHERE schema = 'main' AND "
                              "type = 'table' AND strict")
                 .getInt(),
-            11 + static_cast<int>(closed_lists().size()));
+            11 + static_cast<int>(closed_lists().size() + word_lists.size()));
   EXPECT_FALSE(accepts("UPDATE event SET t_s = 'soon'"));
   EXPECT_FALSE(accepts("UPDATE trial SET attempt = 1.5"));
   EXPECT_FALSE(accepts("UPDATE frame SET effector_x_m = 'left'"));
@@ -102,6 +111,29 @@ TEST_F(schema_rules, enumerations_take_every_name_of_ours_and_no_other) {
   expect_exactly_the_names<Purpose>("session", "purpose");
   expect_exactly_the_names<Finish>("estimate", "reason");
   expect_exactly_the_names<Censored>("estimate", "censored");
+}
+
+// The next task needs no new version: its words come with its first trial, and words that no task
+// has, or that a task should have, are told.
+TEST_F(schema_rules, words_come_with_a_tasks_first_trial_and_foreign_ones_are_told) {
+  const auto entries = [&](const std::string& condition) {
+    return database_->execAndGet("SELECT count(*) FROM list_action WHERE " + condition).getInt();
+  };
+  EXPECT_EQ(entries("task = 'sorting' AND edition = 1"), 4);
+  EXPECT_EQ(entries("true"), 4);
+  EXPECT_TRUE(schema::foreign_objects(*database_).empty());
+  schema::add_words(*database_, "comparison");
+  EXPECT_EQ(entries("task = 'comparison'"), 2);
+  EXPECT_TRUE(schema::foreign_objects(*database_).empty());
+  for (const char* change : {"INSERT INTO list_action VALUES ('shout', 'sorting', 1)",
+                             "UPDATE list_label SET edition = 2 WHERE name = '1'",
+                             "DELETE FROM list_label WHERE name = '6'",
+                             "INSERT INTO list_task VALUES ('dance', 'dance', 1)"}) {
+    database_->exec("SAVEPOINT before");
+    database_->exec(change);
+    EXPECT_FALSE(schema::foreign_objects(*database_).empty()) << change;
+    database_->exec("ROLLBACK TO before; RELEASE before");
+  }
 }
 
 TEST_F(schema_rules, impossible_numbers_are_refused) {

@@ -31,8 +31,7 @@ class TamperedLog : public testing::Test {
     for (int n = 1; n <= 2; ++n) {
       log.append(event(n, event_kind<TrialStarted>), starting(sorting_trial(n, n)),
                  Durability::acknowledged);
-      log.append(action(n + 0.25, ActionKind::label, 2, Label::heaviest), of_attempt(n),
-                 Durability::acknowledged);
+      log.append(action(n + 0.25, "label", 2, "heaviest"), of_attempt(n), Durability::acknowledged);
       for (double t_s : {n + 0.5, n + 0.75}) log.add_frame(picture(n, t_s));
       log.add_frame(picture(0, n + 0.9));
     }

@@ -31,7 +31,7 @@ class views : public testing::Test {
       log_.append(answer, changes, Durability::buffered);
     }
     trial.status = TrialStatus::completed;
-    trial.outcome = Outcome::correct;
+    trial.outcome = "correct";
     trial.shown_s = 11;
     trial.validated_s = trial.ended_s = 31.5;
     trial.paused_s = 4;
@@ -64,7 +64,7 @@ TEST_F(views, a_trial_row_has_its_masses_participant_and_pushes) {
 
 TEST_F(views, a_comparison_has_its_comparison_mass_and_no_third_cube) {
   TrialRow trial = sorting_trial(1, 10);
-  trial.plan.task = Task::comparison;
+  trial.plan.task = "comparison";
   trial.plan.staircase = "200g";
   trial.plan.reference_g = 200;
   trial.plan.level_g = 75;
@@ -102,7 +102,7 @@ TEST_F(views, a_frame_tells_the_clones_offset_as_it_was_seen) {
 
 TEST_F(views, jnd_names_the_reference_of_its_staircase) {
   TrialRow trial = sorting_trial(1, 10);
-  trial.plan.task = Task::comparison;
+  trial.plan.task = "comparison";
   trial.plan.staircase = "fine";
   trial.plan.reference_g = 800;
   Changes changes = starting(trial);
@@ -115,9 +115,8 @@ TEST_F(views, jnd_names_the_reference_of_its_staircase) {
 }
 
 TEST_F(views, sorting_shows_which_mass_ended_with_each_label) {
-  complete_sorting(1, {action(12, ActionKind::label, 1, Label::heaviest),
-                       action(13, ActionKind::label, 2, Label::lightest),
-                       action(14, ActionKind::label, 3, Label::intermediate)});
+  complete_sorting(1, {action(12, "label", 1, "heaviest"), action(13, "label", 2, "lightest"),
+                       action(14, "label", 3, "intermediate")});
   EXPECT_EQ(of("SELECT labeled_lightest_g || ' ' || labeled_intermediate_g || ' ' || "
                "labeled_heaviest_g FROM v_sorting"),
             "15.0 200.0 800.0");
@@ -125,11 +124,10 @@ TEST_F(views, sorting_shows_which_mass_ended_with_each_label) {
 
 TEST_F(views, sorting_follows_labels_that_are_moved_replaced_and_taken_away) {
   complete_sorting(
-      1, {action(12, ActionKind::label, 1, Label::lightest),
-          action(13, ActionKind::label, 2, Label::lightest),  // moves it
-          action(14, ActionKind::label, 1, Label::heaviest),
-          action(15, ActionKind::label, 1, Label::intermediate),  // replaces it
-          action(16, ActionKind::label, 3, Label::heaviest), action(17, ActionKind::unlabel, 3)});
+      1,
+      {action(12, "label", 1, "lightest"), action(13, "label", 2, "lightest"),      // moves it
+       action(14, "label", 1, "heaviest"), action(15, "label", 1, "intermediate"),  // replaces it
+       action(16, "label", 3, "heaviest"), action(17, "unlabel", 3)});
   EXPECT_EQ(of("SELECT labeled_lightest_g FROM v_sorting"), "15.0");
   EXPECT_EQ(of("SELECT labeled_intermediate_g FROM v_sorting"), "800.0");
   EXPECT_EQ(of("SELECT labeled_heaviest_g FROM v_sorting"), "NULL");

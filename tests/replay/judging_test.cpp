@@ -57,8 +57,8 @@ TEST(Judging, WhoNeverFindsADifferenceAnswersSoWhateverWasLogged) {
   const StoredSession stored(shipped_protocol("quick"), "always_yes", 3);
   int n_comparisons = 0;
   for (const JudgedTrial& trial : judged(stored, "always_no").trials) {
-    if (trial.task == Task::introduction) continue;
-    const bool compares = trial.task == Task::comparison;
+    if (trial.task == "introduction") continue;
+    const bool compares = trial.task == "comparison";
     EXPECT_EQ(trial.judged, compares ? "none" : "dont_know");
     EXPECT_NE(trial.logged, trial.judged);
     n_comparisons += compares;
@@ -88,7 +88,7 @@ TEST(SeenFrames, EndWithTheAnswerAndLackWhatAPauseHid) {
   AttemptFold attempt;
   attempt.events = {{11, 0, {1.5, SessionPaused{"cat"}}, {}},
                     {12, 0, {2.5, SessionContinued{}}, {}},
-                    {13, 0, {4.5, Action{ActionKind::dont_know}}, {}}};
+                    {13, 0, {4.5, Action{"dont_know"}}, {}}};
   std::vector<FrameRow> rows;
   const std::vector<int> after_event{11, 11, 12, 13, 13, 14};
   for (std::size_t i = 0; i < after_event.size(); ++i) {
@@ -104,7 +104,7 @@ TEST(SeenFrames, EndWithTheAnswerAndLackWhatAPauseHid) {
 JudgedTrial comparison(double reference_g, bool has_difference, const std::string& logged,
                        const std::string& judged) {
   JudgedTrial trial;
-  trial.task = Task::comparison;
+  trial.task = "comparison";
   trial.condition = "C2";
   trial.reference_g = reference_g;
   trial.has_difference = has_difference;

@@ -86,7 +86,7 @@ TEST(Noticed, AWhatIfTellsLagsBeforeAndAfter) {
         EXPECT_LT(cube.would_be.largest_lag_m, 1e-9);
         EXPECT_FALSE(kind.logged_g_per_m);
       }
-      if (kind.task != Task::sorting || kind.condition != "C2" || cube.mass_g != 200) continue;
+      if (kind.task != "sorting" || kind.condition != "C2" || cube.mass_g != 200) continue;
       compared = true;
       EXPECT_EQ(cube.logged.n_pushes, 2);
       EXPECT_NEAR(cube.would_be.mean_lag_m(), cube.logged.mean_lag_m() / 2,

@@ -44,7 +44,7 @@ TEST(Pushes, AreToldAsTheyWereShown) {
   const auto cubes = stored.reader().cubes(stored.id());
   int n_coupled = 0, n_decoupled = 0;
   for (const TrialRow& trial : stored.reader().trials(stored.id())) {
-    if (trial.plan.task == Task::introduction) continue;  // newly shuffled cubes begin anew
+    if (trial.plan.task == "introduction") continue;  // newly shuffled cubes begin anew
     const auto frames = stored.reader().frames(stored.id(), trial.attempt_index);
     const Pushes in_log = told(cubes, trial.attempt_index), on_screen = shown(frames);
     EXPECT_EQ(in_log.peak_lag_m, on_screen.peak_lag_m);

@@ -18,6 +18,7 @@
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 namespace {
@@ -34,22 +35,18 @@ class LateAnswers final : public Responder {
   std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {
     const double t_s = frame.t_s + delay_s_;
     if (frame.cubes.empty() || frame.t_s < 2) return {};
-    switch (task_) {
-      case Task::introduction:
-        return {{{ActionKind::select, 1 + screen.n_choices % 2, {}}, t_s}};
-      case Task::sorting:
-        if (frame.t_s > 9) return {{{ActionKind::dont_know, {}, {}}, t_s}};
-        return {{{ActionKind::label, 1, static_cast<Label>(screen.n_choices % 3)}, t_s}};
-      case Task::comparison:
-        return {{{ActionKind::no_difference, {}, {}}, t_s}};
-    }
-    return {};
+    if (task_ == "introduction") return {{{"select", 1 + screen.n_choices % 2}, t_s}};
+    if (task_ == "comparison") return {{{"no_difference"}, t_s}};
+    if (frame.t_s > 9) return {{{"dont_know"}, t_s}};
+    return {
+        {{"label", 1, Label(Sorting::labels.at(static_cast<std::size_t>(screen.n_choices % 3)))},
+         t_s}};
   }
   bool has_more(double) const override { return true; }
 
  private:
   double delay_s_;
-  Task task_ = Task::sorting;
+  Task task_ = "sorting";
 };
 
 class Replay : public ::testing::Test {

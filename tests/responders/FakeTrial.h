@@ -12,11 +12,12 @@
 #include "experiment/Action.h"
 #include "experiment/ScreenState.h"
 #include "responders/Responder.h"
+#include "tasks/Offers.h"
 
 namespace heft::fake {
 
 struct TrialSetup {
-  Task task = Task::sorting;
+  Task task = "sorting";
   std::string condition = "C2";
   std::vector<double> masses_g{15, 200, 800};
   int trial_number = 1;
@@ -58,7 +59,7 @@ class Trial {
         world_(stage_, setup.condition, setup.masses_g, setup.clone_drawn) {
     screen_.screen = Screen::trial;
     screen_.task = setup.task;
-    screen_.labels.resize(setup.masses_g.size());
+    if (setup.task == "sorting") labels_on(screen_).resize(setup.masses_g.size());
     responder.begin_trial({setup.trial_number, setup.attempt, setup.task, stage_});
   }
 
@@ -100,49 +101,41 @@ class Trial {
     if (result_.ended) refuse("after the end");
     if (shown.screen != Screen::trial) refuse("while paused");
     if (action.t_s < t_s || action.t_s >= t_s + 1 / setup_.rate_hz) refuse("outside the picture");
-    if (action.kind == ActionKind::validate && !shown.can_validate) refuse("not offered");
+    if (action.kind == "validate" && !shown.can_validate) refuse("not offered");
     if (!result_.actions.empty() && action.t_s < result_.actions.back().t_s + 0.299)
       refuse("too soon after the last one");
-    const bool chooses = action.kind == ActionKind::select;
-    const bool none = action.kind == ActionKind::no_difference;
-    if (setup_.task == Task::sorting ? (chooses || none) : !(chooses || none)) refuse("other task");
-    if (setup_.task == Task::introduction && none) refuse("other task");
+    const bool chooses = action.kind == "select";
+    const bool none = action.kind == "no_difference";
+    if (setup_.task == "sorting" ? (chooses || none) : !(chooses || none)) refuse("other task");
+    if (setup_.task == "introduction" && none) refuse("other task");
   }
 
   void take(const TimedAction& action) {
-    switch (action.kind) {
-      case ActionKind::select:
-        return select(*action.slot);
-      case ActionKind::label:
-        ++screen_.n_choices;
-        for (auto& label : screen_.labels)
-          if (label == action.label) label.reset();
-        screen_.labels[static_cast<std::size_t>(*action.slot - 1)] = action.label;
-        screen_.can_validate =
-            std::ranges::all_of(screen_.labels, [](auto l) { return l.has_value(); });
-        return;
-      case ActionKind::validate:
-        return end(true, sorted());
-      case ActionKind::dont_know:
-      case ActionKind::no_difference:
-      case ActionKind::unlabel:
-        return end(false, false);
-    }
+    if (action.kind == "select") return select(*action.slot);
+    if (action.kind == "validate") return end(true, sorted());
+    if (action.kind != "label") return end(false, false);
+    ++screen_.n_choices;
+    for (auto& label : labels_on(screen_))
+      if (label == action.label) label.reset();
+    labels_on(screen_)[static_cast<std::size_t>(*action.slot - 1)] = action.label;
+    screen_.can_validate =
+        std::ranges::all_of(labels_on(screen_), [](const auto& l) { return l.has_value(); });
   }
 
   void select(int slot) {
     ++screen_.n_choices;
     const auto heaviest = std::ranges::max_element(setup_.masses_g) - setup_.masses_g.begin();
     const bool right = slot == heaviest + 1;
-    screen_.try_again = setup_.task == Task::introduction && !right;
+    screen_.try_again = setup_.task == "introduction" && !right;
     if (!screen_.try_again) end(true, right);
   }
 
   bool sorted() const {
-    for (std::size_t i = 0; i < screen_.labels.size(); ++i) {
+    const auto labels = labels_on(screen_);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
       const auto lighter = std::ranges::count_if(
           setup_.masses_g, [&](double mass_g) { return mass_g < setup_.masses_g[i]; });
-      if (static_cast<long>(*screen_.labels[i]) != lighter) return false;
+      if (labels[i] != Sorting::labels[static_cast<std::size_t>(lighter)]) return false;
     }
     return true;
   }

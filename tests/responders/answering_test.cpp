@@ -5,14 +5,15 @@
 #include <gtest/gtest.h>
 
 #include "FakeWorld.h"
+#include "tasks/Offers.h"
 
 namespace heft {
 namespace {
-using enum Label;
+const Label lightest("lightest"), intermediate("intermediate"), heaviest("heaviest");
 
 class AnsweringTest : public testing::Test {
  protected:
-  explicit AnsweringTest(Task task = Task::sorting, int n_cubes = 3)
+  explicit AnsweringTest(Task task = "sorting", int n_cubes = 3)
       : answering_(3, {1, 1, task, fake::row_of(n_cubes)}, 0.7) {
     screen_.screen = Screen::trial;
     screen_.task = task;
@@ -40,11 +41,11 @@ class AnsweringTest : public testing::Test {
 
 class IntroductionTest : public AnsweringTest {
  protected:
-  IntroductionTest() : AnsweringTest(Task::introduction, 2) {}
+  IntroductionTest() : AnsweringTest("introduction", 2) {}
 };
 
 TEST_F(AnsweringTest, validates_only_once_the_screen_offers_it) {
-  answering_.give({.slot = {}, .labels = {heaviest, lightest, intermediate}}, 1);
+  answering_.give(labeling({heaviest, lightest, intermediate}), 1);
   const auto labels = until(4);
   ASSERT_EQ(labels.size(), 3u);
   EXPECT_EQ(labels.front().t_s, 1);
@@ -52,13 +53,12 @@ TEST_F(AnsweringTest, validates_only_once_the_screen_offers_it) {
   screen_.can_validate = true;
   const auto validated = until(5);
   ASSERT_EQ(validated.size(), 1u);
-  EXPECT_EQ(validated[0].kind, ActionKind::validate);
+  EXPECT_EQ(validated[0].kind, "validate");
   EXPECT_GE(validated[0].t_s - labels.back().t_s, 0.3);
 }
 
 TEST_F(AnsweringTest, corrects_a_first_label_so_that_the_last_word_stands) {
-  answering_.give(
-      {.slot = {}, .labels = {heaviest, lightest, intermediate}, .first_label_corrected = true}, 0);
+  answering_.give(labeling({heaviest, lightest, intermediate}, true), 0);
   const auto labels = until(6);
   ASSERT_EQ(labels.size(), 4u);
   EXPECT_EQ(labels[0].slot, labels[1].slot);
@@ -73,7 +73,7 @@ TEST_F(AnsweringTest, corrects_a_first_label_so_that_the_last_word_stands) {
 }
 
 TEST_F(AnsweringTest, a_pause_takes_no_taps_and_keeps_their_distances) {
-  answering_.give({.slot = {}, .labels = {heaviest, lightest, intermediate}}, 1);
+  answering_.give(labeling({heaviest, lightest, intermediate}), 1);
   screen_.screen = Screen::paused;
   EXPECT_TRUE(until(4).empty());
   screen_.screen = Screen::trial;
@@ -87,10 +87,10 @@ TEST_F(AnsweringTest, a_pause_takes_no_taps_and_keeps_their_distances) {
 TEST_F(AnsweringTest, gives_up_after_three_answers_that_were_not_taken) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_FALSE(answering_.gave_up(t_s_));
-    answering_.give({}, t_s_ + 0.5);
+    answering_.give({{{"dont_know"}}}, t_s_ + 0.5);
     const auto actions = until(t_s_ + 5);
     ASSERT_EQ(actions.size(), 1u);
-    EXPECT_EQ(actions[0].kind, ActionKind::dont_know);
+    EXPECT_EQ(actions[0].kind, "dont_know");
     EXPECT_TRUE(answering_.free());
   }
   EXPECT_TRUE(answering_.gave_up(t_s_));
@@ -106,7 +106,7 @@ TEST_F(AnsweringTest, gives_up_waiting_for_cubes) {
 }
 
 TEST_F(IntroductionTest, notices_a_wrong_choice_by_the_screen_alone) {
-  answering_.give({.slot = 2, .labels = {}}, 0.5);
+  answering_.give(choosing(2), 0.5);
   ASSERT_EQ(until(1).size(), 1u);
   EXPECT_FALSE(answering_.free());
   screen_.n_choices = 1;
@@ -115,7 +115,7 @@ TEST_F(IntroductionTest, notices_a_wrong_choice_by_the_screen_alone) {
   EXPECT_TRUE(answering_.free());
   EXPECT_THAT(answering_.wrong_slots(), testing::ElementsAre(2));
   // "Try again" of the choice before says nothing about the next one.
-  answering_.give({.slot = 1, .labels = {}}, 2);
+  answering_.give(choosing(1), 2);
   ASSERT_EQ(until(3).size(), 1u);
   EXPECT_FALSE(answering_.free());
 }

@@ -29,7 +29,7 @@ bool is_stroke(const HandMove& move) {
 
 // Explores a whole row and hands back every movement that the hand made.
 std::vector<HandMove> explore(World& world, const Stage& stage, std::uint64_t seed) {
-  Hand hand(default_parameters(), seed, {1, 1, Task::sorting, stage});
+  Hand hand(default_parameters(), seed, {1, 1, "sorting", stage});
   std::vector<int> cubes(stage.slots_m.size());
   std::iota(cubes.begin(), cubes.end(), 0);
   hand.explore(cubes);
@@ -115,7 +115,7 @@ TEST(Hand, moves_without_jumps) {
 
 TEST(Hand, waits_at_rest_until_the_cubes_appear) {
   const Stage stage = fake::row_of(2);
-  Hand hand(default_parameters(), 1, {1, 1, Task::comparison, stage});
+  Hand hand(default_parameters(), 1, {1, 1, "comparison", stage});
   const std::vector<int> cubes{0, 1};
   hand.explore(cubes);
   World world(stage, "C2", {15, 200});
@@ -161,7 +161,7 @@ TEST(Hand, leaves_a_cube_that_others_hem_in) {
 
 TEST(Hand, goes_home_when_the_cubes_are_taken_away) {
   const Stage stage = fake::row_of(2);
-  Hand hand(default_parameters(), 1, {1, 1, Task::comparison, stage});
+  Hand hand(default_parameters(), 1, {1, 1, "comparison", stage});
   const std::vector<int> cubes{0, 1};
   hand.explore(cubes);
   World world(stage, "C2", {800, 800});

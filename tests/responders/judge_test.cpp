@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "responders/Responder.h"
+#include "tasks/Offers.h"
 
 namespace heft {
 namespace {
@@ -18,7 +19,7 @@ class RecordedJudge : public testing::Test {
     std::filesystem::create_directories(folder_);
     write("trial_1.csv",
           "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,-0.2,0.03,1,0,0,0\n4,0.1,-0.2,0.03,1,0,0,0\n");
-    trial_.task = Task::sorting;
+    trial_.task = "sorting";
     trial_.trial_number = 1;
     trial_.stage.slots_m.resize(3);
   }
@@ -41,24 +42,28 @@ TEST_F(RecordedJudge, LabelsThatWereMovedCountWhereTheyEnd) {
       "1,1,label,1,heaviest\n1,1.5,label,2,heaviest\n1,2,label,1,lightest\n"
       "1,2.5,label,3,intermediate\n1,3,validate,,\n");
   ASSERT_TRUE(found);
-  EXPECT_THAT(found->labels, ElementsAre(Label::lightest, Label::heaviest, Label::intermediate));
+  TrialPlan plan;
+  plan.masses_g = {1, 2, 3};
+  Sorting::Trial folded({}, plan, 0);
+  for (const Action& action : found->actions) folded.take(action);
+  EXPECT_THAT(folded.labels(), ElementsAre("lightest", "heaviest", "intermediate"));
 }
 
 TEST_F(RecordedJudge, NotKnowingIsAnAnswerAndAnOpenTrialIsNone) {
   const auto unknown = answer("1,1,label,1,heaviest\n1,2,dont_know,,\n");
   ASSERT_TRUE(unknown);
-  EXPECT_TRUE(unknown->labels.empty());
+  EXPECT_EQ(unknown->actions.back().kind, "dont_know");
   EXPECT_FALSE(answer("1,1,label,1,heaviest\n"));
   trial_.trial_number = 2;
   EXPECT_FALSE(answer("1,2,dont_know,,\n"));
 }
 
 TEST_F(RecordedJudge, AComparisonsChoiceIsItsSlot) {
-  trial_.task = Task::comparison;
+  trial_.task = "comparison";
   trial_.stage.slots_m.resize(2);
   const auto chosen = answer("1,1,select,2,\n");
   ASSERT_TRUE(chosen);
-  EXPECT_EQ(chosen->slot, 2);
+  EXPECT_EQ(chosen_slot(*chosen), 2);
 }
 
 }  // namespace

@@ -84,8 +84,8 @@ std::string trace(const std::vector<Parameter>& parameters) {
     fake::TrialSetup setup;
     setup.trial_number = static_cast<int>(seed) + 1;
     setup.condition = seed % 3 ? "C2" : "C1";
-    setup.task = seed % 2 ? Task::sorting : Task::comparison;
-    if (setup.task == Task::comparison) setup.masses_g = {100, 160};
+    setup.task = seed % 2 ? "sorting" : "comparison";
+    if (setup.task == "comparison") setup.masses_g = {100, 160};
     const auto result = fake::run_trial(*responder, setup);
     for (const Pose& pose : result.hand)
       text += fmt::format("{} {} {} {};", pose.position_m.x(), pose.position_m.y(),

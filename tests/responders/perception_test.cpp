@@ -25,7 +25,7 @@ ResponderParameters noiseless() {
 
 std::vector<double> percepts_mm(const ResponderParameters& parameters, const Stage& stage,
                                 World world) {
-  const TrialView trial{1, 1, Task::sorting, stage};
+  const TrialView trial{1, 1, "sorting", stage};
   Hand hand(parameters, 9, trial);
   Perception perception(parameters, 9, trial);
   std::vector<int> cubes(stage.slots_m.size());
@@ -124,7 +124,7 @@ class PictureTest : public testing::Test {
   }
 
   Stage stage_ = fake::row_of(2);
-  Perception perception_{noiseless(), 1, {1, 1, Task::comparison, stage_}};
+  Perception perception_{noiseless(), 1, {1, 1, "comparison", stage_}};
 };
 
 TEST_F(PictureTest, a_cube_counts_as_looked_at_once_it_is_seen_touched) {

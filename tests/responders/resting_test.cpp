@@ -37,9 +37,9 @@ TEST(AlwaysYes, finds_a_difference_every_time_on_either_side) {
   const auto responder = make("always_yes", 3);
   std::multiset<int> slots;
   for (int trial = 1; trial <= 200; ++trial) {
-    const auto result = run_trial(*responder, setup_of(Task::comparison, {100, 100}, trial));
+    const auto result = run_trial(*responder, setup_of("comparison", {100, 100}, trial));
     ASSERT_EQ(result.actions.size(), 1u);
-    ASSERT_EQ(result.actions[0].kind, ActionKind::select);
+    ASSERT_EQ(result.actions[0].kind, "select");
     slots.insert(*result.actions[0].slot);
   }
   EXPECT_NEAR(static_cast<double>(slots.count(1)), 100, 29);  // four standard deviations
@@ -50,7 +50,7 @@ TEST(AlwaysYes, sorts_in_every_order_and_validates) {
   const auto responder = make("always_yes", 3);
   std::set<std::vector<std::string>> orders;
   for (int trial = 1; trial <= 100; ++trial) {
-    const auto result = run_trial(*responder, setup_of(Task::sorting, {15, 200, 800}, trial));
+    const auto result = run_trial(*responder, setup_of("sorting", {15, 200, 800}, trial));
     EXPECT_TRUE(result.ended && result.answered);
     EXPECT_EQ(result.not_allowed, std::vector<std::string>{});
     auto words = said(result);
@@ -62,13 +62,13 @@ TEST(AlwaysYes, sorts_in_every_order_and_validates) {
 
 TEST(AlwaysNo, never_finds_one_but_for_the_introduction) {
   const auto responder = make("always_no", 3);
-  EXPECT_THAT(said(run_trial(*responder, setup_of(Task::comparison, {15, 800}))),
+  EXPECT_THAT(said(run_trial(*responder, setup_of("comparison", {15, 800}))),
               ElementsAre("no_difference 0 "));
-  EXPECT_THAT(said(run_trial(*responder, setup_of(Task::sorting, {15, 200, 800}))),
+  EXPECT_THAT(said(run_trial(*responder, setup_of("sorting", {15, 200, 800}))),
               ElementsAre("dont_know 0 "));
-  EXPECT_THAT(said(run_trial(*responder, setup_of(Task::introduction, {15, 800}))),
+  EXPECT_THAT(said(run_trial(*responder, setup_of("introduction", {15, 800}))),
               ElementsAre("select 1 ", "select 2 "));
-  EXPECT_THAT(said(run_trial(*responder, setup_of(Task::introduction, {800, 15}))),
+  EXPECT_THAT(said(run_trial(*responder, setup_of("introduction", {800, 15}))),
               ElementsAre("select 1 "));
 }
 
@@ -77,7 +77,7 @@ TEST(Coin, falls_on_its_side_with_its_probability) {
   int n_different = 0;
   for (int trial = 1; trial <= 1000; ++trial)
     n_different +=
-        run_trial(*responder, setup_of(Task::comparison, {100, 900}, trial)).answered ? 1 : 0;
+        run_trial(*responder, setup_of("comparison", {100, 900}, trial)).answered ? 1 : 0;
   EXPECT_NEAR(n_different, 300, 58);  // four standard deviations
 }
 
@@ -89,7 +89,7 @@ TEST(CriterionOnly, depends_on_its_criterion_and_on_no_cube) {
                                  {"lapse_rate", 0.0, {}}});
     int n = 0;
     for (int trial = 1; trial <= 300; ++trial)
-      n += run_trial(*responder, setup_of(Task::comparison, masses_g, trial)).answered ? 1 : 0;
+      n += run_trial(*responder, setup_of("comparison", masses_g, trial)).answered ? 1 : 0;
     return n;
   };
   EXPECT_EQ(share_different(2, {15, 1500}), share_different(2, {300, 300}));
@@ -100,9 +100,9 @@ TEST(CriterionOnly, depends_on_its_criterion_and_on_no_cube) {
 TEST(RestingResponders, leave_the_cubes_alone_and_answer_soon_after_seeing_them) {
   for (std::string_view name : {"always_yes", "always_no", "coin", "criterion_only"}) {
     const auto responder = make(name, 6);
-    for (Task task : {Task::introduction, Task::sorting, Task::comparison}) {
+    for (Task task : {"introduction", "sorting", "comparison"}) {
       std::vector<double> masses{15, 800};
-      if (task == Task::sorting) masses.push_back(200);
+      if (task == "sorting") masses.push_back(200);
       const auto result = run_trial(*responder, setup_of(task, masses));
       EXPECT_TRUE(result.ended) << name;
       EXPECT_EQ(result.not_allowed, std::vector<std::string>{}) << name;

@@ -122,7 +122,7 @@ TEST_F(ScriptedTest, says_where_the_effector_is_out_of_view) {
   write("trial_1.csv", still_ + "5,,,,,,,\n6,0,0,0,1,0,0,0\n");
   write("actions.csv", header_);
   const auto responder = make();
-  responder->begin_trial({1, 1, Task::sorting, fake::row_of(3)});
+  responder->begin_trial({1, 1, "sorting", fake::row_of(3)});
   EXPECT_TRUE(responder->hand(3).in_view);
   EXPECT_FALSE(responder->hand(5.5).in_view);
   EXPECT_TRUE(responder->hand(6).in_view);
@@ -169,7 +169,7 @@ TEST_F(ScriptedTest, a_missing_trial_action_file_or_folder_is_named) {
   write("trial_1.csv", still_);
   const auto responder = make();
   try {
-    responder->begin_trial({2, 1, Task::sorting, fake::row_of(3)});
+    responder->begin_trial({2, 1, "sorting", fake::row_of(3)});
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("has no trial 2: expected the file trial_2.csv"));
@@ -183,7 +183,7 @@ TEST_F(ScriptedTest, actions_that_the_task_does_not_offer_are_refused_at_their_l
   write("actions.csv", header_ + "1,1,validate,,\n1,2,select,3,\n");
   const auto responder = make();
   try {
-    responder->begin_trial({1, 1, Task::comparison, fake::row_of(2)});
+    responder->begin_trial({1, 1, "comparison", fake::row_of(2)});
     FAIL();
   } catch (const InvalidFile& invalid) {
     EXPECT_THAT(invalid.what(), HasSubstr("actions.csv:2:5: a comparison trial has no action"));

@@ -20,7 +20,7 @@ TrialSetup setup_of(Task task, const std::string& condition, int trial_number) {
   setup.task = task;
   setup.condition = condition;
   setup.trial_number = trial_number;
-  if (task != Task::sorting) setup.masses_g = {15, 800};
+  if (task != "sorting") setup.masses_g = {15, 800};
   return setup;
 }
 
@@ -61,14 +61,14 @@ TEST(Simulated, in_C1_permuting_the_masses_leaves_every_answer_unchanged) {
   std::vector<std::string> first_answers;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const auto responder = make("simulated", seed);
-    TrialSetup setup = setup_of(Task::sorting, "C1", 1 + static_cast<int>(seed % 7));
+    TrialSetup setup = setup_of("sorting", "C1", 1 + static_cast<int>(seed % 7));
     const auto reference = run_trial(*responder, setup);
     while (std::ranges::next_permutation(setup.masses_g).found) {
       const auto permuted = run_trial(*responder, setup);
       EXPECT_EQ(said(permuted), said(reference)) << "seed " << seed;
       ++n_trials;
     }
-    TrialSetup pair = setup_of(Task::comparison, "C1", 3);
+    TrialSetup pair = setup_of("comparison", "C1", 3);
     const auto pair_reference = run_trial(*responder, pair);
     std::ranges::reverse(pair.masses_g);
     EXPECT_EQ(said(run_trial(*responder, pair)), said(pair_reference)) << "seed " << seed;
@@ -86,7 +86,7 @@ TEST(Simulated, in_C2_permuting_the_masses_changes_answers) {
   int n_changed = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto responder = make("simulated", seed);
-    TrialSetup setup = setup_of(Task::sorting, "C2", 1);
+    TrialSetup setup = setup_of("sorting", "C2", 1);
     const auto reference = run_trial(*responder, setup);
     std::ranges::reverse(setup.masses_g);
     n_changed += said(run_trial(*responder, setup)) != said(reference) ? 1 : 0;
@@ -95,7 +95,7 @@ TEST(Simulated, in_C2_permuting_the_masses_changes_answers) {
 }
 
 TEST(Simulated, sorts_in_C2_far_above_chance_and_at_chance_without_the_clone) {
-  TrialSetup setup = setup_of(Task::sorting, "C2", 1);
+  TrialSetup setup = setup_of("sorting", "C2", 1);
   const Counts seen = sort_many(setup, 30, 6);
   EXPECT_LT(1 - binomial_at_most(seen.correct - 1, 180, 1.0 / 6), 1e-9);
 
@@ -113,7 +113,7 @@ TEST(Simulated, compares_right_where_the_clone_tells_and_sees_no_difference_betw
   int n_right = 0, n_different = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const auto responder = make("simulated", seed);
-    TrialSetup setup = setup_of(Task::comparison, "C2", 1);
+    TrialSetup setup = setup_of("comparison", "C2", 1);
     setup.masses_g = {15, 400};
     n_right += run_trial(*responder, setup).correct ? 1 : 0;
     setup.masses_g = {15, 15};
@@ -124,9 +124,9 @@ TEST(Simulated, compares_right_where_the_clone_tells_and_sees_no_difference_betw
 }
 
 TEST(Simulated, is_a_pure_function_of_seed_trial_and_attempt) {
-  const TrialSetup setup = setup_of(Task::sorting, "C2", 4);
+  const TrialSetup setup = setup_of("sorting", "C2", 4);
   const auto one = make("simulated", 11), other = make("simulated", 11);
-  run_trial(*one, setup_of(Task::comparison, "C2", 3));  // leaves no trace
+  run_trial(*one, setup_of("comparison", "C2", 3));  // leaves no trace
   const auto first = run_trial(*one, setup), second = run_trial(*other, setup);
   ASSERT_EQ(first.hand.size(), second.hand.size());
   for (std::size_t i = 0; i < first.hand.size(); ++i) {
@@ -144,9 +144,9 @@ TEST(Simulated, is_a_pure_function_of_seed_trial_and_attempt) {
 
 RC_GTEST_PROP(Simulated, ends_every_task_by_allowed_actions_alone, ()) {
   TrialSetup setup;
-  setup.task = static_cast<Task>(*rc::gen::inRange(0, 3));
+  setup.task = *rc::gen::element<Task>("introduction", "sorting", "comparison");
   setup.condition = *rc::gen::element<std::string>("C1", "C2");
-  const auto n = setup.task == Task::sorting ? 3u : 2u;
+  const auto n = setup.task == "sorting" ? 3u : 2u;
   setup.masses_g = *rc::gen::container<std::vector<double>>(
       n, rc::gen::map(rc::gen::inRange(1, 1500), [](int g) { return static_cast<double>(g); }));
   setup.rate_hz = *rc::gen::element(7.5, 15.0, 30.0, 60.0);
@@ -167,7 +167,7 @@ TEST(Simulated, tries_the_introduction_again_after_another_look) {
   int n_retries = 0;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     const auto responder = make("simulated", seed, noise);
-    TrialSetup setup = setup_of(Task::introduction, "C1", 1);
+    TrialSetup setup = setup_of("introduction", "C1", 1);
     const auto result = run_trial(*responder, setup);
     ASSERT_TRUE(result.ended);
     ASSERT_LE(result.actions.size(), 2u) << "the other one of two cubes must be right";
@@ -183,7 +183,7 @@ TEST(Simulated, stops_instead_of_waiting_forever_where_no_answer_is_taken) {
   for (const ResponderEntry& entry : responders()) {
     if (entry.file == ResponderFile::folder) continue;
     const auto responder = make(entry.name, 5);
-    TrialSetup setup = setup_of(Task::comparison, "C2", 1);
+    TrialSetup setup = setup_of("comparison", "C2", 1);
     setup.takes_answers = false;
     const auto result = run_trial(*responder, setup);
     EXPECT_EQ(result.actions.size(), 3u) << entry.name;

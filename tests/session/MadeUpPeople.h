@@ -60,13 +60,11 @@ inline std::vector<Touch> patient(const ViewFrame& picture, const ScreenState& s
   if (screen.screen != Screen::trial)
     return screen.wait_s > 0 ? std::vector<Touch>{} : std::vector{touch(TouchKind::next)};
   if (picture.frame.cubes.empty() || !screen.can_answer) return {};
-  if (screen.task == Task::introduction)
-    return {touch(ActionKind::select, 1 + screen.n_choices % 2)};
-  if (screen.task == Task::comparison) return {touch(ActionKind::no_difference)};
-  if (screen.can_validate) return {touch(ActionKind::validate)};
-  return {touch(ActionKind::label, 1, Label::lightest),
-          touch(ActionKind::label, 2, Label::intermediate),
-          touch(ActionKind::label, 3, Label::heaviest)};
+  if (screen.task == "introduction") return {touch("select", 1 + screen.n_choices % 2)};
+  if (screen.task == "comparison") return {touch("no_difference")};
+  if (screen.can_validate) return {touch("validate")};
+  return {touch("label", 1, "lightest"), touch("label", 2, "intermediate"),
+          touch("label", 3, "heaviest")};
 }
 
 class MadeUpConsole : public Console {

@@ -19,7 +19,7 @@ inline Protocol small_protocol() {
 inline Protocol quick_protocol() {
   Protocol protocol = small_protocol();
   protocol.display_rate_hz = 200;
-  protocol.blocks = {SortingBlock{"sorting", {15, 200, 800}, {{"C2", 2}}, 0}};
+  protocol.blocks = {Sorting::Block{"sorting", {15, 200, 800}, {{"C2", 2}}, 0}};
   return protocol;
 }
 
@@ -35,8 +35,8 @@ inline Protocol every_page_protocol() {
 }
 
 /// Comparisons by one short staircase.
-inline ComparisonBlock short_comparison(int stop_reversals) {
-  ComparisonBlock comparison;
+inline Comparison::Block short_comparison(int stop_reversals) {
+  Comparison::Block comparison;
   comparison.name = "comparison";
   comparison.staircases = {{15, staircase("15g", 175, 50, stop_reversals)}};
   return comparison;

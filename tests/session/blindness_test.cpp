@@ -10,6 +10,8 @@
 #include "base/Random.h"
 #include "engine/RunningAttempt.h"
 #include "session/Protocols.h"
+#include "tasks/Offers.h"
+#include "tasks/SessionPlan.h"
 
 namespace heft {
 namespace {
@@ -19,13 +21,13 @@ using testing::small_protocol;
 // What reaches the eye may be changed on the way.
 using Change = std::function<void(DisplayedFrame&)>;
 
-struct Answer {
+struct Sorted {
   std::vector<TimedAction> actions;
-  Outcome outcome = Outcome::dont_know;
+  Outcome outcome = "dont_know";
   std::vector<std::optional<Label>> labels;
 
   // The same actions at the same times.
-  bool operator==(const Answer& other) const {
+  bool operator==(const Sorted& other) const {
     return labels == other.labels &&
            std::ranges::equal(actions, other.actions,
                               [](const TimedAction& a, const TimedAction& b) {
@@ -36,25 +38,25 @@ struct Answer {
 };
 
 // One sorting trial from its start to its answer.
-Answer sort_cubes(
+Sorted sort_cubes(
     const Protocol& protocol, const std::string& condition, std::vector<double> masses_g,
     std::uint64_t seed, const Change& change = [](DisplayedFrame&) {}) {
   TrialPlan plan;
   plan.trial_number = 1;
-  plan.task = Task::sorting;
+  plan.task = "sorting";
   plan.condition = condition;
   plan.masses_g = std::move(masses_g);
   ResponderOptions options;
   options.seed = seed;
   const auto responder = responder_named("simulated").make(options);
-  responder->begin_trial({1, 1, Task::sorting, stage_of(protocol, 3)});
+  responder->begin_trial({1, 1, "sorting", stage_of(protocol, 3)});
   TrialWorld world(protocol, plan);
   TrialRow row;
   row.attempt_index = 1;
-  RunningAttempt attempt(row, plan, false);
+  RunningAttempt attempt(row, TaskBlock(Sorting::Block{}).trial(plan, seed), false);
   HandPictures pictures(*responder, protocol.display_rate_hz);
   pictures.begin_attempt({});
-  Answer answer;
+  Sorted answer;
   for (;;) {
     ShownFrame shown = world.advance(pictures.next()->sample);
     for (const Event& event : shown.events)
@@ -63,9 +65,10 @@ Answer sort_cubes(
     for (const TimedAction& action : responder->see(shown.frame, attempt.screen())) {
       EXPECT_EQ(attempt.refusal({action.t_s, Action(action)}), std::nullopt);
       answer.actions.push_back(action);
-      if (const auto outcome = attempt.act(action, action.t_s)) {
-        answer.outcome = *outcome;
-        answer.labels = attempt.screen().labels;
+      attempt.act(action, action.t_s);
+      if (attempt.has_ended()) {
+        answer.outcome = *attempt.row().outcome;
+        answer.labels = labels_on(attempt.screen());
         return answer;
       }
     }
@@ -76,7 +79,7 @@ TEST(Blindness, permuting_the_masses_in_c1_leaves_every_answer_unchanged) {
   const Protocol protocol = small_protocol();
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     std::vector<double> masses_g{15, 200, 800};
-    const Answer first = sort_cubes(protocol, "C1", masses_g, seed);
+    const Sorted first = sort_cubes(protocol, "C1", masses_g, seed);
     while (std::ranges::next_permutation(masses_g).found)
       EXPECT_EQ(sort_cubes(protocol, "C1", masses_g, seed), first) << "seed " << seed;
   }
@@ -89,12 +92,12 @@ TEST(Blindness, hiding_the_clone_drops_c2_sorting_to_chance) {
   for (std::uint64_t seed = 0; seed < n; ++seed) {
     std::vector<double> masses_g{15, 200, 800};
     RandomStream(seed, "order").shuffle(std::span(masses_g));
-    n_right += sort_cubes(protocol, "C2", masses_g, seed).outcome == Outcome::correct;
+    n_right += sort_cubes(protocol, "C2", masses_g, seed).outcome == "correct";
     const Outcome hidden = sort_cubes(protocol, "C2", masses_g, seed, [](DisplayedFrame& frame) {
                              frame.clone.reset();
                            }).outcome;
-    n_right_hidden += hidden == Outcome::correct;
-    n_answered_hidden += hidden != Outcome::dont_know;
+    n_right_hidden += hidden == "correct";
+    n_answered_hidden += hidden != "dont_know";
   }
   EXPECT_GT(n_right, n * 3 / 4);
   // Of answered trials one in six by chance: within four standard errors.
@@ -109,7 +112,7 @@ TEST(Blindness, halving_the_display_rate_changes_what_is_perceived) {
   int n_changed = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     protocol.display_rate_hz = 15;
-    const Answer at_15 = sort_cubes(protocol, "C2", {15, 200, 800}, seed);
+    const Sorted at_15 = sort_cubes(protocol, "C2", {15, 200, 800}, seed);
     protocol.display_rate_hz = 7.5;
     n_changed += !(sort_cubes(protocol, "C2", {15, 200, 800}, seed) == at_15);
   }

@@ -330,9 +330,9 @@ class RandomMoments {
   }
   std::vector<Touch> answer(const ViewFrame& picture, const ScreenState& screen) {
     std::vector<Touch> touches = testing::patient(picture, screen);
-    if (screen.screen == Screen::trial && screen.task == Task::comparison && !touches.empty() &&
+    if (screen.screen == Screen::trial && screen.task == "comparison" && !touches.empty() &&
         random_.coin(0.5))
-      return {touch(ActionKind::select, 1 + static_cast<int>(random_.below(2)))};
+      return {touch("select", 1 + static_cast<int>(random_.below(2)))};
     return touches;
   }
   void intervene(const ConsoleStatus& status) {

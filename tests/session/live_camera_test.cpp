@@ -254,9 +254,9 @@ constexpr double out_of_view_s = 0.7;  // for longer the board is lost
 // The board was out of view while a page was read, and for a moment more.
 TEST(LiveCamera, counts_a_lost_board_from_the_trials_start_on) {
   Protocol protocol = quick_protocol();
-  const SortingBlock one{"sorting", {15, 200, 800}, {{"C2", 1}}, 0};
+  const Sorting::Block one{"sorting", {15, 200, 800}, {{"C2", 1}}, 0};
   protocol.blocks = {one, BreakBlock{"break", out_of_view_s}, one};
-  std::get<SortingBlock>(protocol.blocks[2]).name = "again";
+  block_as<Sorting::Block>(protocol.blocks[2])->name = "again";
   LiveSession* running = nullptr;
   std::size_t n_frames = 0;
   LiveSession session(
@@ -409,7 +409,7 @@ TEST(RenderedPictures, are_checked_as_a_cameras) {
 TEST(PicturesOfAModelsHand, count_those_that_came_too_late_to_be_made) {
   const Protocol protocol = quick_protocol();
   const auto hand = responder_named("simulated").make({});
-  hand->begin_trial({1, 1, Task::sorting, stage_of(protocol, 3)});
+  hand->begin_trial({1, 1, "sorting", stage_of(protocol, 3)});
   HandPictures pictures(*hand, 10);
   pictures.begin_attempt({});
   EXPECT_EQ(pictures.next()->n_dropped, 0);

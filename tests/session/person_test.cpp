@@ -9,6 +9,7 @@
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"
+#include "tasks/Offers.h"
 
 namespace heft {
 namespace {
@@ -89,9 +90,9 @@ TEST(Person, answers_are_logged_at_the_time_of_the_touch_and_shown_at_once) {
   session.run();
   const auto actions = session.events(event_kind<Action>);
   ASSERT_EQ(actions.size(), 8U);
-  EXPECT_THAT(session.screen.screens,
-              Contains(Field(&ScreenState::labels,
-                             ElementsAre(Label::lightest, Label::intermediate, Label::heaviest))));
+  EXPECT_THAT(session.screen.screens, Contains(::testing::ResultOf(
+                                          [](const ScreenState& shown) { return labels_on(shown); },
+                                          ElementsAre("lightest", "intermediate", "heaviest"))));
   for (std::size_t i = 1; i < actions.size(); ++i) EXPECT_GE(actions[i].t_s, actions[i - 1].t_s);
 }
 
@@ -100,14 +101,14 @@ TEST(Person, a_touch_that_can_not_be_taken_is_kept_as_refused_and_ends_nothing) 
   Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
     if (screen.screen == Screen::trial && screen.can_answer && !tried) {
       tried = true;
-      return std::vector{touch(ActionKind::validate)};
+      return std::vector{touch("validate")};
     }
     return patient(picture, screen);
   });
   EXPECT_EQ(session.run(), RunEnd::finished);
   ASSERT_EQ(session.events(event_kind<ActionRefused>).size(), 1U);
   const Event refused = session.events(event_kind<ActionRefused>)[0];
-  EXPECT_EQ(refused.as<ActionRefused>()->action, Action{ActionKind::validate});
+  EXPECT_EQ(refused.as<ActionRefused>()->action, Action{"validate"});
   EXPECT_THAT(refused.as<ActionRefused>()->reason, HasSubstr("label"));
 }
 
@@ -119,8 +120,7 @@ TEST(Person, a_touch_on_the_page_before_means_nothing_on_this_one) {
     std::vector<Touch> touches = patient(picture, screen);
     if (before == PageId{}) before = screen.page();
     if (screen.page() != before && !touches.empty()) {
-      Touch late =
-          screen.screen == Screen::trial ? touch(ActionKind::dont_know) : touch(TouchKind::next);
+      Touch late = screen.screen == Screen::trial ? touch("dont_know") : touch(TouchKind::next);
       late.page = std::exchange(before, screen.page());
       ++n_late;
       return std::vector{late};
@@ -449,7 +449,7 @@ TEST(Person, who_comes_back_meets_no_page_again_that_they_were_through_with) {
 
 TEST(Person, who_comes_back_in_the_middle_of_a_block_is_not_instructed_again) {
   Protocol protocol = comparing_protocol();
-  auto second = std::get<ComparisonBlock>(protocol.blocks.front());
+  auto second = *block_as<Comparison::Block>(protocol.blocks.front());
   second.name = "again";
   protocol.blocks.push_back(second);
   const Session* running = nullptr;

@@ -7,6 +7,7 @@
 #include "protocol/Files.h"
 #include "session/Session.h"
 #include "session/TappedSession.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 namespace {
@@ -76,7 +77,7 @@ class Asked {
   static const Control* answer_to(const TappedScreen& screen,
                                   const std::vector<Control>& controls) {
     const auto& state = screen.screen();
-    if (state.faded || state.task != Task::sorting) return named(controls, "cube_1");
+    if (state.faded || state.task != "sorting") return named(controls, "cube_1");
     return named(controls, "dont_know");
   }
 
@@ -94,7 +95,7 @@ class Asked {
 Protocol asking() {
   Protocol protocol = testing::quick_protocol();
   protocol.display_rate_hz = 15;
-  auto second = std::get<SortingBlock>(protocol.blocks.front());
+  auto second = *block_as<Sorting::Block>(protocol.blocks.front());
   second.name = "again";
   protocol.blocks.push_back(second);
   protocol.screens.questionnaires = {{"sorting", {"nasa_tlx"}},

@@ -43,9 +43,9 @@ class Resting : public Responder {
     if (!seen_s_) seen_s_ = frame.t_s;
     if (frame.t_s < *seen_s_ + 1) return {};
     seen_s_ = frame.t_s;
-    if (trial_.task == Task::sorting) return {{{ActionKind::dont_know, {}, {}}, frame.t_s}};
-    if (trial_.task == Task::comparison) return {{{ActionKind::no_difference, {}, {}}, frame.t_s}};
-    return {{{ActionKind::select, 1 + screen.n_choices % 2, {}}, frame.t_s}};
+    if (trial_.task == "sorting") return {{{"dont_know", {}, {}}, frame.t_s}};
+    if (trial_.task == "comparison") return {{{"no_difference", {}, {}}, frame.t_s}};
+    return {{{"select", 1 + screen.n_choices % 2, {}}, frame.t_s}};
   }
   bool has_more(double) const override { return true; }
 
@@ -91,7 +91,7 @@ class Nothing final : public ArView {
 // Two sorting trials and nothing else.
 Protocol two_trials() {
   Protocol protocol = small_protocol();
-  protocol.blocks = {SortingBlock{"sorting", {15, 200, 800}, {{"C2", 2}}, 0}};
+  protocol.blocks = {Sorting::Block{"sorting", {15, 200, 800}, {{"C2", 2}}, 0}};
   return protocol;
 }
 
@@ -283,7 +283,7 @@ TEST(Runner, cubes_stay_where_the_protocol_says_so) {
 TEST(Runner, an_action_that_the_screen_does_not_offer_stops_the_session_and_is_named) {
   class Wrong final : public Resting {
     std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState&) override {
-      return {{{ActionKind::validate, {}, {}}, frame.t_s}};
+      return {{{"validate", {}, {}}, frame.t_s}};
     }
   };
   Bench bench(two_trials(), std::make_unique<Wrong>(), [](int, double, Picture&) {});
@@ -316,7 +316,7 @@ TEST(Runner, a_stop_leaves_a_session_that_can_be_resumed) {
 
 TEST(Runner, a_reshuffled_introduction_shows_new_cubes_once_the_effector_is_clear) {
   Protocol protocol = small_protocol();
-  IntroductionBlock introduction{"introduction", {15, 800}};
+  Introduction::Block introduction{"introduction", {15, 800}};
   introduction.wrong_answer = WrongAnswer::reshuffle;
   protocol.blocks = {introduction};
   int most_shown = 0;

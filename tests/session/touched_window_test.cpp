@@ -9,6 +9,7 @@
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"
+#include "tasks/Offers.h"
 #include "window/WindowTaps.h"
 
 namespace heft {
@@ -82,23 +83,23 @@ class FingersOnTheWindow final : public ArView {
   }
 
   std::optional<std::string> next_answer() const {
-    if (screen_.task == Task::introduction)
+    if (screen_.task == "introduction")
       return if_there("cube_" + std::to_string(1 + screen_.n_choices % 2));
-    if (screen_.task == Task::comparison)
+    if (screen_.task == "comparison")
       return given.size() % 2 ? if_there("cube_2") : if_there("no_difference");
     return next_in_sorting();
   }
 
   // From left to right, with a mistake to begin with.
   std::optional<std::string> next_in_sorting() const {
-    const std::array wanted{screen_.n_choices == 0 ? Label::heaviest : Label::lightest,
-                            Label::intermediate, Label::heaviest};
+    const std::array wanted{screen_.n_choices == 0 ? "heaviest" : "lightest", "intermediate",
+                            "heaviest"};
     for (int slot = 1; slot <= 3; ++slot) {
       const auto i = static_cast<std::size_t>(slot - 1);
-      if (screen_.labels.at(i) == wanted[i]) continue;
+      if (labels_on(std::as_const(screen_)).at(i) == wanted[i]) continue;
       const std::string cube = "cube_" + std::to_string(slot);
       if (const Control* shown = control(cube); !shown || !shown->chosen) return if_there(cube);
-      return if_there("label_" + std::string(name_of(wanted[i])));
+      return if_there("label_" + std::string(wanted[i]));
     }
     return if_there("validate");
   }
@@ -152,8 +153,8 @@ class TouchedWindow : public ::testing::Test {
     }
     std::vector<std::optional<Label>> first_trial;
     for (std::size_t i = 0; i < 5; ++i) first_trial.push_back(logged.at(i).as<Action>()->label);
-    EXPECT_THAT(first_trial, ElementsAre(Label::heaviest, Label::lightest, Label::intermediate,
-                                         Label::heaviest, std::nullopt))
+    EXPECT_THAT(first_trial,
+                ElementsAre("heaviest", "lightest", "intermediate", "heaviest", std::nullopt))
         << "corrected, then validated";
   }
 

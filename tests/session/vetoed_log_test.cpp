@@ -32,13 +32,11 @@ class ToldSession {
     tell(TrialStarted{});
     tell(CubesShown{});
     const TrialPlan plan = *engine.next().plan;
-    if (plan.task == Task::sorting) return tell(Action{ActionKind::dont_know});
-    if (plan.task == Task::comparison && !yes) return tell(Action{ActionKind::no_difference});
-    return tell(Action{ActionKind::select, plan.masses_g[0] > plan.masses_g[1] ? 1 : 2});
+    if (plan.task == "sorting") return tell(Action{"dont_know"});
+    if (plan.task == "comparison" && !yes) return tell(Action{"no_difference"});
+    return tell(Action{"select", plan.masses_g[0] > plan.masses_g[1] ? 1 : 2});
   }
-  bool compares() const {
-    return engine.next().plan && engine.next().plan->task == Task::comparison;
-  }
+  bool compares() const { return engine.next().plan && engine.next().plan->task == "comparison"; }
 
   SessionHeader header(const Protocol& made) {
     setup.responder = "coin";

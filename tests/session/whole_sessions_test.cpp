@@ -8,6 +8,7 @@
 #include "base/Random.h"
 #include "protocol/Files.h"
 #include "session/TappedSession.h"
+#include "tasks/Offers.h"
 
 namespace heft {
 namespace {
@@ -106,8 +107,8 @@ class Person {
     if (state.faded) return nullptr;
     if (!trials.contains(state.trial_number)) trials[state.trial_number] = meant(state);
     const Meant& meant = trials[state.trial_number];
-    if (state.task == Task::sorting) return next_of_sorting(screen, meant);
-    if (state.task == Task::introduction) {
+    if (state.task == "sorting") return next_of_sorting(screen, meant);
+    if (state.task == "introduction") {
       const int other = 3 - *meant.first_slot;
       return cube(screen, state.n_choices % 2 == 0 ? *meant.first_slot : other);
     }
@@ -118,10 +119,10 @@ class Person {
   Meant meant(const ScreenState& state) {
     Meant meant;
     const int slot = 1 + static_cast<int>(random_.below(2));
-    if (state.task == Task::introduction) meant.first_slot = slot;
-    if (state.task == Task::comparison && random_.coin(0.7)) meant.slot = slot;
-    if (state.task == Task::sorting) {
-      meant.labels = {Label::lightest, Label::intermediate, Label::heaviest};
+    if (state.task == "introduction") meant.first_slot = slot;
+    if (state.task == "comparison" && random_.coin(0.7)) meant.slot = slot;
+    if (state.task == "sorting") {
+      meant.labels = {"lightest", "intermediate", "heaviest"};
       random_.shuffle(std::span(meant.labels));
     }
     return meant;
@@ -134,7 +135,7 @@ class Person {
 
   // One after the other; what is wrong is corrected.
   const Control* next_of_sorting(const TappedScreen& screen, const Meant& meant) const {
-    const auto& given = screen.screen().labels;
+    const auto given = labels_on(screen.screen());
     for (int slot = 1; slot <= 3; ++slot) {
       const auto i = static_cast<std::size_t>(slot - 1);
       if (given[i] == meant.labels[i]) continue;
@@ -171,11 +172,11 @@ std::map<int, Logged> logged_trials(const RecordedSession& sink) {
     const auto* action = recorded->event.as<Action>();
     if (!action) continue;
     Logged& trial = trials[number];
-    if (action->kind == ActionKind::label) {
+    if (action->kind == "label") {
       for (auto& label : trial.labels)
         if (label == action->label) label.reset();
       trial.labels.at(static_cast<std::size_t>(*action->slot - 1)) = action->label;
-    } else if (action->kind == ActionKind::validate) {
+    } else if (action->kind == "validate") {
       trial.validated = true;
     } else {
       trial.choices.push_back(*action);
@@ -192,7 +193,7 @@ void expect_meant(const Meant& meant, const Logged& logged) {
     EXPECT_EQ(logged.choices.at(0).slot, meant.first_slot);
   } else {
     ASSERT_EQ(logged.choices.size(), 1U) << "one answer, final at once";
-    EXPECT_EQ(logged.choices[0].kind, meant.slot ? ActionKind::select : ActionKind::no_difference);
+    EXPECT_EQ(logged.choices[0].kind, meant.slot ? "select" : "no_difference");
     EXPECT_EQ(logged.choices[0].slot, meant.slot);
   }
 }

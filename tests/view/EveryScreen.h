@@ -8,6 +8,8 @@
 #include "experiment/ScreenState.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/Files.h"
+#include "tasks/Offers.h"
+#include "tasks/Tasks.h"
 #include "view/ArView.h"
 #include "view/screens/Page.h"
 
@@ -39,9 +41,9 @@ inline ScreenTexts texts_in(const std::string& language) {
 inline ScreenState sorting_state(int n_slots) {
   ScreenState state;
   state.screen = Screen::trial;
-  state.task = Task::sorting;
+  state.task = "sorting";
   state.n_slots = n_slots;
-  state.labels.assign(static_cast<std::size_t>(n_slots), std::nullopt);
+  labels_on(state).assign(static_cast<std::size_t>(n_slots), std::nullopt);
   return state;
 }
 
@@ -49,12 +51,12 @@ inline ScreenState trial_state(Task task) {
   ScreenState state;
   state.screen = Screen::trial;
   state.task = task;
-  state.n_slots = task == Task::sorting ? 3 : 2;
-  if (task == Task::sorting) state.labels.assign(3, std::nullopt);
+  state.n_slots = task == "sorting" ? 3 : 2;
+  if (task == "sorting") labels_on(state).assign(3, std::nullopt);
   return state;
 }
 
-inline ScreenState page_state(Screen screen, Task task = Task::sorting, double wait_s = 0) {
+inline ScreenState page_state(Screen screen, Task task = "sorting", double wait_s = 0) {
   ScreenState state;
   state.screen = screen;
   state.task = task;
@@ -66,12 +68,12 @@ inline std::vector<NamedScreen> page_screens() {
   return {{"consent", page_state(Screen::consent)},
           {"welcome", page_state(Screen::welcome)},
           {"about_you", page_state(Screen::about_you)},
-          {"demonstration_waiting", page_state(Screen::demonstration, Task::sorting, 5)},
+          {"demonstration_waiting", page_state(Screen::demonstration, "sorting", 5)},
           {"demonstration", page_state(Screen::demonstration)},
-          {"instructions_introduction", page_state(Screen::instructions, Task::introduction)},
-          {"instructions_sorting", page_state(Screen::instructions, Task::sorting)},
-          {"instructions_comparison", page_state(Screen::instructions, Task::comparison)},
-          {"rest_waiting", page_state(Screen::rest, Task::sorting, 64.2)},
+          {"instructions_introduction", page_state(Screen::instructions, "introduction")},
+          {"instructions_sorting", page_state(Screen::instructions, "sorting")},
+          {"instructions_comparison", page_state(Screen::instructions, "comparison")},
+          {"rest_waiting", page_state(Screen::rest, "sorting", 64.2)},
           {"rest", page_state(Screen::rest)},
           {"paused", page_state(Screen::paused)},
           {"how_decided", page_state(Screen::how_decided)},
@@ -81,39 +83,58 @@ inline std::vector<NamedScreen> page_screens() {
 }
 
 inline std::vector<NamedScreen> trial_screens() {
-  ScreenState untouched = trial_state(Task::sorting);
+  ScreenState untouched = trial_state("sorting");
   untouched.can_answer = false;
   untouched.touch_first = true;
-  ScreenState fading = trial_state(Task::comparison);
+  ScreenState fading = trial_state("comparison");
   fading.can_answer = false;
   fading.faded = 0.5;
-  ScreenState again = trial_state(Task::introduction);
+  ScreenState again = trial_state("introduction");
   again.try_again = true;
   again.n_choices = 1;
-  ScreenState labeled = trial_state(Task::sorting);
-  labeled.labels = {Label::intermediate, Label::lightest, Label::heaviest};
+  ScreenState labeled = trial_state("sorting");
+  labels_on(labeled) = {"intermediate", "lightest", "heaviest"};
   labeled.can_validate = true;
   labeled.n_choices = 3;
   ScreenState ranked = sorting_state(6);
-  ranked.labels[4] = Label::rank_1;
-  ranked.labels[0] = Label::rank_6;
+  labels_on(ranked)[4] = "1";
+  labels_on(ranked)[0] = "6";
   return {{"sorting_2", sorting_state(2)},
           {"sorting_4", sorting_state(4)},
           {"sorting_5", sorting_state(5)},
           {"sorting_6", ranked},
           {"sorting_without_cubes", untouched, false},
           {"sorting_untouched", untouched},
-          {"sorting", trial_state(Task::sorting)},
+          {"sorting", trial_state("sorting")},
           {"sorting_labeled", labeled},
-          {"introduction", trial_state(Task::introduction)},
+          {"introduction", trial_state("introduction")},
           {"introduction_again", again},
-          {"comparison", trial_state(Task::comparison)},
+          {"comparison", trial_state("comparison")},
           {"comparison_fading", fading}};
 }
 
-inline std::vector<NamedScreen> every_screen() {
+/// What each task says of its own screens at their fullest, where the texts have its words: before
+/// the cubes are there, and with them.
+inline std::vector<NamedScreen> task_screens(const ScreenTexts& texts) {
+  std::vector<NamedScreen> all;
+  Tasks::each([&]<typename Kind>() {
+    const Task task(Kind::task.name);
+    if (!texts.pages.contains(text_page(Screen::trial, task))) return;
+    all.push_back({"instructions_" + task, page_state(Screen::instructions, task)});
+    for (ScreenState state : Kind::fullest_screens()) {
+      state.screen = Screen::trial;
+      state.task = task;
+      all.push_back({task + " of the task", state});
+      all.push_back({task + " of the task without cubes", state, false});
+    }
+  });
+  return all;
+}
+
+inline std::vector<NamedScreen> every_screen(const ScreenTexts& texts) {
   auto all = page_screens();
   for (auto& screen : trial_screens()) all.push_back(std::move(screen));
+  for (auto& screen : task_screens(texts)) all.push_back(std::move(screen));
   return all;
 }
 

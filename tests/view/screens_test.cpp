@@ -11,6 +11,7 @@
 
 #include "EveryScreen.h"
 #include "base/Error.h"
+#include "tasks/Tasks.h"
 #include "view/screens/Places.h"
 #include "view/screens/TextFit.h"
 
@@ -72,7 +73,7 @@ void on_every_page(const Check& check) {
     for (const Measures& window : windows)
       for (const bool left_handed : {false, true}) {
         Fixture fixture(language, window, left_handed);
-        for (const NamedScreen& screen : every_screen()) {
+        for (const NamedScreen& screen : every_screen(fixture.screens.texts())) {
           fixture.screens.show(screen.state, screen.cubes);
           SCOPED_TRACE(language + ' ' + screen.name + ' ' + std::to_string(window.height));
           for (bool more = true; more;) {
@@ -189,7 +190,7 @@ TEST(Screens, NothingIsThereBeforeTheSessionShowsSomething) {
 
 TEST(Screens, TheSceneTakesMostOfTheWindow) {
   Fixture fixture;
-  fixture.screens.show(trial_state(Task::sorting), true);
+  fixture.screens.show(trial_state("sorting"), true);
   const Rect scene = *fixture.page().scene;
   EXPECT_GT(scene.width, 0.64f * 1024);
   EXPECT_GT(scene.height, 0.8f * 600);
@@ -198,7 +199,7 @@ TEST(Screens, TheSceneTakesMostOfTheWindow) {
 TEST(Screens, EachOffersItsControls) {
   Fixture fixture;
   const auto offered = [&](const std::string& name) {
-    for (const NamedScreen& screen : every_screen())
+    for (const NamedScreen& screen : every_screen(fixture.screens.texts()))
       if (screen.name == name) fixture.screens.show(screen.state, screen.cubes);
     return names(fixture.page());
   };
@@ -232,15 +233,15 @@ TEST(Screens, CubesOfAnyOtherNumberThanThreeAreRanked) {
     EXPECT_THAT(names(fixture.page()), UnorderedElementsAreArray(expected));
     fixture.tap("cube_2");
     const auto given = action(fixture.tap("label_" + std::to_string(n)));
-    EXPECT_EQ(given.kind, ActionKind::label);
+    EXPECT_EQ(given.kind, "label");
     EXPECT_EQ(given.slot, 2);
-    EXPECT_EQ(given.label, labels_for(n).back());
+    EXPECT_EQ(given.label, Sorting::labels_for(n).back());
   }
 }
 
 TEST(Screens, NothingCanBeAnsweredTooEarly) {
   Fixture fixture;
-  for (const Task task : {Task::introduction, Task::sorting, Task::comparison}) {
+  for (const Task task : words_of<Task>()) {
     ScreenState state = trial_state(task);
     state.can_validate = true;
     fixture.screens.show(state, false);
@@ -253,53 +254,53 @@ TEST(Screens, NothingCanBeAnsweredTooEarly) {
 
 TEST(Screens, OnlyTheIntroductionSaysTryAgain) {
   Fixture fixture;
-  for (const Task task : {Task::introduction, Task::sorting, Task::comparison}) {
+  for (const Task task : words_of<Task>()) {
     ScreenState state = trial_state(task);
     state.try_again = true;
     fixture.screens.show(state, true);
-    EXPECT_EQ(fixture.page().notice == "Please try again.", task == Task::introduction);
+    EXPECT_EQ(fixture.page().notice == "Please try again.", task == "introduction");
   }
 }
 
 TEST(Screens, AChoiceIsOneTap) {
   Fixture fixture;
-  fixture.screens.show(trial_state(Task::comparison), true);
-  EXPECT_EQ(action(fixture.tap("cube_2")).kind, ActionKind::select);
+  fixture.screens.show(trial_state("comparison"), true);
+  EXPECT_EQ(action(fixture.tap("cube_2")).kind, "select");
   EXPECT_EQ(action(fixture.tap("cube_2")).slot, 2);
-  EXPECT_EQ(action(fixture.tap("no_difference")).kind, ActionKind::no_difference);
+  EXPECT_EQ(action(fixture.tap("no_difference")).kind, "no_difference");
   EXPECT_FALSE(action(fixture.tap("no_difference")).slot);
   EXPECT_EQ(fixture.tap("put_cubes_back")->kind, TouchKind::put_cubes_back);
 }
 
 TEST(Screens, ALabelGoesToTheSelectedCubeAndASecondTapTakesItBack) {
   Fixture fixture;
-  ScreenState state = trial_state(Task::sorting);
+  ScreenState state = trial_state("sorting");
   fixture.screens.show(state, true);
   EXPECT_FALSE(fixture.control("label_heaviest").enabled) << "no cube is selected";
   EXPECT_FALSE(fixture.tap("cube_2")) << "selecting is between the screen and the person";
   EXPECT_TRUE(fixture.control("cube_2").chosen);
   const Action given = action(fixture.tap("label_heaviest"));
-  EXPECT_EQ(given.kind, ActionKind::label);
+  EXPECT_EQ(given.kind, "label");
   EXPECT_EQ(given.slot, 2);
-  EXPECT_EQ(given.label, Label::heaviest);
+  EXPECT_EQ(given.label, "heaviest");
 
-  state.labels[1] = Label::heaviest;
+  labels_on(state)[1] = "heaviest";
   state.n_choices = 1;
   fixture.screens.show(state, true);
   EXPECT_TRUE(fixture.control("label_heaviest").chosen);
   EXPECT_EQ(fixture.control("label_heaviest").note, "Middle");
   EXPECT_EQ(fixture.control("label_lightest").note, "");
   const Action back = action(fixture.tap("label_heaviest"));
-  EXPECT_EQ(back.kind, ActionKind::unlabel);
+  EXPECT_EQ(back.kind, "unlabel");
   EXPECT_EQ(back.slot, 2);
   EXPECT_FALSE(back.label);
-  EXPECT_EQ(action(fixture.tap("label_lightest")).kind, ActionKind::label) << "corrected at will";
+  EXPECT_EQ(action(fixture.tap("label_lightest")).kind, "label") << "corrected at will";
 }
 
 TEST(Screens, LabelsAreShownOverTheirCubes) {
   Fixture fixture;
-  ScreenState state = trial_state(Task::sorting);
-  state.labels = {Label::heaviest, std::nullopt, Label::lightest};
+  ScreenState state = trial_state("sorting");
+  labels_on(state) = {"heaviest", std::nullopt, "lightest"};
   fixture.screens.show(state, true);
   fixture.tap("cube_2");
   std::vector<std::tuple<int, std::string, bool>> marks;
@@ -312,14 +313,14 @@ TEST(Screens, LabelsAreShownOverTheirCubes) {
 TEST(Screens, ANewTrialBeginsWithNoCubeSelectedThoughItsCubesAreThereAtOnce) {
   const auto chosen_after = [](const ScreenState& next) {
     Fixture fixture;
-    fixture.screens.show(trial_state(Task::sorting), true);
+    fixture.screens.show(trial_state("sorting"), true);
     fixture.tap("cube_1");
     const Turn turn = fixture.screens.show(next, true);
     const bool chosen = fixture.control("cube_1").chosen;
     EXPECT_EQ(turn, chosen ? Turn::none : Turn::page);
     return chosen;
   };
-  const ScreenState same = trial_state(Task::sorting);
+  const ScreenState same = trial_state("sorting");
   EXPECT_TRUE(chosen_after(same));
   for (int ScreenState::*number :
        {&ScreenState::trial_number, &ScreenState::attempt, &ScreenState::n_reshuffles}) {
@@ -327,12 +328,12 @@ TEST(Screens, ANewTrialBeginsWithNoCubeSelectedThoughItsCubesAreThereAtOnce) {
     ++(other.*number);
     EXPECT_FALSE(chosen_after(other));
   }
-  EXPECT_FALSE(chosen_after(trial_state(Task::comparison)));
+  EXPECT_FALSE(chosen_after(trial_state("comparison")));
 }
 
 TEST(Screens, CubesThatAppearAreToldFromAPageThatTurns) {
   Fixture fixture;
-  ScreenState state = trial_state(Task::comparison);
+  ScreenState state = trial_state("comparison");
   EXPECT_EQ(fixture.screens.show(state, false), Turn::page);
   EXPECT_EQ(fixture.screens.show(state, true), Turn::cubes);
   EXPECT_EQ(fixture.screens.show(state, true), Turn::none);
@@ -350,7 +351,7 @@ TEST(Screens, CubesThatAppearAreToldFromAPageThatTurns) {
 TEST(Screens, TheNamedChoiceStaysMarkedWhileItsCubesFade) {
   for (const char* named : {"cube_2", "no_difference"}) {
     Fixture fixture;
-    ScreenState state = trial_state(Task::comparison);
+    ScreenState state = trial_state("comparison");
     fixture.screens.show(state, true);
     fixture.tap(named);
     const auto chosen = [&] {
@@ -372,7 +373,7 @@ TEST(Screens, TheNamedChoiceStaysMarkedWhileItsCubesFade) {
 
 TEST(Screens, HintsComeOnlyWhereTheProtocolAsksForWhatTheySay) {
   Fixture fixture;
-  ScreenState state = trial_state(Task::comparison);
+  ScreenState state = trial_state("comparison");
   state.can_answer = false;
   fixture.screens.show(state, true);
   EXPECT_EQ(fixture.page().notice, "");
@@ -440,12 +441,12 @@ TEST(Screens, WhoComesBackFromDecliningNeedNotReadTheConsentAgain) {
 
 TEST(Screens, ValidationNeedsTheSessionsLeave) {
   Fixture fixture;
-  ScreenState state = trial_state(Task::sorting);
+  ScreenState state = trial_state("sorting");
   fixture.screens.show(state, true);
   EXPECT_FALSE(fixture.control("validate").enabled);
   state.can_validate = true;
   fixture.screens.show(state, true);
-  EXPECT_EQ(action(fixture.tap("validate")).kind, ActionKind::validate);
+  EXPECT_EQ(action(fixture.tap("validate")).kind, "validate");
 }
 
 TEST(Screens, FormsAskOneQuestionAtATimeAndEachCanBeSkipped) {
@@ -496,7 +497,7 @@ TEST(Screens, ALongTextComesInPartsAndIsAgreedToAtItsEnd) {
 TEST(Screens, TheLeftHandHasTheControlsOnItsSideAndTheCubesInTheirOrder) {
   const auto areas = [](bool left_handed) {
     Fixture fixture("en", {1024, 600}, left_handed);
-    fixture.screens.show(trial_state(Task::sorting), true);
+    fixture.screens.show(trial_state("sorting"), true);
     return std::tuple(*fixture.page().scene, fixture.control("cube_1").area,
                       fixture.control("cube_3").area, fixture.control("validate").area);
   };
@@ -515,7 +516,7 @@ TEST(Screens, TheLeftHandHasTheControlsOnItsSideAndTheCubesInTheirOrder) {
 
 TEST(Screens, AllCubesLookTheSame) {
   Fixture fixture;
-  fixture.screens.show(trial_state(Task::sorting), true);
+  fixture.screens.show(trial_state("sorting"), true);
   const Control first = fixture.control("cube_1"), last = fixture.control("cube_3");
   EXPECT_EQ(first.area.width, last.area.width);
   EXPECT_EQ(first.area.height, last.area.height);

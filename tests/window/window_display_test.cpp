@@ -92,7 +92,7 @@ TEST(WindowOnADisplay, FillsItAndTakesClicksAndKeys) {
   ViewSetup setup = setup_for("fr");
   setup.takes_keys = true;
   WindowView view(setup);
-  view.present(picture_of(setup), trial_state(Task::sorting));
+  view.present(picture_of(setup), trial_state("sorting"));
   settled(view);
   int width = 0, height = 0;
   SDL_GetWindowSize(SDL_GL_GetCurrentWindow(), &width, &height);
@@ -107,19 +107,19 @@ TEST(WindowOnADisplay, FillsItAndTakesClicksAndKeys) {
   auto touched = view.wait(10);
   ASSERT_THAT(touched, SizeIs(1));
   EXPECT_EQ(touched[0].action.slot, 3);
-  EXPECT_EQ(touched[0].action.label, Label::heaviest);
+  EXPECT_EQ(touched[0].action.label, "heaviest");
 
   xdotool("key d");
   touched = view.wait(10);
   ASSERT_THAT(touched, SizeIs(1));
-  EXPECT_EQ(touched[0].action.kind, ActionKind::dont_know);
+  EXPECT_EQ(touched[0].action.kind, "dont_know");
 }
 
 TEST(WindowOnADisplay, TwoQuickClicksAreOneTouch) {
   const Display display;
   const ViewSetup setup = setup_for("en", 2);
   WindowView view(setup);
-  view.present(picture_of(setup), trial_state(Task::comparison));
+  view.present(picture_of(setup), trial_state("comparison"));
   settled(view);
   const Rect area = control_named(view, "no_difference").area;
   xdotool(fmt::format("mousemove {:.0f} {:.0f} click --repeat 2 --delay 60 1", center_x(area),
@@ -134,10 +134,10 @@ TEST(WindowOnADisplay, WhenTheDisplayDiesThePersonHearsWhatToDo) {
     Display display;
     const ViewSetup setup = setup_for("en");
     WindowView view(setup);
-    view.present(picture_of(setup), trial_state(Task::sorting));
+    view.present(picture_of(setup), trial_state("sorting"));
     display.stop();
     for (int i = 0; i < 100; ++i) {
-      view.present(picture_of(setup), trial_state(Task::sorting));
+      view.present(picture_of(setup), trial_state("sorting"));
       view.wait(0.01);
     }
   };

@@ -43,6 +43,7 @@ struct TurnPart {
 struct Slide {
   std::string key;
   bool from_the_right = false;
+  bool typed = false;  ///< kept as a number that is being typed is
 };
 
 /// A number that is being typed, so far: an answer only when the question is left.

@@ -103,7 +103,7 @@ void add_turning(PageBuilder& builder, int i, int n, bool answered);
 FillPage questionnaire_screen;
 int first_open_question(const Questionnaire& form, const std::string& prefix,
                         const std::map<std::string, std::string>& entries);
-// Beside the scene: SceneScreens.cpp.
-FillPage demonstration_screen, introduction_screen, sorting_screen, comparison_screen;
+// Beside the scene: SceneParts.cpp. The screens of trials are their tasks' (src/tasks).
+FillPage demonstration_screen;
 
 }  // namespace heft

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "tasks/Tasks.h"
 #include "view/screens/ScreenPages.h"
 
 namespace heft {
@@ -13,14 +14,17 @@ float advance_px(const std::string& line, float size_px) {
   return Typeface::line_height_px(size_px) * (line.empty() ? 0.5f : 1.f);
 }
 
-// In the order of Screen and of Task.
+void trial_screen(PageBuilder& builder) {
+  Tasks::call(builder.state.task,
+              [&]<typename Kind>() { Kind::screen(builder, offer_of<Kind>(builder.state.offer)); });
+}
+
+// In the order of Screen.
 constexpr std::array<FillPage*, EnumNames<Screen>::names.size()> pages{
     consent_screen,      welcome_screen, about_you_screen, demonstration_screen,
-    instructions_screen, nullptr,        rest_screen,      paused_screen,
+    instructions_screen, trial_screen,   rest_screen,      paused_screen,
     how_decided_screen,  thanks_screen,  declined_screen,  setting_up_screen,
     questionnaire_screen};
-constexpr std::array<FillPage*, EnumNames<Task>::names.size()> trial_pages{
-    introduction_screen, sorting_screen, comparison_screen};
 }  // namespace
 
 float PageBuilder::add_lines(const std::vector<std::string>& lines, const Rect& column, float y,
@@ -142,10 +146,7 @@ Page Screens::page(const Typeface& typeface, const Measures& measures, double up
   ScreenMemory memory = memory_;
   memory.up_s = up_s;
   PageBuilder builder(state_, memory, texts_, typeface, measures, left_handed_);
-  if (state_.screen == Screen::trial)
-    trial_pages[static_cast<std::size_t>(state_.task)](builder);
-  else
-    pages[static_cast<std::size_t>(state_.screen)](builder);
+  pages[static_cast<std::size_t>(state_.screen)](builder);
   return std::move(builder.page);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tasks/Tasks.h"
 #include "view/screens/Places.h"
 #include "view/screens/Screens.h"
 
@@ -20,17 +21,18 @@ std::vector<ScreenState> states(const ScreenTexts& texts) {
                                                     screen != Screen::instructions &&
                                                     screen != Screen::questionnaire)
       all.push_back({.screen = screen});
-  for (std::size_t i = 0; i < EnumNames<Task>::names.size(); ++i) {
-    const auto task = static_cast<Task>(i);
+  Tasks::each([&]<typename Kind>() {
+    const Task task(Kind::task.name);
+    if (!texts.pages.contains(text_page(Screen::trial, task))) return;  // not of every task
     all.push_back({.screen = Screen::instructions, .task = task});
-    const int n_slots = task == Task::sorting ? 3 : 2;
-    ScreenState trial{.screen = Screen::trial, .task = task, .n_slots = n_slots, .try_again = true};
-    if (task == Task::sorting)
-      trial.labels = {Label::lightest, Label::intermediate, Label::heaviest};
-    all.push_back(trial);
-    trial.touch_first = true;
-    all.push_back(trial);
-  }
+    for (ScreenState trial : Kind::fullest_screens()) {
+      trial.screen = Screen::trial;
+      trial.task = task;
+      all.push_back(trial);
+      trial.touch_first = true;
+      all.push_back(trial);
+    }
+  });
   all.push_back({.screen = Screen::rest, .wait_s = 599});
   for (const auto& [name, questionnaire] : texts.questionnaires)
     all.push_back({.screen = Screen::questionnaire, .form = name, .form_prefix = name});

@@ -10,12 +10,14 @@
 namespace heft {
 
 namespace {
-Touch slid_to(const Slide& slide, float fraction) {
+Effect slid_to(const Slide& slide, float fraction) {
   constexpr float most = 100;
   const float set = slide.from_the_right ? 1 - fraction : fraction;
+  const std::string value = std::to_string(std::lround(most * std::clamp(set, 0.f, 1.f)));
+  if (slide.typed) return Typed{slide.key, value};
   Touch touch = touch_of(TouchKind::entry);
   touch.key = slide.key;
-  touch.value = std::to_string(std::lround(most * std::clamp(set, 0.f, 1.f)));
+  touch.value = value;
   return touch;
 }
 }  // namespace
@@ -85,7 +87,7 @@ bool TouchScreen::key(char key, double t_s) {
 void TouchScreen::apply(Control control, float x, double t_s) {
   tapped_ = {control.name, t_s};
   if (const auto* slide = std::get_if<Slide>(&control.effect))
-    control.effect = slid_to(*slide, (x - control.area.x) / control.area.width);
+    control.effect = slid_to(Slide(*slide), (x - control.area.x) / control.area.width);
   if (std::holds_alternative<TurnPart>(control.effect)) turn(settle_s);
   if (control.entered) report(*control.entered, t_s);
   if (auto touch = screens_.tapped(control)) report(std::move(*touch), t_s);

@@ -26,12 +26,13 @@ struct TrialKey {
     return RandomStream(seed, purpose, static_cast<std::uint64_t>(trial_number));
   }
 
-  TrialPlan plan(const std::string& block, Task task, const std::string& condition) const {
+  TrialPlan plan(const std::string& block, std::string_view task,
+                 const std::string& condition) const {
     TrialPlan plan;
     plan.trial_number = trial_number;
     plan.attempt = attempt;
     plan.block = block;
-    plan.task = task;
+    plan.task = Task(task);
     plan.condition = condition;
     return plan;
   }

@@ -1,0 +1,34 @@
+#include "tasks/BlockKeys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+namespace heft {
+
+int total_of(const std::vector<TechniqueTrials>& trials) {
+  int n = 0;
+  for (const TechniqueTrials& some : trials) n += some.trials;
+  return n;
+}
+
+std::vector<KeyMistake> mistakes_in_masses(const std::vector<double>& masses_g, std::size_t fewest,
+                                           std::size_t most, std::string_view why) {
+  std::vector<KeyMistake> mistakes;
+  const std::size_t n = masses_g.size();
+  if (n < fewest || n > most)
+    mistakes.push_back({"masses_g",
+                        {},
+                        fmt::format("masses_g has {} masses, expected {}: one a cube", n,
+                                    fewest == most ? fmt::format("{}", most)
+                                                   : fmt::format("{} to {}", fewest, most))});
+  for (std::size_t i = 0; i < n; ++i)
+    if (std::ranges::count(std::span(masses_g).first(i), masses_g[i]) > 0)
+      mistakes.push_back({"masses_g", i,
+                          fmt::format("masses_g has {} g twice, expected different masses: {}",
+                                      masses_g[i], why)});
+  return mistakes;
+}
+
+}  // namespace heft

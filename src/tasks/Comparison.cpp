@@ -1,0 +1,227 @@
+#include "tasks/Comparison.h"
+
+#include <algorithm>
+#include <array>
+
+namespace heft {
+
+namespace {
+bool is_unfinished(const Procedure& staircase) {
+  return !staircase.finished();
+}
+
+std::size_t drawn_unfinished(const std::vector<Procedure>& staircases, RandomStream& stream) {
+  std::vector<std::size_t> unfinished;
+  for (std::size_t i = 0; i < staircases.size(); ++i)
+    if (is_unfinished(staircases[i])) unfinished.push_back(i);
+  return unfinished.at(stream.below(unfinished.size()));
+}
+
+int n_planned(const Comparison::Block& block) {
+  int n = 0;
+  for (const ReferenceCatchTrials& some : block.catch_trials) n += some.trials;
+  return n;
+}
+
+// In rounds: each reference that has some left, once, in random order.
+std::vector<double> catch_references(const Comparison::Block& block, std::uint64_t seed) {
+  std::vector<double> references_g;
+  for (int round = 0; static_cast<int>(references_g.size()) < n_planned(block); ++round) {
+    std::vector<double> of_round;
+    for (const ReferenceCatchTrials& some : block.catch_trials)
+      if (some.trials > round) of_round.push_back(some.reference_g);
+    RandomStream stream(seed, "catch order/" + block.name, static_cast<std::uint64_t>(round));
+    stream.shuffle(std::span(of_round));
+    references_g.insert(references_g.end(), of_round.begin(), of_round.end());
+  }
+  return references_g;
+}
+// Trials that one observer takes; level by level it says yes where the difference, with noise in
+// proportion to the threshold, is beyond the threshold.
+int simulated_trials(Procedure procedure, double threshold_g, std::uint64_t observer) {
+  constexpr double noise_per_threshold = 0.4;
+  constexpr int enough_trials = 1000;  // steps too small for their start never get anywhere
+  RandomStream stream(0, "expected length", observer);
+  const RandomStream levels = level_stream(observer, procedure.name());
+  while (!procedure.finished() && procedure.n_trials() < enough_trials) {
+    const double level_g = procedure.next_level(levels);
+    const double seen_g = level_g + noise_per_threshold * threshold_g * stream.normal();
+    procedure.respond({seen_g > threshold_g}, level_g);
+  }
+  return procedure.n_trials();
+}
+
+double mean_trials(const Procedure& procedure, double largest_threshold_g) {
+  if (const auto planned = procedure.planned_trials()) return *planned;
+  constexpr int n_observers = 200;
+  double total = 0;
+  for (int i = 0; i < n_observers; ++i) {
+    const double fraction = 0.25 + 0.75 * (i + 0.5) / n_observers;
+    total +=
+        simulated_trials(procedure, fraction * largest_threshold_g, static_cast<std::uint64_t>(i));
+  }
+  return total / n_observers;
+}
+
+// Staircases of one reference that start from above and from below meet the same observers.
+double largest_start_g(const Comparison::Block& block, double reference_g) {
+  double largest_g = 0;
+  for (const ReferenceStaircase& other : block.staircases)
+    if (other.reference_g == reference_g)
+      for (double level_g : other.staircase.planned_levels())
+        largest_g = std::max(largest_g, level_g);
+  return largest_g;
+}
+}  // namespace
+
+std::vector<KeyMistake> Comparison::Block::check() const {
+  if (catch_trials.empty() || catch_fraction == 0) return {};
+  return {{"catch_fraction",
+           {},
+           "catch_fraction together with catch_trials, expected one of them: a coin each trial, or "
+           "a fixed number"}};
+}
+
+double Comparison::Block::expected_staircase_trials() const {
+  double trials = 0;
+  for (const ReferenceStaircase& reference : staircases)
+    trials += mean_trials(reference.staircase, largest_start_g(*this, reference.reference_g));
+  return trials;
+}
+
+double Comparison::Block::expected_trials() const {
+  return expected_staircase_trials() / (1 - catch_fraction) + n_planned(*this);
+}
+
+Comparison::Run::Run(const Block& block, std::uint64_t) : block_(block) {
+  for (const ReferenceStaircase& entry : block_.staircases) staircases_.push_back(entry.staircase);
+}
+
+bool Comparison::Run::finished() const {
+  return std::ranges::none_of(staircases_, is_unfinished) && n_caught_ >= n_planned(block_);
+}
+
+// Catch trials come one in each block of `catch_every` trials, at a random place in it.
+std::optional<double> Comparison::Run::catch_reference_g(std::uint64_t seed) const {
+  constexpr int first_without = 3;
+  if (n_caught_ >= n_planned(block_)) return std::nullopt;
+  const int block = n_completed_ / block_.catch_every, place = n_completed_ % block_.catch_every;
+  const int first = block == 0 ? first_without : 0;
+  RandomStream stream(seed, "catch place/" + block_.name, static_cast<std::uint64_t>(block));
+  const int drawn =
+      first +
+      static_cast<int>(stream.below(static_cast<std::uint64_t>(block_.catch_every - first)));
+  if (place != drawn && std::ranges::any_of(staircases_, is_unfinished)) return std::nullopt;
+  return catch_references(block_, seed).at(static_cast<std::size_t>(n_caught_));
+}
+
+// A catch trial is rendered as one of its reference's staircases is.
+std::size_t Comparison::Run::staircase_of(double reference_g, RandomStream& stream) const {
+  std::vector<std::size_t> its;
+  for (std::size_t i = 0; i < staircases_.size(); ++i)
+    if (block_.staircases[i].reference_g == reference_g) its.push_back(i);
+  return its.at(stream.below(its.size()));
+}
+
+// A repeated attempt is drawn freely: its planned side has been seen.
+int Comparison::Run::reference_slot(const TrialKey& key, const TrialPlan& plan,
+                                    int n_before) const {
+  if (block_.sides == Sides::random || key.attempt > 1) return key.slots().coin(0.5) ? 1 : 2;
+  std::array sides{1, 1, 2, 2};
+  RandomStream stream(key.seed, "sides/" + block_.name + "/" + plan.staircase,
+                      static_cast<std::uint64_t>(n_before) / sides.size());
+  stream.shuffle(std::span<int>(sides));
+  return sides[static_cast<std::size_t>(n_before) % sides.size()];
+}
+
+TrialPlan Comparison::Run::plan(const TrialKey& key) const {
+  RandomStream catch_stream = key.trial("catch");
+  const std::optional<double> caught_g = catch_reference_g(key.seed);
+  const bool is_catch = caught_g || catch_stream.coin(block_.catch_fraction);
+  RandomStream interleave_stream = key.trial("interleave");
+  const std::size_t index =
+      caught_g ? staircase_of(*caught_g, catch_stream)
+      : is_catch
+          ? drawn_unfinished(staircases_, catch_stream)
+          : next_staircase(staircases_, block_.interleaving, previous_, interleave_stream).value();
+  const ReferenceStaircase& reference = block_.staircases[index];
+  TrialPlan plan = key.plan(block_.name, task.name,
+                            reference.condition.empty() ? block_.condition : reference.condition);
+  plan.is_catch = is_catch;
+  if (!is_catch) plan.staircase = reference.staircase.name();
+  plan.level_g =
+      is_catch ? 0 : staircases_[index].next_level(level_stream(key.seed, plan.staircase));
+  plan.reference_g = reference.reference_g;
+  plan.reference_slot =
+      reference_slot(key, plan, is_catch ? n_caught_ : staircases_[index].n_trials());
+  plan.masses_g = {reference.reference_g, reference.reference_g};
+  plan.masses_g[plan.reference_slot == 1 ? 1 : 0] += *plan.level_g;
+  return plan;
+}
+
+void Comparison::Run::complete(const TrialRow& row, Changes& changes) {
+  ++n_completed_;
+  if (row.plan.is_catch) ++n_caught_;
+  for (std::size_t i = 0; i < staircases_.size(); ++i)
+    if (staircases_[i].name() == row.plan.staircase) respond(i, row, changes);
+}
+
+void Comparison::Run::respond(std::size_t index, const TrialRow& row, Changes& changes) {
+  Procedure& staircase = staircases_[index];
+  const Update update =
+      staircase.respond(response_in(row, block_.positive_answer), *row.plan.level_g);
+  if (const auto& reversal = update.reversal)
+    changes.reversals = {{row.attempt_index, staircase.name(), reversal->number, reversal->level,
+                          reversal->step_before, reversal->step_after}};
+  if (update.finish)
+    for (const Estimate& estimate : staircase.estimates())
+      changes.estimates.push_back(row_of(staircase.name(), estimate, *update.finish));
+  previous_ = index;
+}
+
+Response Comparison::response_in(const TrialRow& row, PositiveAnswer positive_answer) {
+  if (row.outcome != "difference") return response_of(Choice::none);
+  Response response = response_of(row.chosen_slot == row.plan.reference_slot ? Choice::reference
+                                                                             : Choice::comparison);
+  if (positive_answer == PositiveAnswer::correct_choice)
+    response.positive = row.choice_correct.value_or(false);
+  return response;
+}
+
+std::optional<std::string> Comparison::Run::survivor() const {
+  if (staircases_.size() < 2 || std::ranges::count_if(staircases_, is_unfinished) != 1)
+    return std::nullopt;
+  return std::ranges::find_if(staircases_, is_unfinished)->name();
+}
+
+void Comparison::Trial::take(const Action& action) {
+  if (action.slot) choose(*action.slot);
+  result_.outcome = action.slot ? "difference" : "no_difference";
+}
+
+std::string Comparison::Trial::answer() const {
+  if (!result_.chosen_slot) return "none";
+  return result_.chosen_slot == plan_.reference_slot ? "reference" : "comparison";
+}
+
+// A lapse answers one of n cubes or none of them, equally likely.
+Answer Comparison::simulated(const Offer&, const Percepts& percepts, RandomStream& stream) {
+  const bool different =
+      percepts.lapse ? stream.below(percepts.remembered_mm.size() + 1) > 0 : percepts.differ;
+  if (!different) return {{{"no_difference"}}};
+  return {{{"select", heaviest_slot(percepts.remembered_mm, {})}}};
+}
+
+Answer Comparison::blind(const Offer&, const Unseen& unseen, RandomStream& stream) {
+  if (!unseen.differ) return {{{"no_difference"}}};
+  const auto n = static_cast<std::uint64_t>(unseen.n_slots);
+  return {{{"select", 1 + static_cast<int>(stream.below(n))}}};
+}
+
+std::vector<ScreenState> Comparison::fullest_screens() {
+  ScreenState screen{.n_slots = 2};
+  screen.offer = Offer{};
+  return {screen};
+}
+
+}  // namespace heft

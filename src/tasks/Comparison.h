@@ -1,0 +1,140 @@
+// The comparison (paper, 4.2): a reference and a comparison, which is heavier, or no difference.
+// Levels come from interleaved staircases; catch trials, whose difference is 0, from none.
+// Catch trials in a fixed number are drawn in shuffled blocks, so that a person has as many of each
+// reference as planned, spread over the session, whatever the staircases do.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/Random.h"
+#include "psychophysics/Interleaving.h"
+#include "psychophysics/ProcedureTypes.h"
+#include "tasks/Answer.h"
+#include "tasks/BlockKeys.h"
+#include "tasks/TaskRun.h"
+
+namespace heft {
+
+/// What counts as a positive answer of a comparison (moves the staircase down).
+enum class PositiveAnswer { any_choice, correct_choice };
+template <>
+struct EnumNames<PositiveAnswer> {
+  static constexpr std::array<std::string_view, 2> names{"any_choice", "correct_choice"};
+};
+
+/// Where the reference of a comparison stands: a coin a trial, or as often left as right in every
+/// four trials of a staircase (and of the catch trials), in random order.
+enum class Sides { random, balanced };
+template <>
+struct EnumNames<Sides> {
+  static constexpr std::array<std::string_view, 2> names{"random", "balanced"};
+};
+
+/// One procedure of a comparison block and the reference it compares with.
+struct ReferenceStaircase {
+  double reference_g = 0;
+  Procedure staircase;      ///< before its first trial; levels are comparison - reference, g
+  std::string condition{};  ///< its own technique; empty: the block's
+};
+
+/// So many trials of a comparison block compare a reference with its equal.
+struct ReferenceCatchTrials {
+  double reference_g = 0;
+  int trials = 0;
+};
+
+/// The catch trials of a block, by reference or for all of them together, and how they are spread.
+template <typename Block>
+struct CatchTrials {
+  Block& block;
+};
+template <typename Block>
+CatchTrials(Block&) -> CatchTrials<Block>;
+
+struct Comparison {
+  static constexpr std::array actions{ActionSpec{.kind = "select", .slot = true},
+                                      ActionSpec{.kind = "no_difference"}};
+  static constexpr std::array<std::string_view, 2> outcomes{"difference", "no_difference"};
+  static constexpr TaskDeclaration task{
+      "comparison",    1,  "Which of two cubes is heavier, or is there no difference",
+      actions,         {}, outcomes,
+      /*detects=*/true};
+  static constexpr double assumed_trial_s = 10;
+  static constexpr std::string_view texts = "question no_difference";
+
+  struct Block {
+    using OfTask = Comparison;
+    std::string name;
+    std::string condition = spring_technique;  ///< name of the technique
+    // Catch trials, of difference 0, drive no staircase: either each trial is one by a coin, or
+    // there are so many, one somewhere in every `catch_every` trials and none among the first
+    // three; those left over come after the last staircase.
+    double catch_fraction = 0;
+    std::vector<ReferenceCatchTrials> catch_trials;
+    int catch_every = 7;
+    Sides sides = Sides::random;
+    PositiveAnswer positive_answer = PositiveAnswer::any_choice;
+    InterleaveConfig interleaving;
+    std::vector<ReferenceStaircase> staircases;
+
+    template <typename Visit>
+    void visit_keys(Visit&& visit) {
+      visit(BlockKey{"condition"}, ByTechnique{condition});
+      visit(BlockKey{"positive_answer"}, positive_answer);
+      visit(BlockKey{"sides"}, sides);
+      visit(BlockKey{"interleave"}, interleaving);
+      visit(BlockKey{"staircase", true}, staircases);
+      visit(BlockKey{"catch_fraction", false, 0, 1, true}, catch_fraction);
+      visit(BlockKey{"catch_trials"}, CatchTrials{*this});
+    }
+    std::vector<KeyMistake> check() const;
+    /// Without catch trials. A staircase whose length depends on the answers is simulated.
+    double expected_staircase_trials() const;
+    double expected_trials() const;
+    int most_cubes() const { return 2; }
+  };
+  struct Offer {};
+
+  class Run : public TaskRun {
+   public:
+    Run(const Block& block, std::uint64_t seed);
+    TrialPlan plan(const TrialKey& key) const override;
+    bool finished() const override;
+    /// Tells the trial's staircase its answer.
+    void complete(const TrialRow& row, Changes& changes) override;
+    std::optional<std::string> survivor() const override;
+
+   private:
+    std::optional<double> catch_reference_g(std::uint64_t seed) const;
+    std::size_t staircase_of(double reference_g, RandomStream& stream) const;
+    int reference_slot(const TrialKey& key, const TrialPlan& plan, int n_before) const;
+    void respond(std::size_t staircase, const TrialRow& row, Changes& changes);
+
+    Block block_;
+    std::vector<Procedure> staircases_;    // in the order of the block's
+    std::optional<std::size_t> previous_;  // of the last completed trial that belonged to one
+    int n_completed_ = 0, n_caught_ = 0;   // trials, and catch trials among them
+  };
+
+  class Trial : public TaskTrial {
+   public:
+    Trial(const Block&, const TrialPlan& plan, std::uint64_t) : TaskTrial(task, plan) {}
+    void take(const Action& action) override;
+    void show(ScreenState& screen) const override { screen.offer = Offer{}; }
+    std::string answer() const override;
+  };
+
+  /// What a completed trial tells its procedure: positive by the block's rule, and what was chosen.
+  static Response response_in(const TrialRow& row, PositiveAnswer positive_answer);
+
+  static Answer simulated(const Offer&, const Percepts& percepts, RandomStream& stream);
+  /// Any cube, or no difference.
+  static Answer blind(const Offer&, const Unseen& unseen, RandomStream& stream);
+  static std::vector<ScreenState> fullest_screens();
+  /// The participant's (view/screens/ComparisonScreen.cpp).
+  static void screen(PageBuilder& builder, const Offer& offer);
+};
+
+}  // namespace heft

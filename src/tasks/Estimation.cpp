@@ -1,0 +1,207 @@
+#include "tasks/Estimation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace heft {
+
+namespace {
+constexpr double slider_most = 100;
+
+// The name before the point and the key behind it; none: the scale is no question's.
+std::optional<std::pair<std::string, std::string>> question_in(const std::string& scale) {
+  const auto point = scale.find('.');
+  if (point == std::string::npos || point == 0 || point + 1 == scale.size()) return std::nullopt;
+  return std::pair(scale.substr(0, point), scale.substr(point + 1));
+}
+
+FormQuestion question_of(const Estimation::Block& block) {
+  FormQuestion question = block.question.value_or(FormQuestion{});
+  if (!block.question) question.kind = QuestionKind::slider;
+  if (block.scale == "number") {
+    question.kind = QuestionKind::number;
+    question.least = block.low.value_or(0);
+    question.most = block.high.value_or(0);
+  }
+  return question;
+}
+
+bool is_range_known(const Estimation::Block& block) {
+  return block.question || !question_in(block.scale);
+}
+
+// The ends of the values that a question takes, and whether they are whole.
+struct Scale {
+  double least = 0, most = slider_most;
+  bool whole = true;
+};
+Scale scale_of(const FormQuestion& question) {
+  switch (question.kind) {
+    case QuestionKind::choice:
+      return {1, static_cast<double>(question.choices.size())};
+    case QuestionKind::likert:
+      return {static_cast<double>(question.from), static_cast<double>(question.to)};
+    case QuestionKind::number:
+      return {question.least, question.most, false};
+    case QuestionKind::slider:
+    case QuestionKind::text:
+      break;
+  }
+  return {};
+}
+
+// At a fraction of the way up a scale; numbers to three digits of their range.
+double value_at(const FormQuestion& question, double fraction) {
+  const Scale scale = scale_of(question);
+  const double width = scale.most - scale.least;
+  const double unit =
+      scale.whole ? 1 : std::pow(10, std::floor(std::log10(std::max(width, 1e-6))) - 2);
+  const double value = unit * std::round((scale.least + fraction * width) / unit);
+  return std::clamp(value, scale.least, scale.most);
+}
+
+Answer answer_at(const Estimation::Offer& offer, double fraction) {
+  if (offer.is_standard) return {{{"validate"}}};
+  return {{{"estimate", {}, {}, value_at(offer.question, fraction)}}};
+}
+}  // namespace
+
+int Estimation::Block::n_trials() const {
+  return static_cast<int>(masses_g.size()) * total_of(trials) + (modulus ? 1 : 0);
+}
+
+std::vector<KeyMistake> Estimation::Block::check() const {
+  std::vector<KeyMistake> mistakes =
+      mistakes_in_masses(masses_g, 1, most_trials, "trials_per_mass says how often each comes");
+  const auto add = [&](const char* key, std::string message) {
+    mistakes.push_back({key, {}, std::move(message)});
+  };
+  if (const int n = n_trials(); n < 1 || n > most_trials)
+    mistakes.push_back(
+        {"trials",
+         {},
+         fmt::format("the masses' trials are {} in all, expected 1 to {}", n, most_trials),
+         {"masses_g", "trials_per_mass"}});
+  if (scale != "number" && scale != "slider" && !question_in(scale))
+    add("scale", fmt::format("scale is \"{}\", expected \"number\", \"slider\" or a question of a "
+                             "questionnaire file, NAME.KEY",
+                             scale));
+  if (scale == "number") {
+    if (!low || !high)
+      add(low ? "high" : "low", "a scale of numbers needs low and high, the range to be typed");
+    else if (*low < 0)
+      add("low", fmt::format("low is {}, expected 0 or more: no minus can be typed", *low));
+    else if (*high <= *low)
+      add("high", fmt::format("high is {}, expected more than low {}", *high, *low));
+    else if (modulus && (modulus->value < *low || modulus->value > *high))
+      add("modulus", fmt::format("the modulus is {}, expected a number from low {} to high {}",
+                                 modulus->value, *low, *high));
+  } else {
+    for (const auto& [key, there] : {std::pair("low", low.has_value()),
+                                     {"high", high.has_value()},
+                                     {"modulus", modulus.has_value()}})
+      if (there) add(key, fmt::format("{} is for scale = \"number\" alone", key));
+  }
+  return mistakes;
+}
+
+std::vector<std::pair<std::string, std::string>> Estimation::Block::choices() const {
+  std::string text = scale;
+  if (low && high) text += fmt::format(", {:g} to {:g}", *low, *high);
+  if (modulus) text += fmt::format(", {:g} g is {:g}", modulus->mass_g, modulus->value);
+  return {{"scale of " + name, text}};
+}
+
+std::optional<std::string> Estimation::Block::questionnaire() const {
+  const auto names = question_in(scale);
+  return names ? std::optional(names->first) : std::nullopt;
+}
+
+void Estimation::Block::read_question(const std::map<std::string, Questionnaire>& questionnaires) {
+  const auto names = question_in(scale);
+  if (!names) return;
+  const auto form = questionnaires.find(names->first);
+  if (form != questionnaires.end())
+    for (const FormQuestion& asked : form->second.questions)
+      if (asked.key == names->second && asked.kind != QuestionKind::text) question = asked;
+}
+
+Estimation::Run::Run(const Block& block, std::uint64_t seed) : block_(block) {
+  for (const double mass_g : block.masses_g)
+    for (const TechniqueTrials& some : block.trials)
+      order_.insert(order_.end(), static_cast<std::size_t>(some.trials), {mass_g, some.technique});
+  RandomStream(seed, "estimation order/" + block.name).shuffle(std::span(order_));
+}
+
+TrialPlan Estimation::Run::plan(const TrialKey& key) const {
+  const int n_before = block_.modulus ? n_completed_ - 1 : n_completed_;
+  if (n_before < 0) {
+    TrialPlan plan = key.plan(block_.name, task.name, block_.trials.front().technique);
+    plan.masses_g = {block_.modulus->mass_g};
+    plan.is_practice = true;
+    return plan;
+  }
+  const Stimulus& stimulus = order_.at(static_cast<std::size_t>(n_before));
+  TrialPlan plan = key.plan(block_.name, task.name, stimulus.technique);
+  plan.masses_g = {stimulus.mass_g};
+  return plan;
+}
+
+Estimation::Trial::Trial(const Block& block, const TrialPlan& plan, std::uint64_t)
+    : TaskTrial(task, plan),
+      offer_{question_of(block), block.modulus, plan.is_practice},
+      is_range_known_(is_range_known(block)) {}
+
+std::optional<std::string> Estimation::Trial::refusal(const Action& action) const {
+  const bool estimates = action.value.has_value();
+  if (estimates == offer_.is_standard)
+    return estimates ? "the standard is shown, not estimated" : "it gives no number";
+  if (!estimates) return std::nullopt;
+  if (!std::isfinite(*action.value)) return "it is no number";
+  const Scale scale = scale_of(offer_.question);
+  const bool on_scale = *action.value >= scale.least && *action.value <= scale.most &&
+                        (!scale.whole || *action.value == std::round(*action.value));
+  if (is_range_known_ && !on_scale)
+    return fmt::format("{} is not on the scale from {} to {}", *action.value, scale.least,
+                       scale.most);
+  return std::nullopt;
+}
+
+void Estimation::Trial::take(const Action& action) {
+  result_.value = action.value;
+  result_.outcome = action.value ? "estimated" : "shown";
+}
+
+std::string Estimation::Trial::answer() const {
+  return result_.value ? fmt::format("{:.3g}", *result_.value) : std::string(*result_.outcome);
+}
+
+Answer Estimation::simulated(const Offer& offer, const Percepts& percepts, RandomStream&) {
+  constexpr double least_mm = 5, most_mm = 100;
+  const double remembered = std::max(0.0, percepts.remembered_mm.front());
+  const double fraction = percepts.lapse
+                              ? remembered
+                              : std::log1p(remembered / least_mm) / std::log1p(most_mm / least_mm);
+  return answer_at(offer, std::min(fraction, 1.0));
+}
+
+Answer Estimation::blind(const Offer& offer, const Unseen&, RandomStream& stream) {
+  return answer_at(offer, stream.uniform());
+}
+
+std::vector<ScreenState> Estimation::fullest_screens() {
+  const Modulus modulus{100, 10};
+  ScreenState number{.n_slots = 1}, slider = number, standard = number;
+  FormQuestion typed, slid;
+  typed.kind = QuestionKind::number;
+  typed.most = 1000;
+  slid.kind = QuestionKind::slider;
+  number.offer = Offer{typed, modulus};
+  slider.offer = Offer{slid};
+  standard.offer = Offer{typed, modulus, true};
+  return {number, slider, standard};
+}
+
+}  // namespace heft

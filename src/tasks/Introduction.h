@@ -1,0 +1,89 @@
+// The introduction: two cubes, one trial that ends when the heavier one is chosen (paper, 5.1).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/Random.h"
+#include "tasks/Answer.h"
+#include "tasks/BlockKeys.h"
+#include "tasks/TaskRun.h"
+
+namespace heft {
+
+/// After a wrong answer in the introduction: the same cubes again, or newly shuffled ones.
+enum class WrongAnswer { same_layout, reshuffle };
+template <>
+struct EnumNames<WrongAnswer> {
+  static constexpr std::array<std::string_view, 2> names{"same_layout", "reshuffle"};
+};
+
+struct Introduction {
+  static constexpr std::array actions{ActionSpec{.kind = "select", .slot = true}};
+  static constexpr std::array<std::string_view, 1> outcomes{"correct"};
+  static constexpr TaskDeclaration task{
+      "introduction", 1,  "Which of two cubes of very different mass is heavier",
+      actions,        {}, outcomes};
+  static constexpr double assumed_trial_s = 15;
+  static constexpr std::string_view texts = "question try_again";
+
+  struct Block {
+    using OfTask = Introduction;
+    std::string name;
+    std::vector<double> masses_g;              ///< two; shuffled
+    std::string condition = spring_technique;  ///< name of the technique
+    WrongAnswer wrong_answer = WrongAnswer::same_layout;
+
+    template <typename Visit>
+    void visit_keys(Visit&& visit) {
+      visit(BlockKey{"masses_g", true, least_mass_g}, masses_g);
+      visit(BlockKey{"condition"}, ByTechnique{condition});
+      visit(BlockKey{"wrong_answer"}, wrong_answer);
+    }
+    std::vector<KeyMistake> check() const {
+      return mistakes_in_masses(masses_g, 2, 2, "equal ones have no right answer");
+    }
+    std::vector<std::pair<std::string, std::string>> choices() const {
+      return {{"wrong introduction answer", std::string(name_of(wrong_answer))}};
+    }
+    double expected_trials() const { return 1; }
+    int most_cubes() const { return static_cast<int>(masses_g.size()); }
+  };
+  struct Offer {};
+
+  class Run : public TaskRun {
+   public:
+    Run(const Block& block, std::uint64_t) : block_(block) {}
+    TrialPlan plan(const TrialKey& key) const override;
+    bool finished() const override { return finished_; }
+    void complete(const TrialRow&, Changes&) override { finished_ = true; }
+
+   private:
+    Block block_;
+    bool finished_ = false;
+  };
+
+  class Trial : public TaskTrial {
+   public:
+    Trial(const Block& block, const TrialPlan& plan, std::uint64_t seed)
+        : TaskTrial(task, plan), block_(block), seed_(seed) {}
+    bool ends(const Action& action) const override { return is_heaviest(*action.slot); }
+    void take(const Action& action) override;
+    void show(ScreenState& screen) const override;
+    std::string answer() const override;
+
+   private:
+    Block block_;
+    std::uint64_t seed_;
+    int n_wrong_ = 0;
+  };
+
+  static Answer simulated(const Offer&, const Percepts& percepts, RandomStream&);
+  /// Tries one cube after the other, from the left.
+  static Answer blind(const Offer&, const Unseen& unseen, RandomStream&);
+  static std::vector<ScreenState> fullest_screens();
+  /// The participant's (view/screens/IntroductionScreen.cpp).
+  static void screen(PageBuilder& builder, const Offer& offer);
+};
+
+}  // namespace heft

@@ -1,0 +1,111 @@
+// The sorting task (paper, 4.1): two to six cubes, each given its label, then validated.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/Random.h"
+#include "tasks/Answer.h"
+#include "tasks/BlockKeys.h"
+#include "tasks/TaskRun.h"
+
+namespace heft {
+
+enum class SortingOrders { random, balanced };
+template <>
+struct EnumNames<SortingOrders> {
+  static constexpr std::array<std::string_view, 2> names{"random", "balanced"};
+};
+
+struct Sorting {
+  static constexpr std::array actions{
+      ActionSpec{.kind = "label", .slot = true, .label = true, .is_step = true},
+      ActionSpec{.kind = "unlabel", .slot = true, .is_step = true},
+      ActionSpec{.kind = "validate", .after_steps = true}, ActionSpec{.kind = "dont_know"}};
+  static constexpr std::array<std::string_view, 9> labels{
+      "lightest", "intermediate", "heaviest", "1", "2", "3", "4", "5", "6"};
+  static constexpr std::array<std::string_view, 3> outcomes{"correct", "incorrect", "dont_know"};
+  static constexpr TaskDeclaration task{
+      "sorting", 1,      "Cubes are pushed and told from the lightest to the heaviest",
+      actions,   labels, outcomes};
+  static constexpr double assumed_trial_s = 25;
+  static constexpr std::string_view texts =
+      "question tap_a_cube lightest intermediate heaviest validate dont_know";
+
+  struct Block {
+    using OfTask = Sorting;
+    std::string name;
+    std::vector<double> masses_g;  ///< two to six
+    std::vector<TechniqueTrials> trials{{coupled_technique, 5}, {spring_technique, 5}};
+    int max_run = 0;  ///< longest run of one technique; 0: any
+    SortingOrders orders = SortingOrders::random;
+
+    template <typename Visit>
+    void visit_keys(Visit&& visit) {
+      visit(BlockKey{"masses_g", true, least_mass_g}, masses_g);
+      visit(BlockKey{"trials"}, trials);
+      visit(BlockKey{"max_run", false, 0}, max_run);
+      visit(BlockKey{"orders"}, orders);
+    }
+    std::vector<KeyMistake> check() const;
+    std::vector<std::pair<std::string, std::string>> choices() const;
+    double expected_trials() const { return total_of(trials); }
+    int n_trials() const { return total_of(trials); }
+    int most_cubes() const { return static_cast<int>(masses_g.size()); }
+  };
+  struct Offer {
+    std::vector<std::optional<Label>> labels;  ///< given so far, by slot
+  };
+
+  /// The labels of a trial with so many cubes, from the lightest on: with three cubes the words,
+  /// otherwise ranks, 1 the lightest.
+  static std::span<const std::string_view> labels_for(int n_cubes);
+
+  class Run : public TaskRun {
+   public:
+    Run(const Block& block, std::uint64_t seed);
+    TrialPlan plan(const TrialKey& key) const override;
+    bool finished() const override { return n_completed_ >= block_.n_trials(); }
+    void complete(const TrialRow&, Changes&) override { ++n_completed_; }
+
+   private:
+    Block block_;
+    std::vector<std::string> techniques_;  // of each trial
+    int n_completed_ = 0;
+  };
+
+  class Trial : public TaskTrial {
+   public:
+    Trial(const Block&, const TrialPlan& plan, std::uint64_t)
+        : TaskTrial(task, plan), labels_(plan.masses_g.size()) {}
+    std::optional<std::string> refusal(const Action& action) const override;
+    void take(const Action& action) override;
+    void show(ScreenState& screen) const override;
+    std::string answer() const override { return *result_.outcome; }
+    std::vector<std::string> labels() const override;
+
+   private:
+    bool all_labeled() const;
+    bool labels_are_right() const;
+
+    std::vector<std::optional<Label>> labels_;  // by slot
+  };
+
+  static Answer simulated(const Offer&, const Percepts& percepts, RandomStream& stream);
+  /// Any order, or "I don't know".
+  static Answer blind(const Offer&, const Unseen& unseen, RandomStream& stream);
+  static std::vector<ScreenState> fullest_screens();
+  /// The participant's (view/screens/SortingScreen.cpp).
+  static void screen(PageBuilder& builder, const Offer& offer);
+};
+
+/// Technique of each trial of a block: each as often as asked for, at random places, no run longer
+/// than max_run (0: any), every such sequence equally likely.
+std::vector<std::string> draw_techniques(const std::vector<TechniqueTrials>& trials, int max_run,
+                                         const std::string& block, std::uint64_t seed);
+
+/// Labels by slot that put the values in order.
+std::vector<Label> labels_in_order(std::span<const double> values);
+
+}  // namespace heft

@@ -1,0 +1,71 @@
+#include "tasks/Tasks.h"
+
+#include <algorithm>
+#include <ranges>
+
+namespace heft {
+
+namespace {
+constexpr bool fills_same_columns(const ActionSpec& a, const ActionSpec& b) {
+  return a.slot == b.slot && a.label == b.label && a.value == b.value;
+}
+
+constexpr bool columns_agree() {
+  for (const TaskDeclaration* task : Tasks::declarations)
+    for (const TaskDeclaration* other : Tasks::declarations)
+      for (const ActionSpec& action : task->actions)
+        if (const ActionSpec* same = other->action(action.kind))
+          if (!fills_same_columns(action, *same)) return false;
+  return true;
+}
+static_assert(columns_agree(), "two tasks give one action different columns");
+
+// Each once, in order.
+template <typename WordsOf>
+std::vector<std::string_view> all_words(const WordsOf& words_of) {
+  std::vector<std::string_view> all;
+  for (const TaskDeclaration* task : Tasks::declarations)
+    for (const std::string_view word : words_of(*task))
+      if (std::ranges::find(all, word) == all.end()) all.push_back(word);
+  return all;
+}
+}  // namespace
+
+const TaskDeclaration& task_named(std::string_view name) {
+  for (const TaskDeclaration* task : Tasks::declarations)
+    if (task->name == name) return *task;
+  throw unknown_name("task", name, words_of<Task>());
+}
+
+template <>
+std::vector<std::string_view> words_of<Task>() {
+  return all_words([](const TaskDeclaration& task) { return std::array{task.name}; });
+}
+template <>
+std::vector<std::string_view> words_of<ActionKind>() {
+  return all_words([](const TaskDeclaration& task) {
+    return task.actions | std::views::transform(&ActionSpec::kind);
+  });
+}
+template <>
+std::vector<std::string_view> words_of<Label>() {
+  return all_words([](const TaskDeclaration& task) { return task.labels; });
+}
+template <>
+std::vector<std::string_view> words_of<Outcome>() {
+  return all_words([](const TaskDeclaration& task) { return task.outcomes; });
+}
+
+const ActionSpec* action_named(std::string_view kind) {
+  for (const TaskDeclaration* task : Tasks::declarations)
+    if (const ActionSpec* action = task->action(kind)) return action;
+  return nullptr;
+}
+
+std::size_t place_of(std::string_view task) {
+  const auto& all = Tasks::declarations;
+  return static_cast<std::size_t>(std::ranges::find(all, task, &TaskDeclaration::name) -
+                                  all.begin());
+}
+
+}  // namespace heft

@@ -1,0 +1,170 @@
+#include "view/screens/AskedQuestion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+namespace heft {
+
+namespace {
+constexpr float ends_lines = 2.6f;
+
+int rows_of(int n, int n_columns) {
+  return (n + n_columns - 1) / n_columns;
+}
+}  // namespace
+
+void AskedQuestion::add_answers(const Rect& room) {
+  switch (question.kind) {
+    case QuestionKind::choice:
+      return add_choices(room);
+    case QuestionKind::likert:
+      return add_points(room);
+    case QuestionKind::slider:
+      return add_slider(room);
+    case QuestionKind::number:
+      return add_keypad(room);
+    case QuestionKind::text:
+      return;  // told to the experimenter
+  }
+}
+
+float AskedQuestion::above_px() const {
+  const Measures& m = builder.measures;
+  if (question.kind == QuestionKind::number) return Typeface::line_height_px(m.title);
+  const bool has_ends =
+      question.kind == QuestionKind::likert || question.kind == QuestionKind::slider;
+  return has_ends ? ends_lines * m.body + m.gap : 0;
+}
+
+int AskedQuestion::n_rows() const {
+  if (question.kind == QuestionKind::choice) return rows_of(n_choices(), choices_beside());
+  if (question.kind == QuestionKind::likert) return rows_of(n_points(), points_beside());
+  if (question.kind == QuestionKind::number) return rows_of(12, keys_beside());
+  return question.kind == QuestionKind::text ? 0 : 2;
+}
+
+int AskedQuestion::choices_beside() const {
+  if (in_trial) return rows_of(n_choices(), 4);
+  return n_choices() <= 6 ? 2 : 4;
+}
+
+int AskedQuestion::points_beside() const {
+  if (in_trial) return 3;
+  const Measures& m = builder.measures;
+  const int most = static_cast<int>((builder.text_area().width + m.gap) / (m.target + m.gap));
+  return n_points() <= most ? n_points() : (n_points() + 1) / 2;
+}
+
+// The i-th of a grid, in the direction of reading; scales and keypads run from the left.
+Rect AskedQuestion::cell(const Rect& room, int i, int n_beside, bool as_read) const {
+  const float gap = builder.measures.gap, n = static_cast<float>(n_beside);
+  const float width = (room.width - (n - 1) * gap) / n;
+  int column = i % n_beside;
+  if (as_read && builder.typeface.reads_right_to_left()) column = n_beside - 1 - column;
+  const auto row = static_cast<float>(i / n_beside);
+  return {room.x + static_cast<float>(column) * (width + gap),
+          room.y + row * (builder.measures.target + gap), width, builder.measures.target};
+}
+
+Effect AskedQuestion::entering(const std::string& value) const {
+  if (in_trial) return Typed{builder.entry_key(question.key), value};
+  return builder.entry(question.key, value);
+}
+
+Control& AskedQuestion::add_answer(const Rect& place, const std::string& words,
+                                   const std::string& value) {
+  Control& button = builder.add_button(question.key + '_' + value, place, words, entering(value));
+  button.chosen = value == given;
+  return button;
+}
+
+void AskedQuestion::add_choices(const Rect& room) {
+  for (int i = 0; i < n_choices(); ++i) {
+    const AnswerChoice& choice = question.choices[static_cast<std::size_t>(i)];
+    add_answer(cell(room, i, choices_beside(), true), choice.text, choice.value);
+  }
+}
+
+// The ends' words above the first and the last.
+float AskedQuestion::add_ends(const Rect& room) {
+  const Measures& m = builder.measures;
+  const bool leftward = builder.typeface.reads_right_to_left();
+  const Rect half{room.x, room.y, room.width / 2 - m.gap, 0};
+  const auto fitted = [&](const std::string& words) {
+    return builder.typeface.fitted(words, m.body, half.width, ends_lines * m.body,
+                                   m.least_px(m.body));
+  };
+  const FittedText first = fitted(question.low), last = fitted(question.high);
+  const auto add = [&](const FittedText& words, bool left) {
+    float y = room.y;
+    for (const std::string& line : words.lines) {
+      const float width = builder.typeface.width_px(line, words.size_px);
+      const float x = left ? room.x : room.right() - width;
+      builder.page.lines.push_back({line, x, y, words.size_px, Tone::soft});
+      y += Typeface::line_height_px(words.size_px);
+    }
+    return y;
+  };
+  return std::max(add(first, !leftward), add(last, leftward)) + m.gap;
+}
+
+void AskedQuestion::add_points(const Rect& room) {
+  const float y = add_ends(room);
+  for (int i = 0; i < n_points(); ++i) {
+    const std::string point = std::to_string(question.from + i);
+    add_answer(cell({room.x, y, room.width, 0}, i, points_beside(), true), point, point);
+  }
+}
+
+// A tap sets it; the two buttons below move it a little.
+void AskedQuestion::add_slider(const Rect& room) {
+  const Measures& m = builder.measures;
+  const float y = add_ends(room);
+  const bool leftward = builder.typeface.reads_right_to_left();
+  Control& scale =
+      builder.add_button(question.key + "_scale", {room.x, y, room.width, m.target}, "",
+                         Slide{builder.entry_key(question.key), leftward, in_trial});
+  scale.slide = Slid{std::nullopt};
+  if (given.empty()) return;
+  const int value = std::clamp(std::atoi(given.c_str()), 0, 100);
+  scale.slide->fraction = static_cast<float>(leftward ? 100 - value : value) / 100;
+  for (const int by : {-1, 1}) {
+    const bool left = (by < 0) != leftward;
+    const Rect place{left ? room.x : room.right() - m.target, y + m.target + m.gap, m.target,
+                     m.target};
+    builder.add_button(question.key + (by < 0 ? "_less" : "_more"), place, by < 0 ? "−" : "+",
+                       entering(std::to_string(std::clamp(value + by, 0, 100))));
+  }
+}
+
+// What was typed, and at the other end of its line the range.
+float AskedQuestion::add_typed(const Rect& room) {
+  const Measures& m = builder.measures;
+  const std::string range = fmt::format("{} – {}", question.least, question.most);
+  builder.page.lines.push_back({range, room.right() - builder.typeface.width_px(range, m.body),
+                                room.y + m.title - m.body, m.body, Tone::soft});
+  return builder.add_lines({given.empty() ? "–" : given}, room, room.y, m.title);
+}
+
+void AskedQuestion::add_keypad(const Rect& room) {
+  constexpr std::array keys{"1", "2", "3", "4", "5", "6", "7", "8", "9", "0", "."};
+  const Rect below{room.x, add_typed(room), room.width, 0};
+  for (int i = 0; i < static_cast<int>(keys.size()); ++i) {
+    const std::string key = keys[static_cast<std::size_t>(i)];
+    const auto longer = typed_on(question, given, key);
+    builder
+        .add_button(question.key + "_key_" + key, cell(below, i, keys_beside(), false), key,
+                    Typed{builder.entry_key(question.key), longer.value_or(given)})
+        .enabled = longer.has_value();
+  }
+  builder
+      .add_button(question.key + "_delete", cell(below, 11, keys_beside(), false), "←",
+                  Typed{builder.entry_key(question.key),
+                        given.substr(0, given.empty() ? 0 : given.size() - 1)})
+      .enabled = !given.empty();
+}
+
+}  // namespace heft

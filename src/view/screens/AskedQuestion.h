@@ -1,0 +1,48 @@
+// The answers of one question, drawn into a room: choices, points of a scale, a slider, a keypad.
+// On a form each tap is an answer; in the narrow column of a trial it is kept until it is
+// validated.
+#pragma once
+
+#include <string>
+
+#include "view/screens/ScreenPages.h"
+
+namespace heft {
+
+enum class AskedIn { form, trial };
+
+class AskedQuestion {
+ public:
+  /// @param answer given so far; empty: none
+  AskedQuestion(PageBuilder& on, const FormQuestion& asked, const std::string& answer, AskedIn in)
+      : builder(on), question(asked), given(answer), in_trial(in == AskedIn::trial) {}
+
+  void add_answers(const Rect& room);
+  /// Room that words take above the buttons, px.
+  float above_px() const;
+  /// Rows of buttons that the answer takes.
+  int n_rows() const;
+
+ private:
+  int n_choices() const { return static_cast<int>(question.choices.size()); }
+  int n_points() const { return question.to - question.from + 1; }
+  int choices_beside() const;
+  int points_beside() const;
+  int keys_beside() const { return in_trial ? 3 : 6; }
+  Rect cell(const Rect& room, int i, int n_beside, bool as_read) const;
+  Effect entering(const std::string& value) const;
+  Control& add_answer(const Rect& place, const std::string& words, const std::string& value);
+  void add_choices(const Rect& room);
+  float add_ends(const Rect& room);
+  void add_points(const Rect& room);
+  void add_slider(const Rect& room);
+  float add_typed(const Rect& room);
+  void add_keypad(const Rect& room);
+
+  PageBuilder& builder;
+  const FormQuestion& question;
+  const std::string& given;
+  bool in_trial;
+};
+
+}  // namespace heft

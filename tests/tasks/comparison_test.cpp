@@ -1,0 +1,158 @@
+// Comparisons: what an answer tells its procedure, where the reference stands, how a trial ends.
+#include "tasks/Comparison.h"
+
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "psychophysics/Constant.h"
+#include "psychophysics/Procedure.h"
+
+namespace heft {
+namespace {
+
+TrialRow row_of(const char* outcome, std::optional<int> chosen, std::optional<bool> correct) {
+  TrialRow row;
+  row.plan.reference_slot = 2;
+  row.outcome = outcome;
+  row.chosen_slot = chosen;
+  row.choice_correct = correct;
+  return row;
+}
+
+TEST(ComparisonAnswer, tells_its_procedure_which_was_chosen_and_whether_that_is_positive) {
+  struct Expected {
+    TrialRow row;
+    Choice choice;
+    bool any, correct;  // positive by each rule
+  };
+  const std::vector<Expected> all{{row_of("no_difference", {}, {}), Choice::none, false, false},
+                                  {row_of("difference", 2, false), Choice::reference, true, false},
+                                  {row_of("difference", 1, true), Choice::comparison, true, true},
+                                  {row_of("difference", 1, {}), Choice::comparison, true, false}};
+  for (const auto& [row, choice, any, correct] : all) {
+    const Response by_any = Comparison::response_in(row, PositiveAnswer::any_choice);
+    const Response by_correct = Comparison::response_in(row, PositiveAnswer::correct_choice);
+    EXPECT_EQ(by_any.choice, choice);
+    EXPECT_EQ(by_correct.choice, choice);
+    EXPECT_EQ(by_any.positive, any);
+    EXPECT_EQ(by_correct.positive, correct);
+  }
+}
+
+TEST(ComparisonTrial, ends_with_any_answer) {
+  TrialPlan plan;
+  plan.masses_g = {15, 115};
+  plan.reference_slot = 1;
+  for (const int slot : {1, 2}) {
+    Comparison::Trial trial({}, plan, 0);
+    EXPECT_TRUE(trial.ends({"select", slot}));
+    trial.take({"select", slot});
+    EXPECT_EQ(trial.result().outcome, "difference");
+    EXPECT_EQ(trial.result().chosen_slot, slot);
+    EXPECT_EQ(trial.result().choice_correct, slot == 2);
+    EXPECT_EQ(trial.answer(), slot == 1 ? "reference" : "comparison");
+  }
+  Comparison::Trial none({}, plan, 0);
+  EXPECT_TRUE(none.ends({"no_difference"}));
+  none.take({"no_difference"});
+  EXPECT_EQ(none.result().outcome, "no_difference");
+  EXPECT_EQ(none.answer(), "none");
+  plan.masses_g = {15, 15};
+  Comparison::Trial equal({}, plan, 0);
+  equal.take({"select", 1});
+  EXPECT_FALSE(equal.result().choice_correct) << "neither is heavier";
+}
+
+Comparison::Block block_of(Sides sides) {
+  Comparison::Block block;
+  block.name = "c";
+  block.sides = sides;
+  block.staircases = {{100, {"one", ConstantConfig{.levels = {10, 20}, .n_per_level = 8}}},
+                      {200, {"two", ConstantConfig{.levels = {30}, .n_per_level = 8}}}};
+  block.catch_trials = {{100, 4}, {200, 4}};
+  return block;
+}
+
+std::vector<TrialPlan> all_plans(const Comparison::Block& block, std::uint64_t seed,
+                                 int attempt = 1) {
+  Comparison::Run run(block, seed);
+  std::vector<TrialPlan> plans;
+  while (!run.finished()) {
+    plans.push_back(run.plan({seed, static_cast<int>(plans.size()) + 1, attempt}));
+    TrialRow row = row_of("no_difference", {}, {});
+    row.plan = plans.back();
+    Changes changes;
+    run.complete(row, changes);
+  }
+  return plans;
+}
+
+TEST(ComparisonRun, balanced_sides_are_as_often_left_as_right_in_every_four_of_each_staircase) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    std::map<std::string, std::vector<int>> sides;  // of each staircase, and "" of catch trials
+    for (const TrialPlan& plan : all_plans(block_of(Sides::balanced), seed))
+      sides[plan.staircase].push_back(*plan.reference_slot);
+    ASSERT_EQ(sides.size(), 3u);
+    for (const auto& [staircase, slots] : sides)
+      for (std::size_t i = 0; i + 4 <= slots.size(); i += 4)
+        EXPECT_EQ(std::count(slots.begin() + static_cast<long>(i),
+                             slots.begin() + static_cast<long>(i) + 4, 1),
+                  2)
+            << staircase << " from " << i;
+  }
+}
+
+TEST(ComparisonRun, a_repeated_attempt_and_random_sides_are_drawn_freely) {
+  int n_unbalanced = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    for (const int attempt : {1, 2}) {
+      std::vector<int> slots;
+      for (const TrialPlan& plan :
+           all_plans(block_of(attempt == 1 ? Sides::random : Sides::balanced), seed, attempt))
+        if (plan.staircase == "two" && slots.size() < 4) slots.push_back(*plan.reference_slot);
+      n_unbalanced += std::count(slots.begin(), slots.end(), 1) != 2;
+    }
+  EXPECT_GT(n_unbalanced, 10) << "of 40, 25 expected";
+}
+
+TEST(ComparisonRun, presents_the_reference_where_it_says_and_the_comparison_beside_it) {
+  int n_catch = 0;
+  for (const TrialPlan& plan : all_plans(block_of(Sides::random), 7)) {
+    const std::size_t reference = plan.reference_slot == 1 ? 0 : 1;
+    EXPECT_EQ(plan.masses_g[reference], plan.reference_g);
+    EXPECT_EQ(plan.masses_g[1 - reference], *plan.reference_g + *plan.level_g);
+    EXPECT_EQ(plan.is_catch, plan.level_g == 0);
+    EXPECT_EQ(plan.is_catch, plan.staircase.empty());
+    n_catch += plan.is_catch;
+  }
+  EXPECT_EQ(n_catch, 8);
+}
+
+TEST(ComparisonRun, names_the_staircase_that_runs_alone) {
+  const Comparison::Block block = block_of(Sides::random);
+  Comparison::Run run(block, 3);
+  EXPECT_FALSE(run.survivor());
+  int n = 0;
+  while (!run.survivor()) {
+    ASSERT_FALSE(run.finished());
+    TrialRow row = row_of("no_difference", {}, {});
+    row.plan = run.plan({3, ++n, 1});
+    Changes changes;
+    run.complete(row, changes);
+  }
+  EXPECT_EQ(run.survivor(), "one") << "it has more trials";
+}
+
+TEST(Comparison::Block, has_catch_trials_in_a_number_or_by_a_coin) {
+  Comparison::Block block = block_of(Sides::random);
+  EXPECT_TRUE(block.check().empty());
+  EXPECT_EQ(block.expected_staircase_trials(), 24);
+  EXPECT_EQ(block.expected_trials(), 32);
+  block.catch_fraction = 0.1;
+  ASSERT_EQ(block.check().size(), 1u);
+  EXPECT_EQ(block.check()[0].key, "catch_fraction");
+}
+
+}  // namespace
+}  // namespace heft

@@ -1,0 +1,184 @@
+// Magnitude estimation: which cubes come in which order, which numbers are taken, the standard.
+#include "tasks/Estimation.h"
+
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "tasks/SessionPlan.h"
+
+namespace heft {
+namespace {
+using ::testing::Contains;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Estimation::Block block_of_numbers() {
+  Estimation::Block block;
+  block.name = "estimation";
+  block.masses_g = {15, 100, 400};
+  block.trials = {{"C1", 1}, {"C2", 2}};
+  block.low = 1;
+  block.high = 100;
+  return block;
+}
+
+Action estimate(double value) {
+  return {"estimate", {}, {}, value};
+}
+
+std::vector<TrialPlan> plans(const Estimation::Block& block, std::uint64_t seed) {
+  Estimation::Run run(block, seed);
+  std::vector<TrialPlan> plans;
+  while (!run.finished()) {
+    plans.push_back(run.plan({seed, static_cast<int>(plans.size()) + 1, 1}));
+    Changes changes;
+    run.complete({}, changes);
+  }
+  return plans;
+}
+
+TEST(Estimation, each_mass_comes_as_often_with_each_technique_in_an_order_of_the_seed) {
+  std::map<std::pair<double, std::string>, int> counts;
+  for (const TrialPlan& plan : plans(block_of_numbers(), 7)) {
+    ASSERT_EQ(plan.masses_g.size(), 1u) << "one cube a trial";
+    EXPECT_FALSE(plan.is_practice);
+    ++counts[{plan.masses_g[0], plan.condition}];
+  }
+  EXPECT_EQ(counts.size(), 6u);
+  for (const auto& [stimulus, n] : counts) EXPECT_EQ(n, stimulus.second == "C1" ? 1 : 2);
+  const auto masses = [](std::uint64_t seed) {
+    std::vector<double> masses_g;
+    for (const TrialPlan& plan : plans(block_of_numbers(), seed))
+      masses_g.push_back(plan.masses_g[0]);
+    return masses_g;
+  };
+  EXPECT_EQ(masses(7), masses(7));
+  EXPECT_NE(masses(7), masses(8));
+}
+
+TEST(Estimation, the_standard_comes_first_counts_as_practice_and_asks_nothing) {
+  Estimation::Block block = block_of_numbers();
+  block.modulus = {200, 10};
+  const std::vector<TrialPlan> all = plans(block, 7);
+  ASSERT_EQ(all.size(), 10u);
+  EXPECT_TRUE(all[0].is_practice);
+  EXPECT_EQ(all[0].masses_g, std::vector{200.0});
+  EXPECT_EQ(all[0].condition, "C1") << "the first technique";
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_FALSE(all[i].is_practice);
+
+  Estimation::Trial standard(block, all[0], 7);
+  EXPECT_THAT(*standard.refusal(estimate(10)), HasSubstr("not estimated"));
+  EXPECT_FALSE(standard.refusal({"validate"}));
+  standard.take({"validate"});
+  EXPECT_EQ(standard.result().outcome, "shown");
+  EXPECT_FALSE(standard.result().value);
+  ScreenState screen;
+  Estimation::Trial(block, all[1], 7).show(screen);
+  const auto& offer = std::any_cast<const Estimation::Offer&>(screen.offer);
+  EXPECT_FALSE(offer.is_standard);
+  EXPECT_EQ(offer.modulus->value, 10) << "every later screen names it";
+}
+
+TEST(Estimation, takes_numbers_of_its_range_alone) {
+  const Estimation::Block block = block_of_numbers();
+  Estimation::Trial trial(block, plans(block, 7)[0], 7);
+  EXPECT_FALSE(trial.refusal(estimate(1)));
+  EXPECT_FALSE(trial.refusal(estimate(2.5)));
+  EXPECT_FALSE(trial.refusal(estimate(100)));
+  EXPECT_THAT(*trial.refusal(estimate(0.99)), HasSubstr("from 1 to 100"));
+  EXPECT_TRUE(trial.refusal(estimate(100.5)));
+  EXPECT_TRUE(trial.refusal(estimate(std::nan(""))));
+  EXPECT_TRUE(trial.refusal({"validate"})) << "that is for the standard";
+  trial.take(estimate(42.5));
+  EXPECT_EQ(trial.result().outcome, "estimated");
+  EXPECT_EQ(trial.result().value, 42.5);
+  EXPECT_EQ(trial.answer(), "42.5");
+}
+
+TEST(Estimation, a_slider_and_points_of_a_question_take_whole_numbers) {
+  Estimation::Block block = block_of_numbers();
+  block.low = block.high = std::nullopt;
+  block.scale = "slider";
+  const TrialPlan plan = plans(block, 7)[0];
+  EXPECT_FALSE(Estimation::Trial(block, plan, 7).refusal(estimate(0)));
+  EXPECT_TRUE(Estimation::Trial(block, plan, 7).refusal(estimate(0.5)));
+  EXPECT_TRUE(Estimation::Trial(block, plan, 7).refusal(estimate(101)));
+
+  FormQuestion effort, told;
+  effort.key = "effort";
+  effort.kind = QuestionKind::choice;
+  effort.choices = {{"a", "A"}, {"b", "B"}, {"c", "C"}};
+  told.key = "told";
+  told.kind = QuestionKind::text;
+  const std::map<std::string, Questionnaire> forms{{"borg", {"", "", {effort, told}}}};
+  block.scale = "borg.effort";
+  EXPECT_EQ(block.questionnaire(), "borg");
+  TaskBlock asked(block);
+  EXPECT_TRUE(asked.lacks_question());
+  asked.read_question(forms);
+  EXPECT_FALSE(asked.lacks_question());
+  EXPECT_FALSE(asked.trial(plan, 7)->refusal(estimate(3)));
+  EXPECT_TRUE(asked.trial(plan, 7)->refusal(estimate(4))) << "three choices";
+  for (const char* scale : {"borg.told", "borg.other", "other.effort"}) {
+    block.scale = scale;
+    TaskBlock other(block);
+    other.read_question(forms);
+    EXPECT_TRUE(other.lacks_question()) << scale;
+  }
+}
+
+TEST(Estimation, checks_its_keys) {
+  const auto keys = [](const Estimation::Block& block) {
+    std::vector<std::string> wrong;
+    for (const KeyMistake& mistake : block.check()) wrong.push_back(mistake.key);
+    return wrong;
+  };
+  EXPECT_THAT(keys(block_of_numbers()), IsEmpty());
+  Estimation::Block block = block_of_numbers();
+  block.masses_g = {15, 15};
+  EXPECT_THAT(keys(block), Contains("masses_g"));
+  block = block_of_numbers();
+  block.high = std::nullopt;
+  EXPECT_THAT(keys(block), Contains("high"));
+  block = block_of_numbers();
+  block.low = 100;
+  EXPECT_THAT(keys(block), Contains("high"));
+  block = block_of_numbers();
+  block.modulus = {100, 200};
+  EXPECT_THAT(keys(block), Contains("modulus"));
+  block = block_of_numbers();
+  block.scale = "slider";
+  EXPECT_THAT(keys(block), testing::UnorderedElementsAre("low", "high"));
+  block = block_of_numbers();
+  block.trials = {{"C1", 0}};
+  EXPECT_THAT(keys(block), Contains("trials"));
+  block = block_of_numbers();
+  block.scale = "nothing";
+  EXPECT_THAT(keys(block), Contains("scale"));
+}
+
+TEST(Estimation, a_mind_says_more_of_what_lags_more_and_stays_on_the_scale) {
+  RandomStream stream(1, "test");
+  Estimation::Offer offer;
+  offer.question.kind = QuestionKind::number;
+  offer.question.least = 1;
+  offer.question.most = 500;
+  double before = 0;
+  for (const double lag_mm : {0.0, 2.0, 10.0, 50.0, 99.0}) {
+    const Answer answer = Estimation::simulated(offer, {.remembered_mm = {lag_mm}}, stream);
+    ASSERT_EQ(answer.actions.size(), 1u);
+    EXPECT_GT(*answer.actions[0].value, before);
+    before = *answer.actions[0].value;
+  }
+  for (const double lag_mm : {-20.0, 1e4}) {
+    const Answer answer = Estimation::simulated(offer, {.remembered_mm = {lag_mm}}, stream);
+    EXPECT_EQ(*answer.actions[0].value, lag_mm < 0 ? 1 : 500);
+  }
+  offer.is_standard = true;
+  EXPECT_EQ(Estimation::blind(offer, {1}, stream).actions[0].kind, "validate");
+}
+
+}  // namespace
+}  // namespace heft

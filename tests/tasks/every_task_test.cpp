@@ -1,0 +1,177 @@
+// Every task of the list through every path it can take: simulated, interrupted and resumed,
+// vetoed, replayed, judged, exported. Its screens are in tests/view. Each needs a protocol that is
+// shipped.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "base/Error.h"
+#include "base/TextFile.h"
+#include "record/Export.h"
+#include "replay/Judging.h"
+#include "replay/Replay.h"
+#include "replay/StoredSession.h"
+#include "responders/Decision.h"
+#include "tasks/Tasks.h"
+
+namespace heft {
+namespace {
+namespace fs = std::filesystem;
+using testing::StoredSession;
+
+bool has_task(const Protocol& protocol, std::string_view task) {
+  return std::ranges::any_of(protocol.blocks, [&](const Block& block) {
+    const auto* trials = std::get_if<TaskBlock>(&block);
+    return trials && trials->task().name == task;
+  });
+}
+
+// The shortest file that is shipped with the task.
+Protocol protocol_with(std::string_view task) {
+  for (const char* file : {"quick", "examples/estimation"})
+    if (Protocol found = testing::shipped_protocol(file); has_task(found, task)) return found;
+  for (const char* folder : {"/protocols", "/protocols/examples"})
+    for (const auto& entry : fs::directory_iterator(HEFT_SOURCE_DIR + std::string(folder)))
+      if (entry.path().extension() == ".toml") try {
+          if (Protocol found = load_protocol(entry.path().string()); has_task(found, task))
+            return found;
+        } catch (const Error&) {  // no protocol
+        }
+  throw Error("no protocol in protocols/ or protocols/examples/ shows this task");
+}
+
+class EveryTask : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  ~EveryTask() override {
+    for (const char* end : {"", "-wal", "-shm", "-lock"}) fs::remove(log_ + end);
+    fs::remove_all(folder_);
+  }
+  void expect_verified(const LogReader& reader, std::int64_t id) {
+    const Verification verified = verify_session(reader, id, [](double) {});
+    EXPECT_FALSE(verified.first) << verified.first->what << ": " << verified.first->logged
+                                 << " instead of " << verified.first->came_out;
+  }
+
+  Protocol protocol_ = protocol_with(GetParam());
+  std::string log_ =
+      (fs::temp_directory_path() / ("heft-task-" + std::to_string(::getpid()))).string();
+  std::string folder_ = log_ + "-export";
+};
+
+TEST_P(EveryTask, is_simulated_replayed_judged_and_exported) {
+  for (const std::string responder : {"simulated", "coin", "always_yes", "always_no"}) {
+    SCOPED_TRACE(responder);
+    const StoredSession stored(protocol_, responder, 5);
+    int n = 0;
+    for (const TrialRow& trial : stored.reader().trials(stored.id()))
+      if (trial.plan.task == GetParam() && trial.status == TrialStatus::completed) ++n;
+    EXPECT_GT(n, 0);
+    expect_verified(stored.reader(), stored.id());
+
+    int n_judged = 0;
+    for (const JudgedTrial& trial :
+         judge_session(stored.reader(), stored.session(), responder, [](double) {}).trials) {
+      if (trial.task != GetParam()) continue;
+      ++n_judged;
+      EXPECT_EQ(trial.judged, trial.logged) << "trial " << trial.trial_number;
+    }
+    EXPECT_EQ(n_judged, n);
+
+    if (responder != "simulated") continue;
+    export_logs({{stored.session().db}, ExportFormat::csv, folder_}, [](double) {});
+    EXPECT_THAT(read_text_file(folder_ + "/trials.csv"),
+                ::testing::HasSubstr(',' + std::string(GetParam()) + ','));
+    const std::string dictionary = read_text_file(folder_ + "/dictionary.csv");
+    for (const std::string_view outcome : task_named(GetParam()).outcomes)
+      EXPECT_THAT(dictionary, ::testing::HasSubstr(std::string(outcome)));
+  }
+}
+
+// The log as it is when the program is killed in a trial of the task, then resumed to its end.
+TEST_P(EveryTask, goes_on_after_the_program_was_killed) {
+  SessionRequest request;
+  request.protocol = protocol_;
+  request.setup.responder = "coin";
+  complete(request.setup);
+  request.setup = in_force(request.setup, protocol_);
+  request.participant = "1";
+  request.seed = 11;
+  const RecordedSession whole = compute_session(request, {});
+  const auto& entries = whole.entries();
+  const auto in_task = [&](const RecordedEntry& entry) {
+    const auto* recorded = std::get_if<RecordedEvent>(&entry);
+    return recorded && recorded->event.as<CubesShown>() && recorded->changes.trial &&
+           recorded->changes.trial->plan.task == GetParam();
+  };
+  const auto cut = std::ranges::find_if(entries, in_task);
+  ASSERT_NE(cut, entries.end());
+  RecordedSession killed(whole.header());
+  for (auto entry = entries.begin(); entry <= cut; ++entry)
+    if (const auto* recorded = std::get_if<RecordedEvent>(&*entry))
+      killed.append(recorded->event, recorded->changes, Durability::buffered);
+    else
+      killed.add_frame(std::get<FrameRow>(*entry));
+  const std::int64_t id = SessionArchive(log_).store(killed);
+  {
+    const LogReader before(log_);
+    EXPECT_EQ(resume_session(load_session(before, log_, id), {}).end, RunEnd::finished);
+  }
+  const LogReader reader(log_);
+  EXPECT_EQ(reader.session(id).state, SessionState::finished);
+  expect_verified(reader, id);
+}
+
+// Every answer is taken back once: its trial comes again, and the block takes no more trials.
+TEST_P(EveryTask, is_presented_again_after_each_answer_was_vetoed) {
+  const auto plan = std::make_shared<const Protocol>(protocol_);
+  Engine engine(plan, 3);
+  double t_s = 0;
+  const auto tell = [&](EventPayload what) { return engine.apply({++t_s, std::move(what)}); };
+  const auto run_trial = [&] {
+    tell(TrialStarted{});
+    tell(CubesShown{});
+    const TrialPlan trial = *engine.next().plan;
+    for (int slot = 1; plan->require_contact && slot <= trial.n_slots(); ++slot)
+      tell(CubeTouch{slot});
+    Changes last;
+    for (int wrong = 0; engine.trial_is_open();
+         ++wrong) {  // the introduction asks until it is right
+      if (!engine.screen().can_answer) tell(CubesShown{});
+      RandomStream stream(3, "answer", static_cast<std::uint64_t>(trial.trial_number),
+                          static_cast<std::uint64_t>(wrong));
+      const std::vector<int> wrong_slots(static_cast<std::size_t>(wrong), 1);
+      const TrialView view{
+          trial.trial_number, trial.attempt, trial.task, {}, engine.screen().offer};
+      const Unseen unseen{trial.n_slots(), true, wrong_slots};
+      for (const Action& action : blind_answer(view, unseen, stream).actions) last = tell(action);
+    }
+    return last;
+  };
+  int n_vetoed = 0, n_presented = 0;
+  while (engine.next().kind != Next::Kind::finish) {
+    if (engine.next().kind == Next::Kind::demonstration) {
+      tell(DemonstrationShown{});
+      continue;
+    }
+    const TrialRow answered = *run_trial().trial;
+    if (answered.plan.task != GetParam()) continue;
+    const int n_completed = engine.n_completed();
+    const TrialRow vetoed = *tell(AnswerVetoed{"by mistake"}).trial;
+    EXPECT_EQ(vetoed.attempt_index, answered.attempt_index);
+    EXPECT_FALSE(vetoed.outcome || vetoed.value) << "it counts for nothing";
+    EXPECT_EQ(engine.n_completed(), n_completed - 1);
+    ++n_vetoed;
+    const TrialRow again = *run_trial().trial;
+    EXPECT_EQ(again.plan.trial_number, answered.plan.trial_number);
+    EXPECT_EQ(again.plan.attempt, answered.plan.attempt + 1);
+    ++n_presented;
+  }
+  EXPECT_GT(n_vetoed, 0);
+  EXPECT_EQ(n_presented, n_vetoed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, EveryTask, ::testing::ValuesIn(words_of<Task>()),
+                         [](const auto& task) { return std::string(task.param); });
+
+}  // namespace
+}  // namespace heft

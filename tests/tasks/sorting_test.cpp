@@ -1,0 +1,155 @@
+// Sorting: which actions end a trial, how labels move, and in which order techniques and masses
+// come.
+#include "tasks/Sorting.h"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "tasks/Offers.h"
+
+namespace heft {
+namespace {
+using ::testing::HasSubstr;
+
+TrialPlan plan_of(std::vector<double> masses_g) {
+  TrialPlan plan;
+  plan.masses_g = std::move(masses_g);
+  return plan;
+}
+
+Sorting::Trial trial_of(std::vector<double> masses_g) {
+  return {{}, plan_of(std::move(masses_g)), 0};
+}
+
+TEST(SortingTrial, ends_with_validate_or_not_knowing_and_not_with_a_label) {
+  const Sorting::Trial trial = trial_of({15, 200, 800});
+  EXPECT_FALSE(trial.ends({"label", 1, "lightest"}));
+  EXPECT_FALSE(trial.ends({"unlabel", 1}));
+  EXPECT_TRUE(trial.ends({"validate"}));
+  EXPECT_TRUE(trial.ends({"dont_know"}));
+}
+
+TEST(SortingTrial, is_correct_where_labels_go_with_masses) {
+  for (const bool swapped : {false, true}) {
+    Sorting::Trial trial = trial_of({200, 15, 800});
+    trial.take({"label", 1, swapped ? "heaviest" : "intermediate"});
+    trial.take({"label", 2, "lightest"});
+    EXPECT_THAT(*trial.refusal({"validate"}), HasSubstr("not all cubes"));
+    trial.take({"label", 3, swapped ? "intermediate" : "heaviest"});
+    EXPECT_FALSE(trial.refusal({"validate"}));
+    EXPECT_FALSE(trial.result().outcome);
+    trial.take({"validate"});
+    EXPECT_EQ(trial.result().outcome, swapped ? "incorrect" : "correct");
+  }
+}
+
+TEST(SortingTrial, a_used_label_moves_and_can_be_taken_back) {
+  Sorting::Trial trial = trial_of({1, 2, 3});
+  trial.take({"label", 1, "heaviest"});
+  trial.take({"label", 2, "heaviest"});
+  ScreenState screen;
+  trial.show(screen);
+  EXPECT_EQ(labels_on(screen)[0], std::nullopt);
+  EXPECT_EQ(labels_on(screen)[1], "heaviest");
+  EXPECT_THAT(*trial.refusal({"unlabel", 1}), HasSubstr("no label"));
+  EXPECT_FALSE(trial.refusal({"unlabel", 2}));
+  trial.take({"unlabel", 2});
+  EXPECT_THAT(trial.labels(), ::testing::Each("none"));
+  EXPECT_THAT(*trial.refusal({"label", 1, "1"}), HasSubstr("has no label \"1\""));
+}
+
+TEST(SortingTrial, who_does_not_know_has_labeled_nothing) {
+  Sorting::Trial trial = trial_of({1, 2});
+  trial.take({"label", 1, "1"});
+  EXPECT_THAT(trial.labels(), ::testing::ElementsAre("1", "none"));
+  trial.take({"dont_know"});
+  EXPECT_EQ(trial.answer(), "dont_know");
+  EXPECT_THAT(trial.labels(), ::testing::ElementsAre("none", "none"));
+}
+
+TEST(SortingTrial, can_be_validated_once_all_have_labels_and_answers_are_taken) {
+  Sorting::Trial trial = trial_of({1, 2});
+  ScreenState screen;
+  screen.can_answer = true;
+  trial.take({"label", 1, "1"});
+  trial.show(screen);
+  EXPECT_FALSE(screen.can_validate);
+  trial.take({"label", 2, "2"});
+  trial.show(screen);
+  EXPECT_TRUE(screen.can_validate);
+  screen.can_answer = false;
+  trial.show(screen);
+  EXPECT_FALSE(screen.can_validate);
+}
+
+RC_GTEST_PROP(SortingRun, has_each_technique_as_often_as_asked_in_runs_as_short_as_asked,
+              (std::uint64_t seed)) {
+  Sorting::Block block;
+  block.name = "s";
+  block.masses_g = {1, 2};
+  const int n1 = *rc::gen::inRange(1, 6), n2 = *rc::gen::inRange(1, 6);
+  block.trials = {{"A", n1}, {"B", n2}};
+  block.max_run = (std::max(n1, n2) + std::min(n1, n2)) / (std::min(n1, n2) + 1);
+  RC_ASSERT(block.check().empty());
+  Sorting::Run run(block, seed);
+  std::map<std::string, int> counts;
+  std::string last;
+  int length = 0;
+  Changes changes;
+  for (int n = 1; !run.finished(); ++n) {
+    const std::string technique = run.plan({seed, n, 1}).condition;
+    ++counts[technique];
+    length = technique == last ? length + 1 : 1;
+    RC_ASSERT(length <= block.max_run);
+    last = technique;
+    run.complete({}, changes);
+  }
+  RC_ASSERT((counts == std::map<std::string, int>{{"A", n1}, {"B", n2}}));
+  --block.max_run;
+  RC_ASSERT(block.max_run == 0 || block.check().size() == 1u);
+}
+
+TEST(SortingRun, balanced_orders_come_each_once_in_every_round_and_again_freely_after_a_void) {
+  Sorting::Block block;
+  block.name = "s";
+  block.masses_g = {1, 2, 3};
+  block.trials = {{"A", 12}};
+  block.orders = SortingOrders::balanced;
+  Sorting::Run run(block, 5);
+  Changes changes;
+  std::set<std::vector<double>> round;
+  int n_other = 0;
+  for (int n = 1; n <= 12; ++n) {
+    const std::vector<double> planned = run.plan({5, n, 1}).masses_g;
+    EXPECT_TRUE(round.insert(planned).second) << "trial " << n;
+    if (n == 6) round.clear();
+    n_other += run.plan({5, n, 2}).masses_g != planned;
+    run.complete({}, changes);
+  }
+  EXPECT_GT(n_other, 6);
+  EXPECT_TRUE(run.finished());
+}
+
+TEST(Sorting::Block, checks_its_values) {
+  Sorting::Block block;
+  block.masses_g = {1, 2, 2};
+  ASSERT_EQ(block.check().size(), 1u);
+  EXPECT_EQ(block.check()[0].key, "masses_g");
+  EXPECT_EQ(block.check()[0].index, 2u);
+  block.masses_g = {1};
+  EXPECT_THAT(block.check()[0].message, HasSubstr("expected 2 to 6"));
+  block.masses_g = {1, 2};
+  block.trials = {{"A", 501}};
+  EXPECT_EQ(block.check()[0].key, "trials");
+  block.trials = {{"A", 3}, {"B", 1}};
+  block.max_run = 1;
+  EXPECT_EQ(block.check()[0].key, "max_run");
+  block.max_run = 2;
+  EXPECT_TRUE(block.check().empty());
+}
+
+}  // namespace
+}  // namespace heft
