@@ -33,7 +33,7 @@ std::optional<std::string> SessionData::model() const {
     const bool answered = std::ranges::any_of(attempts, [&](const Attempt& attempt) {
       return attempt.trial.setup_index == logged.setup_index;
     });
-    if (answered || attempts.empty()) return logged.setup.responder;
+    if (answered || attempts.empty()) return to_text(logged.setup.responder);
   }
   return std::nullopt;
 }

@@ -59,7 +59,8 @@ void NotesFold::add(const SessionData& data) {
   protocols_[header.protocol_sha256] = header.protocol_name;
   for (const EstimateRow& row : data.estimates)
     if (row.method != jnd_method) methods_.insert(row.method);
-  if (std::ranges::any_of(data.setups, [](const auto& s) { return s.setup.tracker == "mouse"; }))
+  if (std::ranges::any_of(data.setups,
+                          [](const auto& s) { return s.setup.tracker.name == "mouse"; }))
     dragged_.push_back(fmt::format("{} ({})", data.session.session_id, header.participant));
   pictures_.shown += data.pictures.shown;
   pictures_.dropped += data.pictures.dropped;

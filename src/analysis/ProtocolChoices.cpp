@@ -123,18 +123,19 @@ class Collector {
 };
 
 // Participants of a study have one protocol, each in an order of its own.
-bool is_order(const std::string& setting) {
-  return setting.starts_with(std::string(order_key) + "=");
+bool is_order(const ProtocolSetting& setting) {
+  return setting.key == order_key;
 }
 
-std::vector<std::string> changed_by(const SessionConfig& setup) {
-  std::vector<std::string> settings = settings_of(setup);
+std::vector<ProtocolSetting> changed_by(const SessionConfig& setup) {
+  std::vector<ProtocolSetting> settings = setup.settings;
   std::erase_if(settings, is_order);
   return settings;
 }
 
-std::vector<std::string> changed_by(const SessionData& data) {
-  return data.setups.empty() ? std::vector<std::string>{} : changed_by(data.setups.front().setup);
+std::vector<ProtocolSetting> changed_by(const SessionData& data) {
+  if (data.setups.empty()) return {};
+  return changed_by(data.setups.front().setup);
 }
 
 std::string joined(const std::set<std::string>& texts) {
@@ -145,7 +146,7 @@ std::string joined(const std::set<std::string>& texts) {
 std::string key_of(const SessionData& data) {
   const SessionHeader& header = data.session.header;
   return fmt::format("{}{}{}", header.protocol_name, header.protocol_sha256,
-                     fmt::join(changed_by(data), "\n"));
+                     to_text(changed_by(data)));
 }
 
 }  // namespace
@@ -173,9 +174,9 @@ void InForce::add(const SessionData& data, const Protocol& protocol) {
             ? fmt::format("{:g}, of a source that gives {:.3g}", wanted_hz, *setup.source_rate_hz)
             : fmt::format("{:g}", wanted_hz));
     if (const auto changed = changed_by(setup); !changed.empty())
-      settings_.insert(fmt::format("{}", fmt::join(changed, "\n")));
-    for (const std::string& setting : settings_of(setup))
-      if (is_order(setting)) orders_.insert(setting);
+      settings_.insert(to_text(changed));
+    for (const ProtocolSetting& setting : setup.settings)
+      if (is_order(setting)) orders_.insert(to_text(setting));
   }
 }
 
@@ -196,7 +197,7 @@ std::vector<ProtocolChoice> InForce::choices(const std::string& protocol) const 
 
 void ChoicesFold::add(const SessionData& data) {
   const SessionHeader& header = data.session.header;
-  const std::vector<std::string> settings = changed_by(data);
+  const std::vector<ProtocolSetting> settings = changed_by(data);
   const auto [place, is_new] = places_.emplace(key_of(data), ran_.size());
   if (is_new) {
     Ran& ran = ran_.emplace_back(

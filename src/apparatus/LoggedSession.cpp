@@ -61,7 +61,7 @@ LoggedSession load_session(const LogReader& reader, const std::string& db,
                     session_id, db));
   const SessionHeader& header = session.row.header;
   Protocol protocol = parse_protocol(header.protocol_text, header.protocol_name,
-                                     settings_of(session.setups.front().setup));
+                                     session.setups.front().setup.settings);
   protocol.name = header.protocol_name;
   keep_censoring_rule(protocol, header.log_version);
   tell_simulators(session.setups, protocol);

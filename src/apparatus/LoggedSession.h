@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apparatus/SessionSetup.h"
+#include "apparatus/configuration/ResolvedConfig.h"
 #include "record/LogReader.h"
 
 namespace heft {

@@ -28,10 +28,10 @@ std::unique_ptr<PictureSource> make_dragged(const PictureParts& parts) {
 }
 
 std::unique_ptr<PictureSource> open(const std::string& kind, const PictureParts& parts) {
-  const auto open_it = [source = kind + ":" + parts.what,
+  const auto open_it = [kind, what = parts.what,
                         request =
                             request_for(parts.apparatus.camera, parts.protocol.display_rate_hz)] {
-    return open_camera(source, request);
+    return open_camera(kind, what, request);
   };
   return std::make_unique<CameraPictures>(open_it, parts);
 }
@@ -61,28 +61,13 @@ std::span<const TrackerEntry> trackers() {
   return table;
 }
 
-const TrackerEntry& tracker_named(const std::string& tracker) {
-  const auto colon = tracker.find(':');
-  const std::string name = tracker.substr(0, colon);
-  const TrackerEntry& entry = entry_named("tracker", name, trackers());
-  const bool has_what = colon != std::string::npos && colon + 1 < tracker.size();
-  const bool has_colon = colon != std::string::npos;
-  if (entry.what == TrackerWhat::source && !has_what)
-    throw Error(fmt::format("tracker \"{}\" needs to know which: {}", name, entry.summary),
-                ExitCode::usage);
-  if (entry.what == TrackerWhat::settings && has_colon && !has_what)
-    throw Error(
-        fmt::format("tracker \"{0}\": no file follows the colon, expected {0} or {0}:FILE", name),
-        ExitCode::usage);
-  if (entry.what == TrackerWhat::nothing && has_colon)
-    throw Error(fmt::format("tracker \"{}\" takes nothing after it", name), ExitCode::usage);
-  return entry;
+const TrackerEntry& tracker_named(std::string_view name) {
+  return entry_named("tracker", name, trackers());
 }
 
-std::unique_ptr<PictureSource> open_pictures(const std::string& tracker,
+std::unique_ptr<PictureSource> open_pictures(const TrackerEntry& tracker,
                                              const PictureParts& parts) {
-  return std::make_unique<PacedPictures>(tracker_named(tracker).make(parts),
-                                         parts.protocol.display_rate_hz);
+  return std::make_unique<PacedPictures>(tracker.make(parts), parts.protocol.display_rate_hz);
 }
 
 void PictureCount::skip_to(double t_s) {

@@ -106,13 +106,13 @@ struct TrackerEntry {
 
 std::span<const TrackerEntry> trackers();
 
-/// @param tracker NAME or NAME:WHAT
-/// @throws Error (usage) naming the nearest when there is none of that name, or what is missing
-const TrackerEntry& tracker_named(const std::string& tracker);
+/// @throws Error (usage) naming the nearest when there is none of that name
+const TrackerEntry& tracker_named(std::string_view name);
 
 /// The tracker's pictures, at the display's rate.
-/// @throws Error as tracker_named, and as the tracker's `make`
-std::unique_ptr<PictureSource> open_pictures(const std::string& tracker, const PictureParts& parts);
+/// @throws Error as the tracker's `make`
+std::unique_ptr<PictureSource> open_pictures(const TrackerEntry& tracker,
+                                             const PictureParts& parts);
 
 /// Numbers the pictures of a display's rate, from 0 at an attempt's start.
 class PictureCount {

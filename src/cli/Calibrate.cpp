@@ -34,7 +34,8 @@ constexpr const char* doubtful =
 constexpr double patience_s = 5;  ///< with a camera that gives no picture
 
 struct CalibrateOptions {
-  std::string source, board, camera_file, effector, out, size;
+  std::optional<Plug> source;
+  std::string board, camera_file, effector, out, size;
   std::optional<double> exposure_ms;
   bool shutter = false;
 };
@@ -75,12 +76,12 @@ void require_as_asked(const CalibrateOptions& options, const CameraRequest& requ
   if (options.exposure_ms && !camera.is_live())
     throw Error(fmt::format("--exposure-ms: the pictures of {} have been taken; it sets live "
                             "cameras only",
-                            options.source),
+                            to_text(*options.source)),
                 ExitCode::usage);
   const bool fits = picture.width == request.width_px && picture.height == request.height_px;
   if (options.size.empty() || fits) return;
   throw Error(fmt::format("--size {}: {} gives pictures of {} x {} pixels; {}", options.size,
-                          options.source, picture.width, picture.height,
+                          to_text(*options.source), picture.width, picture.height,
                           camera.is_live() ? "heft doctor lists the sizes that it can"
                                            : "leave --size out, it sets live cameras only"));
 }
@@ -157,7 +158,7 @@ void calibrate_the_camera(const CalibrateOptions& options) {
   require_writable(options.out);
   const CameraRequest request = request_of(options);
   const MarkerBody board = load_board(options.board);
-  const auto camera = open_camera(options.source, request);
+  const auto camera = open_camera(options.source->name, options.source->what, request);
   const ViewCollector views = board_views(*camera, board, options, request);
   require_views(views, board);
   say("{}; computing...\n", views.tally());
@@ -207,7 +208,8 @@ void calibrate_the_shutter(const CalibrateOptions& options) {
   require_writable(options.out);
   Intrinsics intrinsics = load_intrinsics(options.camera_file);
   const MarkerBody board = load_board(options.board);
-  const auto camera = open_camera(options.source, request_for(intrinsics, 0));
+  const auto camera =
+      open_camera(options.source->name, options.source->what, request_for(intrinsics, 0));
   const auto views = waved_views(*camera, board, intrinsics);
   const ShutterCalibration result = calibrate_shutter(board, intrinsics, views);
   const std::string text = summary(result);
@@ -226,7 +228,8 @@ void calibrate_the_effector(const CalibrateOptions& options) {
   require_writable(options.out);
   const Intrinsics intrinsics = load_intrinsics(options.camera_file);
   const MarkerBody nominal = load_effector(options.effector);
-  const auto camera = open_camera(options.source, request_for(intrinsics, usual_rate_hz));
+  const auto camera = open_camera(options.source->name, options.source->what,
+                                  request_for(intrinsics, usual_rate_hz));
   const StopOnSignal stop;
   EffectorViews views(nominal, intrinsics);
   say_locks(*camera);
@@ -254,8 +257,7 @@ void calibrate_the_effector(const CalibrateOptions& options) {
 }
 
 void add_source(Command& command, CalibrateOptions& options) {
-  command.add_option("--camera", &options.source, "camera:N, video:FILE or frames:FOLDER")
-      .required();
+  add_plug(command, "--camera", options.source, "camera:N, video:FILE or frames:FOLDER").required();
 }
 
 void add_camera(Command& parent) {

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <concepts>
 #include <limits>
 #include <map>
 #include <span>
@@ -207,7 +208,18 @@ Command Command::add_command(const std::string& name, const std::string& summary
 
 Option Command::add_option(const std::string& name, Destination destination,
                            const std::string& help) {
-  const auto add = [&](auto* value) { return app_.add_option(name, *value, help); };
+  const auto add = [&](auto& value) -> CLI::Option* {
+    if constexpr (std::same_as<std::decay_t<decltype(value)>, ReadsText>) {
+      using Texts = std::vector<std::string>;
+      if (!value.several) return app_.add_option_function<std::string>(name, value.read, help);
+      const auto read_all = [read = value.read](const Texts& texts) {
+        for (const std::string& text : texts) read(text);
+      };
+      return app_.add_option_function<Texts>(name, read_all, help);
+    } else {
+      return app_.add_option(name, *value, help);
+    }
+  };
   CLI::Option& option = *std::visit(add, destination)->group(group_);
   option.check(CLI::Validator([](std::string& text) { return refused_if_blank(text); }, ""));
   return Option(option);

@@ -17,10 +17,16 @@ class Option;
 
 namespace heft::cli {
 
+/// What an option's text is given to where it is read at once; it may throw Error.
+struct ReadsText {
+  std::function<void(const std::string&)> read;
+  bool several = false;  ///< texts after one option
+};
+
 /// Where an option's value goes. Optionals tell whether it was given; lists take several.
 using Destination =
-    std::variant<std::string*, std::optional<std::string>*, std::vector<std::string>*, int*,
-                 double*, std::optional<double>*, std::optional<std::int64_t>*,
+    std::variant<ReadsText, std::string*, std::optional<std::string>*, std::vector<std::string>*,
+                 int*, double*, std::optional<double>*, std::optional<std::int64_t>*,
                  std::optional<std::uint64_t>*, std::vector<std::int64_t>*>;
 
 /// An option that was just added, to say more of it.

@@ -9,9 +9,8 @@
 #include "analysis/Report.h"
 #include "analysis/Summary.h"
 #include "analysis/Tables.h"
+#include "base/Installation.h"
 #include "cli/Commands.h"
-#include "cli/Installation.h"
-#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "session/Session.h"
@@ -29,18 +28,12 @@ struct DemoOptions {
 constexpr std::uint64_t usual_seed = 75;
 
 SessionRequest demo_session(const DemoOptions& options) {
-  SessionRequest request;
-  request.protocol = load_protocol(installed_file("protocols/paper.toml"));
-  GivenOptions given;
-  given.responder = "simulated";
-  given.tracker = "synthetic";
-  SessionConfig setup = with_defaults(given);
-  complete(setup);
-  add_questionnaires(setup, request.protocol, texts_file(request.protocol.screens.language));
-  request.setup = in_force(std::move(setup), request.protocol);
-  request.participant = "demo";
-  request.db = options.out + "/demo.db";
-  request.seed = options.seed.value_or(usual_seed);
+  SessionOptions given;
+  given.responder = Plug{"simulated"};
+  given.tracker = Plug{"synthetic"};
+  SessionRequest request{resolve(given, load_protocol(installed_file("protocols/paper.toml")),
+                                 options.seed.value_or(usual_seed)),
+                         "demo", options.out + "/demo.db"};
   request.again = true;
   return request;
 }
@@ -52,9 +45,9 @@ void demo(const DemoOptions& options) {
   say("The paper's session: demonstration, introduction, 10 sorting trials, three interleaved "
       "staircases.\nA rendered camera films a simulated participant's hand, the effector's tags "
       "are found in its\npictures, physics pushes back, and everything is logged; seed {}.\n",
-      request.seed);
+      request.config->seed);
   const SessionResult result =
-      run_session({request.protocol, request.setup, request.db},
+      run_session({request.config, request.db},
                   [&](const RunnerOptions& runner) { return start_session(request, runner); });
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
 

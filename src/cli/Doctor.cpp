@@ -15,11 +15,12 @@
 
 #include "apparatus/ApparatusCheck.h"
 #include "apparatus/PictureSource.h"
+#include "apparatus/configuration/Texts.h"
 #include "base/Build.h"
 #include "base/Error.h"
+#include "base/Installation.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
-#include "cli/Installation.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "physics/DecouplingSimulator.h"
@@ -214,15 +215,16 @@ void check_shutter(Report& report, const Intrinsics& camera) {
 }
 
 // The camera, its calibration, the light, the board: with pictures from it.
-void check_tracker(Report& report, const GivenOptions& given, double rate_hz) {
-  SessionConfig options = with_defaults(given);
-  options.view = "headless";
-  options.responder = "simulated";
-  if (tracker_named(options.tracker).what != TrackerWhat::source)
+void check_tracker(Report& report, SessionOptions given, double rate_hz) {
+  const auto& [name, what, text] = given.tracker.value();
+  if (tracker_named(name).what != TrackerWhat::source)
     throw Error("--tracker: expected camera:N, video:FILE or frames:FOLDER", ExitCode::usage);
-  complete_and_tell(options);
-  const Apparatus apparatus = apparatus_of(options);
-  const auto camera = open_camera(options.tracker, request_for(apparatus.camera, rate_hz));
+  given.responder = Plug{"simulated"};
+  const ResolvedConfig config = resolve(given, {}, 0);
+  tell_camera_file(given, config->config);
+  const Apparatus& apparatus = config->apparatus;
+  const auto camera =
+      open_camera(name, config->config.tracker.what, request_for(apparatus.camera, rate_hz));
   for (const CheckResult& result : check_camera(*camera, apparatus, rate_hz))
     report.line(result.verdict, result.name, result.finding);
   check_shutter(report, apparatus.camera);
@@ -255,7 +257,7 @@ void list_plugs() {
   print("the parameters of a responder: heft doctor --responder NAME\n");
 }
 
-void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) {
+void diagnose(const std::string& db, const SessionOptions& given, double rate_hz) {
   refuse_special_file(db);
   Report report;
   report.line(CheckVerdict::ok, "program", fmt::format("heft {}, {}", HEFT_VERSION, build_name()));
@@ -280,7 +282,7 @@ void diagnose(const std::string& db, const GivenOptions& given, double rate_hz) 
 void add_doctor(Command& app) {
   struct DoctorOptions {
     std::string db = "heft.db", responder;
-    GivenOptions given;
+    SessionOptions given;
     double rate_hz = 15;
   };
   const auto options = std::make_shared<DoctorOptions>();
@@ -290,8 +292,8 @@ void add_doctor(Command& app) {
        "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
        "heft doctor --responder simulated"});
   command.add_option("--db", &options->db, "the log to check, and whose folder").shows_default();
-  command.add_option("--tracker", &options->given.tracker,
-                     "look through this camera: camera:N, video:FILE, frames:FOLDER");
+  add_plug(command, "--tracker", options->given.tracker,
+           "look through this camera: camera:N, video:FILE, frames:FOLDER");
   add_apparatus_options(command, options->given);
   command.group("Options");
   command.add_option("--display-rate", &options->rate_hz, "pictures a second that are wanted")

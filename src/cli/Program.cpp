@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "base/Error.h"
+#include "base/Installation.h"
 #include "cli/Commands.h"
-#include "cli/Installation.h"
 #include "cli/Terminal.h"
 #include "physics/DecouplingSimulator.h"
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 
+#include "apparatus/configuration/Texts.h"
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "cli/Commands.h"
@@ -15,6 +16,7 @@
 #include "cli/Terminal.h"
 #include "experiment/ScreenTexts.h"
 #include "physics/DecouplingSimulator.h"
+#include "physics/auto/Choice.h"
 #include "protocol/Files.h"
 #include "record/Integrity.h"
 #include "replay/Showing.h"
@@ -28,11 +30,13 @@ namespace {
 struct ReplayOptions {
   std::string db = "heft.db";
   std::optional<std::int64_t> session;
-  std::string responder, simulator, view;
-  std::vector<std::string> set;
+  std::optional<WhoAnswers> responder;
+  std::optional<std::string> simulator;
+  std::optional<Plug> view;
+  std::vector<ProtocolSetting> set;
   bool rerun = false, json = false;
-  bool supposes() const { return !simulator.empty() || !set.empty(); }
-  bool judges() const { return !responder.empty() && !rerun; }
+  bool supposes() const { return simulator || !set.empty(); }
+  bool judges() const { return responder && !rerun; }
 };
 
 // Of a protocol, what a logged hand's world is made of.
@@ -40,22 +44,21 @@ constexpr std::array world{"physics", "coupling", "technique", "layout", "effect
 
 // Who asks what else would have been is not to take a key that says nothing of it for one that
 // makes no difference.
-void check_world(const std::vector<std::string>& settings) {
-  for (const std::string& setting : settings) {
-    const std::string section = setting.substr(0, setting.find_first_of(".="));
-    if (setting.find('=') == std::string::npos || std::ranges::find(world, section) != world.end())
-      continue;
+void check_world(const std::vector<ProtocolSetting>& settings) {
+  for (const ProtocolSetting& setting : settings) {
+    const std::string section = setting.key.substr(0, setting.key.find('.'));
+    if (std::ranges::find(world, section) != world.end()) continue;
     throw Error(fmt::format("--set {}: a replay takes the logged hand through another world, with "
                             "the logged trials; expected a key of {}. --rerun with a --responder "
                             "runs the trials anew",
-                            setting, fmt::join(world, ", ")),
+                            to_text(setting), fmt::join(world, ", ")),
                 ExitCode::usage);
   }
 }
 
 void check(const ReplayOptions& options) {
   const auto refuse = [](const char* why) { throw Error(why, ExitCode::usage); };
-  if (options.rerun && options.responder.empty())
+  if (options.rerun && !options.responder)
     refuse("--rerun runs the trials anew with a --responder, and none is named");
   if (options.judges() && options.supposes())
     refuse(
@@ -64,7 +67,7 @@ void check(const ReplayOptions& options) {
   if (!options.rerun) check_world(options.set);
   if (options.json && !options.judges())
     refuse("--json is for what a --responder judges, without --rerun");
-  if (!options.view.empty() && !options.responder.empty())
+  if (options.view && options.responder)
     refuse(
         "--view shows the logged frames, with --set or --simulator another clone beside them; "
         "it takes no --responder");
@@ -231,42 +234,42 @@ void print_responder(const OtherResponder& other) {
           grams(e.logged_g), grams(e.would_be_g));
 }
 
-// The protocol and setup that the question supposes.
-std::pair<Protocol, SessionConfig> supposed(const LoggedSession& session,
-                                            const ReplayOptions& options) {
-  std::vector<std::string> settings = settings_of(session.setups.front().setup);
-  settings.insert(settings.end(), options.set.begin(), options.set.end());
-  Protocol protocol =
-      parse_protocol(session.row.header.protocol_text, session.row.header.protocol_name, settings);
-  SessionConfig setup = session.setup;
-  setup.settings = fmt::format("{}", fmt::join(settings, "\n"));
-  for (const std::string& set : options.set)
-    if (set.starts_with("physics.simulator")) setup.simulator.clear();
-  if (!options.set.empty()) setup.rate_hz.reset();  // it may be among what was set
-  if (!options.simulator.empty()) {
-    simulator_named(options.simulator);  // says so if there is none of that name
-    setup.simulator = options.simulator;
-    setup.simulator_why.clear();
-    setup.rate_hz.reset();
+// What the question supposes: the logged protocol and configuration with the changes.
+struct Supposed {
+  Protocol protocol;
+  SessionConfig config;
+};
+
+Supposed supposed(const LoggedSession& session, const ReplayOptions& options) {
+  SessionConfig config = session.setup;
+  config.settings = session.setups.front().setup.settings;
+  config.settings.insert(config.settings.end(), options.set.begin(), options.set.end());
+  Protocol protocol = parse_protocol(session.row.header.protocol_text,
+                                     session.row.header.protocol_name, config.settings);
+  std::string simulator = options.simulator.value_or(config.simulator);
+  for (const ProtocolSetting& set : options.set)
+    if (set.key == "physics.simulator" && !options.simulator) simulator = protocol.simulator.name;
+  if (options.supposes()) {  // the rate may be among what was set
+    const SimulatorPick pick = simulator_for(simulator, protocol);
+    config.simulator = pick.simulator;
+    config.rate_hz = pick.rate_hz;
+    config.simulator_why = pick.why;
   }
-  if (!options.responder.empty()) {
-    setup.responder = options.responder;
-    setup.tracker = "hand";
-    setup.view = "headless";
-    // Of the logged session's files none is opened; a model reads no texts and is not filmed.
-    for (std::string* file : {&setup.record_camera, &setup.camera_file, &setup.board_file,
-                              &setup.effector_file, &setup.texts_file})
-      file->clear();
-    complete(setup);
-    check(setup, protocol);
-  }
-  setup = in_force(std::move(setup), protocol);
-  protocol = *protocol_for(std::move(protocol), setup);
-  return {std::move(protocol), std::move(setup)};
+  config.input = name_of(protocol.simulator.input.mode);
+  config.predict_s = protocol.simulator.input.predict_s;
+  return {*protocol_for(std::move(protocol), config), std::move(config)};
 }
 
+// The responder's own hand, without camera or view.
 OtherResponder run_anew(const LogReader& reader, const LoggedSession& session,
-                        const Protocol& protocol, const SessionConfig& setup) {
+                        const WhoAnswers& responder, const Supposed& supposed) {
+  SessionOptions given;
+  given.responder = responder;
+  given.tracker = Plug{"hand"};
+  given.view = Plug{"headless"};
+  const SessionRequest request{
+      resolve(given, supposed.config, supposed.protocol, session.row.header.seed),
+      session.row.header.participant};
   const std::int64_t session_id = session.row.session_id;
   ProgressBar bar(fmt::format("session {}", session_id));
   RunnerOptions runner;
@@ -274,24 +277,19 @@ OtherResponder run_anew(const LogReader& reader, const LoggedSession& session,
   runner.progress = [&](const Engine& engine) {
     bar.update(0, fmt::format("{} trials", engine.n_completed()));
   };
-  SessionRequest request;
-  request.protocol = protocol;
-  request.setup = setup;
-  request.participant = session.row.header.participant;
-  request.seed = session.row.header.seed;
   return compare_sessions(reader, session_id, compute_session(request, runner));
 }
 
 void ask_what_if(const LogReader& reader, const ReplayOptions& options) {
   for (const std::int64_t session_id : chosen_sessions(reader, options)) {
     const LoggedSession session = load_session(reader, options.db, session_id);
-    const auto [protocol, setup] = supposed(session, options);
+    const Supposed would_be = supposed(session, options);
     print("session {}, participant {}:\n", session_id, session.row.header.participant);
     if (options.rerun) {
-      print_responder(run_anew(reader, session, protocol, setup));
+      print_responder(run_anew(reader, session, *options.responder, would_be));
       continue;
     }
-    const auto differences = compare_paths(reader, session, protocol);
+    const auto differences = compare_paths(reader, session, would_be.protocol);
     print_paths(differences);
     print_noticed(differences);
   }
@@ -303,10 +301,10 @@ void judge(const LogReader& reader, const ReplayOptions& options) {
     ProgressBar bar(fmt::format("session {}", session_id));
     const double start_s = monotonic_s();
     const LoggedSession session = load_session(reader, options.db, session_id);
-    Judgments judgments = judge_session(reader, session, options.responder, [&](double done) {
+    Judgments judgments = judge_session(reader, session, *options.responder, [&](double done) {
       bar.update(done, fmt::format("{:.0f} %", 100 * done));
     });
-    judged.push_back({session_id, session.row.header.participant, options.responder,
+    judged.push_back({session_id, session.row.header.participant, to_text(*options.responder),
                       std::move(judgments), monotonic_s() - start_s});
   }
   if (options.json) return fmt::print("{}", as_json(judged));
@@ -315,7 +313,7 @@ void judge(const LogReader& reader, const ReplayOptions& options) {
 
 // The words are the log's, where it keeps any.
 ScreenTexts texts_of(const SessionConfig& setup) {
-  if (!setup.texts_text.empty()) return parse_texts(setup.texts_text, setup.texts_file);
+  if (!setup.texts.text.empty()) return parse_texts(setup.texts.text, setup.texts.path);
   return load_texts(texts_file("en"));
 }
 
@@ -325,18 +323,18 @@ void show(const LogReader& reader, const ReplayOptions& options) {
     throw Error(fmt::format("{} holds {} sessions; say with --session which one --view is to show",
                             options.db, ids.size()),
                 ExitCode::usage);
-  const auto [name, file] = split_name(options.view);
+  const auto& [name, file, text] = *options.view;
   const ViewEntry& entry = view_named(name);
   if (entry.has_file == file.empty() || !(entry.has_file || entry.has_screen))
     throw Error(fmt::format("can't show a replay with --view {}; expected window or video:FILE",
-                            options.view),
+                            to_text(*options.view)),
                 ExitCode::usage);
   const LoggedSession session = load_session(reader, options.db, ids.front());
-  const Protocol what_if = supposed(session, options).first;
+  const Protocol what_if = supposed(session, options).protocol;
   ViewSetup setup;
   setup.stage = stage_of(*session.protocol, 3);
   if (entry.has_screen) setup.texts = texts_of(session.setup);
-  setup.left_handed = session.setup.handed == "left";
+  setup.left_handed = session.setup.handed == Side::left;
   setup.text_size = session.protocol->screens.text_size;
   setup.file = file;
   setup.rate_hz = session.protocol->display_rate_hz;
@@ -364,25 +362,25 @@ void add_replay(Command& app) {
        "heft replay --db lab.db --session 3 --view video:three.mp4 --set physics.friction=0.64"});
   command.add_option("--db", &options->db, "the log").shows_default();
   command.add_session(options->session, "all");
-  command.add_option("--responder", &options->responder,
-                     "NAME[:FILE]: give this responder the frames that were displayed, and compare "
-                     "its answers; the logged one without a file has its logged parameters");
+  add_responder(command, options->responder,
+                "NAME[:FILE]: give this responder the frames that were displayed, and compare "
+                "its answers; the logged one without a file has its logged parameters");
   command.add_flag("--rerun", options->rerun, "run the trials anew with the responder instead");
   command.add_flag("--json", options->json, "what the responder answers as JSON");
   command.add_option("--simulator", &options->simulator,
                      "run the logged hand through this simulator, and compare lags and paths");
-  command.add_option("--set", &options->set,
-                     fmt::format("change a key of the protocol, such as "
-                                 "coupling.stiffness_n_per_m=100: of its {}; with --rerun any",
-                                 fmt::join(world, ", ")));
-  command.add_option("--view", &options->view,
-                     "window or video:FILE: show the logged frames, with --set or --simulator also "
-                     "the clone as it would be");
+  add_settings(command, options->set,
+               fmt::format("change a key of the protocol, such as "
+                           "coupling.stiffness_n_per_m=100: of its {}; with --rerun any",
+                           fmt::join(world, ", ")));
+  add_plug(command, "--view", options->view,
+           "window or video:FILE: show the logged frames, with --set or --simulator also "
+           "the clone as it would be");
   command.does([options] {
     check(*options);
     refuse_special_file(options->db);
     const LogReader reader(options->db);
-    if (!options->view.empty())
+    if (options->view)
       show(reader, *options);
     else if (options->judges())
       judge(reader, *options);

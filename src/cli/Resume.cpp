@@ -5,7 +5,6 @@
 
 #include "apparatus/StudyPlaces.h"
 #include "cli/Commands.h"
-#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "session/Session.h"
@@ -13,74 +12,46 @@
 namespace heft::cli {
 
 namespace {
-void say_next_parts(const SessionConfig& before) {
-  const SessionConfig now = with_next_parts(before);
-  for (const auto option : {&SessionConfig::view, &SessionConfig::record_camera})
-    if (now.*option != before.*option)
-      say("{} is there already; from here on it is {}\n", before.*option, now.*option);
-}
-
-// What another responder, tracker or view needs, and the session did without so far.
-GivenOptions with_missing_files(const LoggedSession& session, GivenOptions again) {
-  const SessionConfig& setup = session.setup;
-  const SessionConfig defaults = with_defaults(again);
-  const auto fill = [](std::optional<std::string>& given, const std::string& held,
-                       const std::string& fallback) {
-    if (!given && held.empty() && !fallback.empty()) given = fallback;
-  };
-  if (again.tracker || again.responder) {
-    fill(again.camera_file, setup.camera_file, defaults.camera_file);
-    fill(again.board_file, setup.board_file, defaults.board_file);
-    fill(again.effector_file, setup.effector_file, defaults.effector_file);
-  }
-  if (again.view || again.responder)
-    fill(again.texts_file, setup.texts_file, texts_file(session.protocol->screens.language));
-  return again;
-}
-
-// What people are asked is planned with the protocol, and comes in whatever they read.
-void change(LoggedSession& session, const GivenOptions& again) {
-  change_setup(session, again);
-  check(session.setup, *session.protocol);
-  add_questionnaires(session.setup, *session.protocol,
-                     again.texts_file.value_or(texts_file(session.protocol->screens.language)));
-  session.setup = in_force(std::move(session.setup), *session.protocol);
+void say_next_parts(const ResolvedConfig& config) {
+  const Plug& view = config->config.view;
+  if (config->film != view.what)
+    say("{} is there already; from here on it is {}\n", to_text(view),
+        to_text(Plug{view.name, config->film}));
+  if (const std::string& pictures = config->config.record_camera; config->pictures != pictures)
+    say("{} is there already; from here on it is {}\n", pictures, config->pictures);
 }
 
 // The folder that was given, or the session's; older logs have a plan's elsewhere.
-std::string backup_of(const LoggedSession& session, const Elsewhere& elsewhere) {
-  if (!elsewhere.backup.empty()) return backup_folder(elsewhere);
+std::string backup_of(const LoggedSession& session, const std::string& given) {
+  if (!given.empty()) return given;
   if (!session.setup.backup.empty()) return session.setup.backup;
   const auto place = place_of(session.row.header.participant_info);
   return place ? place->backup : "";
 }
 
-void resume(const std::string& db, std::optional<std::int64_t> session_id,
-            const GivenOptions& again, const Elsewhere& elsewhere, bool unblind, bool go_on,
-            bool keys) {
-  LoggedSession session = session_to_resume(db, session_id);
-  const SessionConfig before = session.setup;
-  change(session, with_missing_files(session, again));
-  if (keys) session.setup.keys = "yes";
-  session.setup.backup = backup_of(session, elsewhere);
+void resume(const std::string& db, std::optional<std::int64_t> session_id, SessionOptions again,
+            const std::string& events, bool unblind, bool go_on) {
+  const LoggedSession session = session_to_resume(db, session_id);
+  again.backup = backup_of(session, again.backup);
+  const ResolvedConfig config =
+      resolve(again, session.setup, *session.protocol, session.row.header.seed);
   say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
       session.row.header.participant, session.protocol->name);
-  for (const auto& [column, from, to] : changes_between(before, session.setup))
+  for (const auto& [column, from, to] : changes_between(session.setup, config->config))
     if (to.empty())
       say("from here on without {} ({})\n", column, from);
     else if (!from.empty())
       say("from here on with {} {} instead of {}\n", column, to, from);
-  say_next_parts(session.setup);
+  say_next_parts(config);
   say_finished(
-      run_session({*session.protocol, session.setup, db, unblind, go_on, elsewhere.events,
-                   place_words(session.row.header.participant_info)},
-                  [&](const RunnerOptions& runner) { return resume_session(session, runner); }),
+      run_session(
+          {config, db, unblind, go_on, events, place_words(session.row.header.participant_info)},
+          [&](const RunnerOptions& runner) { return resume_session(session, config, runner); }),
       db);
 }
 
 // There is no way back, so it is never somebody's because they happened to come last.
-void end(const std::string& db, std::optional<std::int64_t> session_id,
-         const Elsewhere& elsewhere) {
+void end(const std::string& db, std::optional<std::int64_t> session_id, const std::string& backup) {
   if (!session_id)
     throw Error(fmt::format("--end needs --session N: which one to end for good; heft list --db {} "
                             "shows them",
@@ -88,7 +59,7 @@ void end(const std::string& db, std::optional<std::int64_t> session_id,
                 ExitCode::usage);
   const LoggedSession session = session_to_resume(db, session_id);
   abort_session(session);
-  back_up_and_tell(db, backup_of(session, elsewhere), session.row.session_id);
+  back_up_and_tell(db, backup_of(session, backup), session.row.session_id);
   say("session {} of participant {} is ended as it is; what was answered is kept\n",
       session.row.session_id, session.row.header.participant);
 }
@@ -96,11 +67,9 @@ void end(const std::string& db, std::optional<std::int64_t> session_id,
 
 void add_resume(Command& app) {
   struct ResumeOptions {
-    std::string db = "heft.db";
+    std::string db = "heft.db", events;
     std::optional<std::int64_t> session;
-    std::optional<std::string> language;
-    GivenOptions again;
-    Elsewhere elsewhere;
+    SessionOptions again;
     bool end = false, unblind = false, go_on = false, keys = false;
   };
   const auto options = std::make_shared<ResumeOptions>();
@@ -115,9 +84,9 @@ void add_resume(Command& app) {
   add_session_options(command, options->again, true);
   command.add_option("--simulator", &options->again.simulator,
                      "from here on; each trial is replayed with the one that it ran with");
-  command.add_option("--language", &options->language,
+  command.add_option("--language", &options->again.language,
                      "of the participant's screens: en, fr, or a text FILE.toml");
-  add_elsewhere_options(command, options->elsewhere);
+  add_elsewhere_options(command, options->again.backup, options->events);
   command.group("Options");
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
@@ -127,10 +96,10 @@ void add_resume(Command& app) {
   command.add_flag("--end", options->end,
                    "don't go on: end that --session as it is, for somebody who will not come back");
   command.does([options] {
-    if (options->end) return end(options->db, options->session, options->elsewhere);
-    if (options->language) options->again.texts_file = texts_file(*options->language);
-    resume(options->db, options->session, options->again, options->elsewhere, options->unblind,
-           options->go_on, options->keys);
+    if (options->end) return end(options->db, options->session, options->again.backup);
+    if (options->keys) options->again.keys = TakesKeys::yes;
+    resume(options->db, options->session, options->again, options->events, options->unblind,
+           options->go_on);
   });
 }
 

@@ -11,7 +11,6 @@
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
-#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "experiment/ParticipantId.h"
@@ -25,15 +24,12 @@ namespace {
 constexpr const char* usual_db = "heft.db";
 
 struct RunOptions {
-  std::string protocol, plan;
+  std::string protocol, plan, events;
   std::optional<std::string> participant, db;
   std::optional<std::uint64_t> seed;
-  GivenOptions given;
-  std::optional<std::string> language;
+  SessionOptions given;
   std::optional<std::string> purpose, controls, hand;
   std::optional<double> text_size;
-  std::string record_camera;
-  Elsewhere elsewhere;
   std::map<std::string, std::string> participant_info;  // what the plan gave
   bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
   bool changed_protocol = false;
@@ -45,52 +41,46 @@ void check_participant(const std::string& id) {
     throw Error(fmt::format("--participant: the id {}", *wrong), ExitCode::usage);
 }
 
-bool is_dragged(const SessionConfig& setup) {
-  return tracker_named(setup.tracker).is_dragged;
+bool is_persons(const RunOptions& options) {
+  return std::holds_alternative<Person>(options.given.responder.value_or(Person{}));
 }
 
-// Nobody takes a session that was played with the mouse for data by leaving an option out.
-Purpose purpose_of(const RunOptions& options, const SessionConfig& setup) {
-  return named<Purpose>(options.purpose.value_or(is_dragged(setup) ? "test" : "main")).value();
+// A session that was played with the mouse is data only where that was asked for.
+Purpose purpose_of(const RunOptions& options) {
+  const auto& tracker = options.given.tracker;
+  const bool is_dragged = tracker && tracker_named(tracker->name).is_dragged;
+  return named<Purpose>(options.purpose.value_or(is_dragged ? "test" : "main")).value();
 }
 
-std::string side_of_controls(const RunOptions& options) {
+std::optional<Side> side_of_controls(const RunOptions& options) {
   if (options.left_handed && options.controls == "right")
     throw Error("--left-handed is --controls left; expected one of them", ExitCode::usage);
-  return options.left_handed ? "left" : options.controls.value_or("right");
+  if (options.left_handed) return Side::left;
+  return options.controls ? named<Side>(*options.controls) : std::nullopt;
 }
 
-// It is kept with the session, as the key of the protocol that it is.
-GivenOptions with_text_size(GivenOptions given, const std::optional<double>& text_size) {
-  if (text_size) given.settings.push_back(fmt::format("screens.text_size={}", *text_size));
+SessionOptions session_options(const RunOptions& options) {
+  SessionOptions given = options.given;
+  // It is kept with the session, as the key of the protocol that it is.
+  if (options.text_size)
+    given.settings.push_back({"screens.text_size", fmt::format("{}", *options.text_size)});
+  given.controls = side_of_controls(options);
+  given.hand = named<Side>(options.hand.value_or("right"));
+  if (is_persons(options))
+    given.keys =
+        options.keys || purpose_of(options) == Purpose::test ? TakesKeys::yes : TakesKeys::no;
+  given.protocol_file = options.protocol;
   return given;
 }
 
 SessionRequest request_of(const RunOptions& options) {
-  SessionRequest request;
-  const GivenOptions given = with_text_size(options.given, options.text_size);
-  request.protocol = load_protocol(options.protocol, given.settings);
-  SessionConfig setup = with_defaults(given);
-  const std::string texts =
-      texts_file(options.language.value_or(request.protocol.screens.language));
-  setup.texts_file = texts;
-  setup.handed = side_of_controls(options);
-  setup.hand = options.hand.value_or("right");
-  setup.record_camera = options.record_camera;
-  if (has_person(setup))
-    setup.keys = options.keys || purpose_of(options, setup) == Purpose::test ? "yes" : "no";
-  complete_and_tell(setup);
-  setup.protocol_file = std::filesystem::absolute(options.protocol).lexically_normal().string();
-  setup.backup = backup_folder(options.elsewhere);
-  add_questionnaires(setup, request.protocol, texts);
-  check(setup, request.protocol);
-  request.setup = in_force(std::move(setup), request.protocol);
-  request.participant = options.participant.value();
+  const SessionOptions given = session_options(options);
+  SessionRequest request{resolve(given, load_protocol(options.protocol, given.settings),
+                                 options.seed ? *options.seed : fresh_seed()),
+                         options.participant.value(), options.db.value(), purpose_of(options)};
   request.participant_info = options.participant_info;
-  request.db = options.db.value();
-  request.seed = options.seed.value_or(fresh_seed());
-  request.purpose = purpose_of(options, request.setup);
   request.again = options.again;
+  tell_camera_file(given, request.config->config);
   return request;
 }
 
@@ -109,23 +99,22 @@ void fill_from(const StudyPlan& plan, RunOptions& options) {
     if (!given) given = planned;
   };
   fill(options.db, plan.db);
-  fill(options.given.display,
-       plan.display ? std::optional(fmt::format("{}", *plan.display)) : std::nullopt);
+  if (!options.given.display && plan.display) options.given.display = NamedDisplay{*plan.display};
   fill(options.given.display_file, plan.display_file);
-  if (options.elsewhere.backup.empty()) options.elsewhere.backup = plan.backup.value_or("");
+  if (options.given.backup.empty()) options.given.backup = plan.backup.value_or("");
 }
 
 void give_place(const StudyPlan& plan, const PlannedParticipant& planned, RunOptions& options) {
   const StudyGroup& group = plan.groups[static_cast<std::size_t>(planned.place.group)];
   options.participant = planned.id;
   options.protocol = group.protocol;
-  if (!options.language) options.language = group.language;
+  if (!options.given.language) options.given.language = group.language;
   const auto& order = plan.orders[static_cast<std::size_t>(planned.place.order)];
   if (!order.empty()) {
-    for (const std::string& setting : options.given.settings)
-      if (setting.starts_with("block_order"))
+    for (const ProtocolSetting& setting : options.given.settings)
+      if (setting.key == order_key)
         throw Error(fmt::format("the plan {} gives the order of blocks, expected no --set {}",
-                                options.plan, setting),
+                                options.plan, to_text(setting)),
                     ExitCode::usage);
     options.given.settings.push_back(order_setting(order));
   }
@@ -200,8 +189,7 @@ void take_from_plan(RunOptions& options) {
   const StudyPlan plan = load_study(options.plan);
   fill_from(plan, options);
   if (!options.db) options.db = usual_db;
-  const SessionConfig setup = with_defaults(options.given);
-  const Purpose purpose = has_person(setup) ? purpose_of(options, setup) : Purpose::simulated;
+  const Purpose purpose = is_persons(options) ? purpose_of(options) : Purpose::simulated;
   const std::vector<SessionRow> sessions = sessions_in(*options.db);
   const PlannedParticipant planned =
       planned_participant(plan, sessions, purpose, options.participant);
@@ -275,17 +263,17 @@ void run(RunOptions options) {
   const SessionRequest request = request_of(options);
   refuse_near_id(options);
   say("participant {}, protocol {}, responder {}, seed {}\n", request.participant,
-      request.protocol.name, request.setup.responder, request.seed);
-  tell_simulator(request.protocol, request.setup);
-  if (is_dragged(request.setup))
+      request.config->protocol->name, to_text(request.config->config.responder),
+      request.config->seed);
+  tell_simulator(request.config);
+  if (request.config->tracker->is_dragged)
     say("heft: you drag the effector in the window (tracker mouse): mouse or finger, the wheel "
         "turns it. This is to try and to teach; the log and every report say so\n");
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
-  say_finished(
-      run_session({request.protocol, request.setup, request.db, options.unblind, options.go_on,
-                   options.elsewhere.events, place_words(options.participant_info)},
-                  start),
-      request.db);
+  say_finished(run_session({request.config, request.db, options.unblind, options.go_on,
+                            options.events, place_words(options.participant_info)},
+                           start),
+               request.db);
 }
 
 }  // namespace
@@ -319,11 +307,13 @@ void add_run(Command& app) {
                      "heft.db)");
   command.add_seed(options->seed);
   add_session_options(command, options->given);
-  add_elsewhere_options(command, options->elsewhere);
+  add_elsewhere_options(command, options->given.backup, options->events);
   command.group("The protocol and the log");
   command.add_option("--simulator", &options->given.simulator, "instead of the protocol's");
-  add_settings(command, options->given.settings);
-  command.add_option("--language", &options->language,
+  add_settings(command, options->given.settings,
+               "change a key of the protocol, such as coupling.stiffness_n_per_m=100; kept with "
+               "the session");
+  command.add_option("--language", &options->given.language,
                      "of the participant's screens: en, fr, or a text FILE.toml (default: the "
                      "protocol's)");
   command.add_flag("--keys", options->keys,
@@ -351,7 +341,7 @@ void add_run(Command& app) {
           "of a person's session; analyse keeps them apart; with --tracker mouse it is test "
           "unless told (default: main)")
       .one_of({"main", "pilot", "test"});
-  command.add_option("--record-camera", &options->record_camera,
+  command.add_option("--record-camera", &options->given.record_camera,
                      "keep the camera's pictures in this folder, their times in its times.csv; "
                      "without it none are kept. Of a synthetic camera truth.csv has the exact "
                      "poses: frame (from 0), t_s, and x_m...camera_qz as in heft track");

@@ -15,8 +15,8 @@ namespace {
 // Of the protocol as the session has it, with its settings.
 std::optional<double> planned_trials(const LogReader& reader, const SessionRow& row) try {
   const auto setups = reader.setups(row.session_id);
-  const std::vector<std::string> settings =
-      setups.empty() ? std::vector<std::string>{} : settings_of(setups.front().setup);
+  const auto settings =
+      setups.empty() ? std::vector<ProtocolSetting>{} : setups.front().setup.settings;
   return expected_length(
              parse_protocol(row.header.protocol_text, row.header.protocol_name, settings))
       .trials;

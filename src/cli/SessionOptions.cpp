@@ -2,16 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <filesystem>
-#include <span>
-#include <vector>
 
 #include "apparatus/EventOutlet.h"
 #include "base/DefaultTechniques.h"
 #include "base/Error.h"
 #include "base/PlugTable.h"
-#include "cli/Installation.h"
 #include "cli/Terminal.h"
 #include "cli/TerminalConsole.h"
 #include "physics/DecouplingSimulator.h"
@@ -24,72 +20,113 @@
 namespace heft::cli {
 
 namespace {
-struct SessionOption {
-  const char* name;
-  std::optional<std::string> GivenOptions::*given;
-  const char *help, *without_it;
-};
+// A function that reads an option's text into `value`.
+template <typename Value>
+ReadsText reads(std::string option, Value& value, const char* expected) {
+  return {[option = std::move(option), &value, expected](const std::string& text) {
+    Value read{};
+    if (!from_text(text, read))
+      throw Error(fmt::format("{} {}: expected {}", option, text, expected), ExitCode::usage);
+    value = std::move(read);
+  }};
+}
 
-constexpr std::array who_and_what{
-    SessionOption{"--responder", &GivenOptions::responder,
-                  "human, or a model: NAME or NAME:FILE (heft doctor lists them)", "human"},
-    SessionOption{
-        "--tracker", &GivenOptions::tracker,
-        "where effector poses come from: camera:N, video:FILE, frames:FOLDER, synthetic (a "
-        "rendered camera films a model's hand; synthetic:FILE.toml says what it gets wrong, "
-        "as protocols/apparatus/synthetic_camera.toml explains), hand (that hand as it is), mouse "
-        "(you drag the effector in the window with the mouse or a finger and turn it with the "
-        "wheel: to try and to teach without a print)",
-        "camera:0 for a person, hand for a model"},
-    SessionOption{"--view", &GivenOptions::view,
-                  "what shows the session: window, headless, video:FILE",
-                  "window for a person, headless for a model"}};
+void refuse_unfinished(const std::string& option, const std::string& text) {
+  if (text.ends_with(':'))
+    throw Error(fmt::format("{0} {1}: nothing follows the colon, expected {2} or {1}FILE", option,
+                            text, text.substr(0, text.size() - 1)),
+                ExitCode::usage);
+}
 
-constexpr std::array display_options{
-    SessionOption{"--display", &GivenOptions::display,
-                  "the number of the display that the window is on (heft doctor lists them)", "0"},
-    SessionOption{"--display-file", &GivenOptions::display_file,
-                  "the measured display, from heft calibrate display",
-                  "display.toml in this folder, if there is one"}};
+template <typename Value>
+ReadsText reads_plug(const std::string& option, std::optional<Value>& plug) {
+  return {[option, &plug](const std::string& text) {
+    refuse_unfinished(option, text);
+    from_text(text, plug.emplace());
+  }};
+}
 
-constexpr std::array apparatus_options{
-    SessionOption{"--camera-file", &GivenOptions::camera_file,
-                  "the camera's calibration, from heft calibrate camera",
-                  "camera.yaml in this folder, for synthetic and mouse a made-up one"},
-    SessionOption{"--board", &GivenOptions::board_file, "the printed board",
-                  "protocols/apparatus/board.toml"},
-    SessionOption{"--effector", &GivenOptions::effector_file, "the effector's tags",
-                  "protocols/apparatus/effector.toml"}};
-
-void add_options(Command& command, GivenOptions& given, std::span<const SessionOption> options,
-                 bool stay) {
-  for (const SessionOption& option : options)
-    command.add_option(
-        option.name, &(given.*option.given),
-        stay ? option.help : fmt::format("{} (default: {})", option.help, option.without_it));
+std::string with_default(const char* help, const char* without_it, bool stay) {
+  return stay ? help : fmt::format("{} (default: {})", help, without_it);
 }
 }  // namespace
 
-void add_apparatus_options(Command& command, GivenOptions& given) {
-  command.group("Apparatus");
-  add_options(command, given, apparatus_options, false);
+Option add_plug(Command& command, const std::string& name, std::optional<Plug>& plug,
+                const std::string& help) {
+  return command.add_option(name, reads_plug(name, plug), help);
 }
 
-void add_session_options(Command& command, GivenOptions& given, bool stay) {
+Option add_responder(Command& command, std::optional<WhoAnswers>& responder,
+                     const std::string& help) {
+  return command.add_option("--responder", reads_plug("--responder", responder), help);
+}
+
+namespace {
+void add_files_of_apparatus(Command& command, SessionOptions& given, bool stay) {
+  command.add_option("--camera-file", &given.camera_file,
+                     with_default("the camera's calibration, from heft calibrate camera",
+                                  "camera.yaml in this folder, for synthetic and mouse a made-up "
+                                  "one",
+                                  stay));
+  command.add_option("--board", &given.board_file,
+                     with_default("the printed board", "protocols/apparatus/board.toml", stay));
+  command.add_option(
+      "--effector", &given.effector_file,
+      with_default("the effector's tags", "protocols/apparatus/effector.toml", stay));
+}
+}  // namespace
+
+void add_apparatus_options(Command& command, SessionOptions& given) {
+  command.group("Apparatus");
+  add_files_of_apparatus(command, given, false);
+}
+
+void add_session_options(Command& command, SessionOptions& given, bool stay) {
   command.group(stay ? "What is another from here on (the rest stays as it was)"
                      : "Who answers, what films, what shows");
-  add_options(command, given, who_and_what, stay);
+  add_responder(
+      command, given.responder,
+      with_default("human, or a model: NAME or NAME:FILE (heft doctor lists them)", "human", stay));
+  add_plug(
+      command, "--tracker", given.tracker,
+      with_default(
+          "where effector poses come from: camera:N, video:FILE, frames:FOLDER, synthetic (a "
+          "rendered camera films a model's hand; synthetic:FILE.toml says what it gets wrong, "
+          "as protocols/apparatus/synthetic_camera.toml explains), hand (that hand as it is), "
+          "mouse "
+          "(you drag the effector in the window with the mouse or a finger and turn it with the "
+          "wheel: to try and to teach without a print)",
+          "camera:0 for a person, hand for a model", stay));
+  add_plug(command, "--view", given.view,
+           with_default("what shows the session: window, headless, video:FILE",
+                        "window for a person, headless for a model", stay));
   if (!stay) command.group("Apparatus");
-  add_options(command, given, apparatus_options, stay);
-  add_options(command, given, display_options, stay);
+  add_files_of_apparatus(command, given, stay);
+  command.add_option(
+      "--display",
+      reads("--display", given.display, "the number of a display, from 0 (heft doctor lists them)"),
+      with_default("the number of the display that the window is on (heft doctor "
+                   "lists them)",
+                   "0", stay));
+  command.add_option("--display-file", &given.display_file,
+                     with_default("the measured display, from heft calibrate display",
+                                  "display.toml in this folder, if there is one", stay));
   command.add_flag("--windowed", given.windowed,
                    "the window does not fill the display; F11 changes that, too");
 }
 
-void add_settings(Command& command, std::vector<std::string>& settings) {
-  command.add_option("--set", &settings,
-                     "change a key of the protocol, such as coupling.stiffness_n_per_m=100; kept "
-                     "with the session");
+void add_settings(Command& command, std::vector<ProtocolSetting>& settings,
+                  const std::string& help) {
+  const auto read = [&settings](const std::string& text) {
+    ProtocolSetting setting;
+    if (!from_text(text, setting) || text.find('\n') != std::string::npos)
+      throw Error(fmt::format("--set {}: expected KEY=VALUE in a line as in "
+                              "coupling.stiffness_n_per_m=100 or block.sorting.trials=4",
+                              text),
+                  ExitCode::usage);
+    settings.push_back(std::move(setting));
+  };
+  command.add_option("--set", ReadsText{read, true}, help);
 }
 
 void add_go_on(Command& command, bool& go_on) {
@@ -98,49 +135,21 @@ void add_go_on(Command& command, bool& go_on) {
                    "to ask at; it is logged");
 }
 
-void add_elsewhere_options(Command& command, Elsewhere& elsewhere) {
+void add_elsewhere_options(Command& command, std::string& backup, std::string& events) {
   command.group("Backups and other recorders");
   command.add_option(
-      "--backup", &elsewhere.backup,
+      "--backup", &backup,
       "a folder, best on another disk: after the session a copy of the log is put "
       "there and checked (default: the study plan's; of a session that goes on, the one it had)");
-  command.add_option("--events", &elsewhere.events,
+  command.add_option("--events", &events,
                      "udp:HOST:PORT, fifo:PATH or serial:DEVICE: a line of JSON for each event, "
                      "once it is in the log, with its t_s and UTC; the session never waits for it");
 }
 
-namespace {
-// What was given, or the file that comes with the program; looked for only where it is needed.
-std::string or_shipped(const std::optional<std::string>& given, const char* shipped) {
-  return given ? *given : installed_file(shipped);
-}
-}  // namespace
-
-SessionConfig with_defaults(const GivenOptions& given) {
-  SessionConfig options;
-  options.responder = given.responder.value_or("human");
-  const bool person = has_person(options);
-  options.tracker = given.tracker.value_or(person ? "camera:0" : "hand");
-  options.view = given.view.value_or(person ? "window" : "headless");
-  options.simulator = given.simulator.value_or("");
-  options.display = given.display.value_or("");
-  options.display_file = given.display_file.value_or("");
-  if (given.windowed) options.window = "window";
-  options.settings = fmt::format("{}", fmt::join(given.settings, "\n"));
-  const std::string tracker = split_name(options.tracker).name;
-  const bool synthetic = tracker == "synthetic" || tracker == "mouse";
-  options.camera_file =
-      synthetic ? or_shipped(given.camera_file, "protocols/apparatus/synthetic_camera.yaml")
-                : given.camera_file.value_or("");
-  options.board_file = or_shipped(given.board_file, "protocols/apparatus/board.toml");
-  options.effector_file = or_shipped(given.effector_file, "protocols/apparatus/effector.toml");
-  return options;
-}
-
-void complete_and_tell(SessionConfig& options) {
-  const bool named = !options.camera_file.empty();
-  complete(options);
-  if (!named && !options.camera_file.empty()) say("camera calibration: {}\n", default_camera_file);
+void tell_camera_file(const SessionOptions& given, const SessionConfig& config) {
+  const auto usual = std::filesystem::absolute(default_camera_file).lexically_normal();
+  if (!given.camera_file && config.camera.path == usual)
+    say("camera calibration: {}\n", default_camera_file);
 }
 
 void warn_of_simulator(const std::string& name) {
@@ -148,12 +157,12 @@ void warn_of_simulator(const std::string& name) {
   if (!entry.warning.empty()) say("heft: {} {}\n", entry.name, entry.warning);
 }
 
-void tell_simulator(const Protocol& protocol, const SessionConfig& options) {
-  const SimulatorChoice simulator = protocol_for(protocol, options)->simulator;
-  if (!options.simulator_why.empty())
-    say("heft: {}\n", heft::described({simulator.name, simulator.rate_hz, options.simulator_why}));
+void tell_simulator(const ResolvedConfig& config) {
+  const SimulatorChoice& simulator = config->protocol->simulator;
+  if (const std::string& why = config->config.simulator_why; !why.empty())
+    say("heft: {}\n", heft::described({simulator.name, simulator.rate_hz, why}));
   warn_of_simulator(simulator.name);
-  for (const std::string& caution : cautions(protocol)) say("heft: {}\n", caution);
+  for (const std::string& caution : cautions(*config->protocol)) say("heft: {}\n", caution);
 }
 
 // Simulators for one stroke alone; and over video people see how far the clone is from the
@@ -195,20 +204,6 @@ std::vector<std::string> cautions(const Protocol& protocol) {
   return found;
 }
 
-std::string texts_file(const std::string& language) {
-  if (language.ends_with(".toml")) return language;
-  const std::filesystem::path folder =
-      std::filesystem::path(installed_file("protocols/texts/en.toml")).parent_path();
-  std::vector<std::string> shipped;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".toml") shipped.push_back(entry.path().stem().string());
-  std::ranges::sort(shipped);
-  if (std::ranges::find(shipped, language) == shipped.end())
-    throw unknown_name("language", language,
-                       std::vector<std::string_view>(shipped.begin(), shipped.end()));
-  return (folder / (language + ".toml")).string();
-}
-
 void back_up_and_tell(const std::string& db, const std::string& folder, std::int64_t session_id) {
   if (folder.empty()) return;
   try {
@@ -219,11 +214,6 @@ void back_up_and_tell(const std::string& db, const std::string& folder, std::int
         "copy that file to a safe place: cp {} FOLDER\n",
         session_id, error.what(), db, shell_quoted(db));
   }
-}
-
-std::string backup_folder(const Elsewhere& elsewhere) {
-  if (elsewhere.backup.empty()) return "";
-  return std::filesystem::absolute(elsewhere.backup).lexically_normal().string();
 }
 
 namespace {
@@ -267,17 +257,17 @@ SessionResult run_session(const CommandedSession& session,
                           const std::function<SessionResult(const RunnerOptions&)>& run) {
   std::optional<EventOutlet> events;
   if (!session.events.empty()) events.emplace(session.events);
-  check_backup(session.setup.backup);
+  check_backup(session.config->config.backup);
   const StopOnSignal stop_on_signal;
   ProgressBar bar("session");
   std::optional<TerminalConsole> console;
-  const double expected = expected_length(session.protocol).trials;
+  const double expected = expected_length(*session.config->protocol).trials;
   RunnerOptions options;
   options.stop = &stop_on_signal.requested();
   options.go_on_unchecked = session.go_on_unchecked;
   options.events = events ? &*events : nullptr;
   options.tell = [](const std::string& text) { say("heft: {}\n", text); };
-  if (runs_on_wall_clock(session.setup))
+  if (runs_on_wall_clock(session.config->config))
     options.console = &console.emplace(expected, session.unblind, session.place);
   else  // nothing that would unblind whoever watches: no mass, level, condition or correctness
     options.progress = [&](const Engine& engine) {
@@ -292,12 +282,12 @@ SessionResult run_session(const CommandedSession& session,
     result = run(options);
   } catch (...) {  // what went wrong is told below the backup, where it stays in sight
     console.reset();
-    if (begun > 0) back_up_and_tell(session.db, session.setup.backup, begun);
+    if (begun > 0) back_up_and_tell(session.db, session.config->config.backup, begun);
     throw;
   }
   console.reset();
   if (events) tell_dropped(*events, session.events);
-  back_up_and_tell(session.db, session.setup.backup, result.session_id);
+  back_up_and_tell(session.db, session.config->config.backup, result.session_id);
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
   if (result.end == RunEnd::stopped)

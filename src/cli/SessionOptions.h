@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apparatus/SessionSetup.h"
+#include "apparatus/configuration/ResolvedConfig.h"
 #include "cli/CommandLine.h"
 #include "protocol/Protocol.h"
 
@@ -18,50 +18,43 @@ struct SessionResult;
 
 namespace heft::cli {
 
+// The text of these options is read where the command line is, and nowhere else.
+
+/// NAME or NAME:WHAT
+Option add_plug(Command& command, const std::string& name, std::optional<Plug>& plug,
+                const std::string& help);
+
+/// human, NAME or NAME:FILE
+Option add_responder(Command& command, std::optional<WhoAnswers>& responder,
+                     const std::string& help);
+
 /// --camera-file, --board, --effector
-void add_apparatus_options(Command& command, GivenOptions& given);
+void add_apparatus_options(Command& command, SessionOptions& given);
 
 /// --set
-void add_settings(Command& command, std::vector<std::string>& settings);
+void add_settings(Command& command, std::vector<ProtocolSetting>& settings,
+                  const std::string& help);
 
 /// --responder, --tracker, --view and those of the apparatus.
 /// @param stay what is not given stays as the session has it; otherwise --help tells the defaults
-void add_session_options(Command& command, GivenOptions& given, bool stay = false);
+void add_session_options(Command& command, SessionOptions& given, bool stay = false);
 
-/// A person is filmed and has a window; a model is neither unless somebody says so. Files of the
-/// apparatus that are not given are the shipped ones; a real camera's calibration never is, it
-/// stays empty.
-SessionConfig with_defaults(const GivenOptions& given);
-
-/// Completes the options, and says on stderr which calibration is taken where nobody named one.
-/// @throws Error as complete()
-void complete_and_tell(SessionConfig& options);
+/// Says on stderr which calibration is taken where none was named.
+void tell_camera_file(const SessionOptions& given, const SessionConfig& config);
 
 /// Says on stderr what is known to be wrong with a simulator, if anything.
 void warn_of_simulator(const std::string& name);
 
 /// The same of the simulator that a session starts with, and the protocol's cautions; of `auto`,
 /// which the options have resolved, what it is and why.
-void tell_simulator(const Protocol& protocol, const SessionConfig& options);
+void tell_simulator(const ResolvedConfig& config);
 
 /// What somebody should know before using a valid protocol, a sentence each; mostly nothing.
 std::vector<std::string> cautions(const Protocol& protocol);
 
-/// A file of protocols/texts/ by its language, or any other by its path.
-/// @throws Error (usage) naming the languages that there are
-std::string texts_file(const std::string& language);
-
-/// Where a session's events and copies go beside its log; empty: nowhere.
-struct Elsewhere {
-  std::string backup;  ///< folder
-  std::string events;  ///< as EventOutlet takes it
-};
-
-/// The folder of a session's copies as its setup keeps it; empty stays that.
-std::string backup_folder(const Elsewhere& elsewhere);
-
 /// --backup, --events
-void add_elsewhere_options(Command& command, Elsewhere& elsewhere);
+/// @param events as EventOutlet takes it; empty: nowhere
+void add_elsewhere_options(Command& command, std::string& backup, std::string& events);
 
 /// Puts a copy of the log there and says where, or loudly that there is none: that harms no
 /// session, but somebody has to know it.
@@ -72,12 +65,11 @@ void back_up_and_tell(const std::string& db, const std::string& folder, std::int
 void say_finished(const SessionResult& result, const std::string& db);
 
 struct CommandedSession {
-  const Protocol& protocol;
-  const SessionConfig& setup;
+  const ResolvedConfig& config;
   std::string db;
   bool unblind = false;
   bool go_on_unchecked = false;
-  std::string events = {};  ///< as Elsewhere has it
+  std::string events = {};  ///< as EventOutlet takes it
   std::string place = {};   ///< in a study, "7 of 24"
 };
 

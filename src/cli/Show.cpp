@@ -111,14 +111,16 @@ std::string in_short(const SessionConfig& setup) {
     return hz ? fmt::format(" at {} Hz", *hz) : std::string{};
   };
   const std::string simulator = setup.simulator.empty() ? "of the protocol" : setup.simulator;
-  std::string told = fmt::format("responder {}, tracker {}, simulator {}{}, view {}{}",
-                                 escaped_line(setup.responder), escaped_line(setup.tracker),
-                                 escaped_line(simulator), often(setup.rate_hz),
-                                 escaped_line(setup.view), often(setup.display_rate_hz));
-  for (const auto& [name, value] :
-       {std::pair{"input", setup.input}, {"display", setup.display}, {"language", setup.language}})
+  std::string told = fmt::format(
+      "responder {}, tracker {}, simulator {}{}, view {}{}", escaped_line(to_text(setup.responder)),
+      escaped_line(to_text(setup.tracker)), escaped_line(simulator), often(setup.rate_hz),
+      escaped_line(to_text(setup.view)), often(setup.display_rate_hz));
+  for (const auto& [name, value] : {std::pair{"input", setup.input},
+                                    {"display", to_text(setup.display)},
+                                    {"language", setup.language}})
     if (!value.empty()) told += fmt::format(", {} {}", name, escaped_line(value));
-  for (const std::string& setting : settings_of(setup)) told += ", set " + escaped_line(setting);
+  for (const ProtocolSetting& setting : setup.settings)
+    told += ", set " + escaped_line(to_text(setting));
   return told;
 }
 

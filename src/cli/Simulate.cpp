@@ -2,13 +2,11 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "base/Error.h"
 #include "cli/Commands.h"
-#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "session/Simulation.h"
@@ -18,34 +16,28 @@ namespace heft::cli {
 namespace {
 
 struct SimulateOptions {
-  std::string protocol, responder = "simulated", simulator, db = "heft.db";
+  std::string protocol, db = "heft.db";
+  SessionOptions given;
   std::optional<std::uint64_t> seed;
   int participants = 13;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool frames = false;
-  std::vector<std::string> settings;
 };
 
 void simulate_participants(const SimulateOptions& options) {
-  SimulationRequest request;
-  request.protocol = load_protocol(options.protocol, options.settings);
-  SessionConfig setup;
-  setup.responder = options.responder;
-  setup.simulator = options.simulator;
-  setup.settings = fmt::format("{}", fmt::join(options.settings, "\n"));
-  complete(setup);
-  setup.protocol_file = std::filesystem::absolute(options.protocol).lexically_normal().string();
-  add_questionnaires(setup, request.protocol, texts_file(request.protocol.screens.language));
-  check(setup, request.protocol);
-  request.setup = in_force(std::move(setup), request.protocol);
+  SessionOptions given = options.given;
+  if (!given.responder) given.responder = Plug{"simulated"};
+  given.protocol_file = options.protocol;
+  SimulationRequest request{resolve(given, load_protocol(options.protocol, given.settings),
+                                    options.seed ? *options.seed : fresh_seed())};
   request.db = options.db;
-  request.seed = options.seed.value_or(fresh_seed());
   request.participants = options.participants;
   request.jobs = options.jobs;
   request.keep_frames = options.frames;
   say("{} participants, protocol {}, responder {}, seed {}\n", request.participants,
-      request.protocol.name, request.setup.responder, request.seed);
-  tell_simulator(request.protocol, request.setup);
+      request.config->protocol->name, to_text(request.config->config.responder),
+      request.config->seed);
+  tell_simulator(request.config);
 
   const StopOnSignal stop;
   const auto started = std::chrono::steady_clock::now();
@@ -85,9 +77,8 @@ void add_simulate(Command& app) {
        "heft simulate protocols/jnd.toml --responder coin --participants 100 --jobs 2 --seed 1",
        "heft simulate protocols/jnd.toml --responder simulated:mine.toml --participants 50"});
   command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
-  command
-      .add_option("--responder", &options->responder, "NAME or NAME:FILE (heft doctor lists them)")
-      .shows_default();
+  add_responder(command, options->given.responder,
+                "NAME or NAME:FILE (heft doctor lists them; default: simulated)");
   command.add_option("--participants", &options->participants, "how many")
       .whole_number(1, 1'000'000)
       .shows_default();
@@ -98,10 +89,12 @@ void add_simulate(Command& app) {
   command.add_option("--db", &options->db, "the log; an existing one gets more sessions")
       .shows_default();
   command.add_seed(options->seed);
-  command.add_option("--simulator", &options->simulator, "instead of the protocol's");
+  command.add_option("--simulator", &options->given.simulator, "instead of the protocol's");
   command.add_flag("--frames", options->frames,
                    "store every displayed frame too (about 10 MB a session)");
-  add_settings(command, options->settings);
+  add_settings(command, options->given.settings,
+               "change a key of the protocol, such as coupling.stiffness_n_per_m=100; kept with "
+               "the sessions");
   command.does([options] { simulate_participants(*options); });
 }
 

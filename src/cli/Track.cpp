@@ -81,8 +81,9 @@ TakenPicture read_picture(const std::string& file, double t_s, const Intrinsics&
   }
 }
 
-void each_of_camera(const std::string& source, const TakePicture& take) {
-  const auto camera = open_camera(source);
+void each_of_camera(const std::string& kind, const std::string& what, const TakePicture& take) {
+  const auto camera = open_camera(kind, what);
+  const std::string source = kind + ":" + what;
   while (!camera->ended()) {
     try {
       const auto picture = camera->next(0);
@@ -99,8 +100,8 @@ void each_picture(const TrackOptions& options, const Intrinsics& camera, const T
   const std::vector<std::string>& frames = options.frames;
   const bool one = frames.size() == 1;
   if (one && std::filesystem::is_directory(frames[0]))
-    return each_of_camera("frames:" + frames[0], take);
-  if (one && !is_image_file(frames[0])) return each_of_camera("video:" + frames[0], take);
+    return each_of_camera("frames", frames[0], take);
+  if (one && !is_image_file(frames[0])) return each_of_camera("video", frames[0], take);
   for (std::size_t i = 0; i < frames.size(); ++i)
     take(read_picture(frames[i], static_cast<double>(i) / options.rate_hz, camera));
 }

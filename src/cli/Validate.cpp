@@ -11,12 +11,11 @@
 #include <numbers>
 #include <set>
 
-#include "apparatus/SessionSetup.h"
+#include "apparatus/configuration/Texts.h"
 #include "base/Error.h"
 #include "base/PlugTable.h"
 #include "base/TextFile.h"
 #include "cli/Commands.h"
-#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
 #include "cli/Terminal.h"
 #include "cli/WordCheck.h"
@@ -38,9 +37,8 @@ namespace {
 // Trials that a simulated participant takes; none where there is no end to them.
 std::optional<int> simulated_trials(const Protocol& protocol, std::uint64_t seed) {
   constexpr int enough_trials = 2000;
-  SessionConfig setup;
-  setup.responder = "simulated";
-  complete(setup);
+  SessionOptions given;
+  given.responder = Plug{"simulated"};
   std::atomic<bool> stop = false;
   int n_trials = 0;
   RunnerOptions options;
@@ -50,7 +48,7 @@ std::optional<int> simulated_trials(const Protocol& protocol, std::uint64_t seed
     n_trials = engine.n_completed();
     if (n_trials >= enough_trials) stop = true;
   };
-  compute_session({protocol, in_force(std::move(setup), protocol), "validate", "", seed}, options);
+  compute_session({resolve(given, protocol, seed), "validate", ""}, options);
   return stop ? std::nullopt : std::optional(n_trials);
 }
 

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <map>
 
+#include "apparatus/configuration/Texts.h"
 #include "base/Printable.h"
 #include "base/TextFile.h"
-#include "cli/Questionnaires.h"
 #include "cli/SessionOptions.h"
-#include "experiment/SessionConfig.h"
 #include "protocol/Files.h"
 #include "protocol/Protocol.h"
 #include "view/screens/TextFit.h"
@@ -65,15 +64,13 @@ struct SessionWords {
 
 SessionWords words_of(const Protocol& protocol, const std::string& protocol_file,
                       const std::string& language) {
-  SessionConfig setup;
-  setup.texts_file = texts_file(language);
-  setup.texts_text = read_text_file(setup.texts_file);
-  setup.protocol_file = protocol_file;
+  ConfigFile file{texts_file(language)};
+  file.text = read_text_file(file.path);
   SessionWords words;
-  for (const auto& [name, file] : add_questionnaires(setup, protocol, setup.texts_file))
-    words.file_of_page[questionnaire_page(name)] = file;
-  words.texts = parse_texts(setup.texts_text, setup.texts_file);
-  words.texts_file = setup.texts_file;
+  for (const auto& [name, from] : add_questionnaires(file, protocol_file, protocol))
+    words.file_of_page[questionnaire_page(name)] = from;
+  words.texts = parse_texts(file.text, file.path);
+  words.texts_file = file.path;
   return words;
 }
 

@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
+#include "base/Names.h"
 #include "base/PoseTypes.h"
 
 namespace heft {
@@ -45,13 +47,52 @@ struct Exactly {
 template <typename Pose>
 Exactly(Pose&) -> Exactly<Pose>;
 
-/// A text that is NULL in the log where it is empty.
-template <typename Text>
-struct NullIfEmpty {
-  Text& value;
+/// A value that is a text in the log, by the to_text() and from_text() of its type.
+template <typename Value>
+struct AsText {
+  Value& value;
 };
-template <typename Text>
-NullIfEmpty(Text&) -> NullIfEmpty<Text>;
+template <typename Value>
+AsText(Value&) -> AsText<Value>;
+
+/// The same, NULL in the log where the text is empty.
+template <typename Value>
+struct NullIfEmpty {
+  Value& value;
+};
+template <typename Value>
+NullIfEmpty(Value&) -> NullIfEmpty<Value>;
+
+inline std::string to_text(const std::string& text) {
+  return text;
+}
+template <typename Enum>
+requires std::is_enum_v<Enum> std::string to_text(Enum value) {
+  return std::string(name_of(value));
+}
+template <typename Value>
+std::string to_text(const std::optional<Value>& value) {
+  return value ? to_text(*value) : "";
+}
+
+// What a text does not say stays. @return false: no text of such a value
+
+inline bool from_text(std::string_view text, std::string& value) {
+  value = text;
+  return true;
+}
+template <typename Enum>
+requires std::is_enum_v<Enum>
+bool from_text(std::string_view text, Enum& value) {
+  const auto found = named<Enum>(text);
+  value = found.value_or(value);
+  return found.has_value();
+}
+template <typename Value>
+bool from_text(std::string_view text, std::optional<Value>& value) {
+  value.reset();
+  return text.empty() || from_text(text, value.emplace());
+}
 
 /// One of a row's poses by place, where there may be fewer.
 template <typename Poses>

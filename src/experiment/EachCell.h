@@ -32,8 +32,14 @@ class EachCell {
   void operator()(const LogColumn& column, const Field& field) {
     visit_(of(column), field);
   }
-  void operator()(const LogColumn& column, const NullIfEmpty<const std::string>& text) {
-    visit_(of(column), text.value.empty() ? std::nullopt : std::optional(text.value));
+  template <typename Value>
+  void operator()(const LogColumn& column, const NullIfEmpty<const Value>& field) {
+    const std::string text = to_text(field.value);
+    visit_(of(column), text.empty() ? std::nullopt : std::optional(text));
+  }
+  template <typename Value>
+  void operator()(const LogColumn& column, const AsText<const Value>& field) {
+    visit_(of(column), to_text(field.value));
   }
   void operator()(const PoseColumns& columns, const Exactly<const Pose>& pose) {
     const auto cells = cells_of(pose.value);

@@ -1,12 +1,14 @@
-// What is in force while a session runs: everything that it is run with and that could change on
-// the way. Told once, as the event `setup`; every trial points to the setup that it ran under, and
-// whoever wants to know (views, analysis, report, replay, desk) reads that alone.
+// What a session runs with and that could change: recorded as the event `setup` and in the table
+// `setup`. Every trial refers to the configuration that it ran under; views, analysis, report and
+// replay read nothing else. Text exists at the edges alone: to_text() and from_text() serve
+// columns, JSON and the command line.
 #pragma once
 
 #include <concepts>
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "experiment/Column.h"
@@ -14,62 +16,123 @@
 
 namespace heft {
 
+/// An entry of a plug table and what follows its colon: "video:session.mp4".
+struct Plug {
+  std::string name;
+  std::string what = {};  ///< a path, or the number of a live camera; empty: nothing follows
+  std::string text = {};  ///< contents of the file of settings that `what` names, if it does
+  bool operator==(const Plug&) const = default;
+};
+
+struct Person {
+  bool operator==(const Person&) const = default;
+};
+using WhoAnswers = std::variant<Person, Plug>;
+
+/// A file as it was read, so that a session resumes and is replayed without it.
+struct ConfigFile {
+  std::string path = {}, text = {}, sha256 = {};
+  bool operator==(const ConfigFile&) const = default;
+};
+
+/// A change to the protocol: --set KEY=VALUE.
+struct ProtocolSetting {
+  std::string key, value;
+  bool operator==(const ProtocolSetting&) const = default;
+};
+
+/// A display by its number, from 0, and the name that the window system gives it.
+struct NamedDisplay {
+  int number = 0;
+  std::string name = {};
+  bool operator==(const NamedDisplay&) const = default;
+};
+
+enum class Side { left, right };
+template <>
+struct EnumNames<Side> {
+  static constexpr std::array<std::string_view, 2> names{"left", "right"};
+};
+
+enum class WindowState { full_screen, windowed };
+template <>
+struct EnumNames<WindowState> {
+  static constexpr std::array<std::string_view, 2> names{"full screen", "window"};
+};
+
+/// Whether the participant's window takes keys as answers.
+enum class TakesKeys { no, yes };
+template <>
+struct EnumNames<TakesKeys> {
+  static constexpr std::array<std::string_view, 2> names{"no", "yes"};
+};
+
 struct SessionConfig {
   static constexpr EventType event_type{"setup", EventRole::setting};
-  std::string responder = "simulated";
-  std::string tracker = "hand";
-  std::string view = "headless";
+  WhoAnswers responder = Plug{"simulated"};
+  Plug tracker{"hand"};
+  Plug view{"headless"};
   std::string simulator;
   std::optional<int> simulator_edition;
   std::optional<double> rate_hz, display_rate_hz;
   std::string simulator_why;
-  std::string input;
+  std::string input;  ///< an InputMode's name; physics is not known here
   std::optional<double> predict_s;
   std::optional<double> source_rate_hz;
-  std::string settings;
-  std::string handed = "right";
-  std::string hand;
-  std::string window, display_file;
+  std::vector<ProtocolSetting> settings;
+  Side handed = Side::right;
+  std::optional<Side> hand;
+  std::optional<WindowState> window;
+  std::string display_file;
   std::optional<double> display_scale;
   std::string language;
-  std::string display;
+  std::optional<NamedDisplay> display;
   std::optional<int> display_w_px, display_h_px;
   std::optional<double> display_w_mm, display_h_mm, refresh_hz, eye_distance_mm;
-  std::string camera_file, camera_sha256;
-  std::string board_file, board_sha256;
-  std::string effector_file, effector_sha256;
-  std::string texts_file, texts_sha256;
+  ConfigFile camera, board, effector, texts;
   std::string record_camera;
   std::optional<double> gap_s, min_answer_s;
-  std::string keys;
+  std::optional<TakesKeys> keys;
   std::string heft_version, build;
   /// What a simulated participant was drawn as, by name; in a table of its own.
   std::map<std::string, double> participant_parameters;
-  // In the event, not in the table: where the protocol was read, so that what stands beside it is
-  // found; the folder that copies of the log are put to; and the files' contents, so that a session
-  // goes on and is replayed without them.
+  // In the event, not in the table: where the protocol was read, so that questionnaires beside it
+  // are found, and the folder that copies of the log are put into.
   std::string protocol_file, backup;
-  std::string responder_text, tracker_text, camera_text, board_text, effector_text, texts_text;
 
   static void event_columns(auto& setup, auto& row) { row.detail(setup); }
   bool operator==(const SessionConfig&) const = default;
 };
+
+// Their texts in columns, JSON and on the command line (Column.h). A plug's text keeps its
+// settings.
+
+std::string to_text(const Plug& plug);
+std::string to_text(const WhoAnswers& responder);
+std::string to_text(const ProtocolSetting& setting);
+std::string to_text(const std::vector<ProtocolSetting>& settings);  ///< a line each
+std::string to_text(const NamedDisplay& display);
+bool from_text(std::string_view text, Plug& plug);
+bool from_text(std::string_view text, WhoAnswers& responder);
+bool from_text(std::string_view text, ProtocolSetting& setting);
+bool from_text(std::string_view text, std::vector<ProtocolSetting>& settings);
+bool from_text(std::string_view text, NamedDisplay& display);
 
 /// Calls visit(column, field) for each column of the table `setup`.
 template <typename Row, typename Visit>
 requires std::same_as<std::remove_const_t<Row>, SessionConfig>
 void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"responder", "", "who answered: human, or a model NAME[:FILE]", 3},
-        row.responder);
+        AsText{row.responder});
   visit(LogColumn{"tracker", "", "where the effector's poses came from, NAME[:WHAT]", 3},
-        row.tracker);
+        AsText{row.tracker});
   visit(LogColumn{"simulator", "", "simulator of the decoupling; empty: the protocol's", 3},
         row.simulator);
   visit(LogColumn{"simulator_edition", "", "edition of that simulator", 3}, row.simulator_edition);
   visit(LogColumn{"rate_hz", "Hz", "steps of the simulator a second", 3}, row.rate_hz);
   visit(LogColumn{"display_rate_hz", "Hz", "frames displayed a second", 3}, row.display_rate_hz);
-  visit(LogColumn{"view", "", "what showed the frames, NAME[:FILE]", 3}, row.view);
-  visit(LogColumn{"display", "", "the display, by number and name", 3}, row.display);
+  visit(LogColumn{"view", "", "what showed the frames, NAME[:FILE]", 3}, AsText{row.view});
+  visit(LogColumn{"display", "", "the display, by number and name", 3}, AsText{row.display});
   visit(LogColumn{"display_w_px", "px", "width of the display", 3}, row.display_w_px);
   visit(LogColumn{"display_h_px", "px", "height of the display", 3}, row.display_h_px);
   visit(LogColumn{"display_w_mm", "mm", "width of the display", 3}, row.display_w_mm);
@@ -91,17 +154,17 @@ void visit_columns(Row& row, Visit&& visit) {
                 "pictures a second that the source gives; empty: as many as the display shows", 3},
       row.source_rate_hz);
   visit(LogColumn{"settings", "", "changes to the protocol by --set, one KEY=VALUE a line", 3},
-        row.settings);
+        AsText{row.settings});
   visit(LogColumn{"handed", "", "hand that the controls are laid out for: left, right", 3},
-        row.handed);
-  visit(LogColumn{"camera_file", "", "the camera's calibration", 3}, row.camera_file);
-  visit(LogColumn{"camera_sha256", "", "hash of its contents", 3}, row.camera_sha256);
-  visit(LogColumn{"board_file", "", "the board", 3}, row.board_file);
-  visit(LogColumn{"board_sha256", "", "hash of its contents", 3}, row.board_sha256);
-  visit(LogColumn{"effector_file", "", "the effector", 3}, row.effector_file);
-  visit(LogColumn{"effector_sha256", "", "hash of its contents", 3}, row.effector_sha256);
-  visit(LogColumn{"texts_file", "", "the participant's texts", 3}, row.texts_file);
-  visit(LogColumn{"texts_sha256", "", "hash of their contents", 3}, row.texts_sha256);
+        AsText{row.handed});
+  visit(LogColumn{"camera_file", "", "the camera's calibration", 3}, row.camera.path);
+  visit(LogColumn{"camera_sha256", "", "hash of its contents", 3}, row.camera.sha256);
+  visit(LogColumn{"board_file", "", "the board", 3}, row.board.path);
+  visit(LogColumn{"board_sha256", "", "hash of its contents", 3}, row.board.sha256);
+  visit(LogColumn{"effector_file", "", "the effector", 3}, row.effector.path);
+  visit(LogColumn{"effector_sha256", "", "hash of its contents", 3}, row.effector.sha256);
+  visit(LogColumn{"texts_file", "", "the participant's texts", 3}, row.texts.path);
+  visit(LogColumn{"texts_sha256", "", "hash of their contents", 3}, row.texts.sha256);
   visit(LogColumn{"record_camera", "", "folder that the camera's pictures are kept in", 3},
         row.record_camera);
   visit(
@@ -116,7 +179,7 @@ void visit_columns(Row& row, Visit&& visit) {
                   "whether the participant's window took keys: yes, no; empty: not told, or no "
                   "window",
                   4},
-        row.keys);
+        AsText{row.keys});
   visit(LogColumn{"hand", "", "hand that holds the effector: left, right; empty: not told", 4},
         NullIfEmpty{row.hand});
   visit(
@@ -135,20 +198,17 @@ void visit_contents(Row& row, Visit&& visit) {
   visit("participant_parameters", row.participant_parameters);
   visit("protocol_file", row.protocol_file);
   visit("backup", row.backup);
-  visit("responder_text", row.responder_text);
-  visit("tracker_text", row.tracker_text);
-  visit("camera_text", row.camera_text);
-  visit("board_text", row.board_text);
-  visit("effector_text", row.effector_text);
-  visit("texts_text", row.texts_text);
+  if (auto* model = std::get_if<Plug>(&row.responder)) visit("responder_text", model->text);
+  visit("tracker_text", row.tracker.text);
+  visit("camera_text", row.camera.text);
+  visit("board_text", row.board.text);
+  visit("effector_text", row.effector.text);
+  visit("texts_text", row.texts.text);
 }
-
-/// Its changes to the protocol, KEY=VALUE each.
-std::vector<std::string> settings_of(const SessionConfig& setup);
 
 /// A person answers, not a model.
 inline bool has_person(const SessionConfig& setup) {
-  return setup.responder == "human";
+  return std::holds_alternative<Person>(setup.responder);
 }
 
 }  // namespace heft

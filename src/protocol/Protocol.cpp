@@ -142,7 +142,7 @@ void read_layout(TableReader& reader, Layout& layout, int n_cubes) {
 }  // namespace
 
 Protocol parse_protocol(const std::string& text, const std::string& file,
-                        const std::vector<std::string>& settings) {
+                        const std::vector<ProtocolSetting>& settings) {
   Mistakes mistakes(file);
   TomlTable root = parse_toml(text, file);
   apply_settings(root, settings);
@@ -212,7 +212,7 @@ Scene scene_of(const Protocol& protocol, const std::string& technique,
   return scene;
 }
 
-Protocol load_protocol(const std::string& path, const std::vector<std::string>& settings) {
+Protocol load_protocol(const std::string& path, const std::vector<ProtocolSetting>& settings) {
   Protocol protocol = parse_protocol(read_text_file(path), path, settings);
   protocol.name = std::filesystem::path(path).stem().string();
   return protocol;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/SessionConfig.h"
 #include "experiment/Stage.h"
 #include "physics/DriveInput.h"
 #include "physics/Scene.h"
@@ -100,12 +101,12 @@ Scene scene_of(const Protocol& protocol, const std::string& technique,
                const std::vector<double>& masses_g);
 
 /// @param text contents of the file  @param file its name, for messages
-/// @param settings changes to it, each KEY=VALUE (Settings.h)
+/// @param settings changes to it
 /// @throws InvalidFile with every mistake at its line and column; Error for an unusable setting
 Protocol parse_protocol(const std::string& text, const std::string& file,
-                        const std::vector<std::string>& settings = {});
+                        const std::vector<ProtocolSetting>& settings = {});
 
 /// @throws Error when the file can't be read, InvalidFile as parse_protocol
-Protocol load_protocol(const std::string& path, const std::vector<std::string>& settings = {});
+Protocol load_protocol(const std::string& path, const std::vector<ProtocolSetting>& settings = {});
 
 }  // namespace heft

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/SessionConfig.h"
 #include "physics/Scene.h"
 #include "protocol/Protocol.h"
 #include "protocol/TableReader.h"
@@ -48,6 +49,6 @@ void read_block_order(TableReader& protocol, std::vector<Block>& blocks);
 /// Puts each setting's value, written as in TOML, at its place in the tree. A key that the tree
 /// does not hold is added, for the file's own reader to judge.
 /// @throws Error (usage) for a setting without "=", with a value that is no TOML, or on no table
-void apply_settings(TomlTable& root, const std::vector<std::string>& settings);
+void apply_settings(TomlTable& root, const std::vector<ProtocolSetting>& settings);
 
 }  // namespace heft

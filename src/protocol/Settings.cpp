@@ -8,14 +8,15 @@ namespace heft {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& setting, const std::string& why) {
+[[noreturn]] void refuse(const ProtocolSetting& setting, const std::string& why) {
   throw Error(fmt::format("--set {}: {}, expected KEY=VALUE as in "
                           "coupling.stiffness_n_per_m=100 or block.sorting.trials=4",
-                          setting, why),
+                          to_text(setting), why),
               ExitCode::usage);
 }
 
-TomlNode value_of(const std::string& setting, const std::string& text) {
+TomlNode value_of(const ProtocolSetting& setting) {
+  const std::string& text = setting.value;
   try {
     TomlTable table = parse_toml("value = " + text, "--set");
     if (table.size() == 1) return table.front().node;
@@ -44,7 +45,7 @@ bool is_called(TomlNode& node, const std::string& name) {
 
 // The table that `key` of `table` leads to; in an array of tables the next part names the element.
 TomlTable& descend(TomlTable& table, const std::string& key, std::vector<std::string>& rest,
-                   const std::string& setting) {
+                   const ProtocolSetting& setting) {
   TomlEntry* entry = entry_named(table, key);
   if (!entry)
     return std::get<TomlTable>(
@@ -62,17 +63,15 @@ TomlTable& descend(TomlTable& table, const std::string& key, std::vector<std::st
   refuse(setting, fmt::format("\"{}\" is no table", key));
 }
 
-void apply(TomlTable& root, const std::string& setting) {
-  const auto equals = setting.find('=');
-  if (equals == std::string::npos) refuse(setting, "there is no \"=\"");
+void apply(TomlTable& root, const ProtocolSetting& setting) {
   std::vector<std::string> path;
-  for (std::size_t from = 0; from <= equals;) {
-    const std::size_t dot = std::min(setting.find('.', from), equals);
-    path.push_back(setting.substr(from, dot - from));
+  for (std::size_t from = 0; from <= setting.key.size();) {
+    const std::size_t dot = std::min(setting.key.find('.', from), setting.key.size());
+    path.push_back(setting.key.substr(from, dot - from));
     if (path.back().empty()) refuse(setting, "a part of the key is empty");
     from = dot + 1;
   }
-  const TomlNode value = value_of(setting, setting.substr(equals + 1));
+  const TomlNode value = value_of(setting);
   TomlTable* table = &root;
   while (path.size() > 1) {
     const std::string key = path.front();
@@ -88,8 +87,8 @@ void apply(TomlTable& root, const std::string& setting) {
 
 }  // namespace
 
-void apply_settings(TomlTable& root, const std::vector<std::string>& settings) {
-  for (const std::string& setting : settings) apply(root, setting);
+void apply_settings(TomlTable& root, const std::vector<ProtocolSetting>& settings) {
+  for (const ProtocolSetting& setting : settings) apply(root, setting);
 }
 
 }  // namespace heft

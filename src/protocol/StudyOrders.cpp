@@ -110,11 +110,11 @@ std::string planned_id(const StudyPlan& plan, int number) {
   return fmt::format("{}{:0{}}", plan.id_prefix, number, digits);
 }
 
-std::string order_setting(const BlockOrder& order) {
-  if (order.empty()) return "";
+ProtocolSetting order_setting(const BlockOrder& order) {
+  if (order.empty()) return {};
   std::vector<std::string> quoted;
   for (const std::string& block : order) quoted.push_back(toml_text(block));
-  return fmt::format("{}=[{}]", order_key, fmt::join(quoted, ", "));
+  return {std::string(order_key), fmt::format("[{}]", fmt::join(quoted, ", "))};
 }
 
 std::string described(const BlockOrder& order) {

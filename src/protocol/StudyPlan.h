@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/Names.h"
+#include "experiment/SessionConfig.h"
 
 namespace heft {
 
@@ -66,7 +67,7 @@ std::string planned_id(const StudyPlan& plan, int number);
 
 /// The order as the protocol's key `block_order` has it: block_order=["a", "b"]. Empty: nothing to
 /// set.
-std::string order_setting(const BlockOrder& order);
+ProtocolSetting order_setting(const BlockOrder& order);
 inline constexpr std::string_view order_key = "block_order";
 
 /// "sorting, thresholds"; empty: as the protocol has them.

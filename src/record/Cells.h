@@ -59,6 +59,12 @@ class Cells {
     if (!skip_null()) read(value.emplace());
   }
 
+  /// A value from the text of the cell that was read last.
+  template <typename Value>
+  void read_as(Value& value, const std::string& text) {
+    if (!from_text(text, value)) refuse_name(text, "what heft writes");
+  }
+
   template <typename Enum>
   Enum name() {
     const std::string written = text();

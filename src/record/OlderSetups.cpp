@@ -2,84 +2,67 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "base/Error.h"
-#include "base/Names.h"
 #include "base/Sha256.h"
 #include "base/TextFile.h"
+#include "record/SetupJson.h"
 
 namespace heft {
 
 namespace {
 
-struct TextOption {
-  const char* name;
-  std::string SessionConfig::*value;
-};
-constexpr std::array text_options{TextOption{"responder", &SessionConfig::responder},
-                                  TextOption{"responder_text", &SessionConfig::responder_text},
-                                  TextOption{"tracker", &SessionConfig::tracker},
-                                  TextOption{"tracker_text", &SessionConfig::tracker_text},
-                                  TextOption{"view", &SessionConfig::view},
-                                  TextOption{"simulator", &SessionConfig::simulator},
-                                  TextOption{"auto_simulator", &SessionConfig::simulator},
-                                  TextOption{"auto_why", &SessionConfig::simulator_why},
-                                  TextOption{"camera_file", &SessionConfig::camera_file},
-                                  TextOption{"camera_text", &SessionConfig::camera_text},
-                                  TextOption{"board_file", &SessionConfig::board_file},
-                                  TextOption{"board_text", &SessionConfig::board_text},
-                                  TextOption{"effector_file", &SessionConfig::effector_file},
-                                  TextOption{"effector_text", &SessionConfig::effector_text},
-                                  TextOption{"texts_file", &SessionConfig::texts_file},
-                                  TextOption{"texts_text", &SessionConfig::texts_text},
-                                  TextOption{"handed", &SessionConfig::handed},
-                                  TextOption{"record_camera", &SessionConfig::record_camera}};
+using Json = nlohmann::ordered_json;
 
-void take(SessionConfig& setup, std::string_view option, const std::string& value) {
-  if (option == "auto_rate_hz") setup.rate_hz = number_in(value);
-  for (const TextOption& text : text_options)
-    // What `auto` was comes after `simulator`, which then says "auto"; elsewhere it is empty.
-    if (option == text.name && (option != "auto_simulator" || !value.empty()))
-      setup.*text.value = value;
+// Their options, all texts; setups have these under the same names, but for what `auto` was.
+constexpr std::array options{"responder",      "responder_text", "tracker",       "tracker_text",
+                             "view",           "simulator",      "camera_file",   "camera_text",
+                             "board_file",     "board_text",     "effector_file", "effector_text",
+                             "texts_file",     "texts_text",     "handed",        "record_camera",
+                             "auto_simulator", "auto_why",       "auto_rate_hz"};
+
+void take(Json& setup, std::string_view option, const std::string& value) {
+  if (option == "auto_why")
+    setup["simulator_why"] = value;
+  else if (option == "auto_rate_hz") {
+    if (const auto rate_hz = number_in(value)) setup["rate_hz"] = *rate_hz;
+  } else if (option == "auto_simulator") {  // comes after `simulator`, which then says "auto"
+    if (!value.empty()) setup["simulator"] = value;
+  } else if (std::ranges::find(options, option) != options.end()) {
+    setup[std::string(option)] = value;
+  }
 }
 
-std::string hash_of(const std::string& text) {
-  return text.empty() ? "" : sha256(text);
-}
-
-SessionConfig hashed(SessionConfig setup) {
-  setup.camera_sha256 = hash_of(setup.camera_text);
-  setup.board_sha256 = hash_of(setup.board_text);
-  setup.effector_sha256 = hash_of(setup.effector_text);
-  setup.texts_sha256 = hash_of(setup.texts_text);
-  return setup;
+SessionConfig config_in(const Json& json) {
+  SessionConfig config = setup_from_json(json.dump());
+  for (ConfigFile* file : {&config.camera, &config.board, &config.effector, &config.texts})
+    file->sha256 = file->text.empty() ? "" : sha256(file->text);
+  return config;
 }
 
 SessionConfig setup_in(const SessionHeader& header) try {
-  SessionConfig setup;
-  setup.simulator_edition = 1;
-  setup.heft_version = header.heft_version;
-  setup.build = header.build;
-  const auto json = nlohmann::json::parse(header.run_options);
-  for (const TextOption& text : text_options)
-    if (json.contains(text.name)) take(setup, text.name, json.at(text.name));
-  if (json.contains("auto_rate_hz")) take(setup, "auto_rate_hz", json.at("auto_rate_hz"));
-  return hashed(setup);
+  Json setup{
+      {"simulator_edition", 1}, {"heft_version", header.heft_version}, {"build", header.build}};
+  const auto json = Json::parse(header.run_options);
+  for (const char* option : options)
+    if (json.contains(option)) take(setup, option, json.at(option));
+  return config_in(setup);
 } catch (const nlohmann::json::exception& error) {
   throw Error(fmt::format("session.run_options is not what heft wrote: {}", error.what()),
               ExitCode::diverged);
 }
 
 // The setup after a deviation of that kind; none for any other deviation.
-std::optional<SessionConfig> after(const Deviation& deviation, SessionConfig setup) {
-  const auto json = nlohmann::json::parse(deviation.text, nullptr, false);
+std::optional<SessionConfig> after(const Deviation& deviation, const SessionConfig& config) {
+  const auto json = Json::parse(deviation.text, nullptr, false);
   if (!json.is_object() || !json.contains("option") || !json.contains("to")) return std::nullopt;
   if (!json["option"].is_string() || !json["to"].is_string()) return std::nullopt;
+  Json setup = Json::parse(to_json(config));
   take(setup, json["option"].get<std::string>(), json["to"]);
-  return hashed(std::move(setup));
+  return config_in(setup);
 }
 
 }  // namespace

@@ -42,8 +42,13 @@ class FillRow {
   void operator()(const LogColumn&, Field& field) {
     cells_.read(field);
   }
-  void operator()(const LogColumn&, const NullIfEmpty<std::string>& text) {
-    text.value = cells_.text_or_none().value_or("");
+  template <typename Value>
+  void operator()(const LogColumn&, const AsText<Value>& field) {
+    cells_.read_as(field.value, cells_.text());
+  }
+  template <typename Value>
+  void operator()(const LogColumn&, const NullIfEmpty<Value>& field) {
+    cells_.read_as(field.value, cells_.text_or_none().value_or(""));
   }
   void operator()(const PoseColumns&, const Exactly<Pose>& pose) { pose.value = cells_.pose(); }
   void operator()(const VelocityColumns&, const Exactly<Velocity>& velocity) {

@@ -20,8 +20,13 @@ struct Write {
   void operator()(const LogColumn& column, const Value& value) const {
     (*this)(column.name, value);
   }
-  void operator()(const LogColumn& column, const NullIfEmpty<const std::string>& text) const {
-    (*this)(column.name, text.value);
+  template <typename Value>
+  void operator()(const LogColumn& column, const NullIfEmpty<const Value>& field) const {
+    (*this)(column.name, to_text(field.value));
+  }
+  template <typename Value>
+  void operator()(const LogColumn& column, const AsText<const Value>& field) const {
+    (*this)(column.name, to_text(field.value));
   }
   void operator()(std::string_view name, const std::string& text) const {
     if (!text.empty()) json[std::string(name)] = text;
@@ -42,21 +47,25 @@ struct Read {
   void operator()(const LogColumn& column, Value& value) const {
     (*this)(column.name, value);
   }
-  void operator()(const LogColumn& column, const NullIfEmpty<std::string>& text) const {
-    (*this)(column.name, text.value);
-  }
-  void operator()(std::string_view name, std::string& text) const {
-    const auto found = json.find(std::string(name));
-    if (found != json.end()) text = found->get<std::string>();
+  template <typename Value>
+  void operator()(const LogColumn& column, const NullIfEmpty<Value>& field) const {
+    (*this)(column, AsText{field.value});
   }
   template <typename Value>
-  void operator()(std::string_view name, std::optional<Value>& value) const {
-    const auto found = json.find(std::string(name));
-    if (found != json.end()) value = found->get<Value>();
+  void operator()(const LogColumn& column, const AsText<Value>& field) const {
+    std::string text = to_text(field.value);
+    (*this)(column.name, text);
+    if (!from_text(text, field.value))
+      throw Error(fmt::format("a setup can't be read: its {} is \"{}\"", column.name, text));
   }
-  void operator()(std::string_view name, std::map<std::string, double>& values) const {
+  template <typename Value>
+  void operator()(std::string_view name, Value& value) const {
     const auto found = json.find(std::string(name));
-    if (found != json.end()) values = found->get<std::map<std::string, double>>();
+    if (found == json.end()) return;
+    if constexpr (requires { value.has_value(); })
+      value = found->template get<typename Value::value_type>();
+    else
+      value = found->template get<Value>();
   }
 };
 

@@ -38,7 +38,7 @@ std::unique_ptr<TaskTrial> answered(const TaskBlock& block, const TrialPlan& pla
 // The responder of the question under each of the session's setups, with the stage as it was then.
 class Minds {
  public:
-  Minds(const LoggedSession& session, const std::string& responder)
+  Minds(const LoggedSession& session, const WhoAnswers& responder)
       : session_(session), named_(named(responder)) {}
 
   struct Mind {
@@ -49,26 +49,26 @@ class Minds {
   const Mind& in_force(const TrialRow& trial) {
     Mind& mind = minds_[trial.setup_index];
     if (mind.responder) return mind;
-    const SessionConfig& logged = session_.setup_of(trial);
-    const bool same = split_name(named_.responder).file.empty() &&
-                      split_name(logged.responder).name == named_.responder;
-    mind.responder = make_responder(same ? logged : named_, session_.row.header.seed);
+    // Without a file of its own it has the logged one's.
+    const auto* logged = std::get_if<Plug>(&session_.setup_of(trial).responder);
+    const bool same = logged && named_.what.empty() && logged->name == named_.name;
+    mind.responder = make_responder(same ? *logged : named_, session_.row.header.seed);
     mind.protocol = session_.protocol_of(trial);
     return mind;
   }
 
  private:
-  static SessionConfig named(const std::string& responder) {
-    SessionConfig setup;
-    setup.responder = responder;
-    if (has_person(setup))
+  static Plug named(const WhoAnswers& responder) {
+    const auto* model = std::get_if<Plug>(&responder);
+    if (!model)
       throw Error("a person can't judge a log; expected a model as --responder", ExitCode::usage);
-    complete(setup);
-    return setup;
+    Plug read = read_model(*model);
+    make_responder(read, 0);  // says what is wrong with its parameters
+    return read;
   }
 
   const LoggedSession& session_;
-  SessionConfig named_;
+  Plug named_;
   std::map<int, Mind> minds_;
 };
 
@@ -122,7 +122,7 @@ void count(const JudgedTrial& trial, const std::string& answer, DetectionCounts&
 }  // namespace
 
 Judgments judge_session(const LogReader& reader, const LoggedSession& session,
-                        const std::string& responder, const std::function<void(double)>& progress) {
+                        const WhoAnswers& responder, const std::function<void(double)>& progress) {
   Minds minds(session, responder);
   const Projection fold = sound_fold(reader, session);
   Judgments judgments;

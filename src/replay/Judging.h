@@ -36,11 +36,11 @@ struct Judgments {
 
 /// Judges every completed trial of the session; of the introduction, the frames up to the first
 /// choice.
-/// @param responder NAME or NAME:FILE; the logged one without a file has its logged parameters
+/// @param responder the logged one without a file has its logged parameters
 /// @param progress called with the fraction of trials done, 0...1
 /// @throws Error (usage) for an unknown responder or a person; Error as sound_fold()
 Judgments judge_session(const LogReader& reader, const LoggedSession& session,
-                        const std::string& responder, const std::function<void(double)>& progress);
+                        const WhoAnswers& responder, const std::function<void(double)>& progress);
 
 /// How often which logged answer met which judged one.
 struct Confusion {

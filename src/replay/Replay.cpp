@@ -154,7 +154,7 @@ class Verifier {
         !setup.simulator_edition ||
         *setup.simulator_edition == simulator_named(protocol->simulator.name).edition;
     options.virtual_clock =
-        !runs_on_wall_clock(setup) && tracker_named(setup.tracker).what != TrackerWhat::source;
+        !runs_on_wall_clock(setup) && tracker_named(setup.tracker.name).what != TrackerWhat::source;
     options.differ = [&](double t_s, const std::string& what, const std::string& logged,
                          const std::string& came_out) {
       differ(index, t_s, what, logged, came_out);

@@ -16,42 +16,28 @@ bool has_size(const MarkerBody& effector, const Eigen::Vector3d& size_m) {
 }
 
 // What people hold must be what the simulated one looks like.
-void require_size(const Protocol& protocol, const MarkerBody& effector,
-                  const SessionConfig& options) {
+void require_size(const SessionConfig& config, const Protocol& protocol,
+                  const MarkerBody& effector) {
   const Eigen::Vector3d& size_m = protocol.effector_size_m;
   if (has_size(effector, size_m)) return;
   throw Error(fmt::format("{} is {:.4g} x {:.4g} x {:.4g} m, but the protocol's [effector] size_m "
                           "is [{:.4g}, {:.4g}, {:.4g}]; make them the same",
-                          options.effector_file, effector.size_m.x(), effector.size_m.y(),
+                          config.effector.path, effector.size_m.x(), effector.size_m.y(),
                           effector.size_m.z(), size_m.x(), size_m.y(), size_m.z()),
               ExitCode::invalid_file);
 }
 
-Apparatus fitting_apparatus(const Protocol& protocol, const SessionConfig& options) {
-  Apparatus apparatus = apparatus_of(options);
-  if (!apparatus.effector.tags.empty()) require_size(protocol, apparatus.effector, options);
-  return apparatus;
-}
-
-void require_questions(const Protocol& protocol) {
-  for (const Block& block : protocol.blocks)
-    if (const auto* trials = std::get_if<TaskBlock>(&block); trials && trials->lacks_question())
-      throw Error(fmt::format("block {} asks a question of the questionnaire {} that the session's "
-                              "texts do not have; expected one that is answered on the screen",
-                              trials->name(), *trials->questionnaire()),
-                  ExitCode::invalid_file);
-}
-
-// What the demonstration shows where the session itself films nothing: the board and effector that
-// would be filmed, as far as the options have them. Of another size than these there is no print.
-Apparatus unfilmed_apparatus(const Protocol& protocol, const SessionConfig& options) {
-  if (!has_person(options) || options.board_text.empty()) return {};
-  Apparatus apparatus{{},
-                      parse_board(options.board_text, options.board_file),
-                      parse_effector(options.effector_text, options.effector_file)};
-  if (!has_size(apparatus.effector, protocol.effector_size_m)) {
+// What the demonstration shows: the filmed board and effector, else those that would be filmed, as
+// far as there are any. Of another size than these there is no print.
+Apparatus demonstrated_apparatus(const ResolvedConfig& resolved) {
+  const auto& [path, text, hash] = resolved->config.board;
+  if (resolved->tracker->has_camera) return resolved->apparatus;
+  if (text.empty()) return {};
+  const ConfigFile& effector = resolved->config.effector;
+  Apparatus apparatus{{}, parse_board(text, path), parse_effector(effector.text, effector.path)};
+  if (!has_size(apparatus.effector, resolved->protocol->effector_size_m)) {
     apparatus.effector = {};
-    apparatus.effector.size_m = protocol.effector_size_m;
+    apparatus.effector.size_m = resolved->protocol->effector_size_m;
   }
   return apparatus;
 }
@@ -72,65 +58,58 @@ Eigen::AlignedBox3d working_box(const Protocol& protocol) {
           Eigen::Vector3d(stage.slots_m.back().x() + beside_m, back_m, layout.cube_size_m)};
 }
 
-ViewSetup view_setup(const Protocol& protocol, const SessionConfig& options,
-                     const Apparatus& apparatus) {
+// Where a model's hand would rest; none where it is not dragged.
+std::shared_ptr<DraggedEffector> dragged_effector(const ResolvedConfig& resolved) {
+  constexpr double hover_m = 0.005;
+  if (!resolved->tracker->is_dragged) return {};
+  return std::make_shared<DraggedEffector>(resting_pose(stage_of(*resolved->protocol, 3), hover_m));
+}
+
+ViewSetup view_setup(const ResolvedConfig& resolved) {
+  const Protocol& protocol = *resolved->protocol;
+  const SessionConfig& config = resolved->config;
   ViewSetup setup;
   setup.stage = stage_of(protocol, 3);
-  if (!apparatus.board.tags.empty()) setup.camera = apparatus.camera;
-  if (!options.texts_text.empty())
-    setup.texts = parse_texts(options.texts_text, options.texts_file);
-  setup.left_handed = options.handed == "left";
-  setup.takes_keys = options.keys == "yes";
+  if (resolved->tracker->has_camera) setup.camera = resolved->apparatus.camera;
+  setup.texts = resolved->texts;
+  setup.left_handed = config.handed == Side::left;
+  setup.takes_keys = config.keys == TakesKeys::yes;
   setup.text_size = protocol.screens.text_size;
   setup.patch = protocol.screens.patch;
-  setup.file = split_name(options.view).file;
+  setup.file = resolved->film;
   setup.rate_hz = protocol.display_rate_hz;
   setup.area_m = protocol.layout.area_m;
-  setup.display = display_number(options);
-  setup.windowed = is_windowed(options);
+  setup.display = config.display.value_or(NamedDisplay{}).number;
+  setup.windowed = config.window == WindowState::windowed;
+  setup.dragged = dragged_effector(resolved);
   if (protocol.screens.crop) setup.shown_m = working_box(protocol);
   return setup;
 }
-
-// Where a model's hand would rest; none where it is not dragged.
-std::shared_ptr<DraggedEffector> dragged_effector(const Protocol& protocol,
-                                                  const SessionConfig& options) {
-  constexpr double hover_m = 0.005;
-  if (!tracker_named(options.tracker).is_dragged) return {};
-  return std::make_shared<DraggedEffector>(resting_pose(stage_of(protocol, 3), hover_m));
-}
 }  // namespace
 
-Equipment::Equipment(std::shared_ptr<const Protocol> protocol, const SessionConfig& options,
-                     std::uint64_t seed)
-    : clock(runs_on_wall_clock(options) ? SessionClock::wall_from(0)
-                                        : SessionClock::virtual_from(0)),
-      protocol_(std::move(protocol)),
-      seed_(seed),
-      has_person_(has_person(options)),
-      left_hand_(options.hand == "left"),
-      responder_(make_responder(options, seed)) {
-  const Apparatus apparatus = fitting_apparatus(*protocol_, options);
-  setup_ = view_setup(*protocol_, options, apparatus);
-  setup_.dragged = dragged_effector(*protocol_, options);
-  demonstrated_ =
-      apparatus.board.tags.empty() ? unfilmed_apparatus(*protocol_, options) : apparatus;
-  pictures_ = open_pictures(
-      options.tracker,
-      {*protocol_, *responder_, apparatus, split_name(options.tracker).file, clock, seed,
-       options.record_camera, options.tracker_text, left_hand_, setup_.dragged});
-  const ViewEntry& view = view_named(split_name(options.view).name);
-  has_screen_ = view.has_screen;
-  if (!setup_.texts.pages.empty()) require_questions(*protocol_);
-  if (has_person_ || has_screen_) require_words(setup_.texts, *protocol_, options.texts_file);
-  view_ = view.make(setup_);
+Equipment::Equipment(ResolvedConfig config)
+    : clock(runs_on_wall_clock(config->config) ? SessionClock::wall_from(0)
+                                               : SessionClock::virtual_from(0)),
+      config_(std::move(config)),
+      demonstrated_(demonstrated_apparatus(config_)),
+      responder_(make_responder(config_->config.responder, config_->seed)) {
+  if (config_->tracker->has_camera)
+    require_size(config_->config, *config_->protocol, config_->apparatus.effector);
+  const ViewSetup setup = view_setup(config_);
+  pictures_ = open_pictures(*config_->tracker, {*config_->protocol, *responder_, config_->apparatus,
+                                                config_->config.tracker.what, clock, config_->seed,
+                                                config_->pictures, config_->config.tracker.text,
+                                                config_->config.hand == Side::left, setup.dragged});
+  view_ = config_->view->make(setup);
 }
 
 SessionParts Equipment::parts(Engine& engine, EventSink& sink) {
-  SessionParts parts{*protocol_, engine, sink, *pictures_, *responder_, *view_, clock, has_screen_};
-  (has_person_ ? parts.texts : parts.asked) = setup_.texts.pages.empty() ? nullptr : &setup_.texts;
+  SessionParts parts{*config_->protocol, engine, sink,  *pictures_,
+                     *responder_,        *view_, clock, config_->view->has_screen};
+  (has_person(config_->config) ? parts.texts : parts.asked) =
+      config_->texts.pages.empty() ? nullptr : &config_->texts;
   parts.apparatus = demonstrated_;
-  parts.left_hand = left_hand_;
+  parts.left_hand = config_->config.hand == Side::left;
   return parts;
 }
 

@@ -18,23 +18,6 @@ namespace heft {
 
 namespace fs = std::filesystem;
 
-std::string next_part(const std::string& path) {
-  const fs::path whole(path);
-  std::string candidate = path;
-  for (int part = 2; fs::exists(candidate); ++part)
-    candidate = (whole.parent_path() /
-                 fmt::format("{}-{}{}", whole.stem().string(), part, whole.extension().string()))
-                    .string();
-  return candidate;
-}
-
-SessionConfig with_next_parts(SessionConfig options) {
-  const auto [view, file] = split_name(options.view);
-  if (!file.empty()) options.view = view + ":" + next_part(file);
-  if (!options.record_camera.empty()) options.record_camera = next_part(options.record_camera);
-  return options;
-}
-
 namespace {
 
 // A participant's data is never mixed up by a slip: an unfinished session is resumed, a finished
@@ -45,11 +28,11 @@ void refuse_repetition(const SessionRequest& request) {
   std::error_code unknown;  // what can't be looked at is explained when it is opened for writing
   if (!fs::exists(request.db, unknown)) return;
   for (const SessionRow& session :
-       LogReader(request.db).sessions_of(request.participant, request.protocol.name)) {
+       LogReader(request.db).sessions_of(request.participant, request.config->protocol->name)) {
     if (is_unfinished(session.state))
       throw Error(fmt::format("participant {} has an unfinished session of {} in {}; go on with "
                               "it: heft resume --db {} --session {}",
-                              request.participant, request.protocol.name, request.db,
+                              request.participant, request.config->protocol->name, request.db,
                               shell_quoted(request.db), session.session_id),
                   ExitCode::usage);
     if (!request.again)
@@ -57,7 +40,7 @@ void refuse_repetition(const SessionRequest& request) {
                               "more on purpose add --again",
                               request.participant,
                               session.state == SessionState::finished ? "finished" : "ended",
-                              request.protocol.name, request.db, session.session_id),
+                              request.config->protocol->name, request.db, session.session_id),
                   ExitCode::usage);
   }
 }
@@ -66,15 +49,15 @@ void refuse_repetition(const SessionRequest& request) {
 SessionHeader header_of(const SessionRequest& request, const SessionConfig& setup) {
   SessionHeader header;
   header.participant = request.participant;
-  header.protocol_name = request.protocol.name;
-  header.protocol_text = request.protocol.text;
-  header.protocol_sha256 = request.protocol.sha256;
-  header.seed = request.seed;
+  header.protocol_name = request.config->protocol->name;
+  header.protocol_text = request.config->protocol->text;
+  header.protocol_sha256 = request.config->protocol->sha256;
+  header.seed = request.config->seed;
   header.heft_version = HEFT_VERSION;
   header.build = build_name();
   header.run_options = to_json(setup);
-  header.purpose = has_person(request.setup) ? request.purpose : Purpose::simulated;
-  header.responder = request.setup.responder;
+  header.purpose = has_person(setup) ? request.purpose : Purpose::simulated;
+  header.responder = to_text(setup.responder);
   header.started_utc = utc_now();
   header.participant_info = request.participant_info;
   return header;
@@ -167,10 +150,9 @@ void refuse_special_file(const std::string& db) {
 
 SessionResult start_session(const SessionRequest& request, const RunnerOptions& runner) {
   refuse_repetition(request);
-  const auto protocol = protocol_for(request.protocol, request.setup);
-  Equipment equipment(protocol, request.setup, request.seed);
-  const SessionConfig setup = equipment.told_by_devices(request.setup);
-  Engine engine(protocol, request.seed);
+  Equipment equipment(request.config);
+  const SessionConfig setup = equipment.logged_config();
+  Engine engine(request.config->protocol, request.config->seed);
   const Event told{0, setup};
   const RecordedEvent first{told, engine.apply(told)};
   SessionLog log = SessionLog::start(request.db, header_of(request, setup), first);
@@ -203,56 +185,9 @@ LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_
   return session;
 }
 
-void change_setup(LoggedSession& session, const GivenOptions& again) {
-  if (!again.settings.empty())
-    throw Error(fmt::format("session {} has one protocol from its start to its end; go on without "
-                            "--set",
-                            session.row.session_id),
-                ExitCode::usage);
-  SessionConfig setup = session.setup;
-  // What `auto` was at the start it stays, whatever the error table says now.
-  const bool stays_auto = again.simulator == automatic && !setup.simulator_why.empty();
-  if (again.simulator && !stays_auto && !is_same_simulator(*again.simulator, setup.simulator)) {
-    setup.simulator = *again.simulator;
-    setup.simulator_why.clear();
-    setup.rate_hz.reset();
-  }
-  if (again.view) setup.view = *again.view;
-  bool files_stay = true;
-  for (const auto& [held, given] : {std::pair(&setup.tracker, &again.tracker),
-                                    {&setup.camera_file, &again.camera_file},
-                                    {&setup.board_file, &again.board_file},
-                                    {&setup.effector_file, &again.effector_file},
-                                    {&setup.display, &again.display},
-                                    {&setup.display_file, &again.display_file},
-                                    {&setup.responder, &again.responder}}) {
-    if (!*given) continue;
-    *held = **given;
-    files_stay = false;
-  }
-  if (again.texts_file) {
-    setup.texts_file = *again.texts_file;
-    setup.texts_text.clear();  // otherwise it stays, with the questionnaires that stand below it
-  }
-  if (again.windowed) setup.window = "window";
-  if (!tracker_named(setup.tracker).has_camera) setup.record_camera.clear();
-  if (files_stay) {
-    complete_texts(setup);
-    check(setup);
-  } else {
-    complete(setup);
-  }
-  if (!again.texts_file && setup.texts_text.empty() &&
-      !questionnaires_of(*session.protocol).empty()) {
-    setup.texts_file = session.setup.texts_file;  // a model is asked by them
-    setup.texts_text = session.setup.texts_text;
-  }
-  session.setup = in_force(std::move(setup), *session.protocol);
-  session.protocol = protocol_for(*session.protocol, session.setup);
-}
-
-SessionResult resume_session(const LoggedSession& session, const RunnerOptions& runner) {
-  Equipment equipment(session.protocol, with_next_parts(session.setup), session.row.header.seed);
+SessionResult resume_session(const LoggedSession& session, const ResolvedConfig& config,
+                             const RunnerOptions& runner) {
+  Equipment equipment(config);
   Reopened reopened(session);
   if (runner.begun) *runner.begun = session.row.session_id;
   std::optional<AnnouncingSink> announcing;
@@ -263,8 +198,7 @@ SessionResult resume_session(const LoggedSession& session, const RunnerOptions& 
   reopened.close_attempt(void_interrupted);
   const double now_s = log_time(std::max(last_s, seconds_since(session.row.header.started_utc)));
   reopened.append({now_s, SessionResumed{utc_now(), now_s - last_s}});
-  if (const SessionConfig setup = equipment.told_by_devices(session.setup);
-      setup != session.setups.back().setup)
+  if (const SessionConfig setup = equipment.logged_config(); setup != session.setups.back().setup)
     tell_setup(reopened.engine, sink, setup);
   sink.flush();  // all of the return or nothing of it
   const RunEnd end = run_with(equipment, reopened.engine, sink, runner, now_s,
@@ -281,11 +215,10 @@ void abort_session(const LoggedSession& session) {
 }
 
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {
-  const auto protocol = protocol_for(request.protocol, request.setup);
-  Equipment equipment(protocol, request.setup, request.seed);
-  const SessionConfig setup = equipment.told_by_devices(request.setup);
+  Equipment equipment(request.config);
+  const SessionConfig setup = equipment.logged_config();
   RecordedSession recorded(header_of(request, setup));
-  Engine engine(protocol, request.seed);
+  Engine engine(request.config->protocol, request.config->seed);
   tell_setup(engine, recorded, setup);
   run_with(equipment, engine, recorded, runner, 0);
   return recorded;

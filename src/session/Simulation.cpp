@@ -71,14 +71,8 @@ class InOrder {
 };
 
 SessionRequest session_of(const SimulationRequest& request, int number) {
-  SessionRequest session;
-  session.protocol = request.protocol;
-  session.setup = request.setup;
-  session.participant = simulated_participant(number);
-  session.db = request.db;
-  session.seed =
-      RandomStream(request.seed, "participant", static_cast<std::uint64_t>(number)).bits() >> 1;
-  return session;
+  RandomStream stream(request.config->seed, "participant", static_cast<std::uint64_t>(number));
+  return {request.config.with_seed(stream.bits() >> 1), simulated_participant(number), request.db};
 }
 
 // The number in a simulated participant's id; 0 for other ids.
@@ -94,7 +88,7 @@ int number_in_id(const std::string& participant) {
 int first_free_number(const SimulationRequest& request) {
   int highest = 0;
   for (const SessionRow& session : LogReader(request.db).sessions())
-    if (session.header.protocol_name == request.protocol.name)
+    if (session.header.protocol_name == request.config->protocol->name)
       highest = std::max(highest, number_in_id(session.header.participant));
   if (highest > std::numeric_limits<int>::max() - request.participants)
     throw Error(fmt::format("{} holds participant {} already; choose another file with --db FILE",

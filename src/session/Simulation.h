@@ -11,10 +11,8 @@
 namespace heft {
 
 struct SimulationRequest {
-  Protocol protocol;
-  SessionConfig setup;  ///< in force
+  ResolvedConfig config;  ///< its seed is that of the simulation
   std::string db = "heft.db";
-  std::uint64_t seed = 0;
   int participants = 1;
   int jobs = 1;
   bool keep_frames = false;

@@ -32,13 +32,13 @@ CameraRequest request_for(const Intrinsics& camera, double display_rate_hz) {
   return request;
 }
 
-std::unique_ptr<Camera> open_camera(const std::string& source, const CameraRequest& request) {
-  const std::size_t colon = source.find(':');
-  const CameraEntry& entry = entry_named("camera", source.substr(0, colon), cameras());
-  if (colon == std::string::npos || colon + 1 == source.size())
-    throw Error(fmt::format("\"{}\" does not say which one; write {}", source, entry.summary),
+std::unique_ptr<Camera> open_camera(std::string_view name, const std::string& what,
+                                    const CameraRequest& request) {
+  const CameraEntry& entry = entry_named("camera", name, cameras());
+  if (what.empty())
+    throw Error(fmt::format("\"{}\" does not say which one; write {}", name, entry.summary),
                 ExitCode::usage);
-  return entry.open(source.substr(colon + 1), request);
+  return entry.open(what, request);
 }
 
 }  // namespace heft

@@ -83,10 +83,11 @@ struct CameraEntry {
 
 std::span<const CameraEntry> cameras();
 
-/// @param source NAME:WHAT
+/// @param name of the table  @param what follows the colon of NAME:WHAT
 /// @throws Error (device_missing) when the camera is not there or gives no picture, saying what is;
 ///   Error (usage) for an unknown name; Error for a file or folder without readable pictures
-std::unique_ptr<Camera> open_camera(const std::string& source, const CameraRequest& request = {});
+std::unique_ptr<Camera> open_camera(std::string_view name, const std::string& what,
+                                    const CameraRequest& request = {});
 
 /// @param number N of /dev/videoN
 std::unique_ptr<Camera> open_live_camera(const std::string& number, const CameraRequest& request);

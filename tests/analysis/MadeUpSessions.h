@@ -19,7 +19,7 @@ inline SessionData session(std::int64_t id, const std::string& participant,
   data.session.header.purpose = purpose;
   data.session.header.responder = responder;
   LoggedSetup logged{1, 1, {}};
-  logged.setup.responder = responder;
+  from_text(responder, logged.setup.responder);
   data.setups = {logged};
   data.session.state = SessionState::finished;
   return data;

@@ -87,7 +87,7 @@ TEST(ProtocolChoices, tell_what_was_in_force_in_any_of_the_sessions) {
   logged.setup.rate_hz = 500;
   logged.setup.display_rate_hz = 60;
   logged.setup.source_rate_hz = 30;
-  logged.setup.settings = "coupling.stiffness_n_per_m=25";
+  logged.setup.settings = {{"coupling.stiffness_n_per_m", "25"}};
   resumed.setups = {plain.setups[0], logged};
   const auto choices = protocol_choices({plain, resumed});
   EXPECT_EQ(value_of(choices, "simulator"),

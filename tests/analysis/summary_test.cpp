@@ -88,7 +88,7 @@ TEST(SummaryJson, NamesThatAreNoUtf8DoNotBreakIt) {
 TEST(Summary, SimulatedFiguresSayEverywhereThatTheyAre) {
   SessionData data = full_session(1, "a");
   data.session.header.purpose = Purpose::simulated;
-  data.setups[0].setup.responder = "simulated";
+  data.setups[0].setup.responder = Plug{"simulated"};
   const Summary summary = summarize({"x.db", {data}}, "");
   EXPECT_TRUE(summary.simulated());
   for (const Table& table : tables_of(summary)) {

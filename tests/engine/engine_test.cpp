@@ -346,7 +346,7 @@ TEST(Engine, tells_what_a_participant_was_drawn_as_once) {
   ASSERT_EQ(drawn.size(), 2u);
   EXPECT_EQ(drawn[0].name, "hold_s");
   EXPECT_EQ(drawn[0].setup_index, 2);
-  setup.view = "window";
+  setup.view = {"window"};
   EXPECT_TRUE(told().empty());
   setup.participant_parameters["p"] = 0.6;
   EXPECT_EQ(told().size(), 2u);

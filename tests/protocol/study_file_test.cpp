@@ -57,7 +57,8 @@ TEST(Study, IsRecognizedAmongFiles) {
 TEST(Study, WithoutGroupsAndOrdersGivesTheProtocolAsItIs) {
   const StudyPlan plan = parse_study(study(""), "lab/STUDY.toml");
   EXPECT_EQ(plan.groups.size(), 1u);
-  EXPECT_EQ(order_setting(plan.orders.at(static_cast<std::size_t>(place_in(plan, 5).order))), "");
+  EXPECT_EQ(order_setting(plan.orders.at(static_cast<std::size_t>(place_in(plan, 5).order))),
+            ProtocolSetting{});
   EXPECT_EQ(planned_id(plan, 5), "05");
 }
 
@@ -76,7 +77,8 @@ TEST(Study, ItsProtocolTakesTheOrder) {
 }
 
 TEST(Study, NamesOfBlocksStandInSettingsWhateverTheyHold) {
-  EXPECT_EQ(order_setting({"a\"b", "c\\\n"}), "block_order=[\"a\\\"b\", \"c\\\\\\u000A\"]");
+  EXPECT_EQ(to_text(order_setting({"a\"b", "c\\\n"})),
+            "block_order=[\"a\\\"b\", \"c\\\\\\u000A\"]");
 }
 
 TEST(StudyOrders, OfALatinSquareHaveEachBlockOnceAtEachPlace) {
@@ -203,7 +205,7 @@ TEST(BrokenStudy, AProtocolThatCantBeReadIsNamedWhereItStands) {
 TEST(BlockOrder, OfAProtocolNamesItsBlocks) {
   const auto refused = [](const std::string& order) -> std::string {
     try {
-      load_protocol(protocols + "paper.toml", {"block_order=" + order});
+      load_protocol(protocols + "paper.toml", {{"block_order", order}});
     } catch (const InvalidFile& error) {
       return error.what();
     }

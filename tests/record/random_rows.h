@@ -111,13 +111,16 @@ inline Pose pose() {
 
 inline SessionConfig any_setup() {
   SessionConfig setup;
-  setup.responder = "model:" + plain();
+  setup.responder = Plug{"model", plain()};
   setup.simulator = plain();
   setup.rate_hz = maybe(finite_number);
   setup.display_w_px = maybe(count);
   setup.language = plain();
-  setup.board_file = plain();
-  setup.board_text = plain();
+  setup.board.path = plain();
+  setup.board.text = plain();
+  setup.settings = {{"key", "a'b\"c;--=1"}};
+  setup.hand = maybe(any_of<Side>);
+  setup.keys = maybe(any_of<TakesKeys>);
   setup.participant_parameters["p"] = finite_number();
   return setup;
 }

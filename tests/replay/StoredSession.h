@@ -18,13 +18,9 @@ class StoredSession {
       : path_(std::filesystem::temp_directory_path() /
               ("heft-stored-" + std::to_string(::getpid()) + ".db")) {
     remove();
-    SessionRequest request;
-    request.protocol = protocol;
-    request.setup.responder = responder;
-    complete(request.setup);
-    request.setup = in_force(request.setup, protocol);
-    request.participant = "1";
-    request.seed = seed;
+    SessionOptions model;
+    model.responder = Plug{responder};
+    const SessionRequest request{resolve(model, protocol, seed), "1"};
     RunnerOptions runner;
     runner.keep_frames = keep_frames;
     const std::int64_t id = SessionArchive(path_.string()).store(compute_session(request, runner));

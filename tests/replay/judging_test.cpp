@@ -17,7 +17,9 @@ using testing::shipped_protocol;
 using testing::StoredSession;
 
 Judgments judged(const StoredSession& stored, const std::string& responder) {
-  return judge_session(stored.reader(), stored.session(), responder, [](double) {});
+  WhoAnswers who;
+  from_text(responder, who);
+  return judge_session(stored.reader(), stored.session(), who, [](double) {});
 }
 
 void expect_full_agreement(const std::vector<JudgedTrial>& trials) {

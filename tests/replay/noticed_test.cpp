@@ -78,7 +78,7 @@ TEST(Noticed, AWhatIfTellsLagsBeforeAndAfter) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
   const auto header = stored.session().row.header;
   const Protocol stiffer = parse_protocol(header.protocol_text, header.protocol_name,
-                                          {"coupling.stiffness_n_per_m=100"});
+                                          {{"coupling.stiffness_n_per_m", "100"}});
   bool compared = false;
   for (const PathDifference& kind : compare_paths(stored.reader(), stored.session(), stiffer))
     for (const NoticedDifference& cube : kind.noticed) {

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "apparatus/SessionSetup.h"
 #include "apparatus/TrialWorld.h"
+#include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Build.h"
 #include "base/Pose.h"
 #include "record/SessionArchive.h"
@@ -70,14 +70,16 @@ class Replay : public ::testing::Test {
     header.seed = 5;
     header.heft_version = "test";
     header.build = build_name();
-    SessionConfig setup;
-    setup.tracker = "camera:0";  // whose pictures and touches keep no common beat
+    SessionOptions model;
+    model.responder = Plug{"simulated"};
+    SessionConfig setup = resolve(model, protocol, header.seed)->config;
+    setup.tracker = {"camera", "0"};  // whose pictures and touches keep no common beat
     header.purpose = Purpose::test;
     header.responder = "late";
     header.started_utc = utc_now();
     RecordedSession recorded(header);
     Engine engine(std::make_shared<const Protocol>(protocol), header.seed);
-    const Event told{0, in_force(setup, protocol)};
+    const Event told{0, setup};
     recorded.append(told, engine.apply(told), Durability::buffered);
     HandPictures pictures(responder, protocol.display_rate_hz);
     const auto view = view_named("headless").make({});
@@ -172,7 +174,7 @@ TEST_F(Replay, what_another_prediction_would_have_shown) {
   const auto session = load_session(reader, path.string(), reader.sessions().front().session_id);
   const auto clone_rms_m = [&](double predict_s) {
     const Protocol other =
-        parse_protocol(protocol.text, "quick", {"physics.predict_s=" + std::to_string(predict_s)});
+        parse_protocol(protocol.text, "quick", {{"physics.predict_s", std::to_string(predict_s)}});
     double largest_m = 0;
     for (const PathDifference& difference : compare_paths(reader, session, other))
       largest_m = std::max(largest_m, difference.clone_rms_m);

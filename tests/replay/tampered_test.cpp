@@ -21,12 +21,10 @@ namespace {
 using ::testing::HasSubstr;
 
 RecordedSession simulated_session() {
-  SessionRequest request;
-  request.protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
-  request.setup = in_force({}, request.protocol);
-  request.participant = "1";
-  request.seed = 5;
-  RecordedSession session = compute_session(request, {});
+  SessionOptions model;
+  model.responder = Plug{"simulated"};
+  const Protocol protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
+  RecordedSession session = compute_session({resolve(model, protocol, 5), "1"}, {});
   session.add_info("age", "30");
   return session;
 }

@@ -166,49 +166,43 @@ TEST(Demonstration, is_not_rendered_for_a_model) {
 }
 
 // A person's session as the command line sets it up.
-Apparatus demonstrated_with(SessionConfig options, const Protocol& protocol) {
+Apparatus demonstrated_with(SessionOptions options, const Protocol& protocol) {
   setenv("SDL_VIDEODRIVER", "offscreen", 1);
-  options.view = "window";
-  options.board_file = shipped + "board.toml";
-  options.effector_file = shipped + "effector.toml";
-  options.texts_file = HEFT_SOURCE_DIR "/protocols/texts/en.toml";
-  complete(options);
-  Equipment equipment(shared(protocol), options, 7);
+  options.view = Plug{"window"};
+  Equipment equipment(resolve(options, protocol, 7));
   Engine engine(shared(protocol), 7);
   RecordedSession sink{SessionHeader{}};
   return equipment.parts(engine, sink).apparatus;
 }
 
-SessionConfig options_of(const std::string& responder, const std::string& tracker) {
-  SessionConfig options;
+SessionOptions options_of(const WhoAnswers& responder, const std::string& tracker) {
+  SessionOptions options;
   options.responder = responder;
-  options.tracker = tracker;
+  options.tracker = Plug{tracker};
   return options;
 }
 
 TEST(Demonstration, shows_the_printed_board_and_effector_without_a_camera_too) {
-  const Apparatus shown = demonstrated_with(options_of("human", "hand"), quick_protocol());
+  const Apparatus shown = demonstrated_with(options_of(Person{}, "hand"), quick_protocol());
   EXPECT_EQ(shown.board.tags.size(), shipped_apparatus().board.tags.size());
   EXPECT_EQ(shown.effector.tags.size(), shipped_apparatus().effector.tags.size());
 
   Protocol larger = quick_protocol();
   larger.effector_size_m.x() += 0.02;
-  const MarkerBody box = demonstrated_with(options_of("human", "hand"), larger).effector;
+  const MarkerBody box = demonstrated_with(options_of(Person{}, "hand"), larger).effector;
   EXPECT_EQ(box.size_m, larger.effector_size_m);
   EXPECT_TRUE(box.tags.empty()) << "no print is of that size";
 }
 
 TEST(Demonstration, shows_the_sessions_own_apparatus_where_there_is_one) {
-  SessionConfig options = options_of("human", "synthetic");
-  options.camera_file = shipped + "synthetic_camera.yaml";
-  const Apparatus shown = demonstrated_with(options, quick_protocol());
+  const Apparatus shown = demonstrated_with(options_of(Person{}, "synthetic"), quick_protocol());
   EXPECT_EQ(shown.camera.distortion, shipped_apparatus().camera.distortion);
   EXPECT_FALSE(shown.board.tags.empty());
 }
 
 TEST(Demonstration, needs_no_board_where_a_model_takes_part) {
-  EXPECT_TRUE(
-      demonstrated_with(options_of("simulated", "hand"), quick_protocol()).board.tags.empty());
+  EXPECT_TRUE(demonstrated_with(options_of(Plug{"simulated"}, "hand"), quick_protocol())
+                  .board.tags.empty());
 }
 
 }  // namespace

@@ -378,9 +378,8 @@ TEST(FileOfPictures, is_checked_before_the_session_too) {
   const auto protocol = shared(quick_protocol());
   const SessionClock clock = SessionClock::wall_from(0);
   const auto hand = responder_named("simulated").make({});
-  const auto pictures =
-      tracker_named("frames:" + folder.path())
-          .make({*protocol, *hand, shipped_apparatus(), folder.path(), clock, 0, ""});
+  const auto pictures = tracker_named("frames").make(
+      {*protocol, *hand, shipped_apparatus(), folder.path(), clock, 0, ""});
   const auto names = names_of(pictures->check(15));
   EXPECT_THAT(names, Contains("board"));
   EXPECT_THAT(names, Contains("effector"));

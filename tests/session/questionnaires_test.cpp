@@ -5,6 +5,7 @@
 #include "base/Random.h"
 #include "base/TextFile.h"
 #include "protocol/Files.h"
+#include "record/temporary_folder.h"
 #include "session/Session.h"
 #include "session/TappedSession.h"
 #include "tasks/Tasks.h"
@@ -210,17 +211,13 @@ TEST(Questionnaires, ThatTheTextsLackAreNotedAndPassedOver) {
   EXPECT_THAT(notes, Contains(::testing::HasSubstr("\"presence\"")));
 }
 
-SessionRequest asked_model() {
-  SessionRequest request;
-  request.protocol = asking();
-  SessionConfig setup;
-  setup.responder = "coin";
-  setup.texts_file = "texts.toml";
-  setup.texts_text = text_with(all);
-  request.setup = in_force(setup, request.protocol);
-  request.participant = "sim";
-  request.seed = 5;
-  return request;
+SessionRequest asked_model(const Protocol& protocol = asking()) {
+  const test::TemporaryFolder folder;
+  SessionOptions model;
+  model.responder = Plug{"coin"};
+  model.language = folder.file("texts.toml");
+  replace_text_file(*model.language, text_with(all));
+  return {resolve(model, protocol, 5), "sim"};
 }
 
 TEST(Questionnaires, ModelsAreAskedAsPeopleAre) {
@@ -253,15 +250,15 @@ TEST(Questionnaires, ModelsAreAskedAsPeopleAre) {
 }
 
 TEST(Questionnaires, DoNotChangeWhatAModelAnswersInTrials) {
-  SessionRequest unasked = asked_model();
-  unasked.protocol.screens.questionnaires.clear();
+  Protocol unasked = asking();
+  unasked.screens.questionnaires.clear();
   const auto actions_of = [](const RecordedSession& session) {
     std::vector<Action> actions;
     for (const Event& event : testing::events_of(session, event_kind<Action>))
       actions.push_back(*event.as<Action>());
     return actions;
   };
-  EXPECT_EQ(actions_of(compute_session(unasked, {})),
+  EXPECT_EQ(actions_of(compute_session(asked_model(unasked), {})),
             actions_of(compute_session(asked_model(), {})));
 }
 

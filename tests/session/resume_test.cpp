@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "analysis/Dataset.h"
+#include "base/TextFile.h"
 #include "experiment/ScreenTexts.h"
-#include "protocol/Files.h"
 #include "record/SessionLog.h"
 #include "record/temporary_folder.h"
 #include "replay/Replay.h"
@@ -21,16 +21,15 @@ using ::testing::HasSubstr;
 using testing::MadeUpScreen;
 using testing::patient;
 
+SessionOptions a_model(const std::string& name) {
+  SessionOptions given;
+  given.responder = Plug{name};
+  given.view = Plug{"headless"};
+  return given;
+}
+
 class Resumed : public ::testing::Test {
  protected:
-  void SetUp() override {
-    request.protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
-    request.setup = in_force({}, request.protocol);
-    request.participant = "1";
-    request.seed = 3;
-    request.db = folder.file("log.db");
-  }
-
   RunnerOptions until(int n_trials) {
     RunnerOptions runner;
     stop = false;
@@ -44,38 +43,40 @@ class Resumed : public ::testing::Test {
 
   // A person at a made-up window, who leaves after two trials.
   void start_as_a_person(const std::string& asked = "") {
-    request.setup.responder = "human";
-    request.setup.view = "window";
-    request.setup.texts_file = HEFT_SOURCE_DIR "/protocols/texts/en.toml";
-    complete(request.setup);
-    request.setup.texts_text += asked;
-    request.setup = in_force(request.setup, request.protocol);
+    SessionOptions person;
+    person.tracker = Plug{"hand"};
+    person.language = folder.file("texts.toml");
+    const std::string words = read_text_file(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+    replace_text_file(*person.language, words + asked);
+    request.config = resolve(person, protocol, seed);
     SessionHeader header;
     header.participant = request.participant;
-    header.protocol_name = request.protocol.name;
-    header.protocol_text = request.protocol.text;
-    header.protocol_sha256 = request.protocol.sha256;
-    header.seed = request.seed;
+    header.protocol_name = protocol.name;
+    header.protocol_text = protocol.text;
+    header.protocol_sha256 = protocol.sha256;
+    header.seed = seed;
     header.started_utc = "2026-01-01T00:00:00.000Z";
     header.responder = "human";
-    const auto protocol = protocol_for(request.protocol, request.setup);
-    Engine engine(protocol, request.seed);
-    const Event told{0, request.setup};
+    Engine engine(request.config->protocol, seed);
+    const Event told{0, request.config->config};
     SessionLog log = SessionLog::start(request.db, header, RecordedEvent{told, engine.apply(told)});
     SessionClock clock = SessionClock::wall_from(0);
-    const auto hand = make_responder(request.setup, request.seed);
-    HandPictures pictures(*hand, protocol->display_rate_hz);
+    const auto hand = make_responder(request.config->config.responder, seed);
+    HandPictures pictures(*hand, protocol.display_rate_hz);
     MadeUpScreen screen(patient);
-    const ScreenTexts texts = load_texts(request.setup.texts_file);
-    Runner runner({*protocol, engine, log, pictures, *hand, screen, clock, true, &texts}, until(2));
+    Runner runner({*request.config->protocol, engine, log, pictures, *hand, screen, clock, true,
+                   &request.config->texts},
+                  until(2));
     ASSERT_EQ(runner.run(), RunEnd::stopped);
     log.flush();
   }
 
-  SessionResult go_on_with(const GivenOptions& again, int n_trials) {
-    LoggedSession session = session_to_resume(request.db, std::nullopt);
-    change_setup(session, again);
-    return resume_session(session, until(n_trials));
+  static ResolvedConfig resolved(const LoggedSession& session, const SessionOptions& again) {
+    return resolve(again, session.setup, *session.protocol, session.row.header.seed);
+  }
+  SessionResult go_on_with(const SessionOptions& again, int n_trials) {
+    const LoggedSession session = session_to_resume(request.db, std::nullopt);
+    return resume_session(session, resolved(session, again), until(n_trials));
   }
 
   // The responders that trials were answered by, in order, each once in a row.
@@ -84,7 +85,7 @@ class Resumed : public ::testing::Test {
     const LoggedSession session = load_session(reader, request.db, 1);
     std::vector<std::string> names;
     for (const TrialRow& trial : reader.trials(1))
-      if (const std::string& name = session.setup_of(trial).responder;
+      if (const std::string name = to_text(session.setup_of(trial).responder);
           trial.status == TrialStatus::completed && (names.empty() || names.back() != name))
         names.push_back(name);
     return names;
@@ -107,8 +108,10 @@ class Resumed : public ::testing::Test {
     SQLite::Database(request.db, SQLite::OPEN_READWRITE).exec(sql);
   }
 
+  static constexpr std::uint64_t seed = 3;
   const test::TemporaryFolder folder;
-  SessionRequest request;
+  const Protocol protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
+  SessionRequest request{resolve(a_model("simulated"), protocol, seed), "1", folder.file("log.db")};
   std::atomic<bool> stop = false;
 };
 
@@ -123,13 +126,6 @@ low = "Easy"
 high = "Hard"
 )";
 
-GivenOptions a_model(const std::string& name) {
-  GivenOptions given;
-  given.responder = name;
-  given.view = "headless";
-  return given;
-}
-
 TEST_F(Resumed, after_a_person_a_model_goes_on_and_nobody_takes_it_for_a_persons) {
   start_as_a_person();
   EXPECT_FALSE(analysed().simulated());
@@ -142,19 +138,17 @@ TEST_F(Resumed, after_a_person_a_model_goes_on_and_nobody_takes_it_for_a_persons
 
 TEST_F(Resumed, what_people_read_stays_with_its_questionnaires_whatever_else_changes) {
   start_as_a_person(questionnaire);
-  GivenOptions display, board, words;
-  display.display = "1";
+  SessionOptions display, board, words;
+  display.display = NamedDisplay{1};
   board.board_file = HEFT_SOURCE_DIR "/protocols/apparatus/board_letter.toml";
-  words.texts_file = HEFT_SOURCE_DIR "/protocols/texts/fr.toml";
-  for (const GivenOptions& given : {display, board}) {
-    LoggedSession session = session_to_resume(request.db, std::nullopt);
-    change_setup(session, given);
-    EXPECT_EQ(session.setup.texts_sha256, request.setup.texts_sha256);
-    EXPECT_THAT(session.setup.texts_text, HasSubstr("[questionnaire.effort]"));
+  words.language = HEFT_SOURCE_DIR "/protocols/texts/fr.toml";
+  const LoggedSession session = session_to_resume(request.db, std::nullopt);
+  for (const SessionOptions& given : {display, board}) {
+    const SessionConfig config = resolved(session, given)->config;
+    EXPECT_EQ(config.texts, request.config->config.texts);
+    EXPECT_THAT(config.texts.text, HasSubstr("[questionnaire.effort]"));
   }
-  LoggedSession session = session_to_resume(request.db, std::nullopt);
-  change_setup(session, words);
-  EXPECT_EQ(session.setup.language, "fr") << "but for words that are given";
+  EXPECT_EQ(resolved(session, words)->config.language, "fr") << "but for words that are given";
 }
 
 TEST_F(Resumed, one_model_follows_the_other) {
@@ -168,21 +162,21 @@ TEST_F(Resumed, one_model_follows_the_other) {
 
 TEST_F(Resumed, another_simulator_is_in_force_from_there_on) {
   start();
-  GivenOptions given;
+  SessionOptions given;
   given.simulator = "bullet-ea";
   EXPECT_EQ(go_on_with(given, 1000).end, RunEnd::finished);
   expect_verified();
   const auto setups = LogReader(request.db).setups(1);
   ASSERT_EQ(setups.size(), 2U);
-  EXPECT_EQ(setups[0].setup.simulator, request.setup.simulator);
+  EXPECT_EQ(setups[0].setup.simulator, request.config->config.simulator);
   EXPECT_EQ(setups[1].setup.simulator, "bullet-ea");
   EXPECT_EQ(changes_between(setups[0].setup, setups[1].setup).front().column, "simulator");
 }
 
 TEST_F(Resumed, what_is_given_again_as_it_was_is_not_told_again) {
   start();
-  GivenOptions given = a_model("simulated");
-  given.simulator = request.setup.simulator;
+  SessionOptions given = a_model("simulated");
+  given.simulator = request.config->config.simulator;
   EXPECT_EQ(go_on_with(given, 1000).end, RunEnd::finished);
   EXPECT_EQ(LogReader(request.db).setups(1).size(), 1U);
   expect_verified();
@@ -190,21 +184,20 @@ TEST_F(Resumed, what_is_given_again_as_it_was_is_not_told_again) {
 
 // A crash right after the start must leave a session that says what it is run with.
 TEST_F(Resumed, the_first_setup_is_in_the_file_as_soon_as_the_session) {
-  Engine engine(protocol_for(request.protocol, request.setup), request.seed);
-  const Event told{0, request.setup};
+  Engine engine(request.config->protocol, seed);
+  const Event told{0, request.config->config};
   SessionHeader header;
-  header.protocol_text = request.protocol.text;
-  header.protocol_name = request.protocol.name;
+  header.protocol_text = protocol.text;
+  header.protocol_name = protocol.name;
   const SessionLog log =
       SessionLog::start(request.db, header, RecordedEvent{told, engine.apply(told)});
-  EXPECT_EQ(load_session(LogReader(request.db), request.db, 1).setup, request.setup);
+  EXPECT_EQ(load_session(LogReader(request.db), request.db, 1).setup, request.config->config);
   EXPECT_EQ(LogReader(request.db).first_broken_digest(1), std::nullopt);
 }
 
 TEST_F(Resumed, a_session_without_a_trial_says_what_it_is_run_with) {
   ASSERT_EQ(start_session(request, until(0)).end, RunEnd::stopped);
-  EXPECT_EQ(load_session(LogReader(request.db), request.db, 1).setup,
-            with_participant(request.setup, request.seed));
+  EXPECT_EQ(load_session(LogReader(request.db), request.db, 1).setup, request.config->config);
   EXPECT_EQ(go_on_with({}, 1000).end, RunEnd::finished);
   expect_verified();
 }

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "apparatus/SessionSetup.h"
+#include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Build.h"
 #include "record/SessionArchive.h"
 #include "record/SetupJson.h"
@@ -39,9 +39,9 @@ class ToldSession {
   bool compares() const { return engine.next().plan && engine.next().plan->task == "comparison"; }
 
   SessionHeader header(const Protocol& made) {
-    setup.responder = "coin";
-    complete(setup);
-    setup = in_force(setup, made);
+    SessionOptions model;
+    model.responder = Plug{"coin"};
+    setup = resolve(model, made, 7)->config;
     SessionHeader told;
     told.participant = "1";
     told.protocol_name = made.name;
@@ -52,7 +52,7 @@ class ToldSession {
     told.build = build_name();
     told.run_options = to_json(setup);
     told.purpose = Purpose::simulated;
-    told.responder = setup.responder;
+    told.responder = to_text(setup.responder);
     told.started_utc = "2026-01-01T00:00:00Z";
     return told;
   }

@@ -70,7 +70,7 @@ TEST_P(EveryTask, is_simulated_replayed_judged_and_exported) {
 
     int n_judged = 0;
     for (const JudgedTrial& trial :
-         judge_session(stored.reader(), stored.session(), responder, [](double) {}).trials) {
+         judge_session(stored.reader(), stored.session(), Plug{responder}, [](double) {}).trials) {
       if (trial.task != GetParam()) continue;
       ++n_judged;
       EXPECT_EQ(trial.judged, trial.logged) << "trial " << trial.trial_number;
@@ -89,14 +89,9 @@ TEST_P(EveryTask, is_simulated_replayed_judged_and_exported) {
 
 // The log as it is when the program is killed in a trial of the task, then resumed to its end.
 TEST_P(EveryTask, goes_on_after_the_program_was_killed) {
-  SessionRequest request;
-  request.protocol = protocol_;
-  request.setup.responder = "coin";
-  complete(request.setup);
-  request.setup = in_force(request.setup, protocol_);
-  request.participant = "1";
-  request.seed = 11;
-  const RecordedSession whole = compute_session(request, {});
+  SessionOptions model;
+  model.responder = Plug{"coin"};
+  const RecordedSession whole = compute_session({resolve(model, protocol_, 11), "1"}, {});
   const auto& entries = whole.entries();
   const auto in_task = [&](const RecordedEntry& entry) {
     const auto* recorded = std::get_if<RecordedEvent>(&entry);
@@ -114,7 +109,9 @@ TEST_P(EveryTask, goes_on_after_the_program_was_killed) {
   const std::int64_t id = SessionArchive(log_).store(killed);
   {
     const LogReader before(log_);
-    EXPECT_EQ(resume_session(load_session(before, log_, id), {}).end, RunEnd::finished);
+    const LoggedSession session = load_session(before, log_, id);
+    const ResolvedConfig config = resolve({}, session.setup, *session.protocol, 11);
+    EXPECT_EQ(resume_session(session, config, {}).end, RunEnd::finished);
   }
   const LogReader reader(log_);
   EXPECT_EQ(reader.session(id).state, SessionState::finished);

@@ -105,7 +105,7 @@ TEST(PictureFolder, RefusesAPictureOfAnotherSizeByItsHeader) {
   write_image(folder.file("a.png"), plain(9));
   write_image(folder.file("b.png"), Image(64, 48, 1));
   std::filesystem::resize_file(folder.file("b.png"), 40);  // nothing but a header is left
-  const auto camera = open_camera("frames:" + folder.file(""));
+  const auto camera = open_camera("frames", folder.file(""));
   ASSERT_TRUE(camera->next(0));
   EXPECT_THAT(message_of([&] { camera->next(0); }),
               AllOf(HasSubstr("b.png is 64 x 48 pixels"), HasSubstr("a.png, has 32 x 24")));
@@ -152,7 +152,7 @@ TEST(PictureFolder, ComesInNaturalOrderAtThirtyASecond) {
   for (const char* name : {"frame_10.png", "frame_2.png", "frame_1.png", "frame_002b.png"})
     write_image(folder.file(name), plain(50));
   write_text(folder.file("notes.txt"), "no picture");
-  const auto camera = open_camera("frames:" + folder.path());
+  const auto camera = open_camera("frames", folder.path());
   EXPECT_FALSE(camera->is_live());
   EXPECT_EQ(camera->mode().width_px, 32);
   EXPECT_NEAR(camera->mode().rate_hz, 30, 1e-9);
@@ -174,7 +174,7 @@ TEST(PictureFolder, TakesItsTimesFromTheTableBesideThePictures) {
   for (const char* name : {"a.png", "b.png", "c.png"}) write_image(folder.file(name), plain(50));
   const auto with_times = [&](const std::string& text) {
     write_text(folder.file("times.csv"), text);
-    return open_camera("frames:" + folder.path());
+    return open_camera("frames", folder.path());
   };
   const auto camera = with_times("frame,t_s\r\nc.png,10.25\r\na.png,10\r\nb.png,10.1\r\n");
   for (const double t_s : {0.0, 0.1, 0.25}) EXPECT_NEAR(camera->next(0)->capture_s, t_s, 1e-9);
@@ -194,7 +194,7 @@ TEST(PictureFolder, NamesAPictureThatIsDamaged) {
   const TemporaryFolder folder;
   write_image(folder.file("1.png"), plain(50));
   write_text(folder.file("2.png"), "damaged");
-  const auto camera = open_camera("frames:" + folder.path());
+  const auto camera = open_camera("frames", folder.path());
   EXPECT_TRUE(camera->next(0));
   EXPECT_THAT(message_of([&] { camera->next(0); }), HasSubstr("2.png"));
 }
@@ -202,7 +202,7 @@ TEST(PictureFolder, NamesAPictureThatIsDamaged) {
 TEST(PictureFolder, RefusesAFolderWithoutPictures) {
   const TemporaryFolder folder;
   const auto opening = [&](const std::string& what) {
-    return message_of([&] { open_camera("frames:" + what); });
+    return message_of([&] { open_camera("frames", what); });
   };
   EXPECT_THAT(opening(folder.path()), HasSubstr("no pictures"));
   EXPECT_THAT(opening(folder.file("none")), HasSubstr("can't be read as a folder"));
@@ -216,7 +216,7 @@ TEST(VideoFile, GivesEveryPictureAtItsTime) {
         codecs().writer(path, cv::CAP_OPENCV_MJPEG, four_cc({'M', 'J', 'P', 'G'}), 20, 64, 48);
     for (int i = 0; i < 6; ++i) writer->write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(40 * i)));
   }
-  const auto camera = open_camera("video:" + path);
+  const auto camera = open_camera("video", path);
   EXPECT_EQ(camera->mode().width_px, 64);
   EXPECT_NEAR(camera->mode().rate_hz, 20, 1e-6);
   int n = 0;
@@ -236,17 +236,18 @@ TEST(VideoFile, SaysWhatIsNoVideo) {
   const TemporaryFolder folder;
   write_text(folder.file("text.avi"), "no video");
   const auto opening = [&](const std::string& name) {
-    return message_of([&] { open_camera("video:" + folder.file(name)); });
+    return message_of([&] { open_camera("video", folder.file(name)); });
   };
   EXPECT_THAT(opening("none.avi"), HasSubstr("there is no video"));
   EXPECT_THAT(opening("text.avi"), AllOf(HasSubstr("text.avi"), HasSubstr("Motion-JPEG")));
 }
 
 TEST(CameraTable, UnknownAndUnfinishedNamesAreUsageErrors) {
-  for (const char* source : {"webcam:0", "camera", "frames:", "video", ""}) {
+  for (const auto& [name, what] :
+       {std::pair{"webcam", "0"}, {"camera", ""}, {"frames", ""}, {"video", ""}, {"", ""}}) {
     try {
-      open_camera(source);
-      ADD_FAILURE() << source;
+      open_camera(name, what);
+      ADD_FAILURE() << name;
     } catch (const Error& error) {
       EXPECT_EQ(error.exit_code(), ExitCode::usage) << error.what();
     }
@@ -255,7 +256,7 @@ TEST(CameraTable, UnknownAndUnfinishedNamesAreUsageErrors) {
 
 TEST(CameraTable, ACameraThatIsNotThereIsAMissingDevice) {
   try {
-    open_camera("camera:9731");
+    open_camera("camera", "9731");
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::device_missing) << error.what();

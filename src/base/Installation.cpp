@@ -1,4 +1,4 @@
-#include "cli/Installation.h"
+#include "base/Installation.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 
 #include "base/Error.h"
 
-namespace heft::cli {
+namespace heft {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::string bench_program() {
   return "";
 }
 
-}  // namespace heft::cli
+}  // namespace heft

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace heft::cli {
+namespace heft {
 
 /// Path of a file that comes with the program, such as "protocols/paper.toml": of the checkout that
 /// the program was built in, of ../share/heft beside an installed one, of share/heft below a folder
@@ -18,4 +18,4 @@ std::string installed_file_or_none(const std::string& name);
 /// none.
 std::string bench_program();
 
-}  // namespace heft::cli
+}  // namespace heft

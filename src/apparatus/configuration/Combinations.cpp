@@ -1,0 +1,88 @@
+#include "apparatus/configuration/Combinations.h"
+
+#include <fmt/format.h>
+
+#include "apparatus/PictureSource.h"
+#include "base/Error.h"
+#include "physics/DecouplingSimulator.h"
+#include "view/ArView.h"
+
+namespace heft {
+
+namespace {
+// The first block with trials; none: nothing is asked.
+std::optional<std::string> first_block_with_trials(const Protocol& protocol) {
+  for (const Block& block : protocol.blocks)
+    if (!std::holds_alternative<DemonstrationBlock>(block) &&
+        !std::holds_alternative<BreakBlock>(block))
+      return block_name(block);
+  return std::nullopt;
+}
+
+// The model whose own hand is tracked; none: a person's hand, or a filmed one.
+const ResponderEntry* tracked_model(const ResolvedConfig::Parts& parts) {
+  const auto* model = std::get_if<Plug>(&parts.config.responder);
+  if (!model || parts.tracker->what == TrackerWhat::source) return nullptr;
+  return &responder_named(model->name);
+}
+
+// Hands reach around corners; some simulators would stop in the middle of a trial. What a script's
+// hand does was written down by a person.
+void require_general_simulator(const std::string& simulator, const ResponderEntry* model) {
+  if (simulator_named(simulator).for_sessions) return;
+  if (model && (!model->touches_cubes || model->file == ResponderFile::folder)) return;
+  throw Error(
+      fmt::format(
+          "the simulator \"{}\" knows straight strokes at one cube only, and hands do more; "
+          "expected another --simulator, or one in the protocol's [physics]",
+          simulator),
+      ExitCode::usage);
+}
+}  // namespace
+
+void require_compatible_plugs(const ResolvedConfig::Parts& parts) {
+  const std::string& view = parts.config.view.name;
+  const auto* model = std::get_if<Plug>(&parts.config.responder);
+  if (parts.tracker->is_dragged && model)
+    throw Error(fmt::format("tracker \"mouse\": a person drags the effector, but the responder is "
+                            "\"{}\", which has a hand of its own; expected --tracker hand or "
+                            "synthetic, or --responder human",
+                            model->name),
+                ExitCode::usage);
+  if (parts.tracker->is_dragged && !parts.view->has_screen)
+    throw Error(
+        fmt::format("tracker \"mouse\": the effector is dragged in the window, and the view "
+                    "\"{}\" has none; expected --view window",
+                    view),
+        ExitCode::usage);
+  if (!model && !parts.view->has_screen)
+    throw Error(fmt::format("a person can't see or touch the view \"{}\"; expected --view window, "
+                            "or a model as --responder",
+                            view),
+                ExitCode::usage);
+}
+
+void require_answerable(const ResolvedConfig::Parts& parts, const Protocol& protocol) {
+  const ResponderEntry* model = tracked_model(parts);
+  require_general_simulator(parts.config.simulator, model);
+  const auto block = first_block_with_trials(protocol);
+  if (!protocol.require_contact || !model || model->touches_cubes || !block) return;
+  throw Error(
+      fmt::format(
+          "responder \"{}\" never touches a cube, and the protocol takes no answer before "
+          "every cube was touched (require_contact = true), first in block \"{}\"; expected "
+          "another responder, or require_contact = false",
+          model->name, *block),
+      ExitCode::usage);
+}
+
+void require_questions(const Protocol& protocol) {
+  for (const Block& block : protocol.blocks)
+    if (const auto* trials = std::get_if<TaskBlock>(&block); trials && trials->lacks_question())
+      throw Error(fmt::format("block {} asks a question of the questionnaire {} that the session's "
+                              "texts do not have; expected one that is answered on the screen",
+                              trials->name(), *trials->questionnaire()),
+                  ExitCode::invalid_file);
+}
+
+}  // namespace heft

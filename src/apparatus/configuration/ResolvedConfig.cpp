@@ -1,0 +1,160 @@
+#include "apparatus/configuration/ResolvedConfig.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "apparatus/PictureSource.h"
+#include "base/DefaultTechniques.h"
+#include "base/Error.h"
+#include "base/Random.h"
+#include "experiment/EachCell.h"
+#include "physics/DecouplingSimulator.h"
+#include "physics/auto/Choice.h"
+#include "protocol/Files.h"
+#include "responders/ResponderParameters.h"
+#include "view/ArView.h"
+
+namespace heft {
+
+namespace fs = std::filesystem;
+
+namespace {
+// What a responder is made with.
+struct Making {
+  const ResponderEntry& entry;
+  ResponderOptions options;
+};
+
+Making making(const Plug& model, std::uint64_t seed) {
+  Making made{responder_named(model.name), {}};
+  // A seed of its own: the session's trials can't be drawn from it.
+  made.options.seed = RandomStream(seed, "responder").bits();
+  if (made.entry.file == ResponderFile::folder) made.options.folder = model.what;
+  if (made.entry.file == ResponderFile::parameters && !model.text.empty())
+    made.options.parameters = parse_parameters(model.text, model.what);
+  return made;
+}
+
+// A column's value, for people.
+std::string shown(const std::string& text) {
+  return text;
+}
+template <typename Value>
+std::string shown(const Value& value) {
+  if constexpr (std::is_enum_v<Value>)
+    return std::string(name_of(value));
+  else
+    return fmt::format("{}", value);
+}
+template <typename Value>
+std::string shown(const std::optional<Value>& value) {
+  return value ? shown(*value) : "";
+}
+
+std::map<std::string, std::string> shown_columns(const SessionConfig& config) {
+  std::map<std::string, std::string> values;
+  visit_cells(config, [&](const CellColumn& column, const auto& value) {
+    values[column.full_name()] = shown(value);
+  });
+  return values;
+}
+
+}  // namespace
+
+ResolvedConfig::ResolvedConfig(Parts parts) : parts_(std::move(parts)) {}
+
+ResolvedConfig ResolvedConfig::with_seed(std::uint64_t seed) const {
+  ResolvedConfig other = *this;
+  other.parts_.seed = seed;
+  other.parts_.config.participant_parameters = drawn_participant(parts_.config.responder, seed);
+  return other;
+}
+
+SessionConfig with_devices(SessionConfig config, const DeviceFacts& devices) {
+  constexpr double same_rate = 0.01;  // 29.97 is 30
+  config.source_rate_hz = devices.source_rate_hz;
+  if (config.source_rate_hz && config.display_rate_hz &&
+      std::abs(*config.source_rate_hz / *config.display_rate_hz - 1) < same_rate)
+    config.source_rate_hz.reset();
+  if (!devices.display) return config;
+  const auto& [number, name, w_px, h_px, refresh_hz, scale] = *devices.display;
+  if (config.display_w_mm && (config.display_w_px != w_px || config.display_h_px != h_px))
+    throw Error(fmt::format("{} is of a display of {} x {} pixels, but this one has {} x {}: "
+                            "measure it (heft calibrate display), or name its file with "
+                            "--display-file",
+                            config.display_file, config.display_w_px.value_or(0),
+                            config.display_h_px.value_or(0), w_px, h_px),
+                ExitCode::invalid_file);
+  config.display = {number, name};
+  config.display_w_px = w_px;
+  config.display_h_px = h_px;
+  config.refresh_hz = refresh_hz;
+  config.display_scale = scale;
+  if (!config.window) config.window = WindowState::full_screen;
+  return config;
+}
+
+std::map<std::string, double> drawn_participant(const WhoAnswers& responder, std::uint64_t seed) {
+  const auto* model = std::get_if<Plug>(&responder);
+  if (!model) return {};
+  const Making made = making(*model, seed);
+  return drawn_values(made.options, made.entry.parts);
+}
+
+std::unique_ptr<Responder> make_responder(const WhoAnswers& responder, std::uint64_t seed) {
+  const auto* model = std::get_if<Plug>(&responder);
+  const Making made = making(model ? *model : Plug{"simulated"}, seed);
+  return made.entry.make(made.options);
+}
+
+bool runs_on_wall_clock(const SessionConfig& config) {
+  return has_person(config) || tracker_named(config.tracker.name).is_live ||
+         view_named(config.view.name).has_screen;
+}
+
+SimulatorPick resolve_auto(const Protocol& protocol) {
+  std::vector<std::string> techniques{spring_technique};
+  for (const Technique& declared : protocol.techniques) techniques.push_back(declared.name);
+  std::vector<SimulatorPick> picks;
+  for (const std::string& technique : techniques)
+    picks.push_back(resolve_auto(scene_of(protocol, technique, {}), protocol.display_rate_hz));
+  return *std::ranges::max_element(picks, {}, &SimulatorPick::rate_hz);
+}
+
+SimulatorPick simulator_for(const std::string& name, const Protocol& protocol) {
+  if (name == automatic) return resolve_auto(protocol);
+  return {std::string(simulator_named(name).name), protocol.simulator.rate_hz, ""};
+}
+
+std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const SessionConfig& config) {
+  if (!config.simulator.empty()) protocol.simulator.name = config.simulator;
+  if (config.rate_hz) protocol.simulator.rate_hz = *config.rate_hz;
+  if (const auto mode = named<InputMode>(config.input)) protocol.simulator.input.mode = *mode;
+  if (config.predict_s) protocol.simulator.input.predict_s = *config.predict_s;
+  take_questions(protocol, config.texts.text, config.texts.path);
+  return std::make_shared<const Protocol>(std::move(protocol));
+}
+
+std::vector<ConfigChange> changes_between(const SessionConfig& from, const SessionConfig& to) {
+  std::vector<ConfigChange> changes;
+  const auto before = shown_columns(from), after = shown_columns(to);
+  for (const auto& [column, value] : after)
+    if (before.at(column) != value) changes.push_back({column, before.at(column), value});
+  return changes;
+}
+
+std::string next_part(const std::string& path) {
+  const fs::path whole(path);
+  std::string candidate = path;
+  for (int part = 2; fs::exists(candidate); ++part)
+    candidate = (whole.parent_path() /
+                 fmt::format("{}-{}{}", whole.stem().string(), part, whole.extension().string()))
+                    .string();
+  return candidate;
+}
+
+}  // namespace heft
