@@ -14,6 +14,7 @@
 #include "session/Recorded.h"
 #include "session/Runner.h"
 #include "session/TappedScreen.h"
+#include "tasks/Offers.h"
 
 namespace heft {
 namespace {
@@ -91,7 +92,7 @@ class WatchedScreen final : public ArView {
       EXPECT_EQ(screen.trial_number, saved.trial_number);
       EXPECT_EQ(screen.attempt, saved.attempt);
       EXPECT_EQ(screen.n_choices, saved.n_choices) << "an answer is shown that is not on disk";
-      EXPECT_EQ(screen.labels, saved.labels);
+      EXPECT_EQ(labels_on(screen), labels_on(saved));
     }
     if (screen.screen == Screen::thanks) {
       EXPECT_EQ(disk.state(), SessionState::finished);
