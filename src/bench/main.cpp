@@ -8,7 +8,6 @@
 #include <random>
 
 #include "bench/Study.h"
-#include "bench/stock/StockSimulators.h"
 #include "cli/Commands.h"
 #include "cli/Terminal.h"
 
@@ -50,7 +49,6 @@ void add_all(heft::cli::Command& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  heft::supply_stock_simulators();
   return heft::cli::run_program(
       {"heft-bench",
        "The studies of results/: each measures, and draws its charts. The other commands are "

@@ -70,8 +70,9 @@ struct SimulatorEntry {
 
 std::span<const SimulatorEntry> simulators();
 
-/// Gives this program a simulator that the table only names. Before any other thread starts.
-void supply_simulator(std::string_view name, MakeSimulator make);
+/// A simulator that the table only names, where this program is linked with it; else null, which is
+/// what this weak definition returns. bench/stock/linked.cpp has the other one.
+MakeSimulator linked_simulator(std::string_view name);
 
 /// @throws Error (usage) naming the nearest simulator when there is none of that name;
 ///   OnlyForStudies

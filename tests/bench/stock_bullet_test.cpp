@@ -3,7 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "bench/stock/StockSimulators.h"
+#include "physics/DecouplingSimulator.h"
 #include "physics/Oracles.h"
 #include "physics/Pushes.h"
 
@@ -36,11 +36,6 @@ std::string error_of(const std::string& name, double rate_hz) {
   }
   return "";
 }
-
-// As the program does; for all tests of this room.
-const struct Supplied {
-  Supplied() { supply_stock_simulators(); }
-} supplied;
 
 TEST(StockBullet, EveryVariantWarnsOfItself) {
   for (const std::string& name : variants)

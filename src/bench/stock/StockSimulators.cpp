@@ -91,13 +91,15 @@ std::unique_ptr<DecouplingSimulator> make() {
 }
 
 template <std::size_t... rows>
-void supply(std::index_sequence<rows...>) {
-  (supply_simulator(table[rows].name, make<rows>), ...);
+MakeSimulator found(std::string_view name, std::index_sequence<rows...>) {
+  MakeSimulator maker = nullptr;
+  ((table[rows].name == name ? void(maker = make<rows>) : void()), ...);
+  return maker;
 }
 }  // namespace
 
-void supply_stock_simulators() {
-  supply(std::make_index_sequence<table.size()>());
+MakeSimulator stock_simulator(std::string_view name) {
+  return found(name, std::make_index_sequence<table.size()>());
 }
 
 }  // namespace heft

@@ -3,9 +3,13 @@
 // stopped with an Error instead of going on with figures that mean nothing.
 #pragma once
 
+#include <string_view>
+
+#include "physics/DecouplingSimulator.h"
+
 namespace heft {
 
-/// Makes the simulators that the table names for the studies alone.
-void supply_stock_simulators();
+/// @return null where none has that name
+MakeSimulator stock_simulator(std::string_view name);
 
 }  // namespace heft
