@@ -41,8 +41,19 @@ constexpr std::string_view database_locked = "database locked by another process
 std::vector<Touch> SessionControl::wait(double seconds) {
   wait_while_held();
   if (!journal_.clock().is_wall()) return {};
-  std::vector<Touch> touches = poll(seconds);
+  keep(poll(pending_.empty() ? seconds : 0));
   if (holding_) wait_while_held();
+  return std::exchange(pending_, {});
+}
+
+void SessionControl::keep(const std::vector<Touch>& touches) {
+  pending_.insert(pending_.end(), touches.begin(), touches.end());
+}
+
+std::vector<Touch> SessionControl::touched(double seconds) {
+  std::vector<Touch> touches = screen_.wait(seconds);
+  if (std::ranges::any_of(touches, [](const Touch& t) { return t.kind == TouchKind::close; }))
+    leaving_ = true;
   return touches;
 }
 
@@ -51,6 +62,7 @@ void SessionControl::wait_while_held() {
   for (;;) {
     if (journal_.busy() && !busy_since_s) {
       busy_since_s = monotonic_s();
+      if (journal_.clock().is_wall()) keep(touched(0));  // touched before the screen pauses
       const std::string locked =
           "Database locked by another process; retrying. Nothing is lost. "
           "Close the other program to continue.";
@@ -66,6 +78,18 @@ void SessionControl::wait_while_held() {
     stand_still(busy_since_s.has_value());
   }
   continue_after_database();
+  refuse_stale();
+}
+
+// An answer that was pending in a pause, to a trial that is over after it.
+void SessionControl::refuse_stale() {
+  if (!has_person_) return;
+  const PageId page = journal_.engine().screen().page();
+  std::erase_if(pending_, [&](const Touch& touch) {
+    if (touch.kind != TouchKind::action || touch.page == page) return false;
+    journal_.emit_now(ActionRefused{touch.action, "its trial was over after a pause"});
+    return true;
+  });
 }
 
 // Where there is a wall clock; a command may have continued the session meanwhile.
@@ -122,10 +146,8 @@ SessionControl::Answer SessionControl::ask_to_go_on(const std::string& question)
 }
 
 std::vector<Touch> SessionControl::poll(double seconds) {
-  std::vector<Touch> touches = screen_.wait(seconds);
+  std::vector<Touch> touches = touched(seconds);
   if (!has_screen_) std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-  if (std::ranges::any_of(touches, [](const Touch& t) { return t.kind == TouchKind::close; }))
-    leaving_ = true;
   note_window();
   journal_.flush_now_and_then();
   if (!console_) return touches;

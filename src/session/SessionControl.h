@@ -125,6 +125,9 @@ class SessionControl {
   void go_on();
   void pause();
   void confirm(const std::string& done);
+  void keep(const std::vector<Touch>& touches);
+  std::vector<Touch> touched(double seconds);
+  void refuse_stale();
   void pause_for_database();
   void continue_after_database();
   bool gives_up_after(double waited_s) const;
@@ -139,6 +142,7 @@ class SessionControl {
   bool has_screen_, has_person_;
   std::function<void()> check_;
   std::optional<Answer> answer_;  // to what is being asked
+  std::vector<Touch> pending_;    // not returned yet
   std::optional<bool> full_screen_;
   bool leaving_ = false, holding_ = false, asking_ = false;
   bool paused_for_database_ = false;

@@ -269,6 +269,32 @@ TEST_P(AnswerInALockedDatabase, can_be_vetoed_meanwhile) {
   }
 }
 
+// The first failing write is a periodic one; the screen still shows the trial, and is touched.
+TEST(LockedDatabase, takes_an_answer_from_before_the_pause_after_it_unless_its_trial_is_over) {
+  for (const bool is_vetoed : {false, true}) {
+    BusySession session;
+    int n_left = -1;
+    session.sink.is_locked = [&](const Event& event) {
+      if (n_left < 0 && event.is<Note>() && session.sink.is_touching) n_left = 20;
+      return n_left > 0 && n_left-- > 0;
+    };
+    session.person = [&](const ViewFrame& picture, const ScreenState& screen) {
+      const bool waits = screen.screen == Screen::trial && n_left < 0;
+      return waits ? std::vector<Touch>{} : testing::patient(picture, screen);
+    };
+    bool vetoed = !is_vetoed;
+    session.console.on_show = [&](const ConsoleStatus& status) {
+      if (is_about_the_lock(status) && !std::exchange(vetoed, true))
+        session.console.commands.push_back({ConsoleCommandKind::veto, "disturbance"});
+    };
+    EXPECT_EQ(session.run(), RunEnd::finished);
+    EXPECT_EQ(n_left, 0) << "it was never locked";
+    session.expect_to_fold_again();
+    EXPECT_EQ(n_of<Action>(session) + n_of<ActionRefused>(session), session.n_actions);
+    EXPECT_EQ(n_of<ActionRefused>(session), is_vetoed ? 3U : 0U) << "three labels";
+  }
+}
+
 TEST(LockedDatabase, can_be_held_by_the_experimenter_until_after_the_lock) {
   BusySession session;
   const LockDuringAnAnswer lock(session, false);
