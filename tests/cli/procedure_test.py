@@ -246,7 +246,8 @@ class ConstantStimuli(unittest.TestCase):
             self.assertEqual(sorted(levels[start:start + 5]), self.LEVELS)
         self.assertEqual(only(events, "reversal"), [])
         self.assertEqual(events[-2:], [{"event": "finished", "staircase": "c", "reason": "trials",
-                                        "estimate": None, "n_trials": 30}, {"event": "done"}])
+                                        "estimate": None, "low": None, "high": None,
+                                        "n_trials": 30}, {"event": "done"}])
 
     def test_shuffled_over_all_trials(self):
         levels = self.levels(toml([self.constant(order="shuffled")]), answers_to_lines([True] * 30))
