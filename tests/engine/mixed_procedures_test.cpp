@@ -10,6 +10,7 @@
 #include "experiment/EachCell.h"
 #include "psychophysics/Bisection.h"
 #include "psychophysics/ProcedureKinds.h"
+#include "tasks/Comparison.h"
 
 namespace heft {
 namespace {

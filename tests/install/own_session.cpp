@@ -4,6 +4,7 @@
 
 #include "engine/Engine.h"
 #include "psychophysics/UpDown.h"
+#include "tasks/Comparison.h"
 
 // Halves the interval that holds the threshold.
 struct Bisection {
@@ -36,9 +37,8 @@ int main() {
     engine.apply(heft::Event{t_s += 1, heft::TrialStarted{}});
     engine.apply(heft::Event{t_s += 1, heft::CubesShown{}});
     const heft::TrialPlan trial = *engine.next().plan;
-    heft::Action answer{heft::"no_difference", {}, {}};
-    if (*trial.level_g > threshold_g)
-      answer = {heft::"select", trial.reference_slot == 1 ? 2 : 1, {}};
+    heft::Action answer{"no_difference", {}, {}};
+    if (*trial.level_g > threshold_g) answer = {"select", trial.reference_slot == 1 ? 2 : 1, {}};
     for (const heft::EstimateRow& row : engine.apply(heft::Event{t_s += 1, answer}).estimates) {
       std::printf("%s: %.2f g\n", row.staircase.c_str(), *row.jnd_g);
       ++n_estimates;
