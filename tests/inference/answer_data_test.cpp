@@ -65,6 +65,13 @@ TEST(AnswerData, GroupsAreTextInTheOrderOfTheirFirstRows) {
               ElementsAre(Pair(1, ElementsAre(0, 1, 0)), Pair(2, ElementsAre(1, 0, 0))));
 }
 
+TEST(AnswerData, LevelsOfALogarithmMayBe0) {
+  EXPECT_EQ(parse_answers("x,response\n0,1\n", "data.csv", {FitModel::psychometric, {}, true})
+                .at(0)
+                .answers.count(0),
+            1u);
+}
+
 std::string refusal_of(const std::string& text, const AnswerFormat& format) {
   try {
     parse_answers(text, "data.csv", format);

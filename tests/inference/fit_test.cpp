@@ -175,6 +175,16 @@ std::string why_no_choice(const AnswersByLevel& answers) {
   return fit.why;
 }
 
+// Guesses and lapses leave each answer at least so much, also the one that was never given.
+TEST(Steps, LeaveEachAnswerItsLeast) {
+  EXPECT_NEAR(log_likelihood_of_steps({{1, {1, 0, 0}}}, std::array{0.1, 0.1}), std::log(0.9),
+              1e-12);
+  EXPECT_NEAR(log_likelihood_of_steps({{1, {2, 2, 0}}}, std::array{0.1, 0.1}), 4 * std::log(0.5),
+              1e-12);
+  EXPECT_NEAR(log_likelihood_of_steps({{1, {9, 0, 0}}, {2, {0, 5, 0}}}, std::array{0.0, 0.0}), 0,
+              1e-12);
+}
+
 TEST(IndecisionFit, SaysWhyThereIsNoThreshold) {
   EXPECT_THAT(why_no_choice({}), HasSubstr("no trials"));
   EXPECT_THAT(why_no_choice({{0, {0, 9, 0}}, {90, {0, 9, 0}}}), HasSubstr("no cube was ever"));
