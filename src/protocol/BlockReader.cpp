@@ -181,9 +181,15 @@ class KeyReader {
   template <typename Keys>
   requires requires(Keys keys, KeyReader reader) { keys.visit_keys(reader); }
   void read(const BlockKey& key, std::optional<Keys>& field) {
-    table_.in_table(key.name, [&](TableReader& inner) {
-      field.emplace().visit_keys(KeyReader(inner, names_));
-    });
+    auto inner = table_.table(key.name);
+    if (!inner) return;
+    Keys keys;
+    KeyReader reader(*inner, names_);
+    keys.visit_keys(reader);
+    inner->close();
+    bool is_good = true;
+    keys.visit_keys([&](const BlockKey& its, auto&&) { is_good &= inner->good({its.name}); });
+    if (is_good) field = keys;
   }
 
   void read(const BlockKey&, ByTechnique<std::string>& field) {

@@ -84,10 +84,12 @@ std::vector<KeyMistake> Estimation::Block::check() const {
          {},
          fmt::format("the masses' trials are {} in all, expected 1 to {}", n, most_trials),
          {"masses_g", "trials_per_mass"}});
-  if (scale != "number" && scale != "slider" && !question_in(scale))
+  if (scale != "number" && scale != "slider" && !question_in(scale)) {
     add("scale", fmt::format("scale is \"{}\", expected \"number\", \"slider\" or a question of a "
                              "questionnaire file, NAME.KEY",
                              scale));
+    return mistakes;
+  }
   if (scale == "number") {
     if (!low || !high)
       add(low ? "high" : "low", "a scale of numbers needs low and high, the range to be typed");

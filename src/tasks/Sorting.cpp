@@ -94,7 +94,7 @@ std::vector<KeyMistake> Sorting::Block::check() const {
   int commonest = 0;
   for (const TechniqueTrials& some : trials) commonest = std::max(commonest, some.trials);
   const int others = n_trials() - commonest;
-  const int shortest = (commonest + others) / (others + 1);
+  const int shortest = others < 0 ? 0 : (commonest + others) / (others + 1);
   if (max_run != 0 && max_run < shortest)
     mistakes.push_back(
         {"max_run",

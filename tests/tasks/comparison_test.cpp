@@ -144,7 +144,7 @@ TEST(ComparisonRun, names_the_staircase_that_runs_alone) {
   EXPECT_EQ(run.survivor(), "one") << "it has more trials";
 }
 
-TEST(Comparison::Block, has_catch_trials_in_a_number_or_by_a_coin) {
+TEST(ComparisonKeys, has_catch_trials_in_a_number_or_by_a_coin) {
   Comparison::Block block = block_of(Sides::random);
   EXPECT_TRUE(block.check().empty());
   EXPECT_EQ(block.expected_staircase_trials(), 24);

@@ -133,7 +133,7 @@ TEST(SortingRun, balanced_orders_come_each_once_in_every_round_and_again_freely_
   EXPECT_TRUE(run.finished());
 }
 
-TEST(Sorting::Block, checks_its_values) {
+TEST(SortingKeys, checks_its_values) {
   Sorting::Block block;
   block.masses_g = {1, 2, 2};
   ASSERT_EQ(block.check().size(), 1u);
@@ -149,6 +149,8 @@ TEST(Sorting::Block, checks_its_values) {
   EXPECT_EQ(block.check()[0].key, "max_run");
   block.max_run = 2;
   EXPECT_TRUE(block.check().empty());
+  block.trials = {{"A", 3}, {"B", -1}};
+  EXPECT_TRUE(block.check().empty()) << "which the reader refuses";
 }
 
 }  // namespace
