@@ -82,6 +82,9 @@ RC_GTEST_PROP(digest_chain, tells_any_two_rows_apart, ()) {
   Event other = *rc::gen::arbitrary<bool>() ? one : any_event();
   if (flag()) other.t_s = time_s();
   RecordedSession first(header_of("P01")), second(header_of("P01"));
+  for (RecordedSession* each : {&first, &second})  // whose task's words the log then has
+    each->append(event(0, event_kind<TrialStarted>), starting(sorting_trial(1, 1)),
+                 Durability::buffered);
   first.append(one, {}, Durability::buffered);
   second.append(other, {}, Durability::buffered);
   SessionArchive archive(folder.file("log.db"));

@@ -387,7 +387,7 @@ TEST(Experimenter, takes_the_last_answer_back_and_its_trial_comes_again) {
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].as<AnswerVetoed>()->reason, "tapped by mistake");
   EXPECT_THAT(console.said, Contains(HasSubstr("presented again")));
-  EXPECT_THAT(console.said, Contains(HasSubstr("no comparison")));
+  EXPECT_THAT(console.said, Contains(HasSubstr("no trial was answered")));
   EXPECT_EQ(session.engine.n_completed(), 3);
   EXPECT_EQ(session.engine.n_attempts(), 5) << "with the one that had begun, and the one again";
 }
