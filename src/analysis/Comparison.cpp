@@ -22,8 +22,9 @@ void count_trial(Counts& counts, const std::string& participant, const ComparedT
     counts.wrong_cube[participant].add(!*trial.correct);
 }
 
-ComparisonChoices choices(double reference_g, std::optional<double> level_g, const Counts& counts) {
-  return {reference_g,
+ComparisonChoices choices(const Compared& compared, std::optional<double> level_g,
+                          const Counts& counts) {
+  return {compared,
           level_g,
           counts.n_trials,
           rate_of(counts.difference),
@@ -33,25 +34,22 @@ ComparisonChoices choices(double reference_g, std::optional<double> level_g, con
 }
 using TrialsAtOne = std::vector<const ComparedTrial*>;
 
-// All conditions of a reference together, by level.
-std::map<double, TrialsAtOne> by_reference(const ComparisonTrials& trials) {
-  std::map<double, TrialsAtOne> references;
-  for (const auto& [compared, theirs] : trials.by_compared())
-    for (const ComparedTrial& trial : theirs) references[compared.reference_g].push_back(&trial);
-  for (auto& [reference_g, theirs] : references)
-    std::ranges::stable_sort(theirs, {}, &ComparedTrial::level_g);
-  return references;
+TrialsAtOne sorted_by_level(const std::deque<ComparedTrial>& trials) {
+  TrialsAtOne sorted;
+  for (const ComparedTrial& trial : trials) sorted.push_back(&trial);
+  std::ranges::stable_sort(sorted, {}, &ComparedTrial::level_g);
+  return sorted;
 }
 
 // One level after the other, so that no more than one's counts are in memory.
-void put_levels(ComparisonSummary& summary, double reference_g, const TrialsAtOne& sorted,
+void put_levels(ComparisonSummary& summary, const Compared& compared, const TrialsAtOne& sorted,
                 const ComparisonTrials& trials) {
   for (auto first = sorted.begin(); first != sorted.end();) {
     const double level_g = (*first)->level_g;
     Counts counts;
     for (; first != sorted.end() && (*first)->level_g == level_g; ++first)
       if (!(*first)->is_catch) count_trial(counts, trials.participant(**first), **first);
-    if (counts.n_trials > 0) summary.by_level.push_back(choices(reference_g, level_g, counts));
+    if (counts.n_trials > 0) summary.by_level.push_back(choices(compared, level_g, counts));
   }
 }
 }  // namespace
@@ -59,12 +57,13 @@ void put_levels(ComparisonSummary& summary, double reference_g, const TrialsAtOn
 ComparisonSummary comparisons_of(const ComparisonTrials& trials) {
   ComparisonSummary summary;
   Counts all;
-  for (const auto& [reference_g, sorted] : by_reference(trials)) {
+  for (const auto& [compared, theirs] : trials.by_compared()) {
+    const TrialsAtOne sorted = sorted_by_level(theirs);
     Counts counts;
     for (const ComparedTrial* trial : sorted)
       for (Counts* sum : {&all, &counts}) count_trial(*sum, trials.participant(*trial), *trial);
-    summary.by_reference.push_back(choices(reference_g, std::nullopt, counts));
-    put_levels(summary, reference_g, sorted, trials);
+    summary.by_reference.push_back(choices(compared, std::nullopt, counts));
+    put_levels(summary, compared, sorted, trials);
   }
   summary.wrong_cube = rate_of(all.wrong_cube);
   summary.false_alarm = rate_of(all.false_alarm);

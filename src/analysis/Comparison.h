@@ -12,9 +12,10 @@
 
 namespace heft {
 
-/// Completed comparisons at one reference, or at one difference from it. All participants together.
+/// Completed comparisons at one reference in one condition, or at one difference from it. All
+/// participants together.
 struct ComparisonChoices {
-  double reference_g = 0;
+  Compared compared;
   std::optional<double> level_g;  ///< comparison - reference; none: all levels together
   int n_trials = 0;
   Rate difference;   ///< a cube was chosen, of all trials but catch trials
@@ -24,9 +25,9 @@ struct ComparisonChoices {
 };
 
 struct ComparisonSummary {
-  std::vector<ComparisonChoices> by_reference;
-  std::vector<ComparisonChoices> by_level;  ///< by reference, then level; no catch trials
-  Rate wrong_cube, false_alarm, at_zero;    ///< all references together
+  std::vector<ComparisonChoices> by_reference;  ///< and condition
+  std::vector<ComparisonChoices> by_level;      ///< by reference, then level; no catch trials
+  Rate wrong_cube, false_alarm, at_zero;        ///< all references together
 };
 
 ComparisonSummary comparisons_of(const ComparisonTrials& trials);

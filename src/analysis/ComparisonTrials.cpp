@@ -1,5 +1,7 @@
 #include "analysis/ComparisonTrials.h"
 
+#include <algorithm>
+
 #include "analysis/Timing.h"
 
 namespace heft {
@@ -41,9 +43,16 @@ void ComparisonTrials::add(const SessionData& data) {
   for (const Attempt& attempt : data.attempts) {
     if (!is_usable(attempt)) continue;
     const TrialPlan& plan = attempt.trial.plan;
-    trials_[{*plan.reference_g, plan.condition}].push_back(
-        compared_trial(attempt.trial, place_of(participant)));
+    const Compared compared{*plan.reference_g, plan.condition};
+    trials_[compared].push_back(compared_trial(attempt.trial, place_of(participant)));
+    comparable_[compared].add(data.published_condition(plan.condition),
+                              published::jnd_at(*plan.reference_g) != nullptr);
   }
+}
+
+bool ComparisonTrials::as_published(const Compared& compared) const {
+  const auto found = comparable_.find(compared);
+  return found != comparable_.end() && found->second.condition() == published::Condition::decoupled;
 }
 
 std::map<std::string, AnswersByLevel> answers_by_side(const ComparisonTrials& trials,
@@ -54,6 +63,33 @@ std::map<std::string, AnswersByLevel> answers_by_side(const ComparisonTrials& tr
     answers[trials.participant(trial)][signed_g][static_cast<std::size_t>(trial.side)] += 1;
   }
   return answers;
+}
+
+std::vector<ComparedTrials> binned(ComparedTrials sorted) {
+  constexpr std::size_t most_bins = 7;
+  std::ranges::stable_sort(sorted, {}, &ComparedTrial::level_g);
+  std::vector<ComparedTrials> bins;
+  const auto put = [&](auto first, auto last) {
+    const auto n = static_cast<std::size_t>(last - first);
+    const std::size_t n_bins = std::min(most_bins, n);
+    const std::size_t n_before = bins.size();
+    for (std::size_t i = 0; i < n_bins; ++i) {
+      const auto from = first + static_cast<std::ptrdiff_t>(i * n / n_bins);
+      const auto to = first + static_cast<std::ptrdiff_t>((i + 1) * n / n_bins);
+      const bool same = bins.size() > n_before && bins.back().back()->level_g == (*from)->level_g &&
+                        bins.back().front()->level_g == (*(to - 1))->level_g;
+      if (same)  // many at a bound
+        bins.back().insert(bins.back().end(), from, to);
+      else
+        bins.emplace_back(from, to);
+    }
+  };
+  const auto zero = std::ranges::find_if(sorted, [](const auto* one) { return one->level_g >= 0; });
+  const auto above = std::ranges::find_if(sorted, [](const auto* one) { return one->level_g > 0; });
+  put(sorted.begin(), zero);
+  if (zero != above) bins.emplace_back(zero, above);
+  put(above, sorted.end());
+  return bins;
 }
 
 }  // namespace heft

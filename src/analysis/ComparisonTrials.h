@@ -39,6 +39,8 @@ class ComparisonTrials {
   /// In the order of sessions and trials.
   const std::map<Compared, std::deque<ComparedTrial>>& by_compared() const { return trials_; }
   const std::vector<std::string>& participants() const { return participants_; }
+  /// All in the paper's technique, at a reference of the paper's.
+  bool as_published(const Compared& compared) const;
   const std::string& participant(const ComparedTrial& trial) const {
     return participants_[trial.person];
   }
@@ -47,6 +49,7 @@ class ComparisonTrials {
   std::uint32_t place_of(const std::string& participant);
 
   std::map<Compared, std::deque<ComparedTrial>> trials_;
+  std::map<Compared, published::Comparable> comparable_;
   std::vector<std::string> participants_;
   std::map<std::string, std::uint32_t> places_;
 };
@@ -55,5 +58,11 @@ class ComparisonTrials {
 /// the right minus that on the left.
 std::map<std::string, AnswersByLevel> answers_by_side(const ComparisonTrials& trials,
                                                       const Compared& compared);
+
+using ComparedTrials = std::vector<const ComparedTrial*>;
+
+/// Those whose differences lie next to each other, in bins of about as many; those at 0, catch
+/// trials too, are one of their own.
+std::vector<ComparedTrials> binned(ComparedTrials trials);
 
 }  // namespace heft

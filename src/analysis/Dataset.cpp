@@ -50,6 +50,12 @@ const SessionConfig* SessionData::setup_of(const Attempt& attempt) const {
   return found == setups.end() ? nullptr : &found->setup;
 }
 
+std::optional<published::Condition> SessionData::published_condition(
+    const std::string& condition) const {
+  const auto found = published_conditions.find(condition);
+  return found == published_conditions.end() ? std::nullopt : std::optional(found->second);
+}
+
 TrackingCounts SessionData::tracking() const {
   TrackingCounts counts{events.effector_lost, 0, 0, frames};
   for (const Attempt& attempt : attempts) {
@@ -135,6 +141,7 @@ struct Declared {
   std::set<std::string> without_jnd;
   std::optional<AnalysisPlan> plan;
   ExclusionRules exclusion;
+  std::map<std::string, published::Condition> published_conditions;
 };
 
 constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviation>,
@@ -142,30 +149,36 @@ constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviatio
                                    event_kind<CameraReport>, event_kind<Consent>,
                                    event_kind<EffectorLost>};
 
-Declared declared_in(const std::string& protocol_text) {
-  Declared declared{staircases_without_jnd(protocol_text), {}, {}};
+// --set may change a technique's parameters; the text stays as it was.
+Declared declared_in(const std::string& protocol_text,
+                     const std::vector<ProtocolSetting>& settings) {
+  Declared declared{staircases_without_jnd(protocol_text), {}, {}, {}};
   try {
-    const Protocol protocol = parse_protocol(protocol_text, "protocol");
+    const Protocol protocol = parse_protocol(protocol_text, "protocol", settings);
     if (protocol.analysis.declares_any()) declared.plan = protocol.analysis;
     declared.exclusion = protocol.exclusion;
-  } catch (const InvalidFile&) {
+    declared.published_conditions = published::conditions_in(protocol);
+  } catch (const Error&) {
   }
   return declared;
 }
 
-/// Protocols are read once, however many sessions ran them.
-using DeclaredByText = std::map<std::string, Declared>;
+/// Protocols are read once, however many sessions ran them with the same settings.
+using DeclaredByText = std::map<std::pair<std::string, std::string>, Declared>;
 
 SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& declared_by_text) {
   SessionData data = join_rows(log.session(id), {log.trials(id), log.cubes(id), log.answers(id),
                                                  log.reversals(id), log.estimates(id)});
   data.setups = log.setups(id);
   const std::string& protocol_text = data.session.header.protocol_text;
-  const auto [found, is_new] = declared_by_text.try_emplace(protocol_text);
-  if (is_new) found->second = declared_in(protocol_text);
+  const auto settings =
+      data.setups.empty() ? std::vector<ProtocolSetting>{} : data.setups.front().setup.settings;
+  const auto [found, is_new] = declared_by_text.try_emplace({protocol_text, to_text(settings)});
+  if (is_new) found->second = declared_in(protocol_text, settings);
   data.without_jnd = found->second.without_jnd;
   data.plan = found->second.plan;
   data.exclusion = found->second.exclusion;
+  data.published_conditions = found->second.published_conditions;
   const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
   data.frames = log.frame_counts(id);
   data.events = count_events(events);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/Published.h"
 #include "experiment/Rows.h"
 #include "protocol/AnalysisPlan.h"
 #include "record/LogReader.h"
@@ -69,6 +70,8 @@ struct SessionData {
   std::set<std::string> without_jnd{};
   std::optional<AnalysisPlan> plan{};  ///< what its protocol declares to test; none: nothing
   ExclusionRules exclusion{};
+  /// Those of its conditions that the paper measured, by law and parameters.
+  std::map<std::string, published::Condition> published_conditions{};
 
   /// A model answered at least one of its trials; where there is none, was to answer.
   bool simulated() const { return model().has_value(); }
@@ -79,6 +82,8 @@ struct SessionData {
   /// What was in force in a trial; null: the log doesn't tell.
   const SessionConfig* setup_of(const Attempt& attempt) const;
   TrackingCounts tracking() const;
+  /// The paper's condition that a trial was in; none: another technique.
+  std::optional<published::Condition> published_condition(const std::string& condition) const;
   bool finished() const { return session.state == SessionState::finished; }
 };
 

@@ -9,19 +9,20 @@
 namespace heft {
 
 namespace {
-std::string beside(std::optional<double> published, std::string_view unit) {
-  return published ? fmt::format("; published {:.1f}{}", *published, unit) : "";
+std::string beside(const published::Figure* figure, std::string_view unit) {
+  return figure ? fmt::format("; published {:.1f}{}", figure->value, unit) : "";
 }
 
 std::string within(const std::optional<Interval>& interval) {
   return interval ? fmt::format(" [{:.1f}, {:.1f}]", interval->low, interval->high) : "";
 }
 
-std::string proportion_figure(std::string_view what, const Proportion& proportion) {
+std::string proportion_figure(std::string_view what, const Proportion& proportion,
+                              const published::Figure* figure) {
   if (!proportion.mean_percent) return fmt::format("{}: no trials", what);
   return fmt::format("{}: {:.1f} %{}, n = {}{}", what, *proportion.mean_percent,
                      within(proportion.interval_percent), proportion.n_participants,
-                     beside(proportion.published_percent, " %"));
+                     beside(figure, " %"));
 }
 
 std::string chance_figure(const ConditionSorting& sorting) {
@@ -42,11 +43,11 @@ std::string first_try_figure(const IntroductionSummary& introduction) {
   if (!rate.percent) return "introduction: not completed by anyone";
   return fmt::format("introduction right on the first try: {} of {} participants, {:.1f} %{}{}",
                      rate.trials.n_hits, rate.trials.n_trials, *rate.percent,
-                     within(rate.interval_percent), beside(introduction.published_percent, " %"));
+                     within(rate.interval_percent), beside(introduction.published, " %"));
 }
 
 bool counts(const ReferenceJnd& jnd) {
-  return jnd.compared.condition == "C2" && jnd.as_published().mean.has_value();
+  return jnd.published && jnd.as_published().mean.has_value();
 }
 
 std::string_view began(const ReferenceJnd& jnd) {
@@ -60,8 +61,8 @@ std::vector<std::string> jnd_figures(const Summary& summary) {
       figures.push_back(fmt::format("JND{} at {:g} g: {:.1f} g{}, n = {}{}", began(jnd),
                                     jnd.compared.reference_g, *jnd.as_published().mean,
                                     within(jnd.as_published().interval), jnd.n(),
-                                    beside(jnd.published_g, " g")));
-  if (figures.empty()) figures.push_back("no finished staircase in C2");
+                                    beside(jnd.published, " g")));
+  if (figures.empty()) figures.push_back("no finished staircase in the paper's technique");
   return figures;
 }
 
@@ -97,7 +98,7 @@ std::vector<std::string> ratio_figures(const Summary& summary) {
     const double reference_g = jnd.compared.reference_g;
     if (!counts(jnd) || reference_g == 0) continue;
     const std::string published =
-        jnd.published_g ? fmt::format("; published {:.2f}", *jnd.published_g / reference_g) : "";
+        fmt::format("; published {:.2f}", jnd.published->value / reference_g);
     const StartedJnds jnds = jnd.as_published();
     const std::string interval =
         jnds.interval ? fmt::format(" [{:.2f}, {:.2f}]", jnds.interval->low / reference_g,
@@ -106,7 +107,7 @@ std::vector<std::string> ratio_figures(const Summary& summary) {
     figures.push_back(fmt::format("JND{} / reference at {:g} g: {:.2f}{}{}", began(jnd),
                                   reference_g, *jnds.mean / reference_g, interval, published));
   }
-  if (figures.empty()) figures.push_back("no finished staircase in C2");
+  if (figures.empty()) figures.push_back("no finished staircase in the paper's technique");
   return figures;
 }
 
@@ -118,13 +119,13 @@ struct Judgment {
 constexpr double usual_margin_percent = 10;  // beside chance: what counts as no better
 
 // "Blind" by two one-sided tests (Schuirmann 1987): the 90 % interval within chance +- 10 points.
-Judgment judge_blind(const ConditionSorting& c1, double margin_percent) {
-  const Proportion& correct = c1.answered_correct;
-  if (c1.n_trials == 0) return {HypothesisVerdict::not_judged, "no C1 trial was completed"};
-  if (correct.n_participants < 2 || !c1.answered_correct_90_percent)
-    return {HypothesisVerdict::not_judged, "fewer than two participants answered a C1 trial"};
-  const double chance = *c1.chance_percent();
-  const Interval& interval = *c1.answered_correct_90_percent;
+Judgment judge_blind(const ConditionSorting& control, double margin_percent) {
+  const Proportion& correct = control.answered_correct;
+  if (correct.n_participants < 2 || !control.answered_correct_90_percent)
+    return {HypothesisVerdict::not_judged,
+            fmt::format("fewer than two participants answered a {} trial", control.condition)};
+  const double chance = *control.chance_percent();
+  const Interval& interval = *control.answered_correct_90_percent;
   const Interval blind{chance - margin_percent, chance + margin_percent};
   const std::string figures = fmt::format(
       "of the answered trials {:.1f} % were right, 90 % interval [{:.1f}, {:.1f}]; chance is "
@@ -138,11 +139,12 @@ Judgment judge_blind(const ConditionSorting& c1, double margin_percent) {
           figures + ": too wide to say that it is chance, or that it is not"};
 }
 
-Judgment judge_above_chance(const ConditionSorting& c2) {
-  const Proportion& correct = c2.correct;
+Judgment judge_above_chance(const ConditionSorting& technique) {
+  const Proportion& correct = technique.correct;
   if (correct.n_participants < 2)
-    return {HypothesisVerdict::not_judged, "fewer than two participants completed a C2 trial"};
-  const double chance = *c2.chance_percent();
+    return {HypothesisVerdict::not_judged,
+            fmt::format("fewer than two participants completed a {} trial", technique.condition)};
+  const double chance = *technique.chance_percent();
   const Interval& interval = *correct.interval_percent;
   const std::string figures = fmt::format(
       "{:.1f} % of the trials were right, 95 % interval [{:.1f}, {:.1f}]; chance is "
@@ -168,17 +170,18 @@ Judgment judge_first_try(const Rate& rate) {
   return {HypothesisVerdict::not_judged, figures};
 }
 
-std::vector<const ReferenceSensitivity*> c2_sensitivities(const Summary& summary) {
+std::vector<const ReferenceSensitivity*> paper_sensitivities(const Summary& summary) {
   std::vector<const ReferenceSensitivity*> rows;
   for (const ReferenceSensitivity& row : summary.sensitivity)
-    if (row.compared.condition == "C2") rows.push_back(&row);
+    if (row.as_published) rows.push_back(&row);
   return rows;
 }
 
 // Why sensitivities can't be compared; empty: they can. The JND itself is no ground: it follows the
 // criterion and the start of its staircase, and coin flips make it grow with the reference too.
 std::string why_not_comparable(const std::vector<const ReferenceSensitivity*>& rows) {
-  if (rows.size() < 2) return "it takes comparisons at two references or more in C2";
+  if (rows.size() < 2)
+    return "it takes comparisons at two of the paper's references or more in its technique";
   std::string why;
   for (const ReferenceSensitivity* row : rows)
     if (!row->pooled.identifiable())
@@ -214,7 +217,7 @@ std::vector<Interval> ratios_together(const std::vector<const ReferenceSensitivi
 }
 
 Judgment judge_rising(const Summary& summary) {
-  const auto rows = c2_sensitivities(summary);
+  const auto rows = paper_sensitivities(summary);
   if (const std::string why = why_not_comparable(rows); !why.empty())
     return {HypothesisVerdict::not_judged, why};
   const std::string figures = threshold_figures(rows);
@@ -230,7 +233,7 @@ Judgment judge_rising(const Summary& summary) {
 // Proportional: from each reference to the next the threshold grows as the reference does, within
 // a factor of 1.5.
 Judgment judge_proportional(const Summary& summary) {
-  const auto rows = c2_sensitivities(summary);
+  const auto rows = paper_sensitivities(summary);
   if (const std::string why = why_not_comparable(rows); !why.empty())
     return {HypothesisVerdict::not_judged, why};
   constexpr double near = 1.5;
@@ -250,10 +253,71 @@ Judgment judge_proportional(const Summary& summary) {
   return {HypothesisVerdict::not_judged, figures + ": too uncertain to say"};
 }
 
-Hypothesis judged(std::string name, std::string statement, Judgment judgment,
-                  std::vector<std::string> figures) {
-  return {std::move(name),  std::move(statement),    false,
-          judgment.verdict, std::move(judgment.why), std::move(figures)};
+// What the paper's condition was called here; null: no completed trial was in it with its masses.
+const ConditionSorting* sorting_in(const Summary& summary, published::Condition condition) {
+  const auto found = std::ranges::find(summary.sorting, condition, &ConditionSorting::published);
+  return found == summary.sorting.end() ? nullptr : &*found;
+}
+
+Judgment not_run(std::string_view what) {
+  return {
+      HypothesisVerdict::not_judged,
+      fmt::format("no completed {} the paper's masses and technique, by law and parameters", what)};
+}
+
+Hypothesis judged(std::size_t index, Judgment judgment, std::vector<std::string> figures,
+                  std::string condition) {
+  const published::HypothesisText& text = published::hypotheses.at(index);
+  return {std::string(text.name), std::string(text.statement), false,
+          judgment.verdict,       std::move(judgment.why),     std::move(figures),
+          std::move(condition)};
+}
+
+Hypothesis judged_of_control(const Summary& summary) {
+  const ConditionSorting* control = sorting_in(summary, published::Condition::coupled);
+  if (!control) return judged(0, not_run("sorting of"), {}, "");
+  const published::Sorting& paper = published::sorting_coupled;
+  const std::string& name = control->condition;
+  return judged(0, judge_blind(*control, equivalence_margin_percent(summary)),
+                {proportion_figure(name + " correct", control->correct, &paper.correct),
+                 proportion_figure(name + " correct, of answered trials", control->answered_correct,
+                                   &*paper.answered_correct),
+                 proportion_figure(name + " \"I don't know\", an outcome of its own", control->none,
+                                   &paper.none),
+                 chance_figure(*control)},
+                name);
+}
+
+Hypothesis judged_of_technique(const Summary& summary) {
+  const ConditionSorting* technique = sorting_in(summary, published::Condition::decoupled);
+  if (!technique) return judged(1, not_run("sorting of"), {}, "");
+  const published::Sorting& paper = published::sorting_decoupled;
+  const std::string& name = technique->condition;
+  return judged(1, judge_above_chance(*technique),
+                {proportion_figure(name + " correct", technique->correct, &paper.correct),
+                 proportion_figure(name + " \"I don't know\", an outcome of its own",
+                                   technique->none, &paper.none),
+                 chance_figure(*technique)},
+                name);
+}
+
+Hypothesis judged_of_introduction(const Summary& summary) {
+  const IntroductionSummary& introduction = summary.introduction;
+  if (!introduction.published) return judged(2, not_run("introduction with"), {}, "");
+  return judged(2, judge_first_try(introduction.first_try), {first_try_figure(introduction)},
+                introduction.conditions);
+}
+
+std::vector<Hypothesis> judged_of_jnds(const Summary& summary) {
+  const auto rows = paper_sensitivities(summary);
+  if (rows.empty())
+    return {judged(3, not_run("comparison with"), {}, ""),
+            judged(4, not_run("comparison with"), {}, "")};
+  const std::string& condition = rows.front()->compared.condition;
+  std::vector<std::string> rising = jnd_figures(summary);
+  rising.push_back(rising_figure(summary));
+  return {judged(3, judge_rising(summary), rising, condition),
+          judged(4, judge_proportional(summary), ratio_figures(summary), condition)};
 }
 }  // namespace
 
@@ -262,27 +326,9 @@ double equivalence_margin_percent(const Summary& summary) {
 }
 
 std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
-  const ConditionSorting &c1 = summary.sorting.at(0), &c2 = summary.sorting.at(1);
-  std::vector<std::string> rising = jnd_figures(summary);
-  rising.push_back(rising_figure(summary));
-  std::vector<Hypothesis> all{
-      judged("E1-H1", "C1 does not allow to perceive a mass difference among virtual objects",
-             judge_blind(c1, equivalence_margin_percent(summary)),
-             {proportion_figure("C1 correct", c1.correct),
-              proportion_figure("C1 correct, of answered trials", c1.answered_correct),
-              proportion_figure("C1 \"I don't know\", an outcome of its own", c1.none),
-              chance_figure(c1)}),
-      judged("E1-H2", "C2 allows to recognize which objects are lighter and heavier",
-             judge_above_chance(c2),
-             {proportion_figure("C2 correct", c2.correct),
-              proportion_figure("C2 \"I don't know\", an outcome of its own", c2.none),
-              chance_figure(c2)}),
-      judged("E1-H3", "C2 is effective with no training",
-             judge_first_try(summary.introduction.first_try),
-             {first_try_figure(summary.introduction)}),
-      judged("E2-H1", "the JND increases with the reference mass", judge_rising(summary), rising),
-      judged("E2-H2", "the JND is proportional to the reference mass", judge_proportional(summary),
-             ratio_figures(summary))};
+  std::vector<Hypothesis> all{judged_of_control(summary), judged_of_technique(summary),
+                              judged_of_introduction(summary)};
+  for (Hypothesis& hypothesis : judged_of_jnds(summary)) all.push_back(std::move(hypothesis));
   for (Hypothesis& hypothesis : all)
     hypothesis.declared = summary.plan && summary.plan->declares(hypothesis.name);
   return all;

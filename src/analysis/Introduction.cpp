@@ -1,5 +1,7 @@
 #include "analysis/Introduction.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "analysis/Published.h"
@@ -12,15 +14,18 @@ void IntroductionFold::add(const SessionData& data) {
     if (!seen_.insert(data.participant()).second) continue;
     const auto n_selects = std::ranges::count(attempt.answers, "select", &AnswerRow::action);
     tally_.add(n_selects == 1);
-    as_published_ = as_published_ && attempt.shows(published::introduction_masses_g);
+    const std::string& condition = attempt.trial.plan.condition;
+    conditions_.insert(condition);
+    comparable_.add(data.published_condition(condition),
+                    attempt.shows(published::introduction_masses_g));
   }
 }
 
 IntroductionSummary IntroductionFold::result() const {
-  IntroductionSummary summary{rate_of_people(tally_), {}, {}};
-  if (tally_.n_trials == 0 || !as_published_) return summary;
-  summary.published_n = published::n_participants;
-  summary.published_percent = 100.0 * published::introduction_first_try / published::n_participants;
+  IntroductionSummary summary{rate_of_people(tally_), {}};
+  summary.conditions = fmt::format("{}", fmt::join(conditions_, ", "));
+  if (comparable_.condition() == published::Condition::decoupled)
+    summary.published = &published::introduction_first_try;
   return summary;
 }
 

@@ -12,9 +12,9 @@
 namespace heft {
 
 struct IntroductionSummary {
-  Rate first_try;  ///< of participants: exactly one `select`
-  std::optional<double> published_percent;
-  std::optional<int> published_n;  ///< participants
+  Rate first_try;          ///< of participants: exactly one `select`
+  std::string conditions;  ///< those of the trials
+  const published::Figure* published = nullptr;
 };
 
 /// Each participant's first completed introduction; nobody is untrained twice. Sessions in order.
@@ -25,7 +25,8 @@ class IntroductionFold {
 
  private:
   Tally tally_;
-  bool as_published_ = true;
+  published::Comparable comparable_;
+  std::set<std::string> conditions_;
   std::set<std::string> seen_;
 };
 

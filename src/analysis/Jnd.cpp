@@ -10,7 +10,6 @@
 #include <ranges>
 
 #include "analysis/Fold.h"
-#include "analysis/Published.h"
 #include "protocol/Protocol.h"
 #include "protocol/TomlDocument.h"
 #include "psychophysics/Constant.h"
@@ -227,11 +226,6 @@ ReferenceJnd jnd_at(const Compared& compared, std::span<const StaircaseResult> r
   jnd.n_unfinished = n_began - jnd.n_staircases;
   put_participants(jnd, results, began);
   put_mean(jnd);
-  const auto figure = published::jnd_at(compared.reference_g);
-  if (figure && compared.condition == "C2" && compared.method == jnd_method) {
-    jnd.published_g = figure->mean_g;
-    jnd.published_sd_g = figure->sd_g;
-  }
   return jnd;
 }
 }  // namespace
@@ -266,8 +260,10 @@ void StaircaseFold::add_starts(const std::string& participant,
 
 void StaircaseFold::add(const SessionData& data) {
   const std::string participant = data.participant();
-  for (const auto& [staircase, compared] : compared_by(data))
+  for (const auto& [staircase, compared] : compared_by(data)) {
     began_[compared][participant][data.session.session_id] += 1;
+    comparable_[compared].add(data.published_condition(compared.condition), true);
+  }
   std::vector<StaircaseResult> of_session = results_of(data);
   add_starts(participant, of_session);
   std::ranges::move(of_session, std::back_inserter(results_));
@@ -279,6 +275,9 @@ std::vector<ReferenceJnd> StaircaseFold::jnds() const {
   std::vector<ReferenceJnd> jnds;
   for (const auto& [compared, participants] : began_) {
     jnds.push_back(jnd_at(compared, finished[compared], participants));
+    if (compared.method == jnd_method &&
+        comparable_.at(compared).condition() == published::Condition::decoupled)
+      jnds.back().published = published::jnd_at(compared.reference_g);
     if (const auto starts = starts_.find(compared); starts != starts_.end())
       jnds.back().starts = start_effect(starts->second, participants);
   }
@@ -291,11 +290,6 @@ std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sess
 
 std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions) {
   return folded<StaircaseFold>(sessions).jnds();
-}
-
-std::string_view beyond_sign(Censored censored) {
-  if (censored == Censored::none || censored == Censored::unsettled) return "";
-  return censored == Censored::above ? "> " : "< ";
 }
 
 int StartedJnds::n_censored(Censored direction) const {

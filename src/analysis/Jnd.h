@@ -61,9 +61,6 @@ struct ParticipantJnd {
   Censored censored = Censored::none;
 };
 
-/// "> " where the value lies above what is given, "< " below, otherwise nothing.
-std::string_view beyond_sign(Censored censored);
-
 /// JNDs of participants' staircases that began on one side, or by how much they differ.
 struct StartedJnds : FigureSummary {
   std::vector<ParticipantJnd> participants;  ///< with a figure, exact or censored
@@ -101,7 +98,8 @@ struct ReferenceJnd {
   int n_trial_limit = 0;           ///< staircases that it ended
   int n_floor = 0, n_ceiling = 0;  ///< hits, all staircases
   int n_floor_staircases = 0, n_ceiling_staircases = 0;
-  std::optional<double> published_g, published_sd_g;
+  /// Where all sessions compared in the paper's technique, at a reference of the paper's.
+  const published::Figure* published = nullptr;
 
   int n() const { return static_cast<int>(participants.size() + missing.size()); }
   int n_censored(Censored direction) const;  ///< participants
@@ -123,8 +121,7 @@ class StaircaseFold {
   /// trials.
   const std::vector<StaircaseResult>& results() const& { return results_; }
   std::vector<StaircaseResult> results() && { return std::move(results_); }
-  /// By reference, lightest first, and condition. The paper's figures are beside its references in
-  /// C2.
+  /// By reference, lightest first, and condition.
   std::vector<ReferenceJnd> jnds() const;
 
   /// How many staircases each participant's sessions began.
@@ -139,6 +136,7 @@ class StaircaseFold {
 
   std::vector<StaircaseResult> results_;
   std::map<Compared, Began> began_;
+  std::map<Compared, published::Comparable> comparable_;
   std::map<Compared, std::map<std::string, AboveAndBelow>> starts_;
 };
 

@@ -13,7 +13,7 @@
 #include "analysis/Gnuplot.h"
 #include "analysis/Json.h"
 #include "analysis/Notes.h"
-#include "analysis/TableParts.h"
+#include "analysis/RecordTables.h"
 #include "analysis/Tables.h"
 #include "base/Error.h"
 #include "base/TextFile.h"
@@ -78,7 +78,7 @@ void write_tracks(Folder& folder, const Summary& summary) {
   std::string csv;
   std::string name;
   for (const SessionTracks& session : summary.all_tracks) {
-    const Table table = track_list(session, summary);
+    const Table table = track_table(session);
     const std::string of_session = as_csv(table, summary.data);
     csv += csv.empty() ? of_session : of_session.substr(of_session.find('\n') + 1);
     name = table.name;
@@ -88,9 +88,8 @@ void write_tracks(Folder& folder, const Summary& summary) {
 
 void write_tables(Folder& folder, const Summary& summary) {
   write_tracks(folder, summary);
-  for (const auto& tables : {tables_of(summary), lists_of(summary)})
-    for (const Table& table : tables)
-      folder.write(table.name + ".csv", as_csv(table, summary.data));
+  for (const Table& table : filled(tables_at(summary, all_csv_places)))
+    folder.write(table.name + ".csv", as_csv(table, summary.data));
 }
 
 struct DrawnChart {
@@ -125,8 +124,10 @@ std::string_view svg_element(std::string_view svg) {
 }
 
 std::string hypotheses_html(const Summary& summary) {
+  if (std::ranges::none_of(summary.hypotheses, &Hypothesis::applies)) return "";
   std::string html = "<h2 id=\"hypotheses\">The paper's hypotheses</h2>\n<dl>\n";
   for (const Hypothesis& hypothesis : summary.hypotheses) {
+    if (!hypothesis.applies()) continue;
     html += fmt::format(
         "<dt><b>{}</b>: {}</dt>\n<dd><b>{}</b> ({}): {}</dd>\n", hypothesis.name,
         html_escaped(hypothesis.statement), html_escaped(name_of(hypothesis.verdict)),
@@ -155,20 +156,21 @@ std::string table_html(const Table& table) {
       table.name, as_html(table));
 }
 
-// For who reads no further: whether the technique did what it is for.
+// For who reads no further: whether the paper's technique did what it is for.
 std::string answer_html(const Summary& summary) {
   const auto found = std::ranges::find(summary.hypotheses, "E1-H2", &Hypothesis::name);
-  if (summary.sessions.empty() || found == summary.hypotheses.end()) return "";
+  if (found == summary.hypotheses.end() || found->condition.empty()) return "";
   const std::string_view whom = summary.data == "simulated" ? ", for the model that answered" : "";
+  const std::string condition = html_escaped(found->condition);
   std::string answer = "These data can't tell.";
   if (found->verdict == HypothesisVerdict::supported)
-    answer = fmt::format("Yes{}: C2 tells masses apart.", whom);
+    answer = fmt::format("Yes{}: {} tells masses apart.", whom, condition);
   if (found->verdict == HypothesisVerdict::not_supported)
-    answer = fmt::format("No{}: C2 tells masses apart hardly or not at all.", whom);
+    answer = fmt::format("No{}: {} tells masses apart hardly or not at all.", whom, condition);
   return fmt::format(
-      "<p class=\"answer\"><b>Did C2 work? {}</b> C2 is decoupling, where a heavy cube pushes the "
-      "clone back; C1 the control, where it stays on the effector.</p>\n",
-      answer);
+      "<p class=\"answer\"><b>Did {0} work? {1}</b> {0} is decoupling, where a heavy cube pushes "
+      "the clone back.</p>\n",
+      condition, answer);
 }
 
 std::string head_html(const Summary& summary) {
@@ -188,54 +190,42 @@ std::string head_html(const Summary& summary) {
   return html;
 }
 
-struct Section {
+struct ReportSection {
   std::string id, title;
   std::vector<Table> tables;
 };
 
 // By what a reviewer asks for: who took part and what went wrong, what came out, what was run.
-struct Sections {
-  Section first, results, run;
+struct ReportSections {
+  ReportSection first, results, run;
 };
 
-Sections sections_of(const Summary& summary) {
-  Section first{"first", "Counted first", {participant_list(summary)}};
-  Section results{"results", "Tables", {}};
-  for (Table& table : quality_tables(summary)) first.tables.push_back(std::move(table));
-  first.tables.push_back(incident_table(summary));
-  for (const auto& tables : {sorting_tables(summary), sensitivity_tables(summary)})
-    results.tables.insert(results.tables.end(), tables.begin(), tables.end());
-  results.tables.push_back(threshold_list(summary));
-  for (Table& table : comparison_tables(summary)) results.tables.push_back(std::move(table));
-  results.tables.push_back(published_table(summary));
-  std::vector<Table> run = session_tables(summary);  // times, voids, choices of the protocol
-  run.push_back(setup_table(summary));
-  run.push_back(tracking_table(summary));
-  run.push_back(dictionary_table(summary));
-  Sections all{std::move(first),
-               std::move(results),
-               {"run", "What was run, and what it means", std::move(run)}};
-  for (Section* section : {&all.first, &all.results, &all.run})
-    std::erase_if(section->tables, [](const Table& table) { return table.rows.empty(); });
-  return all;
+ReportSections sections_of(const Summary& summary) {
+  return {
+      {"first", "Data quality",
+       filled(tables_at(summary, {TablePlace::report_first, TablePlace::first}))},
+      {"results", "Tables", filled(tables_at(summary, {TablePlace::results, TablePlace::report}))},
+      {"run", "What was run, and what it means",
+       filled(tables_at(summary, {TablePlace::run, TablePlace::run_only}))}};
 }
 
-std::string section_html(const Section& section) {
+std::string section_html(const ReportSection& section) {
   std::string html = fmt::format("<h2 id=\"{}\">{}</h2>\n", section.id, section.title);
   for (const Table& table : section.tables) html += table_html(table);
   return html;
 }
 
-std::string contents_html(const std::vector<DrawnChart>& charts, const Sections& sections) {
+std::string contents_html(const std::vector<DrawnChart>& charts, const ReportSections& sections,
+                          bool with_hypotheses) {
   std::string html = "<nav>\n<h2>Contents</h2>\n<ul>\n";
   const auto link = [&](std::string_view id, std::string_view text) {
     html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, text);
   };
-  const auto tables = [&](const Section& section) {
+  const auto tables = [&](const ReportSection& section) {
     for (const Table& table : section.tables)
       link("table_" + table.name, html_escaped(table.title));
   };
-  link("hypotheses", "The paper's hypotheses");
+  if (with_hypotheses) link("hypotheses", "The paper's hypotheses");
   tables(sections.first);
   for (std::size_t i = 0; i < charts.size(); ++i)
     link(charts[i].chart.name,
@@ -247,9 +237,10 @@ std::string contents_html(const std::vector<DrawnChart>& charts, const Sections&
 
 // The report as one HTML page: what it comes to, what was counted first, figures, tables.
 std::string report_page(const Summary& summary, const std::vector<DrawnChart>& charts) {
-  const Sections sections = sections_of(summary);
-  std::string html = head_html(summary) + contents_html(charts, sections);
-  html += hypotheses_html(summary) + section_html(sections.first) + "<h2>Figures</h2>\n";
+  const ReportSections sections = sections_of(summary);
+  const std::string hypotheses = hypotheses_html(summary);
+  std::string html = head_html(summary) + contents_html(charts, sections, !hypotheses.empty());
+  html += hypotheses + section_html(sections.first) + "<h2>Figures</h2>\n";
   for (std::size_t i = 0; i < charts.size(); ++i)
     html += figure_html(charts[i], static_cast<int>(i) + 1);
   if (charts.empty()) html += "<p class=\"note\">No charts were drawn.</p>\n";

@@ -16,6 +16,7 @@ namespace heft {
 struct ReferenceSensitivity {
   Compared compared;
   PooledSensitivity pooled;
+  bool as_published = false;  ///< compared at a reference and in the technique of the paper
 };
 
 /// By reference, lightest first, and condition; participants' sessions together.

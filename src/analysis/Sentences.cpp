@@ -21,14 +21,6 @@ std::string percent(const Proportion& proportion) {
   return text;
 }
 
-// Chance is of answers: who doesn't know is neither right nor wrong.
-std::string answered(const ConditionSorting& sorting) {
-  std::string text = percent(sorting.answered_correct) + " of the answered trials in C1";
-  if (sorting.none.mean_percent.value_or(0) > 0)
-    text += fmt::format(" ({:.0f} % were \"I don't know\")", *sorting.none.mean_percent);
-  return text;
-}
-
 std::string who(const Summary& summary) {
   const std::string people = fmt::format("{} {}participant{}", summary.n_participants,
                                          summary.data == "simulated" ? "simulated " : "",
@@ -36,39 +28,65 @@ std::string who(const Summary& summary) {
   return summary.data == "human and simulated" ? people + " (persons and models mixed)" : people;
 }
 
+// Chance is of answers: who doesn't know is neither right nor wrong.
+std::string sorting_in_words(const ConditionSorting& sorting) {
+  const std::string& name = sorting.condition;
+  std::string text = fmt::format("{} of trials were correct in {}", percent(sorting.correct), name);
+  if (sorting.none.mean_percent.value_or(0) > 0)
+    text += fmt::format(" and {} of the answered trials in {} ({:.0f} % were \"I don't know\")",
+                        percent(sorting.answered_correct), name, *sorting.none.mean_percent);
+  return text + fmt::format(", where chance is {:.0f} %", sorting.chance_percent().value_or(0));
+}
+
+// What the paper's hypotheses come to, of those of its conditions that were run.
+std::string verdicts_in_words(const Summary& summary) {
+  const Hypothesis &blind = named(summary, "E1-H1"), &works = named(summary, "E1-H2");
+  std::string text;
+  if (!works.condition.empty()) {
+    std::string verdict =
+        fmt::format("whether {} tells masses apart is inconclusive", works.condition);
+    if (works.verdict == HypothesisVerdict::supported)
+      verdict = works.condition + " tells masses apart";
+    if (works.verdict == HypothesisVerdict::not_supported)
+      verdict = works.condition +
+                " tells masses apart hardly or not at all (at most 10 points above chance)";
+    text += "; " + verdict;
+  }
+  if (!blind.condition.empty()) {
+    std::string verdict =
+        fmt::format("whether {} tells masses apart is inconclusive", blind.condition);
+    if (blind.verdict == HypothesisVerdict::supported)
+      verdict = fmt::format("answers in {} are equivalent to chance (within {:g} points)",
+                            blind.condition, equivalence_margin_percent(summary));
+    if (blind.verdict == HypothesisVerdict::not_supported)
+      verdict = fmt::format("answers in {} are not chance", blind.condition);
+    text += "; " + verdict;
+  }
+  return text;
+}
+
 std::string sorting_sentence(const Summary& summary) {
-  const ConditionSorting &c1 = summary.sorting.at(0), &c2 = summary.sorting.at(1);
-  if (c1.n_trials + c2.n_trials == 0)
+  std::string text;
+  for (const ConditionSorting& sorting : summary.sorting)
+    if (sorting.n_trials > 0) text += (text.empty() ? "" : "; ") + sorting_in_words(sorting);
+  if (text.empty())
     return fmt::format("Sorting: of {} nobody completed a trial, so nothing is said of it.",
                        who(summary));
-  std::string blind = ", and whether C1 tells masses apart can't be judged";
-  const HypothesisVerdict verdict = named(summary, "E1-H1").verdict;
-  if (verdict == HypothesisVerdict::supported)
-    blind = fmt::format(", and answers in C1 are equivalent to chance (within {:g} points)",
-                        equivalence_margin_percent(summary));
-  if (verdict == HypothesisVerdict::not_supported) blind = ", and answers in C1 are not chance";
-  std::string worked = "whether C2 tells masses apart can't be judged";
-  if (named(summary, "E1-H2").verdict == HypothesisVerdict::supported)
-    worked = "C2 tells masses apart";
-  if (named(summary, "E1-H2").verdict == HypothesisVerdict::not_supported)
-    worked = "C2 tells masses apart hardly or not at all (at most 10 points above chance)";
-  return fmt::format(
-      "Sorting: {}; of {}, {} of trials were right in C2 and {}, where chance is {:.0f} %{}.",
-      worked, who(summary), percent(c2.correct), answered(c1),
-      c2.chance_percent().value_or(c1.chance_percent().value_or(0)), blind);
+  return fmt::format("Sorting: of {}, {}{}.", who(summary), text, verdicts_in_words(summary));
 }
 
 std::string comparison_sentence(const Summary& summary) {
-  if (summary.sensitivity.empty()) return "Comparisons: none were completed.";
   std::string known, unknown;
   for (const ReferenceSensitivity& row : summary.sensitivity) {
     const PooledSensitivity& pooled = row.pooled;
+    const std::string where =
+        fmt::format("{:g} g in {}", row.compared.reference_g, row.compared.condition);
     if (pooled.identifiable())
-      known += fmt::format("{}{:.0f} g [{:.0f}, {:.0f}] at {:g} g", known.empty() ? "" : ", ",
+      known += fmt::format("{}{:.0f} g [{:.0f}, {:.0f}] at {}", known.empty() ? "" : ", ",
                            *pooled.threshold_75_g, pooled.threshold_interval_g->low,
-                           pooled.threshold_interval_g->high, row.compared.reference_g);
+                           pooled.threshold_interval_g->high, where);
     else
-      unknown += fmt::format("{}{:g} g", unknown.empty() ? "" : ", ", row.compared.reference_g);
+      unknown += fmt::format("{}{}", unknown.empty() ? "" : ", ", where);
   }
   std::string text = "Comparisons: ";
   if (!known.empty())
@@ -84,7 +102,7 @@ std::string comparison_sentence(const Summary& summary) {
 std::string limits_sentence(const Summary& summary) {
   std::string open;
   for (const Hypothesis& hypothesis : summary.hypotheses)
-    if (hypothesis.verdict == HypothesisVerdict::not_judged)
+    if (hypothesis.verdict == HypothesisVerdict::not_judged && !hypothesis.condition.empty())
       open += (open.empty() ? "" : ", ") + hypothesis.name;
   std::string text =
       summary.plan ? "What they can't say: what the protocol did not declare is exploratory"
@@ -98,13 +116,17 @@ std::string limits_sentence(const Summary& summary) {
     text +=
         "; the paper's JND follows the criterion and the start, so it is no measure of what "
         "people perceive";
-  if (!open.empty()) text += fmt::format("; {} can't be judged", open);
+  if (!open.empty()) text += fmt::format("; {} are inconclusive", open);
   return text + ".";
 }
 }  // namespace
 
 std::vector<std::string> three_sentences(const Summary& summary) {
-  return {sorting_sentence(summary), comparison_sentence(summary), limits_sentence(summary)};
+  std::vector<std::string> sentences;
+  if (!summary.sorting.empty()) sentences.push_back(sorting_sentence(summary));
+  if (!summary.sensitivity.empty()) sentences.push_back(comparison_sentence(summary));
+  sentences.push_back(limits_sentence(summary));
+  return sentences;
 }
 
 }  // namespace heft

@@ -4,23 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/Published.h"
+#include "tasks/Sorting.h"
 
 namespace heft {
-
-namespace {
-void put_beside(Proportion& proportion, const published::Percentage& figure) {
-  proportion.published_percent = figure.mean_percent;
-  proportion.published_sd_percent = figure.sd_percent;
-}
-
-void put_beside(ConditionSorting& sorting, const published::Sorting& figures) {
-  put_beside(sorting.correct, figures.correct);
-  put_beside(sorting.incorrect, figures.incorrect);
-  put_beside(sorting.none, figures.none);
-  sorting.answered_correct.published_percent = figures.answered_correct_percent;
-}
-}  // namespace
 
 double chance_percent(int n_cubes) {
   return 100 / std::tgamma(n_cubes + 1.0);
@@ -72,11 +58,21 @@ std::optional<Swap> swap_of(std::span<const double> masses_g,
   return Swap::all_three;
 }
 
-SortingFold::Counted& SortingFold::counted_in(const std::string& condition) {
-  for (auto& [name, counted] : conditions_)
-    if (name == condition) return counted;
-  return conditions_.emplace_back(condition, Counted{}).second;
+namespace {
+// Which label each cube got, both by rank.
+void count_labels(std::map<int, std::vector<std::vector<int>>>& matrices,
+                  std::span<const double> masses_g, std::span<const std::optional<Label>> labels) {
+  const auto names = Sorting::labels_for(static_cast<int>(masses_g.size()));
+  auto& matrix = matrices[static_cast<int>(masses_g.size())];
+  matrix.resize(masses_g.size(), std::vector<int>(masses_g.size()));
+  for (std::size_t slot = 0; slot < masses_g.size(); ++slot) {
+    const auto rank = static_cast<std::size_t>(
+        std::ranges::count_if(masses_g, [&](double mass_g) { return mass_g < masses_g[slot]; }));
+    const auto label = std::find(names.begin(), names.end(), labels[slot]);
+    if (label != names.end()) matrix[rank][static_cast<std::size_t>(label - names.begin())] += 1;
+  }
 }
+}  // namespace
 
 void SortingFold::count(Counted& counted, const std::string& participant, const Attempt& attempt) {
   const Outcome outcome = *attempt.trial.outcome;
@@ -84,13 +80,13 @@ void SortingFold::count(Counted& counted, const std::string& participant, const 
   counted.incorrect[participant].add(outcome == "incorrect");
   counted.none[participant].add(outcome == "dont_know");
   counted.n_trials_by_cubes[static_cast<int>(attempt.cubes.size())] += 1;
-  counted.as_published = counted.as_published && attempt.shows(published::sorting_masses_g);
   if (outcome == "dont_know") return;
   counted.answered_correct[participant].add(outcome == "correct");
   counted.answered_incorrect[participant].add(outcome == "incorrect");
-  if (outcome != "incorrect") return;
   const std::vector<double> masses_g = attempt.masses_g();
   const auto labels = final_labels(attempt.answers, static_cast<int>(masses_g.size()));
+  count_labels(counted.labels, masses_g, labels);
+  if (outcome != "incorrect") return;
   if (const auto swap = swap_of(masses_g, labels))
     counted.swaps.at(static_cast<std::size_t>(*swap)) += 1;
 }
@@ -99,8 +95,12 @@ void SortingFold::add(const SessionData& data) {
   const std::string participant = data.participant();
   for (const Attempt& attempt : data.attempts) {
     if (attempt.trial.plan.task != "sorting") continue;
-    Counted& counted = counted_in(attempt.trial.plan.condition);
-    if (attempt.completed() && attempt.trial.outcome) count(counted, participant, attempt);
+    const std::string& condition = attempt.trial.plan.condition;
+    Counted& counted = conditions_[condition];
+    if (!attempt.completed() || !attempt.trial.outcome) continue;
+    count(counted, participant, attempt);
+    counted.comparable.add(data.published_condition(condition),
+                           attempt.shows(published::sorting_masses_g));
   }
 }
 
@@ -117,8 +117,9 @@ ConditionSorting SortingFold::sorting_in(const std::string& condition, const Cou
   sorting.answered_correct_90_percent = interval_percent_of(counted.answered_correct, 0.9);
   sorting.n_trials = sorting.correct.trials.n_trials;
   sorting.n_participants = sorting.correct.n_participants;
-  if (sorting.n_trials > 0 && counted.as_published)
-    put_beside(sorting, condition == "C1" ? published::sorting_c1 : published::sorting_c2);
+  sorting.correct_by_participant = counted.correct;
+  sorting.labels = counted.labels;
+  sorting.published = counted.comparable.condition();
   return sorting;
 }
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "analysis/Fold.h"
@@ -46,17 +45,21 @@ struct ConditionSorting {
   std::optional<Interval> answered_correct_90_percent;
   std::array<int, 4> swaps{};            ///< by Swap, of the incorrect trials
   std::map<int, int> n_trials_by_cubes;  ///< number of cubes -> trials with so many
+  Tallies correct_by_participant;
+  /// Number of cubes -> labels given [cube][label], both from the lightest on.
+  std::map<int, std::vector<std::vector<int>>> labels;
+  /// The paper's condition that this is, where all cubes have the paper's masses.
+  std::optional<published::Condition> published{};
 
   /// How many of its trials a random order gets right on average; none without trials.
   std::optional<double> chance_percent() const;
 };
 
-/// Completed trials by condition. A participant's sessions count together. The paper's figures are
-/// beside where all cubes have the paper's masses.
+/// Completed trials by condition. A participant's sessions count together.
 class SortingFold {
  public:
   void add(const SessionData& data);
-  /// The paper's conditions first, there or not; others as they came.
+  /// By name, of all conditions that a trial began in.
   std::vector<ConditionSorting> result() const;
 
  private:
@@ -64,13 +67,13 @@ class SortingFold {
     Tallies correct, incorrect, none, answered_correct, answered_incorrect;
     std::array<int, 4> swaps{};
     std::map<int, int> n_trials_by_cubes;
-    bool as_published = true;
+    std::map<int, std::vector<std::vector<int>>> labels;
+    published::Comparable comparable;
   };
   static void count(Counted& counted, const std::string& participant, const Attempt& attempt);
   static ConditionSorting sorting_in(const std::string& condition, const Counted& counted);
-  Counted& counted_in(const std::string& condition);
 
-  std::vector<std::pair<std::string, Counted>> conditions_{{"C1", {}}, {"C2", {}}};
+  std::map<std::string, Counted> conditions_;
 };
 
 inline std::vector<ConditionSorting> sorting_of(std::span<const SessionData> sessions) {

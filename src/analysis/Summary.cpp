@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/Notes.h"
+#include "analysis/Section.h"
 
 namespace heft {
 
@@ -64,49 +65,35 @@ struct EverybodyFold {
 // The figures, of those who count.
 struct CountedFold {
   std::set<std::string> participants;
-  SortingFold sorting;
-  IntroductionFold introduction;
-  StaircaseFold staircases;
-  ComparisonTrials comparisons;
-  TimesFold times;
-  VoidsFold voids;
+  SharedFolds shared;
   TracksFold tracks;
-  PointsFold points;
+  std::vector<std::unique_ptr<Section>> sections = all_sections();
 
   void add(const SessionData& data) {
     participants.insert(data.participant());
-    sorting.add(data);
-    introduction.add(data);
-    staircases.add(data);
-    comparisons.add(data);
-    times.add(data);
-    voids.add(data);
+    shared.comparisons.add(data);
+    shared.staircases.add(data);
     tracks.add(data);
-    points.add(data);
+    for (const auto& section : sections) section->add(data);
   }
 
   // What is large goes as soon as its figures are known, before others take as much.
   void put(Summary& summary) && {
     summary.n_participants = static_cast<int>(participants.size());
-    summary.sorting = sorting.result();
-    summary.introduction = introduction.result();
-    summary.times = std::exchange(times, {}).result();
-    summary.points = std::exchange(points, {}).result(comparisons);
-    summary.jnd = staircases.jnds();
-    summary.sensitivity = sensitivities_of(comparisons);
-    summary.comparison = comparisons_of(comparisons);
-    summary.voids = voids.result();
+    for (auto& section : sections) {
+      section->put(summary, shared);
+      section.reset();
+    }
     summary.tracks = tracks.example();
     summary.all_tracks = std::move(tracks).result();
-    summary.thresholds = thresholds_of(comparisons, staircases, summary.sensitivity);
-    summary.staircases = std::move(staircases).results();
+    summary.staircases = std::move(shared.staircases).results();
   }
 };
 
 // Who is left out is known at the end; only where somebody is, sessions are gone through again.
-CountedFold counted_of(CountedFold all, const EachSession& each,
+CountedFold counted_of(CountedFold&& all, const EachSession& each,
                        std::span<const ParticipantRow> participants) {
-  if (std::ranges::none_of(participants, &ParticipantRow::excluded)) return all;
+  if (std::ranges::none_of(participants, &ParticipantRow::excluded)) return std::move(all);
   std::set<std::string> excluded;
   for (const ParticipantRow& row : participants)
     if (row.excluded()) excluded.insert(row.participant);

@@ -8,19 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "analysis/Comparison.h"
+#include "analysis/ComparisonTrials.h"
 #include "analysis/Dataset.h"
 #include "analysis/Exclusion.h"
 #include "analysis/Flow.h"
 #include "analysis/Introduction.h"
 #include "analysis/Jnd.h"
-#include "analysis/PersonThresholds.h"
-#include "analysis/Points.h"
 #include "analysis/ProtocolChoices.h"
 #include "analysis/Quality.h"
 #include "analysis/Sensitivity.h"
 #include "analysis/Sorting.h"
-#include "analysis/Timing.h"
+#include "analysis/StudyEstimate.h"
 #include "analysis/TrackingQuality.h"
 #include "analysis/Tracks.h"
 #include "analysis/WhatHappened.h"
@@ -49,8 +47,8 @@ struct EnumNames<HypothesisVerdict> {
                                                          "can't be judged"};
 };
 
-/// One of the paper's hypotheses, what these data say of it, and the figures. The paper's two sets
-/// share the names H1...H3, so each carries its experiment.
+/// One of the paper's hypotheses, what these data say of it, and the figures. It is judged where
+/// technique, masses and task are the paper's.
 struct Hypothesis {
   std::string name;  ///< "E1-H1"
   std::string statement;
@@ -58,6 +56,9 @@ struct Hypothesis {
   HypothesisVerdict verdict = HypothesisVerdict::not_judged;
   std::string why;
   std::vector<std::string> figures;  ///< a sentence each
+  std::string condition{};           ///< of this log that is the paper's; empty: none is
+
+  bool applies() const { return declared || !condition.empty(); }
 };
 
 struct Summary {
@@ -67,21 +68,18 @@ struct Summary {
   int n_participants = 0;                    ///< that count
   std::vector<ParticipantRow> participants;  ///< all, those left out too
   std::optional<AnalysisPlan> plan;
+  Estimates estimates;  ///< every figure, in the order of the sections
+  // What hypotheses and charts take beside them.
   std::vector<ConditionSorting> sorting;
   IntroductionSummary introduction;
   std::vector<ReferenceJnd> jnd;
   std::vector<ReferenceSensitivity> sensitivity;
-  std::vector<PersonThreshold> thresholds;
   std::vector<StaircaseResult> staircases;
-  ComparisonSummary comparison;
-  std::vector<ResponseTimes> times;
-  std::vector<VoidCount> voids;
   Quality quality;
   ParticipantFlow flow;
   std::vector<PersonTracking> tracking;
   std::optional<SessionTracks> tracks;
   std::vector<SessionTracks> all_tracks;
-  Points points;
   std::vector<Hypothesis> hypotheses;
   std::vector<ProtocolChoice> choices;
   std::vector<SetupValue> setups;

@@ -60,7 +60,11 @@ Cell number(std::optional<double> value, int decimals) {
 }
 
 Cell count(int value) {
-  return number(value, 0);
+  return {fmt::format("{}", value), value, true};
+}
+
+Cell flag(bool value) {
+  return {value ? "yes" : "no", std::nullopt, false, true};
 }
 
 std::string as_text(const Table& table) {
@@ -82,13 +86,16 @@ std::string as_text(const Table& table) {
 
 std::string as_csv(const Table& table, std::string_view data) {
   std::string text = "data";
-  for (const Column& column : table.columns) text += fmt::format(",{}", csv_cell(column.name));
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    if (!table.columns[i].name.empty()) places.push_back(i);
+  for (std::size_t i : places) text += fmt::format(",{}", csv_cell(table.columns[i].name));
   text += '\n';
   for (const auto& row : table.rows) {
     text += csv_cell(data);
-    for (const Cell& cell : row)
-      text +=
-          cell.value ? fmt::format(",{}", *cell.value) : fmt::format(",{}", csv_cell(cell.text));
+    for (std::size_t i : places)
+      text += row[i].value ? fmt::format(",{}", *row[i].value)
+                           : fmt::format(",{}", csv_cell(row[i].text));
     text += '\n';
   }
   return text;

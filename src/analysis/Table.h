@@ -11,17 +11,38 @@ namespace heft {
 struct Cell {
   std::string text;             ///< rounded for reading; empty: the figure does not exist
   std::optional<double> value;  ///< unrounded; a word where there is none
+  bool is_whole = false;        ///< a count
+  bool is_flag = false;         ///< in JSON true or false
 };
 
 Cell word(std::string text);
 /// "" where there is no value.
 Cell number(std::optional<double> value, int decimals = 1);
 Cell count(int value);
+Cell flag(bool value);
 
 struct Column {
-  std::string name;     ///< in CSV: snake_case with its unit
-  std::string heading;  ///< in text and HTML, with its unit; empty: in CSV only
+  std::string name;     ///< in CSV: snake_case with its unit; empty: not in CSV
+  std::string heading;  ///< in text and HTML, with its unit; empty: not there
+  /// In JSON; empty: `name`; "-": not there. A dot opens an object: "difference.low"; with "?"
+  /// before the dot, null stands for an object that holds nothing.
+  std::string json{};
 };
+
+/// Where a table is shown, beside its CSV file.
+enum class TablePlace {
+  first,         ///< data quality: in the text, and at the report's beginning
+  report_first,  ///< there, but too long for the text
+  results,       ///< in the text, and in the report
+  report,        ///< in the report only
+  run,           ///< in the text, and at the report's end
+  run_only,      ///< at the report's end only
+  csv,           ///< nowhere else
+  json_only,     ///< not even as CSV
+};
+inline const std::vector<TablePlace> all_csv_places{
+    TablePlace::report_first, TablePlace::first,    TablePlace::results, TablePlace::report,
+    TablePlace::run,          TablePlace::run_only, TablePlace::csv};
 
 struct Table {
   std::string name;  ///< of the CSV file, without extension
@@ -29,6 +50,11 @@ struct Table {
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
   std::string note;  ///< how to read it; may be empty
+  TablePlace place = TablePlace::results;
+  /// Where JSON has the rows; empty: nowhere. "voids[]" is a list; "sorting.{condition}" an object
+  /// for each row, under its cells; "jnd[reference_g,condition]" the element with these cells,
+  /// which several tables may fill.
+  std::string json{};
 };
 
 /// Title, headings, rows: words to the left, numbers to the right, "-" for what does not exist.

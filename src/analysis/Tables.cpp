@@ -3,26 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "analysis/Notes.h"
-#include "analysis/Table.h"
-#include "analysis/TableParts.h"
+#include "analysis/RecordTables.h"
+#include "analysis/Section.h"
 
 namespace heft {
 
 namespace {
 constexpr std::size_t text_width = 102;
 
-void add_filled(std::vector<Table>& tables, std::vector<Table> more) {
-  std::erase_if(more, [](const Table& table) { return table.rows.empty(); });
-  std::ranges::move(more, std::back_inserter(tables));
-}
-
 // Where there is nothing to show, say so rather than leave it out.
 std::string absences(const Summary& summary) {
   std::string text;
-  if (summary.sorting[0].n_trials + summary.sorting[1].n_trials == 0)
+  if (std::ranges::none_of(summary.sorting,
+                           [](const ConditionSorting& sorting) { return sorting.n_trials > 0; }))
     text += "Sorting: no completed trials.\n";
   if (summary.jnd.empty()) text += "JND: no staircases that estimate one.\n";
   return text;
@@ -31,6 +26,7 @@ std::string absences(const Summary& summary) {
 std::string hypotheses_text(const Summary& summary) {
   std::string text = titled("The paper's hypotheses, and what these data say of them", summary);
   for (const Hypothesis& hypothesis : summary.hypotheses) {
+    if (!hypothesis.applies()) continue;
     text +=
         fmt::format("\n  {}: {}\n    {} ({}): {}", hypothesis.name, hypothesis.statement,
                     name_of(hypothesis.verdict),
@@ -45,40 +41,33 @@ std::string counted(std::size_t n, std::string_view what) {
 }
 }  // namespace
 
-Cell low(const std::optional<Interval>& interval) {
-  return number(interval ? std::optional(interval->low) : std::nullopt);
-}
-
-Cell high(const std::optional<Interval>& interval) {
-  return number(interval ? std::optional(interval->high) : std::nullopt);
-}
-
-Cell mass(double mass_g) {
-  return {fmt::format("{:g}", mass_g), mass_g};
-}
-
 std::string titled(std::string_view title, const Summary& summary) {
   return summary.simulated() ? fmt::format("{} ({})", title, summary.data) : std::string(title);
 }
 
-std::vector<Table> tables_of(const Summary& summary) {
+std::vector<Table> tables_at(const Summary& summary, const std::vector<TablePlace>& places) {
   std::vector<Table> tables;
-  add_filled(tables, quality_tables(summary));
-  add_filled(tables, sorting_tables(summary));
-  add_filled(tables, sensitivity_tables(summary));
-  add_filled(tables, comparison_tables(summary));
-  add_filled(tables, session_tables(summary));
+  const auto put = [&](TablePlace place, Table table) {
+    table.place = place;
+    table.title = titled(table.title, summary);
+    tables.push_back(std::move(table));
+  };
+  const auto sections = all_sections();
+  for (const TablePlace place : places) {
+    for (const RecordTable& record : record_tables())
+      if (record.place == place) put(place, record.make(summary));
+    for (const auto& section : sections)
+      for (const EstimateTable& declared : section->tables())
+        if (declared.place == place) put(place, table_of(declared, summary.estimates));
+    if (place == TablePlace::run_only) put(place, measures_in(summary.estimates));
+    if (place == TablePlace::csv) put(place, list_of(summary.estimates));
+  }
   return tables;
 }
 
-std::vector<Table> lists_of(const Summary& summary) {
-  std::vector<Table> lists;
-  add_filled(lists, {participant_list(summary), published_table(summary), flow_table(summary),
-                     threshold_list(summary), tracking_table(summary), session_list(summary),
-                     staircase_list(summary), level_list(summary), setup_table(summary),
-                     incident_table(summary), dictionary_table(summary)});
-  add_filled(lists, point_lists(summary));
-  return lists;
+std::vector<Table> filled(std::vector<Table> tables) {
+  std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
+  return tables;
 }
 
 std::string headline(const Summary& summary) {
@@ -96,8 +85,11 @@ std::string readable(const Summary& summary) {
   for (const std::string& note : summary.notes)
     for (const std::string& line : wrapped(note, text_width)) text += line + '\n';
   text += absences(summary);
-  for (const Table& table : tables_of(summary)) text += '\n' + as_text(table);
-  if (!summary.sessions.empty()) text += '\n' + hypotheses_text(summary);
+  for (const Table& table :
+       filled(tables_at(summary, {TablePlace::first, TablePlace::results, TablePlace::run})))
+    text += '\n' + as_text(table);
+  if (std::ranges::any_of(summary.hypotheses, &Hypothesis::applies))
+    text += '\n' + hypotheses_text(summary);
   return text;
 }
 

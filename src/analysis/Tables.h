@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/Summary.h"
@@ -9,16 +10,19 @@
 
 namespace heft {
 
-/// Every table that has rows, in reading order.
-std::vector<Table> tables_of(const Summary& summary);
+/// The tables that stand in these places, of records and of estimates, with rows or without.
+std::vector<Table> tables_at(const Summary& summary, const std::vector<TablePlace>& places);
 
-/// Lists row for row that are too long for reading: sessions, staircases, choices by level.
-std::vector<Table> lists_of(const Summary& summary);
+/// Those of them that have rows.
+std::vector<Table> filled(std::vector<Table> tables);
 
 /// Title, notes, tables and hypotheses.
 std::string readable(const Summary& summary);
 
 /// "heft 0.1.0: 13 sessions of 13 participants in heft.db (simulated)"
 std::string headline(const Summary& summary);
+
+/// "Sorting" becomes "Sorting (simulated)" where it is.
+std::string titled(std::string_view title, const Summary& summary);
 
 }  // namespace heft

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <tuple>
 
-#include "analysis/Jnd.h"
-
 namespace heft {
 
 namespace {
 Track& track_of(std::vector<Track>& tracks, const TrialPlan& plan) {
   const auto found = std::ranges::find(tracks, plan.staircase, &Track::staircase);
   if (found != tracks.end()) return *found;
-  return tracks.emplace_back(Track{plan.staircase, *plan.reference_g, {}, {}});
+  return tracks.emplace_back(Track{plan.staircase, {*plan.reference_g, plan.condition}, {}, {}});
 }
 
 std::vector<Track> tracks_of(const SessionData& data) {
@@ -33,8 +31,8 @@ std::vector<Track> tracks_of(const SessionData& data) {
         track.jnd_g = result.shown_g;
         track.censored = result.censored;
       }
-  std::ranges::sort(
-      tracks, {}, [](const Track& track) { return std::tie(track.reference_g, track.staircase); });
+  std::ranges::sort(tracks, {},
+                    [](const Track& track) { return std::tie(track.compared, track.staircase); });
   return tracks;
 }
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/Fold.h"
+#include "analysis/Jnd.h"
 
 namespace heft {
 
@@ -21,7 +22,7 @@ struct TrackPoint {
 
 struct Track {
   std::string staircase;
-  double reference_g = 0;
+  Compared compared;
   std::vector<TrackPoint> points;  ///< the staircase's completed trials in order
   std::optional<double> jnd_g;     ///< where `censored`, what it lies beyond
   Censored censored = Censored::none;

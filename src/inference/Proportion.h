@@ -46,7 +46,6 @@ struct Proportion {
   std::optional<double> pooled_percent;  ///< over all trials together
   int n_participants = 0;                ///< those with at least one trial
   Tally trials;                          ///< all together
-  std::optional<double> published_percent, published_sd_percent;
 };
 
 /// Participants without a trial don't count.

@@ -21,6 +21,8 @@ inline SessionData session(std::int64_t id, const std::string& participant,
   LoggedSetup logged{1, 1, {}};
   from_text(responder, logged.setup.responder);
   data.setups = {logged};
+  data.published_conditions = {{"C1", published::Condition::coupled},
+                               {"C2", published::Condition::decoupled}};
   data.session.state = SessionState::finished;
   return data;
 }

@@ -108,23 +108,23 @@ TEST_F(LogFile, SeveralPurposesAreRefused) {
 }
 
 TEST_F(LogFile, IsReadBack) {
-  write_session("P01", Purpose::main);
+  write_session("P01", Purpose::main, read_text_file(HEFT_SOURCE_DIR "/protocols/sorting.toml"));
   const Summary summary = analyze({{path()}, {}, false, ""});
   EXPECT_EQ(summary.sessions.size(), 1);
   EXPECT_EQ(summary.data, "human");
-  EXPECT_EQ(summary.sorting[1].n_trials, 1);
-  EXPECT_EQ(summary.sorting[1].incorrect.mean_percent, 100);
-  EXPECT_THAT(summary.sorting[1].swaps, ElementsAre(1, 0, 0, 0));
-  EXPECT_EQ(summary.sorting[1].correct.published_percent, 78.5);
+  EXPECT_EQ(summary.sorting[0].n_trials, 1);
+  EXPECT_EQ(summary.sorting[0].incorrect.mean_percent, 100);
+  EXPECT_THAT(summary.sorting[0].swaps, ElementsAre(1, 0, 0, 0));
+  EXPECT_EQ(summary.sorting[0].published, published::Condition::decoupled);
 }
 
 TEST_F(LogFile, PurposesAreMixedOnlyOnDemandAndSessionsCanBeNamed) {
   write_session("P01", Purpose::main);
   write_session("P02", Purpose::pilot);
   EXPECT_THROW(analyze({{path()}, {}, false, ""}), Error);
-  EXPECT_EQ(analyze({{path()}, {}, true, ""}).sorting[1].n_trials, 2);
-  EXPECT_EQ(analyze({{path()}, {2}, false, ""}).sorting[1].n_trials, 1);
-  EXPECT_EQ(analyze({{path()}, {2, 2}, false, ""}).sorting[1].n_trials, 1);
+  EXPECT_EQ(analyze({{path()}, {}, true, ""}).sorting[0].n_trials, 2);
+  EXPECT_EQ(analyze({{path()}, {2}, false, ""}).sorting[0].n_trials, 1);
+  EXPECT_EQ(analyze({{path()}, {2, 2}, false, ""}).sorting[0].n_trials, 1);
   EXPECT_THROW(analyze({{path()}, {3}, false, ""}), Error);
 }
 
@@ -134,7 +134,7 @@ TEST_F(LogFile, PeopleNamedAlikeInTwoLogsAreTwo) {
   std::filesystem::copy(path(), other);
   const Summary summary = analyze({{path(), other}, {}, false, ""});
   EXPECT_EQ(summary.n_participants, 2);
-  EXPECT_EQ(summary.sorting[1].correct.n_participants, 2);
+  EXPECT_EQ(summary.sorting[0].correct.n_participants, 2);
   EXPECT_EQ(summary.sessions.at(1).participant, other + ": P01");
   EXPECT_EQ(summary.database, path() + ", " + other);
   EXPECT_THROW(analyze({{path(), path()}, {}, false, ""}), Error);
@@ -151,7 +151,7 @@ TEST_F(LogFile, WhoIsLeftOutIsInNoFigure) {
   EXPECT_EQ(summary.sessions.size(), 2);
   EXPECT_TRUE(summary.participants.at(1).excluded());
   EXPECT_EQ(summary.n_participants, 1);
-  EXPECT_EQ(summary.sorting[1].n_trials, 1);
+  EXPECT_EQ(summary.sorting[0].n_trials, 1);
   EXPECT_EQ(summary.flow.n_analyzed, 1);
 }
 

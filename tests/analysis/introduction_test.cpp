@@ -21,8 +21,7 @@ TEST(Introduction, FirstTryIsExactlyOneSelect) {
   EXPECT_EQ(introduction.first_try.trials.n_hits, 2);
   EXPECT_EQ(introduction.first_try.trials.n_trials, 4);
   EXPECT_DOUBLE_EQ(*introduction.first_try.percent, 50);
-  EXPECT_EQ(introduction.published_percent, 100);
-  EXPECT_EQ(introduction.published_n, 13);
+  EXPECT_EQ(introduction.published, &published::introduction_first_try);
 }
 
 TEST(Introduction, OnlyTheFirstOfAParticipantCounts) {
@@ -45,7 +44,14 @@ TEST(Introduction, VoidAttemptsDoNotCountAndMayBeAll) {
 TEST(Introduction, OtherMassesHaveNothingPublished) {
   SessionData data = session(1, "a");
   add_introduction(data, 1).cubes = cubes({15, 400});
-  EXPECT_FALSE(introduction_of({&data, 1}).published_percent.has_value());
+  EXPECT_EQ(introduction_of({&data, 1}).published, nullptr);
+}
+
+TEST(Introduction, AnotherTechniqueHasNothingPublished) {
+  SessionData data = session(1, "a");
+  data.published_conditions.clear();  // its C2 is no spring of the paper's
+  add_introduction(data, 1);
+  EXPECT_EQ(introduction_of({&data, 1}).published, nullptr);
 }
 
 }  // namespace

@@ -29,8 +29,9 @@ TEST(Jnd, MeansSpreadAndIntervalOverParticipants) {
   EXPECT_DOUBLE_EQ(*jnds[0].mean_g, 80);
   EXPECT_DOUBLE_EQ(*jnds[0].sd_g, std::sqrt(800.0 / 3));
   EXPECT_NEAR(jnds[0].interval_g->high, 105.984565272502, 1e-9);
-  EXPECT_EQ(jnds[0].published_g, 172.3);
-  EXPECT_EQ(jnds[0].published_sd_g, 72.4);
+  ASSERT_NE(jnds[0].published, nullptr);
+  EXPECT_EQ(jnds[0].published->value, 172.3);
+  EXPECT_EQ(jnds[0].published->sd, 72.4);
 }
 
 TEST(Jnd, StaircasesThenSessionsAreAveragedWithinAParticipant) {
@@ -79,7 +80,7 @@ TEST(Jnd, AboveAndBelowAreApart) {
 
 TEST(Jnd, TheTableHasARowForEachStart) {
   const std::vector sessions{with_both_starts(1, 300, 100), with_both_starts(2, 320, 100)};
-  const auto tables = tables_of(summarize({"x.db", sessions}, ""));
+  const auto tables = tables_at(summarize({"x.db", sessions}, ""), {TablePlace::results});
   const Table& table = *std::ranges::find(tables, "jnd", &Table::name);
   std::vector<std::string> rows;
   for (const auto& row : table.rows) rows.push_back(row[2].text + ": " + row[3].text);
@@ -244,7 +245,7 @@ TEST(Jnd, EstimatesOfAnyProcedureAreThereWithTheirIntervals) {
   EXPECT_EQ(jnds[0].compared.method, "mean_of_posterior");
   EXPECT_EQ(jnds[0].mean_g, 80);
   EXPECT_EQ(jnds[0].n_unfinished, 0);
-  EXPECT_FALSE(jnds[0].published_g);
+  EXPECT_EQ(jnds[0].published, nullptr);
   EXPECT_EQ(jnds[1].compared.method, jnd_method);
   EXPECT_EQ(jnds[1].mean_g, 100);
   const auto results = staircase_results({&data, 1});
@@ -279,9 +280,11 @@ TEST(Jnd, PublishedFiguresNeedReferenceAndConditionOfThePaper) {
   add_staircase(data, "paper", 800, 100);
   const auto jnds = jnd_of({&data, 1});
   ASSERT_EQ(jnds.size(), 3);
-  EXPECT_FALSE(jnds[0].published_g.has_value());
-  EXPECT_FALSE(jnds[1].published_g.has_value());
-  EXPECT_EQ(jnds[2].published_g, 696.2);
+  EXPECT_EQ(jnds[0].published, nullptr);
+  EXPECT_EQ(jnds[1].published, nullptr);
+  EXPECT_EQ(jnds[2].published, published::jnd_at(800));
+  data.published_conditions.erase("C2");  // of other parameters than the paper's
+  EXPECT_EQ(jnd_of({&data, 1})[2].published, nullptr);
 }
 
 }  // namespace

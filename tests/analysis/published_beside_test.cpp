@@ -6,7 +6,7 @@
 
 #include "MadeUpSessions.h"
 #include "analysis/Charts.h"
-#include "analysis/PublishedBeside.h"
+#include "analysis/RecordTables.h"
 
 namespace heft {
 namespace {
@@ -28,38 +28,45 @@ Summary summary_of(double reference_g, Purpose purpose = Purpose::main) {
   return summarize({"x.db", sessions}, "");
 }
 
-const PublishedFigure& named(const std::vector<PublishedFigure>& all, std::string_view what) {
-  return *std::ranges::find(all, what, &PublishedFigure::what);
+const StudyEstimate& named(const Summary& summary, std::string_view what) {
+  const auto all = published_among(summary);
+  return **std::ranges::find_if(all, [&](const auto* one) { return one->published->what == what; });
 }
 
 TEST(PublishedBeside, HasThePapersIntervalsAndWhatWasFound) {
-  const auto all = published_beside(summary_of(15));
-  const PublishedFigure& jnd = named(all, "JND at 15 g");
-  EXPECT_EQ(jnd.published, 172.3);
+  const Summary summary = summary_of(15);
+  const StudyEstimate& jnd = named(summary, "JND at 15 g");
+  EXPECT_EQ(jnd.published->value, 172.3);
   const double half = 2.17881282966723 * 72.4 / std::sqrt(13);  // Student's t, 12 df
-  EXPECT_NEAR(jnd.published_interval->low, 172.3 - half, 1e-9);
-  EXPECT_EQ(jnd.found, 110);
+  EXPECT_NEAR(interval_of(*jnd.published)->low, 172.3 - half, 1e-9);
+  EXPECT_EQ(jnd.value, 110);
   EXPECT_EQ(jnd.n, 2);
-  EXPECT_THAT(jnd.source, HasSubstr("Experiment 2"));
+  EXPECT_THAT(std::string(jnd.published->source), HasSubstr("Experiment 2"));
 
-  const PublishedFigure& first_try = named(all, "introduction, first try");
-  EXPECT_NEAR(first_try.published_interval->low, 100 * std::pow(0.025, 1.0 / 13), 1e-9);
-  EXPECT_EQ(first_try.found, 100);
+  const StudyEstimate& first_try = named(summary, "introduction, first try");
+  EXPECT_NEAR(interval_of(*first_try.published)->low, 100 * std::pow(0.025, 1.0 / 13), 1e-9);
+  EXPECT_EQ(first_try.value, 100);
 
-  const PublishedFigure& unsure = named(all, "C1 I don't know");
-  EXPECT_FALSE(unsure.published_interval.has_value());  // the paper gives no SD
-  EXPECT_EQ(named(all, "C1 correct").published_sd, 9.6);
+  const StudyEstimate& unsure = named(summary, "C1 I don't know");
+  EXPECT_FALSE(interval_of(*unsure.published).has_value());  // the paper gives no SD
+  EXPECT_EQ(named(summary, "C1 correct").published->sd, 9.6);
 }
 
 TEST(PublishedBeside, IsOnlyOfWhatThePaperMeasured) {
-  for (const PublishedFigure& figure : published_beside(summary_of(300)))
-    EXPECT_EQ(figure.unit, "%") << figure.what;
+  const Summary summary = summary_of(300);
+  for (const StudyEstimate* one : published_among(summary))
+    EXPECT_EQ(one->measure->unit, "%") << one->published->what;
+}
+
+std::string chart_of(const Summary& summary) {
+  const auto charts = charts_of(summary);
+  return std::ranges::find(charts, "beside_published", &Chart::name)->script;
 }
 
 TEST(PublishedBeside, AModelsFiguresSaySo) {
-  EXPECT_THAT(published_chart(summary_of(15, Purpose::simulated)).script,
+  EXPECT_THAT(chart_of(summary_of(15, Purpose::simulated)),
               HasSubstr("'simulated participants (n = 2)'"));
-  EXPECT_THAT(published_chart(summary_of(15)).script, HasSubstr("'these participants (n = 2)'"));
+  EXPECT_THAT(chart_of(summary_of(15)), HasSubstr("'these participants (n = 2)'"));
 }
 
 }  // namespace

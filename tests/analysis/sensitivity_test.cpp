@@ -121,7 +121,7 @@ TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
   const auto verdict = [&](double ratio) {
     Summary summary = summarize({"x.db", {}}, "");
     const auto row = [](double reference_g, const PooledSensitivity& pooled) {
-      return ReferenceSensitivity{{reference_g, "C2"}, pooled};
+      return ReferenceSensitivity{{reference_g, "C2"}, pooled, true};
     };
     summary.sensitivity = {row(100, light), row(100 * ratio, heavy), row(100 * ratio, heaviest)};
     return hypotheses_of(summary).at(4).verdict;

@@ -76,9 +76,7 @@ TEST(Sorting, PercentagesOverAllAndOverAnsweredTrials) {
   EXPECT_DOUBLE_EQ(*sorting[0].none.mean_percent, 80);
   EXPECT_DOUBLE_EQ(*sorting[0].answered_correct.mean_percent, 50);
   EXPECT_EQ(sorting[0].answered_correct.n_participants, 1);
-  EXPECT_EQ(sorting[1].n_trials, 0);
-  EXPECT_FALSE(sorting[1].correct.mean_percent.has_value());
-  EXPECT_FALSE(sorting[1].correct.published_percent.has_value());
+  EXPECT_EQ(sorting.size(), 1);  // of conditions that were run
 }
 
 TEST(Sorting, SessionsOfOneParticipantCountTogether) {
@@ -86,8 +84,8 @@ TEST(Sorting, SessionsOfOneParticipantCountTogether) {
   add_sortings(first, "C2", "correct", 5);
   add_sortings(again, "C2", "incorrect", 5);
   const auto sorting = sorting_of(std::vector{first, again});
-  EXPECT_EQ(sorting[1].n_participants, 1);
-  EXPECT_DOUBLE_EQ(*sorting[1].correct.mean_percent, 50);
+  EXPECT_EQ(sorting[0].n_participants, 1);
+  EXPECT_DOUBLE_EQ(*sorting[0].correct.mean_percent, 50);
 }
 
 TEST(Sorting, OnlyCompletedTrialsCount) {
@@ -95,23 +93,23 @@ TEST(Sorting, OnlyCompletedTrialsCount) {
   add_sorting(data, "C2", "correct");
   add_sorting(data, "C2", "incorrect").trial.status = TrialStatus::voided;
   add_sorting(data, "C2", "incorrect").trial.status = TrialStatus::open;
-  EXPECT_EQ(sorting_of({&data, 1})[1].n_trials, 1);
+  EXPECT_EQ(sorting_of({&data, 1})[0].n_trials, 1);
 }
 
 TEST(Sorting, CountsSwapsOfIncorrectTrials) {
   SessionData data = session(1, "a");
   add_sorting(data, "C2", "incorrect").answers = {label(1, I), label(2, L), label(3, H)};
   add_sorting(data, "C2", "correct").answers = {label(1, L), label(2, I), label(3, H)};
-  EXPECT_THAT(sorting_of({&data, 1})[1].swaps, ElementsAre(1, 0, 0, 0));
+  EXPECT_THAT(sorting_of({&data, 1})[0].swaps, ElementsAre(1, 0, 0, 0));
 }
 
 TEST(Sorting, ChanceIsOneOfTheOrdersOfAsManyCubes) {
   SessionData data = session(1, "a");
-  EXPECT_FALSE(sorting_of({&data, 1})[1].chance_percent());
+  EXPECT_TRUE(sorting_of({&data, 1}).empty());
   add_sorting(data, "C2", "correct");
-  EXPECT_DOUBLE_EQ(*sorting_of({&data, 1})[1].chance_percent(), 100.0 / 6);
+  EXPECT_DOUBLE_EQ(*sorting_of({&data, 1})[0].chance_percent(), 100.0 / 6);
   add_sorting(data, "C2", "correct").cubes = cubes({15, 100, 250, 800});
-  EXPECT_DOUBLE_EQ(*sorting_of({&data, 1})[1].chance_percent(), (100.0 / 6 + 100.0 / 24) / 2);
+  EXPECT_DOUBLE_EQ(*sorting_of({&data, 1})[0].chance_percent(), (100.0 / 6 + 100.0 / 24) / 2);
   EXPECT_DOUBLE_EQ(chance_percent(2), 50);
   EXPECT_DOUBLE_EQ(chance_percent(5), 100.0 / 120);
 }
@@ -119,10 +117,28 @@ TEST(Sorting, ChanceIsOneOfTheOrdersOfAsManyCubes) {
 TEST(Sorting, PublishedFiguresNeedThePublishedMasses) {
   SessionData data = session(1, "a");
   add_sorting(data, "C1", "correct");
-  EXPECT_EQ(sorting_of({&data, 1})[0].correct.published_percent, 6.2);
-  EXPECT_EQ(sorting_of({&data, 1})[0].answered_correct.published_percent, 10.1);
+  EXPECT_EQ(sorting_of({&data, 1})[0].published, published::Condition::coupled);
   add_sorting(data, "C1", "correct").cubes = cubes({15, 250, 800});
-  EXPECT_FALSE(sorting_of({&data, 1})[0].correct.published_percent.has_value());
+  EXPECT_FALSE(sorting_of({&data, 1})[0].published.has_value());
+}
+
+TEST(Sorting, PublishedFiguresNeedThePublishedTechnique) {
+  SessionData data = session(1, "a");
+  data.published_conditions = {{"mine", published::Condition::decoupled}};
+  add_sorting(data, "C2", "correct");  // here a technique of another law
+  add_sorting(data, "mine", "correct");
+  const auto sorting = sorting_of({&data, 1});
+  EXPECT_FALSE(sorting.at(0).published.has_value());
+  EXPECT_EQ(sorting.at(1).published, published::Condition::decoupled);
+}
+
+TEST(Sorting, EveryLabelIsCountedWhateverTheNumberOfCubes) {
+  SessionData data = session(1, "a");
+  Attempt& attempt = add_sorting(data, "C2", "incorrect");
+  attempt.cubes = cubes({400, 100});
+  attempt.answers = {label(1, "1"), label(2, "2")};
+  EXPECT_THAT(sorting_of({&data, 1}).at(0).labels.at(2),
+              ElementsAre(ElementsAre(0, 1), ElementsAre(1, 0)));
 }
 
 }  // namespace

@@ -1,0 +1,123 @@
+// Where estimates stand on a chart's x axis, and what its series are called.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "analysis/ChartSpec.h"
+#include "analysis/Gnuplot.h"
+
+namespace heft {
+
+using Chosen = std::vector<const StudyEstimate*>;
+
+inline std::string text_of(const StudyEstimate& estimate, std::string_view coordinate) {
+  if (coordinate == "task") return estimate.task;
+  if (coordinate == "condition") return estimate.condition;
+  if (coordinate == "participant") return estimate.participant;
+  if (coordinate == "reference_g")
+    return estimate.reference_g ? fmt::format("{:g} g", *estimate.reference_g) : "";
+  const Coordinate* found = estimate.at(coordinate);
+  return found ? found->text : "";
+}
+
+// "200 g, C2"
+inline std::string text_of(const StudyEstimate& estimate,
+                           const std::vector<std::string_view>& names) {
+  std::string text;
+  for (const std::string_view name : names)
+    if (const std::string one = text_of(estimate, name); !one.empty())
+      text += (text.empty() ? "" : ", ") + one;
+  return text;
+}
+
+inline bool belongs(const StudyEstimate& estimate, const ChartSeries& series) {
+  return estimate.measure == series.measure &&
+         (series.only.first.empty() || text_of(estimate, series.only.first) == series.only.second);
+}
+
+inline void add_new(std::vector<std::string>& texts, std::string text) {
+  if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
+}
+
+// One of the spec's series, of what its split makes of it.
+struct Drawn {
+  std::string title;
+  Chosen estimates, participants;
+  std::size_t look = 0;
+};
+
+// Places on the x axis: numbers, or one after the other in the order in which they come.
+class XAxis {
+ public:
+  XAxis(const std::vector<Drawn>& all, std::string_view coordinate, bool logarithmic = false)
+      : coordinate_(coordinate), logarithmic_(logarithmic), n_series_(all.size()) {
+    for (const Drawn& drawn : all)
+      for (const Chosen* chosen : {&drawn.estimates, &drawn.participants})
+        for (const StudyEstimate* one : *chosen) add(*one);
+  }
+  bool is_numeric() const { return texts_.empty(); }
+  // @param aside to stand beside others, in steps
+  double at(const StudyEstimate& one, double aside = 0) const {
+    const auto x = number(one);
+    if (x && logarithmic_) return *x * std::pow(1.05, aside);
+    if (x) return *x + aside * step();
+    const std::string text = text_of(one, coordinate_);
+    return static_cast<double>(std::ranges::find(texts_, text) - texts_.begin()) + aside * step();
+  }
+  std::string axes() const {
+    if (is_numeric() && logarithmic_)
+      return fmt::format("set xrange [{}:{}]\n", low_ / 1.3, high_ * 1.3);
+    if (is_numeric()) {
+      const double aside =
+          high_ > low_ ? step() * (static_cast<double>(n_series_) + 2) : 0.5 * span();
+      return fmt::format("set xrange [{}:{}]\nset xtics {}\n", low_ - aside, high_ + aside, tic());
+    }
+    std::string tics;
+    for (std::size_t i = 0; i < texts_.size(); ++i)
+      tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_quoted(texts_[i]), i);
+    return fmt::format("set xrange [-0.6:{}]\nset xtics scale 0 ({})\n",
+                       static_cast<double>(texts_.size()) - 0.4, tics);
+  }
+
+ private:
+  double step() const {
+    if (!is_numeric()) return 0.62 / static_cast<double>(std::max<std::size_t>(n_series_, 2));
+    return 0.014 * span();
+  }
+  // Of a single place its neighborhood.
+  double span() const { return high_ > low_ ? high_ - low_ : std::max(std::abs(low_), 1.0); }
+  void add(const StudyEstimate& one) {
+    if (const auto x = number(one)) {
+      low_ = std::min(low_, *x);
+      high_ = std::max(high_, *x);
+    } else {
+      add_new(texts_, text_of(one, coordinate_));
+    }
+  }
+  // Five tics or so, however narrow the panel is.
+  double tic() const {
+    const double rough = span() / 4;
+    const double power = std::pow(10, std::floor(std::log10(rough)));
+    for (const double factor : {1.0, 2.0, 5.0})
+      if (rough <= factor * power) return factor * power;
+    return 10 * power;
+  }
+  std::optional<double> number(const StudyEstimate& one) const {
+    if (coordinate_ == "reference_g") return one.reference_g;
+    const Coordinate* found = one.at(coordinate_);
+    return found ? found->value : std::nullopt;
+  }
+
+  std::string_view coordinate_;
+  bool logarithmic_;
+  std::size_t n_series_;
+  std::vector<std::string> texts_;
+  double low_ = 1e300, high_ = -1e300;
+};
+
+}  // namespace heft

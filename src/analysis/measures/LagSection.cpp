@@ -1,0 +1,84 @@
+// How far the clone lagged behind the hand, by mass: what people saw.
+#include <cmath>
+#include <deque>
+
+#include "analysis/Section.h"
+
+namespace heft {
+
+namespace {
+constexpr Measure lag{
+    "lag", "mm", "lag",
+    "largest distance of the clone from the effector while it touched a cube, as "
+    "displayed, and how far the hand went from where the touch began, which a lag "
+    "comes to at most: median over cubes and trials, quartiles as low and high"};
+
+class LagSection final : public Section {
+ public:
+  void add(const SessionData& data) override {
+    for (const Attempt& attempt : data.attempts) {
+      if (!attempt.completed()) continue;
+      const std::string& condition = attempt.trial.plan.condition;
+      for (const CubeRow& cube : attempt.cubes) {
+        if (!(cube.mass_g > 0) || !cube.peak_lag_m) continue;
+        // Five bands a decade, called by their middle.
+        const double mass_g = std::pow(10, std::round(5 * std::log10(cube.mass_g)) / 5);
+        values_mm_[{condition, condition}][mass_g].push_back(1e3 * *cube.peak_lag_m);
+        if (cube.deepest_push_m)
+          values_mm_[{condition, condition + ", the hand's way"}][mass_g].push_back(
+              1e3 * *cube.deepest_push_m);
+      }
+    }
+  }
+
+  void put(Summary& summary, const SharedFolds&) override {
+    for (const auto& [of, masses] : values_mm_)
+      for (const auto& [mass_g, values] : masses) {
+        StudyEstimate estimate = quartiles_estimate(lag, values);
+        estimate.condition = of.first;
+        estimate.n = summary.n_participants;
+        estimate.by = {{"group", of.second}, at("mass_g", mass_g)};
+        summary.estimates.push_back(std::move(estimate));
+      }
+  }
+
+  std::vector<EstimateTable> tables() const override {
+    return {{"lag_by_mass",
+             "Largest lag by mass, and the hand's way",
+             {key_column("group", "group"), key_column("mass_g", "mass g"),
+              column(lag, Field::n_trials, "n", "n"),
+              column(lag, Field::value, "median_mm", "median", 2),
+              column(lag, Field::low, "lower_quartile_mm", "25 %", 2),
+              column(lag, Field::high, "upper_quartile_mm", "75 %", 2)},
+             "",
+             TablePlace::csv}};
+  }
+
+  std::vector<ChartSpec> charts() const override {
+    ChartSpec chart{"lag_by_mass", "Lag seen, by mass",
+                    "Largest distance of the clone from the effector while it touched a cube, as "
+                    "displayed: median and quartiles over cubes and trials; beside it how far the "
+                    "hand went from where the touch began: a lag comes to about that and no more. "
+                    "Masses in five bands a decade.",
+                    "lag_by_mass.csv", ChartShape::lines};
+    chart.importance = 75;
+    chart.series = {{&lag, "", {}}};
+    chart.x = "mass_g";
+    chart.split = {"group"};
+    chart.x_label = "mass (g)";
+    chart.y_label = "mm";
+    chart.axes = "set logscale x\nset yrange [0:*]\n";
+    return {chart};
+  }
+
+ private:
+  using Group = std::pair<std::string, std::string>;  // condition, what
+  std::map<Group, std::map<double, std::deque<double>>> values_mm_;
+};
+}  // namespace
+
+std::unique_ptr<Section> lag_section() {
+  return std::make_unique<LagSection>();
+}
+
+}  // namespace heft

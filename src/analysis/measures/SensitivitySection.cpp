@@ -1,0 +1,207 @@
+// How well masses are told apart, whatever the criterion: 75 % thresholds by reference and
+// condition, and of each participant beside their JND and its start.
+#include <fmt/format.h>
+
+#include "analysis/PersonThresholds.h"
+#include "analysis/Section.h"
+
+namespace heft {
+
+namespace {
+constexpr Measure threshold{"threshold_75", "g", "threshold",
+                            "75 %-correct discrimination threshold of the median participant in a "
+                            "forced choice, free of the criterion (indecision model)"};
+constexpr Measure sensitivity{"sensitivity", "1/g", "sensitivity",
+                              "per gram, of the median participant"};
+constexpr Measure indecision{"indecision", "SD", "criterion half-width",
+                             "half the width between the median participant's criteria, in SDs of "
+                             "what is felt"};
+constexpr Measure started_jnd{"started_jnd", "g", "JND",
+                              "a participant's JND of the staircases that began on one side"};
+constexpr Measure start{"staircase_start", "g", "start",
+                        "mean first level of a participant's staircases that began on one side"};
+constexpr Measure own_jnd{"own_jnd", "g", "JND", "a participant's JND beside their threshold"};
+
+StudyEstimate estimate_at(const Measure& measure, const Compared& compared) {
+  return {&measure, "comparison", compared.condition, compared.reference_g};
+}
+
+void put_pooled(Estimates& all, const ReferenceSensitivity& row) {
+  const PooledSensitivity& pooled = row.pooled;
+  const auto put = [&](const Measure& measure, const std::optional<double>& value,
+                       const std::optional<Interval>& interval) {
+    StudyEstimate& estimate = all.emplace_back(estimate_at(measure, row.compared));
+    estimate.value = value;
+    estimate.set(interval);
+    estimate.n = pooled.n;
+    estimate.n_trials = static_cast<int>(pooled.n_trials);
+    estimate.method = "indecision model, bootstrap over participants";
+    estimate.why = pooled.why;
+  };
+  put(threshold, pooled.threshold_75_g, pooled.threshold_interval_g);
+  put(sensitivity, pooled.sensitivity, pooled.sensitivity_interval);
+  put(indecision, pooled.indecision, pooled.indecision_interval);
+}
+
+void put_started(Estimates& all, const PersonThreshold& person, const StartedFigure& figure,
+                 const char* staircases) {
+  if (!figure.start_g) return;
+  const auto put = [&](const Measure& measure, double value, Censored censored) {
+    StudyEstimate& estimate = all.emplace_back(estimate_at(measure, person.compared));
+    estimate.participant = person.participant;
+    estimate.by = {{"staircases", staircases}};
+    estimate.value = value;
+    estimate.censored = censored;
+    estimate.n = 1;
+  };
+  put(start, *figure.start_g, Censored::none);
+  if (figure.jnd) put(started_jnd, figure.jnd->value, figure.jnd->censored);
+}
+
+void put_person(Estimates& all, const PersonThreshold& person) {
+  StudyEstimate& estimate = all.emplace_back(estimate_at(threshold, person.compared));
+  estimate.participant = person.participant;
+  estimate.value = person.threshold_75_g;
+  estimate.set(person.interval_g);
+  estimate.n = 1;
+  estimate.n_trials = person.n_trials;
+  estimate.why = person.why;
+  if (person.jnd) {
+    StudyEstimate& own = all.emplace_back(estimate_at(own_jnd, person.compared));
+    own.participant = person.participant;
+    own.value = person.jnd->jnd_g;
+    own.censored = person.jnd->censored;
+    own.n = 1;
+  }
+  put_started(all, person, person.from_above, "from above");
+  put_started(all, person, person.from_below, "from below");
+}
+
+EstimateTable sensitivity_table() {
+  return {
+      "sensitivity",
+      "75 %-correct discrimination thresholds",
+      {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+       column(threshold, Field::n, "n", "n"),
+       column(threshold, Field::value, "threshold_75_g", "threshold g"),
+       column(threshold, Field::low, "low_g", "95 % low"),
+       column(threshold, Field::high, "high_g", "high"),
+       column(indecision, Field::value, "indecision", "criterion half-width", 2),
+       column(indecision, Field::low, "indecision_low"),
+       column(indecision, Field::high, "indecision_high"),
+       column(sensitivity, Field::value, "sensitivity_per_g", "", 5),
+       json_column(sensitivity, Field::low, "sensitivity_low_per_g"),
+       json_column(sensitivity, Field::high, "sensitivity_high_per_g"),
+       json_column(threshold, Field::n_trials, "n_trials"),
+       json_column(threshold, Field::identifiable, "identifiable"),
+       column(threshold, Field::why, "why", "no threshold, because")},
+      "indecision model (left, none, right; lapse rate .02) with criteria and side bias of each "
+      "participant's own; the median participant's threshold of a forced choice, free of the "
+      "criterion. Interval: bootstrap over participants. Criterion half-width: half the width "
+      "between the median participant's criteria in SDs of what is felt. What the data can't "
+      "bear is not printed.",
+      TablePlace::results,
+      "sensitivity[]"};
+}
+
+EstimateTable threshold_table() {
+  EstimateTable table{
+      "thresholds_by_participant",
+      "Each participant's own threshold",
+      {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+       key_column("participant", "participant"),
+       column(threshold, Field::n_trials, "n_trials", "trials"),
+       column(threshold, Field::value, "threshold_75_g", "threshold g"),
+       column(threshold, Field::low, "low_g", "95 % low"),
+       column(threshold, Field::high, "high_g", "high"),
+       column(own_jnd, Field::value, "jnd_g", "", 1, "-"),
+       column(own_jnd, Field::censored, "censored", "", 1, "-")},
+      "the 75 %-correct threshold by this person's trials alone; the paper's JND of "
+      "the staircases that began high and low beside, each with its start",
+      TablePlace::report,
+      "thresholds[]"};
+  for (const auto& [side, name] : {std::pair("from above", "above"), {"from below", "below"}}) {
+    EstimateColumn began = column(start, Field::value, fmt::format("start_{}_g", name),
+                                  fmt::format("start {} g", name), 1, "-");
+    EstimateColumn of =
+        column(started_jnd, Field::value, fmt::format("jnd_{}_g", name), "its JND", 1, "-");
+    began.only = of.only = {"staircases", side};
+    table.columns.push_back(began);
+    table.columns.push_back(of);
+  }
+  table.columns.push_back(
+      column(threshold, Field::why_in_short, "why", "no threshold, because", 1, "-"));
+  table.columns.push_back(json_column(threshold, Field::why, "why"));
+  table.columns.push_back(json_column(threshold, Field::identifiable, "identifiable"));
+  table.participants = true;
+  return table;
+}
+
+class SensitivitySection final : public Section {
+ public:
+  void put(Summary& summary, const SharedFolds& shared) override {
+    summary.sensitivity = sensitivities_of(shared.comparisons);
+    for (const ReferenceSensitivity& row : summary.sensitivity) put_pooled(summary.estimates, row);
+    for (const PersonThreshold& person :
+         thresholds_of(shared.comparisons, shared.staircases, summary.sensitivity))
+      put_person(summary.estimates, person);
+  }
+
+  std::vector<EstimateTable> tables() const override {
+    return {sensitivity_table(), threshold_table()};
+  }
+
+  std::vector<ChartSpec> charts() const override {
+    ChartSpec thresholds{"thresholds", "75 %-correct discrimination thresholds, 95 % intervals",
+                         "The median participant's threshold at each reference and in each "
+                         "condition, where the data identify one; small points: participants whose "
+                         "own trials do.",
+                         "sensitivity.csv"};
+    thresholds.importance = 28;
+    thresholds.series = {{&threshold, "threshold", {}}};
+    thresholds.x = "reference_g";
+    thresholds.split = {"condition"};
+    thresholds.participants = true;
+    thresholds.x_label = "reference mass (g)";
+    thresholds.y_label = "threshold (g)";
+    thresholds.axes = "set yrange [0:*]\n";
+    ChartSpec people{"thresholds_by_participant",
+                     "Each participant's threshold, the paper's JND and its start",
+                     "A column for each participant, ordered by threshold, a panel for each "
+                     "reference and condition: the 75 %-correct threshold with its likelihood "
+                     "interval, where their trials identify one; the paper's JND of their "
+                     "staircases from above and from below apart (censored ones at what they lie "
+                     "beyond); where these began.",
+                     "thresholds_by_participant.csv", ChartShape::people};
+    people.importance = 30;
+    people.series = {{&threshold, "threshold", {}},
+                     {&started_jnd, "JND from above", {"staircases", "from above"}},
+                     {&started_jnd, "JND from below", {"staircases", "from below"}},
+                     {&start, "start", {}}};
+    people.panels = {"reference_g", "condition"};
+    people.x_label = "participant, ordered by threshold";
+    people.y_label = "difference (g)";
+    people.axes = "set logscale y\n";
+    ChartSpec starts{
+        "jnd_against_start", "JND against the start of its staircase",
+        "The paper's JND of each participant's staircases against the difference that "
+        "they began with; on the line a JND is its start. \"> this\", \"< this\": known "
+        "to lie above or below only.",
+        "thresholds_by_participant.csv", ChartShape::scatter};
+    starts.importance = 40;
+    starts.series = {{&start, "", {}}, {&started_jnd, "", {}}};
+    starts.split = {"reference_g", "condition"};
+    starts.diagonal = true;
+    starts.x_label = "start (g)";
+    starts.y_label = "JND (g)";
+    starts.axes = "set xrange [0:*]\nset yrange [0:*]\n";
+    return {thresholds, people, starts};
+  }
+};
+}  // namespace
+
+std::unique_ptr<Section> sensitivity_section() {
+  return std::make_unique<SensitivitySection>();
+}
+
+}  // namespace heft

@@ -1,0 +1,317 @@
+// The paper's JND: by reference and condition, from above and from below, of each participant; and
+// how the staircases went.
+#include "analysis/Section.h"
+
+namespace heft {
+
+namespace {
+constexpr Measure jnd{"jnd", "g", "JND",
+                      "mean level of a staircase's reversals but the first ones (the paper's JND), "
+                      "by where the staircases began: mean over participants"};
+constexpr Measure jnd_overall{
+    "jnd_overall", "g", "JND",
+    "the same of a participant's staircases together, wherever they began"};
+constexpr Measure n_above{"jnd_n_above", "", "above",
+                          "participants of whom it is known only that their JND lies above"};
+constexpr Measure n_below{"jnd_n_below", "", "below",
+                          "participants of whom it is known only that their JND lies below"};
+constexpr Measure n_known{"jnd_n_known", "", "known", "participants with a JND, exact or censored"};
+constexpr Measure n_missing{"jnd_n_missing", "", "missing",
+                            "participants of whose JND nothing is known"};
+
+// What is counted of staircases.
+struct Counted {
+  Measure measure;
+  std::string_view column, heading, json;
+  std::optional<double> (*of)(const ReferenceJnd& row);
+};
+template <auto member>
+std::optional<double> counted(const ReferenceJnd& row) {
+  return row.*member;
+}
+template <auto member>
+std::optional<double> of_finished(const ReferenceJnd& row) {
+  return row.n_staircases > 0 ? std::optional<double>(row.*member) : std::nullopt;
+}
+constexpr std::array staircase_counts{
+    Counted{{"staircases_finished", "", "finished", "finished staircases"},
+            "n_staircases",
+            "finished",
+            "n_staircases",
+            counted<&ReferenceJnd::n_staircases>},
+    Counted{{"staircases_unfinished", "", "unfinished", "staircases that began and did not finish"},
+            "n_unfinished",
+            "unfinished",
+            "n_unfinished",
+            counted<&ReferenceJnd::n_unfinished>},
+    Counted{{"staircase_trials", "", "trials", "mean number of trials of a finished staircase"},
+            "mean_trials",
+            "trials",
+            "trials.mean",
+            of_finished<&ReferenceJnd::mean_trials>},
+    Counted{{"staircase_trials_least", "", "least", "fewest trials of a finished staircase"},
+            "least_trials",
+            "least",
+            "trials.least",
+            of_finished<&ReferenceJnd::least_trials>},
+    Counted{{"staircase_trials_most", "", "most", "most trials of a finished staircase"},
+            "most_trials",
+            "most",
+            "trials.most",
+            of_finished<&ReferenceJnd::most_trials>},
+    Counted{{"staircases_at_limit", "", "at limit", "staircases that the trial limit ended"},
+            "n_trial_limit",
+            "at limit",
+            "n_trial_limit",
+            counted<&ReferenceJnd::n_trial_limit>},
+    Counted{{"staircases_without_jnd", "", "no JND", "finished staircases without an estimate"},
+            "n_without_estimate",
+            "no JND",
+            "n_without_estimate",
+            counted<&ReferenceJnd::n_without_estimate>},
+    Counted{{"floor_hits", "", "floor", "moves that the floor cut short"},
+            "n_floor",
+            "floor",
+            "n_floor",
+            counted<&ReferenceJnd::n_floor>},
+    Counted{{"floor_staircases", "", "in", "staircases with such moves"},
+            "n_floor_staircases",
+            "in",
+            "n_floor_staircases",
+            counted<&ReferenceJnd::n_floor_staircases>},
+    Counted{{"ceiling_hits", "", "ceiling", "moves that the ceiling cut short"},
+            "n_ceiling",
+            "ceiling",
+            "n_ceiling",
+            counted<&ReferenceJnd::n_ceiling>},
+    Counted{{"ceiling_staircases", "", "in", "staircases with such moves"},
+            "n_ceiling_staircases",
+            "in",
+            "n_ceiling_staircases",
+            counted<&ReferenceJnd::n_ceiling_staircases>}};
+
+StudyEstimate estimate_at(const Measure& measure, const ReferenceJnd& row) {
+  StudyEstimate estimate{&measure, "comparison", row.compared.condition, row.compared.reference_g};
+  estimate.by = {{"method", row.compared.method}};
+  return estimate;
+}
+
+void put_participants(Estimates& all, const StudyEstimate& over_all,
+                      const std::vector<ParticipantJnd>& participants) {
+  for (const ParticipantJnd& one : participants) {
+    StudyEstimate& estimate =
+        all.emplace_back(StudyEstimate{over_all.measure, over_all.task, over_all.condition,
+                                       over_all.reference_g, one.participant, over_all.by});
+    estimate.value = one.jnd_g;
+    estimate.censored = one.censored;
+    estimate.n = 1;
+  }
+}
+
+// The mean of several, and who is censored.
+void put_jnds(Estimates& all, StudyEstimate estimate, const StartedJnds& jnds) {
+  estimate.value = jnds.mean;
+  estimate.sd = jnds.sd;
+  estimate.set(jnds.interval);
+  estimate.n = jnds.n();
+  if (jnds.kind != MeanKind::none) estimate.method = name_of(jnds.kind);
+  all.push_back(estimate);
+  StudyEstimate number{estimate};
+  number.sd = number.low = number.high = std::nullopt;
+  number.method = {};
+  number.published = nullptr;
+  const auto put_number = [&](const Measure& measure, int n) {
+    number.measure = &measure;
+    number.value = n;
+    all.push_back(number);
+  };
+  put_number(n_above, jnds.n_censored(Censored::above));
+  put_number(n_below, jnds.n_censored(Censored::below));
+  put_number(n_missing, jnds.n_missing);
+  put_number(n_known, jnds.n() - jnds.n_missing);
+}
+
+// The paper's staircases began above, so that its figures stand beside those.
+void put_started(Estimates& all, const ReferenceJnd& row, const char* staircases,
+                 const StartedJnds& jnds, bool beside_paper) {
+  StudyEstimate estimate = estimate_at(jnd, row);
+  estimate.by.push_back({"staircases", staircases});
+  put_participants(all, estimate, jnds.participants);
+  estimate.published = beside_paper ? row.published : nullptr;
+  put_jnds(all, std::move(estimate), jnds);
+}
+
+void put_overall(Estimates& all, const ReferenceJnd& row) {
+  StudyEstimate estimate = estimate_at(jnd_overall, row);
+  put_participants(all, estimate, row.participants);
+  for (const std::string& participant : row.missing) {
+    all.push_back(estimate);
+    all.back().participant = participant;
+    all.back().why = "nothing is known of it";
+  }
+  estimate.published = row.published;
+  put_jnds(all, std::move(estimate),
+           {{row.summary, row.mean_g, row.sd_g, row.interval_g},
+            row.participants,
+            static_cast<int>(row.missing.size())});
+  for (const Counted& count : staircase_counts) {
+    all.push_back(estimate_at(count.measure, row));
+    all.back().value = count.of(row);
+  }
+}
+
+std::vector<EstimateColumn> columns_of(std::vector<EstimateColumn> columns, const Measure& measure,
+                                       std::string_view json,
+                                       std::pair<std::string_view, std::string> only) {
+  const auto add = [&](const Measure& of, Field field, const char* name, const char* heading,
+                       int decimals = 1) {
+    EstimateColumn added = column(of, field, name, heading, decimals);
+    if (!json.empty() || !heading) added.json = std::string(json) + name;
+    added.only = only;
+    columns.push_back(std::move(added));
+  };
+  add(measure, Field::value, "mean_g", "JND g");
+  add(measure, Field::sd, "sd_g", "SD");
+  add(measure, Field::low, "low_g", "95 % low");
+  add(measure, Field::high, "high_g", "high");
+  add(measure, Field::method, "summary", "is the");
+  add(measure, Field::n, "n", "n");
+  add(n_above, Field::value, "n_censored_above", "above", 0);
+  add(n_below, Field::value, "n_censored_below", "below", 0);
+  add(n_missing, Field::value, "n_missing", "missing", 0);
+  return columns;
+}
+
+EstimateTable jnd_table() {
+  EstimateTable table{
+      "jnd", "JND by reference mass, mean over participants",
+      columns_of({key_column("reference_g", "reference g"), key_column("condition", "condition"),
+                  key_column("staircases", "staircases")},
+                 jnd, "", {}),
+      "n participants; SD between them (n-1). The paper's JND: it moves with the criterion as much "
+      "as with what is perceived, and with where its staircase began: where they began on both "
+      "sides, these are apart, and above - below is by how much each participant's JND follows the "
+      "start. Above, below: participants of whom it is only known to lie there, as a staircase "
+      "ended at a bound, at its trial limit or with fewer than 4 reversals; missing: not even "
+      "that. "
+      "Where all are exact, the mean with Student's t interval; otherwise the Tobit mean (normal "
+      "model of exact and censored ones together) with its profile interval; none where half or "
+      "more are not exact."};
+  table.columns.push_back(column(jnd, Field::published, "published_g", "published g"));
+  table.columns.push_back(column(jnd, Field::published_sd, "published_sd_g", "published SD"));
+  table.columns.push_back(key_column("method", "method"));
+  return table;
+}
+
+// What JSON has of a reference beside its counts.
+EstimateTable jnd_json() {
+  std::vector<EstimateColumn> columns =
+      columns_of({key_column("reference_g", "reference g"), key_column("condition", "condition"),
+                  key_column("method", "method")},
+                 jnd_overall, "", {"staircases", ""});
+  for (const auto& [began, json] :
+       {std::pair("from above", "from_above?."), std::pair("from below", "from_below?."),
+        std::pair("above - below", "above_minus_below?.")})
+    columns = columns_of(std::move(columns), jnd, json, {"staircases", began});
+  EstimateColumn known = json_column(n_known, Field::value, "n_participants");
+  known.decimals = 0;
+  known.only = {"staircases", ""};
+  columns.push_back(std::move(known));
+  columns.push_back(json_column(jnd_overall, Field::published, "published_g"));
+  columns.push_back(json_column(jnd_overall, Field::published_sd, "published_sd_g"));
+  return {"jnd_overall",         "",
+          std::move(columns),    "",
+          TablePlace::json_only, "jnd[reference_g,condition,method]"};
+}
+
+EstimateTable participants_json() {
+  EstimateTable table{
+      "jnd_by_participant",
+      "Each participant's JND",
+      {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+       key_column("method", "method"), key_column("participant", "participant"),
+       column(jnd_overall, Field::value, "jnd_g", "JND g"),
+       column(jnd_overall, Field::censored, "censored", "censored")},
+      "",
+      TablePlace::csv,
+      "jnd[reference_g,condition,method].participants[]"};
+  table.participants = true;
+  return table;
+}
+
+EstimateTable health_table() {
+  EstimateTable table{
+      "staircase_health",
+      "Staircases: trials, bounds and estimates",
+      {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+       key_column("method", "method")},
+      "staircases; trials: mean, least and most of the finished; at limit: ended by "
+      "the trial limit; floor, ceiling: moves that the bound cut short, and in how "
+      "many staircases"};
+  for (const Counted& count : staircase_counts)
+    table.columns.push_back(column(count.measure, Field::value, std::string(count.column),
+                                   std::string(count.heading),
+                                   count.column == "mean_trials" ? 1 : 0, std::string(count.json)));
+  table.json = "jnd[reference_g,condition,method]";
+  return table;
+}
+
+class StaircaseSection final : public Section {
+ public:
+  void put(Summary& summary, const SharedFolds& shared) override {
+    summary.jnd = shared.staircases.jnds();
+    for (const ReferenceJnd& row : summary.jnd) {
+      if (!row.starts) {
+        put_started(summary.estimates, row, "all", row.as_published(), true);
+        put_overall(summary.estimates, row);
+        continue;
+      }
+      put_started(summary.estimates, row, "from above", row.starts->from_above_g, true);
+      put_started(summary.estimates, row, "from below", row.starts->from_below_g, false);
+      put_jnds(
+          summary.estimates,
+          [&] {
+            StudyEstimate estimate = estimate_at(jnd, row);
+            estimate.by.push_back({"staircases", "above - below"});
+            return estimate;
+          }(),
+          row.starts->difference_g);
+      put_overall(summary.estimates, row);
+    }
+  }
+
+  std::vector<EstimateTable> tables() const override {
+    return {jnd_json(), jnd_table(), health_table(), participants_json()};
+  }
+
+  std::vector<ChartSpec> charts() const override {
+    ChartSpec chart{
+        "jnd", "JND against reference mass, 95 % intervals",
+        "The paper's JND, which moves with the criterion and the start as much as with "
+        "what is perceived; of staircases from above and from below apart. Large points: "
+        "mean over participants where more than half have an exact JND; arrows: "
+        "participants of whom it is known only to lie above or below; diamonds: "
+        "published, of staircases from above.",
+        "jnd.csv"};
+    chart.importance = 35;
+    for (const char* began : {"all", "from above", "from below"})
+      chart.series.push_back(
+          {&jnd,
+           std::string_view(began) == "all" ? "mean" : std::string("mean ") + began,
+           {"staircases", began}});
+    chart.x = "reference_g";
+    chart.split = {"condition", "method"};
+    chart.participants = true;
+    chart.x_label = "reference mass (g)";
+    chart.y_label = "JND (g)";
+    chart.axes = "set yrange [0:*]\n";
+    return {chart};
+  }
+};
+}  // namespace
+
+std::unique_ptr<Section> staircase_section() {
+  return std::make_unique<StaircaseSection>();
+}
+
+}  // namespace heft

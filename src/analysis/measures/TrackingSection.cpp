@@ -1,0 +1,91 @@
+// How well each participant's effector was tracked: what a reviewer holds beside their figures.
+#include "analysis/Section.h"
+
+namespace heft {
+
+namespace {
+constexpr Measure in_view{
+    "in_view", "%", "in view",
+    "share of the time from all cubes shown to the answer with the effector in "
+    "view"};
+constexpr Measure n_lost{"times_lost", "", "times out of sight",
+                         "how often the effector went out of sight in a trial"};
+constexpr Measure lost{"lost_time", "s", "out of sight", "for how long in all"};
+constexpr Measure n_frames{"frames", "", "frames", "displayed frames, where they were kept"};
+constexpr Measure tracked{"tracked", "%", "tracked", "share of frames with the effector tracked"};
+constexpr Measure n_jumps{
+    "jumps", "", "jumps",
+    "times the effector came back or leapt, and the clone was put where it was"};
+constexpr Measure quality{"tracking_quality", "", "mean quality", "mean over frames, 0 to 1"};
+constexpr Measure n_pictures{"pictures", "", "camera pictures", "pictures of the camera shown"};
+constexpr Measure n_dropped{"pictures_dropped", "", "dropped", "camera pictures never shown"};
+constexpr Measure n_late{"pictures_late", "", "late", "camera pictures that came late"};
+
+class TrackingSection final : public Section {
+ public:
+  void put(Summary& summary, const SharedFolds&) override {
+    for (const PersonTracking& person : summary.tracking) {
+      const auto put = [&](const Measure& measure, std::optional<double> value) {
+        StudyEstimate& estimate = summary.estimates.emplace_back(StudyEstimate{&measure});
+        estimate.participant = person.participant;
+        estimate.value = value;
+        estimate.n = 1;
+      };
+      const FrameCounts& frames = person.counts.frames;
+      put(n_lost, person.counts.n_lost);
+      put(in_view, person.in_view_percent());
+      put(lost, person.counts.lost_s);
+      put(n_frames, frames.n_frames);
+      put(tracked, person.tracked_percent());
+      put(n_jumps, frames.n_jumps);
+      put(quality, frames.mean_quality);
+      put(n_pictures, person.pictures.shown);
+      put(n_dropped, person.pictures.dropped);
+      put(n_late, person.pictures.late);
+    }
+  }
+
+  std::vector<EstimateTable> tables() const override {
+    EstimateTable table{
+        "tracking_quality",
+        "Tracking of each participant's effector",
+        {key_column("participant", "participant"),
+         column(n_lost, Field::value, "n_lost", "times out of sight", 0),
+         column(in_view, Field::value, "in_view_percent", "in view % of the time"),
+         column(lost, Field::value, "lost_s", "for s"),
+         column(n_frames, Field::value, "n_frames", "frames", 0),
+         column(tracked, Field::value, "tracked_percent", "tracked %"),
+         column(n_jumps, Field::value, "n_jumps", "jumps", 0),
+         column(quality, Field::value, "mean_quality", "mean quality", 2),
+         column(n_pictures, Field::value, "n_pictures", "camera pictures", 0),
+         column(n_dropped, Field::value, "n_dropped", "dropped", 0),
+         column(n_late, Field::value, "n_late", "late", 0)},
+        "time: from all cubes shown to the answer; frames: where they were kept; "
+        "jumps: the effector came back or leapt, and the clone was put where it was",
+        TablePlace::run_only,
+        "tracking[]"};
+    table.participants = true;
+    return {table};
+  }
+
+  std::vector<ChartSpec> charts() const override {
+    ChartSpec chart{"tracking_quality", "Tracking of each participant's effector",
+                    "A column for each participant, from the worst tracked on: percentage of the "
+                    "time until the answer with the effector in view, and of displayed frames with "
+                    "it tracked, where frames were kept.",
+                    "tracking_quality.csv", ChartShape::people};
+    chart.importance = 90;
+    chart.series = {{&in_view, "% of the time in view", {}}, {&tracked, "% of frames tracked", {}}};
+    chart.x_label = "participant, worst first";
+    chart.y_label = "%";
+    chart.axes = "set yrange [0:105]\n";
+    return {chart};
+  }
+};
+}  // namespace
+
+std::unique_ptr<Section> tracking_section() {
+  return std::make_unique<TrackingSection>();
+}
+
+}  // namespace heft

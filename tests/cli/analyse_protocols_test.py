@@ -1,0 +1,138 @@
+"""Reports of protocols that are not shipped are complete: each completed trial is counted, and every
+table and chart names every condition of its task.
+
+Run: python3 tests/cli/analyse_protocols_test.py PATH_TO_HEFT
+"""
+import json
+
+from session_harness import SessionTest, main, query
+
+SOFT = '[[technique]]\nname = "soft"\nkind = "spring"\nstiffness_n_per_m = 25\n'
+RATIO = ('[[technique]]\nname = "C2"\nkind = "gain"\n'
+         'gain_of_mass = [[15, 0.95], [200, 0.6], [800, 0.2]]\n')
+
+
+def sorting(masses, **trials):
+    counts = ", ".join(f"{name} = {n}" for name, n in trials.items())
+    return (f'[[block]]\nkind = "sorting"\nname = "sorting"\nmasses_g = {masses}\n'
+            f"trials = {{ {counts} }}\n")
+
+
+def introduction(condition):
+    return ('[[block]]\nkind = "introduction"\nname = "introduction"\nmasses_g = [15, 800]\n'
+            f'condition = "{condition}"\n')
+
+
+def staircase(condition, reference=200, start=400):
+    return (f'[[block.staircase]]\nname = "{reference} {condition}"\nreference_g = {reference}\n'
+            f'condition = "{condition}"\nstart = {start}\nstep = 100\nfloor = 0\n'
+            "stop_reversals = 4\nstop_trials = 12\ndiscard_reversals = 1\n")
+
+
+def constant(condition, reference=200):
+    return (f'[[block.staircase]]\nname = "constant {condition}"\nkind = "constant"\n'
+            f'reference_g = {reference}\ncondition = "{condition}"\n'
+            "levels = [-100, 0, 80, 300, 600]\nn_per_level = 2\n")
+
+
+def comparison(*staircases):
+    return ('[[block]]\nkind = "comparison"\nname = "comparison"\ncatch_fraction = 0.1\n'
+            + "".join(staircases))
+
+
+PROTOCOLS = {
+    "two cubes": sorting([100, 400], C1=3, C2=3),
+    "four cubes": sorting([15, 100, 250, 800], C1=2, C2=2),
+    "three techniques": SOFT + introduction("C2") + sorting([15, 200, 800], C1=3, C2=3, soft=3)
+    + comparison(staircase("C2"), staircase("soft"), staircase("C1")),
+    "one technique of its own": SOFT + introduction("soft") + sorting([15, 200, 800], soft=4)
+    + comparison(staircase("soft")),
+    "another law called C2": RATIO + introduction("C2") + sorting([15, 200, 800], C1=2, C2=4)
+    + comparison(staircase("C2")),
+    "constant stimuli": comparison(constant("C2")),
+    "a mix": SOFT + sorting([100, 400], C2=2, soft=2)
+    + comparison(constant("soft"), staircase("C2", 15, 175), staircase("soft", 800, 700)),
+    "no comparison": introduction("C2") + sorting([15, 200, 800], C1=2, C2=2),
+    "no sorting": introduction("C2") + comparison(staircase("C2")),
+}
+# Charts and tables that name the conditions of a task, where there is something to show.
+OF_SORTING = {"sorting", "sorting_by_participant", "labels_by_mass", "sorting_chance", "swapped"}
+OF_COMPARISONS = {"choice_curves", "choices", "choices_by_level", "hits_and_false_alarms",
+                  "sensitivity", "times_by_level", "thresholds_by_participant"}
+OF_STAIRCASES = {"jnd", "staircase_health", "staircases", "jnd_against_start", "staircase_trials"}
+OF_PAPER = {"C1", "C2"}
+
+
+class Protocols(SessionTest):
+    def study(self, name):
+        folder = self.folder / name.replace(" ", "_")
+        folder.mkdir()
+        protocol, db, out = folder / "p.toml", folder / "s.db", folder / "report"
+        protocol.write_text(f'title = "{name}"\n' + PROTOCOLS[name])
+        self.run_heft("simulate", protocol, "--participants", "3", "--seed", "11", "--db", db)
+        self.run_heft("analyse", "--db", db, "--out", out)
+        found = json.loads((out / "summary.json").read_text())
+        trials = query(db, "select task, condition, staircase, count(*) from trial where "
+                           "status = 'completed' group by task, condition, staircase")
+        return found, out, trials
+
+    def assert_counted(self, found, trials):
+        def completed(task, condition=None):
+            return sum(n for of, at, _, n in trials if of == task and condition in (None, at))
+        for condition in {at for task, at, _, _ in trials if task == "sorting"}:
+            sorted_in = found["sorting"][condition]
+            self.assertEqual(sorted_in["n_trials"], completed("sorting", condition))
+        self.assertEqual(sum(row["n_trials"] for row in found["comparison"]["by_reference"]),
+                         completed("comparison"))
+        self.assertEqual(found["introduction"]["n_participants"] or 0, completed("introduction"))
+        self.assertEqual(sum(row["n_trials"] for row in found["response_times"]),
+                         sum(n for *_, n in trials))
+        self.assertEqual(sum(row["n_attempts"] - row["n_void"] for row in
+                             found["quality"]["losses"]), sum(n for *_, n in trials))
+
+    def assert_named(self, out, names, conditions):
+        for name in names:
+            for path in (out / f"{name}.csv", out / f"{name}.gp"):
+                for condition in conditions if path.exists() else []:
+                    self.assertIn(condition.lower(), path.read_text(encoding="utf-8").lower(),
+                                  path.name)
+
+    def test_reports_are_complete(self):
+        for name in PROTOCOLS:
+            with self.subTest(protocol=name):
+                found, out, trials = self.study(name)
+                self.assert_counted(found, trials)
+                of = lambda task: {at for one, at, _, _ in trials if one == task}
+                self.assert_named(out, OF_SORTING, of("sorting"))
+                self.assert_named(out, OF_COMPARISONS, of("comparison"))
+                self.assert_named(out, OF_STAIRCASES, {
+                    at for task, at, staircase, _ in trials
+                    if task == "comparison" and (staircase or "")[:1].isdigit()})
+                self.assertNotIn("nan", (out / "estimates.csv").read_text().lower())
+                for path in out.glob("*.svg"):
+                    self.assertIn("</svg>", path.read_text(encoding="utf-8"), path.name)
+
+    def test_the_papers_figures_stand_beside_its_techniques_alone(self):
+        for name, conditions in [("another law called C2", {"C1"}),
+                                 ("one technique of its own", set()), ("two cubes", set()),
+                                 ("no comparison", OF_PAPER)]:
+            with self.subTest(protocol=name):
+                found, out, _ = self.study(name)
+                self.assertEqual({condition for condition, of in found["sorting"].items()
+                                  if of["correct"]["published"] is not None}, conditions)
+                self.assertEqual(found["hypotheses"]["E1-H2"]["verdict"] != "can't be judged",
+                                 "C2" in conditions)
+                for row in found["jnd"]:
+                    self.assertIsNone(row["published_g"])
+
+    def test_chance_is_of_the_cubes(self):
+        for name, chance in [("two cubes", 50), ("four cubes", 100 / 24)]:
+            with self.subTest(protocol=name):
+                found, out, _ = self.study(name)
+                self.assertAlmostEqual(found["sorting"]["C2"]["chance"], chance)
+                for chart in ("sorting.gp", "sorting_by_participant.gp"):
+                    self.assertIn(f"({chance:.1f} %)", (out / chart).read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    main("__main__")
