@@ -47,7 +47,7 @@ TEST(ProtocolChoices, name_constant_stimuli) {
   auto& block = *block_as<Comparison::Block>(protocol.blocks.back());
   block.staircases = {{200, {"c", ConstantConfig{.levels = {-5, 12.5}, .n_per_level = 9}}}};
   EXPECT_EQ(value_of(choices_in(protocol), "staircase c"),
-            "constant levels -5, 12.5 g, each 9 times, in blocks");
+            "constant levels -5, 12.5 g, each 9 times, order blocks");
 }
 
 TEST(ProtocolChoices, name_declared_techniques) {
