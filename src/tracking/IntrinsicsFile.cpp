@@ -1,8 +1,10 @@
 // A camera's file, as OpenCV's calibration programs write it.
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <sstream>
 
@@ -10,11 +12,11 @@
 #include "base/Printable.h"
 #include "base/TextFile.h"
 #include "tracking/Intrinsics.h"
-#include "tracking/PlainYaml.h"
 
 namespace heft {
 
 namespace {
+constexpr std::size_t largest_file_bytes = 4'000'000;
 constexpr int largest_side_px = 20000;
 // Of the picture's longer side: from a fisheye's 150 degrees and more to a telescope's 1.
 constexpr double shortest_focal = 0.05, longest_focal = 50;
@@ -32,13 +34,15 @@ bool can_be_looked_back(const Intrinsics& camera) {
 
 class Reader {
  public:
-  Reader(const std::string& text, const std::string& file)
-      : file_(file), values_(parse_plain_yaml(text, file)) {
-    if (!values_.empty()) return;
-    mistake(
-        "the file has no keys; expected OpenCV's YAML with image_width, image_height, "
-        "camera_matrix and distortion_coefficients");
-    finish();
+  Reader(const std::string& text, const std::string& file) : file_(file) {
+    if (text.size() > largest_file_bytes)
+      refuse({}, fmt::format("has more than {} bytes", largest_file_bytes));
+    try {
+      take(YAML::Load(text));
+    } catch (const YAML::Exception& error) {
+      refuse(error.mark, "is not valid YAML: " + error.msg);
+    }
+    if (values_.empty()) refuse({}, "has no keys");
   }
 
   int side(const char* key) {
@@ -116,10 +120,9 @@ class Reader {
 
   // Its message begins with the key.
   void mistake(std::string message) {
-    const auto key = values_.find(message.substr(0, message.find(' ')));
-    SourcePlace place{file_};
-    if (key != values_.end()) place = {file_, key->second.line, key->second.column};
-    mistakes_.push_back({place, std::move(message)});
+    const auto found = values_.find(message.substr(0, message.find(' ')));
+    mistakes_.push_back({found == values_.end() ? SourcePlace{file_} : place_of(found->second.mark),
+                         std::move(message)});
   }
 
   void finish() {
@@ -127,34 +130,60 @@ class Reader {
   }
 
  private:
+  struct Value {
+    YAML::Mark mark;  ///< of the key
+    YAML::Node node;
+  };
+
+  void take(const YAML::Node& file) {
+    if (!file.IsMap() && !file.IsNull()) refuse(file.Mark(), "has no keys");
+    for (const auto& entry : file) {
+      if (entry.second.IsNull()) refuse(entry.first.Mark(), "has no value here");
+      if (!values_.emplace(entry.first.Scalar(), Value{entry.first.Mark(), entry.second}).second)
+        refuse(entry.first.Mark(), "has this key for the second time");
+    }
+  }
+
+  SourcePlace place_of(const YAML::Mark& mark) const {
+    return mark.is_null() ? SourcePlace{file_} : SourcePlace{file_, mark.line + 1, mark.column + 1};
+  }
+
+  [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& why) const {
+    throw InvalidFile(
+        {{place_of(mark), fmt::format("the file {}; expected OpenCV's YAML with image_width, "
+                                      "image_height, camera_matrix and distortion_coefficients, as "
+                                      "heft calibrate camera writes it",
+                                      why)}});
+  }
+
   // The numbers of a scalar, a list, or a matrix (a map with a list named data).
   std::vector<double> numbers(const std::string& key, const char* expected) {
-    auto value = values_.find(key + ".data");
-    if (value == values_.end()) value = values_.find(key);
+    const auto value = values_.find(key);
     std::vector<double> numbers;
-    if (value != values_.end())
-      for (const std::string& scalar : value->second.scalars)
-        numbers.push_back(number_in(scalar).value_or(NAN));
-    const bool usable =
-        !numbers.empty() && std::ranges::none_of(numbers, [](double n) { return std::isnan(n); });
-    if (usable) {
-      require_shape(key, numbers.size());
-      return numbers;
+    if (value != values_.end()) {
+      const YAML::Node& node = value->second.node;
+      const YAML::Node list = node.IsMap() ? node["data"] : node;
+      if (list && list.IsScalar()) numbers.push_back(number_in(list.Scalar()).value_or(NAN));
+      if (list && list.IsSequence())
+        for (const YAML::Node& scalar : list)
+          numbers.push_back(number_in(scalar.Scalar()).value_or(NAN));
+      const bool usable =
+          !numbers.empty() && std::ranges::none_of(numbers, [](double n) { return std::isnan(n); });
+      if (usable && node.IsMap()) require_shape(key, node, numbers.size());
+      if (usable) return numbers;
     }
     mistake(fmt::format("{} {}, expected {}", key,
                         value == values_.end() ? "is missing" : "is unusable", expected));
     return {};
   }
 
-  // What a matrix says of itself.
-  void require_shape(const std::string& key, std::size_t n) {
-    const auto told = [&](const char* what, const std::string& otherwise) {
-      const auto value = values_.find(fmt::format("{}.{}", key, what));
-      return value == values_.end() ? otherwise
-                                    : fmt::format("{}", fmt::join(value->second.scalars, ", "));
+  // The size and type that a matrix declares.
+  void require_shape(const std::string& key, const YAML::Node& matrix, std::size_t n) {
+    const auto declared = [&](const char* name, const std::string& otherwise) {
+      return matrix[name] ? matrix[name].Scalar() : otherwise;
     };
-    const std::string rows = told("rows", "1"), columns = told("cols", fmt::format("{}", n)),
-                      type = told("dt", "d");
+    const std::string rows = declared("rows", "1"),
+                      columns = declared("cols", fmt::format("{}", n)), type = declared("dt", "d");
     const auto n_rows = number_in(rows), n_columns = number_in(columns);
     if (!n_rows || !n_columns || *n_rows < 1 || *n_rows * *n_columns != static_cast<double>(n))
       mistake(
@@ -164,7 +193,7 @@ class Reader {
   }
 
   std::string file_;
-  YamlValues values_;
+  std::map<std::string, Value, std::less<>> values_;
   std::vector<Mistake> mistakes_;
 };
 

@@ -196,9 +196,9 @@ TEST(IntrinsicsFile, RefusesWhatCanNotBe) {
 
 TEST(IntrinsicsFile, NamesTheLineOfABrokenOne) {
   const std::string broken = edited("image_height:", "image_height");
-  EXPECT_THAT(refusal(broken), HasSubstr("c.yaml:4:1: this is no plain YAML"));
-  EXPECT_THAT(refusal(broken.substr(broken.find("image_width"))), HasSubstr("c.yaml:2:1: this is"));
-  EXPECT_THAT(refusal("hello"), HasSubstr("c.yaml:1:1: this is"));
+  EXPECT_THAT(refusal(broken), HasSubstr("c.yaml:5:14: the file is not valid YAML"));
+  EXPECT_THAT(refusal(broken.substr(broken.find("image_width"))), HasSubstr("c.yaml:3:14: "));
+  EXPECT_THAT(refusal("hello"), HasSubstr("c.yaml:1:1: the file has no keys"));
   EXPECT_THAT(refusal("\x89PNG"), HasSubstr("heft calibrate camera"));
 }
 
@@ -225,30 +225,22 @@ TEST(IntrinsicsFile, RefusesGarbage) {
   }
 }
 
-TEST(IntrinsicsFile, OpenCvNeverSeesWhatItCanNotBear) {
+TEST(IntrinsicsFile, RefusesFilesThatHarmReaders) {
   const std::string yaml = to_yaml(mild, "");
   const auto with = [&](const std::string& line) { return refusal(yaml + line + "\n"); };
   EXPECT_THAT(refusal("<?xml version=\"1.0\"?><opencv_storage/>"), HasSubstr("c.yaml:1:1: "));
-  EXPECT_THAT(refusal(" \n<?xml version="), HasSubstr("it holds XML"));
-  EXPECT_THAT(refusal("{\"image_width\": 640}"), HasSubstr("c.yaml:1:1: this is no plain YAML"));
-  EXPECT_THAT(with("x: !!binary |"),
-              HasSubstr("c.yaml:15:4: this is no plain YAML: it holds a tag"));
-  EXPECT_THAT(with("x: [ !!binary [ a ] ]"), HasSubstr("a tag"));
-  EXPECT_THAT(with("x: !!opencv-nd-matrix"), HasSubstr("a tag"));
-  EXPECT_THAT(with("x: !!opencv-matrix 3"), HasSubstr("a tag"));
-  EXPECT_THAT(with("x: &a 3"), HasSubstr("an anchor"));
-  EXPECT_THAT(with("x: *a"), HasSubstr("an anchor"));
-  EXPECT_THAT(with("x: |"), HasSubstr("\"|\""));
-  EXPECT_THAT(with("x: " + std::string(100'000, '[')), HasSubstr("a list in a list"));
-  EXPECT_THAT(with("- - - - 1"), HasSubstr("a list in a list"));
-  EXPECT_THAT(with("a: b: c: d: e: f: g"), HasSubstr("a key within a value"));
-  EXPECT_THAT(with("im--"), HasSubstr("a line without a key"));  // OpenCV would never end
-  EXPECT_THAT(with("---"), HasSubstr("a second document"));
-  EXPECT_THAT(with(" : 1"), HasSubstr("a line without a key"));
-  EXPECT_THAT(with("x: [ 1, 2"), HasSubstr("does not end"));
-  EXPECT_THAT(with("x: \"a"), HasSubstr("does not end"));
+  EXPECT_THAT(refusal("{\"image_width\": 640}"), HasSubstr("image_height is missing"));
+  EXPECT_THAT(with("image_width: 3"),
+              HasSubstr("c.yaml:15:1: the file has this key for the second"));
+  EXPECT_THAT(with("x: " + std::string(100'000, '[')), HasSubstr("the file is not valid YAML"));
+  EXPECT_THAT(with("a: b: c: d: e: f: g"), HasSubstr("c.yaml:15:5: the file is not valid YAML"));
+  EXPECT_THAT(with("im--"), HasSubstr("c.yaml:15:1: the file has no value here"));
+  EXPECT_THAT(with("x: [ 1, 2"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(refusal(yaml + "x: 'a"), HasSubstr("not valid YAML"));
   EXPECT_THAT(refusal(yaml + "# " + std::string(5'000'000, '.')), HasSubstr("bytes"));
-  EXPECT_THAT(refusal(yaml + std::string(1, '\0')), HasSubstr("NUL"));
+  // Neither is looked at, so neither does harm.
+  expect_same(parse_intrinsics(yaml + "x: !!binary |\n", "c.yaml"), mild);
+  expect_same(parse_intrinsics(yaml + "x: &a [ *a ]\n", "c.yaml"), mild);
 }
 
 TEST(IntrinsicsFile, StillReadsWhatOtherProgramsWrite) {
@@ -317,7 +309,7 @@ TEST(IntrinsicsFile, MutatedFilesAreReadOrRefused) {
     }
     n_accepted += refusal(text) == "accepted" ? 1 : 0;
   }
-  EXPECT_GT(n_accepted, 200) << "hardly any came as far as OpenCV";
+  EXPECT_GT(n_accepted, 200) << "hardly any was accepted";
 }
 
 }  // namespace
