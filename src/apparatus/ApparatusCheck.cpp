@@ -7,7 +7,7 @@
 
 #include "base/Clock.h"
 #include "protocol/Protocol.h"
-#include "tracking/Unseen.h"
+#include "tracking/Tracker.h"
 
 namespace heft {
 

@@ -22,7 +22,7 @@
 #include "tracking/EffectorCalibration.h"
 #include "tracking/Response.h"
 #include "tracking/ShutterCalibration.h"
-#include "tracking/Unseen.h"
+#include "tracking/Tracker.h"
 #include "tracking/ViewCollector.h"
 #include "view/Window.h"
 

@@ -17,7 +17,6 @@
 #include "tracking/MarkerBody.h"
 #include "tracking/PoseColumns.h"
 #include "tracking/Tracker.h"
-#include "tracking/Unseen.h"
 
 namespace heft::cli {
 

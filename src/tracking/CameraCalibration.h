@@ -10,10 +10,20 @@
 #include <vector>
 
 #include "base/PoseTypes.h"
-#include "tracking/PrintShape.h"
 #include "tracking/TagViews.h"
 
 namespace heft {
+
+/// How a print differs from what its file says, beside its overall size, with standard errors:
+/// paper that a printer stretched more in one direction, or fed askew, fits no camera from all
+/// sides.
+struct PrintShape {
+  double stretch = 0, stretch_sd = 0;      ///< how much longer it is across than down, relatively
+  double shear_rad = 0, shear_sd_rad = 0;  ///< by how much its right angles are too narrow
+
+  bool is_stretched() const;
+  bool is_sheared() const;
+};
 
 /// Which parts of the picture the board has been in: a grid of cells, each with the number of tag
 /// corners in it.

@@ -11,7 +11,6 @@
 #include "base/Error.h"
 #include "tracking/MarkerBody.h"
 #include "tracking/PlanarPose.h"
-#include "tracking/TagBundle.h"
 
 namespace heft {
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/PoseTypes.h"
 #include "tracking/TagViews.h"
 
 namespace heft {
@@ -40,5 +41,55 @@ std::vector<std::string> doubts(const EffectorCalibration& calibration);
 
 /// How the result came about, for the top of its file.
 std::string summary(const EffectorCalibration& calibration);
+
+// Bundle adjustment of rigid tags on a body that is seen in several views: the least-squares core
+// of EffectorCalibration.h.
+
+struct TagBundle {
+  std::vector<Pose> body_from_tag;     ///< of each tag; its own frame has x right, y up, z out
+  std::vector<double> side_m;          ///< of each tag
+  std::vector<Pose> camera_from_body;  ///< of each view
+  double bias_px = 0;                  ///< edges seem moved outwards by as much
+};
+
+/// The corner of a tag in its own frame. @param corner 0 top left, then clockwise
+Eigen::Vector3d corner_in_tag(double side_m, std::size_t corner);
+
+/// Levenberg-Marquardt with Huber weights on corners in pixels. Loose springs hold the tags' places
+/// and the bias to where they start: they settle what no view tells and nothing else.
+/// @return reprojection error, rms in pixels
+double adjust(TagBundle& bundle, const Intrinsics& camera, const std::vector<TagView>& views);
+
+// The effector when it was last seen, and what that says of where it is by now: hands go on as they
+// did, and are only so fast.
+
+struct SeenEffector {
+  double t_s = 0;        ///< TrackedPicture's effector_t_s
+  double own_row_s = 0;  ///< by so much later than its picture's
+  Pose board_from_effector;
+  Velocity velocity{};  ///< mean since the picture before
+  Velocity next{};      ///< mean until the next picture, if it changes as it did
+  int n_poses = 1;      ///< in a row, this one with them
+
+  /// Seen so recently that something can be said of it.
+  bool tells_of(double then_s) const;
+
+  /// @param by velocity, or next: nearer to where a hand is, and farther off where poses are not
+  /// sure
+  Pose expected_at(double then_s, const Velocity& by) const;
+
+  bool could_be_at(const Pose& pose, double then_s) const;
+
+  /// The mean velocity from here to the next pose, carried on from the middle between them as it
+  /// has changed since this one's: by half a picture to the next pose's own. Itself while nothing
+  /// tells how it changes.
+  Velocity carried_on(const Velocity& mean, double by_pictures) const;
+
+  /// What it is after the next pose, later, that it could be at.
+  SeenEffector moved_on(double then_s, double then_own_row_s, const Pose& pose) const;
+};
+
+/// Poses come out of one another picture by picture: rounding must not add up.
+Pose normalized(Pose pose);
 
 }  // namespace heft

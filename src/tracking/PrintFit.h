@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "tracking/PrintShape.h"
+#include "tracking/CameraCalibration.h"
 
 namespace heft {
 

@@ -1,6 +1,5 @@
-#include "tracking/SeenEffector.h"
-
 #include "base/Pose.h"
+#include "tracking/EffectorCalibration.h"
 
 namespace heft {
 

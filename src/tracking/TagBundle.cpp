@@ -1,9 +1,8 @@
-#include "tracking/TagBundle.h"
-
 #include <array>
 
 #include "base/LevenbergMarquardt.h"
 #include "base/Pose.h"
+#include "tracking/EffectorCalibration.h"
 
 namespace heft {
 

@@ -8,14 +8,73 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <array>
+#include <cstddef>
 
 #include "base/PoseTypes.h"
 #include "tracking/BodyPose.h"
 #include "tracking/TagFamily.h"
-#include "tracking/TagPlane.h"
 #include "tracking/ToneCurve.h"
 
 namespace heft {
+
+// Where rays hit a tag.
+
+/// A tag as a plane in the camera's frame: its border's top left corner and its cells' sides.
+struct TagPlane {
+  Eigen::Vector3d corner_m, right_m, down_m;
+  /// Of a point: how many cells to the right and down, and 1, times its depth.
+  Eigen::Matrix3d cell_of;
+
+  TagPlane(const Pose& pose, const std::array<Eigen::Vector3d, 4>& c, int n_cells)
+      : corner_m(pose * c[0]),
+        right_m(pose.orientation * (c[1] - c[0]) / n_cells),
+        down_m(pose.orientation * (c[3] - c[0]) / n_cells) {
+    Eigen::Matrix3d sides;
+    sides << right_m, down_m, corner_m;
+    cell_of = sides.inverse();
+  }
+};
+
+/// Where a ray hits it, and what the place on it does to the ray.
+struct TagHit {
+  Eigen::Vector2d cell;           ///< from the border's corner
+  Eigen::Matrix2d cell_by_slant;  ///< of the ray's distance from a point, at the point's depth
+  Eigen::Vector3d point_m;
+
+  TagHit(const TagPlane& plane, const Eigen::Vector2d& ray) {
+    const Eigen::Vector3d at_depth_1 = plane.cell_of.leftCols<2>() * ray + plane.cell_of.col(2);
+    const double depth_m = 1 / at_depth_1.z();
+    cell = depth_m * at_depth_1.head<2>();
+    cell_by_slant = plane.cell_of.topLeftCorner<2, 2>() - cell * plane.cell_of.row(2).head<2>();
+    point_m = depth_m * ray.homogeneous();
+  }
+};
+
+// The normal distribution function and its density by table.
+
+struct Normal {
+  double below, density;
+};
+
+// Each place, with the first and second order between them.
+inline constexpr double normal_end = 5, normal_steps_per_unit = 64;
+using NormalTable =
+    std::array<Normal, static_cast<std::size_t>(2 * normal_end * normal_steps_per_unit) + 1>;
+extern const NormalTable normal_table;
+
+/// To 1e-5. Some hundred thousand times a picture.
+inline Normal normal_at(double x) {
+  if (x <= -normal_end) return {0, 0};
+  if (x >= normal_end) return {1, 0};
+  const double place = (x + normal_end) * normal_steps_per_unit;
+  const auto nearest = static_cast<std::size_t>(place + 0.5);
+  const double rest = (place - static_cast<double>(nearest)) / normal_steps_per_unit;
+  const Normal& there = normal_table[nearest];
+  return {there.below + there.density * rest, there.density * (1 - x * rest)};
+}
 
 struct DenseTag {
   const TagObservation* seen;

@@ -3,13 +3,14 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/Image.h"
 #include "base/PoseTypes.h"
 #include "tracking/BodyFinder.h"
+#include "tracking/EffectorCalibration.h"
 #include "tracking/MarkerBody.h"
-#include "tracking/SeenEffector.h"
 #include "tracking/TagDetector.h"
 
 namespace heft {
@@ -98,5 +99,13 @@ class Tracker {
   std::optional<SeenEffector> seen_;
   int n_unseen_ = 0;  ///< pictures since, or since the start
 };
+
+// Why a board or an effector was found in no picture: what one of them shows instead.
+
+/// A picture in which the body was not found, in words: dark, white, mirrored, with other tags,
+/// without any. Takes as long as several detections.
+/// @param what the body is called  @param beside may be in the picture, too: the other body
+std::string why_unseen(const Image& picture, const MarkerBody& body, const std::string& what,
+                       const MarkerBody& beside = {});
 
 }  // namespace heft

@@ -1,5 +1,3 @@
-#include "tracking/Unseen.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +6,7 @@
 
 #include "tracking/ImageConversion.h"
 #include "tracking/TagDetector.h"
+#include "tracking/Tracker.h"
 
 namespace heft {
 

@@ -1,12 +1,11 @@
 // What is said of a picture in which the board was not found.
-#include "tracking/Unseen.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "Scenes.h"
+#include "tracking/Tracker.h"
 
 namespace heft {
 namespace {
