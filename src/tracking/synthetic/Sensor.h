@@ -8,7 +8,6 @@
 #include "base/Image.h"
 #include "tracking/SyntheticCamera.h"
 #include "tracking/synthetic/AreaRaster.h"
-#include "tracking/synthetic/LevelCurve.h"
 #include "tracking/synthetic/UnevenLight.h"
 
 namespace heft {
