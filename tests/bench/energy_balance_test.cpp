@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/Pose.h"
-#include "bench/physics/EnergyBalance.h"
+#include "bench/physics/Measurements.h"
 #include "physics/Oracles.h"
 
 namespace heft {

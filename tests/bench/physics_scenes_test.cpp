@@ -8,7 +8,6 @@
 #include <set>
 
 #include "base/TextFile.h"
-#include "bench/physics/OdeSimulator.h"
 #include "bench/physics/Reference.h"
 #include "physics/Oracles.h"
 #include "physics/Scene.h"

@@ -5,8 +5,6 @@
 
 #include "StudyFolder.h"
 #include "bench/pipeline/Chain.h"
-#include "bench/pipeline/PipelineStudy.h"
-#include "bench/pipeline/RecordedTrial.h"
 #include "bench/tracking/Grips.h"
 
 namespace heft {

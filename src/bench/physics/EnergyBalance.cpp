@@ -1,7 +1,6 @@
-#include "bench/physics/EnergyBalance.h"
-
 #include <cmath>
 
+#include "bench/physics/Measurements.h"
 #include "experiment/Trajectory.h"
 #include "physics/BoxInertia.h"
 

@@ -1,8 +1,7 @@
 // What a step costs with more and more cubes: asleep, standing apart while one is pushed, in a row.
 #include "analysis/Gnuplot.h"
-#include "bench/physics/ChartColors.h"
-#include "bench/physics/HandsStudy.h"
-#include "bench/physics/Paths.h"
+#include "bench/physics/PhysicsStudy.h"
+#include "bench/physics/RandomScenes.h"
 #include "bench/physics/SceneRun.h"
 
 namespace heft {

@@ -1,12 +1,10 @@
-#include "bench/physics/HandsStudy.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "analysis/Gnuplot.h"
 #include "base/Quantile.h"
-#include "bench/physics/ChartColors.h"
+#include "bench/physics/PhysicsStudy.h"
 #include "bench/physics/RandomScenes.h"
 #include "bench/physics/SceneRun.h"
 

@@ -1,5 +1,3 @@
-#include "bench/physics/InputStudy.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +9,8 @@
 #include "base/DefaultTechniques.h"
 #include "base/Pose.h"
 #include "base/Random.h"
-#include "bench/physics/Paths.h"
+#include "bench/physics/PhysicsStudy.h"
+#include "bench/physics/RandomScenes.h"
 #include "bench/physics/SceneRun.h"
 
 namespace heft {

@@ -1,5 +1,3 @@
-#include "bench/physics/LagVsMass.h"
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -8,8 +6,8 @@
 #include "analysis/Gnuplot.h"
 #include "base/DefaultTechniques.h"
 #include "base/Error.h"
-#include "bench/physics/ChartColors.h"
-#include "bench/physics/Paths.h"
+#include "bench/physics/PhysicsStudy.h"
+#include "bench/physics/RandomScenes.h"
 #include "bench/physics/SceneRun.h"
 #include "physics/Oracles.h"
 

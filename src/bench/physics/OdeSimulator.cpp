@@ -1,4 +1,4 @@
-#include "bench/physics/OdeSimulator.h"
+#include "bench/physics/Reference.h"
 
 #ifndef HEFT_HAVE_ODE
 

@@ -1,9 +1,8 @@
-#include "bench/physics/Paths.h"
-
 #include <cmath>
 
 #include "base/Pose.h"
 #include "base/Random.h"
+#include "bench/physics/RandomScenes.h"
 
 namespace heft {
 

@@ -6,7 +6,6 @@
 
 #include "base/Pose.h"
 #include "base/Random.h"
-#include "bench/physics/Paths.h"
 
 namespace heft {
 

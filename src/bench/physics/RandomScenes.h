@@ -5,10 +5,51 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "bench/physics/Scenes.h"
+#include "experiment/Trajectory.h"
 
 namespace heft {
+
+// Paths of a hand through a scene, as rows of a trajectory.
+
+/// The effector's center at this height clears the table by 1 mm.
+inline constexpr double hand_height_m = 0.021;
+
+/// Where the effector's center is when its tip is 2 mm before a cube at the origin.
+inline constexpr double before_cube_m = -0.0645;
+
+/// Puts a path together from its corners.
+class PathBuilder {
+ public:
+  /// Goes straight to a place, to be there at t_s.
+  PathBuilder& to(double t_s, const Eigen::Vector3d& position_m, double yaw_rad = 0);
+  /// Out of view at t_s, until the next row.
+  PathBuilder& lost(double t_s);
+  std::vector<TrajectoryRow> rows() const { return rows_; }
+
+ private:
+  std::vector<TrajectoryRow> rows_;
+};
+
+/// Tip first through the origin at constant speed, then still for a second.
+struct StraightPath {
+  double heading_rad = 0;  ///< the direction of the path and of the effector
+  double speed_m_s = 0.05, length_m = 0.15;
+  double start_m = before_cube_m;  ///< of the effector's center, along the heading
+  double side_m = 0;               ///< of the path from the line through the origin
+  double turn_rad = 0;             ///< of the effector, on the way
+  bool broadside = false;          ///< with the long side first
+
+  std::vector<TrajectoryRow> rows() const;
+};
+
+/// Three soft taps of a cube at the origin, 10 mm past its face, in 1.2 s.
+std::vector<TrajectoryRow> taps();
+
+/// A straight path as a camera with noise sees it 60 times a second.
+std::vector<TrajectoryRow> noisy(const StraightPath& path, double sd_m);
 
 /// What is in a random scene.
 enum class Setting {

@@ -4,7 +4,6 @@
 
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "bench/physics/OdeSimulator.h"
 #include "physics/BoxInertia.h"
 #include "physics/Oracles.h"
 

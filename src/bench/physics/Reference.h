@@ -4,9 +4,11 @@
 // engine our own solver at half the rate takes its place; `method` says so.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "bench/physics/SceneRun.h"
+#include "physics/DecouplingSimulator.h"
 
 namespace heft {
 
@@ -23,5 +25,16 @@ struct Reference {
 /// Makes the reference for a scene; a second or so of work.
 /// @param quick a coarser step and no other engine
 Reference reference_of(const BenchScene& scene, bool quick);
+
+// The same law on another engine, Open Dynamics Engine 0.16: the independent half of a converged
+// reference. Forces are explicit, as the paper writes them, so it needs steps of some 20 us.
+// Contacts may give: ODE's own springs and dampers then, as stiff as the scene says and critically
+// damped. Only where the library was there at build time.
+
+/// Steps a second at which it is meant to run.
+inline constexpr int ode_rate_hz = 48000;
+
+/// @return nothing where Heft was built without ODE
+std::unique_ptr<DecouplingSimulator> make_ode_simulator();
 
 }  // namespace heft

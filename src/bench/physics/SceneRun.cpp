@@ -6,7 +6,7 @@
 
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "bench/CpuClock.h"
+#include "bench/Study.h"
 
 namespace heft {
 

@@ -7,7 +7,7 @@
 
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "bench/physics/Paths.h"
+#include "bench/physics/RandomScenes.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/Boxes.h"
-#include "bench/physics/Paths.h"
+#include "bench/physics/RandomScenes.h"
 
 namespace heft {
 

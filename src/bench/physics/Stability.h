@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/Names.h"
-#include "bench/StudyFiles.h"
+#include "bench/Study.h"
 #include "bench/physics/Measurements.h"
 
 namespace heft {

@@ -5,8 +5,8 @@
 
 #include "analysis/Gnuplot.h"
 #include "base/Quantile.h"
-#include "bench/physics/ChartColors.h"
 #include "bench/physics/Measurements.h"
+#include "bench/physics/PhysicsStudy.h"
 
 namespace heft {
 

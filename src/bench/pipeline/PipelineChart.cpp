@@ -1,9 +1,8 @@
-#include "bench/pipeline/PipelineChart.h"
-
 #include <array>
 
 #include "analysis/Gnuplot.h"
-#include "bench/StudyFiles.h"
+#include "bench/Study.h"
+#include "bench/pipeline/Chain.h"
 #include "bench/tracking/TrackingStudy.h"
 
 namespace heft {

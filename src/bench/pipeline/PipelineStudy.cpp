@@ -1,16 +1,12 @@
-#include "bench/pipeline/PipelineStudy.h"
-
 #include <unistd.h>
 
 #include <fstream>
 #include <numeric>
 
 #include "base/Quantile.h"
-#include "bench/StudyFiles.h"
+#include "bench/Study.h"
 #include "bench/comparison/ComparisonTracker.h"
 #include "bench/pipeline/Chain.h"
-#include "bench/pipeline/PipelineChart.h"
-#include "bench/pipeline/RecordedTrial.h"
 #include "bench/tracking/TrackingStudy.h"
 
 namespace heft {

@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "base/Pose.h"
-#include "bench/stock/StockCoupling.h"
+#include "bench/stock/StockWorld.h"
 #include "physics/bullet/RigidBox.h"
 
 namespace heft {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/Pose.h"
-#include "bench/stock/StockCoupling.h"
+#include "bench/stock/StockWorld.h"
 #include "physics/bullet/RigidBox.h"
 
 namespace heft {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/Error.h"
-#include "bench/stock/StockCoupling.h"
+#include "bench/stock/StockWorld.h"
 #include "physics/DecouplingSimulator.h"
 
 namespace heft {

@@ -24,10 +24,10 @@ SyntheticSettings without_noise(SyntheticSettings settings) {
 }
 
 // A tag's plane in the camera's frame, and how far a tag reaches on it.
-struct SeenTag {
+struct FacedTag {
   Eigen::Vector3d corner_m, right_m, down_m, normal;
 
-  SeenTag(const Pose& camera_from_body, const Tag& tag)
+  FacedTag(const Pose& camera_from_body, const Tag& tag)
       : corner_m(camera_from_body * tag.corners_m[0]),
         right_m(camera_from_body.orientation * (tag.corners_m[1] - tag.corners_m[0])),
         down_m(camera_from_body.orientation * (tag.corners_m[3] - tag.corners_m[0])),
@@ -74,7 +74,7 @@ TipBound::Matrix6 TipBound::information(const Pose& board_from_effector) {
   const Intrinsics& camera = apparatus_.camera;
   Matrix6 sum = Matrix6::Zero();
   for (const Tag& tag : apparatus_.effector.tags) {
-    const SeenTag seen(pose, tag);
+    const FacedTag seen(pose, tag);
     if (!seen.faces_camera()) continue;
     for (int y = 0; y < camera.height_px; ++y)
       for (int x = 0; x < camera.width_px; ++x) {

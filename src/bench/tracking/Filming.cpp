@@ -7,7 +7,7 @@
 
 #include "base/Pose.h"
 #include "base/Quantile.h"
-#include "bench/CpuClock.h"
+#include "bench/Study.h"
 #include "bench/tracking/TrackingStudy.h"
 #include "tracking/MarkerBody.h"
 

@@ -10,7 +10,6 @@
 
 #include "base/Image.h"
 #include "bench/Study.h"
-#include "bench/StudyFiles.h"
 #include "bench/tracking/Grips.h"
 #include "tracking/Tracker.h"
 

@@ -10,7 +10,6 @@
 
 #include "base/PoseTypes.h"
 #include "bench/Study.h"
-#include "bench/StudyFiles.h"
 #include "bench/tracking/Filming.h"
 
 namespace heft {
