@@ -4,8 +4,8 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS heft_program COMPONENT heft)
-install(TARGETS heft_codecs_module heft_letters_module heft_sheets_module heft_window_module
-        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/heft COMPONENT heft)
+install(TARGETS heft_codecs_module heft_window_module LIBRARY
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/heft COMPONENT heft)
 install(DIRECTORY protocols DESTINATION ${CMAKE_INSTALL_DATADIR}/heft COMPONENT heft)
 install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT heft)
 install(TARGETS heft_bench_program COMPONENT bench)

@@ -47,6 +47,7 @@ LIBRARY_ROOMS = {
     r"SDL|imgui|GL/": {"window"},
     r"SQLiteCpp|sqlite3": {"record"},
     r"toml": {"protocol"},
+    r"yaml-cpp": {"tracking"},
     r"nlopt": {"inference"},
     r"CLI/": {"cli"},
 }

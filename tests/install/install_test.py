@@ -72,26 +72,6 @@ class Programs(Installed):
         self.assertEqual(without.returncode, 1, without.stderr)
         self.assertIn("heft-codecs.so", without.stderr)
 
-    def test_texts_are_written_by_a_module_that_is_named_where_it_is_missing(self):
-        prefix = self.install("--component", "heft")
-        texts = prefix / "share/heft/protocols/texts/en.toml"
-        self.must(prefix / "bin/heft", "validate", texts, env=BARE)
-        next(prefix.rglob("heft-letters.so")).unlink()
-        without = run(prefix / "bin/heft", "validate", texts, env=BARE)
-        self.assertEqual(without.returncode, 1, without.stderr)
-        self.assertIn("heft-letters.so", without.stderr)
-
-    def test_sheets_are_drawn_by_a_module_that_is_named_where_it_is_missing(self):
-        prefix = self.install("--component", "heft")
-        drawing = [prefix / "bin/heft", "sheet", "board", "--board",
-                   prefix / "share/heft/protocols/apparatus/board.toml", "--out"]
-        self.must(*drawing, self.folder / "board.pdf", env=BARE)
-        next(prefix.rglob("heft-sheets.so")).unlink()
-        without = run(*drawing, self.folder / "none.pdf", env=BARE)
-        self.assertEqual(without.returncode, 1, without.stderr)
-        self.assertIn("heft-sheets.so", without.stderr)
-        self.assertFalse((self.folder / "none.pdf").exists())
-
     def test_displays_are_asked_for_by_a_module_that_is_named_where_it_is_missing(self):
         prefix = self.install("--component", "heft")
         checking = [prefix / "bin/heft", "doctor", "--db", self.folder / "lab.db"]
@@ -110,7 +90,7 @@ class Programs(Installed):
     def test_a_start_loads_nothing_that_only_modules_need(self):
         libraries = run("ldd", Path(BUILD) / "heft").stdout
         self.assertIn("libsqlite3", libraries)
-        for name in ("imgcodecs", "videoio", "pango", "cairo", "SDL", "libGL.so", "pulse"):
+        for name in ("imgcodecs", "videoio", "SDL", "libGL.so", "pulse"):
             self.assertNotIn(name, libraries)
 
     def test_bench_is_found_beside_in_libexec_or_on_the_path(self):

@@ -1,5 +1,6 @@
 #include "tracking/sheets/PdfSheet.h"
 
+#include <cairo-pdf.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,21 +11,69 @@
 
 namespace heft {
 
+namespace {
+constexpr double points_per_mm = 72 / 25.4;
+
+// A sheet that was printed, measured and glued stays as it is.
+const char* new_file(const std::string& path) {
+  require_writable(path);
+  if (!create_file(path, 0666))
+    throw Error(
+        fmt::format("{} is there already and would be written over; name another file, or remove "
+                    "it first",
+                    path));
+  return path.c_str();
+}
+}  // namespace
+
 PdfSheet::PdfSheet(const std::string& path, const PointMm& paper_mm, const std::string& title)
-    : pen_(make_pdf_pen(path, paper_mm, title)), path_(path) {}
+    : path_(path),
+      surface_(cairo_pdf_surface_create(new_file(path), paper_mm.x() * points_per_mm,
+                                        paper_mm.y() * points_per_mm),
+               cairo_surface_destroy),
+      pen_(cairo_create(surface_.get()), cairo_destroy) {
+  cairo_scale(pen_.get(), points_per_mm, points_per_mm);
+  cairo_pdf_surface_set_metadata(surface_.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
+}
 
 void PdfSheet::tag(const TagPattern& pattern, const std::array<PointMm, 4>& corners_mm) {
   const PointMm column = (corners_mm[1] - corners_mm[0]) / pattern.border_cells;
   const PointMm row = (corners_mm[3] - corners_mm[0]) / pattern.border_cells;
   const PointMm first = corners_mm[0] - (column + row) * pattern.margin_cells();
-  std::vector<std::array<PointMm, 4>> black;
+  cairo_new_path(pen_.get());  // all cells at once: no hairlines between neighbors
   for (int y = 0; y < pattern.n_cells; ++y)
     for (int x = 0; x < pattern.n_cells; ++x) {
       if (pattern.is_white(x, y)) continue;
       const PointMm cell = first + x * column + y * row;
-      black.push_back({cell, cell + column, cell + column + row, cell + row});
+      cairo_new_sub_path(pen_.get());
+      for (const PointMm& corner :
+           {cell, PointMm(cell + column), PointMm(cell + column + row), PointMm(cell + row)})
+        cairo_line_to(pen_.get(), corner.x(), corner.y());
+      cairo_close_path(pen_.get());
     }
-  pen_->areas(black);
+  set_gray(0);
+  cairo_fill(pen_.get());
+}
+
+void PdfSheet::lines(std::span<const PointMm> points_mm, const Stroke& stroke) {
+  cairo_new_path(pen_.get());
+  for (const PointMm& point : points_mm) cairo_line_to(pen_.get(), point.x(), point.y());
+  const std::array<double, 2> dashes_mm{2, 1.5};
+  cairo_set_dash(pen_.get(), dashes_mm.data(), stroke.dashed ? 2 : 0, 0);
+  cairo_set_line_width(pen_.get(), stroke.width_mm);
+  set_gray(stroke.gray);
+  cairo_stroke(pen_.get());
+}
+
+void PdfSheet::text(const PointMm& at_mm, const std::string& text, const Lettering& lettering) {
+  cairo_select_font_face(pen_.get(), "sans", CAIRO_FONT_SLANT_NORMAL,
+                         lettering.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(pen_.get(), lettering.size_mm);
+  cairo_text_extents_t extents{};
+  if (lettering.centered) cairo_text_extents(pen_.get(), text.c_str(), &extents);
+  cairo_move_to(pen_.get(), at_mm.x() - extents.x_advance / 2, at_mm.y());
+  set_gray(lettering.gray);
+  cairo_show_text(pen_.get(), text.c_str());
 }
 
 void PdfSheet::line(const PointMm& from_mm, const PointMm& to_mm, const Stroke& stroke) {
@@ -72,9 +121,12 @@ void PdfSheet::ruler_down(const PointMm& from_mm, double tick_mm, bool numbers) 
 }
 
 void PdfSheet::finish() {
-  if (const std::string wrong = pen_->finish(); !wrong.empty())
-    throw Error(fmt::format("can't write {}: {}; does the folder exist, and is there space?", path_,
-                            wrong));
+  cairo_surface_finish(surface_.get());
+  for (const cairo_status_t status :
+       {cairo_status(pen_.get()), cairo_surface_status(surface_.get())})
+    if (status != CAIRO_STATUS_SUCCESS && status != CAIRO_STATUS_SURFACE_FINISHED)
+      throw Error(fmt::format("can't write {}: {}; does the folder exist, and is there space?",
+                              path_, cairo_status_to_string(status)));
 }
 
 void write_steps(PdfSheet& sheet, const std::string& heading, std::span<const std::string> steps) {

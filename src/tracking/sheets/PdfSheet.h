@@ -2,6 +2,8 @@
 // both sheets have: paper, its printable part, tags, the strip at the bottom with the ruler.
 #pragma once
 
+#include <cairo.h>
+
 #include <Eigen/Core>
 #include <array>
 #include <memory>
@@ -11,25 +13,36 @@
 
 #include "tracking/Sheet.h"
 #include "tracking/TagFamily.h"
-#include "tracking/sheets/PdfPen.h"
 
 namespace heft {
 
+using PointMm = Eigen::Vector2d;
+
+struct Stroke {
+  double width_mm = 0.2;
+  double gray = 0;  ///< 0 black ... 1 white
+  bool dashed = false;
+};
+
+struct Lettering {
+  double size_mm = 3;  ///< of the font
+  double gray = 0;
+  bool bold = false;
+  bool centered = false;  ///< about the given point, else starting at it
+};
+
 class PdfSheet {
  public:
+  /// @throws Error when the file is there already or can't be written
   PdfSheet(const std::string& path, const PointMm& paper_mm, const std::string& title);
 
   /// A whole tag. @param corners_mm where the detected corners come: the upright tag's top left,
   /// top right, bottom right, bottom left
   void tag(const TagPattern& pattern, const std::array<PointMm, 4>& corners_mm);
-  void lines(std::span<const PointMm> points_mm, const Stroke& stroke) {
-    pen_->lines(points_mm, stroke);
-  }
+  void lines(std::span<const PointMm> points_mm, const Stroke& stroke);
   void line(const PointMm& from_mm, const PointMm& to_mm, const Stroke& stroke);
   /// @param at_mm on the base line
-  void text(const PointMm& at_mm, const std::string& text, const Lettering& lettering) {
-    pen_->text(at_mm, text, lettering);
-  }
+  void text(const PointMm& at_mm, const std::string& text, const Lettering& lettering);
   /// A line to `to_mm` with a head there.
   void arrow(const PointMm& from_mm, const PointMm& to_mm, const Stroke& stroke);
   /// The line that a person measures: heft::ruler_m long between its outermost ticks. One across
@@ -39,13 +52,16 @@ class PdfSheet {
   /// @param tick_mm length of the outermost
   void ruler_down(const PointMm& from_mm, double tick_mm, bool numbers);
 
-  void next_page() { pen_->next_page(); }
+  void next_page() { cairo_show_page(pen_.get()); }
   /// @throws Error when the file can't be written
   void finish();
 
  private:
-  std::unique_ptr<PdfPen> pen_;
+  void set_gray(double gray) { cairo_set_source_rgb(pen_.get(), gray, gray, gray); }
+
   std::string path_;
+  std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface_;
+  std::unique_ptr<cairo_t, void (*)(cairo_t*)> pen_;
 };
 
 /// A page of words: a heading, then numbered steps, each broken into lines by hand with '\n'.

@@ -1,6 +1,5 @@
 // Text in any script whose fonts are installed, by Pango: shaped, in both directions, with the
-// fonts that have its characters. Pango brings some twenty shared libraries along, which only
-// people's screens need; so it is a module by itself, loaded by whoever asks first.
+// fonts that have its characters.
 #pragma once
 
 #include <cstdint>
@@ -50,12 +49,6 @@ class Letters {
 };
 
 /// @param language of the texts ("ja"): characters that are written otherwise elsewhere go by it
-/// @throws Error naming the module and what is wrong with it, if it can't be loaded
 std::unique_ptr<Letters> make_letters(const std::string& language);
-
-/// What the module has.
-struct LettersModule {
-  std::unique_ptr<Letters> (*make)(const std::string& language);
-};
 
 }  // namespace heft
