@@ -1,10 +1,9 @@
-#include "window/CardWindow.h"
-
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "window/Displays.h"
 #include "window/GlWindow.h"
 #include "window/Painter.h"
 

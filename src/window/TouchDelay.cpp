@@ -1,11 +1,10 @@
-#include "window/TouchDelay.h"
-
 #include <SDL.h>
 
 #include <string>
 
 #include "base/Clock.h"
 #include "base/Random.h"
+#include "window/Displays.h"
 #include "window/WindowView.h"
 
 namespace heft {

@@ -1,8 +1,6 @@
 // heft-window.so: this room for whoever goes by view/Window.h.
 #include "view/Window.h"
-#include "window/CardWindow.h"
 #include "window/Displays.h"
-#include "window/TouchDelay.h"
 #include "window/WindowView.h"
 
 extern "C" __attribute__((visibility("default"))) const heft::WindowModule heft_window{
