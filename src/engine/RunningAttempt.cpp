@@ -21,10 +21,6 @@ Refusal column_refusal(const ActionSpec& spec, const Action& action) {
   return std::nullopt;
 }
 
-std::optional<double> larger(std::optional<double> a, std::optional<double> b) {
-  return a && b ? std::max(a, b) : a ? a : b;
-}
-
 std::vector<CubeRow> fresh_cubes(int attempt_index, const TrialPlan& plan) {
   std::vector<CubeRow> cubes;
   for (const double mass_g : plan.masses_g) {
@@ -148,8 +144,9 @@ void RunningAttempt::touch(const CubeTouch& contact, double t_s) {
   if (contact.ended_after_s) {
     cube.contact_s += *contact.ended_after_s;
     cube.last_contact_s = *contact_since_s_[index] + *contact.ended_after_s;
-    cube.deepest_push_m = larger(cube.deepest_push_m, contact.deepest_push_m);
-    cube.peak_lag_m = larger(cube.peak_lag_m, contact.peak_lag_m);
+    // An empty optional is less than any value.
+    cube.deepest_push_m = std::max(cube.deepest_push_m, contact.deepest_push_m);
+    cube.peak_lag_m = std::max(cube.peak_lag_m, contact.peak_lag_m);
     contact_since_s_[index].reset();
     return;
   }

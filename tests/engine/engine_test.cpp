@@ -311,6 +311,40 @@ TEST(Engine, keeps_account_of_time_and_contacts) {
   EXPECT_EQ(row.paused_s, 1);
 }
 
+TEST(Engine, counts_no_pause_before_the_cubes_appear) {
+  Session session;
+  session.reach_sorting();
+  session.does(TrialStarted{});
+  session.does(SessionPaused{"camera_lost"});
+  session.does(SessionContinued{});
+  session.does(EffectorLost{});
+  session.does(EffectorFound{});
+  session.does(CubesShown{});
+  const Changes done = session.acts("dont_know");
+  EXPECT_EQ(done.trial->paused_s, 0);
+  EXPECT_EQ(done.trial->lost_s, 0);
+}
+
+TEST(Engine, counts_resets_of_the_cube_that_left_or_of_all) {
+  SessionPlan session_plan = small_plan();
+  block_as<Introduction::Block>(session_plan.blocks[1])->wrong_answer = WrongAnswer::reshuffle;
+  Session session(session_plan);
+  session.does(DemonstrationShown{});
+  session.start();
+  const auto resets = [](const Changes& changes) {
+    std::vector<int> n;
+    for (const CubeRow& cube : changes.cubes) n.push_back(cube.n_resets);
+    return n;
+  };
+  EXPECT_EQ(resets(session.does(CubesReset{2})), (std::vector{0, 1}));
+  EXPECT_EQ(resets(session.does(CubesReset{})), (std::vector{1, 2}));
+  const Changes reshuffled = session.acts("select", session.slot_of(15));
+  EXPECT_EQ(resets(reshuffled), (std::vector{1, 2})) << "the slots keep their counts";
+  session.does(CubesShown{});
+  EXPECT_TRUE(session.acts("select", session.slot_of(800)).cubes.empty())
+      << "an answer that moves no cube reports none";
+}
+
 TEST(Engine, counts_pushes_per_cube) {
   Session session;
   session.reach_sorting();
@@ -333,7 +367,7 @@ TEST(Engine, keeps_the_deepest_push_and_the_largest_lag_of_each_cube) {
   const CubeRow cube = session.pushes(2, 0.02, 0.01);
   EXPECT_EQ(cube.deepest_push_m, 0.03);
   EXPECT_EQ(cube.peak_lag_m, 0.01);
-  EXPECT_EQ(session.touches(2, 0.5).cubes.at(0).peak_lag_m, 0.01);  // as older logs tell a touch
+  EXPECT_EQ(session.touches(2, 0.5).cubes.at(0).peak_lag_m, 0.01) << "a touch without a lag";
 }
 
 TEST(Engine, tells_what_a_participant_was_drawn_as_once) {

@@ -62,7 +62,8 @@ TEST_F(OnsetRules, a_voided_trial_is_followed_by_a_gap_too) {
 }
 
 TEST_F(OnsetRules, no_answer_is_taken_before_the_cubes_were_there_for_long_enough) {
-  at(engine.trial_due_s(), TrialStarted{});
+  at(1, TrialStarted{});
+  EXPECT_FALSE(engine.screen().answers_from_s) << "no cubes are there yet";
   const double shown_s = t_s + 2;
   at(shown_s, CubesShown{});
   EXPECT_THAT(refusal(shown_s + 0.499, Action{"select", 1}), HasSubstr("within 0.5 s"));
@@ -70,7 +71,7 @@ TEST_F(OnsetRules, no_answer_is_taken_before_the_cubes_were_there_for_long_enoug
   const ScreenState screen = engine.screen();
   EXPECT_TRUE(screen.can_answer) << "the buttons are live with the cubes";
   EXPECT_NEAR(screen.answers_from_s.value(), 2.5, 1e-6) << "since the trial's start";
-  EXPECT_EQ(refusal(engine.last_s() + *screen.answers_from_s - 2, Action{"select", 1}), "");
+  EXPECT_EQ(refusal(1 + *screen.answers_from_s, Action{"select", 1}), "");
 }
 
 TEST_F(OnsetRules, labels_wait_like_choices) {
@@ -121,6 +122,8 @@ TEST_F(OnsetRules, a_break_that_was_taken_is_not_due_again) {
     at(t_s + 1, dont_know);
   }
   ASSERT_TRUE(engine.next().rest);
+  at(t_s + 1, BreakTaken{"another", 1});
+  EXPECT_TRUE(engine.next().rest) << "it was not this one";
   at(t_s + 60, BreakTaken{engine.next().rest->name, 60});
   EXPECT_FALSE(engine.next().rest);
 }
