@@ -78,6 +78,18 @@ RC_GTEST_PROP(PsychometricFunction, DensityIsTheDerivative, ()) {
   const double slope =
       (standard_curve(shape, u + step).below - standard_curve(shape, u - step).below) / (2 * step);
   RC_ASSERT(std::abs(standard_curve(shape, u).density - slope) < 1e-8);
+  const double bend =
+      (standard_curve(shape, u + step).density - standard_curve(shape, u - step).density) /
+      (2 * step);
+  RC_ASSERT(std::abs(standard_curve(shape, u).density_slope - bend) < 1e-8);
+}
+
+TEST(PsychometricFunction, IsFlatFarFromTheThreshold) {
+  for (const PsychometricShape shape : all_shapes)
+    for (const double u : {-1000., 1000.}) {
+      EXPECT_EQ(standard_curve(shape, u).density, 0) << name_of(shape);
+      EXPECT_EQ(standard_curve(shape, u).density_slope, 0) << name_of(shape);
+    }
 }
 
 RC_GTEST_PROP(PsychometricFunction, PlaceAndSteepnessCanBeUndone, ()) {
