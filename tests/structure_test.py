@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
 
-# The layer table of README.md. Rooms on one row don't include each other; bench/main.cpp alone, the
+# The layer table of src/README.md. Rooms on one row don't include each other; bench/main.cpp alone, the
 # program heft-bench, stands on cli's command line.
 ROWS_1_2 = {"base", "psychophysics", "inference", "experiment", "tasks", "physics", "tracking"}
 ROW_3 = {"engine", "protocol", "record", "responders", "view"}
