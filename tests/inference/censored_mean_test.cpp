@@ -40,6 +40,26 @@ TEST(CensoredMean, NeedsMoreThanHalfToBeExact) {
 }
 
 // Of normal figures that a bound cuts.
+TEST(MeanFigure, IsKnownOnTheSideOnWhichItsPartsAre) {
+  const std::optional<CensoredValue> exact{{10, Censored::none}}, above{{20, Censored::above}},
+      below{{30, Censored::below}};
+  const auto mean_of = [](std::vector<std::optional<CensoredValue>> parts) {
+    return mean_figure(parts);
+  };
+  EXPECT_EQ(mean_of({exact, exact})->censored, Censored::none);
+  EXPECT_EQ(mean_of({exact, above})->value, 15);
+  EXPECT_EQ(mean_of({exact, above})->censored, Censored::above);
+  EXPECT_EQ(mean_of({above, above})->censored, Censored::above);
+  EXPECT_EQ(mean_of({below, exact, below})->censored, Censored::below);
+  EXPECT_FALSE(mean_of({above, below}));
+  EXPECT_FALSE(mean_of({exact, std::nullopt}));
+  EXPECT_FALSE(mean_of({}));
+  EXPECT_EQ(difference(exact, above)->value, -10);
+  EXPECT_EQ(difference(exact, above)->censored, Censored::below) << "less than 10 - 20";
+  EXPECT_EQ(difference(above, below)->censored, Censored::above);
+  EXPECT_FALSE(difference(above, above));
+}
+
 Coverage coverage(int n_people, double ceiling_sd) {
   RandomStream stream(7, "studies", static_cast<std::uint64_t>(n_people));
   Coverage found;

@@ -160,6 +160,11 @@ TEST(PsychometricFit, SaysWhyThereIsNoThreshold) {
   const PsychometricFunction weibull{PsychometricShape::weibull, LevelScale::linear};
   EXPECT_THAT(why_not({{0, {19, 1, 0}}, {1, {8, 12, 0}}, {2, {1, 19, 0}}}, {weibull, 0, 0}),
               HasSubstr("positive answers at 0"));
+  const AnswersByLevel seen_at_0{{0, {19, 1, 0}}, {1, {8, 12, 0}}, {2, {1, 19, 0}}};
+  EXPECT_THAT(fit_psychometric(seen_at_0, {weibull, std::nullopt, 0}).why, Not(HasSubstr("at 0")))
+      << "it may be a guess";
+  EXPECT_TRUE(fit_psychometric(seen_at_0, {{PsychometricShape::logistic, {}}, 0, 0}).identifiable())
+      << "its curve is above 0 everywhere";
 }
 
 TEST(PsychometricFit, ALogLikelihoodThatExistsIsGivenEvenWithoutAThreshold) {
