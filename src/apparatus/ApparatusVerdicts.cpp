@@ -6,7 +6,7 @@
 
 #include "apparatus/ApparatusCheck.h"
 #include "base/Quantile.h"
-#include "tracking/ToneCurve.h"
+#include "tracking/Response.h"
 
 namespace heft {
 

@@ -10,8 +10,8 @@
 #include "base/Pose.h"
 #include "base/Shrinkage.h"
 #include "tracking/ImageConversion.h"
+#include "tracking/Response.h"
 #include "tracking/RollingShutter.h"
-#include "tracking/ToneCurve.h"
 
 namespace heft {
 

@@ -1,9 +1,10 @@
 // The camera's tone curve: learned from the board, kept in its file, and where the tracker starts.
+#include "tracking/Response.h"
+
 #include <gtest/gtest.h>
 
 #include "CalibrationViews.h"
 #include "base/Error.h"
-#include "tracking/ToneCurve.h"
 #include "tracking/Tracker.h"
 
 namespace heft {
