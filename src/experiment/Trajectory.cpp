@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <span>
 
 #include "base/Error.h"
@@ -47,7 +46,7 @@ class Reader {
       return static_cast<int>(cells[i].data() - line.data()) + 1;
     };
     const bool out_of_view =
-        std::ranges::all_of(cells | std::views::drop(1), [](auto c) { return c.empty(); });
+        std::all_of(cells.begin() + 1, cells.end(), [](auto cell) { return cell.empty(); });
     std::array<double, columns.size()> values{};
     const std::size_t filled = out_of_view ? 1 : columns.size();
     bool usable = true;

@@ -32,7 +32,8 @@ void Coverage::add(const TagView& view, int width_px, int height_px) {
 
 double Coverage::fraction() const {
   int n = 0;
-  for (const auto& row : corners) n += static_cast<int>(row.size() - std::ranges::count(row, 0));
+  for (const auto& row : corners)
+    n += static_cast<int>(std::ranges::count_if(row, [](int seen) { return seen > 0; }));
   return static_cast<double>(n) / (columns * rows);
 }
 
