@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tracking/NormalTable.h"
 #include "tracking/SymmetricSum.h"
-#include "tracking/TagModel.h"
 #include "tracking/ToneCurve.h"
 
 namespace heft {

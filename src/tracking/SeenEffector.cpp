@@ -1,5 +1,6 @@
+#include "tracking/SeenEffector.h"
+
 #include "base/Pose.h"
-#include "tracking/EffectorCalibration.h"
 
 namespace heft {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/Pose.h"
+#include "tracking/NormalTable.h"
 
 namespace heft {
 
@@ -177,15 +177,5 @@ double TagModel::gray_level(const Eigen::Vector2d& ray, const TagPlane& plane, c
       stored.by_light * light * place, by_b * by_blur, by_light * powers;
   return stored.value;
 }
-
-const NormalTable normal_table = [] {
-  NormalTable made{};
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    const double x = static_cast<double>(i) / normal_steps_per_unit - normal_end;
-    made[i] = {0.5 * std::erfc(-x / std::numbers::sqrt2),
-               std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi)};
-  }
-  return made;
-}();
 
 }  // namespace heft

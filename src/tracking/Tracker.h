@@ -9,8 +9,8 @@
 #include "base/Image.h"
 #include "base/PoseTypes.h"
 #include "tracking/BodyFinder.h"
-#include "tracking/EffectorCalibration.h"
 #include "tracking/MarkerBody.h"
+#include "tracking/SeenEffector.h"
 #include "tracking/TagDetector.h"
 
 namespace heft {
