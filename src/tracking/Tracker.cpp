@@ -108,8 +108,8 @@ std::vector<DetectedTag> Tracker::detect(TagDetector& detector, const Region& re
   // Of two tags with one id the one that was read more clearly counts.
   std::ranges::sort(tags, std::greater{}, &DetectedTag::decision_margin);
   std::ranges::stable_sort(tags, {}, &DetectedTag::id);
-  const auto repeated = std::ranges::unique(tags, {}, &DetectedTag::id);
-  tags.erase(repeated.begin(), repeated.end());
+  const auto same_id = [](const DetectedTag& a, const DetectedTag& b) { return a.id == b.id; };
+  tags.erase(std::unique(tags.begin(), tags.end(), same_id), tags.end());
   result_.times.detect_s += monotonic_s() - start_s;
   return tags;
 }

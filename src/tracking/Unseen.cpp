@@ -19,7 +19,7 @@ std::vector<int> ids_in(const Image& gray, const std::string& family) {
   for (const DetectedTag& tag : detector.detect(gray, whole(gray), EdgeSearch::everywhere))
     if (tag.decision_margin > clear_margin) ids.push_back(tag.id);
   std::ranges::sort(ids);
-  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
 }
 
