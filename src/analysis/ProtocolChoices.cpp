@@ -23,17 +23,8 @@ struct LawText {
                        coupling.stiffness_n_per_m, coupling.torsional_stiffness_nm_per_rad,
                        1e3 * coupling.clone_mass_kg, coupling.damping_ratio);
   }
-  std::string operator()(const Gain& gain) const { return "gain " + text(gain, ""); }
-  std::string operator()(const SpeedLimit& limit) const {
-    return "speed limit " + text(limit, " m/s");
-  }
-
- private:
-  static std::string text(const auto& law, std::string_view unit) {
-    std::string values;
-    for (const MassCurve::Point& point : law.of_mass.points())
-      values += fmt::format("{:g}{} at {:g} g, ", point.value, unit, 1e3 * point.mass_kg);
-    return fmt::format("{}back in {:g} s", values, law.return_s);
+  std::string operator()(const Displacement& displacement) const {
+    return std::visit([](const auto& law) { return law.described(); }, displacement);
   }
 };
 

@@ -11,8 +11,8 @@ void Technique::apply_to(Scene& scene) const {
   scene.displacement.reset();
   scene.coupling.decoupled = false;
   if (const auto* coupling = std::get_if<Coupling>(&law)) scene.coupling = *coupling;
-  if (const auto* gain = std::get_if<Gain>(&law)) scene.displacement = *gain;
-  if (const auto* limit = std::get_if<SpeedLimit>(&law)) scene.displacement = *limit;
+  if (const auto* displacement = std::get_if<Displacement>(&law))
+    scene.displacement = *displacement;
 }
 
 Technique technique_named(const std::string& name, const std::vector<Technique>& declared,

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "base/PoseTypes.h"
-#include "physics/techniques/Gain.h"
-#include "physics/techniques/SpeedLimit.h"
+#include "physics/techniques/Displacement.h"
 
 namespace heft {
 
@@ -26,13 +25,10 @@ struct Coupling {
   double damping_ratio = 1;
 };
 
-/// A technique that displaces the clone from the hand instead of drawing it there by a spring.
-using Displacement = std::variant<Gain, SpeedLimit>;
-
 /// A way to render mass, under the name that conditions call it by.
 struct Technique {
   std::string name;
-  std::variant<Coupling, Gain, SpeedLimit> law;
+  std::variant<Coupling, Displacement> law;
 
   /// Has the scene's clone follow the effector that way.
   void apply_to(Scene& scene) const;

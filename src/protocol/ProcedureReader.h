@@ -15,7 +15,7 @@ namespace heft {
 /// A staircase as its table has it, which may be one with mistakes.
 struct StaircaseSettings {
   std::string name;
-  ProcedureKinds::Config config;
+  ProcedureKinds::Any config;
 
   /// Where the settings have mistakes, which the reader has noted, another one stands in.
   Procedure procedure() const;

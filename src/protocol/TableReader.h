@@ -18,6 +18,8 @@
 
 namespace heft {
 
+class MassCurve;
+
 /// Places and sizes in meters.
 inline constexpr Range on_earth{-1e6, 1e6};
 inline constexpr Range size_on_earth{least, 1e6};
@@ -42,6 +44,8 @@ class TableReader {
   /// Any number of pairs [a, b], but not none; none after a mistake.
   void read(std::string_view key, std::vector<Eigen::Vector2d>& pairs, const Range& of_a,
             const Range& of_b);
+  /// Pairs [mass in g, value] of ascending masses.
+  void read(std::string_view key, MassCurve& field, const Range& values);
   /// As many points [x, y, z] as the field has.
   void read(std::string_view key, std::span<Eigen::Vector3d> points);
   /// One number for all three, or three numbers.

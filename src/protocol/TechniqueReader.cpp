@@ -10,13 +10,6 @@
 
 namespace heft {
 
-enum class TechniqueKind { spring, coupled, gain, speed_limit };
-template <>
-struct EnumNames<TechniqueKind> {
-  static constexpr std::array<std::string_view, 4> names{"spring", "coupled", "gain",
-                                                         "speed_limit"};
-};
-
 void read_effector(TableReader& reader, Eigen::Vector3d& size_m) {
   reader.in_table("effector", [&](auto& table) { table.read("size_m", size_m, size_on_earth); });
 }
@@ -29,57 +22,42 @@ Coupling read_coupling(TableReader& table, Coupling coupling) {
   return coupling;
 }
 
-namespace {
-constexpr Range gains{0, 10};
-constexpr Range speeds_m_s{0, 100};
-
-MassCurve read_curve(TableReader& table, std::string_view key, const Range& values) {
+void TableReader::read(std::string_view key, MassCurve& field, const Range& values) {
   std::vector<Eigen::Vector2d> rows;
-  table.require({key});
-  table.read(key, rows, above_zero, values);
+  read(key, rows, above_zero, values);
   std::vector<MassCurve::Point> points;
   for (const Eigen::Vector2d& row : rows) {
     if (!points.empty() && row.x() <= 1e3 * points.back().mass_kg)
-      table.mistake(key, points.size(),
-                    fmt::format("{} goes from {:g} to {:g} g, expected ascending masses", key,
-                                1e3 * points.back().mass_kg, row.x()));
+      mistake(key, points.size(),
+              fmt::format("{} goes from {:g} to {:g} g, expected ascending masses", key,
+                          1e3 * points.back().mass_kg, row.x()));
     points.push_back({row.x() / 1e3, row.y()});
   }
-  return points.empty() ? MassCurve() : MassCurve(points);
+  if (!points.empty()) field = MassCurve(points);
 }
 
-template <typename Law>
-Law read_displacement(TableReader& table, std::string_view key, const Range& values) {
-  Law law;
-  law.of_mass = read_curve(table, key, values);
-  table.read("return_s", law.return_s, above_zero);
-  return law;
-}
-
-std::variant<Coupling, Gain, SpeedLimit> read_law(TableReader& table, TechniqueKind kind,
-                                                  const Coupling& defaults) {
-  switch (kind) {
-    case TechniqueKind::gain:
-      return read_displacement<Gain>(table, "gain_of_mass", gains);
-    case TechniqueKind::speed_limit:
-      return read_displacement<SpeedLimit>(table, "limit_m_s_of_mass", speeds_m_s);
-    case TechniqueKind::spring:
-      return read_coupling(table, defaults);
-    case TechniqueKind::coupled:
-      break;
-  }
-  Coupling coupled = defaults;
-  coupled.decoupled = false;
-  return coupled;
-}
+namespace {
+constexpr std::string_view spring_kind = "spring", coupled_kind = "coupled";
 
 Technique read_technique(TableReader& table, const Coupling& defaults) {
+  std::vector<std::string_view> kinds{spring_kind, coupled_kind};
+  kinds.insert(kinds.end(), Displacements::names.begin(), Displacements::names.end());
   Technique technique;
   table.require({"name"});
   table.read("name", technique.name);
-  const auto kind = table.read_nearest_name("kind", EnumNames<TechniqueKind>::names);
-  if (!kind) return technique;  // what else it should say is not known
-  technique.law = read_law(table, *named<TechniqueKind>(*kind), defaults);
+  const auto kind = table.read_nearest_name("kind", kinds);
+  if (!kind) return technique;  // its other keys depend on it
+  if (*kind == spring_kind) {
+    technique.law = read_coupling(table, defaults);
+  } else if (*kind == coupled_kind) {
+    Coupling coupling = defaults;
+    coupling.decoupled = false;
+    technique.law = coupling;
+  } else {
+    Displacement displacement = Displacements::defaults(*kind);
+    std::visit([&](auto& law) { table.read_keys(law); }, displacement);
+    technique.law = displacement;
+  }
   table.close();
   return technique;
 }

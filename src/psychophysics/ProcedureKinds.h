@@ -2,11 +2,9 @@
 // and a file beside this one: its settings, with visit_keys, check and check_beside, and the kind.
 #pragma once
 
-#include <array>
 #include <string>
-#include <string_view>
-#include <variant>
 
+#include "base/NamedKinds.h"
 #include "psychophysics/Constant.h"
 #include "psychophysics/Procedure.h"
 #include "psychophysics/UpDown.h"
@@ -14,23 +12,7 @@
 namespace heft {
 
 template <typename... KindConfig>
-struct KindsOfProcedure {
-  using Config = std::variant<KindConfig...>;
-  static constexpr std::array<std::string_view, sizeof...(KindConfig)> names{KindConfig::kind...};
-
-  /// The defaults of the kind of that name, one of `names`.
-  static Config defaults(std::string_view name) {
-    Config config;
-    ((name == KindConfig::kind ? void(config = KindConfig{}) : void()), ...);
-    return config;
-  }
-
-  /// Calls visit with the defaults of every kind.
-  template <typename Visit>
-  static void for_each(Visit&& visit) {
-    (visit(KindConfig{}), ...);
-  }
-
+struct KindsOfProcedure : NamedKinds<KindConfig...> {
   /// What a report says was chosen; empty for a kind that no file can name.
   static std::string described(const Procedure& procedure) {
     std::string text;

@@ -8,11 +8,14 @@
 
 #include <Eigen/Core>
 
+#include "base/Keys.h"
 #include "physics/techniques/MassCurve.h"
 
 namespace heft {
 
 struct Gain {
+  static constexpr std::string_view kind = "gain";
+
   MassCurve of_mass;
   double return_s = 0.05;  ///< of the way back, see DisplacedSimulator.h
 
@@ -21,6 +24,15 @@ struct Gain {
                         double mass_kg, double /*h_s*/) const {
     return displacement_m - (1 - of_mass.at(mass_kg)) * hand_moves_m;
   }
+  /// For reports.
+  std::string described() const { return displacement_text("gain", of_mass, "", return_s); }
 };
+template <typename Law, typename Visit>
+requires ConfigOf<Law, Gain>
+void visit_keys(Law& law, Visit&& visit) {
+  visit(ConfigKey{"gain_of_mass", "the clone's way for one of the hand's", true}, law.of_mass,
+        Range{0, 10});
+  visit(ConfigKey{"return_s", "time constant of the way back"}, law.return_s, above_zero);
+}
 
 }  // namespace heft

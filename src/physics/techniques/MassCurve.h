@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace heft {
@@ -33,5 +35,10 @@ class MassCurve {
  private:
   std::vector<Point> points_{{}};
 };
+
+/// "gain 0.95 at 15 g, 0.2 at 800 g, back in 0.05 s"
+/// @param unit behind each of the curve's values, with its space
+std::string displacement_text(std::string_view name, const MassCurve& curve, std::string_view unit,
+                              double return_s);
 
 }  // namespace heft

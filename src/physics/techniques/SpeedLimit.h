@@ -8,11 +8,14 @@
 
 #include <Eigen/Core>
 
+#include "base/Keys.h"
 #include "physics/techniques/MassCurve.h"
 
 namespace heft {
 
 struct SpeedLimit {
+  static constexpr std::string_view kind = "speed_limit";
+
   MassCurve of_mass;       ///< m/s
   double return_s = 0.05;  ///< of the way back, see DisplacedSimulator.h
 
@@ -24,6 +27,17 @@ struct SpeedLimit {
     return way_m > can_go_m ? Eigen::Vector3d(behind_m * (1 - can_go_m / way_m))
                             : Eigen::Vector3d::Zero();
   }
+  /// For reports.
+  std::string described() const {
+    return displacement_text("speed limit", of_mass, " m/s", return_s);
+  }
 };
+template <typename Law, typename Visit>
+requires ConfigOf<Law, SpeedLimit>
+void visit_keys(Law& law, Visit&& visit) {
+  visit(ConfigKey{"limit_m_s_of_mass", "how fast the clone may go", true}, law.of_mass,
+        Range{0, 100});
+  visit(ConfigKey{"return_s", "time constant of the way back"}, law.return_s, above_zero);
+}
 
 }  // namespace heft
