@@ -8,7 +8,6 @@
 
 #include "base/Error.h"
 #include "protocol/StudyPlan.h"
-#include "psychophysics/ProcedureKinds.h"
 #include "tasks/Tasks.h"
 
 namespace heft {
@@ -53,54 +52,14 @@ class Collector {
       const auto& keys = *block.as<typename Kind::Block>();
       if constexpr (requires { keys.choices(); })
         for (auto& [choice, value] : keys.choices()) add(choice, value);
-      else
-        (*this)(keys);
     });
   }
   void operator()(const BreakBlock& block) {
     add(block.name, fmt::format("a break of at least {:g} s", block.least_duration_s));
   }
-  void operator()(const Comparison::Block& block) {
-    const InterleaveConfig& interleaving = block.interleaving;
-    add("interleaving",
-        fmt::format("{}{}", name_of(interleaving.interleave),
-                    interleaving.max_lag > 0
-                        ? fmt::format(", at most {} trials ahead", interleaving.max_lag)
-                        : ""));
-    add("catch trials", catch_text(block));
-    add("sides of the reference", std::string(name_of(block.sides)));
-    add("moves a staircase down", std::string(name_of(block.positive_answer)));
-    for (const ReferenceStaircase& entry : block.staircases) {
-      const Procedure& procedure = entry.staircase;
-      if (const auto* staircase = procedure.get_if<UpDown>())
-        add(fmt::format("staircase {}, start and steps", procedure.name()),
-            course_text(staircase->config()));
-      add(fmt::format("staircase {}", procedure.name()), ProcedureKinds::described(procedure));
-    }
-  }
-
   std::vector<ProtocolChoice> choices;
 
  private:
-  static std::string catch_text(const Comparison::Block& block) {
-    if (block.catch_trials.empty()) return fmt::format("{:g} %", 100 * block.catch_fraction);
-    std::string text;
-    for (const auto& [reference_g, trials] : block.catch_trials)
-      text += fmt::format("{}{} at {:g} g", text.empty() ? "" : ", ", trials, reference_g);
-    return text + fmt::format(", one in every {} trials", block.catch_every);
-  }
-  static std::string course_text(const UpDownConfig& config) {
-    const std::string unit =
-        config.step_scale == StepScale::linear ? "g" : std::string(name_of(config.step_scale));
-    if (!config.steps.empty())
-      return fmt::format("from {:g} g, steps {:g} {}", config.start, fmt::join(config.steps, ", "),
-                         unit);
-    const std::string halved = config.halve_every > 0
-                                   ? fmt::format(", halved every {} reversals", config.halve_every)
-                                   : "";
-    return fmt::format("from {:g} g, steps {:g} {}{}", config.start, config.step.value_or(0), unit,
-                       halved);
-  }
   static std::string input_text(const DriveInput& input) {
     return fmt::format("{}, {}", name_of(input.mode),
                        input.predict_s > 0 ? fmt::format("predicted {:g} s ahead", input.predict_s)

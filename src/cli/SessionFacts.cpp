@@ -17,9 +17,8 @@ std::optional<double> planned_trials(const LogReader& reader, const SessionRow& 
   const auto setups = reader.setups(row.session_id);
   const auto settings =
       setups.empty() ? std::vector<ProtocolSetting>{} : setups.front().setup.settings;
-  return expected_length(
-             parse_protocol(row.header.protocol_text, row.header.protocol_name, settings))
-      .trials;
+  return total_of(expected_trials(
+      parse_protocol(row.header.protocol_text, row.header.protocol_name, settings)));
 } catch (const Error&) {
   return std::nullopt;
 }

@@ -261,7 +261,7 @@ SessionResult run_session(const CommandedSession& session,
   const StopOnSignal stop_on_signal;
   ProgressBar bar("session");
   std::optional<TerminalConsole> console;
-  const double expected = expected_length(*session.config->protocol).trials;
+  const double expected = total_of(expected_trials(*session.config->protocol));
   RunnerOptions options;
   options.stop = &stop_on_signal.requested();
   options.go_on_unchecked = session.go_on_unchecked;

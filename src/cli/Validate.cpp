@@ -28,33 +28,40 @@
 #include "protocol/StudyPlan.h"
 #include "psychophysics/Interleaving.h"
 #include "session/Session.h"
+#include "tasks/Tasks.h"
 #include "tracking/MarkerBody.h"
 #include "tracking/SyntheticCamera.h"
 
 namespace heft::cli {
 
 namespace {
-// Trials that a simulated participant takes; none where there is no end to them.
-std::optional<int> simulated_trials(const Protocol& protocol, std::uint64_t seed) {
+// The trials of a simulated participant; none where there is no end to them.
+std::optional<TrialsByTask> simulated_trials(const Protocol& protocol, std::uint64_t seed) {
   constexpr int enough_trials = 2000;
   SessionOptions given;
   given.responder = Plug{"simulated"};
   std::atomic<bool> stop = false;
-  int n_trials = 0;
   RunnerOptions options;
   options.keep_frames = false;
   options.stop = &stop;
   options.progress = [&](const Engine& engine) {
-    n_trials = engine.n_completed();
-    if (n_trials >= enough_trials) stop = true;
+    if (engine.n_completed() >= enough_trials) stop = true;
   };
-  compute_session({resolve(given, protocol, seed), "validate", ""}, options);
-  return stop ? std::nullopt : std::optional(n_trials);
+  const RecordedSession session =
+      compute_session({resolve(given, protocol, seed), "validate", ""}, options);
+  if (stop) return std::nullopt;
+  TrialsByTask trials;
+  for (const RecordedEntry& entry : session.entries())
+    if (const auto* event = std::get_if<RecordedEvent>(&entry))
+      if (const auto& trial = event->changes.trial;
+          trial && event->event.as<Action>() && trial->status == TrialStatus::completed)
+        ++trials[trial->plan.task];
+  return trials;
 }
 
 struct TrialsOfSome {
-  double mean = 0;
-  int least = 0, most = 0;
+  TrialsByTask mean;
+  double least = std::numeric_limits<double>::infinity(), most = 0;
 };
 
 // The same few participants each time, so that a protocol always gets the same numbers. None where
@@ -64,17 +71,17 @@ std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int pa
                                                 std::vector<std::string>& cautions) try {
   if (!entry_named("simulator", protocol.simulator.name, simulators()).for_sessions)
     return std::nullopt;
-  std::vector<std::future<std::optional<int>>> running;
+  std::vector<std::future<std::optional<TrialsByTask>>> running;
   for (int i = 1; i <= participants; ++i)
     running.push_back(
         std::async(std::launch::async, simulated_trials, protocol, static_cast<std::uint64_t>(i)));
-  TrialsOfSome of_all{0, std::numeric_limits<int>::max(), 0};
+  TrialsOfSome of_all;
   for (auto& one : running) {
-    const std::optional<int> trials = one.get();
+    const std::optional<TrialsByTask> trials = one.get();
     if (!trials) return std::nullopt;
-    of_all.mean += 1.0 * *trials / participants;
-    of_all.least = std::min(of_all.least, *trials);
-    of_all.most = std::max(of_all.most, *trials);
+    for (const auto& [task, n] : *trials) of_all.mean[task] += n / participants;
+    of_all.least = std::min(of_all.least, total_of(*trials));
+    of_all.most = std::max(of_all.most, total_of(*trials));
   }
   return of_all;
 } catch (const Error& error) {
@@ -84,33 +91,27 @@ std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int pa
 }
 
 // "10 s per comparison trial, 25 s per sorting trial"
-std::string assumed_text(const Protocol& protocol, const TrialDurations& durations) {
+std::string assumed_text(const TrialsByTask& trials) {
   std::string text;
-  for (const auto& [task, seconds] : durations)
-    if (std::ranges::any_of(protocol.blocks, [&](const Block& block) {
-          const auto* trials = std::get_if<TaskBlock>(&block);
-          return trials && trials->task().name == task;
-        }))
-      text += fmt::format("{}{:g} s per {} trial", text.empty() ? "" : ", ", seconds, task);
+  for (const auto& [task, n] : trials)
+    text += fmt::format("{}{:g} s per {} trial", text.empty() ? "" : ", ", task_named(task).trial_s,
+                        task);
   return text;
 }
 
 std::string described(const Protocol& protocol, std::vector<std::string>& cautions) {
   constexpr int participants = 6;
-  const TrialDurations durations = assumed_durations();
-  ExpectedLength length = expected_length(protocol, durations);
+  TrialsByTask trials = expected_trials(protocol);
   std::string simulated;
-  if (length.staircases > 0)
+  if (depends_on_answers(protocol))
     if (const auto taken = trials_of_simulated(protocol, participants, cautions)) {
-      length.minutes +=
-          (taken->mean - length.trials) * (durations.at("comparison") + protocol.onset.gap_s) / 60;
-      length.trials = taken->mean;
-      simulated = fmt::format(" ({} to {} in {} simulated participants)", taken->least, taken->most,
-                              participants);
+      trials = taken->mean;
+      simulated = fmt::format(" ({:.0f} to {:.0f} in {} simulated participants)", taken->least,
+                              taken->most, participants);
     }
   std::string text =
-      fmt::format("about {:.0f} trials{} and {:.0f} minutes (assuming {})", length.trials,
-                  simulated, length.minutes, assumed_text(protocol, durations));
+      fmt::format("about {:.0f} trials{} and {:.0f} minutes (assuming {})", total_of(trials),
+                  simulated, expected_minutes(protocol, trials), assumed_text(trials));
   if (protocol.simulator.name == "auto") text += "; " + described(resolve_auto(protocol));
   return text;
 }

@@ -1,61 +1,53 @@
 #include "protocol/ExpectedLength.h"
 
-#include <utility>
+#include <algorithm>
 
 #include "tasks/Tasks.h"
 
 namespace heft {
 
 namespace {
-class Forecast {
- public:
-  Forecast(TrialDurations durations, double gap_s)
-      : durations_(std::move(durations)), gap_s_(gap_s) {}
-
-  void operator()(const DemonstrationBlock& block) { seconds_ += block.duration_s; }
-  void operator()(const BreakBlock& block) { seconds_ += block.least_duration_s; }
-  void operator()(const TaskBlock& block) {
-    Tasks::call(block.task().name, [&]<typename Kind>() {
-      add_trials(block.as<typename Kind::Block>()->expected_trials(),
-                 durations_.at(std::string(Kind::task.name)));
-    });
-    if (const auto* comparison = block.as<Comparison::Block>()) {
-      length_.staircase_trials += comparison->expected_staircase_trials();
-      length_.staircases += static_cast<int>(comparison->staircases.size());
-    }
-  }
-
-  ExpectedLength length() const {
-    ExpectedLength length = length_;
-    length.minutes = seconds_ / 60;
-    return length;
-  }
-
- private:
-  void add_trials(double trials, double seconds_each) {
-    length_.trials += trials;
-    seconds_ += trials * (seconds_each + gap_s_);
-  }
-
-  TrialDurations durations_;
-  double gap_s_;
-  ExpectedLength length_;
-  double seconds_ = 0;
-};
+// Calls visit with the keys of each block of trials.
+template <typename Visit>
+void each_block_of_trials(const Protocol& protocol, const Visit& visit) {
+  for (const Block& block : protocol.blocks)
+    if (const auto* trials = std::get_if<TaskBlock>(&block))
+      Tasks::call(trials->task().name,
+                  [&]<typename Kind>() { visit(*trials->as<typename Kind::Block>()); });
+}
 }  // namespace
 
-TrialDurations assumed_durations() {
-  TrialDurations durations;
-  Tasks::each([&]<typename Kind>() {
-    durations.emplace(std::string(Kind::task.name), Kind::assumed_trial_s);
+TrialsByTask expected_trials(const Protocol& protocol) {
+  TrialsByTask trials;
+  each_block_of_trials(protocol, [&]<typename Keys>(const Keys& keys) {
+    trials[std::string(Keys::OfTask::task.name)] += keys.expected_trials();
   });
-  return durations;
+  return trials;
 }
 
-ExpectedLength expected_length(const Protocol& protocol, const TrialDurations& durations) {
-  Forecast forecast(durations, protocol.onset.gap_s);
-  for (const Block& block : protocol.blocks) std::visit(forecast, block);
-  return forecast.length();
+double total_of(const TrialsByTask& trials) {
+  double total = 0;
+  for (const auto& [task, n] : trials) total += n;
+  return total;
+}
+
+bool depends_on_answers(const Protocol& protocol) {
+  bool depends = false;
+  each_block_of_trials(protocol, [&](const auto& keys) {
+    if constexpr (requires { keys.depends_on_answers(); }) depends |= keys.depends_on_answers();
+  });
+  return depends;
+}
+
+double expected_minutes(const Protocol& protocol, const TrialsByTask& trials) {
+  double seconds = 0;
+  for (const Block& block : protocol.blocks) {
+    if (const auto* shown = std::get_if<DemonstrationBlock>(&block)) seconds += shown->duration_s;
+    if (const auto* pause = std::get_if<BreakBlock>(&block)) seconds += pause->least_duration_s;
+  }
+  for (const auto& [task, n] : trials)
+    seconds += n * (task_named(task).trial_s + protocol.onset.gap_s);
+  return seconds / 60;
 }
 
 }  // namespace heft

@@ -8,26 +8,22 @@
 
 namespace heft {
 
-/// Seconds that a trial takes on average, by task.
-using TrialDurations = std::map<std::string, double>;
+using TrialsByTask = std::map<std::string, double>;
 
-/// What the tasks assume: the paper sets no time limit and gives no times. Replace them by what
-/// your own participants take.
-TrialDurations assumed_durations();
+/// With catch trials. A staircase whose length depends on the answers is simulated (up to 1000
+/// trials) with 200 observers whose thresholds lie evenly between a quarter of the largest level
+/// that is planned at its reference (an adaptive one's start) and all of it; an observer perceives
+/// a difference of 1.4 times its threshold in 84 % of trials. The same protocol always gives the
+/// same forecast.
+TrialsByTask expected_trials(const Protocol& protocol);
 
-struct ExpectedLength {
-  double trials = 0;   ///< with catch trials
-  double minutes = 0;  ///< with demonstrations, least breaks and the gaps between trials
-  int staircases = 0;
-  double staircase_trials = 0;  ///< of all staircases together, without catch trials
-};
+double total_of(const TrialsByTask& trials);
 
-/// Counts trials. A staircase whose length depends on the answers is simulated (up to 1000 trials)
-/// with 200 observers whose thresholds lie evenly between a quarter of the largest level that is
-/// planned at its reference (an adaptive one's start) and all of it; an
-/// observer perceives a difference of 1.4 times its threshold in 84 % of trials. The same protocol
-/// always gives the same forecast.
-ExpectedLength expected_length(const Protocol& protocol,
-                               const TrialDurations& durations = assumed_durations());
+/// Whether the number of trials of any block depends on the answers.
+bool depends_on_answers(const Protocol& protocol);
+
+/// What these trials take, by TaskDeclaration::trial_s, with demonstrations, least breaks and the
+/// gaps between trials.
+double expected_minutes(const Protocol& protocol, const TrialsByTask& trials);
 
 }  // namespace heft

@@ -1,7 +1,11 @@
 #include "tasks/Comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 
@@ -72,6 +76,26 @@ double largest_start_g(const Comparison::Block& block, double reference_g) {
         largest_g = std::max(largest_g, level_g);
   return largest_g;
 }
+
+std::string catch_text(const Comparison::Block& block) {
+  if (block.catch_trials.empty()) return fmt::format("{:g} %", 100 * block.catch_fraction);
+  std::string text;
+  for (const auto& [reference_g, trials] : block.catch_trials)
+    text += fmt::format("{}{} at {:g} g", text.empty() ? "" : ", ", trials, reference_g);
+  return text + fmt::format(", one in every {} trials", block.catch_every);
+}
+
+std::string course_text(const UpDownConfig& config) {
+  const std::string unit =
+      config.step_scale == StepScale::linear ? "g" : std::string(name_of(config.step_scale));
+  if (!config.steps.empty())
+    return fmt::format("from {:g} g, steps {:g} {}", config.start, fmt::join(config.steps, ", "),
+                       unit);
+  const std::string halved =
+      config.halve_every > 0 ? fmt::format(", halved every {} reversals", config.halve_every) : "";
+  return fmt::format("from {:g} g, steps {:g} {}{}", config.start, config.step.value_or(0), unit,
+                     halved);
+}
 }  // namespace
 
 std::vector<KeyMistake> Comparison::Block::check() const {
@@ -80,6 +104,24 @@ std::vector<KeyMistake> Comparison::Block::check() const {
            {},
            "catch_fraction together with catch_trials, expected one of them: a coin each trial, or "
            "a fixed number"}};
+}
+
+std::vector<std::pair<std::string, std::string>> Comparison::Block::choices() const {
+  std::string order(name_of(interleaving.interleave));
+  if (interleaving.max_lag > 0)
+    order += fmt::format(", at most {} trials ahead", interleaving.max_lag);
+  std::vector<std::pair<std::string, std::string>> choices{
+      {"interleaving", order},
+      {"catch trials", catch_text(*this)},
+      {"sides of the reference", std::string(name_of(sides))},
+      {"moves a staircase down", std::string(name_of(positive_answer))}};
+  for (const ReferenceStaircase& reference : staircases) {
+    const std::string its_name = "staircase " + reference.staircase.name();
+    if (const auto* up_down = reference.staircase.get_if<UpDown>())
+      choices.emplace_back(its_name + ", start and steps", course_text(up_down->config()));
+    choices.emplace_back(its_name, ProcedureKinds::described(reference.staircase));
+  }
+  return choices;
 }
 
 double Comparison::Block::expected_staircase_trials() const {
@@ -91,6 +133,12 @@ double Comparison::Block::expected_staircase_trials() const {
 
 double Comparison::Block::expected_trials() const {
   return expected_staircase_trials() / (1 - catch_fraction) + n_planned(*this);
+}
+
+bool Comparison::Block::depends_on_answers() const {
+  return std::ranges::any_of(staircases, [](const ReferenceStaircase& reference) {
+    return !reference.staircase.planned_trials();
+  });
 }
 
 Comparison::Run::Run(const Block& block, std::uint64_t) : block_(block) {

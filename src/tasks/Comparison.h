@@ -58,10 +58,12 @@ struct Comparison {
                                       ActionSpec{.kind = "no_difference"}};
   static constexpr std::array<std::string_view, 2> outcomes{"difference", "no_difference"};
   static constexpr TaskDeclaration task{
-      "comparison",    1,  "Which of two cubes is heavier, or is there no difference",
-      actions,         {}, outcomes,
-      /*detects=*/true};
-  static constexpr double assumed_trial_s = 10;
+      .name = "comparison",
+      .about = "Which of two cubes is heavier, or is there no difference",
+      .actions = actions,
+      .outcomes = outcomes,
+      .trial_s = 10,
+      .detects = true};
   static constexpr std::string_view texts = "question no_difference";
 
   struct Block {
@@ -90,9 +92,11 @@ struct Comparison {
       visit(BlockKey{"catch_trials"}, CatchTrials{*this});
     }
     std::vector<KeyMistake> check() const;
+    std::vector<std::pair<std::string, std::string>> choices() const;
     /// Without catch trials. A staircase whose length depends on the answers is simulated.
     double expected_staircase_trials() const;
     double expected_trials() const;
+    bool depends_on_answers() const;
     int most_cubes() const { return 2; }
   };
   struct Offer {};

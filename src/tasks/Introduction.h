@@ -22,9 +22,11 @@ struct Introduction {
   static constexpr std::array actions{ActionSpec{.kind = "select", .slot = true}};
   static constexpr std::array<std::string_view, 1> outcomes{"correct"};
   static constexpr TaskDeclaration task{
-      "introduction", 1,  "Which of two cubes of very different mass is heavier",
-      actions,        {}, outcomes};
-  static constexpr double assumed_trial_s = 15;
+      .name = "introduction",
+      .about = "Which of two cubes of very different mass is heavier",
+      .actions = actions,
+      .outcomes = outcomes,
+      .trial_s = 15};
   static constexpr std::string_view texts = "question try_again";
 
   struct Block {

@@ -27,9 +27,12 @@ struct Sorting {
       "lightest", "intermediate", "heaviest", "1", "2", "3", "4", "5", "6"};
   static constexpr std::array<std::string_view, 3> outcomes{"correct", "incorrect", "dont_know"};
   static constexpr TaskDeclaration task{
-      "sorting", 1,      "Cubes are pushed and told from the lightest to the heaviest",
-      actions,   labels, outcomes};
-  static constexpr double assumed_trial_s = 25;
+      .name = "sorting",
+      .about = "Cubes are pushed and told from the lightest to the heaviest",
+      .actions = actions,
+      .labels = labels,
+      .outcomes = outcomes,
+      .trial_s = 25};
   static constexpr std::string_view texts =
       "question tap_a_cube lightest intermediate heaviest validate dont_know";
 

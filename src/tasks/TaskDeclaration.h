@@ -22,8 +22,9 @@ struct TaskDeclaration {
   std::string_view name;
   int edition = 1;         ///< counts what changes the meaning of its words
   std::string_view about;  ///< what is asked, for descriptions of exported data
-  std::span<const ActionSpec> actions;
-  std::span<const std::string_view> labels, outcomes;
+  std::span<const ActionSpec> actions = {};
+  std::span<const std::string_view> labels = {}, outcomes = {};
+  double trial_s = 10;   ///< that a trial takes, for plans; the paper sets no limit, gives no times
   bool detects = false;  ///< an answer is "none" or says that the cubes differ
 
   /// @return null: the task has no such action

@@ -11,7 +11,8 @@ namespace {
 struct Tapping {
   static constexpr std::array actions{ActionSpec{.kind = "tap"}};
   static constexpr std::array<std::string_view, 1> outcomes{"tapped"};
-  static constexpr TaskDeclaration task{"tapping", 1, "One tap a trial", actions, {}, outcomes};
+  static constexpr TaskDeclaration task{
+      .name = "tapping", .about = "One tap a trial", .actions = actions, .outcomes = outcomes};
   struct Block {
     using OfTask = Tapping;
     std::string name;

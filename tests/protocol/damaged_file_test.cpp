@@ -120,7 +120,7 @@ RC_GTEST_PROP(DamagedFile, IsUsableWhenTaken, ()) {
     return;
   }
   RC_ASSERT(!protocol.blocks.empty());
-  RC_ASSERT(std::isfinite(expected_length(protocol).minutes));
+  RC_ASSERT(std::isfinite(expected_minutes(protocol, expected_trials(protocol))));
   for (const auto& slot : slot_positions(protocol.layout, 2))
     RC_ASSERT(std::abs(slot.x()) <= protocol.layout.area_m.x() / 2);
 }

@@ -10,29 +10,40 @@ namespace {
 
 // PROCEDURES: the paper's staircases take 19 to 21 trials each.
 TEST(ExpectedLength, OfThePapersStaircases) {
-  const ExpectedLength length = expected_length(load_protocol(shipped_path("paper")));
-  EXPECT_EQ(length.staircases, 3);
-  EXPECT_GE(length.staircase_trials / 3, 19);
-  EXPECT_LE(length.staircase_trials / 3, 21);
-  EXPECT_DOUBLE_EQ(length.trials, length.staircase_trials + 11);
+  const Protocol paper = load_protocol(shipped_path("paper"));
+  const TrialsByTask trials = expected_trials(paper);
+  EXPECT_GE(trials.at("comparison") / 3, 19);
+  EXPECT_LE(trials.at("comparison") / 3, 21);
+  EXPECT_DOUBLE_EQ(total_of(trials), trials.at("comparison") + 11);
+  EXPECT_TRUE(depends_on_answers(paper));
 }
 
 TEST(ExpectedLength, AddsUpBlocks) {
   Protocol protocol;
   protocol.blocks = {DemonstrationBlock{"d", 30}, Introduction::Block{}, Sorting::Block{},
                      BreakBlock{"b", 60}};
-  const ExpectedLength length =
-      expected_length(protocol, {{"introduction", 12}, {"sorting", 20}, {"comparison", 5}});
-  EXPECT_DOUBLE_EQ(length.trials, 11);
-  EXPECT_DOUBLE_EQ(length.minutes, (30 + 12.6 + 10 * 20.6 + 60) / 60.0);
+  const TrialsByTask trials = expected_trials(protocol);
+  EXPECT_EQ(trials, (TrialsByTask{{"introduction", 1}, {"sorting", 10}}));
+  EXPECT_DOUBLE_EQ(expected_minutes(protocol, trials), (30 + 15.6 + 10 * 25.6 + 60) / 60.0);
+  EXPECT_FALSE(depends_on_answers(protocol));
+}
+
+// What each task declares that a trial takes, not what a comparison does.
+TEST(ExpectedLength, AsksEachTaskWhatATrialTakes) {
+  Protocol protocol;
+  protocol.onset.gap_s = 0;
+  Tasks::each([&]<typename Kind>() {
+    const std::string name(Kind::task.name);
+    EXPECT_DOUBLE_EQ(expected_minutes(protocol, {{name, 60}}), Kind::task.trial_s) << name;
+  });
 }
 
 TEST(ExpectedLength, CountsCatchTrials) {
   Protocol protocol = load_protocol(shipped_path("jnd"));
   protocol.blocks = {protocol.blocks.back()};
-  const double without = expected_length(protocol).trials;
+  const double without = total_of(expected_trials(protocol));
   block_as<Comparison::Block>(protocol.blocks.back())->catch_fraction = 0.2;
-  EXPECT_NEAR(expected_length(protocol).trials, without / 0.8, 1e-9);
+  EXPECT_NEAR(total_of(expected_trials(protocol)), without / 0.8, 1e-9);
 }
 
 TEST(ExpectedLength, EndsWhereAStaircaseGetsNowhere) {
@@ -41,7 +52,7 @@ TEST(ExpectedLength, EndsWhereAStaircaseGetsNowhere) {
       {1, {"long", UpDownConfig{.start = 1e6, .step = 1e-6, .stop_trials = 2'000'000'000}}, {}}};
   Protocol protocol;
   protocol.blocks = {block};
-  EXPECT_LE(expected_length(protocol).trials, 1000);
+  EXPECT_LE(total_of(expected_trials(protocol)), 1000);
 }
 
 TEST(ExpectedLength, CountsTheTrialsOfConstantStimuli) {
@@ -50,14 +61,13 @@ TEST(ExpectedLength, CountsTheTrialsOfConstantStimuli) {
                       {200, {"other", ConstantConfig{.levels = {10}, .n_per_level = 4}}}};
   Protocol protocol;
   protocol.blocks = {block};
-  const ExpectedLength length = expected_length(protocol);
-  EXPECT_EQ(length.trials, 40);
-  EXPECT_EQ(length.staircases, 2);
-  EXPECT_EQ(length.staircase_trials, 40);
+  EXPECT_EQ(total_of(expected_trials(protocol)), 40);
+  EXPECT_FALSE(depends_on_answers(protocol));
 }
 
 TEST(ExpectedLength, OfTheQuickProtocolIsAboutTwoMinutes) {
-  EXPECT_NEAR(expected_length(load_protocol(shipped_path("quick"))).minutes, 2, 0.5);
+  const Protocol quick = load_protocol(shipped_path("quick"));
+  EXPECT_NEAR(expected_minutes(quick, expected_trials(quick)), 2, 0.5);
 }
 
 }  // namespace
