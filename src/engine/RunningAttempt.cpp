@@ -62,11 +62,7 @@ RunningAttempt::RunningAttempt(const TrialRow& row, std::unique_ptr<TaskTrial> t
 TrialRow RunningAttempt::row() const {
   TrialRow row = row_;
   row.plan = plan();
-  const TrialResult& result = trial_->result();
-  row.outcome = result.outcome;
-  row.chosen_slot = result.chosen_slot;
-  row.choice_correct = result.choice_correct;
-  row.value = result.value;
+  static_cast<TrialResult&>(row) = trial_->result();
   return row;
 }
 

@@ -21,16 +21,20 @@ namespace heft {
 template <typename Row, typename Type>
 concept RowOf = std::same_as<std::remove_const_t<Row>, Type>;
 
-struct TrialRow {
+/// What the answers to a trial have come to. Tasks fill it; the engine copies all of it.
+struct TrialResult {
+  std::optional<Outcome> outcome;  ///< once an action ended the trial
+  std::optional<int> chosen_slot;
+  std::optional<bool> choice_correct;
+  std::optional<double> value;  ///< what was estimated or adjusted
+};
+
+struct TrialRow : TrialResult {
   int attempt_index = 0;
   int setup_index = 0;  ///< that it started under; 0: nothing told
   TrialPlan plan;
   TrialStatus status = TrialStatus::open;
   std::optional<std::string> void_reason;
-  std::optional<Outcome> outcome;
-  std::optional<int> chosen_slot;
-  std::optional<bool> choice_correct;
-  std::optional<double> value;  ///< what was estimated or adjusted
   double started_s = 0;
   std::optional<double> shown_s, first_contact_s, first_choice_s, validated_s, ended_s;
   double paused_s = 0;  ///< time the trial stood still between shown and validated

@@ -17,14 +17,6 @@ namespace heft {
 
 class PageBuilder;
 
-/// What the answers to a trial have come to: its columns of `trial`.
-struct TrialResult {
-  std::optional<Outcome> outcome;  ///< once an action ended the trial
-  std::optional<int> chosen_slot;
-  std::optional<bool> choice_correct;
-  std::optional<double> value;
-};
-
 class TaskTrial {
  public:
   TaskTrial(const TaskDeclaration& task, TrialPlan plan)
