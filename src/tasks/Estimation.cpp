@@ -52,19 +52,18 @@ Scale scale_of(const FormQuestion& question) {
   return {};
 }
 
-// At a fraction of the way up a scale; numbers to three digits of their range.
-double value_at(const FormQuestion& question, double fraction) {
-  const Scale scale = scale_of(question);
+// The nearest value that the scale takes; numbers to three digits of their range.
+Answer answer_near(const Scale& scale, double value) {
   const double width = scale.most - scale.least;
   const double unit =
       scale.whole ? 1 : std::pow(10, std::floor(std::log10(std::max(width, 1e-6))) - 2);
-  const double value = unit * std::round((scale.least + fraction * width) / unit);
-  return std::clamp(value, scale.least, scale.most);
+  value = std::clamp(unit * std::round(value / unit), scale.least, scale.most);
+  return {{{"estimate", {}, {}, value}}};
 }
 
-Answer answer_at(const Estimation::Offer& offer, double fraction) {
-  if (offer.is_standard) return {{{"validate"}}};
-  return {{{"estimate", {}, {}, value_at(offer.question, fraction)}}};
+// At a fraction of the way up the scale.
+Answer answer_at(const Scale& scale, double fraction) {
+  return answer_near(scale, scale.least + fraction * (scale.most - scale.least));
 }
 }  // namespace
 
@@ -182,15 +181,21 @@ std::string Estimation::Trial::answer() const {
 
 Answer Estimation::simulated(const Offer& offer, const Percepts& percepts, RandomStream&) {
   constexpr double least_mm = 5, most_mm = 100;
+  // Friction 0.8 times gravity over 50 N/m: the paper's (4.2).
+  constexpr double mm_per_g = 0.8 * 9.81 / 50;
+  if (offer.is_standard) return {{{"validate"}}};
+  const Scale scale = scale_of(offer.question);
   const double remembered = std::max(0.0, percepts.remembered_mm.front());
-  const double fraction = percepts.lapse
-                              ? remembered
-                              : std::log1p(remembered / least_mm) / std::log1p(most_mm / least_mm);
-  return answer_at(offer, std::min(fraction, 1.0));
+  if (percepts.lapse) return answer_at(scale, remembered);
+  if (offer.modulus)
+    return answer_near(scale, remembered / mm_per_g / offer.modulus->mass_g * offer.modulus->value);
+  return answer_at(
+      scale, std::min(1.0, std::log1p(remembered / least_mm) / std::log1p(most_mm / least_mm)));
 }
 
 Answer Estimation::blind(const Offer& offer, const Unseen&, RandomStream& stream) {
-  return answer_at(offer, stream.uniform());
+  if (offer.is_standard) return {{{"validate"}}};
+  return answer_at(scale_of(offer.question), stream.uniform());
 }
 
 std::vector<ScreenState> Estimation::fullest_screens() {

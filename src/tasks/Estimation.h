@@ -111,8 +111,10 @@ struct Estimation {
     bool is_range_known_;
   };
 
-  /// Equal ratios of 5 mm and the seen lag are equal steps on the scale (Fechner's law), which ends
-  /// at 100 mm; noise is that of the percept. A lapse is any place on the scale.
+  /// With a modulus: the mass that the remembered lag is of under the paper's spring and friction
+  /// (4.2), over the modulus' mass, times its value. Without: equal ratios of 5 mm plus the lag are
+  /// equal steps on the scale (Fechner's law), which ends at 100 mm. Noise is that of the percept
+  /// alone; a lapse is any place on the scale.
   static Answer simulated(const Offer& offer, const Percepts& percepts, RandomStream&);
   /// Any place on the scale.
   static Answer blind(const Offer& offer, const Unseen&, RandomStream& stream);

@@ -180,5 +180,31 @@ TEST(Estimation, a_mind_says_more_of_what_lags_more_and_stays_on_the_scale) {
   EXPECT_EQ(Estimation::blind(offer, {1}, stream).actions[0].kind, "validate");
 }
 
+// A cube of 100 g lags by 15.7 mm under the paper's spring: friction 0.8, 50 N/m.
+TEST(Estimation, a_mind_answers_in_proportion_to_the_modulus) {
+  RandomStream stream(1, "test");
+  Estimation::Offer offer;
+  offer.question.kind = QuestionKind::number;
+  offer.question.least = 1;
+  offer.question.most = 500;
+  const auto number = [&](double lag_mm, bool lapse = false) {
+    const Percepts percepts{.remembered_mm = {lag_mm}, .lapse = lapse};
+    return *Estimation::simulated(offer, percepts, stream).actions.at(0).value;
+  };
+  offer.modulus = {100, 10};
+  EXPECT_EQ(number(15.7), 10);
+  EXPECT_EQ(number(31.4), 20) << "twice the mass";
+  offer.modulus = {50, 10};
+  EXPECT_EQ(number(15.7), 20) << "of a lighter standard";
+  offer.modulus = {100, 40};
+  EXPECT_EQ(number(15.7), 40) << "of another number";
+  EXPECT_EQ(number(0), 1) << "the scale's lower end";
+  EXPECT_EQ(number(1000), 500) << "its upper end";
+  EXPECT_EQ(number(0.5, true), 251) << "a lapse is a place on the scale, whatever the standard";
+  offer.is_standard = true;
+  EXPECT_EQ(Estimation::simulated(offer, {.remembered_mm = {15.7}}, stream).actions[0].kind,
+            "validate");
+}
+
 }  // namespace
 }  // namespace heft
