@@ -16,7 +16,7 @@ constexpr auto page = "trial_estimation";
 // number.
 std::string asked_words(const PageBuilder& builder, const Estimation::Offer& offer) {
   if (offer.is_standard)
-    return fmt::format("{} {:g}", builder.text(page, "standard"), offer.modulus->value);
+    return fmt::format("{} {:g}.", builder.text(page, "standard"), offer.modulus->value);
   if (!offer.question.text.empty()) return offer.question.text;
   const std::string& question = builder.text(page, "question");
   if (!offer.modulus) return question;
@@ -56,12 +56,15 @@ void add_last(PageBuilder& builder, const std::string& name, const std::string& 
 void Estimation::screen(PageBuilder& builder, const Offer& offer) {
   add_scene(builder, asked_words(builder, offer));
   add_hint(builder);
-  if (offer.is_standard)
+  const Rect column = column_of(builder);
+  if (offer.is_standard) {  // its number is where answers will be typed
+    builder.add_lines({fmt::format("{:g}", offer.modulus->value)}, column, column.y,
+                      builder.measures.title);
     return add_last(builder, "validate", builder.text("buttons", "next"), {"validate"}, true);
+  }
   const FormQuestion question = in_words(builder, offer);
   const auto typed = builder.memory.typed.find(builder.entry_key(question.key));
   const std::string given = typed == builder.memory.typed.end() ? "" : typed->second;
-  const Rect column = column_of(builder);
   AskedQuestion(builder, question, given, AskedIn::trial)
       .add_answers({column.x, column.y, column.width, column.height});
   for (Control& control : builder.page.controls) control.enabled &= can_answer(builder);
