@@ -29,7 +29,7 @@ void set(const termios& settings) {
 }
 
 // Only what a signal handler may call.
-void stop(int) {
+void on_stop(int) {
   const int error = errno;
   if (is_raw.exchange(false)) {
     set(as_it_was);
@@ -49,11 +49,11 @@ void stop(int) {
 }
 
 // Whoever had the terminal meanwhile may have left it otherwise; listens() looks.
-void go_on(int) {
+void on_continue(int) {
   is_raw = false;
 }
 
-void handle(int signal, void (*handler)(int), struct sigaction& held) {
+void install(int signal, void (*handler)(int), struct sigaction& held) {
   struct sigaction action {};
   action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
@@ -67,8 +67,8 @@ RawTerminal::RawTerminal() : is_there_(isatty(STDIN_FILENO) == 1 && isatty(STDER
   tcgetattr(STDIN_FILENO, &as_it_was);
   raw = as_it_was;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // single keys; Ctrl-C stays a signal
-  handle(SIGTSTP, stop, stopping_before);
-  handle(SIGCONT, go_on, continuing_before);
+  install(SIGTSTP, on_stop, stopping_before);
+  install(SIGCONT, on_continue, continuing_before);
   listens();
 }
 

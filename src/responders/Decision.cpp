@@ -44,9 +44,9 @@ std::vector<double> Decision::remembered_mm(std::span<const double> percepts_mm)
 }
 
 bool Decision::differ(std::span<const double> remembered_mm) const {
-  const auto [least, most] = std::ranges::minmax(remembered_mm);
-  return most - least >
-         parameters_.criterion_mm + parameters_.criterion_fraction * std::max(0.0, most);
+  const auto [smallest, largest] = std::ranges::minmax(remembered_mm);
+  return largest - smallest >
+         parameters_.criterion_mm + parameters_.criterion_fraction * std::max(0.0, largest);
 }
 
 Answer blind_answer(const TrialView& trial, const Unseen& unseen, RandomStream& stream) {

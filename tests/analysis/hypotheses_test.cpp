@@ -71,9 +71,9 @@ TEST(HypothesesOfE2, AreNotJudgedByTheJnd) {
 }
 
 TEST(HypothesesJson, IsByName) {
-  const auto json = nlohmann::json::parse(as_json(summarize({"x.db", {}}, "")));
+  const auto report = nlohmann::json::parse(as_json(summarize({"x.db", {}}, "")));
   for (const char* name : {"E1-H1", "E1-H2", "E1-H3", "E2-H1", "E2-H2"})
-    EXPECT_EQ(json["hypotheses"][name]["verdict"], "can't be judged") << name;
+    EXPECT_EQ(report["hypotheses"][name]["verdict"], "can't be judged") << name;
 }
 
 }  // namespace

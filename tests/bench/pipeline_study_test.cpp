@@ -11,31 +11,31 @@ namespace heft {
 namespace {
 
 TEST(PipelineStudy, QuickRunMakesEveryFile) {
-  const StudyFolder folder("pipeline");
+  const StudyFolder study("pipeline");
   testing::internal::CaptureStdout();
-  run_pipeline_study(folder.options());
+  run_pipeline_study(study.options());
   EXPECT_NE(testing::internal::GetCapturedStdout().find("whole picture without physics"),
             std::string::npos);
-  const auto stages = folder.csv("pipeline.csv");
+  const auto stages = study.csv("pipeline.csv");
   EXPECT_EQ(stages.rows.size(), 2 * (n_stages + 1));
   for (const char* column : {"median_ms", "p95_ms"})
     for (const double value : stages.numbers(column)) EXPECT_GE(value, 0);
   EXPECT_EQ(stages.numbers("goal_ms"), (std::vector<double>{8, 15}));
-  const auto memory = folder.csv("memory.csv").numbers("resident_mb");
+  const auto memory = study.csv("memory.csv").numbers("resident_mb");
   ASSERT_EQ(memory.size(), 4U);
   EXPECT_GT(memory.front(), 1);
-  EXPECT_TRUE(folder.has_chart("pipeline.svg"));
+  EXPECT_TRUE(study.has_chart("pipeline.svg"));
 }
 
 TEST(RecordedTrial, LeavesNothingBehind) {
-  std::filesystem::path folder;
+  std::filesystem::path trial_folder;
   {
     const RecordedTrial trial(bench_apparatus(640), 2);
     ASSERT_EQ(trial.files().size(), 2U);
-    folder = std::filesystem::path(trial.files()[0]).parent_path();
+    trial_folder = std::filesystem::path(trial.files()[0]).parent_path();
     EXPECT_TRUE(std::filesystem::exists(trial.files()[1]));
   }
-  EXPECT_FALSE(std::filesystem::exists(folder));
+  EXPECT_FALSE(std::filesystem::exists(trial_folder));
 }
 
 // The stages get times of their own: work was done where there is work to do.

@@ -14,45 +14,45 @@ namespace heft {
 namespace {
 
 TEST(TrackingStudy, QuickRunMakesEveryFile) {
-  const StudyFolder folder("tracking");
+  const StudyFolder study("tracking");
   testing::internal::CaptureStdout();
-  run_tracking_study(folder.options());
+  run_tracking_study(study.options());
   EXPECT_NE(testing::internal::GetCapturedStdout().find("board in camera, p95"), std::string::npos);
 
-  const auto accuracy = folder.csv("accuracy.csv");
+  const auto accuracy = study.csv("accuracy.csv");
   EXPECT_EQ(accuracy.rows.size(), 4U);  // ours and the plain chain at two sizes
   for (const char* column : {"tip_p95_mm", "board_p95_mm", "effector_p95_deg", "time_median_ms"})
     for (const double value : accuracy.numbers(column)) EXPECT_GT(value, 0) << column;
-  const auto limits = folder.csv("limits.csv");
+  const auto limits = study.csv("limits.csv");
   EXPECT_EQ(limits.rows.size(), 3 * 2 * static_cast<std::size_t>(limit_parts));
   for (const double share : limits.numbers("effector_found")) EXPECT_LE(share, 1);
-  const auto filters = folder.csv("filters.csv");
+  const auto filters = study.csv("filters.csv");
   EXPECT_EQ(filters.rows.size(), smoothers().size());
   for (const double jitter : filters.numbers("jitter_mm")) EXPECT_GT(jitter, 0);
-  EXPECT_EQ(folder.csv("goals.csv").rows.size(), 33U);
-  const auto faults = folder.csv("faults.csv");
+  EXPECT_EQ(study.csv("goals.csv").rows.size(), 33U);
+  const auto faults = study.csv("faults.csv");
   EXPECT_EQ(faults.rows.size() % 4, 0U);  // ours and the plain chain at two sizes
   EXPECT_GT(faults.rows.size(), 4 * 12U);
   for (const double share : faults.numbers("effector_found")) EXPECT_LE(share, 1);
-  EXPECT_NE(folder.text("goals.csv").find("false poses"), std::string::npos);
-  EXPECT_NE(folder.text("goals.csv").find("camera calibration from 6 views"), std::string::npos);
-  for (const double bound : folder.csv("bound.csv").numbers("bound_mm")) EXPECT_GT(bound, 0);
+  EXPECT_NE(study.text("goals.csv").find("false poses"), std::string::npos);
+  EXPECT_NE(study.text("goals.csv").find("camera calibration from 6 views"), std::string::npos);
+  for (const double bound : study.csv("bound.csv").numbers("bound_mm")) EXPECT_GT(bound, 0);
   for (const char* chart : {"accuracy.svg", "limits.svg", "faults.svg", "filters.svg"})
-    EXPECT_TRUE(folder.has_chart(chart)) << chart;
-  const std::string readme = folder.text("README.md");
+    EXPECT_TRUE(study.has_chart(chart)) << chart;
+  const std::string readme = study.text("README.md");
   EXPECT_NE(readme.find("quick run"), std::string::npos);
   EXPECT_NE(readme.find("| gamma 2.2 | "), std::string::npos);
   EXPECT_EQ(readme.find("nan"), std::string::npos);
 }
 
 TEST(EffectorStudy, QuickRunMakesEveryFile) {
-  const StudyFolder folder("effectors");
+  const StudyFolder study("effectors");
   testing::internal::CaptureStdout();
-  run_effector_study(folder.options());
+  run_effector_study(study.options());
   EXPECT_NE(testing::internal::GetCapturedStdout().find("effector_two_faces.toml"),
             std::string::npos);
-  EXPECT_EQ(folder.csv("effectors.csv").rows.size(), 4U);
-  EXPECT_NE(folder.text("README.md").find("quick run"), std::string::npos);
+  EXPECT_EQ(study.csv("effectors.csv").rows.size(), 4U);
+  EXPECT_NE(study.text("README.md").find("quick run"), std::string::npos);
 }
 
 // By geometry alone, over the grips and from the places that studies film.

@@ -12,11 +12,11 @@
 namespace heft {
 namespace {
 
-constexpr double readout_s = 0.025;
+constexpr double rolling_s = 0.025;
 
 Intrinsics rolling_camera() {
   Intrinsics camera = default_camera(640, 480);
-  camera.readout_s = readout_s;
+  camera.readout_s = rolling_s;
   return camera;
 }
 
@@ -84,7 +84,7 @@ TEST(RollingShutter, WhatStandsStillIsFilmedAsByAnyOther) {
   SyntheticSettings settings;
   const auto still = [](double) -> std::optional<Pose> { return upright_pose({0, 0, 0.05}, 1.2); };
   const Image global = SyntheticCamera(apparatus, settings, 1).picture(still, 0, 0);
-  settings.optics.readout_s = readout_s;
+  settings.optics.readout_s = rolling_s;
   EXPECT_EQ(SyntheticCamera(apparatus, settings, 1).picture(still, 0, 0).pixels, global.pixels);
 }
 
@@ -96,9 +96,9 @@ struct Found {
 // Steady motion at 0.4 m/s; from the third picture on, the velocity is known.
 Found tracked(bool told) {
   Apparatus apparatus = default_apparatus(640);
-  apparatus.camera.readout_s = told ? readout_s : 0;
+  apparatus.camera.readout_s = told ? rolling_s : 0;
   SyntheticSettings settings;
-  settings.optics.readout_s = readout_s;
+  settings.optics.readout_s = rolling_s;
   settings.hand = false;
   SyntheticCamera camera(apparatus, settings, 1);
   Tracker tracker(apparatus);
@@ -119,7 +119,7 @@ Found tracked(bool told) {
           tracker.track(camera.picture(path, t_s, static_cast<std::uint64_t>(i)), t_s);
       if (i < 2 || !seen.board_from_effector) continue;
       const Pose at_row = settings.camera_from_board * *path(t_s + 0.012);
-      const double row_s = readout_s * project(apparatus.camera, at_row.position_m).y() / 480;
+      const double row_s = rolling_s * project(apparatus.camera, at_row.position_m).y() / 480;
       const Eigen::Vector3d tip_m(0.045, 0, 0), truth_m = *path(t_s + row_s) * tip_m;
       found.worst_m = std::max(found.worst_m, (*seen.board_from_effector * tip_m - truth_m).norm());
       found.worst_row_s = std::max(found.worst_row_s, std::abs(seen.effector_t_s - t_s - row_s));

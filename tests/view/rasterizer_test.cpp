@@ -15,12 +15,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int width = 40, height = 30;
+constexpr int frame_w_px = 40, frame_h_px = 30;
 constexpr Surface red{{0, 0, 200}, 1, 1}, green{{0, 200, 0}, 1, 2};
 constexpr Surface glass{{255, 0, 0}, 0.5, 0};
 
 Image gray_frame() {
-  Image frame(width, height, 3);
+  Image frame(frame_w_px, frame_h_px, 3);
   std::ranges::fill(frame.pixels, std::uint8_t{100});
   return frame;
 }
@@ -41,7 +41,7 @@ void fill_rectangle(Rasterizer& rasterizer, Vector2d from, Vector2d to, double n
 
 // Pixel centers are integers, so pixel 10 reaches from 9.5 to 10.5.
 TEST(Rasterizer, PaintsPixelsByTheShareThatIsCovered) {
-  Rasterizer rasterizer(width, height);
+  Rasterizer rasterizer(frame_w_px, frame_h_px);
   Image frame = gray_frame();
   fill_rectangle(rasterizer, {9.5, 9.5}, {12.0, 11.5}, 1, rasterizer.add_surface(red));
   rasterizer.paint(frame);
@@ -57,7 +57,7 @@ TEST(Rasterizer, PaintsPixelsByTheShareThatIsCovered) {
 
 TEST(Rasterizer, ShowsWhatIsNearerInWhateverOrderItIsDrawn) {
   for (bool red_first : {true, false}) {
-    Rasterizer rasterizer(width, height);
+    Rasterizer rasterizer(frame_w_px, frame_h_px);
     Image frame = gray_frame();
     const auto near = rasterizer.add_surface(red), far = rasterizer.add_surface(green);
     if (red_first) fill_rectangle(rasterizer, {5, 5}, {20, 20}, 2.0, near);
@@ -70,7 +70,7 @@ TEST(Rasterizer, ShowsWhatIsNearerInWhateverOrderItIsDrawn) {
 }
 
 TEST(Rasterizer, TellsDepthsApartThatDifferByAHundredthOfAMillimeter) {
-  Rasterizer rasterizer(width, height);
+  Rasterizer rasterizer(frame_w_px, frame_h_px);
   Image frame = gray_frame();
   fill_rectangle(rasterizer, {5, 5}, {20, 20}, 1 / 0.60001, rasterizer.add_surface(green));
   fill_rectangle(rasterizer, {5, 5}, {20, 20}, 1 / 0.60000, rasterizer.add_surface(red));
@@ -81,7 +81,7 @@ TEST(Rasterizer, TellsDepthsApartThatDifferByAHundredthOfAMillimeter) {
 
 TEST(Rasterizer, MixesTranslucentSurfacesWithWhatIsBehindThemOnly) {
   for (double depth : {0.5, 2.0}) {
-    Rasterizer rasterizer(width, height);
+    Rasterizer rasterizer(frame_w_px, frame_h_px);
     Image frame = gray_frame();
     fill_rectangle(rasterizer, {5, 5}, {30, 20}, depth, rasterizer.add_surface(glass));
     fill_rectangle(rasterizer, {15, 5}, {30, 20}, 1, rasterizer.add_surface(red));
@@ -100,13 +100,13 @@ RC_GTEST_PROP(Rasterizer, TrianglesAroundAPointPartASquareWithoutGapOrOverlap, (
   };
   const std::array<Vector2d, 4> square{Vector2d(4.5, 4.5), {24.5, 4.5}, {24.5, 24.5}, {4.5, 24.5}};
   const Vector2d middle(between(4.6, 24.4), between(4.6, 24.4));
-  Rasterizer rasterizer(width, height);
+  Rasterizer rasterizer(frame_w_px, frame_h_px);
   for (std::size_t i = 0; i < 4; ++i)
     rasterizer.shade({RasterCorner{middle, 0.5}, {square[i], 0.5}, {square[(i + 1) % 4], 0.5}});
   Image frame = gray_frame();
   rasterizer.paint(frame);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < frame_h_px; ++y) {
+    for (int x = 0; x < frame_w_px; ++x) {
       const bool inside = x >= 5 && x <= 24 && y >= 5 && y <= 24;
       RC_ASSERT(pixel_of(frame, x, y)[0] == (inside ? 50 : 100));
     }
@@ -116,7 +116,7 @@ RC_GTEST_PROP(Rasterizer, TrianglesAroundAPointPartASquareWithoutGapOrOverlap, (
 RasterTriangle random_triangle(RandomStream& draws) {
   RasterTriangle triangle;
   for (RasterCorner& corner : triangle)
-    corner = {{width * (2 * draws.uniform() - 0.5), height * (2 * draws.uniform() - 0.5)},
+    corner = {{frame_w_px * (2 * draws.uniform() - 0.5), frame_h_px * (2 * draws.uniform() - 0.5)},
               0.5 + draws.uniform()};
   return triangle;
 }
@@ -131,7 +131,7 @@ void draw_some(Rasterizer& rasterizer, RandomStream draws) {
 }
 
 RC_GTEST_PROP(Rasterizer, ClearedItDrawsAsANewOneDoes, (std::uint64_t seed)) {
-  Rasterizer used(width, height), fresh(width, height);
+  Rasterizer used(frame_w_px, frame_h_px), fresh(frame_w_px, frame_h_px);
   draw_some(used, RandomStream(seed, "before"));
   used.clear();
   Image cleared = gray_frame();
@@ -146,7 +146,7 @@ RC_GTEST_PROP(Rasterizer, ClearedItDrawsAsANewOneDoes, (std::uint64_t seed)) {
 }
 
 TEST(Rasterizer, FindsTheNearestObjectWithinReach) {
-  Rasterizer rasterizer(width, height);
+  Rasterizer rasterizer(frame_w_px, frame_h_px);
   fill_rectangle(rasterizer, {5, 5}, {10, 10}, 1, rasterizer.add_surface(red));
   fill_rectangle(rasterizer, {20, 5}, {25, 10}, 1, rasterizer.add_surface(green));
   EXPECT_EQ(rasterizer.find_object({7, 7}, 1), 1);
@@ -157,7 +157,7 @@ TEST(Rasterizer, FindsTheNearestObjectWithinReach) {
 }
 
 TEST(Rasterizer, SurvivesTrianglesFarOutsideAndThoseThatAreNoNumbers) {
-  Rasterizer rasterizer(width, height);
+  Rasterizer rasterizer(frame_w_px, frame_h_px);
   const auto surface = rasterizer.add_surface(red);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   rasterizer.fill({RasterCorner{{nan, 3}, 1}, {{30, 3}, 1}, {{3, 20}, 1}}, surface);
@@ -167,11 +167,11 @@ TEST(Rasterizer, SurvivesTrianglesFarOutsideAndThoseThatAreNoNumbers) {
   rasterizer.fill({RasterCorner{{-1e6, -1e6}, 1}, {{1e6, -1e6}, 1}, {{0, 1e6}, 1}}, surface);
   rasterizer.paint(frame);
   EXPECT_EQ(pixel_of(frame, 0, 0), (std::array{0, 0, 200}));
-  EXPECT_EQ(pixel_of(frame, width - 1, height - 1), (std::array{0, 0, 200}));
+  EXPECT_EQ(pixel_of(frame, frame_w_px - 1, frame_h_px - 1), (std::array{0, 0, 200}));
 }
 
 TEST(Rasterizer, RefusesMoreSurfacesThanItCanTellApart) {
-  Rasterizer rasterizer(width, height);
+  Rasterizer rasterizer(frame_w_px, frame_h_px);
   for (int i = 0; i < 255; ++i) rasterizer.add_surface(red);
   EXPECT_THROW(rasterizer.add_surface(red), Error);
   rasterizer.clear();
