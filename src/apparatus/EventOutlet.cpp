@@ -57,7 +57,8 @@ class EventOutlet::Way {
 namespace {
 class Datagrams final : public EventOutlet::Way {
  public:
-  Datagrams(const std::string& host, const std::string& port, const std::string& spec) {
+  Datagrams(const EventTarget::Udp& target, const std::string& spec) {
+    const auto& [host, port] = target;
     addrinfo wanted{}, *found = nullptr;
     wanted.ai_socktype = SOCK_DGRAM;
     wanted.ai_flags = AI_NUMERICSERV;
@@ -86,9 +87,9 @@ class Datagrams final : public EventOutlet::Way {
 };
 
 // Opened when there is a reader, and again when there is another one.
-class NamedPipe final : public EventOutlet::Way {
+class PipeWriter final : public EventOutlet::Way {
  public:
-  NamedPipe(std::string path, const std::string& spec) : path_(std::move(path)) {
+  PipeWriter(const EventTarget::NamedPipe& target, const std::string& spec) : path_(target.path) {
     struct stat there {};
     if (stat(path_.c_str(), &there) != 0)
       miss(spec,
@@ -112,14 +113,14 @@ class NamedPipe final : public EventOutlet::Way {
 };
 
 // A line that was begun is ended before the next one.
-class SerialLine final : public EventOutlet::Way {
+class SerialWriter final : public EventOutlet::Way {
  public:
-  SerialLine(const std::string& device, const std::string& spec)
-      : line_(open(device.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
+  SerialWriter(const EventTarget::SerialLine& target, const std::string& spec)
+      : line_(open(target.device.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
     if (!line_.is_open()) miss(spec, std::strerror(errno));
     termios settings{};
     if (tcgetattr(line_.number(), &settings) != 0)
-      refuse(spec, fmt::format("{} is no serial line", device));
+      refuse(spec, fmt::format("{} is no serial line", target.device));
     cfmakeraw(&settings);
     settings.c_cflag |= CLOCAL;
     cfsetspeed(&settings, B115200);
@@ -145,7 +146,7 @@ class SerialLine final : public EventOutlet::Way {
   std::string rest_;
 };
 
-std::unique_ptr<EventOutlet::Way> datagrams_to(const std::string& target, const std::string& spec) {
+EventTarget::Udp udp_target(const std::string& target, const std::string& spec) {
   const auto colon = target.rfind(':');
   if (colon == std::string::npos || colon == 0) refuse(spec, "there is no HOST:PORT");
   std::string host = target.substr(0, colon);
@@ -158,22 +159,37 @@ std::unique_ptr<EventOutlet::Way> datagrams_to(const std::string& target, const 
                          port.find_first_not_of("0123456789") == std::string::npos;
   if (!is_number || std::stoi(port) < 1 || std::stoi(port) > 65535)
     refuse(spec, fmt::format("\"{}\" is no port from 1 to 65535", printable(port)));
-  return std::make_unique<Datagrams>(host, port, spec);
+  return {host, port};
 }
 
-std::unique_ptr<EventOutlet::Way> way_to(const std::string& spec) {
-  const auto colon = spec.find(':');
-  if (colon == std::string::npos) refuse(spec, "there is no colon");
-  const std::string kind = spec.substr(0, colon), target = spec.substr(colon + 1);
-  if (target.empty()) refuse(spec, "there is nothing after the colon");
-  if (kind == "udp") return datagrams_to(target, spec);
-  if (kind == "fifo") return std::make_unique<NamedPipe>(target, spec);
-  if (kind == "serial") return std::make_unique<SerialLine>(target, spec);
-  refuse(spec, fmt::format("\"{}\" is no such way", printable(kind)));
-}
+struct Opens {
+  std::unique_ptr<EventOutlet::Way> operator()(const EventTarget::Udp& target) const {
+    return std::make_unique<Datagrams>(target, spec);
+  }
+  std::unique_ptr<EventOutlet::Way> operator()(const EventTarget::NamedPipe& target) const {
+    return std::make_unique<PipeWriter>(target, spec);
+  }
+  std::unique_ptr<EventOutlet::Way> operator()(const EventTarget::SerialLine& target) const {
+    return std::make_unique<SerialWriter>(target, spec);
+  }
+
+  const std::string& spec;
+};
 }  // namespace
 
-EventOutlet::EventOutlet(const std::string& spec) : way_(way_to(spec)) {}
+EventTarget parse_event_target(const std::string& text) {
+  const auto colon = text.find(':');
+  if (colon == std::string::npos) refuse(text, "there is no colon");
+  const std::string kind = text.substr(0, colon), target = text.substr(colon + 1);
+  if (target.empty()) refuse(text, "there is nothing after the colon");
+  if (kind == "udp") return {text, udp_target(target, text)};
+  if (kind == "fifo") return {text, EventTarget::NamedPipe{target}};
+  if (kind == "serial") return {text, EventTarget::SerialLine{target}};
+  refuse(text, fmt::format("\"{}\" is no such way", printable(kind)));
+}
+
+EventOutlet::EventOutlet(const EventTarget& target)
+    : way_(std::visit(Opens{target.text}, target.to)) {}
 EventOutlet::~EventOutlet() = default;
 
 void EventOutlet::send(const std::string& line) {

@@ -6,15 +6,35 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <variant>
 
 namespace heft {
 
+/// Where lines go, as --events says it.
+struct EventTarget {
+  struct Udp {
+    std::string host, port;
+  };
+  struct NamedPipe {
+    std::string path;
+  };
+  struct SerialLine {
+    std::string device;  ///< 115200 baud, 8N1
+  };
+
+  std::string text;  ///< as it was given
+  std::variant<Udp, NamedPipe, SerialLine> to;
+};
+
+/// udp:HOST:PORT (udp:[::1]:PORT), fifo:PATH, or serial:DEVICE
+/// @throws Error (usage) for another text
+EventTarget parse_event_target(const std::string& text);
+
 class EventOutlet {
  public:
-  /// @param spec udp:HOST:PORT (udp:[::1]:PORT), fifo:PATH, or serial:DEVICE (115200 baud, 8N1)
-  /// @throws Error (usage) for another spec; Error (device_missing) where there is no such host,
-  ///   pipe or serial line
-  explicit EventOutlet(const std::string& spec);
+  /// @throws Error (device_missing) where there is no such host, pipe or serial line; Error (usage)
+  ///   where the path is something else
+  explicit EventOutlet(const EventTarget& target);
   ~EventOutlet();
   EventOutlet(const EventOutlet&) = delete;
 

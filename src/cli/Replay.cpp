@@ -255,7 +255,7 @@ Supposed supposed(const LoggedSession& session, const ReplayOptions& options) {
     config.rate_hz = pick.rate_hz;
     config.simulator_why = pick.why;
   }
-  config.input = name_of(protocol.simulator.input.mode);
+  config.input = protocol.simulator.input.mode;
   config.predict_s = protocol.simulator.input.predict_s;
   return {*protocol_for(std::move(protocol), config), std::move(config)};
 }

@@ -30,7 +30,7 @@ std::string backup_of(const LoggedSession& session, const std::string& given) {
 }
 
 void resume(const std::string& db, std::optional<std::int64_t> session_id, SessionOptions again,
-            const std::string& events, bool unblind, bool go_on) {
+            const std::optional<EventTarget>& events, bool unblind, bool go_on) {
   const LoggedSession session = session_to_resume(db, session_id);
   again.backup = backup_of(session, again.backup);
   const ResolvedConfig config =
@@ -67,7 +67,8 @@ void end(const std::string& db, std::optional<std::int64_t> session_id, const st
 
 void add_resume(Command& app) {
   struct ResumeOptions {
-    std::string db = "heft.db", events;
+    std::string db = "heft.db";
+    std::optional<EventTarget> events;
     std::optional<std::int64_t> session;
     SessionOptions again;
     bool end = false, unblind = false, go_on = false, keys = false;

@@ -24,11 +24,12 @@ namespace {
 constexpr const char* usual_db = "heft.db";
 
 struct RunOptions {
-  std::string protocol, plan, events;
+  std::string protocol, plan;
+  std::optional<EventTarget> events;
   std::optional<std::string> participant, db;
   std::optional<std::uint64_t> seed;
   SessionOptions given;
-  std::optional<std::string> purpose, controls, hand;
+  std::optional<Purpose> purpose;
   std::optional<double> text_size;
   std::map<std::string, std::string> participant_info;  // what the plan gave
   bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
@@ -49,14 +50,7 @@ bool is_persons(const RunOptions& options) {
 Purpose purpose_of(const RunOptions& options) {
   const auto& tracker = options.given.tracker;
   const bool is_dragged = tracker && tracker_named(tracker->name).is_dragged;
-  return named<Purpose>(options.purpose.value_or(is_dragged ? "test" : "main")).value();
-}
-
-std::optional<Side> side_of_controls(const RunOptions& options) {
-  if (options.left_handed && options.controls == "right")
-    throw Error("--left-handed is --controls left; expected one of them", ExitCode::usage);
-  if (options.left_handed) return Side::left;
-  return options.controls ? named<Side>(*options.controls) : std::nullopt;
+  return options.purpose.value_or(is_dragged ? Purpose::test : Purpose::main);
 }
 
 SessionOptions session_options(const RunOptions& options) {
@@ -64,8 +58,10 @@ SessionOptions session_options(const RunOptions& options) {
   // It is kept with the session, as the key of the protocol that it is.
   if (options.text_size)
     given.settings.push_back({"screens.text_size", fmt::format("{}", *options.text_size)});
-  given.controls = side_of_controls(options);
-  given.hand = named<Side>(options.hand.value_or("right"));
+  if (options.left_handed && given.controls == Side::right)
+    throw Error("--left-handed is --controls left; expected one of them", ExitCode::usage);
+  if (options.left_handed) given.controls = Side::left;
+  if (!given.hand) given.hand = Side::right;
   if (is_persons(options))
     given.keys =
         options.keys || purpose_of(options) == Purpose::test ? TakesKeys::yes : TakesKeys::no;
@@ -319,15 +315,13 @@ void add_run(Command& app) {
   command.add_flag("--keys", options->keys,
                    "let the participant's window take keys as answers (default: only with "
                    "--purpose test); without it what somebody types there does nothing");
-  command
-      .add_option("--hand", &options->hand,
-                  "that holds the effector: the demonstration shows it (default: right)")
-      .one_of({"left", "right"});
-  command
-      .add_option("--controls", &options->controls,
-                  "the side of the screen that the buttons are on, for the hand that taps; the "
-                  "cubes stay where they are (default: right)")
-      .one_of({"left", "right"});
+  add_choice(command, "--hand", options->given.hand,
+             "that holds the effector: the demonstration shows it (default: right)",
+             {"left", "right"});
+  add_choice(command, "--controls", options->given.controls,
+             "the side of the screen that the buttons are on, for the hand that taps; the cubes "
+             "stay where they are (default: right)",
+             {"left", "right"});
   command.add_flag("--left-handed", options->left_handed, "the same as --controls left");
   command
       .add_option("--text-size", &options->text_size,
@@ -335,12 +329,10 @@ void add_run(Command& app) {
                               "--set screens.text_size=... does (default: the protocol's)",
                               least_text_size, most_text_size))
       .between(least_text_size, most_text_size);
-  command
-      .add_option(
-          "--purpose", &options->purpose,
-          "of a person's session; analyse keeps them apart; with --tracker mouse it is test "
-          "unless told (default: main)")
-      .one_of({"main", "pilot", "test"});
+  add_choice(command, "--purpose", options->purpose,
+             "of a person's session; analyse keeps them apart; with --tracker mouse it is test "
+             "unless told (default: main)",
+             {"main", "pilot", "test"});
   command.add_option("--record-camera", &options->given.record_camera,
                      "keep the camera's pictures in this folder, their times in its times.csv; "
                      "without it none are kept. Of a synthetic camera truth.csv has the exact "

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 
-#include "apparatus/EventOutlet.h"
 #include "base/DefaultTechniques.h"
 #include "base/Error.h"
 #include "base/PlugTable.h"
@@ -135,13 +134,15 @@ void add_go_on(Command& command, bool& go_on) {
                    "to ask at; it is logged");
 }
 
-void add_elsewhere_options(Command& command, std::string& backup, std::string& events) {
+void add_elsewhere_options(Command& command, std::string& backup,
+                           std::optional<EventTarget>& events) {
   command.group("Backups and other recorders");
   command.add_option(
       "--backup", &backup,
       "a folder, best on another disk: after the session a copy of the log is put "
       "there and checked (default: the study plan's; of a session that goes on, the one it had)");
-  command.add_option("--events", &events,
+  const auto read = [&events](const std::string& text) { events = parse_event_target(text); };
+  command.add_option("--events", ReadsText{read},
                      "udp:HOST:PORT, fifo:PATH or serial:DEVICE: a line of JSON for each event, "
                      "once it is in the log, with its t_s and UTC; the session never waits for it");
 }
@@ -256,7 +257,7 @@ void say_finished(const SessionResult& result, const std::string& db) {
 SessionResult run_session(const CommandedSession& session,
                           const std::function<SessionResult(const RunnerOptions&)>& run) {
   std::optional<EventOutlet> events;
-  if (!session.events.empty()) events.emplace(session.events);
+  if (session.events) events.emplace(*session.events);
   check_backup(session.config->config.backup);
   const StopOnSignal stop_on_signal;
   ProgressBar bar("session");
@@ -267,7 +268,7 @@ SessionResult run_session(const CommandedSession& session,
   options.go_on_unchecked = session.go_on_unchecked;
   options.events = events ? &*events : nullptr;
   options.tell = [](const std::string& text) { say("heft: {}\n", text); };
-  if (runs_on_wall_clock(session.config->config))
+  if (session.config->on_wall_clock)
     options.console = &console.emplace(expected, session.unblind, session.place);
   else  // nothing that would unblind whoever watches: no mass, level, condition or correctness
     options.progress = [&](const Engine& engine) {
@@ -286,7 +287,7 @@ SessionResult run_session(const CommandedSession& session,
     throw;
   }
   console.reset();
-  if (events) tell_dropped(*events, session.events);
+  if (events) tell_dropped(*events, session.events->text);
   back_up_and_tell(session.db, session.config->config.backup, result.session_id);
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);

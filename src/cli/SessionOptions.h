@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apparatus/EventOutlet.h"
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "cli/CommandLine.h"
 #include "protocol/Protocol.h"
@@ -27,6 +28,17 @@ Option add_plug(Command& command, const std::string& name, std::optional<Plug>& 
 /// human, NAME or NAME:FILE
 Option add_responder(Command& command, std::optional<WhoAnswers>& responder,
                      const std::string& help);
+
+/// One of an enumeration's names.
+template <typename Enum>
+Option add_choice(Command& command, const std::string& name, std::optional<Enum>& choice,
+                  const std::string& help, const std::vector<std::string>& names) {
+  // Another text is refused before it gets here.
+  return command
+      .add_option(name, ReadsText{[&choice](const std::string& text) { from_text(text, choice); }},
+                  help)
+      .one_of(names);
+}
 
 /// --camera-file, --board, --effector
 void add_apparatus_options(Command& command, SessionOptions& given);
@@ -53,8 +65,8 @@ void tell_simulator(const ResolvedConfig& config);
 std::vector<std::string> cautions(const Protocol& protocol);
 
 /// --backup, --events
-/// @param events as EventOutlet takes it; empty: nowhere
-void add_elsewhere_options(Command& command, std::string& backup, std::string& events);
+void add_elsewhere_options(Command& command, std::string& backup,
+                           std::optional<EventTarget>& events);
 
 /// Puts a copy of the log there and says where, or loudly that there is none: that harms no
 /// session, but somebody has to know it.
@@ -69,8 +81,8 @@ struct CommandedSession {
   std::string db;
   bool unblind = false;
   bool go_on_unchecked = false;
-  std::string events = {};  ///< as EventOutlet takes it
-  std::string place = {};   ///< in a study, "7 of 24"
+  std::optional<EventTarget> events = {};
+  std::string place = {};  ///< in a study, "7 of 24"
 };
 
 /// --go-on

@@ -115,7 +115,7 @@ std::string in_short(const SessionConfig& setup) {
       "responder {}, tracker {}, simulator {}{}, view {}{}", escaped_line(to_text(setup.responder)),
       escaped_line(to_text(setup.tracker)), escaped_line(simulator), often(setup.rate_hz),
       escaped_line(to_text(setup.view)), often(setup.display_rate_hz));
-  for (const auto& [name, value] : {std::pair{"input", setup.input},
+  for (const auto& [name, value] : {std::pair{"input", to_text(setup.input)},
                                     {"display", to_text(setup.display)},
                                     {"language", setup.language}})
     if (!value.empty()) told += fmt::format(", {} {}", name, escaped_line(value));

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/InputMode.h"
 #include "experiment/Column.h"
 #include "experiment/EventType.h"
 
@@ -76,7 +77,7 @@ struct SessionConfig {
   std::optional<int> simulator_edition;
   std::optional<double> rate_hz, display_rate_hz;
   std::string simulator_why;
-  std::string input;  ///< an InputMode's name; physics is not known here
+  std::optional<InputMode> input;
   std::optional<double> predict_s;
   std::optional<double> source_rate_hz;
   std::vector<ProtocolSetting> settings;
@@ -147,7 +148,7 @@ void visit_columns(Row& row, Visit&& visit) {
         row.simulator_why);
   visit(LogColumn{"input", "", "how poses between two pictures are taken: path, hold, extrapolate",
                   3},
-        row.input);
+        AsText{row.input});
   visit(LogColumn{"predict_s", "s", "how far ahead poses are predicted", 3}, row.predict_s);
   visit(
       LogColumn{"source_rate_hz", "Hz",

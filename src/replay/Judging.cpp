@@ -51,24 +51,25 @@ class Minds {
     if (mind.responder) return mind;
     // Without a file of its own it has the logged one's.
     const auto* logged = std::get_if<Plug>(&session_.setup_of(trial).responder);
-    const bool same = logged && named_.what.empty() && logged->name == named_.name;
-    mind.responder = make_responder(same ? *logged : named_, session_.row.header.seed);
+    const bool same = logged && named_.named.what.empty() && logged->name == named_.named.name;
+    const ResolvedModel model = same ? logged_model(*logged) : named_;
+    mind.responder = model.responder(session_.row.header.seed);
     mind.protocol = session_.protocol_of(trial);
     return mind;
   }
 
  private:
-  static Plug named(const WhoAnswers& responder) {
+  static ResolvedModel named(const WhoAnswers& responder) {
     const auto* model = std::get_if<Plug>(&responder);
     if (!model)
       throw Error("a person can't judge a log; expected a model as --responder", ExitCode::usage);
-    Plug read = read_model(*model);
-    make_responder(read, 0);  // says what is wrong with its parameters
-    return read;
+    ResolvedModel resolved = resolve_model(*model);
+    resolved.responder(0);  // says what is wrong with its parameters
+    return resolved;
   }
 
   const LoggedSession& session_;
-  Plug named_;
+  ResolvedModel named_;
   std::map<int, Mind> minds_;
 };
 

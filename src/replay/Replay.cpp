@@ -153,8 +153,10 @@ class Verifier {
     options.same_edition =
         !setup.simulator_edition ||
         *setup.simulator_edition == simulator_named(protocol->simulator.name).edition;
+    const TrackerEntry& tracker = tracker_named(setup.tracker.name);
     options.virtual_clock =
-        !runs_on_wall_clock(setup) && tracker_named(setup.tracker.name).what != TrackerWhat::source;
+        tracker.what != TrackerWhat::source &&
+        !runs_on_wall_clock(has_person(setup), tracker, view_named(setup.view.name));
     options.differ = [&](double t_s, const std::string& what, const std::string& logged,
                          const std::string& came_out) {
       differ(index, t_s, what, logged, came_out);

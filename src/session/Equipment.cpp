@@ -88,11 +88,10 @@ ViewSetup view_setup(const ResolvedConfig& resolved) {
 }  // namespace
 
 Equipment::Equipment(ResolvedConfig config)
-    : clock(runs_on_wall_clock(config->config) ? SessionClock::wall_from(0)
-                                               : SessionClock::virtual_from(0)),
+    : clock(config->on_wall_clock ? SessionClock::wall_from(0) : SessionClock::virtual_from(0)),
       config_(std::move(config)),
       demonstrated_(demonstrated_apparatus(config_)),
-      responder_(make_responder(config_->config.responder, config_->seed)) {
+      responder_(config_->model.responder(config_->seed)) {
   if (config_->tracker->has_camera)
     require_size(config_->config, *config_->protocol, config_->apparatus.effector);
   const ViewSetup setup = view_setup(config_);

@@ -57,7 +57,7 @@ class AnnouncedEvents : public testing::Test {
   }
   AnnouncingSink& sink() {
     if (!sink_) {
-      outlet_.emplace("fifo:" + pipe_);
+      outlet_.emplace(parse_event_target("fifo:" + pipe_));
       sink_.emplace(log_, *outlet_, 7, "P\"07");
     }
     return *sink_;

@@ -63,7 +63,7 @@ TEST(Resolve, AModelIsNeitherFilmedNorShown) {
     EXPECT_EQ(file, ConfigFile{});
   EXPECT_THAT(config->texts.pages, IsEmpty());
   EXPECT_THAT(config->config.participant_parameters, Not(IsEmpty()));
-  EXPECT_FALSE(runs_on_wall_clock(config->config));
+  EXPECT_FALSE(config->on_wall_clock);
 }
 
 TEST(Resolve, APersonHasAWindowTextsAndTheShippedApparatus) {
@@ -78,7 +78,7 @@ TEST(Resolve, APersonHasAWindowTextsAndTheShippedApparatus) {
   EXPECT_FALSE(config->texts.pages.empty());
   EXPECT_EQ(config->config.handed, Side::right);
   EXPECT_THAT(config->config.participant_parameters, IsEmpty());
-  EXPECT_TRUE(runs_on_wall_clock(config->config));
+  EXPECT_TRUE(config->on_wall_clock);
 }
 
 TEST(Resolve, WithoutATrackerAPersonIsFilmedByTheFirstCamera) {
@@ -94,7 +94,7 @@ TEST(Resolve, TheProtocolSaysWhatIsNotGiven) {
   const SessionConfig config = resolved(model(), protocol);
   EXPECT_EQ(config.simulator, "bullet");
   EXPECT_EQ(config.rate_hz, 120);
-  EXPECT_EQ(config.input, "hold");
+  EXPECT_EQ(config.input, InputMode::hold);
   EXPECT_EQ(config.predict_s, 0.01);
   EXPECT_EQ(config.gap_s, 0.5);
   EXPECT_EQ(config.min_answer_s, 0.25);

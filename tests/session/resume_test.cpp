@@ -61,7 +61,7 @@ class Resumed : public ::testing::Test {
     const Event told{0, request.config->config};
     SessionLog log = SessionLog::start(request.db, header, RecordedEvent{told, engine.apply(told)});
     SessionClock clock = SessionClock::wall_from(0);
-    const auto hand = make_responder(request.config->config.responder, seed);
+    const auto hand = request.config->model.responder(seed);
     HandPictures pictures(*hand, protocol.display_rate_hz);
     MadeUpScreen screen(patient);
     Runner runner({*request.config->protocol, engine, log, pictures, *hand, screen, clock, true,

@@ -21,9 +21,8 @@ std::optional<std::string> first_block_with_trials(const Protocol& protocol) {
 
 // The model whose own hand is tracked; none: a person's hand, or a filmed one.
 const ResponderEntry* tracked_model(const ResolvedConfig::Parts& parts) {
-  const auto* model = std::get_if<Plug>(&parts.config.responder);
-  if (!model || parts.tracker->what == TrackerWhat::source) return nullptr;
-  return &responder_named(model->name);
+  const bool is_filmed = parts.tracker->what == TrackerWhat::source;
+  return has_person(parts.config) || is_filmed ? nullptr : parts.model.entry;
 }
 
 // Hands reach around corners; some simulators would stop in the middle of a trial. What a script's

@@ -96,8 +96,12 @@ class Resolver {
  private:
   void take_plugs() {
     if (given_.responder || !logged_) config_.responder = given_.responder.value_or(Person{});
-    if (auto* model = std::get_if<Plug>(&config_.responder); model && given_.responder)
-      *model = read_model(*model);
+    if (auto* model = std::get_if<Plug>(&config_.responder)) {
+      parts_.model = given_.responder ? resolve_model(*model) : logged_model(*model);
+      *model = parts_.model.named;
+    } else {
+      parts_.model = logged_model({"simulated"});
+    }
     const bool person = has_person(config_);
     if (given_.tracker || !logged_)
       config_.tracker =
@@ -108,7 +112,8 @@ class Resolver {
     parts_.view = &view_named(config_.view.name);
     if (parts_.tracker->what == TrackerWhat::settings)
       parse_synthetic_camera(config_.tracker.text, config_.tracker.what);
-    make_responder(config_.responder, 0);  // says what is wrong before anything is logged
+    parts_.model.responder(0);  // says what is wrong before anything is logged
+    parts_.on_wall_clock = runs_on_wall_clock(person, *parts_.tracker, *parts_.view);
   }
 
   // What is given is read; what was logged stays.
@@ -225,7 +230,7 @@ class Resolver {
       config_.simulator_why = pick.why;
     }
     config_.simulator_edition = simulator_named(config_.simulator).edition;
-    config_.input = name_of(protocol_.simulator.input.mode);
+    config_.input = protocol_.simulator.input.mode;
     config_.predict_s = protocol_.simulator.input.predict_s;
   }
 
@@ -240,7 +245,8 @@ class Resolver {
     if (!given_.backup.empty()) config_.backup = absolute_path(given_.backup);
     config_.heft_version = HEFT_VERSION;
     config_.build = build_name();
-    config_.participant_parameters = drawn_participant(config_.responder, parts_.seed);
+    config_.participant_parameters = {};
+    if (!has_person(config_)) config_.participant_parameters = parts_.model.drawn(parts_.seed);
   }
 
   // Where texts meet the protocol.
@@ -276,18 +282,18 @@ ResolvedConfig resolve(const SessionOptions& options, const SessionConfig& logge
   return Resolver(options, &logged, protocol, seed).resolved();
 }
 
-Plug read_model(Plug model) {
-  const ResponderEntry& entry = responder_named(model.name);
-  if (entry.file == ResponderFile::none && !model.what.empty())
+ResolvedModel resolve_model(Plug given) {
+  const ResponderEntry& entry = responder_named(given.name);
+  if (entry.file == ResponderFile::none && !given.what.empty())
     throw Error(fmt::format("responder \"{}\" takes no file", entry.name), ExitCode::usage);
-  if (entry.file == ResponderFile::folder && model.what.empty())
+  if (entry.file == ResponderFile::folder && given.what.empty())
     throw Error(fmt::format("responder \"{0}\" needs a folder: {0}:FOLDER", entry.name),
                 ExitCode::usage);
-  if (!model.what.empty()) {
-    model.what = absolute_path(model.what);
-    if (entry.file == ResponderFile::parameters) model.text = read_text_file(model.what);
+  if (!given.what.empty()) {
+    given.what = absolute_path(given.what);
+    if (entry.file == ResponderFile::parameters) given.text = read_text_file(given.what);
   }
-  return model;
+  return logged_model(std::move(given));
 }
 
 }  // namespace heft

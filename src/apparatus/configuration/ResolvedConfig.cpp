@@ -23,22 +23,6 @@ namespace heft {
 namespace fs = std::filesystem;
 
 namespace {
-// What a responder is made with.
-struct Making {
-  const ResponderEntry& entry;
-  ResponderOptions options;
-};
-
-Making making(const Plug& model, std::uint64_t seed) {
-  Making made{responder_named(model.name), {}};
-  // A seed of its own: the session's trials can't be drawn from it.
-  made.options.seed = RandomStream(seed, "responder").bits();
-  if (made.entry.file == ResponderFile::folder) made.options.folder = model.what;
-  if (made.entry.file == ResponderFile::parameters && !model.text.empty())
-    made.options.parameters = parse_parameters(model.text, model.what);
-  return made;
-}
-
 // A column's value, for people.
 std::string shown(const std::string& text) {
   return text;
@@ -70,7 +54,8 @@ ResolvedConfig::ResolvedConfig(Parts parts) : parts_(std::move(parts)) {}
 ResolvedConfig ResolvedConfig::with_seed(std::uint64_t seed) const {
   ResolvedConfig other = *this;
   other.parts_.seed = seed;
-  other.parts_.config.participant_parameters = drawn_participant(parts_.config.responder, seed);
+  other.parts_.config.participant_parameters =
+      has_person(parts_.config) ? std::map<std::string, double>{} : parts_.model.drawn(seed);
   return other;
 }
 
@@ -98,22 +83,33 @@ SessionConfig with_devices(SessionConfig config, const DeviceFacts& devices) {
   return config;
 }
 
-std::map<std::string, double> drawn_participant(const WhoAnswers& responder, std::uint64_t seed) {
-  const auto* model = std::get_if<Plug>(&responder);
-  if (!model) return {};
-  const Making made = making(*model, seed);
-  return drawn_values(made.options, made.entry.parts);
+ResolvedModel logged_model(Plug logged) {
+  const ResponderEntry& entry = responder_named(logged.name);
+  ResolvedModel model{std::move(logged), &entry, {}};
+  if (entry.file == ResponderFile::folder) model.options.folder = model.named.what;
+  if (entry.file == ResponderFile::parameters && !model.named.text.empty())
+    model.options.parameters = parse_parameters(model.named.text, model.named.what);
+  return model;
 }
 
-std::unique_ptr<Responder> make_responder(const WhoAnswers& responder, std::uint64_t seed) {
-  const auto* model = std::get_if<Plug>(&responder);
-  const Making made = making(model ? *model : Plug{"simulated"}, seed);
-  return made.entry.make(made.options);
+namespace {
+// A seed of its own: the session's trials can't be drawn from it.
+ResponderOptions seeded(ResponderOptions options, std::uint64_t session_seed) {
+  options.seed = RandomStream(session_seed, "responder").bits();
+  return options;
+}
+}  // namespace
+
+std::unique_ptr<Responder> ResolvedModel::responder(std::uint64_t session_seed) const {
+  return entry->make(seeded(options, session_seed));
 }
 
-bool runs_on_wall_clock(const SessionConfig& config) {
-  return has_person(config) || tracker_named(config.tracker.name).is_live ||
-         view_named(config.view.name).has_screen;
+std::map<std::string, double> ResolvedModel::drawn(std::uint64_t session_seed) const {
+  return drawn_values(seeded(options, session_seed), entry->parts);
+}
+
+bool runs_on_wall_clock(bool person, const TrackerEntry& tracker, const ViewEntry& view) {
+  return person || tracker.is_live || view.has_screen;
 }
 
 SimulatorPick resolve_auto(const Protocol& protocol) {
@@ -133,7 +129,7 @@ SimulatorPick simulator_for(const std::string& name, const Protocol& protocol) {
 std::shared_ptr<const Protocol> protocol_for(Protocol protocol, const SessionConfig& config) {
   if (!config.simulator.empty()) protocol.simulator.name = config.simulator;
   if (config.rate_hz) protocol.simulator.rate_hz = *config.rate_hz;
-  if (const auto mode = named<InputMode>(config.input)) protocol.simulator.input.mode = *mode;
+  if (config.input) protocol.simulator.input.mode = *config.input;
   if (config.predict_s) protocol.simulator.input.predict_s = *config.predict_s;
   take_questions(protocol, config.texts.text, config.texts.path);
   return std::make_shared<const Protocol>(std::move(protocol));

@@ -47,6 +47,24 @@ inline constexpr const char* default_camera_file = "camera.yaml";
 /// The measured display that is taken where no other is named, likewise.
 inline constexpr const char* default_display_file = "display.toml";
 
+/// A model with its file read and checked: what responders are made from.
+struct ResolvedModel {
+  Plug named;  ///< as it is logged, its path absolute
+  const ResponderEntry* entry = nullptr;
+  ResponderOptions options;  ///< but for the seed
+
+  std::unique_ptr<Responder> responder(std::uint64_t session_seed) const;
+  /// What it is drawn as from a session's seed, by name.
+  std::map<std::string, double> drawn(std::uint64_t session_seed) const;
+};
+
+/// Reads and checks the model's file.
+/// @throws as resolve(); InvalidFile where its parameters have mistakes
+ResolvedModel resolve_model(Plug given);
+
+/// The same of a log, which keeps the contents of the file.
+ResolvedModel logged_model(Plug logged);
+
 /// All that a session runs with; only resolve() makes one.
 class ResolvedConfig {
  public:
@@ -56,6 +74,8 @@ class ResolvedConfig {
     std::uint64_t seed = 0;                    ///< of the session
     const TrackerEntry* tracker = nullptr;
     const ViewEntry* view = nullptr;
+    ResolvedModel model;  ///< of a person only the hand, where no camera films theirs
+    bool on_wall_clock = false;
     Apparatus apparatus;  ///< empty without a camera
     ScreenTexts texts;    ///< without pages where no one reads them
     /// Where this run writes its video and the camera's pictures: of a session that is resumed,
@@ -97,20 +117,9 @@ struct DeviceFacts {
 /// @throws Error (invalid_file) when the measured display has another size in pixels
 SessionConfig with_devices(SessionConfig config, const DeviceFacts& devices);
 
-/// A model with its file read and checked, paths absolute.
-/// @throws as resolve()
-Plug read_model(Plug model);
-
-/// What a model is drawn as from a session's seed, by name; a person as nothing.
-std::map<std::string, double> drawn_participant(const WhoAnswers& responder, std::uint64_t seed);
-
-/// The responder; of a person only the hand is a model's, where no camera films theirs.
-/// @throws InvalidFile where the model's parameters have mistakes
-std::unique_ptr<Responder> make_responder(const WhoAnswers& responder, std::uint64_t seed);
-
-/// Whether the session keeps the time of day: with a live camera, a screen or a person. Otherwise
-/// it runs as fast as it can, and no result depends on how fast that is.
-bool runs_on_wall_clock(const SessionConfig& config);
+/// Whether a session keeps the time of day: with a live camera, a screen or a person. Otherwise it
+/// runs as fast as it can, and no result depends on how fast that is.
+bool runs_on_wall_clock(bool person, const TrackerEntry& tracker, const ViewEntry& view);
 
 /// The name of the simulator that is picked for the protocol; the log has the name of the pick.
 inline constexpr std::string_view automatic = "auto";
