@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <variant>
 
@@ -142,64 +141,43 @@ class KeyReader {
  public:
   KeyReader(TableReader& table, NamesInUse& names) : table_(table), names_(names) {}
 
-  template <typename Field>
-  void operator()(const BlockKey& key, Field&& field) {
-    if (key.required) table_.require({key.name});
-    read(key, field);
-  }
-
-  /// What is wrong between the fields, but for what was noted already.
-  void note(const KeyMistake& wrong) {
-    const auto is_good = [&](const std::string& key) { return table_.good({key}); };
-    if (!is_good(wrong.key) || !std::ranges::all_of(wrong.also, is_good)) return;
-    if (wrong.index)
-      table_.mistake(wrong.key, *wrong.index, wrong.message);
-    else
-      table_.mistake(wrong.key, wrong.message);
+  template <typename Field, typename... Ranges>
+  void operator()(const ConfigKey& key, Field&& field, const Ranges&... range) {
+    if (key.is_required) table_.require({key.name});
+    read(key.name, field, range...);
   }
 
  private:
-  static Range range_of(const BlockKey& key) {
-    return {std::max(key.low, any_number.low), std::min(key.high, any_number.high), false,
-            key.high_open};
+  template <typename Field, typename... Ranges>
+  requires requires(TableReader table, Field& field, const Ranges&... range) {
+    table.read("", field, range...);
   }
-
-  template <typename Number>
-  requires requires(TableReader table, Number number) { table.read("", number, any_number); }
-  void read(const BlockKey& key, Number& field) { table_.read(key.name, field, range_of(key)); }
-  void read(const BlockKey& key, int& field) {
-    WholeRange range;
-    range.low = static_cast<std::int64_t>(std::max(key.low, 0.0));
-    if (std::isfinite(key.high)) range.high = static_cast<std::int64_t>(key.high);
-    table_.read(key.name, field, range);
+  void read(std::string_view key, Field& field, const Ranges&... range) {
+    table_.read(key, field, range...);
   }
-  void read(const BlockKey& key, bool& field) { table_.read(key.name, field); }
-  void read(const BlockKey& key, std::string& field) { table_.read(key.name, field); }
-  template <typename Enum>
-  requires std::is_enum_v<Enum>
-  void read(const BlockKey& key, Enum& field) { table_.read(key.name, field); }
   template <typename Keys>
   requires requires(Keys keys, KeyReader reader) { keys.visit_keys(reader); }
-  void read(const BlockKey& key, std::optional<Keys>& field) {
-    auto inner = table_.table(key.name);
+  void read(std::string_view key, std::optional<Keys>& field) {
+    auto inner = table_.table(key);
     if (!inner) return;
     Keys keys;
     KeyReader reader(*inner, names_);
     keys.visit_keys(reader);
     inner->close();
     bool is_good = true;
-    keys.visit_keys([&](const BlockKey& its, auto&&) { is_good &= inner->good({its.name}); });
+    keys.visit_keys(
+        [&](const ConfigKey& its, const auto&...) { is_good &= inner->good({its.name}); });
     if (is_good) field = keys;
   }
 
-  void read(const BlockKey&, ByTechnique<std::string>& field) {
+  void read(std::string_view, ByTechnique<std::string>& field) {
     names_.techniques.read(table_, field.name);
   }
-  void read(const BlockKey&, std::vector<TechniqueTrials>& trials) {
+  void read(std::string_view, std::vector<TechniqueTrials>& trials) {
     trials = table_.has_table("trials") ? read_trials_by_technique(table_, names_)
                                         : read_trials_of_two(table_);
   }
-  void read(const BlockKey&, TrialsOfEachMass<std::vector<TechniqueTrials>>& field) {
+  void read(std::string_view, TrialsOfEachMass<std::vector<TechniqueTrials>>& field) {
     if (table_.has_table("trials")) {
       field.trials = read_trials_by_technique(table_, names_);
       return;
@@ -210,12 +188,12 @@ class KeyReader {
     names_.techniques.read(table_, all.technique);
     field.trials = {all};
   }
-  void read(const BlockKey&, InterleaveConfig& field) { field = read_interleaving(table_); }
-  void read(const BlockKey& key, std::vector<ReferenceStaircase>& field) {
-    for (TableReader& staircase : table_.tables(key.name))
+  void read(std::string_view, InterleaveConfig& field) { field = read_interleaving(table_); }
+  void read(std::string_view key, std::vector<ReferenceStaircase>& field) {
+    for (TableReader& staircase : table_.tables(key))
       std::ranges::move(read_reference_staircases(staircase, names_), std::back_inserter(field));
   }
-  void read(const BlockKey&, CatchTrials<Comparison::Block>& field) {
+  void read(std::string_view, CatchTrials<Comparison::Block>& field) {
     read_catches(table_, field.block);
   }
 
@@ -230,7 +208,7 @@ Block read_trials(TableReader& table, NamesInUse& names) {
   KeyReader keys(table, names);
   block.visit_keys(keys);
   table.close();
-  for (const KeyMistake& wrong : block.check()) keys.note(wrong);
+  table.note(block.check());
   return block;
 }
 

@@ -1,37 +1,16 @@
-// How a task's block describes the keys that protocols give it. Its visit_keys(visit) calls
-// visit(key, field) for each key but `name`; the reader fills the fields by their types. `check()`
-// says what is wrong with a block's values, whoever filled it in.
+// What blocks of several tasks have among their keys. A block declares them as base/Keys.h says, in
+// a member visit_keys(visit), all but `name`; the reader fills the fields by their types. `check()`
+// says what is wrong with a block's values, from a file or not.
 #pragma once
 
-#include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/DefaultTechniques.h"
+#include "base/Keys.h"
 
 namespace heft {
-
-struct BlockKey {
-  std::string_view name;
-  bool required = false;
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool high_open = false;  ///< `high` itself is refused
-};
-
-/// A mistake in a block's values: the key, the value's place in it where it is a list, and what was
-/// found and expected.
-struct KeyMistake {
-  std::string key;
-  std::optional<std::size_t> index;
-  std::string message;
-  std::vector<std::string> also = {};  ///< other keys that it is about
-};
-
-/// The least mass of a cube, g: below it is only underflow.
-inline constexpr double least_mass_g = 1e-9;
 
 /// A technique by its name, at `condition` or `technique`.
 template <typename Name>
@@ -62,7 +41,7 @@ inline constexpr int most_trials = 500;
 
 /// What is wrong with masses of cubes of which each is there once.
 /// @param why equal ones are refused
-std::vector<KeyMistake> mistakes_in_masses(const std::vector<double>& masses_g, std::size_t fewest,
-                                           std::size_t most, std::string_view why);
+ConfigMistakes mistakes_in_masses(const std::vector<double>& masses_g, std::size_t fewest,
+                                  std::size_t most, std::string_view why);
 
 }  // namespace heft

@@ -98,12 +98,11 @@ std::string course_text(const UpDownConfig& config) {
 }
 }  // namespace
 
-std::vector<KeyMistake> Comparison::Block::check() const {
+ConfigMistakes Comparison::Block::check() const {
   if (catch_trials.empty() || catch_fraction == 0) return {};
-  return {{"catch_fraction",
-           {},
-           "catch_fraction together with catch_trials, expected one of them: a coin each trial, or "
-           "a fixed number"}};
+  return {{{"catch_fraction"},
+           "catch_fraction together with catch_trials",
+           "one of them: a coin each trial, or a fixed number"}};
 }
 
 std::vector<std::pair<std::string, std::string>> Comparison::Block::choices() const {

@@ -83,15 +83,16 @@ struct Comparison {
 
     template <typename Visit>
     void visit_keys(Visit&& visit) {
-      visit(BlockKey{"condition"}, ByTechnique{condition});
-      visit(BlockKey{"positive_answer"}, positive_answer);
-      visit(BlockKey{"sides"}, sides);
-      visit(BlockKey{"interleave"}, interleaving);
-      visit(BlockKey{"staircase", true}, staircases);
-      visit(BlockKey{"catch_fraction", false, 0, 1, true}, catch_fraction);
-      visit(BlockKey{"catch_trials"}, CatchTrials{*this});
+      visit(ConfigKey{"condition", "technique"}, ByTechnique{condition});
+      visit(ConfigKey{"positive_answer", "what moves a staircase down"}, positive_answer);
+      visit(ConfigKey{"sides", "of the reference"}, sides);
+      visit(ConfigKey{"interleave", "order of staircases"}, interleaving);
+      visit(ConfigKey{"staircase", "a procedure and its reference", true}, staircases);
+      visit(ConfigKey{"catch_fraction", "of trials, by a coin"}, catch_fraction,
+            Range{0, 1, false, true});
+      visit(ConfigKey{"catch_trials", "in a fixed number"}, CatchTrials{*this});
     }
-    std::vector<KeyMistake> check() const;
+    ConfigMistakes check() const;
     std::vector<std::pair<std::string, std::string>> choices() const;
     /// Without catch trials. A staircase whose length depends on the answers is simulated.
     double expected_staircase_trials() const;

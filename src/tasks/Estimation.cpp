@@ -71,39 +71,36 @@ int Estimation::Block::n_trials() const {
   return static_cast<int>(masses_g.size()) * total_of(trials) + (modulus ? 1 : 0);
 }
 
-std::vector<KeyMistake> Estimation::Block::check() const {
-  std::vector<KeyMistake> mistakes =
+ConfigMistakes Estimation::Block::check() const {
+  ConfigMistakes mistakes =
       mistakes_in_masses(masses_g, 1, most_trials, "trials_per_mass says how often each comes");
-  const auto add = [&](const char* key, std::string message) {
-    mistakes.push_back({key, {}, std::move(message)});
+  const auto add = [&](std::string_view key, std::string what, std::string expected) {
+    mistakes.push_back({{key}, std::move(what), std::move(expected)});
   };
   if (const int n = n_trials(); n < 1 || n > most_trials)
-    mistakes.push_back(
-        {"trials",
-         {},
-         fmt::format("the masses' trials are {} in all, expected 1 to {}", n, most_trials),
-         {"masses_g", "trials_per_mass"}});
+    mistakes.push_back({{"trials", "trials_per_mass", "masses_g"},
+                        fmt::format("the masses' trials are {} in all", n),
+                        fmt::format("1 to {}", most_trials)});
   if (scale != "number" && scale != "slider" && !question_in(scale)) {
-    add("scale", fmt::format("scale is \"{}\", expected \"number\", \"slider\" or a question of a "
-                             "questionnaire file, NAME.KEY",
-                             scale));
-    return mistakes;
-  }
-  if (scale == "number") {
+    add("scale", fmt::format("scale is \"{}\"", scale),
+        "\"number\", \"slider\" or a question of a questionnaire file, NAME.KEY");
+  } else if (scale == "number") {
     if (!low || !high)
-      add(low ? "high" : "low", "a scale of numbers needs low and high, the range to be typed");
+      add(low ? "high" : "low", "a scale of numbers without its range", "low and high");
     else if (*low < 0)
-      add("low", fmt::format("low is {}, expected 0 or more: no minus can be typed", *low));
+      add("low", fmt::format("low is {}", *low), "0 or more: no minus can be typed");
     else if (*high <= *low)
-      add("high", fmt::format("high is {}, expected more than low {}", *high, *low));
+      add("high", fmt::format("high is {}", *high), fmt::format("more than low {}", *low));
     else if (modulus && (modulus->value < *low || modulus->value > *high))
-      add("modulus", fmt::format("the modulus is {}, expected a number from low {} to high {}",
-                                 modulus->value, *low, *high));
+      add("modulus", fmt::format("the modulus is {}", modulus->value),
+          fmt::format("a number from low {} to high {}", *low, *high));
   } else {
     for (const auto& [key, there] : {std::pair("low", low.has_value()),
                                      {"high", high.has_value()},
                                      {"modulus", modulus.has_value()}})
-      if (there) add(key, fmt::format("{} is for scale = \"number\" alone", key));
+      if (there)
+        add(key, fmt::format("{} with scale = \"{}\"", key, scale),
+            "it with scale = \"number\" alone");
   }
   return mistakes;
 }

@@ -38,8 +38,8 @@ struct Estimation {
 
     template <typename Visit>
     void visit_keys(Visit&& visit) {
-      visit(BlockKey{"mass_g", true, least_mass_g}, mass_g);
-      visit(BlockKey{"value", true}, value);
+      visit(ConfigKey{"mass_g", "of the standard", true}, mass_g, above_zero);
+      visit(ConfigKey{"value", "its number", true}, value, any_number);
     }
   };
 
@@ -57,17 +57,17 @@ struct Estimation {
 
     template <typename Visit>
     void visit_keys(Visit&& visit) {
-      visit(BlockKey{"masses_g", true, least_mass_g}, masses_g);
-      visit(BlockKey{"trials"}, TrialsOfEachMass{trials});
-      visit(BlockKey{"scale", true}, scale);
-      visit(BlockKey{"low"}, low);
-      visit(BlockKey{"high"}, high);
-      visit(BlockKey{"modulus"}, modulus);
+      visit(ConfigKey{"masses_g", "one a trial, in g", true}, masses_g, above_zero);
+      visit(ConfigKey{"trials", "of each mass"}, TrialsOfEachMass{trials});
+      visit(ConfigKey{"scale", "number, slider or NAME.KEY", true}, scale);
+      visit(ConfigKey{"low", "least number"}, low, any_number);
+      visit(ConfigKey{"high", "largest number"}, high, any_number);
+      visit(ConfigKey{"modulus", "the standard"}, modulus);
     }
     int n_trials() const;
     double expected_trials() const { return n_trials(); }
     int most_cubes() const { return 1; }
-    std::vector<KeyMistake> check() const;
+    ConfigMistakes check() const;
     std::vector<std::pair<std::string, std::string>> choices() const;
     /// The questionnaire that it asks of; none: it asks of none.
     std::optional<std::string> questionnaire() const;

@@ -38,11 +38,11 @@ struct Introduction {
 
     template <typename Visit>
     void visit_keys(Visit&& visit) {
-      visit(BlockKey{"masses_g", true, least_mass_g}, masses_g);
-      visit(BlockKey{"condition"}, ByTechnique{condition});
-      visit(BlockKey{"wrong_answer"}, wrong_answer);
+      visit(ConfigKey{"masses_g", "of the two cubes, in g", true}, masses_g, above_zero);
+      visit(ConfigKey{"condition", "technique"}, ByTechnique{condition});
+      visit(ConfigKey{"wrong_answer", "what a wrong answer leads to"}, wrong_answer);
     }
-    std::vector<KeyMistake> check() const {
+    ConfigMistakes check() const {
       return mistakes_in_masses(masses_g, 2, 2, "equal ones have no right answer");
     }
     std::vector<std::pair<std::string, std::string>> choices() const {

@@ -84,12 +84,12 @@ Answer answer_of(std::span<const double> values, bool first_step_corrected) {
 
 }  // namespace
 
-std::vector<KeyMistake> Sorting::Block::check() const {
+ConfigMistakes Sorting::Block::check() const {
   auto mistakes =
       mistakes_in_masses(masses_g, 2, FrameRow::most_cubes, "equal ones have no right answer");
   if (const int n = n_trials(); n < 1 || n > most_trials)
     mistakes.push_back(
-        {"trials", {}, fmt::format("trials are {} in all, expected 1 to {}", n, most_trials)});
+        {{"trials"}, fmt::format("trials are {} in all", n), fmt::format("1 to {}", most_trials)});
   // Runs of one technique are shortest when the others' trials part those of the commonest.
   int commonest = 0;
   for (const TechniqueTrials& some : trials) commonest = std::max(commonest, some.trials);
@@ -97,12 +97,11 @@ std::vector<KeyMistake> Sorting::Block::check() const {
   const int shortest = others < 0 ? 0 : (commonest + others) / (others + 1);
   if (max_run != 0 && max_run < shortest)
     mistakes.push_back(
-        {"max_run",
-         {},
+        {{"max_run", "trials", "c1_trials"},
          fmt::format("max_run is {}, but {} trials of one technique and {} of others can't be "
-                     "ordered without a longer run, expected at least {}, or 0 for any",
-                     max_run, commonest, others, shortest),
-         {"trials", "c1_trials"}});
+                     "ordered without a longer run",
+                     max_run, commonest, others),
+         fmt::format("at least {}, or 0 for any", shortest)});
   return mistakes;
 }
 

@@ -46,12 +46,12 @@ struct Sorting {
 
     template <typename Visit>
     void visit_keys(Visit&& visit) {
-      visit(BlockKey{"masses_g", true, least_mass_g}, masses_g);
-      visit(BlockKey{"trials"}, trials);
-      visit(BlockKey{"max_run", false, 0}, max_run);
-      visit(BlockKey{"orders"}, orders);
+      visit(ConfigKey{"masses_g", "of a trial's cubes, in g", true}, masses_g, above_zero);
+      visit(ConfigKey{"trials", "of each technique"}, trials);
+      visit(ConfigKey{"max_run", "longest run of one technique; 0: any"}, max_run, WholeRange{});
+      visit(ConfigKey{"orders", "how cubes are arranged"}, orders);
     }
-    std::vector<KeyMistake> check() const;
+    ConfigMistakes check() const;
     std::vector<std::pair<std::string, std::string>> choices() const;
     double expected_trials() const { return total_of(trials); }
     int n_trials() const { return total_of(trials); }

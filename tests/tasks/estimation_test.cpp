@@ -132,7 +132,7 @@ TEST(Estimation, a_slider_and_points_of_a_question_take_whole_numbers) {
 TEST(Estimation, checks_its_keys) {
   const auto keys = [](const Estimation::Block& block) {
     std::vector<std::string> wrong;
-    for (const KeyMistake& mistake : block.check()) wrong.push_back(mistake.key);
+    for (const ConfigMistake& mistake : block.check()) wrong.emplace_back(mistake.keys.front());
     return wrong;
   };
   EXPECT_THAT(keys(block_of_numbers()), IsEmpty());
