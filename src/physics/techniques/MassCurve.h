@@ -33,7 +33,7 @@ class MassCurve {
   }
 
  private:
-  std::vector<Point> points_{{}};
+  std::vector<Point> points_ = std::vector<Point>(1);
 };
 
 /// "gain 0.95 at 15 g, 0.2 at 800 g, back in 0.05 s"
