@@ -151,7 +151,7 @@ TEST(ComparisonKeys, has_catch_trials_in_a_number_or_by_a_coin) {
   EXPECT_EQ(block.expected_trials(), 32);
   block.catch_fraction = 0.1;
   ASSERT_EQ(block.check().size(), 1u);
-  EXPECT_EQ(block.check()[0].key, "catch_fraction");
+  EXPECT_EQ(block.check()[0].keys.front(), "catch_fraction");
 }
 
 }  // namespace
