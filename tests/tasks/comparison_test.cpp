@@ -1,12 +1,14 @@
 // Comparisons: what an answer tells its procedure, where the reference stands, how a trial ends.
 #include "tasks/Comparison.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <map>
 
 #include "psychophysics/Constant.h"
 #include "psychophysics/Procedure.h"
+#include "psychophysics/UpDown.h"
 
 namespace heft {
 namespace {
@@ -152,6 +154,33 @@ TEST(ComparisonKeys, has_catch_trials_in_a_number_or_by_a_coin) {
   block.catch_fraction = 0.1;
   ASSERT_EQ(block.check().size(), 1u);
   EXPECT_EQ(block.check()[0].keys.front(), "catch_fraction");
+}
+
+TEST(ComparisonKeys, expects_of_each_reference_what_it_takes_alone) {
+  const auto block_of = [](std::vector<double> starts_g) {
+    Comparison::Block block;
+    for (const double start_g : starts_g)
+      block.staircases.push_back(
+          {start_g,
+           {fmt::format("{}", start_g), UpDownConfig{.start = start_g, .step = 50, .floor = 0}},
+           {}});
+    return block;
+  };
+  EXPECT_DOUBLE_EQ(
+      block_of({200, 800}).expected_staircase_trials(),
+      block_of({200}).expected_staircase_trials() + block_of({800}).expected_staircase_trials());
+  EXPECT_TRUE(block_of({200}).depends_on_answers());
+}
+
+TEST(ComparisonAnswer, a_lapse_is_a_difference_in_two_of_three) {
+  RandomStream stream(1, "test");
+  int n_different = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Answer answer =
+        Comparison::simulated({}, {.remembered_mm = {0.1, 0.2}, .lapse = true}, stream);
+    n_different += answer.actions.at(0).kind == "select";
+  }
+  EXPECT_NEAR(n_different, 2000, 150);
 }
 
 }  // namespace

@@ -206,5 +206,12 @@ TEST(Estimation, a_mind_answers_in_proportion_to_the_modulus) {
             "validate");
 }
 
+TEST(Estimation, shows_the_standard_among_its_fullest_screens) {
+  int n_standard = 0;
+  for (const ScreenState& screen : Estimation::fullest_screens())
+    n_standard += std::any_cast<const Estimation::Offer&>(screen.offer).is_standard;
+  EXPECT_EQ(n_standard, 1);
+}
+
 }  // namespace
 }  // namespace heft
