@@ -38,18 +38,10 @@ std::optional<double> finite(std::optional<double> value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-// The levels of a staircase's completed trials, and of its reversals, in order.
+// The levels of a staircase's completed trials, in order.
 struct Course {
-  std::vector<double> levels_g, reversals_g;
+  std::vector<double> levels_g;
 
-  // Logs before version 3 do not tell: a bound was hit, and a reversal that counts lies on the
-  // outermost level.
-  bool leans_on(double outermost_g) const {
-    constexpr std::size_t n_discarded = 2;
-    return std::find(reversals_g.begin() +
-                         static_cast<std::ptrdiff_t>(std::min(n_discarded, reversals_g.size())),
-                     reversals_g.end(), outermost_g) != reversals_g.end();
-  }
   double lowest() const { return levels_g.empty() ? 0 : *std::ranges::min_element(levels_g); }
   double highest() const { return levels_g.empty() ? 0 : *std::ranges::max_element(levels_g); }
 };
@@ -59,19 +51,9 @@ std::map<std::string, Course> courses_of(const SessionData& data) {
   for (const Attempt& attempt : data.attempts) {
     const TrialPlan& plan = attempt.trial.plan;
     if (!attempt.completed() || plan.staircase.empty() || !plan.level_g) continue;
-    Course& course = courses[plan.staircase];
-    course.levels_g.push_back(*plan.level_g);
-    if (attempt.is_reversal) course.reversals_g.push_back(*plan.level_g);
+    courses[plan.staircase].levels_g.push_back(*plan.level_g);
   }
   return courses;
-}
-
-Censored logged_or_seen(const EstimateRow& row, const Course& course) {
-  if (row.censored) return *row.censored;
-  const bool above = row.n_ceiling > 0 && course.leans_on(course.highest());
-  const bool below = row.n_floor > 0 && course.leans_on(course.lowest());
-  if (above != below) return above ? Censored::above : Censored::below;
-  return above ? Censored::unsettled : Censored::none;
 }
 
 // Which way a staircase was going that did not settle: by the bound that it hit, or from where it
@@ -96,7 +78,7 @@ std::string why_censored(const EstimateRow& row, Censored told) {
 
 void judge(StaircaseResult& result, const EstimateRow& row, const Course& course) {
   result.start_g = course.levels_g.empty() ? 0 : course.levels_g.front();
-  result.censored = logged_or_seen(row, course);
+  result.censored = row.censored.value_or(Censored::none);
   result.why = why_censored(row, result.censored);
   if (result.why.empty()) {
     result.shown_g = result.jnd_g;

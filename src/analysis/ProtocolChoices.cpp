@@ -113,10 +113,7 @@ void InForce::add(const SessionData& data, const Protocol& protocol) {
     const SessionConfig& setup = logged.setup;
     if (!setup.heft_version.empty())
       programs_.insert(fmt::format("heft {}, {}", setup.heft_version, setup.build));
-    // Older logs told what differed from the protocol.
-    const std::string simulator =
-        setup.simulator.empty() ? protocol.simulator.name : setup.simulator;
-    simulators_.insert(fmt::format("{} at {:g} Hz", simulator,
+    simulators_.insert(fmt::format("{} at {:g} Hz", setup.simulator,
                                    setup.rate_hz.value_or(protocol.simulator.rate_hz)));
     const double wanted_hz = setup.display_rate_hz.value_or(protocol.display_rate_hz);
     rates_.insert(

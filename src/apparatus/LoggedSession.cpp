@@ -11,14 +11,6 @@
 namespace heft {
 
 namespace {
-// Logs from before setups name a simulator only where it was another than the protocol's.
-void tell_simulators(std::vector<LoggedSetup>& setups, const Protocol& protocol) {
-  for (LoggedSetup& logged : setups) {
-    if (logged.setup.simulator.empty()) logged.setup.simulator = protocol.simulator.name;
-    if (!logged.setup.rate_hz) logged.setup.rate_hz = protocol.simulator.rate_hz;
-  }
-}
-
 // A session keeps the rule that its first estimates were recorded by, also when it is resumed.
 void keep_censoring_rule(Protocol& protocol, int log_version) {
   constexpr int first_with_cut_moves = 6;
@@ -33,11 +25,6 @@ void keep_censoring_rule(Protocol& protocol, int log_version) {
         }
 }
 }  // namespace
-
-std::optional<SessionConfig> LoggedSession::before() const {
-  if (setups.front().from_event > 0) return std::nullopt;
-  return setups.front().setup;
-}
 
 const SessionConfig& LoggedSession::setup_of(const TrialRow& trial) const {
   const auto found = std::ranges::find(setups, trial.setup_index, &LoggedSetup::setup_index);
@@ -64,7 +51,6 @@ LoggedSession load_session(const LogReader& reader, const std::string& db,
                                      session.setups.front().setup.settings);
   protocol.name = header.protocol_name;
   keep_censoring_rule(protocol, header.log_version);
-  tell_simulators(session.setups, protocol);
   session.setup = session.setups.back().setup;
   session.protocol = protocol_for(std::move(protocol), session.setup);
   return session;

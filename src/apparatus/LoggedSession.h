@@ -20,8 +20,6 @@ struct LoggedSession {
   /// As the session's file and settings have it, with the simulator of `setup`.
   std::shared_ptr<const Protocol> protocol;
 
-  /// What an older log told before its first event.
-  std::optional<SessionConfig> before() const;
   /// The protocol with what was in force in a trial.
   std::shared_ptr<const Protocol> protocol_of(const TrialRow& trial) const;
   const SessionConfig& setup_of(const TrialRow& trial) const;

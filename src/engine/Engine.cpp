@@ -22,8 +22,8 @@ EventRole role_of(const EventPayload& what) {
 }
 }  // namespace
 
-Engine::Engine(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed, int n_setups)
-    : plan_(std::move(plan)), seed_(seed), n_setups_(n_setups) {
+Engine::Engine(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed)
+    : plan_(std::move(plan)), seed_(seed) {
   enter_block(0);
   next_ = what_next();
 }

@@ -62,9 +62,7 @@ struct Applied {
 
 class Engine {
  public:
-  /// @param n_setups told before the first event: logs older than version 3 told one in their
-  /// header
-  Engine(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed, int n_setups = 0);
+  Engine(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed);
 
   std::uint64_t seed() const { return seed_; }
 
@@ -133,7 +131,7 @@ class Engine {
   std::shared_ptr<const SessionPlan> plan_;
   std::uint64_t seed_;
   SessionState state_ = SessionState::running;
-  int n_setups_;
+  int n_setups_ = 0;
   Onset onset_{0, 0};                         // in force; before anything is told there is none
   std::map<std::string, double> parameters_;  // of the participant, as told last
   int n_events_ = 0, n_attempts_ = 0, n_completed_ = 0;

@@ -15,14 +15,13 @@
 
 namespace heft {
 
-/// The version of the log that this program writes.
-inline constexpr int todays_log_version = 6;
+/// The version of the log that this program writes, and the oldest that it reads.
+inline constexpr int todays_log_version = 6, oldest_log_version = 5;
 
 struct LogColumn {
   std::string_view name;
   std::string_view unit;  ///< "s", "g"; empty: none
   std::string_view meaning;
-  int since = 1;  ///< the version of the log that first has it
   /// What each value must be, as SQL over the column's name: ">= 0". Empty: anything.
   std::string_view check = {};
 };
@@ -30,13 +29,11 @@ struct LogColumn {
 /// Seven columns, NAME_x_m ... NAME_qz, of a pose; NULL all seven where there is none.
 struct PoseColumns {
   std::string_view name, meaning;
-  int since = 1;
 };
 
 /// Six columns, NAME_vx_m_s ... NAME_wz_rad_s.
 struct VelocityColumns {
   std::string_view name, meaning;
-  int since = 1;
 };
 
 /// A pose that goes into the log with every bit, -0.0 too: what physics was given.

@@ -14,7 +14,6 @@ namespace heft {
 /// One column of a table.
 struct CellColumn {
   std::string_view name, suffix, unit, meaning;
-  int since = 1;
   std::string_view check = {};
   bool exact = false;  ///< keeps every bit, -0.0 too
 
@@ -71,11 +70,11 @@ class EachCell {
       Part{"_wx_rad_s", "rad/s"}, Part{"_wy_rad_s", "rad/s"}, Part{"_wz_rad_s", "rad/s"}};
 
   static CellColumn of(const LogColumn& column) {
-    return {column.name, {}, column.unit, column.meaning, column.since, column.check};
+    return {column.name, {}, column.unit, column.meaning, column.check};
   }
   template <typename Columns>
   static CellColumn of(const Columns& columns, const Part& part, bool exact) {
-    return {columns.name, part.suffix, part.unit, columns.meaning, columns.since, {}, exact};
+    return {columns.name, part.suffix, part.unit, columns.meaning, {}, exact};
   }
   static std::array<double, 7> cells_of(const Pose& pose) {
     const auto& p = pose.position_m;

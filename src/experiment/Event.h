@@ -100,8 +100,8 @@ struct CubeTouch {
   static constexpr EventType event_type{"cube_contact", EventRole::attempt};
   int slot = 0;
   std::optional<double> ended_after_s{};  ///< none: it began
-  /// Of an ended touch, over its frames; not told before version 4 of the log. How far the effector
-  /// went from where it was in the first of them, and the clone's largest distance from it.
+  /// Of an ended touch, over its frames: how far the effector went from where it was in the first
+  /// of them, and the clone's largest distance from it.
   std::optional<double> deepest_push_m{}, peak_lag_m{};
   static void event_columns(auto& touch, auto& row) {
     row.slot(touch.slot)

@@ -123,72 +123,65 @@ bool from_text(std::string_view text, NamedDisplay& display);
 template <typename Row, typename Visit>
 requires std::same_as<std::remove_const_t<Row>, SessionConfig>
 void visit_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"responder", "", "who answered: human, or a model NAME[:FILE]", 3},
+  visit(LogColumn{"responder", "", "who answered: human, or a model NAME[:FILE]"},
         AsText{row.responder});
-  visit(LogColumn{"tracker", "", "where the effector's poses came from, NAME[:WHAT]", 3},
+  visit(LogColumn{"tracker", "", "where the effector's poses came from, NAME[:WHAT]"},
         AsText{row.tracker});
-  visit(LogColumn{"simulator", "", "simulator of the decoupling; empty: the protocol's", 3},
+  visit(LogColumn{"simulator", "", "simulator of the decoupling; empty: the protocol's"},
         row.simulator);
-  visit(LogColumn{"simulator_edition", "", "edition of that simulator", 3}, row.simulator_edition);
-  visit(LogColumn{"rate_hz", "Hz", "steps of the simulator a second", 3}, row.rate_hz);
-  visit(LogColumn{"display_rate_hz", "Hz", "frames displayed a second", 3}, row.display_rate_hz);
-  visit(LogColumn{"view", "", "what showed the frames, NAME[:FILE]", 3}, AsText{row.view});
-  visit(LogColumn{"display", "", "the display, by number and name", 3}, AsText{row.display});
-  visit(LogColumn{"display_w_px", "px", "width of the display", 3}, row.display_w_px);
-  visit(LogColumn{"display_h_px", "px", "height of the display", 3}, row.display_h_px);
-  visit(LogColumn{"display_w_mm", "mm", "width of the display", 3}, row.display_w_mm);
-  visit(LogColumn{"display_h_mm", "mm", "height of the display", 3}, row.display_h_mm);
-  visit(LogColumn{"refresh_hz", "Hz", "refresh rate of the display", 3}, row.refresh_hz);
-  visit(LogColumn{"eye_distance_mm", "mm", "from the eyes to the display", 3}, row.eye_distance_mm);
-  visit(LogColumn{"language", "", "of the participant's texts; empty: nobody reads", 3},
-        row.language);
-  visit(LogColumn{"heft_version", "", "version of the program", 3}, row.heft_version);
-  visit(LogColumn{"build", "", "compiler and machine that built the program", 3}, row.build);
-  visit(LogColumn{"simulator_why", "", "why `auto` picked this simulator; empty: it was named", 3},
+  visit(LogColumn{"simulator_edition", "", "edition of that simulator"}, row.simulator_edition);
+  visit(LogColumn{"rate_hz", "Hz", "steps of the simulator a second"}, row.rate_hz);
+  visit(LogColumn{"display_rate_hz", "Hz", "frames displayed a second"}, row.display_rate_hz);
+  visit(LogColumn{"view", "", "what showed the frames, NAME[:FILE]"}, AsText{row.view});
+  visit(LogColumn{"display", "", "the display, by number and name"}, AsText{row.display});
+  visit(LogColumn{"display_w_px", "px", "width of the display"}, row.display_w_px);
+  visit(LogColumn{"display_h_px", "px", "height of the display"}, row.display_h_px);
+  visit(LogColumn{"display_w_mm", "mm", "width of the display"}, row.display_w_mm);
+  visit(LogColumn{"display_h_mm", "mm", "height of the display"}, row.display_h_mm);
+  visit(LogColumn{"refresh_hz", "Hz", "refresh rate of the display"}, row.refresh_hz);
+  visit(LogColumn{"eye_distance_mm", "mm", "from the eyes to the display"}, row.eye_distance_mm);
+  visit(LogColumn{"language", "", "of the participant's texts; empty: nobody reads"}, row.language);
+  visit(LogColumn{"heft_version", "", "version of the program"}, row.heft_version);
+  visit(LogColumn{"build", "", "compiler and machine that built the program"}, row.build);
+  visit(LogColumn{"simulator_why", "", "why `auto` picked this simulator; empty: it was named"},
         row.simulator_why);
-  visit(LogColumn{"input", "", "how poses between two pictures are taken: path, hold, extrapolate",
-                  3},
+  visit(LogColumn{"input", "", "how poses between two pictures are taken: path, hold, extrapolate"},
         AsText{row.input});
-  visit(LogColumn{"predict_s", "s", "how far ahead poses are predicted", 3}, row.predict_s);
-  visit(
-      LogColumn{"source_rate_hz", "Hz",
-                "pictures a second that the source gives; empty: as many as the display shows", 3},
-      row.source_rate_hz);
-  visit(LogColumn{"settings", "", "changes to the protocol by --set, one KEY=VALUE a line", 3},
+  visit(LogColumn{"predict_s", "s", "how far ahead poses are predicted"}, row.predict_s);
+  visit(LogColumn{"source_rate_hz", "Hz",
+                  "pictures a second that the source gives; empty: as many as the display shows"},
+        row.source_rate_hz);
+  visit(LogColumn{"settings", "", "changes to the protocol by --set, one KEY=VALUE a line"},
         AsText{row.settings});
-  visit(LogColumn{"handed", "", "hand that the controls are laid out for: left, right", 3},
+  visit(LogColumn{"handed", "", "hand that the controls are laid out for: left, right"},
         AsText{row.handed});
-  visit(LogColumn{"camera_file", "", "the camera's calibration", 3}, row.camera.path);
-  visit(LogColumn{"camera_sha256", "", "hash of its contents", 3}, row.camera.sha256);
-  visit(LogColumn{"board_file", "", "the board", 3}, row.board.path);
-  visit(LogColumn{"board_sha256", "", "hash of its contents", 3}, row.board.sha256);
-  visit(LogColumn{"effector_file", "", "the effector", 3}, row.effector.path);
-  visit(LogColumn{"effector_sha256", "", "hash of its contents", 3}, row.effector.sha256);
-  visit(LogColumn{"texts_file", "", "the participant's texts", 3}, row.texts.path);
-  visit(LogColumn{"texts_sha256", "", "hash of their contents", 3}, row.texts.sha256);
-  visit(LogColumn{"record_camera", "", "folder that the camera's pictures are kept in", 3},
+  visit(LogColumn{"camera_file", "", "the camera's calibration"}, row.camera.path);
+  visit(LogColumn{"camera_sha256", "", "hash of its contents"}, row.camera.sha256);
+  visit(LogColumn{"board_file", "", "the board"}, row.board.path);
+  visit(LogColumn{"board_sha256", "", "hash of its contents"}, row.board.sha256);
+  visit(LogColumn{"effector_file", "", "the effector"}, row.effector.path);
+  visit(LogColumn{"effector_sha256", "", "hash of its contents"}, row.effector.sha256);
+  visit(LogColumn{"texts_file", "", "the participant's texts"}, row.texts.path);
+  visit(LogColumn{"texts_sha256", "", "hash of their contents"}, row.texts.sha256);
+  visit(LogColumn{"record_camera", "", "folder that the camera's pictures are kept in"},
         row.record_camera);
-  visit(
-      LogColumn{"gap_s", "s", "least time from a trial's end to the next one's start; empty: 0", 4},
-      row.gap_s);
+  visit(LogColumn{"gap_s", "s", "least time from a trial's end to the next one's start; empty: 0"},
+        row.gap_s);
   visit(LogColumn{"min_answer_s", "s",
                   "least time from a trial's cubes to its first answer, earlier ones are refused; "
-                  "empty: 0",
-                  4},
+                  "empty: 0"},
         row.min_answer_s);
   visit(LogColumn{"keys", "",
                   "whether the participant's window took keys: yes, no; empty: not told, or no "
-                  "window",
-                  4},
+                  "window"},
         AsText{row.keys});
-  visit(LogColumn{"hand", "", "hand that holds the effector: left, right; empty: not told", 4},
+  visit(LogColumn{"hand", "", "hand that holds the effector: left, right; empty: not told"},
         NullIfEmpty{row.hand});
-  visit(
-      LogColumn{"window", "", "how the window stood at first: full screen, window; empty: none", 4},
-      NullIfEmpty{row.window});
-  visit(LogColumn{"display_scale", "", "pixels of the display a unit of the window system", 4},
+  visit(LogColumn{"window", "", "how the window stood at first: full screen, window; empty: none"},
+        NullIfEmpty{row.window});
+  visit(LogColumn{"display_scale", "", "pixels of the display a unit of the window system"},
         row.display_scale);
-  visit(LogColumn{"display_file", "", "file of the measured display", 4},
+  visit(LogColumn{"display_file", "", "file of the measured display"},
         NullIfEmpty{row.display_file});
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "base/Error.h"
 #include "base/Names.h"
@@ -30,12 +31,7 @@ class Binding {
 
   /// From here on every value enters this digest too.
   Binding& also_into(RowDigest& digest) {
-    digest_ = row_digest_ = &digest;
-    return *this;
-  }
-  /// Whether the values from here on enter it.
-  Binding& digests(bool wanted) {
-    digest_ = wanted ? row_digest_ : nullptr;
+    digest_ = &digest;
     return *this;
   }
 
@@ -79,8 +75,8 @@ class Binding {
   void run() { statement_.exec(); }
   /// With what went also_into() the digest as the last value. @return the digest
   std::string run_with_digest() {
-    std::string digest = row_digest_->value();
-    digests(false) << digest;
+    std::string digest = std::exchange(digest_, nullptr)->value();
+    *this << digest;
     run();
     return digest;
   }
@@ -90,8 +86,7 @@ class Binding {
  private:
   SQLite::Statement& statement_;
   int place_ = 0;
-  RowDigest* row_digest_ = nullptr;
-  RowDigest* digest_ = nullptr;  ///< row_digest_ while values enter it
+  RowDigest* digest_ = nullptr;
 };
 
 /// Executes a statement that gives no rows, with these values in its places.

@@ -16,12 +16,12 @@
 namespace heft {
 
 namespace {
-// The row's own cells; id and attempt come before them, the digest after them.
-constexpr int first_own_cell = 2;
+// The row's id comes before it, the row's own cells and the digest after them.
+constexpr int attempt_cell = 1;
 
-bool has_timing(SQLite::Statement& query) {
-  return !query.getColumn("detected_s").isNull() || !query.getColumn("simulated_s").isNull() ||
-         !query.getColumn("n_dropped").isNull();
+template <typename Row>
+int n_columns() {
+  return static_cast<int>(sql_of<Row>().names.size());
 }
 
 bool is_earlier(const BrokenDigest& one, const BrokenDigest& other) {
@@ -29,7 +29,7 @@ bool is_earlier(const BrokenDigest& one, const BrokenDigest& other) {
 }
 
 void set_place(BrokenDigest& broken, SQLite::Statement& query) {
-  const SQLite::Column attempt = query.getColumn(1);
+  const SQLite::Column attempt = query.getColumn(attempt_cell);
   if (attempt.isInteger()) broken.attempt_index = attempt.getInt();
   broken.t_s = query.getColumn("t_s").getDouble();
 }
@@ -79,9 +79,11 @@ std::optional<BrokenDigest> DigestCheck::broken_header() {
                   columns_of<SessionHeader>()));
   query.bind(1, session_id_);
   if (!query.executeStep()) throw Error(fmt::format("{} holds no session {}", file_, session_id_));
-  log_version_ = query.getColumn("log_version").getInt();
-  const std::string digest =
-      recomputed(query, "session", "", 1, sql_of<SessionHeader>().since, true);
+  constexpr int first_header_cell = 1;
+  static const int n_cells = n_columns<SessionHeader>();
+  digest_.begin("session", "");
+  add_cells(query, first_header_cell, n_cells);
+  const std::string digest = digest_.value();
   BrokenDigest broken{"session", session_id_, 0, 0, query.getColumn("digest"), digest, {}, {}};
   broken.row = fmt::format("the header of session {}", session_id_);
   try {
@@ -96,7 +98,6 @@ std::optional<BrokenDigest> DigestCheck::broken_header() {
 }
 
 std::optional<BrokenDigest> DigestCheck::broken_info() {
-  if (log_version_ < 3) return std::nullopt;
   SQLite::Statement query(database_, "SELECT info_digest FROM session WHERE session_id = ?1");
   query.bind(1, session_id_);
   query.executeStep();
@@ -130,25 +131,26 @@ std::optional<BrokenDigest> DigestCheck::broken_event() {
   SQLite::Statement query(database_,
                           in_session("event", "event_id", columns_of<EventRow>() + ", digest"));
   query.bind(1, session_id_);
-  static const std::vector<int> since = sql_of<EventRow>().since;
+  static const int n_cells = n_columns<EventRow>();
   std::string chain = start_;
   while (query.executeStep())
-    if (auto broken = broken_link(query, "event", since, chain)) return broken;
+    if (auto broken = broken_link(query, "event", n_cells, chain)) return broken;
   return std::nullopt;
 }
 
 std::optional<BrokenDigest> DigestCheck::broken_frame() {
   SQLite::Statement query(database_, frames_in_session(columns_of<FrameRow>() + ", digest"));
   query.bind(1, session_id_);
-  static const std::vector<int> since = sql_of<FrameRow>().since;
+  static const int n_cells = n_columns<FrameRow>();
   // By the attempt's cell. Frames of a trial that is not there have a chain too, which no frame
   // fits.
   std::map<std::string, std::optional<std::string>> chains;  // none: broken already
   std::optional<BrokenDigest> first;
   while (query.executeStep()) {
-    auto& chain = chains.try_emplace(query.getColumn(1).getString(), start_).first->second;
+    auto& chain =
+        chains.try_emplace(query.getColumn(attempt_cell).getString(), start_).first->second;
     if (!chain) continue;
-    const auto broken = broken_link(query, "frame", since, *chain);
+    const auto broken = broken_link(query, "frame", n_cells, *chain);
     if (!broken) continue;
     chain.reset();
     if (!first || is_earlier(*broken, *first)) first = broken;
@@ -156,26 +158,19 @@ std::optional<BrokenDigest> DigestCheck::broken_frame() {
   return first;
 }
 
-std::string DigestCheck::recomputed(SQLite::Statement& query, const std::string& table,
-                                    const std::string& previous, int first_cell,
-                                    const std::vector<int>& since, bool has_timing) {
-  const DigestedColumns digested{log_version_, has_timing};
-  digest_.begin(table, previous);
-  if (first_cell == first_own_cell) digest_.cell(query.getColumn(1));  // the attempt
-  for (std::size_t i = 0; i < since.size(); ++i)
-    if (digested.has(since[i])) digest_.cell(query.getColumn(first_cell + static_cast<int>(i)));
-  return digest_.value();
+void DigestCheck::add_cells(SQLite::Statement& query, int first, int n) {
+  for (int i = first; i < first + n; ++i) digest_.cell(query.getColumn(i));
 }
 
 std::optional<BrokenDigest> DigestCheck::broken_link(SQLite::Statement& query,
-                                                     const std::string& table,
-                                                     const std::vector<int>& since,
+                                                     const std::string& table, int n_cells,
                                                      std::string& chain) {
   const int last = query.getColumnCount() - 1;
   BrokenDigest broken{table, query.getColumn(0).getInt64(), 0, 0, query.getColumn(last), {}, {},
                       {}};
-  broken.recomputed =
-      recomputed(query, table, chain, first_own_cell, since, table != "frame" || has_timing(query));
+  digest_.begin(table, chain);
+  add_cells(query, attempt_cell, 1 + n_cells);
+  broken.recomputed = digest_.value();
   chain = broken.logged;
   if (broken.recomputed == broken.logged) return std::nullopt;
   set_place(broken, query);

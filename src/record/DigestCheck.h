@@ -34,19 +34,16 @@ class DigestCheck {
   std::optional<BrokenDigest> broken_event();
   std::optional<BrokenDigest> broken_frame();
 
-  /// Over the query's cells from `first_cell` on that the digest was taken over.
-  std::string recomputed(SQLite::Statement& query, const std::string& table,
-                         const std::string& previous, int first_cell, const std::vector<int>& since,
-                         bool has_timing);
+  /// Into the digest: the query's cells that it was taken over.
+  void add_cells(SQLite::Statement& query, int first, int n);
   /// Where the row's digest is not the next of the chain; else puts the chain forward to it.
   std::optional<BrokenDigest> broken_link(SQLite::Statement& query, const std::string& table,
-                                          const std::vector<int>& since, std::string& chain);
+                                          int n_cells, std::string& chain);
 
   SQLite::Database& database_;
   std::string file_;
   std::int64_t session_id_;
-  std::string start_;    ///< the header's digest, from which all chains start
-  int log_version_ = 0;  ///< that the session was started in
+  std::string start_;  ///< the header's digest, from which all chains start
   RowDigest digest_;
 };
 

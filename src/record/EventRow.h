@@ -24,9 +24,9 @@ struct EventRow {
 template <typename Row, typename Visit>
 requires RowOf<Row, EventRow>
 void visit_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"t_s", "s", "session time", 1, ">= 0"}, row.t_s);
+  visit(LogColumn{"t_s", "s", "session time", ">= 0"}, row.t_s);
   visit(LogColumn{"kind", "", "what happened"}, row.kind);
-  visit(LogColumn{"slot", "", "to which cube, 1 leftmost", 1, "BETWEEN 1 AND 6"}, row.slot);
+  visit(LogColumn{"slot", "", "to which cube, 1 leftmost", "BETWEEN 1 AND 6"}, row.slot);
   visit(LogColumn{"label", "", "with which label"}, row.label);
   visit(LogColumn{"detail", "", "the action, the reason, a text, or JSON, by kind"}, row.detail);
   visit(LogColumn{"value", "", "a duration in seconds or the number that was given, by kind"},

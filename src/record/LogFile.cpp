@@ -28,6 +28,14 @@ namespace {
       path, HEFT_VERSION));
 }
 
+[[noreturn]] void refuse_outdated_log(const std::string& path, int version) {
+  throw Error(
+      fmt::format("{} is a log of version {}; heft {} reads versions {} to {}. Read it with the "
+                  "heft that wrote "
+                  "it, or choose another file with --db FILE.",
+                  path, version, HEFT_VERSION, oldest_log_version, todays_log_version));
+}
+
 std::unique_ptr<SQLite::Database> opened(const std::string& path, const std::string& file) {
   try {
     auto database =
@@ -195,6 +203,8 @@ bool holds_log(SQLite::Database& database, const std::string& path) {
       refuse_foreign_file(path);
     case schema::FileKind::newer_log:
       refuse_newer_log(path);
+    case schema::FileKind::outdated_log:
+      refuse_outdated_log(path, database.execAndGet("PRAGMA user_version").getInt());
     case schema::FileKind::empty:
       return false;
     case schema::FileKind::older_log:

@@ -30,9 +30,10 @@ class DisplacedLog : public std::runtime_error {
 
 class LogFile {
  public:
-  /// @throws Error when another writer has the file, or it is no heft log, newer than this program,
-  ///   has a second name, or can't be written. An empty file has no tables yet afterwards; an older
-  ///   log is brought up to date, with the older file kept beside it as FILE.vN.
+  /// @throws Error when another writer has the file, or it is no heft log, newer or much older than
+  /// this
+  ///   program, has a second name, or can't be written. An empty file has no tables yet afterwards;
+  ///   an older log is brought up to date, with the older file kept beside it as FILE.vN.
   explicit LogFile(const std::string& path);
   LogFile(LogFile&&) noexcept;
   ~LogFile();
@@ -66,7 +67,7 @@ class LogFile {
 std::string resolved_path(const std::string& path);
 
 /// Whether the file holds a log that this program can use; false: nothing yet.
-/// @throws Error for another program's file, or a log newer than this program
+/// @throws Error for another program's file, or a log of a version that this program cannot read
 bool holds_log(SQLite::Database& database, const std::string& path);
 
 /// Refuses a file that is no log.

@@ -12,7 +12,6 @@
 #include "record/EventRow.h"
 #include "record/Failures.h"
 #include "record/LogFile.h"
-#include "record/OlderSetups.h"
 #include "record/ReadOnlyDatabase.h"
 #include "record/RowSql.h"
 #include "record/RowVisitors.h"
@@ -95,24 +94,30 @@ class LogReader::Impl {
   }
 
   /// Those of a session that fulfill a condition, as SQL over the columns of `event`.
-  std::vector<LoggedEvent> events(const SessionRow& session, std::string_view condition) const {
-    OlderSetups older(session.header);
+  std::vector<LoggedEvent> events(std::int64_t session_id, std::string_view condition) const {
     std::vector<LoggedEvent> events;
     for (const EventRow& row :
          rows(attempt_row_from<EventRow>, "event",
-              in_session("event", "event_id", columns_of<EventRow>(), condition),
-              session.session_id))
-      events.push_back({older.told(event_of(row)), row.attempt_index});
+              in_session("event", "event_id", columns_of<EventRow>(), condition), session_id))
+      events.push_back({event_of(row), row.attempt_index});
     return events;
   }
 
+  /// Sessions as their rows have them, once each is of a version that is read.
   std::vector<SessionRow> with_participant_info(std::vector<SessionRow> sessions) const {
-    for (SessionRow& session : sessions)
+    for (SessionRow& session : sessions) {
+      if (session.header.log_version < oldest_log_version)
+        throw Error(fmt::format(
+            "{}: session {} was recorded in version {} of the log; heft {} reads versions {} to "
+            "{}. Read it with the heft that recorded it.",
+            path_, session.session_id, session.header.log_version, HEFT_VERSION, oldest_log_version,
+            todays_log_version));
       for (const auto& [key, value] :
            rows(info_from, "participant_info",
                 "SELECT rowid, key, value FROM participant_info WHERE session_id = ?",
                 session.session_id))
         session.header.participant_info[key] = value;
+    }
     return sessions;
   }
 
@@ -172,7 +177,7 @@ std::optional<SessionRow> LogReader::newest_unfinished_session() const {
 }
 
 std::vector<LoggedEvent> LogReader::events(std::int64_t session_id) const {
-  return impl_->events(session(session_id), "true");
+  return impl_->events(session(session_id).session_id, "true");
 }
 
 std::vector<LoggedEvent> LogReader::events(std::int64_t session_id,
@@ -180,21 +185,19 @@ std::vector<LoggedEvent> LogReader::events(std::int64_t session_id,
   std::string names;
   for (const EventKind kind : kinds)
     names += fmt::format("{}'{}'", names.empty() ? "" : ", ", name_of(kind));
-  return impl_->events(session(session_id), fmt::format("kind IN ({})", names));
+  return impl_->events(session(session_id).session_id, fmt::format("kind IN ({})", names));
 }
 
 std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
-  // Their files' contents stand in the events, or in an older session's header.
-  std::deque<SessionConfig> told;
-  const SessionRow row = session(session_id);
-  if (const auto first = OlderSetups(row.header).first()) told.push_back(*first);
-  for (const LoggedEvent& logged : impl_->events(row, "kind IN ('setup', 'deviation')"))
-    if (const auto* setup = logged.event.as<SessionConfig>()) told.push_back(*setup);
+  // Their files' contents are in the events.
+  std::deque<SessionConfig> logged_events;
+  for (const LoggedEvent& logged : impl_->events(session(session_id).session_id, "kind = 'setup'"))
+    if (const auto* setup = logged.event.as<SessionConfig>()) logged_events.push_back(*setup);
   const auto setup_from = [&](Cells& cells) {
     LoggedSetup logged{cells.integer(), cells.integer(), {}};
-    if (!told.empty()) {
-      logged.setup = std::move(told.front());
-      told.pop_front();
+    if (!logged_events.empty()) {
+      logged.setup = std::move(logged_events.front());
+      logged_events.pop_front();
     }
     visit_columns(logged.setup, FillRow(cells));
     return logged;

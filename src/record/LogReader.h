@@ -31,10 +31,10 @@ struct LoggedEvent {
   int attempt_index = 0;
 };
 
-/// What was in force from an event on.
+/// The configuration in effect from an event on.
 struct LoggedSetup {
   int setup_index = 0;  ///< from 1
-  int from_event = 0;   ///< the session's event that told it, from 1; 0: an older log's header
+  int from_event = 0;   ///< the session's event that logged it, from 1
   SessionConfig setup;
 };
 
@@ -79,7 +79,6 @@ class LogReader {
                                       const std::string& protocol_name) const;
   std::optional<SessionRow> newest_unfinished_session() const;
 
-  /// What logs of versions 1 and 2 told as deviations comes as the setup that it was.
   std::vector<LoggedEvent> events(std::int64_t session_id) const;
   /// Those of some kinds: a session's thousands of pushes and actions need not be built for a note.
   std::vector<LoggedEvent> events(std::int64_t session_id, std::span<const EventKind> kinds) const;

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <concepts>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -75,21 +74,16 @@ inline constexpr std::array<std::string_view, 4> word_lists{
 /// What a task adds to the list of that table.
 std::vector<std::string_view> words_for(std::string_view table, const TaskDeclaration& task);
 
-/// Each column's name and declaration, those of versions up to `version`.
+/// Each column's name and declaration.
 class ColumnSql {
  public:
-  explicit ColumnSql(int version) : version_(version) {}
-
   template <typename Value>
   void operator()(const CellColumn& column, const Value&) {
-    if (column.since > version_) return;
     names.push_back(column.full_name());
     declarations.push_back(fmt::format("{} {}", names.back(), declared<Value>(column)));
-    since.push_back(column.since);
   }
 
   std::vector<std::string> names, declarations;
-  std::vector<int> since;  ///< versions
 
  private:
   template <typename Value>
@@ -121,22 +115,19 @@ class ColumnSql {
     else
       return column.check.empty() ? "" : fmt::format(" CHECK ({} {})", column.name, column.check);
   }
-
-  int version_;
 };
 
-/// @param version of the log; later columns are left out
 template <typename Row>
-ColumnSql sql_of(int version = std::numeric_limits<int>::max()) {
-  ColumnSql sql(version);
+ColumnSql sql_of() {
+  ColumnSql sql;
   visit_cells(Row{}, sql);
   return sql;
 }
 
 /// "t_s, kind, slot"
 template <typename Row>
-std::string columns_of(int version = std::numeric_limits<int>::max()) {
-  return fmt::format("{}", fmt::join(sql_of<Row>(version).names, ", "));
+std::string columns_of() {
+  return fmt::format("{}", fmt::join(sql_of<Row>().names, ", "));
 }
 
 /// What a session's chains of digests start from. Parameter: the session's id.

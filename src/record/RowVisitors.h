@@ -10,22 +10,10 @@
 
 namespace heft {
 
-/// Which of a row's columns its digest is taken over: those that its session's version of the log
-/// knew. Version 2 put the times of a frame in only where there was one.
-struct DigestedColumns {
-  int log_version = todays_log_version;
-  bool has_timing = true;
-
-  bool has(int since) const {
-    return since <= log_version && (since != 2 || log_version > 2 || has_timing);
-  }
-};
-
 /// Writes a row's fields into a statement's places.
 template <typename Row>
-void bind_row(Binding& places, const Row& row, DigestedColumns digested = {}) {
+void bind_row(Binding& places, const Row& row) {
   visit_cells(row, [&](const CellColumn& column, const auto& value) {
-    places.digests(digested.has(column.since));
     if constexpr (std::same_as<decltype(value), const double&>)
       column.exact ? places.exactly(value) : places << value;
     else

@@ -54,7 +54,6 @@ void RowWriter::insert(const std::string& sql, const Row& row, const Keys&... ke
 
 void RowWriter::forget() {
   last_attempt_.reset();
-  log_version_.reset();
   tasks_.clear();
   n_new_events_ = n_new_frames_ = 0;
   chain_.forget();
@@ -139,13 +138,6 @@ std::optional<std::int64_t> RowWriter::setup_id(std::int64_t session_id, int set
   return first_cell(sql, session_id, setup_index);
 }
 
-int RowWriter::log_version(std::int64_t session_id) {
-  static const std::string sql = "SELECT log_version FROM session WHERE session_id = ?";
-  if (!log_version_ || log_version_->first != session_id)
-    log_version_ = {session_id, static_cast<int>(first_cell(sql, session_id).value())};
-  return log_version_->second;
-}
-
 void RowWriter::write_event(std::int64_t session_id, const RecordedEvent& recorded) {
   const auto& [event, changes] = recorded;
   if (changes.trial) write_trial(session_id, *changes.trial);
@@ -185,18 +177,18 @@ void RowWriter::write_event_row(std::int64_t session_id, int attempt_index, cons
   digest_.begin("event", chain_.before_event(session_id));
   digest_.integer(attempt_index);
   row.also_into(digest_);
-  bind_row(row, row_of(event), {log_version(session_id)});
+  bind_row(row, row_of(event));
   chain_.event_written(row.run_with_digest());
   ++n_new_events_;
 }
 
-std::int64_t RowWriter::write_setup(std::int64_t session_id, std::optional<std::int64_t> event_id,
-                                    const SessionConfig& setup) {
+/// A setup with the number after that of the session's last one.
+void RowWriter::write_setup(std::int64_t session_id, std::int64_t event_id,
+                            const SessionConfig& setup) {
   static const std::string sql =
       keyed_insert<SessionConfig>("setup", "session_id, from_event_id, setup_index");
   static const std::string n_before = "SELECT count(*) FROM setup WHERE session_id = ?";
   insert(sql, setup, session_id, event_id, first_cell(n_before, session_id).value() + 1);
-  return database_.getLastInsertRowid();
 }
 
 void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {
@@ -237,8 +229,7 @@ void RowWriter::write_frame(std::int64_t session_id, const FrameRow& frame) {
   digest_.begin("frame", chain_.before_frame(session_id, trial_id));
   digest_.integer(frame.attempt_index);
   row.also_into(digest_);
-  const bool has_timing = frame.detected_s || frame.simulated_s || frame.n_dropped;
-  bind_row(row, frame, {log_version(session_id), has_timing});
+  bind_row(row, frame);
   chain_.frame_written(row.run_with_digest());
   ++n_new_frames_;
 }

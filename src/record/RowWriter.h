@@ -35,12 +35,6 @@ class RowWriter {
   /// What the participant told; told again, it takes the place of what was there.
   void write_info(std::int64_t session_id, const std::string& key, const std::string& value);
 
-  /// A setup with the number after that of the session's last one.
-  /// @param event_id that told it; none: an older log's header did
-  /// @return its id
-  std::int64_t write_setup(std::int64_t session_id, std::optional<std::int64_t> event_id,
-                           const SessionConfig& setup);
-
   /// How many events and frames the session has now: call it before each commit, so that rows cut
   /// off at the end are missed.
   void write_counts(std::int64_t session_id);
@@ -64,9 +58,9 @@ class RowWriter {
   std::int64_t trial_id(std::int64_t session_id, int attempt_index);
   std::optional<std::int64_t> trial_id_or_none(std::int64_t session_id, int attempt_index);
   std::optional<std::int64_t> setup_id(std::int64_t session_id, int setup_index);
-  int log_version(std::int64_t session_id);
 
   void write_event(std::int64_t session_id, const RecordedEvent& recorded);
+  void write_setup(std::int64_t session_id, std::int64_t event_id, const SessionConfig& setup);
   void write_event_row(std::int64_t session_id, int attempt_index, const Event& event);
   void write_frame(std::int64_t session_id, const FrameRow& frame);
   void write_trial(std::int64_t session_id, const TrialRow& trial);
@@ -82,9 +76,8 @@ class RowWriter {
   SQLite::Database& database_;
   std::map<std::string, std::unique_ptr<SQLite::Statement>> statements_;
   std::optional<Attempt> last_attempt_;
-  std::optional<std::pair<std::int64_t, int>> log_version_;  ///< of the session written last
-  std::set<std::string> tasks_;                              ///< whose words are in the log
-  int n_new_events_ = 0, n_new_frames_ = 0;                  ///< not yet counted
+  std::set<std::string> tasks_;              ///< whose words are in the log
+  int n_new_events_ = 0, n_new_frames_ = 0;  ///< not yet counted
   DigestChain chain_;
   RowDigest digest_;  ///< of the row being written
 };

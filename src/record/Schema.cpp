@@ -93,7 +93,8 @@ FileKind kind_of(SQLite::Database& database) {
   const std::int64_t version = number(database, "PRAGMA user_version");
   if (id == application_id && version > current_version) return FileKind::newer_log;
   if (id == application_id && version == current_version) return FileKind::log;
-  if (id == application_id && version >= 1) return FileKind::older_log;
+  if (id == application_id && version >= oldest_log_version) return FileKind::older_log;
+  if (id == application_id && version >= 1) return FileKind::outdated_log;
   const bool has_tables = number(database, "SELECT count(*) FROM sqlite_master") > 0;
   return id == 0 && version == 0 && !has_tables ? FileKind::empty : FileKind::foreign;
 }

@@ -20,8 +20,8 @@ inline constexpr std::int64_t application_id = 0x48656674;
 /// The version that this program writes; the file's is its user_version.
 inline constexpr int current_version = todays_log_version;
 
-/// What a database file holds.
-enum class FileKind { empty, log, older_log, newer_log, foreign };
+/// What a database file holds. An `older_log` is upgraded, an `outdated_log` is no longer read.
+enum class FileKind { empty, log, older_log, outdated_log, newer_log, foreign };
 FileKind kind_of(SQLite::Database& database);
 
 /// Creates tables and views in an empty file; nothing where they are there. Call it in a
@@ -39,8 +39,7 @@ void add_words(SQLite::Database& database, std::string_view task);
 /// The statement that makes a table or index of today's log: "table answer".
 const std::string& made_by(const std::string& object);
 
-/// Brings an older log up to date, in one transaction of its own. What sessions of versions 1 and 2
-/// were run with, which stood in their headers, becomes rows of `setup`; digests stay as they were.
+/// Upgrades an older log to the current version, in one transaction; digests stay as they were.
 /// @throws Error (diverged) naming what is foreign in it; SQLite::Exception
 void upgrade(SQLite::Database& database);
 

@@ -37,14 +37,14 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"protocol_name", "", "name of the protocol's file"}, row.protocol_name);
   visit(LogColumn{"protocol_text", "", "the protocol as it was read"}, row.protocol_text);
   visit(LogColumn{"protocol_sha256", "", "hash of that text"}, row.protocol_sha256);
-  visit(LogColumn{"seed", "", "that every draw of the session comes from", 1, ">= 0"}, row.seed);
+  visit(LogColumn{"seed", "", "that every draw of the session comes from", ">= 0"}, row.seed);
   visit(LogColumn{"heft_version", "", "version of the program that started it"}, row.heft_version);
   visit(LogColumn{"build", "", "compiler and machine that built that program"}, row.build);
   visit(LogColumn{"run_options", "", "the setup it was started with, as JSON"}, row.run_options);
   visit(LogColumn{"started_utc", "", "when it started, ISO 8601"}, row.started_utc);
   visit(LogColumn{"purpose", "", "why it was run"}, row.purpose);
   visit(LogColumn{"responder", "", "who answered when it started; see setup"}, row.responder);
-  visit(LogColumn{"log_version", "", "version of the log that it was started in", 3, ">= 1"},
+  visit(LogColumn{"log_version", "", "version of the log that it was started in", ">= 1"},
         row.log_version);
 }
 

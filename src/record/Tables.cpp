@@ -12,7 +12,7 @@ namespace {
 template <typename Row>
 std::string table(std::string_view name, std::string_view ids, std::string_view rules) {
   return fmt::format("CREATE TABLE {} (\n  {},\n  {}{}\n) STRICT;\n", name, ids,
-                     fmt::join(sql_of<Row>(current_version).declarations, ",\n  "), rules);
+                     fmt::join(sql_of<Row>().declarations, ",\n  "), rules);
 }
 
 std::string list_tables() {

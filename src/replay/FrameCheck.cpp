@@ -123,20 +123,17 @@ void FrameCheck::check_end(const FrameRow& last) {
                     fmt::format("some until {} s", ended_s));
 }
 
-// Where an older log does not tell how a push went, or bits need not be equal, the logged one
-// stands.
+// Where bits need not be equal, the logged push is taken.
 void FrameCheck::take_over_push(Event& came_out, const Event& logged) {
   auto* touch = std::get_if<CubeTouch>(&came_out.what);
   const auto* told = logged.as<CubeTouch>();
-  if (!touch || !told) return;
-  const bool is_older = !told->deepest_push_m && !told->peak_lag_m;
+  if (!touch || !told || options_.equal_bits) return;
   const auto differs = [](const std::optional<double>& a, const std::optional<double>& b) {
     return a.has_value() != b.has_value() || (a && std::abs(*a - *b) > pose_tolerance_m);
   };
-  const bool is_near = !options_.equal_bits &&
-                       !differs(touch->deepest_push_m, told->deepest_push_m) &&
-                       !differs(touch->peak_lag_m, told->peak_lag_m);
-  if (!is_older && !is_near) return;
+  if (differs(touch->deepest_push_m, told->deepest_push_m) ||
+      differs(touch->peak_lag_m, told->peak_lag_m))
+    return;
   touch->deepest_push_m = told->deepest_push_m;
   touch->peak_lag_m = told->peak_lag_m;
 }

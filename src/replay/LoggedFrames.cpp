@@ -21,8 +21,7 @@ Projection sound_fold(const LogReader& reader, const LoggedSession& session) {
         ExitCode::diverged);
   };
   if (const auto broken = reader.first_broken_digest(id)) throw fault(broken->row);
-  Projection fold =
-      fold_session(session.protocol, session.row.header.seed, reader.events(id), session.before());
+  Projection fold = fold_session(session.protocol, session.row.header.seed, reader.events(id));
   if (fold.refused)
     throw fault(fmt::format("its event {}: {}", fold.n_events + 1, fold.refused->second));
   return fold;

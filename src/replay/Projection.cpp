@@ -37,7 +37,7 @@ template <typename Row>
 RowText texts(std::string table, std::string key, int attempt_index, double t_s, const Row& row) {
   RowText made{std::move(table), std::move(key), attempt_index, t_s, {}};
   visit_cells(row, [&](const CellColumn& column, const auto& value) {
-    made.columns.push_back({column.full_name(), text(value), column.since});
+    made.columns.push_back({column.full_name(), text(value)});
   });
   return made;
 }
@@ -128,11 +128,9 @@ void put(Projection& projection, const Changes& changes, int& n_answers) {
 }  // namespace
 
 Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed,
-                        const std::vector<LoggedEvent>& events,
-                        const std::optional<SessionConfig>& before) {
+                        const std::vector<LoggedEvent>& events) {
   Projection projection;
-  Engine engine(std::move(plan), seed, before ? 1 : 0);
-  if (before) put(projection, *before, 0);
+  Engine engine(std::move(plan), seed);
   int n_answers = 0;
   for (const LoggedEvent& logged : events) {
     const Admission admission = engine.admit(logged.event);

@@ -19,7 +19,6 @@ namespace heft {
 
 struct ColumnText {
   std::string name, value;
-  int since = 1;  ///< the version of the log that first has it
 };
 
 struct RowText {
@@ -55,10 +54,8 @@ struct Projection {
   std::optional<std::pair<LoggedEvent, std::string>> refused;
 };
 
-/// @param before what a log older than version 3 told in its header; none: the events tell it
 Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed,
-                        const std::vector<LoggedEvent>& events,
-                        const std::optional<SessionConfig>& before = std::nullopt);
+                        const std::vector<LoggedEvent>& events);
 
 /// The rows that the log holds, by the same keys.
 std::map<std::string, RowText> logged_rows(const LogReader& reader, std::int64_t session_id);

@@ -95,7 +95,7 @@ void refuse_changed_log(const LogReader& reader, const LoggedSession& session) {
 struct Reopened {
   explicit Reopened(const LoggedSession& session)
       : log(SessionLog::reopen(session.db, session.row.session_id)),
-        engine(session.protocol, session.row.header.seed, session.before() ? 1 : 0) {
+        engine(session.protocol, session.row.header.seed) {
     const LogReader reader(session.db);
     refuse_changed_log(reader, session);
     for (const LoggedEvent& logged : reader.events(session.row.session_id)) {

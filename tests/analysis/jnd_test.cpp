@@ -185,17 +185,6 @@ TEST(Jnd, FewReversalsOrTheTrialLimitCensorTheWayTheStaircaseWent) {
   EXPECT_FALSE(results[2].shown_g.has_value());
 }
 
-TEST(Jnd, LogsThatDoNotTellAreJudgedByTheirReversals) {
-  SessionData data = session(1, "a");
-  for (double level_g : {900.0, 1200.0, 1500.0, 1200.0, 1500.0})
-    add_comparison(data, "15g", 15, level_g).is_reversal = true;
-  add_staircase(data, "15g", 15, 1350);
-  data.estimates[0].n_ceiling = 2;
-  EXPECT_EQ(staircase_results({&data, 1})[0].censored, Censored::above);
-  data.estimates[0].n_ceiling = 0;  // 1500 g was the highest level, and no bound
-  EXPECT_EQ(staircase_results({&data, 1})[0].censored, Censored::none);
-}
-
 TEST(Jnd, AStaircaseWithoutEstimateIsUnfinished) {
   SessionData data = session(1, "a");
   add_comparison(data, "15g", 15, 175);

@@ -79,7 +79,9 @@ TEST(ProtocolChoices, tell_what_was_in_force_in_any_of_the_sessions) {
   const Protocol quick = shipped("quick.toml");
   SessionData plain = session_of(quick), resumed = session_of(quick);
   LoggedSetup logged{1, 1, {}};
-  plain.setups = {logged};  // as an older log: what does not differ from the protocol is not told
+  logged.setup.simulator = quick.simulator.name;
+  logged.setup.rate_hz = quick.simulator.rate_hz;
+  plain.setups = {logged};
   plain.session.header.seed = resumed.session.header.seed = 12;
   logged.setup.heft_version = "0.2.0";
   logged.setup.build = "Release 0123abc";

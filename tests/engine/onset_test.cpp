@@ -94,7 +94,7 @@ TEST_F(OnsetRules, a_refused_answer_that_is_told_changes_nothing) {
   EXPECT_EQ(engine.screen().n_choices, before.n_choices);
 }
 
-TEST_F(OnsetRules, what_an_older_log_did_not_tell_was_not_asked_for) {
+TEST_F(OnsetRules, a_setup_without_gap_and_least_time_demands_none) {
   told(std::nullopt, std::nullopt);
   const double ended_s = introduce(1, 1);
   EXPECT_EQ(refusal(ended_s, TrialStarted{}), "");

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <thread>
 
 #include "base/Random.h"
@@ -15,6 +16,7 @@
 #include "record/LogReader.h"
 #include "record/SessionLog.h"
 #include "record/child.h"
+#include "record/older_log.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
 
@@ -113,6 +115,19 @@ std::optional<bool> kill_at_system_call(Child& child, int n) {
   return true;
 }
 
+/// @return whether the child was still running; none: see above
+std::optional<bool> kill_traced(int n, const std::function<void(int out)>& work,
+                                std::string* said = nullptr) {
+  Child child([&](int out) {
+    if (::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) return;
+    ::raise(SIGSTOP);
+    work(out);
+  });
+  const auto still_running = kill_at_system_call(child, n);
+  if (said) *said = child.read_all();
+  return still_running;
+}
+
 // Where a clock would hit by luck only. (All stops, one by one, take a minute and pass too: set the
 // stride to 1. An odd one meets entries and exits alike.)
 TEST(crash, kills_at_system_calls_throughout_a_short_session_lose_nothing_acknowledged) {
@@ -121,19 +136,39 @@ TEST(crash, kills_at_system_calls_throughout_a_short_session_lose_nothing_acknow
   for (bool reached = true; reached; n += stride) {
     const TemporaryFolder folder;
     const std::string file = folder.file("log.db");
-    Child writer([&](int out) {
-      if (::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) return;
-      ::raise(SIGSTOP);
-      write_session(file, out, 2);
-    });
-    const auto still_running = kill_at_system_call(writer, n);
+    std::string acknowledged;
+    const auto still_running = kill_traced(
+        n, [&](int out) { write_session(file, out, 2); }, &acknowledged);
     if (!still_running) GTEST_SKIP() << "tracing a child process is not allowed here";
     reached = *still_running;
-    expect_whole(file, writer.read_all());
+    expect_whole(file, acknowledged);
     expect_can_go_on(file);
     if (HasFailure()) FAIL() << "at system call stop " << n;
   }
   EXPECT_GT(n, 200) << "the session was over sooner than it can be";
+}
+
+TEST(crash, an_upgrade_killed_at_system_calls_is_completed_at_the_next_opening) {
+  constexpr int stride = 7;
+  int n = 0;
+  for (bool reached = true; reached; n += stride) {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("log.db");
+    copy_older_log(file);
+    const auto still_running = kill_traced(n, [&](int) { LogReader{file}; });
+    if (!still_running) GTEST_SKIP() << "tracing a child process is not allowed here";
+    reached = *still_running;
+    const LogReader reader(file);
+    EXPECT_TRUE(reader.foreign_objects().empty());
+    EXPECT_TRUE(check_integrity(file).empty());
+    EXPECT_EQ(reader.session_ids().size(), 3u);
+    for (const std::int64_t id : reader.session_ids()) EXPECT_FALSE(reader.first_broken_digest(id));
+    EXPECT_TRUE(std::filesystem::exists(file + ".v5"));
+    EXPECT_FALSE(std::filesystem::exists(file + ".v5.part"));
+    EXPECT_FALSE(std::filesystem::exists(file + ".v5-2"));
+    if (HasFailure()) FAIL() << "at system call stop " << n;
+  }
+  EXPECT_GT(n, 200) << "the upgrade was completed sooner than it can be";
 }
 
 }  // namespace

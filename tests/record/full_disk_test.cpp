@@ -1,4 +1,5 @@
 // A write that fails is told, in words for a person, and leaves the file as it was.
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -14,6 +15,7 @@
 #include "record/SessionArchive.h"
 #include "record/SessionLog.h"
 #include "record/failure.h"
+#include "record/older_log.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
 
@@ -143,6 +145,32 @@ TEST(full_disk, a_session_can_not_start_on_a_full_disk) {
   const std::string file = disk.file("log.db");
   EXPECT_THAT(failure([&] { SessionLog::start(file, header_of("P01")); }),
               AllOf(HasSubstr(file), HasSubstr("full")));
+}
+
+int version_of(const std::string& file) {
+  return SQLite::Database(file, SQLite::OPEN_READONLY).execAndGet("PRAGMA user_version").getInt();
+}
+
+// Until then it is read as it is: without space for its copy, or for the upgrade beside the copy.
+TEST(full_disk, an_older_log_is_upgraded_once_there_is_space) {
+  for (const bool fits_copy : {false, true}) {
+    const SmallDisk disk(fits_copy ? "size=560k" : "size=400k");
+    if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
+    const std::string file = disk.file("log.db");
+    copy_older_log(file);
+    EXPECT_EQ(LogReader(file).sessions().size(), 3u);
+    EXPECT_EQ(version_of(file), 5);
+    EXPECT_EQ(std::filesystem::exists(file + ".v5"), fits_copy);
+    EXPECT_THAT(failure([&] { SessionLog::reopen(file, 1); }),
+                AllOf(HasSubstr(file), HasSubstr("the disk is full")));
+    const std::string folder = std::filesystem::path(file).parent_path();
+    ASSERT_EQ(::mount("tmpfs", folder.c_str(), "tmpfs", MS_REMOUNT, "size=2m"), 0);
+    EXPECT_EQ(LogReader(file).sessions().size(), 3u);
+    EXPECT_EQ(version_of(file), 6);
+    EXPECT_EQ(version_of(file + ".v5"), 5);
+    EXPECT_FALSE(std::filesystem::exists(file + ".v5.part"));
+    EXPECT_TRUE(check_integrity(file).empty());
+  }
 }
 
 TEST(full_disk, a_read_only_disk_is_told) {
