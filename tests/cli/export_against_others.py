@@ -65,11 +65,11 @@ class Comparison:
         self.n_wrong = self.n_compared = 0
         db = folder / "lab.db"
         self.db = db
-        for protocol, seed in (("recommended", 3), ("paper", 4)):
+        for protocol, seed in (("recommended", 3), ("paper", 4), ("examples/estimation", 5)):
             self.run("simulate", PROTOCOLS / f"{protocol}.toml", "--participants", n_participants,
-                     "--seed", seed, "--db", folder / f"{protocol}.db")
+                     "--seed", seed, "--db", folder / f"{Path(protocol).name}.db")
         self.csv = {}
-        for protocol in ("recommended", "paper"):
+        for protocol in ("recommended", "paper", "estimation"):
             self.csv[protocol] = folder / f"csv-{protocol}"
             self.run("export", folder / f"{protocol}.db", "--out", self.csv[protocol])
 
@@ -132,9 +132,11 @@ class Comparison:
         if done.returncode:
             raise SystemExit(done.stdout + done.stderr)
         summary = self.analysed(protocol)
-        fits = {fit["group"]: fit for fit in json.loads(
-            self.run("fit", self.csv[protocol] / "choices.csv", "--model", "indecision", "--by",
-                     "compared", "--json"))}
+        fits = {}
+        if protocol != "estimation":
+            fits = {fit["group"]: fit for fit in json.loads(
+                self.run("fit", self.csv[protocol] / "choices.csv", "--model", "indecision", "--by",
+                         "compared", "--json"))}
         with open(self.csv[protocol] / "figures.csv") as lines:
             rows = list(csv.DictReader(lines))
         for row in rows:
@@ -143,6 +145,11 @@ class Comparison:
             kind, *path = row["figure"].split(".")
             if kind == "sorting":
                 self.sorting({f"{row['figure']} {condition}": found}, summary, 1e-9)
+            elif kind == "estimation":
+                name, mass = row["figure"][len("estimation."):-len("_g")].split(".", 1)
+                (one,) = [one for one in summary["estimation"] if one["condition"] == condition and
+                          one["mass_g"] == float(mass)]
+                self.expect(row["figure"], found, one[name], 1e-9)
             elif kind == "jnd":
                 (told,) = [one for one in summary["jnd"] if one["condition"] == condition and
                            one["reference_g"] == float(reference)]
@@ -150,7 +157,7 @@ class Comparison:
                     told = told[name]
                 relative = 1e-5 if told["summary"] == "tobit_mean" else 1e-9
                 self.expect((row["figure"], condition, reference), found, told[path[-1]], relative)
-            else:
+            elif kind == "indecision":
                 fit = fits[f"{condition} {float(reference):g} g"]
                 if path[0] == "log_likelihood":
                     self.n_compared += 1
@@ -205,6 +212,7 @@ def main():
         done = [comparison.validated()]
         for protocol in ("recommended", "paper"):
             done += [comparison.r(protocol), comparison.pandas(protocol)]
+        done.append(comparison.r("estimation"))
     print(f"{comparison.n_compared} comparisons, {comparison.n_wrong} differ")
     raise SystemExit(77 if not any(done) else min(comparison.n_wrong, 1))
 

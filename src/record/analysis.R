@@ -1,14 +1,8 @@
-// analysis.R, which goes along with an export: the figures of `heft analyse` computed anew from the
-// files alone, and the mixed models that stay in R.
-#include "record/ExportFolder.h"
-
-namespace heft {
-
-const char* const analysis_script =
-    R"R(# Reads an export of heft and prints its main figures and models; the same goes to analysis.txt, and
-# the figures to figures.csv. Run it in its folder: Rscript analysis.R
+# Reads an export of heft and prints its main figures and models, for every task and condition that
+# it holds; the text is also written to analysis.txt, the figures to figures.csv.
+# Run it in its folder: Rscript analysis.R
 # Mixed models need lme4 and ordinal (Debian: r-cran-lme4, r-cran-ordinal); the rest is base R.
-# Nobody is left out: rules of the protocol's [exclusion] are not applied here.
+# All participants are included: rules of the protocol's [exclusion] are not applied here.
 
 # The tables ---------------------------------------------------------------------------------------
 
@@ -27,7 +21,7 @@ read_table <- function(name) {
 trials <- read_table("trials")
 choices <- read_table("choices")
 estimates <- read_table("estimates")
-reversals <- read_table("reversals")
+cubes <- read_table("cubes")
 setups <- read_table("setups")
 
 # A model of another kind that answers under the same name is another participant.
@@ -42,65 +36,104 @@ person_of <- function(table) {
 trials$person <- person_of(trials)
 choices$person <- person_of(choices)
 estimates$person <- person_of(estimates)
-completed <- trials[trials$status == "completed", ]
+completed <- trials[trials$status == "completed" & trials$is_practice == 0, ]
 
 figures <- data.frame()
-tell <- function(figure, condition, reference_g, value) {
+record <- function(figure, condition, reference_g, value) {
   figures[nrow(figures) + 1, c("figure", "condition", "reference_g", "value")] <<-
     list(figure, condition, reference_g, value)
 }
 number <- function(value) ifelse(is.na(value), "-", formatC(value, digits = 10, format = "g"))
 heading <- function(text) cat("\n", text, "\n", strrep("-", nchar(text)), "\n", sep = "")
 
-# E1: sorting --------------------------------------------------------------------------------------
+# Outcomes -----------------------------------------------------------------------------------------
 
-shares <- function(condition, name, outcome, of) {
-  sorted <- completed[completed$task == "sorting" & completed$condition == condition &
-                      completed$outcome %in% of, ]
-  if (nrow(sorted) == 0) return(invisible())
-  percent <- 100 * tapply(sorted$outcome == outcome, sorted$person, mean)
-  cat(sprintf("%s %-18s mean %s %%, SD %s, %d of %d trials of %d people\n", condition, name,
-              number(mean(percent)), number(sd(percent)), sum(sorted$outcome == outcome),
-              nrow(sorted), length(percent)))
-  tell(paste0("sorting.", name, ".mean"), condition, NA, mean(percent))
-  tell(paste0("sorting.", name, ".sd"), condition, NA, sd(percent))
-  tell(paste0("sorting.", name, ".n_hits"), condition, NA, sum(sorted$outcome == outcome))
-  tell(paste0("sorting.", name, ".n_trials"), condition, NA, nrow(sorted))
-  tell(paste0("sorting.", name, ".n_participants"), condition, NA, length(percent))
+# Of one task and condition: the share of trials with an outcome among those with one of `of`, in
+# percent, mean and SD over participants.
+share <- function(rows, task, condition, name, outcome, of) {
+  rows <- rows[rows$outcome %in% of, ]
+  if (nrow(rows) == 0) return(invisible())
+  percent <- 100 * tapply(rows$outcome == outcome, rows$person, mean)
+  cat(sprintf("%s %s %-18s mean %s %%, SD %s, %d of %d trials of %d people\n", task, condition, name,
+              number(mean(percent)), number(sd(percent)), sum(rows$outcome == outcome), nrow(rows),
+              length(percent)))
+  figure <- paste(task, name, sep = ".")
+  record(paste0(figure, ".mean"), condition, NA, mean(percent))
+  record(paste0(figure, ".sd"), condition, NA, sd(percent))
+  record(paste0(figure, ".n_hits"), condition, NA, sum(rows$outcome == outcome))
+  record(paste0(figure, ".n_trials"), condition, NA, nrow(rows))
+  record(paste0(figure, ".n_participants"), condition, NA, length(percent))
 }
 
-sorting_model <- function() {
-  sorted <- completed[completed$task == "sorting" & !is.na(completed$outcome), ]
-  sorted$correct <- as.integer(sorted$outcome == "correct")
-  sorted$condition <- factor(sorted$condition)
-  if (nlevels(sorted$condition) < 2) return(cat("One condition only: nothing to compare.\n"))
+shares <- function(task) {
+  of_task <- completed[completed$task == task & !is.na(completed$outcome), ]
+  outcomes <- unique(of_task$outcome)
+  scored <- c("correct", "incorrect")
+  if (length(outcomes) > 1 && any(scored %in% outcomes)) outcomes <- union(scored, outcomes)
+  for (condition in sort(unique(of_task$condition))) {
+    rows <- of_task[of_task$condition == condition, ]
+    for (outcome in outcomes)
+      share(rows, task, condition, sub("dont_know", "none", outcome), outcome, outcomes)
+    if (length(setdiff(outcomes, scored)) > 0 && "correct" %in% outcomes)
+      share(rows, task, condition, "answered.correct", "correct", scored)
+  }
+}
+
+# Mixed logistic regression of correct on condition.
+correctness_model <- function(task) {
+  rows <- completed[completed$task == task & !is.na(completed$outcome), ]
+  rows$correct <- as.integer(rows$outcome == "correct")
+  rows$condition <- factor(rows$condition)
+  if (nlevels(rows$condition) < 2) return(cat("One condition only: nothing to compare.\n"))
   if (!requireNamespace("lme4", quietly = TRUE)) return(cat("lme4 is not installed: no model.\n"))
   fit <- function(formula)
-    suppressMessages(lme4::glmer(formula, sorted, family = binomial,
+    suppressMessages(lme4::glmer(formula, rows, family = binomial,
                                  control = lme4::glmerControl(optimizer = "bobyqa")))
   model <- tryCatch(fit(correct ~ condition + (1 + condition | person)), error = identity)
   if (inherits(model, "error") || lme4::isSingular(model)) {
-    cat("People's differences between conditions can't be told from their levels: the model has\n",
-        "their levels only.\n", sep = "")
+    cat("The data do not separate people's differences between conditions from their levels: the\n",
+        "model has their levels only.\n", sep = "")
     model <- tryCatch(fit(correct ~ condition + (1 | person)), error = identity)
   }
   if (inherits(model, "error")) return(cat("No model:", conditionMessage(model), "\n"))
-  all_alike <- tapply(sorted$correct, sorted$condition, function(correct) all(correct == correct[1]))
-  if (any(all_alike))
-    cat("All trials of ", paste(names(all_alike)[all_alike], collapse = ", "), " ended alike: its ",
-        "coefficient has no finite estimate, and its SE says nothing.\n", sep = "")
+  all_equal <- tapply(rows$correct, rows$condition, function(correct) all(correct == correct[1]))
+  if (any(all_equal))
+    cat("All trials of ", paste(names(all_equal)[all_equal], collapse = ", "), " had one outcome: ",
+        "its coefficient has no finite estimate, and its SE has no meaning.\n", sep = "")
   print(summary(model), correlation = FALSE)
+}
+
+# Numbers given to single cubes --------------------------------------------------------------------
+
+# Means over participants of each one's mean; geometric over numbers above 0.
+numbers <- function(rows, task) {
+  n_cubes <- table(paste(cubes$log, cubes$trial_id))
+  trial <- paste(rows$log, rows$trial_id)
+  rows <- rows[n_cubes[trial] == 1, ]
+  rows$mass_g <- cubes$mass_g[match(paste(rows$log, rows$trial_id), paste(cubes$log, cubes$trial_id))]
+  mean_of_people <- function(rows, values) mean(tapply(values, rows$person, mean))
+  for (condition in sort(unique(rows$condition)))
+    for (mass_g in sort(unique(rows$mass_g[rows$condition == condition]))) {
+      here <- rows[rows$condition == condition & rows$mass_g == mass_g, ]
+      above_0 <- here[here$value > 0, ]
+      arithmetic <- mean_of_people(here, here$value)
+      geometric <- exp(mean_of_people(above_0, log(above_0$value)))
+      cat(sprintf("%s %s %g g: mean %s, geometric mean %s; %d trials of %d people\n", task, condition,
+                  mass_g, number(arithmetic), number(geometric), nrow(here),
+                  length(unique(here$person))))
+      record(sprintf("%s.mean.%g_g", task, mass_g), condition, NA, arithmetic)
+      record(sprintf("%s.geometric_mean.%g_g", task, mass_g), condition, NA, geometric)
+    }
 }
 
 # The paper's JND: reversals of staircases ---------------------------------------------------------
 
-# As heft has it: what a bound, the trial limit or fewer than four reversals cut is known to lie
-# above or below what it gives, or not at all.
+# As heft has it: an estimate that a bound, the trial limit or fewer than four reversals censored is
+# a limit from above or below, or unknown.
 staircase_results <- function() {
   rows <- estimates[estimates$method == "mean_of_reversals", ]
   rows$censored[is.na(rows$censored)] <- "none"
-  with_staircase <- completed[completed$task == "comparison" & !is.na(completed$staircase) &
-                              !is.na(completed$level_g), ]
+  with_staircase <- completed[!is.na(completed$staircase) & !is.na(completed$level_g), ]
   courses <- split(with_staircase, paste(key(with_staircase), with_staircase$staircase))
   for (i in seq_len(nrow(rows))) {
     course <- courses[[paste(key(rows[i, ]), rows$staircase[i])]]
@@ -109,34 +142,37 @@ staircase_results <- function() {
     rows$condition[i] <- course$condition[1]
     rows$start_g[i] <- levels[1]
     cut <- rows$censored[i] != "none" || rows$n_reversals[i] < 4 || rows$reason[i] == "trials"
-    way <- rows$censored[i]
-    if (cut && way %in% c("none", "unsettled")) {
+    direction <- rows$censored[i]
+    if (cut && direction %in% c("none", "unsettled")) {
       at_ceiling <- rows$n_ceiling[i] > 0
       at_floor <- rows$n_floor[i] > 0
       last <- levels[length(levels)]
-      way <- if (at_ceiling != at_floor) { if (at_ceiling) "above" else "below" }
-             else if (at_ceiling || last == levels[1]) "unsettled"
-             else if (last > levels[1]) "above" else "below"
+      direction <- if (at_ceiling != at_floor) { if (at_ceiling) "above" else "below" }
+                   else if (at_ceiling || last == levels[1]) "unsettled"
+                   else if (last > levels[1]) "above" else "below"
     }
-    rows$way[i] <- way
-    rows$shown_g[i] <- if (way == "unsettled") NA
+    rows$direction[i] <- direction
+    rows$shown_g[i] <- if (direction == "unsettled") NA
                        else if (!is.na(rows$jnd_g[i])) rows$jnd_g[i]
-                       else if (way == "above") max(levels) else if (way == "below") min(levels)
+                       else if (direction == "above") max(levels)
+                       else if (direction == "below") min(levels)
                        else NA
   }
   rows
 }
 
-# The mean of figures, one NA, or of opposite directions: nothing is known.
-mean_figure <- function(values, ways) {
-  known <- unique(ways[ways != "none"])
-  if (length(values) == 0 || anyNA(values) || length(known) > 1) return(list(value = NA, way = NA))
-  list(value = mean(values), way = if (length(known) == 1) known else "none")
+# The mean of estimates; with an NA or opposite directions among them: unknown.
+mean_estimate <- function(values, directions) {
+  censored <- unique(directions[directions != "none"])
+  if (length(values) == 0 || anyNA(values) || length(censored) > 1)
+    return(list(value = NA, direction = NA))
+  list(value = mean(values), direction = if (length(censored) == 1) censored else "none")
 }
 
-# Exact where nothing is cut; otherwise by maximum likelihood, where more than half is exact (Tobit).
-censored_mean <- function(values, ways, n_missing) {
-  exact <- values[ways == "none"]
+# The plain mean where no value is censored; otherwise by maximum likelihood, where more than half
+# are exact (Tobit).
+censored_mean <- function(values, directions, n_missing) {
+  exact <- values[directions == "none"]
   if (2 * length(exact) <= length(values) + n_missing) return(NA)
   if (length(exact) == length(values)) return(mean(values))
   if (length(exact) < 2 || sd(exact) == 0) return(NA)
@@ -144,8 +180,8 @@ censored_mean <- function(values, ways, n_missing) {
   z <- (values - center) / scale
   loss <- function(p) {
     sigma <- exp(p[2])
-    -sum(ifelse(ways == "none", dnorm(z, p[1], sigma, log = TRUE),
-         ifelse(ways == "above", pnorm(z, p[1], sigma, lower.tail = FALSE, log.p = TRUE),
+    -sum(ifelse(directions == "none", dnorm(z, p[1], sigma, log = TRUE),
+         ifelse(directions == "above", pnorm(z, p[1], sigma, lower.tail = FALSE, log.p = TRUE),
                 pnorm(z, p[1], sigma, log.p = TRUE))))
   }
   best <- optim(c(0, 0), loss, method = "BFGS", control = list(reltol = 1e-14, maxit = 1000))
@@ -154,7 +190,7 @@ censored_mean <- function(values, ways, n_missing) {
 
 jnds <- function() {
   results <- staircase_results()
-  began <- unique(trials[trials$task == "comparison" & !is.na(trials$staircase),
+  began <- unique(trials[!is.na(trials$staircase),
                          c("log", "session_id", "person", "staircase", "reference_g", "condition")])
   began <- began[!duplicated(paste(key(began), began$staircase)), ]
   for (condition in sort(unique(began$condition)))
@@ -164,36 +200,39 @@ jnds <- function() {
         sessions <- lapply(split(theirs, key(theirs)), function(session) {
           found <- results[match(paste(key(session), session$staircase),
                                  paste(key(results), results$staircase)), ]
-          mean_figure(found$shown_g, found$way)
+          mean_estimate(found$shown_g, found$direction)
         })
-        told <- Filter(function(one) !is.na(one$value), sessions)
-        mean_figure(vapply(told, function(one) one$value, 0), vapply(told, function(one) one$way, ""))
+        known <- Filter(function(one) !is.na(one$value), sessions)
+        mean_estimate(vapply(known, function(one) one$value, 0),
+                      vapply(known, function(one) one$direction, ""))
       })
-      tell_jnds(people, "jnd", "all staircases", condition, reference)
+      report_jnds(people, "jnd", "all staircases", condition, reference)
       for (side in c("from_above", "from_below")) {
         of_side <- by_start(here, results, side)
         if (any(vapply(of_side, function(one) !is.na(one$value), NA)))
-          tell_jnds(of_side, paste0("jnd.", side), sub("_", " ", side), condition, reference)
+          report_jnds(of_side, paste0("jnd.", side), sub("_", " ", side), condition, reference)
       }
     }
 }
 
-tell_jnds <- function(people, figure, staircases, condition, reference) {
+report_jnds <- function(people, figure, staircases, condition, reference) {
   value <- vapply(people, function(one) as.numeric(one$value), 0)
-  way <- vapply(people, function(one) as.character(one$way), "")
+  direction <- vapply(people, function(one) as.character(one$direction), "")
   n_missing <- sum(is.na(value))
-  mean_g <- censored_mean(value[!is.na(value)], way[!is.na(value)], n_missing)
+  n_above <- sum(direction == "above", na.rm = TRUE)
+  n_below <- sum(direction == "below", na.rm = TRUE)
+  mean_g <- censored_mean(value[!is.na(value)], direction[!is.na(value)], n_missing)
   cat(sprintf("%s %g g, %s: mean %s g; %d people, %d above, %d below, %d unknown\n", condition,
               reference, staircases, number(mean_g), length(value),
-              sum(way == "above", na.rm = TRUE), sum(way == "below", na.rm = TRUE), n_missing))
-  tell(paste0(figure, ".mean_g"), condition, reference, mean_g)
-  tell(paste0(figure, ".n"), condition, reference, length(value))
-  tell(paste0(figure, ".n_censored_above"), condition, reference, sum(way == "above", na.rm = TRUE))
-  tell(paste0(figure, ".n_censored_below"), condition, reference, sum(way == "below", na.rm = TRUE))
-  tell(paste0(figure, ".n_missing"), condition, reference, n_missing)
+              n_above, n_below, n_missing))
+  record(paste0(figure, ".mean_g"), condition, reference, mean_g)
+  record(paste0(figure, ".n"), condition, reference, length(value))
+  record(paste0(figure, ".n_censored_above"), condition, reference, n_above)
+  record(paste0(figure, ".n_censored_below"), condition, reference, n_below)
+  record(paste0(figure, ".n_missing"), condition, reference, n_missing)
 }
 
-# Of sessions whose staircases began high and low: those on one side of the middle between.
+# Of sessions whose staircases began at several levels: those that began on one side of the middle.
 by_start <- function(here, results, side) {
   lapply(split(here, here$person), function(theirs) {
     own <- do.call(rbind, lapply(split(theirs, key(theirs)), function(session) {
@@ -202,7 +241,7 @@ by_start <- function(here, results, side) {
       if (length(unique(found$start_g)) < 2) return(found[0, ])
       found[(found$start_g > mean(range(found$start_g))) == (side == "from_above"), ]
     }))
-    mean_figure(own$shown_g, own$way)
+    mean_estimate(own$shown_g, own$direction)
   })
 }
 
@@ -235,10 +274,10 @@ indecision_fits <- function() {
                 compared, number(s), number((theta[[2]] - theta[[1]]) / 2),
                 number(-(theta[[1]] + theta[[2]]) / 2), number(as.numeric(logLik(fit))),
                 nrow(here)))
-    tell("indecision.sensitivity", condition, reference, s)
-    tell("indecision.indecision", condition, reference, (theta[[2]] - theta[[1]]) / 2)
-    tell("indecision.bias", condition, reference, -(theta[[1]] + theta[[2]]) / 2)
-    tell("indecision.log_likelihood", condition, reference, as.numeric(logLik(fit)))
+    record("indecision.sensitivity", condition, reference, s)
+    record("indecision.indecision", condition, reference, (theta[[2]] - theta[[1]]) / 2)
+    record("indecision.bias", condition, reference, -(theta[[1]] + theta[[2]]) / 2)
+    record("indecision.log_likelihood", condition, reference, as.numeric(logLik(fit)))
     mixed_fit(here, compared, unit)
   }
 }
@@ -262,22 +301,23 @@ sink("analysis.txt", split = TRUE)
 cat("heft export:", length(unique(trials$person)), "participants,", nrow(completed),
     "completed trials of", nrow(trials), "\n")
 if (any(!is.na(models$responder))) cat("SIMULATED: a model answered", nrow(models), "sessions.\n")
-heading("E1, sorting: shares of people's trials")
-for (condition in sort(unique(completed$condition[completed$task == "sorting"]))) {
-  all <- c("correct", "incorrect", "dont_know")
-  shares(condition, "correct", "correct", all)
-  shares(condition, "incorrect", "incorrect", all)
-  shares(condition, "none", "dont_know", all)
-  shares(condition, "answered.correct", "correct", all[1:2])
+for (task in unique(completed$task)) {
+  rows <- completed[completed$task == task, ]
+  with_value <- rows[!is.na(rows$value), ]
+  heading(paste0(task, ": ", if (nrow(with_value) > 0) "numbers by mass" else "shares of people's trials"))
+  if (nrow(with_value) > 0) numbers(with_value, task) else shares(task)
+  if (all(c("correct", "incorrect") %in% rows$outcome)) {
+    heading(paste0(task, ": mixed logistic regression of correct on condition"))
+    correctness_model(task)
+  }
 }
-heading("E1, sorting: mixed logistic regression of correct on condition")
-sorting_model()
-heading("E2: the paper's JND, by condition and reference (it moves with the criterion)")
-jnds()
-heading("E2: choices with indecision, by condition and reference")
-indecision_fits()
+if (any(!is.na(trials$staircase))) {
+  heading("Staircases: the paper's JND, by condition and reference (it moves with the criterion)")
+  jnds()
+}
+if (nrow(choices) > 0) {
+  heading("Choices with indecision, by condition and reference")
+  indecision_fits()
+}
 sink()
 write.csv(format(figures, digits = 15, trim = TRUE), "figures.csv", row.names = FALSE, quote = FALSE)
-)R";
-
-}  // namespace heft
