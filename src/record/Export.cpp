@@ -33,13 +33,7 @@ void write_dictionary(const ExportSource& source, const std::vector<ExportTable>
 
 void export_csv(const ExportSource& source, ExportFolder& folder,
                 const std::function<void(double)>& tell) {
-  const CountedTables counted = counted_tables(source);
-  ExportProgress progress(counted.n_rows, tell);
-  for (const ExportTable& table : counted.tables) {
-    const std::string name = table.name + ".csv";
-    folder.wrote(name, write_csv(source, table, folder.place(name), progress));
-  }
-  write_dictionary(source, counted.tables, folder);
+  write_dictionary(source, write_tables(source, folder, "", ".csv", tell), folder);
   folder.write_text("analysis.R", analysis_script);
 }
 

@@ -120,29 +120,30 @@ std::string readme_of(const std::string& standard) {
       HEFT_VERSION, standard);
 }
 
-CountedTables counted_tables(const ExportSource& source) {
-  CountedTables counted;
-  for (const ExportTable& table : source.tables()) {
-    const std::int64_t n = source.count(table);
-    if (n == 0 && table.name == "frames") continue;
-    counted.n_rows += n;
-    counted.tables.push_back(table);
-  }
-  return counted;
-}
-
-std::int64_t write_csv(const ExportSource& source, const ExportTable& table, const fs::path& path,
-                       ExportProgress& progress) {
-  RowFile file(path, RowFile::Kind::csv);
-  file.header(source.columns(table));
-  std::int64_t n = 0;
-  source.each_row(table, [&](const ExportCells& cells) {
-    file.row(cells);
-    progress.row();
-    ++n;
+std::vector<ExportTable> write_tables(const ExportSource& source, ExportFolder& folder,
+                                      const std::string& begin, const std::string& end,
+                                      const std::function<void(double)>& tell) {
+  std::vector<ExportTable> tables = source.tables();
+  std::erase_if(tables, [&](const ExportTable& table) {
+    return table.name == "frames" && source.count(table) == 0;
   });
-  file.close();
-  return n;
+  std::int64_t n_rows = 0;
+  for (const ExportTable& table : tables) n_rows += source.count(table);
+  ExportProgress progress(n_rows, tell);
+  for (const ExportTable& table : tables) {
+    const std::string name = begin + table.name + end;
+    RowFile file(folder.place(name), RowFile::Kind::csv);
+    file.header(source.columns(table));
+    std::int64_t n = 0;
+    source.each_row(table, [&](const ExportCells& cells) {
+      file.row(cells);
+      progress.row();
+      ++n;
+    });
+    file.close();
+    folder.wrote(name, n);
+  }
+  return tables;
 }
 
 void refuse_filled_folder(const std::string& folder) {

@@ -64,16 +64,12 @@ class ExportProgress {
   const std::function<void(double)>& tell_;
 };
 
-/// The tables and the rows of each, without frames where none were kept.
-struct CountedTables {
-  std::vector<ExportTable> tables;
-  std::int64_t n_rows = 0;
-};
-CountedTables counted_tables(const ExportSource& source);
-
-/// A whole table as CSV; how many rows.
-std::int64_t write_csv(const ExportSource& source, const ExportTable& table,
-                       const std::filesystem::path& path, ExportProgress& progress);
+/// Writes every table as CSV, without frames where none were kept.
+/// @param begin,end of the files' names, around the table's
+/// @return the tables that were written
+std::vector<ExportTable> write_tables(const ExportSource& source, ExportFolder& folder,
+                                      const std::string& begin, const std::string& end,
+                                      const std::function<void(double)>& progress);
 
 void export_csv(const ExportSource& source, ExportFolder& folder,
                 const std::function<void(double)>& progress);

@@ -11,10 +11,6 @@ namespace heft {
 namespace {
 using nlohmann::ordered_json;
 
-std::string name_of_file(const std::string& table) {
-  return "data/description-" + table + "_data.csv";
-}
-
 // A variable has one entry, whatever tables it is in; it takes the first one's words.
 void add_variable(ordered_json& variables, const ExportColumn& column, const std::string& table) {
   for (ordered_json& variable : variables)
@@ -56,13 +52,8 @@ std::string description(const ExportSource& source, const std::vector<ExportTabl
 
 void export_psych_ds(const ExportSource& source, ExportFolder& folder,
                      const std::function<void(double)>& tell) {
-  const CountedTables counted = counted_tables(source);
-  ExportProgress progress(counted.n_rows, tell);
-  for (const ExportTable& table : counted.tables) {
-    const std::string name = name_of_file(table.name);
-    folder.wrote(name, write_csv(source, table, folder.place(name), progress));
-  }
-  folder.write_text("dataset_description.json", description(source, counted.tables));
+  const auto tables = write_tables(source, folder, "data/description-", "_data.csv", tell);
+  folder.write_text("dataset_description.json", description(source, tables));
   folder.write_text("README.md", readme_of("Psych-DS"));
   folder.write_text("analysis/analysis.R", analysis_script);
 }

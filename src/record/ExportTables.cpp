@@ -13,6 +13,7 @@
 #include "experiment/EachCell.h"
 #include "record/EventRow.h"
 #include "record/RowSql.h"
+#include "tasks/Comparison.h"
 
 namespace heft {
 
@@ -221,8 +222,10 @@ ExportTable choice_table() {
                      "WHEN r.chosen_slot = 1 THEN 'left' ELSE 'right' END"});
   return {"choices", "a completed comparison that is no practice",
           of_session("trial") +
-              " WHERE r.task = 'comparison' AND r.status = 'completed' AND r.outcome IS NOT NULL "
-              "AND r.reference_g IS NOT NULL AND r.level_g IS NOT NULL AND NOT r.is_practice",
+              fmt::format(" WHERE r.task = '{}' AND r.status = 'completed' AND r.outcome IS NOT "
+                          "NULL AND r.reference_g IS NOT NULL AND r.level_g IS NOT NULL AND NOT "
+                          "r.is_practice",
+                          Comparison::task.name),
           "r.trial_id", std::move(columns)};
 }
 
