@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/Build.h"
-#include "record/EventLine.h"
+#include "record/EventRow.h"
 
 namespace heft {
 

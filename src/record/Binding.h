@@ -15,6 +15,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
+#include "experiment/EachCell.h"
 #include "record/Digests.h"
 
 namespace heft {
@@ -93,6 +94,17 @@ class Binding {
 template <typename... Values>
 void run(SQLite::Statement& statement, const Values&... values) {
   Binding(statement, values...).run();
+}
+
+/// Writes a row's fields into a statement's places.
+template <typename Row>
+void bind_row(Binding& places, const Row& row) {
+  visit_cells(row, [&](const CellColumn& column, const auto& value) {
+    if constexpr (std::same_as<decltype(value), const double&>)
+      column.exact ? places.exactly(value) : places << value;
+    else
+      places << value;
+  });
 }
 
 }  // namespace heft

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "record/Cells.h"
 #include "record/Digests.h"
 #include "record/EventRow.h"
 #include "record/Failures.h"
 #include "record/RowSql.h"
-#include "record/RowVisitors.h"
 
 namespace heft {
 
@@ -54,10 +54,33 @@ void describe(BrokenDigest& broken, SQLite::Statement& query, const std::string&
   }
   broken.row = placed(row, broken);
 }
-}  // namespace
 
-DigestCheck::DigestCheck(SQLite::Database& database, std::string file, std::int64_t session_id)
-    : database_(database), file_(std::move(file)), session_id_(session_id) {}
+class DigestCheck {
+ public:
+  DigestCheck(SQLite::Database& database, std::string file, std::int64_t session_id)
+      : database_(database), file_(std::move(file)), session_id_(session_id) {}
+
+  std::optional<BrokenDigest> first_broken();
+
+ private:
+  std::optional<BrokenDigest> broken_header();
+  std::optional<BrokenDigest> broken_info();
+  std::optional<BrokenDigest> broken_counts();
+  std::optional<BrokenDigest> broken_event();
+  std::optional<BrokenDigest> broken_frame();
+
+  /// Into the digest: the query's cells that it was taken over.
+  void add_cells(SQLite::Statement& query, int first, int n);
+  /// Where the row's digest is not the next of the chain; else puts the chain forward to it.
+  std::optional<BrokenDigest> broken_link(SQLite::Statement& query, const std::string& table,
+                                          int n_cells, std::string& chain);
+
+  SQLite::Database& database_;
+  std::string file_;
+  std::int64_t session_id_;
+  std::string start_;  ///< the header's digest, from which all chains start
+  RowDigest digest_;
+};
 
 std::optional<BrokenDigest> DigestCheck::first_broken() {
   if (auto header = broken_header()) return header;
@@ -176,6 +199,12 @@ std::optional<BrokenDigest> DigestCheck::broken_link(SQLite::Statement& query,
   set_place(broken, query);
   describe(broken, query, file_);
   return broken;
+}
+}  // namespace
+
+std::optional<BrokenDigest> first_broken_digest(SQLite::Database& database, const std::string& file,
+                                                std::int64_t session_id) {
+  return DigestCheck(database, file, session_id).first_broken();
 }
 
 }  // namespace heft

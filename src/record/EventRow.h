@@ -1,6 +1,8 @@
-// An event as it stands in the log: the one place where what happened becomes text and back.
+// An event as the log has it: the one place where an event becomes text and back; and as a line of
+// JSON, announced to other programs while a session runs.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -41,5 +43,18 @@ Event event_of(const EventRow& row);
 
 /// An event in a line, for people.
 std::string text_of(const Event& event);
+
+/// What an event's line for other programs says besides the event.
+struct AnnouncedEvent {
+  std::int64_t session_id = 0;
+  std::string participant;
+  std::string utc;                ///< of the event
+  std::optional<TrialPlan> plan;  ///< of the trial that it belongs to
+};
+
+/// {"t_s":12.5,"utc":"...","session":1,"participant":"P07","kind":"cubes_shown","trial":3,...}:
+/// kind, slot, label and detail as the table `event` has them, without a setup's files; nothing of
+/// masses, levels or conditions. A long detail is cut: at most 2000 bytes in all.
+std::string event_line(const Event& event, const AnnouncedEvent& about);
 
 }  // namespace heft

@@ -8,13 +8,13 @@
 
 #include "base/Error.h"
 #include "record/Binding.h"
+#include "record/Cells.h"
 #include "record/DigestCheck.h"
 #include "record/EventRow.h"
 #include "record/Failures.h"
 #include "record/LogFile.h"
 #include "record/ReadOnlyDatabase.h"
 #include "record/RowSql.h"
-#include "record/RowVisitors.h"
 #include "record/Schema.h"
 
 namespace heft {
@@ -84,7 +84,7 @@ class LogReader::Impl {
 
   std::optional<BrokenDigest> first_broken_digest(std::int64_t session_id) const try {
     if (!has_tables_) refuse_unknown(session_id);
-    return DigestCheck(*database_, path_, session_id).first_broken();
+    return heft::first_broken_digest(*database_, path_, session_id);
   } catch (const SQLite::Exception& error) {
     refuse_damaged("the digests", error);
   }

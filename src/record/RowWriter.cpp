@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "record/Binding.h"
 #include "record/Digests.h"
 #include "record/EventRow.h"
 #include "record/RowSql.h"
-#include "record/RowVisitors.h"
 #include "record/Schema.h"
 
 namespace heft {
