@@ -124,6 +124,12 @@ TEST_F(AnnouncedEvents, AreShortWhateverIsInThem) {
   EXPECT_LT(line.size(), 4096u);
 }
 
+TEST_F(AnnouncedEvents, KeepTheBeginningOfALongDetail) {
+  listen();
+  note(std::string(300, 'x'), Durability::acknowledged);
+  EXPECT_THAT(heard(), HasSubstr('"' + std::string(240, 'x') + '"'));
+}
+
 TEST_F(AnnouncedEvents, ThatFillThePipeStopNobody) {
   listen();
   for (int i = 0; i < 2000; ++i) note(std::string(200, 'x'), Durability::acknowledged);

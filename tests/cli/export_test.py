@@ -81,6 +81,7 @@ class Export(SessionTest):
         for file in TABLES:
             with self.subTest(file):
                 self.assert_holds(db, file, self.rows(file))
+                self.assertIn(f" {len(self.rows(file))} rows  {file}.csv\n", done.stderr)
         trials = self.rows("trials")
         self.assertEqual([trials[0]["block"], trials[0]["void_reason"]], ["'=block", "'@"])
         self.assertEqual([trials[1]["block"], trials[1]["level_g"]], ["'-5", "-5"])
