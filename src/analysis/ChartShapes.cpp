@@ -20,13 +20,17 @@ std::string row_of(double x, const StudyEstimate& one) {
 
 class Drawing {
  public:
-  Drawing(const ChartSpec& spec, const Summary& summary) : spec_(spec), summary_(summary) {
-    for (const StudyEstimate& one : summary.estimates)
-      for (const ChartSeries& series : spec.series)
-        if ((one.value || one.published) && belongs(one, series)) {
-          (one.participant.empty() ? estimates_ : participants_).push_back(&one);
-          break;
-        }
+  Drawing(const ChartSpec& spec, const Summary& summary, const Estimates& of_participants)
+      : spec_(spec), summary_(summary) {
+    const auto choose = [&](const Estimates& from, Chosen& chosen) {
+      for (const StudyEstimate& one : from)
+        if ((one.value || one.published) &&
+            std::ranges::any_of(spec.series,
+                                [&](const ChartSeries& series) { return belongs(one, series); }))
+          chosen.push_back(&one);
+    };
+    choose(summary.estimates, estimates_);
+    choose(of_participants, participants_);
     for (const Chosen* chosen : {&estimates_, &participants_}) {
       for (const StudyEstimate* one : *chosen) add_new(panels_, text_of(*one, spec.panels));
       for (std::size_t i = 0; i < spec.series.size(); ++i)
@@ -189,7 +193,7 @@ class Drawing {
     std::string rows;
     std::vector<std::string> values;
     for (const StudyEstimate& one : summary_.estimates) {
-      if (one.measure != spec_.reference || !one.value || !one.participant.empty()) continue;
+      if (one.measure != spec_.reference || !one.value) continue;
       rows += fmt::format("{} {}\n{} {}\n\n", axis.at(one, -half), *one.value, axis.at(one, half),
                           *one.value);
       add_new(values, fmt::format("{:.1f}", *one.value));
@@ -327,8 +331,8 @@ class Drawing {
 };
 }  // namespace
 
-Chart draw(const ChartSpec& spec, const Summary& summary) {
-  return Drawing(spec, summary).chart();
+Chart draw(const ChartSpec& spec, const Summary& summary, const Estimates& of_participants) {
+  return Drawing(spec, summary, of_participants).chart();
 }
 
 }  // namespace heft

@@ -49,7 +49,7 @@ struct ChartSpec {
   std::function<std::string(const Summary& summary, const StudyEstimate& of)> curve{};
 };
 
-/// None to draw: an empty script.
-Chart draw(const ChartSpec& spec, const Summary& summary);
+/// None to draw: an empty script. @param of_participants the section's
+Chart draw(const ChartSpec& spec, const Summary& summary, const Estimates& of_participants);
 
 }  // namespace heft

@@ -165,9 +165,11 @@ std::vector<Chart> charts_of(const Summary& summary) {
   charts.emplace_back(15, tracks_chart(summary));
   for (Chart& chart : multiples_charts(summary)) charts.emplace_back(20, std::move(chart));
   charts.emplace_back(60, published_chart(summary));
-  for (const auto& section : all_sections())
+  for (const auto& section : summary.sections) {
+    const Estimates of_participants = section->of_participants(summary);
     for (const ChartSpec& spec : section->charts())
-      charts.emplace_back(spec.importance, draw(spec, summary));
+      charts.emplace_back(spec.importance, draw(spec, summary, of_participants));
+  }
   std::erase_if(charts, [](const auto& chart) { return chart.second.script.empty(); });
   std::ranges::stable_sort(charts, {}, [](const auto& chart) { return chart.first; });
   std::vector<Chart> sorted;

@@ -109,9 +109,7 @@ Chosen chosen_for(const EstimateTable& declared, const Estimates& estimates) {
   for (const EstimateColumn& column : declared.columns) measures.insert(column.measure);
   Chosen chosen;
   for (const StudyEstimate& estimate : estimates)
-    if (measures.contains(estimate.measure) &&
-        estimate.participant.empty() != declared.participants)
-      chosen.push_back(&estimate);
+    if (measures.contains(estimate.measure)) chosen.push_back(&estimate);
   return chosen;
 }
 

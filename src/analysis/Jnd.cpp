@@ -111,18 +111,18 @@ std::vector<StaircaseResult> results_of(const SessionData& data) {
 
 using Began = StaircaseFold::Began;
 using AboveAndBelow = StaircaseFold::AboveAndBelow;
+using Results = std::vector<const StaircaseResult*>;
 
 // Staircases of one session first, then sessions: a participant counts once. Staircases that began
 // and have no result are unknown. Sessions that tell nothing don't count where another one does.
-void put_participants(ReferenceJnd& jnd, std::span<const StaircaseResult> results,
-                      const Began& began) {
+void put_participants(ReferenceJnd& jnd, const Results& results, const Began& began) {
   for (const auto& [participant, sessions] : began) {
     std::vector<std::optional<CensoredValue>> told;
     for (const auto& [session_id, n_began] : sessions) {
       std::vector<std::optional<CensoredValue>> values;
-      for (const StaircaseResult& result : results)
-        if (result.participant == participant && result.session_id == session_id)
-          values.push_back(censored_value(result));
+      for (const StaircaseResult* result : results)
+        if (result->participant == participant && result->session_id == session_id)
+          values.push_back(censored_value(*result));
       values.resize(std::max(values.size(), static_cast<std::size_t>(n_began)));
       if (auto value = mean_figure(values)) told.push_back(value);
     }
@@ -148,7 +148,7 @@ void put_mean(ReferenceJnd& jnd) {
   jnd.interval_g = found.interval;
 }
 
-void put_session(AboveAndBelow& figures, std::span<const StaircaseResult* const> results) {
+void put_session(AboveAndBelow& figures, const Results& results) {
   const auto [low, high] = std::ranges::minmax(results, {}, &StaircaseResult::start_g);
   const double middle_g = (low->start_g + high->start_g) / 2;
   if (low->start_g == high->start_g) return;
@@ -196,12 +196,11 @@ void add_staircase(ReferenceJnd& jnd, const StaircaseResult& result) {
   jnd.n_ceiling_staircases += result.n_ceiling > 0 ? 1 : 0;
 }
 
-ReferenceJnd jnd_at(const Compared& compared, std::span<const StaircaseResult> results,
-                    const Began& began) {
+ReferenceJnd jnd_at(const Compared& compared, const Results& results, const Began& began) {
   ReferenceJnd jnd;
   jnd.compared = compared;
   jnd.least_trials = results.empty() ? 0 : std::numeric_limits<int>::max();
-  for (const StaircaseResult& result : results) add_staircase(jnd, result);
+  for (const StaircaseResult* result : results) add_staircase(jnd, *result);
   int n_began = 0;
   for (const auto& [participant, sessions] : began)
     for (const auto& [session_id, n] : sessions) n_began += n;
@@ -231,7 +230,7 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
 
 void StaircaseFold::add_starts(const std::string& participant,
                                std::span<const StaircaseResult> of_session) {
-  std::map<Compared, std::vector<const StaircaseResult*>> by_compared;
+  std::map<Compared, Results> by_compared;
   for (const StaircaseResult& result : of_session) by_compared[result.compared].push_back(&result);
   for (const auto& [compared, same] : by_compared) {
     AboveAndBelow& of_person = starts_[compared][participant];
@@ -252,8 +251,8 @@ void StaircaseFold::add(const SessionData& data) {
 }
 
 std::vector<ReferenceJnd> StaircaseFold::jnds() const {
-  std::map<Compared, std::vector<StaircaseResult>> finished;
-  for (const StaircaseResult& result : results_) finished[result.compared].push_back(result);
+  std::map<Compared, Results> finished;
+  for (const StaircaseResult& result : results_) finished[result.compared].push_back(&result);
   std::vector<ReferenceJnd> jnds;
   for (const auto& [compared, participants] : began_) {
     jnds.push_back(jnd_at(compared, finished[compared], participants));
@@ -266,7 +265,7 @@ std::vector<ReferenceJnd> StaircaseFold::jnds() const {
   return jnds;
 }
 
-std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sessions) {
+std::deque<StaircaseResult> staircase_results(std::span<const SessionData> sessions) {
   return folded<StaircaseFold>(sessions).results();
 }
 

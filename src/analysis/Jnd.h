@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <set>
@@ -119,8 +120,7 @@ class StaircaseFold {
 
   /// Finished staircases in the order of sessions and estimates, each with the reference of its
   /// trials.
-  const std::vector<StaircaseResult>& results() const& { return results_; }
-  std::vector<StaircaseResult> results() && { return std::move(results_); }
+  const std::deque<StaircaseResult>& results() const { return results_; }
   /// By reference, lightest first, and condition.
   std::vector<ReferenceJnd> jnds() const;
 
@@ -134,13 +134,13 @@ class StaircaseFold {
  private:
   void add_starts(const std::string& participant, std::span<const StaircaseResult> of_session);
 
-  std::vector<StaircaseResult> results_;
+  std::deque<StaircaseResult> results_;
   std::map<Compared, Began> began_;
   std::map<Compared, published::Comparable> comparable_;
   std::map<Compared, std::map<std::string, AboveAndBelow>> starts_;
 };
 
-std::vector<StaircaseResult> staircase_results(std::span<const SessionData> sessions);
+std::deque<StaircaseResult> staircase_results(std::span<const SessionData> sessions);
 std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions);
 
 }  // namespace heft

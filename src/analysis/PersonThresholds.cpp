@@ -18,7 +18,7 @@ const OwnSensitivity* own_of(const Key& key, std::span<const ReferenceSensitivit
 
 using Results = std::vector<const StaircaseResult*>;
 
-std::map<Key, Results> results_by_person(std::span<const StaircaseResult> all) {
+std::map<Key, Results> results_by_person(const std::deque<StaircaseResult>& all) {
   std::map<Key, Results> results;
   for (const StaircaseResult& result : all)
     results[{result.compared, result.participant}].push_back(&result);

@@ -228,7 +228,7 @@ Table staircase_table(const Summary& summary) {
                {"high_g", "to g"}},
               {},
               ""};
-  for (const StaircaseResult& result : summary.staircases) {
+  for (const StaircaseResult& result : summary.shared->staircases.results()) {
     Cell shown = number(result.shown_g);
     shown.text = std::string(beyond_sign(result.censored)) + shown.text;
     table.rows.push_back({session_cell(result.session_id), word(result.participant),

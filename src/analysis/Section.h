@@ -12,12 +12,6 @@
 
 namespace heft {
 
-/// What several sections are made of; sessions are read once for all.
-struct SharedFolds {
-  ComparisonTrials comparisons;
-  StaircaseFold staircases;
-};
-
 class Section {
  public:
   Section() = default;
@@ -25,15 +19,20 @@ class Section {
   Section& operator=(const Section&) = delete;
   virtual ~Section() = default;
 
+  /// Whether it is about those too who are left out of the figures.
+  virtual bool of_everyone() const { return false; }
   /// A session of a participant who counts. Sessions come in order, and one is in memory at a time.
   virtual void add(const SessionData& /*data*/) {}
-  /// Adds the section's estimates to the summary.
-  virtual void put(Summary& summary, const SharedFolds& shared) = 0;
+  /// Adds the estimates over participants to the summary. What they alone were made of may go.
+  virtual void put(Summary& summary) = 0;
+  /// Each participant's own, made where they are printed: of a thousand participants they would be
+  /// most of what is in memory. @param summary that they belong to
+  virtual Estimates of_participants(const Summary& /*summary*/) const { return {}; }
   virtual std::vector<EstimateTable> tables() const { return {}; }
   virtual std::vector<ChartSpec> charts() const { return {}; }
 };
 
-/// New ones, in the order of the report.
-std::vector<std::unique_ptr<Section>> all_sections();
+/// New ones.
+std::vector<std::shared_ptr<Section>> all_sections();
 
 }  // namespace heft

@@ -3,23 +3,21 @@
 
 namespace heft {
 
-std::unique_ptr<Section> introduction_section();
-std::unique_ptr<Section> sorting_section();
-std::unique_ptr<Section> sensitivity_section();
-std::unique_ptr<Section> staircase_section();
-std::unique_ptr<Section> choice_section();
-std::unique_ptr<Section> estimation_section();
-std::unique_ptr<Section> timing_section();
-std::unique_ptr<Section> lag_section();
-std::unique_ptr<Section> tracking_section();
+std::shared_ptr<Section> timing_section();
+std::shared_ptr<Section> lag_section();
+std::shared_ptr<Section> tracking_section();
+std::shared_ptr<Section> sorting_section();
+std::shared_ptr<Section> introduction_section();
+std::shared_ptr<Section> sensitivity_section();
+std::shared_ptr<Section> staircase_section();
+std::shared_ptr<Section> choice_section();
+std::shared_ptr<Section> estimation_section();
 
-std::vector<std::unique_ptr<Section>> all_sections() {
-  std::vector<std::unique_ptr<Section>> sections;
-  for (const auto& make :
-       {sorting_section, introduction_section, sensitivity_section, staircase_section,
-        choice_section, estimation_section, timing_section, lag_section, tracking_section})
-    sections.push_back(make());
-  return sections;
+// Those first that hold most of each participant, as sections let go of it one after the other.
+std::vector<std::shared_ptr<Section>> all_sections() {
+  return {timing_section(),    lag_section(),          tracking_section(),
+          sorting_section(),   introduction_section(), sensitivity_section(),
+          staircase_section(), choice_section(),       estimation_section()};
 }
 
 }  // namespace heft

@@ -32,7 +32,6 @@ struct EverybodyFold {
   ParticipantsFold participants;
   PlanFold plan;
   QualityFold quality;
-  TrackingFold tracking;
   FlowFold flow;
   ChoicesFold choices;
   NotesFold notes;
@@ -45,7 +44,6 @@ struct EverybodyFold {
     participants.add(data);
     plan.add(data);
     quality.add(data);
-    tracking.add(data);
     flow.add(data);
     choices.add(data);
     notes.add(data);
@@ -65,28 +63,29 @@ struct EverybodyFold {
 // The figures, of those who count.
 struct CountedFold {
   std::set<std::string> participants;
-  SharedFolds shared;
+  std::shared_ptr<SharedFolds> shared = std::make_shared<SharedFolds>();
   TracksFold tracks;
-  std::vector<std::unique_ptr<Section>> sections = all_sections();
+  std::vector<std::shared_ptr<Section>> sections = all_sections();
 
-  void add(const SessionData& data) {
+  void add(const SessionData& data, bool counts = true) {
+    for (const auto& section : sections)
+      if (counts || section->of_everyone()) section->add(data);
+    if (!counts) return;
     participants.insert(data.participant());
-    shared.comparisons.add(data);
-    shared.staircases.add(data);
+    shared->comparisons.add(data);
+    shared->staircases.add(data);
     tracks.add(data);
-    for (const auto& section : sections) section->add(data);
   }
 
-  // What is large goes as soon as its figures are known, before others take as much.
   void put(Summary& summary) && {
     summary.n_participants = static_cast<int>(participants.size());
-    for (auto& section : sections) {
-      section->put(summary, shared);
-      section.reset();
+    summary.shared = shared;
+    for (const auto& section : sections) {
+      section->put(summary);
+      summary.sections.push_back(section);
     }
     summary.tracks = tracks.example();
     summary.all_tracks = std::move(tracks).result();
-    summary.staircases = std::move(shared.staircases).results();
   }
 };
 
@@ -98,9 +97,7 @@ CountedFold counted_of(CountedFold&& all, const EachSession& each,
   for (const ParticipantRow& row : participants)
     if (row.excluded()) excluded.insert(row.participant);
   CountedFold counted;
-  each([&](const SessionData& data) {
-    if (!excluded.contains(data.participant())) counted.add(data);
-  });
+  each([&](const SessionData& data) { counted.add(data, !excluded.contains(data.participant())); });
   return counted;
 }
 
@@ -119,7 +116,6 @@ Summary summarize(const std::string& database, const EachSession& each,
   summary.participants = everybody.participants.result();
   summary.plan = everybody.plan.result();
   summary.quality = everybody.quality.result();
-  summary.tracking = everybody.tracking.result();
   summary.flow = everybody.flow.result(summary.participants);
   summary.choices = everybody.choices.result();
   summary.setups = everybody.setups.result();

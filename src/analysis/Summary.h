@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,6 +62,14 @@ struct Hypothesis {
   bool applies() const { return declared || !condition.empty(); }
 };
 
+/// What several sections are made of; sessions are read once for all.
+struct SharedFolds {
+  ComparisonTrials comparisons;
+  StaircaseFold staircases;
+};
+
+class Section;
+
 struct Summary {
   std::string database, command;
   std::string data;  ///< "human", "simulated" or "human and simulated"; empty: no sessions
@@ -68,16 +77,16 @@ struct Summary {
   int n_participants = 0;                    ///< that count
   std::vector<ParticipantRow> participants;  ///< all, those left out too
   std::optional<AnalysisPlan> plan;
-  Estimates estimates;  ///< every figure, in the order of the sections
+  Estimates estimates;  ///< over participants, in the order of the sections
+  std::vector<std::shared_ptr<const Section>> sections;  ///< which have each participant's
+  std::shared_ptr<const SharedFolds> shared = std::make_shared<SharedFolds>();
   // What hypotheses and charts take beside them.
   std::vector<ConditionSorting> sorting;
   IntroductionSummary introduction;
   std::vector<ReferenceJnd> jnd;
   std::vector<ReferenceSensitivity> sensitivity;
-  std::vector<StaircaseResult> staircases;
   Quality quality;
   ParticipantFlow flow;
-  std::vector<PersonTracking> tracking;
   std::optional<SessionTracks> tracks;
   std::vector<SessionTracks> all_tracks;
   std::vector<Hypothesis> hypotheses;

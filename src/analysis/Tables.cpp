@@ -52,17 +52,25 @@ std::vector<Table> tables_at(const Summary& summary, const std::vector<TablePlac
     table.title = titled(table.title, summary);
     tables.push_back(std::move(table));
   };
-  const auto sections = all_sections();
   for (const TablePlace place : places) {
     for (const RecordTable& record : record_tables())
       if (record.place == place) put(place, record.make(summary));
-    for (const auto& section : sections)
+    for (const auto& section : summary.sections)
       for (const EstimateTable& declared : section->tables())
-        if (declared.place == place) put(place, table_of(declared, summary.estimates));
-    if (place == TablePlace::run_only) put(place, measures_in(summary.estimates));
-    if (place == TablePlace::csv) put(place, list_of(summary.estimates));
+        if (declared.place == place)
+          put(place, table_of(declared, declared.participants ? section->of_participants(summary)
+                                                              : summary.estimates));
+    if (place == TablePlace::run_only) put(place, measures_in(all_estimates(summary)));
+    if (place == TablePlace::csv) put(place, list_of(all_estimates(summary)));
   }
   return tables;
+}
+
+Estimates all_estimates(const Summary& summary) {
+  Estimates all = summary.estimates;
+  for (const auto& section : summary.sections)
+    std::ranges::move(section->of_participants(summary), std::back_inserter(all));
+  return all;
 }
 
 std::vector<Table> filled(std::vector<Table> tables) {

@@ -13,6 +13,9 @@ namespace heft {
 /// The tables that stand in these places, of records and of estimates, with rows or without.
 std::vector<Table> tables_at(const Summary& summary, const std::vector<TablePlace>& places);
 
+/// Those over participants, then each participant's.
+Estimates all_estimates(const Summary& summary);
+
 /// Those of them that have rows.
 std::vector<Table> filled(std::vector<Table> tables);
 

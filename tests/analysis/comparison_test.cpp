@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "MadeUpSessions.h"
-#include "analysis/Summary.h"
+#include "analysis/Tables.h"
 #include "analysis/Timing.h"
 
 namespace heft {
@@ -114,7 +114,7 @@ TEST(ChoiceCurves, EachParticipantIsALineUntilThereAreTooMany) {
   const auto lines = [](int n) {
     const Summary summary = summarize({"x.db", choosers(n)}, "");
     std::map<std::string, double> percent;
-    for (const StudyEstimate& one : summary.estimates)
+    for (const StudyEstimate& one : all_estimates(summary))
       if (one.measure->name == "chosen_heavier" && !one.participant.empty())
         percent[one.participant] = *one.value;
     return percent;

@@ -89,7 +89,7 @@ TEST(Estimates, ChanceIsOfTheCubesThatWereSorted) {
 TEST(Estimates, NothingOfThePaperStandsBesideAnotherTechnique) {
   const auto mentions = [](const Summary& summary) {
     int n = 0;
-    for (const StudyEstimate& one : summary.estimates) n += one.published ? 1 : 0;
+    for (const StudyEstimate& one : all_estimates(summary)) n += one.published ? 1 : 0;
     for (const Hypothesis& hypothesis : summary.hypotheses) n += hypothesis.applies() ? 1 : 0;
     return n;
   };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "analysis/Comparison.h"
@@ -86,40 +87,57 @@ double mean_level_g(const ComparedTrials& bin) {
   return sum / static_cast<double>(bin.size());
 }
 
-// At 0 either choice is half right, half wrong, and not counted.
-void put_bin(Estimates& all, const Compared& compared, const ComparedTrials& bin,
-             const ComparisonTrials& of) {
-  Tallies chose_right, chose_wrong, chose_none;
-  std::deque<double> times_s;
-  for (const ComparedTrial* trial : bin) {
-    const std::string& participant = of.participant(*trial);
-    const bool rightly = trial->correct.value_or(false);
-    chose_none[participant].add(!trial->difference);
-    if (trial->response_s) times_s.push_back(*trial->response_s);
-    if (trial->level_g == 0) continue;
-    chose_right[participant].add(trial->difference && rightly);
-    chose_wrong[participant].add(trial->difference && !rightly);
+// What was chosen in a bin. At 0 either choice is half right, half wrong, and not counted.
+struct BinChoices {
+  BinChoices(const ComparedTrials& bin, const ComparisonTrials& of)
+      : level(at("mean_level_g", mean_level_g(bin))) {
+    for (const ComparedTrial* trial : bin) {
+      const std::string& participant = of.participant(*trial);
+      const bool rightly = trial->correct.value_or(false);
+      chose_none[participant].add(!trial->difference);
+      if (trial->response_s) times_s.push_back(*trial->response_s);
+      if (trial->level_g == 0) continue;
+      chose_right[participant].add(trial->difference && rightly);
+      chose_wrong[participant].add(trial->difference && !rightly);
+    }
   }
-  const Coordinate level = at("mean_level_g", mean_level_g(bin));
-  const auto put = [&](StudyEstimate estimate) {
+
+  void put(Estimates& all, const Compared& compared, StudyEstimate estimate) const {
     estimate = at_compared(std::move(estimate), compared);
     estimate.by = {level};
     all.push_back(std::move(estimate));
-  };
-  put(rate_estimate(right, rate_of(chose_right)));
-  put(rate_estimate(wrong, rate_of(chose_wrong)));
-  put(rate_estimate(none, rate_of(chose_none)));
-  if (!times_s.empty()) put(quartiles_estimate(time_by_level, times_s));
-  if (of.participants().size() > most_lines) return;
-  for (const auto& [participant, tally] : chose_right) {
-    StudyEstimate own{&right};
-    own.participant = participant;
-    own.value = tally.percent();
-    own.n = 1;
-    own.n_trials = tally.n_trials;
-    own.n_hits = tally.n_hits;
-    put(std::move(own));
   }
+
+  Coordinate level;
+  Tallies chose_right, chose_wrong, chose_none;
+  std::deque<double> times_s;
+};
+
+void each_bin(const ComparisonTrials& of,
+              const std::function<void(const Compared&, const BinChoices&)>& use) {
+  for (const auto& [compared, theirs] : of.by_compared()) {
+    ComparedTrials sorted;
+    for (const ComparedTrial& trial : theirs) sorted.push_back(&trial);
+    for (const ComparedTrials& bin : binned(std::move(sorted))) use(compared, BinChoices(bin, of));
+  }
+}
+
+void put_bin(Estimates& all, const Compared& compared, const BinChoices& bin) {
+  bin.put(all, compared, rate_estimate(right, rate_of(bin.chose_right)));
+  bin.put(all, compared, rate_estimate(wrong, rate_of(bin.chose_wrong)));
+  bin.put(all, compared, rate_estimate(none, rate_of(bin.chose_none)));
+  if (!bin.times_s.empty()) bin.put(all, compared, quartiles_estimate(time_by_level, bin.times_s));
+}
+
+StudyEstimate own_share(const Measure& measure, const std::string& participant,
+                        const Tally& tally) {
+  StudyEstimate own{&measure};
+  own.participant = participant;
+  own.value = tally.percent();
+  own.n = 1;
+  own.n_trials = tally.n_trials;
+  own.n_hits = tally.n_hits;
+  return own;
 }
 
 void put_detection(Estimates& all, const ComparisonTrials& of) {
@@ -133,13 +151,9 @@ void put_detection(Estimates& all, const ComparisonTrials& of) {
     if (tallies.first.n_trials == 0 || tallies.second.n_trials == 0) continue;
     for (const auto& [measure, tally] :
          {std::pair(&hits, tallies.first), std::pair(&alarms, tallies.second)}) {
-      StudyEstimate estimate{measure, "comparison", person.second};
-      estimate.participant = person.first;
-      estimate.value = tally.percent();
-      estimate.n = 1;
-      estimate.n_trials = tally.n_trials;
-      estimate.n_hits = tally.n_hits;
-      all.push_back(std::move(estimate));
+      all.push_back(own_share(*measure, person.first, tally));
+      all.back().task = "comparison";
+      all.back().condition = person.second;
     }
   }
 }
@@ -312,8 +326,8 @@ std::string model_curves(const Summary& summary, const StudyEstimate& of) {
 
 class ChoiceSection final : public Section {
  public:
-  void put(Summary& summary, const SharedFolds& shared) override {
-    const ComparisonTrials& of = shared.comparisons;
+  void put(Summary& summary) override {
+    const ComparisonTrials& of = summary.shared->comparisons;
     const ComparisonSummary comparison = comparisons_of(of);
     ComparisonChoices all{
         {0, "all"}, {}, 0, {}, comparison.wrong_cube, comparison.false_alarm, comparison.at_zero};
@@ -324,13 +338,21 @@ class ChoiceSection final : public Section {
     put_choices(summary.estimates, all, "all", comparison.by_reference.size() > 1);
     for (const ComparisonChoices& choices : comparison.by_level)
       put_choices(summary.estimates, choices, "level");
-    for (const auto& [compared, theirs] : of.by_compared()) {
-      ComparedTrials sorted;
-      for (const ComparedTrial& trial : theirs) sorted.push_back(&trial);
-      for (const ComparedTrials& bin : binned(std::move(sorted)))
-        put_bin(summary.estimates, compared, bin, of);
-    }
-    put_detection(summary.estimates, of);
+    each_bin(of, [&](const Compared& compared, const BinChoices& bin) {
+      put_bin(summary.estimates, compared, bin);
+    });
+  }
+
+  Estimates of_participants(const Summary& summary) const override {
+    Estimates all;
+    const ComparisonTrials& of = summary.shared->comparisons;
+    if (of.participants().size() <= most_lines)
+      each_bin(of, [&](const Compared& compared, const BinChoices& bin) {
+        for (const auto& [participant, tally] : bin.chose_right)
+          bin.put(all, compared, own_share(right, participant, tally));
+      });
+    put_detection(all, of);
+    return all;
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -386,8 +408,8 @@ class ChoiceSection final : public Section {
 };
 }  // namespace
 
-std::unique_ptr<Section> choice_section() {
-  return std::make_unique<ChoiceSection>();
+std::shared_ptr<Section> choice_section() {
+  return std::make_shared<ChoiceSection>();
 }
 
 }  // namespace heft

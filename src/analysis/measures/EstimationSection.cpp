@@ -67,12 +67,15 @@ class EstimationSection final : public Section {
     }
   }
 
-  void put(Summary& summary, const SharedFolds&) override {
-    for (const auto& [condition, people] : conditions_) {
-      put_by_mass(summary.estimates, condition, people, mean_value, &Numbers::by_mass);
-      put_by_mass(summary.estimates, condition, people, geometric_mean, &Numbers::logs_by_mass);
-      put_exponents(summary.estimates, condition, people);
-    }
+  void put(Summary& summary) override {
+    for (Estimates all = everything(); StudyEstimate & estimate : all)
+      if (estimate.participant.empty()) summary.estimates.push_back(std::move(estimate));
+  }
+
+  Estimates of_participants(const Summary&) const override {
+    Estimates all = everything();
+    std::erase_if(all, [](const StudyEstimate& estimate) { return estimate.participant.empty(); });
+    return all;
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -144,6 +147,16 @@ class EstimationSection final : public Section {
  private:
   using People = std::map<std::string, Numbers>;
 
+  Estimates everything() const {
+    Estimates all;
+    for (const auto& [condition, people] : conditions_) {
+      put_by_mass(all, condition, people, mean_value, &Numbers::by_mass);
+      put_by_mass(all, condition, people, geometric_mean, &Numbers::logs_by_mass);
+      put_exponents(all, condition, people);
+    }
+    return all;
+  }
+
   StudyEstimate placed(StudyEstimate estimate, const std::string& condition) const {
     estimate.task = task_;
     estimate.condition = condition;
@@ -210,8 +223,8 @@ class EstimationSection final : public Section {
 };
 }  // namespace
 
-std::unique_ptr<Section> estimation_section() {
-  return std::make_unique<EstimationSection>();
+std::shared_ptr<Section> estimation_section() {
+  return std::make_shared<EstimationSection>();
 }
 
 }  // namespace heft

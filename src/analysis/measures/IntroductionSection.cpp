@@ -13,7 +13,7 @@ class IntroductionSection final : public Section {
  public:
   void add(const SessionData& data) override { fold_.add(data); }
 
-  void put(Summary& summary, const SharedFolds&) override {
+  void put(Summary& summary) override {
     summary.introduction = fold_.result();
     const Rate& rate = summary.introduction.first_try;
     if (!rate.percent) return;
@@ -51,8 +51,8 @@ class IntroductionSection final : public Section {
 };
 }  // namespace
 
-std::unique_ptr<Section> introduction_section() {
-  return std::make_unique<IntroductionSection>();
+std::shared_ptr<Section> introduction_section() {
+  return std::make_shared<IntroductionSection>();
 }
 
 }  // namespace heft

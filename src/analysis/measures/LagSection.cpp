@@ -31,7 +31,7 @@ class LagSection final : public Section {
     }
   }
 
-  void put(Summary& summary, const SharedFolds&) override {
+  void put(Summary& summary) override {
     for (const auto& [of, masses] : values_mm_)
       for (const auto& [mass_g, values] : masses) {
         StudyEstimate estimate = quartiles_estimate(lag, values);
@@ -40,6 +40,7 @@ class LagSection final : public Section {
         estimate.by = {{"group", of.second}, at("mass_g", mass_g)};
         summary.estimates.push_back(std::move(estimate));
       }
+    values_mm_.clear();
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -77,8 +78,8 @@ class LagSection final : public Section {
 };
 }  // namespace
 
-std::unique_ptr<Section> lag_section() {
-  return std::make_unique<LagSection>();
+std::shared_ptr<Section> lag_section() {
+  return std::make_shared<LagSection>();
 }
 
 }  // namespace heft

@@ -139,12 +139,17 @@ EstimateTable threshold_table() {
 
 class SensitivitySection final : public Section {
  public:
-  void put(Summary& summary, const SharedFolds& shared) override {
-    summary.sensitivity = sensitivities_of(shared.comparisons);
+  void put(Summary& summary) override {
+    summary.sensitivity = sensitivities_of(summary.shared->comparisons);
     for (const ReferenceSensitivity& row : summary.sensitivity) put_pooled(summary.estimates, row);
-    for (const PersonThreshold& person :
-         thresholds_of(shared.comparisons, shared.staircases, summary.sensitivity))
-      put_person(summary.estimates, person);
+  }
+
+  Estimates of_participants(const Summary& summary) const override {
+    Estimates all;
+    for (const PersonThreshold& person : thresholds_of(
+             summary.shared->comparisons, summary.shared->staircases, summary.sensitivity))
+      put_person(all, person);
+    return all;
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -200,8 +205,8 @@ class SensitivitySection final : public Section {
 };
 }  // namespace
 
-std::unique_ptr<Section> sensitivity_section() {
-  return std::make_unique<SensitivitySection>();
+std::shared_ptr<Section> sensitivity_section() {
+  return std::make_shared<SensitivitySection>();
 }
 
 }  // namespace heft

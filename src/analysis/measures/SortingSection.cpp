@@ -189,11 +189,17 @@ class SortingSection final : public Section {
  public:
   void add(const SessionData& data) override { fold_.add(data); }
 
-  void put(Summary& summary, const SharedFolds&) override {
+  void put(Summary& summary) override {
     summary.sorting = fold_.result();
-    for (const auto& put_all : {put_shares, put_chance, put_swaps, put_labels, put_participants})
+    for (const auto& put_all : {put_shares, put_chance, put_swaps, put_labels})
       for (const ConditionSorting& sorting : summary.sorting) put_all(summary.estimates, sorting);
-    for (ConditionSorting& sorting : summary.sorting) sorting.correct_by_participant.clear();
+    fold_ = {};
+  }
+
+  Estimates of_participants(const Summary& summary) const override {
+    Estimates all;
+    for (const ConditionSorting& sorting : summary.sorting) put_participants(all, sorting);
+    return all;
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -246,8 +252,8 @@ class SortingSection final : public Section {
 };
 }  // namespace
 
-std::unique_ptr<Section> sorting_section() {
-  return std::make_unique<SortingSection>();
+std::shared_ptr<Section> sorting_section() {
+  return std::make_shared<SortingSection>();
 }
 
 }  // namespace heft

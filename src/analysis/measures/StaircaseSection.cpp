@@ -131,24 +131,29 @@ void put_jnds(Estimates& all, StudyEstimate estimate, const StartedJnds& jnds) {
   put_number(n_known, jnds.n() - jnds.n_missing);
 }
 
-// The paper's staircases began above, so that its figures stand beside those.
-void put_started(Estimates& all, const ReferenceJnd& row, const char* staircases,
-                 const StartedJnds& jnds, bool beside_paper) {
+// JNDs by where the staircases began.
+struct Began {
+  const char* staircases;
+  StartedJnds jnds;
+  bool beside_paper;  // its staircases began above
+};
+
+std::vector<Began> began_in(const ReferenceJnd& row) {
+  if (!row.starts) return {{"all", row.as_published(), true}};
+  return {{"from above", row.starts->from_above_g, true},
+          {"from below", row.starts->from_below_g, false},
+          {"above - below", row.starts->difference_g, false}};
+}
+
+StudyEstimate estimate_of(const ReferenceJnd& row, const Began& began) {
   StudyEstimate estimate = estimate_at(jnd, row);
-  estimate.by.push_back({"staircases", staircases});
-  put_participants(all, estimate, jnds.participants);
-  estimate.published = beside_paper ? row.published : nullptr;
-  put_jnds(all, std::move(estimate), jnds);
+  estimate.by.push_back({"staircases", began.staircases});
+  estimate.published = began.beside_paper ? row.published : nullptr;
+  return estimate;
 }
 
 void put_overall(Estimates& all, const ReferenceJnd& row) {
   StudyEstimate estimate = estimate_at(jnd_overall, row);
-  put_participants(all, estimate, row.participants);
-  for (const std::string& participant : row.missing) {
-    all.push_back(estimate);
-    all.back().participant = participant;
-    all.back().why = "nothing is known of it";
-  }
   estimate.published = row.published;
   put_jnds(all, std::move(estimate),
            {{row.summary, row.mean_g, row.sd_g, row.interval_g},
@@ -258,26 +263,29 @@ EstimateTable health_table() {
 
 class StaircaseSection final : public Section {
  public:
-  void put(Summary& summary, const SharedFolds& shared) override {
-    summary.jnd = shared.staircases.jnds();
+  void put(Summary& summary) override {
+    summary.jnd = summary.shared->staircases.jnds();
     for (const ReferenceJnd& row : summary.jnd) {
-      if (!row.starts) {
-        put_started(summary.estimates, row, "all", row.as_published(), true);
-        put_overall(summary.estimates, row);
-        continue;
-      }
-      put_started(summary.estimates, row, "from above", row.starts->from_above_g, true);
-      put_started(summary.estimates, row, "from below", row.starts->from_below_g, false);
-      put_jnds(
-          summary.estimates,
-          [&] {
-            StudyEstimate estimate = estimate_at(jnd, row);
-            estimate.by.push_back({"staircases", "above - below"});
-            return estimate;
-          }(),
-          row.starts->difference_g);
+      for (const Began& began : began_in(row))
+        put_jnds(summary.estimates, estimate_of(row, began), began.jnds);
       put_overall(summary.estimates, row);
     }
+  }
+
+  Estimates of_participants(const Summary& summary) const override {
+    Estimates all;
+    for (const ReferenceJnd& row : summary.jnd) {
+      for (const Began& began : began_in(row))
+        put_participants(all, estimate_of(row, began), began.jnds.participants);
+      const StudyEstimate overall = estimate_at(jnd_overall, row);
+      put_participants(all, overall, row.participants);
+      for (const std::string& participant : row.missing) {
+        all.push_back(overall);
+        all.back().participant = participant;
+        all.back().why = "nothing is known of it";
+      }
+    }
+    return all;
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -310,8 +318,8 @@ class StaircaseSection final : public Section {
 };
 }  // namespace
 
-std::unique_ptr<Section> staircase_section() {
-  return std::make_unique<StaircaseSection>();
+std::shared_ptr<Section> staircase_section() {
+  return std::make_shared<StaircaseSection>();
 }
 
 }  // namespace heft

@@ -27,7 +27,7 @@ class TimingSection final : public Section {
     add_tenths(data);
   }
 
-  void put(Summary& summary, const SharedFolds&) override {
+  void put(Summary& summary) override {
     for (const ResponseTimes& times : times_.result()) {
       StudyEstimate estimate{&response_time, times.task, times.condition};
       estimate.value = times.median_s;
@@ -53,6 +53,8 @@ class TimingSection final : public Section {
       estimate.value = reason.n;
       summary.estimates.push_back(std::move(estimate));
     }
+    times_ = {};
+    by_task_.clear();
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -127,8 +129,8 @@ class TimingSection final : public Section {
 };
 }  // namespace
 
-std::unique_ptr<Section> timing_section() {
-  return std::make_unique<TimingSection>();
+std::shared_ptr<Section> timing_section() {
+  return std::make_shared<TimingSection>();
 }
 
 }  // namespace heft

@@ -23,10 +23,15 @@ constexpr Measure n_late{"pictures_late", "", "late", "camera pictures that came
 
 class TrackingSection final : public Section {
  public:
-  void put(Summary& summary, const SharedFolds&) override {
-    for (const PersonTracking& person : summary.tracking) {
+  bool of_everyone() const override { return true; }
+  void add(const SessionData& data) override { fold_.add(data); }
+  void put(Summary&) override {}
+
+  Estimates of_participants(const Summary&) const override {
+    Estimates all;
+    for (const PersonTracking& person : fold_.result()) {
       const auto put = [&](const Measure& measure, std::optional<double> value) {
-        StudyEstimate& estimate = summary.estimates.emplace_back(StudyEstimate{&measure});
+        StudyEstimate& estimate = all.emplace_back(StudyEstimate{&measure});
         estimate.participant = person.participant;
         estimate.value = value;
         estimate.n = 1;
@@ -43,6 +48,7 @@ class TrackingSection final : public Section {
       put(n_dropped, person.pictures.dropped);
       put(n_late, person.pictures.late);
     }
+    return all;
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -81,11 +87,14 @@ class TrackingSection final : public Section {
     chart.axes = "set yrange [0:105]\n";
     return {chart};
   }
+
+ private:
+  TrackingFold fold_;
 };
 }  // namespace
 
-std::unique_ptr<Section> tracking_section() {
-  return std::make_unique<TrackingSection>();
+std::shared_ptr<Section> tracking_section() {
+  return std::make_shared<TrackingSection>();
 }
 
 }  // namespace heft
