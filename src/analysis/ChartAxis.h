@@ -16,13 +16,8 @@ namespace heft {
 using Chosen = std::vector<const StudyEstimate*>;
 
 inline std::string text_of(const StudyEstimate& estimate, std::string_view coordinate) {
-  if (coordinate == "task") return estimate.task;
-  if (coordinate == "condition") return estimate.condition;
-  if (coordinate == "participant") return estimate.participant;
-  if (coordinate == "reference_g")
-    return estimate.reference_g ? fmt::format("{:g} g", *estimate.reference_g) : "";
-  const Coordinate* found = estimate.at(coordinate);
-  return found ? found->text : "";
+  const std::string text = estimate.text_at(coordinate);
+  return coordinate == "reference_g" && !text.empty() ? text + " g" : text;
 }
 
 // "200 g, C2"

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "analysis/Timing.h"
-
 namespace heft {
 
 namespace {
@@ -63,6 +61,12 @@ std::map<std::string, AnswersByLevel> answers_by_side(const ComparisonTrials& tr
     answers[trials.participant(trial)][signed_g][static_cast<std::size_t>(trial.side)] += 1;
   }
   return answers;
+}
+
+ComparedTrials pointers_to(const std::deque<ComparedTrial>& trials) {
+  ComparedTrials pointers;
+  for (const ComparedTrial& trial : trials) pointers.push_back(&trial);
+  return pointers;
 }
 
 std::vector<ComparedTrials> binned(ComparedTrials sorted) {

@@ -60,6 +60,7 @@ std::map<std::string, AnswersByLevel> answers_by_side(const ComparisonTrials& tr
                                                       const Compared& compared);
 
 using ComparedTrials = std::vector<const ComparedTrial*>;
+ComparedTrials pointers_to(const std::deque<ComparedTrial>& trials);
 
 /// Those whose differences lie next to each other, in bins of about as many; those at 0, catch
 /// trials too, are one of their own.

@@ -27,6 +27,11 @@ bool Attempt::shows(std::span<const double> masses) const {
   return std::ranges::equal(shown, masses);
 }
 
+std::optional<double> response_time_s(const TrialRow& trial) {
+  if (!trial.shown_s || !trial.validated_s) return std::nullopt;
+  return *trial.validated_s - *trial.shown_s - trial.paused_s - trial.lost_s;
+}
+
 std::optional<std::string> SessionData::model() const {
   for (const LoggedSetup& logged : setups) {
     if (has_person(logged.setup)) continue;

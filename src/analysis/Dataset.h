@@ -31,6 +31,9 @@ struct Attempt {
   bool shows(std::span<const double> masses) const;
 };
 
+/// validated - shown - paused - lost, in seconds; none where the trial was not shown or validated.
+std::optional<double> response_time_s(const TrialRow& trial);
+
 /// What became of the camera's pictures, over a session of a person.
 struct PictureCounts {
   int shown = 0, dropped = 0, late = 0;
@@ -111,6 +114,15 @@ struct Dataset {
   std::string database;  ///< the logs' file names, as given
   std::vector<SessionData> sessions;
 };
+
+/// Figures that are made of sessions one by one, so that of a thousand no more than one is in
+/// memory: a fold takes each (add), and `result` is what they come to.
+template <typename Fold>
+auto folded(std::span<const SessionData> sessions) {
+  Fold fold;
+  for (const SessionData& data : sessions) fold.add(data);
+  return fold.result();
+}
 
 /// The sessions of one or several logs, read one by one: of a thousand no more than one is in
 /// memory.

@@ -15,13 +15,9 @@ Cell grams(const std::optional<double>& mass_g) {
 }
 
 Cell coordinate_cell(const StudyEstimate& estimate, std::string_view name, int decimals) {
-  if (name == "task") return word(estimate.task);
-  if (name == "condition") return word(estimate.condition);
-  if (name == "participant") return word(estimate.participant);
   if (name == "reference_g") return grams(estimate.reference_g);
   const Coordinate* found = estimate.at(name);
-  if (!found) return {};
-  return found->value ? number(found->value, decimals) : word(found->text);
+  return found && found->value ? number(found->value, decimals) : word(estimate.text_at(name));
 }
 
 Cell shown(const std::optional<double>& value, const EstimateColumn& column, Censored censored) {

@@ -64,6 +64,15 @@ inline void add_interval(std::vector<EstimateColumn>& columns, const Measure& me
   columns.push_back(column(measure, Field::high, std::move(high), "high"));
 }
 
+/// The columns N (of trials), median_UNIT and the quartiles.
+inline void add_quartiles(std::vector<EstimateColumn>& columns, const Measure& measure) {
+  const std::string unit(measure.unit);
+  columns.push_back(column(measure, Field::n_trials, "n", "n"));
+  columns.push_back(column(measure, Field::value, "median_" + unit, "median", 2));
+  columns.push_back(column(measure, Field::low, "lower_quartile_" + unit, "25 %", 2));
+  columns.push_back(column(measure, Field::high, "upper_quartile_" + unit, "75 %", 2));
+}
+
 struct EstimateTable {
   std::string name, title;
   std::vector<EstimateColumn> columns;

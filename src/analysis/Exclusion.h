@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/Fold.h"
+#include "analysis/Dataset.h"
 #include "protocol/AnalysisPlan.h"
 
 namespace heft {

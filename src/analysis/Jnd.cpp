@@ -9,7 +9,7 @@
 #include <map>
 #include <ranges>
 
-#include "analysis/Fold.h"
+#include "analysis/Dataset.h"
 #include "protocol/Protocol.h"
 #include "protocol/TomlDocument.h"
 #include "psychophysics/Constant.h"

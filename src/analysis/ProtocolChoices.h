@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/Fold.h"
+#include "analysis/Dataset.h"
 #include "protocol/Protocol.h"
 
 namespace heft {

@@ -4,7 +4,6 @@
 
 #include <array>
 
-#include "analysis/Timing.h"
 #include "experiment/Block.h"
 
 namespace heft {

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "analysis/Fold.h"
+#include "analysis/Dataset.h"
 #include "tasks/Tasks.h"
 
 namespace heft {

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "analysis/ComparisonTrials.h"
-#include "analysis/Fold.h"
+#include "analysis/Dataset.h"
 #include "analysis/Jnd.h"
+#include "analysis/StudyEstimate.h"
 #include "inference/PooledSensitivity.h"
 
 namespace heft {
@@ -24,5 +25,9 @@ std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trial
 inline std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions) {
   return sensitivities_of(folded<ComparisonTrials>(sessions));
 }
+
+/// Threshold, sensitivity and criterion of each, and the ratios of thresholds at neighboring
+/// references.
+void put_sensitivities(Estimates& all, std::span<const ReferenceSensitivity> rows);
 
 }  // namespace heft

@@ -12,12 +12,10 @@ const Hypothesis& named(const Summary& summary, std::string_view name) {
   return summary.hypotheses.front();
 }
 
-std::string percent(const Proportion& proportion) {
-  if (!proportion.mean_percent) return "-";
-  std::string text = fmt::format("{:.0f} %", *proportion.mean_percent);
-  if (proportion.interval_percent)
-    text += fmt::format(" [{:.0f}, {:.0f}]", proportion.interval_percent->low,
-                        proportion.interval_percent->high);
+std::string percent(const StudyEstimate& share) {
+  if (!share.value) return "-";
+  std::string text = fmt::format("{:.0f} %", *share.value);
+  if (share.low) text += fmt::format(" [{:.0f}, {:.0f}]", *share.low, *share.high);
   return text;
 }
 
@@ -29,13 +27,19 @@ std::string who(const Summary& summary) {
 }
 
 // Chance is of answers: who doesn't know is neither right nor wrong.
-std::string sorting_in_words(const ConditionSorting& sorting) {
-  const std::string& name = sorting.condition;
-  std::string text = fmt::format("{} of trials were correct in {}", percent(sorting.correct), name);
-  if (sorting.none.mean_percent.value_or(0) > 0)
+std::string sorting_in_words(const Summary& summary, const StudyEstimate& correct) {
+  const std::string& name = correct.condition;
+  const auto of = [&](std::string_view measure, std::string_view trials, std::string_view answer) {
+    return *find_estimate(summary.estimates, measure,
+                          {{"condition", name}, {"trials", trials}, {"answer", answer}});
+  };
+  const double none_percent = of("sorting_answers", "all", "I don't know").value.value_or(0);
+  std::string text = fmt::format("{} of trials were correct in {}", percent(correct), name);
+  if (none_percent > 0)
     text += fmt::format(" and {} of the answered trials in {} ({:.0f} % were \"I don't know\")",
-                        percent(sorting.answered_correct), name, *sorting.none.mean_percent);
-  return text + fmt::format(", where chance is {:.0f} %", sorting.chance_percent().value_or(0));
+                        percent(of("sorting_answers", "answered", "correct")), name, none_percent);
+  return text + fmt::format(", where chance is {:.0f} %",
+                            of("sorting_chance", "all", "correct").value.value_or(0));
 }
 
 // What the paper's hypotheses come to, of those of its conditions that were run.
@@ -67,8 +71,9 @@ std::string verdicts_in_words(const Summary& summary) {
 
 std::string sorting_sentence(const Summary& summary) {
   std::string text;
-  for (const ConditionSorting& sorting : summary.sorting)
-    if (sorting.n_trials > 0) text += (text.empty() ? "" : "; ") + sorting_in_words(sorting);
+  for (const StudyEstimate* correct : estimates_of(summary.estimates, "sorting_answers",
+                                                   {{"trials", "all"}, {"answer", "correct"}}))
+    if (correct->value) text += (text.empty() ? "" : "; ") + sorting_in_words(summary, *correct);
   if (text.empty())
     return fmt::format("Sorting: of {} nobody completed a trial, so nothing is said of it.",
                        who(summary));
@@ -77,14 +82,11 @@ std::string sorting_sentence(const Summary& summary) {
 
 std::string comparison_sentence(const Summary& summary) {
   std::string known, unknown;
-  for (const ReferenceSensitivity& row : summary.sensitivity) {
-    const PooledSensitivity& pooled = row.pooled;
-    const std::string where =
-        fmt::format("{:g} g in {}", row.compared.reference_g, row.compared.condition);
-    if (pooled.identifiable())
+  for (const StudyEstimate* one : estimates_of(summary.estimates, "threshold_75")) {
+    const std::string where = fmt::format("{:g} g in {}", *one->reference_g, one->condition);
+    if (one->value)
       known += fmt::format("{}{:.0f} g [{:.0f}, {:.0f}] at {}", known.empty() ? "" : ", ",
-                           *pooled.threshold_75_g, pooled.threshold_interval_g->low,
-                           pooled.threshold_interval_g->high, where);
+                           *one->value, *one->low, *one->high, where);
     else
       unknown += fmt::format("{}{}", unknown.empty() ? "" : ", ", where);
   }
@@ -112,7 +114,7 @@ std::string limits_sentence(const Summary& summary) {
     text += summary.data == "simulated"
                 ? "; a model answered, so nothing of this is about people"
                 : "; a model answered a part of it, so it is not about people alone";
-  if (!summary.jnd.empty())
+  if (find_estimate(summary.estimates, "jnd"))
     text +=
         "; the paper's JND follows the criterion and the start, so it is no measure of what "
         "people perceive";
@@ -123,8 +125,10 @@ std::string limits_sentence(const Summary& summary) {
 
 std::vector<std::string> three_sentences(const Summary& summary) {
   std::vector<std::string> sentences;
-  if (!summary.sorting.empty()) sentences.push_back(sorting_sentence(summary));
-  if (!summary.sensitivity.empty()) sentences.push_back(comparison_sentence(summary));
+  if (find_estimate(summary.estimates, "sorting_answers"))
+    sentences.push_back(sorting_sentence(summary));
+  if (find_estimate(summary.estimates, "threshold_75"))
+    sentences.push_back(comparison_sentence(summary));
   sentences.push_back(limits_sentence(summary));
   return sentences;
 }

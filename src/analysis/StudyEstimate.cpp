@@ -2,9 +2,37 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/Quantile.h"
 
 namespace heft {
+
+std::string StudyEstimate::text_at(std::string_view name) const {
+  if (name == "task") return task;
+  if (name == "condition") return condition;
+  if (name == "participant") return participant;
+  if (name == "reference_g") return reference_g ? fmt::format("{:g}", *reference_g) : "";
+  const Coordinate* found = at(name);
+  return found ? found->text : "";
+}
+
+std::vector<const StudyEstimate*> estimates_of(const Estimates& estimates, std::string_view measure,
+                                               std::initializer_list<Place> places) {
+  std::vector<const StudyEstimate*> found;
+  for (const StudyEstimate& one : estimates)
+    if (one.measure->name == measure && std::ranges::all_of(places, [&](const Place& place) {
+          return one.text_at(place.first) == place.second;
+        }))
+      found.push_back(&one);
+  return found;
+}
+
+const StudyEstimate* find_estimate(const Estimates& estimates, std::string_view measure,
+                                   std::initializer_list<Place> places) {
+  const auto found = estimates_of(estimates, measure, places);
+  return found.empty() ? nullptr : found.front();
+}
 
 std::string_view beyond_sign(Censored censored) {
   if (censored == Censored::none || censored == Censored::unsettled) return "";
@@ -42,6 +70,17 @@ StudyEstimate rate_estimate(const Measure& measure, const Rate& rate) {
   estimate.n_trials = rate.trials.n_trials;
   estimate.n_hits = rate.trials.n_hits;
   return estimate;
+}
+
+StudyEstimate own_share(const Measure& measure, const std::string& participant,
+                        const Tally& tally) {
+  StudyEstimate own{&measure};
+  own.participant = participant;
+  own.value = tally.percent();
+  own.n = 1;
+  own.n_trials = tally.n_trials;
+  own.n_hits = tally.n_hits;
+  return own;
 }
 
 }  // namespace heft

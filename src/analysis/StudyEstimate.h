@@ -3,9 +3,11 @@
 #pragma once
 
 #include <deque>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "analysis/Published.h"
@@ -46,6 +48,7 @@ struct StudyEstimate {
   Censored censored = Censored::none;
   std::string why{};
   const published::Figure* published = nullptr;  ///< null: the paper has none to compare with
+  bool as_published = false;                     ///< technique, masses and task are the paper's
 
   void set(const std::optional<Interval>& interval) {
     if (interval) {
@@ -53,17 +56,29 @@ struct StudyEstimate {
       high = interval->high;
     }
   }
-  /// Null: it has no coordinate of that name.
+  /// Null: it has no coordinate of that name in `by`.
   const Coordinate* at(std::string_view name) const {
     for (const Coordinate& coordinate : by)
       if (coordinate.name == name) return &coordinate;
     return nullptr;
   }
+  /// Of task, condition, participant and reference_g too; empty: it has none.
+  std::string text_at(std::string_view name) const;
 };
 
 /// All of a study. Growing a deque moves nothing, so that a thousand participants take no more
 /// memory for it than their estimates.
 using Estimates = std::deque<StudyEstimate>;
+
+/// A coordinate's name and its text.
+using Place = std::pair<std::string_view, std::string_view>;
+
+/// Those of a measure at all of these places.
+std::vector<const StudyEstimate*> estimates_of(const Estimates& estimates, std::string_view measure,
+                                               std::initializer_list<Place> places = {});
+/// The first of them; null: there is none.
+const StudyEstimate* find_estimate(const Estimates& estimates, std::string_view measure,
+                                   std::initializer_list<Place> places = {});
 
 /// "> " where the value lies above what is given, "< " below, otherwise nothing.
 std::string_view beyond_sign(Censored censored);
@@ -79,5 +94,8 @@ StudyEstimate quartiles_estimate(const Measure& measure, const std::deque<double
 
 /// A share of trials in percent, with its interval over participants.
 StudyEstimate rate_estimate(const Measure& measure, const Rate& rate);
+
+/// One participant's share of trials in percent.
+StudyEstimate own_share(const Measure& measure, const std::string& participant, const Tally& tally);
 
 }  // namespace heft

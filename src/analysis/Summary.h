@@ -13,14 +13,9 @@
 #include "analysis/Dataset.h"
 #include "analysis/Exclusion.h"
 #include "analysis/Flow.h"
-#include "analysis/Introduction.h"
-#include "analysis/Jnd.h"
 #include "analysis/ProtocolChoices.h"
 #include "analysis/Quality.h"
-#include "analysis/Sensitivity.h"
-#include "analysis/Sorting.h"
 #include "analysis/StudyEstimate.h"
-#include "analysis/TrackingQuality.h"
 #include "analysis/Tracks.h"
 #include "analysis/WhatHappened.h"
 
@@ -80,11 +75,6 @@ struct Summary {
   Estimates estimates;  ///< over participants, in the order of the sections
   std::vector<std::shared_ptr<const Section>> sections;  ///< which have each participant's
   std::shared_ptr<const SharedFolds> shared = std::make_shared<SharedFolds>();
-  // What hypotheses and charts take beside them.
-  std::vector<ConditionSorting> sorting;
-  IntroductionSummary introduction;
-  std::vector<ReferenceJnd> jnd;
-  std::vector<ReferenceSensitivity> sensitivity;
   Quality quality;
   ParticipantFlow flow;
   std::optional<SessionTracks> tracks;

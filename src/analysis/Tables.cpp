@@ -16,10 +16,10 @@ constexpr std::size_t text_width = 102;
 // Where there is nothing to show, say so rather than leave it out.
 std::string absences(const Summary& summary) {
   std::string text;
-  if (std::ranges::none_of(summary.sorting,
-                           [](const ConditionSorting& sorting) { return sorting.n_trials > 0; }))
+  if (std::ranges::none_of(estimates_of(summary.estimates, "sorting_answers"),
+                           [](const StudyEstimate* one) { return one->value.has_value(); }))
     text += "Sorting: no completed trials.\n";
-  if (summary.jnd.empty()) text += "JND: no staircases that estimate one.\n";
+  if (!find_estimate(summary.estimates, "jnd")) text += "JND: no staircases that estimate one.\n";
   return text;
 }
 

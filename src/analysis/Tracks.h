@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/Fold.h"
+#include "analysis/Dataset.h"
 #include "analysis/Jnd.h"
 
 namespace heft {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/Fold.h"
+#include "analysis/Dataset.h"
 
 namespace heft {
 

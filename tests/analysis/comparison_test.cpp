@@ -1,11 +1,8 @@
 // Wrong cubes, false alarms, response times and voids.
-#include "analysis/Comparison.h"
-
 #include <gmock/gmock.h>
 
+#include "Figures.h"
 #include "MadeUpSessions.h"
-#include "analysis/Tables.h"
-#include "analysis/Timing.h"
 
 namespace heft {
 namespace {
@@ -27,39 +24,40 @@ SessionData comparisons() {
 }
 
 TEST(Comparison, WrongCubesAreOfChoicesBetweenDifferentCubes) {
-  const SessionData data = comparisons();
-  const ComparisonSummary summary = comparisons_of({&data, 1});
-  EXPECT_EQ(summary.wrong_cube.trials.n_trials, 2);
-  EXPECT_EQ(summary.wrong_cube.percent, 50);
+  const StudyEstimate wrong = figure({comparisons()}, "incorrect_choice", {{"over", "all"}});
+  EXPECT_EQ(wrong.n_trials, 2);
+  EXPECT_EQ(wrong.value, 50);
 }
 
 TEST(Comparison, FalseAlarmsAreOfCatchTrialsAndZeroLevelsOfStaircases) {
-  const SessionData data = comparisons();
-  const ComparisonSummary summary = comparisons_of({&data, 1});
-  EXPECT_EQ(summary.false_alarm.trials.n_trials, 3);
-  EXPECT_EQ(summary.false_alarm.trials.n_hits, 1);
-  EXPECT_EQ(summary.at_zero.trials.n_trials, 1);
-  EXPECT_EQ(summary.at_zero.trials.n_hits, 1);
-  ASSERT_EQ(summary.by_reference.size(), 1);
-  EXPECT_EQ(summary.by_reference[0].difference.trials.n_trials, 4);
-  EXPECT_EQ(summary.by_reference[0].difference.trials.n_hits, 3);
+  const Summary summary = summarized({comparisons()});
+  for (const char* over : {"each", "all"}) {
+    const auto is = [&](const char* measure, int n_hits, int n_trials) {
+      const StudyEstimate found = figure(summary, measure, {{"over", over}});
+      EXPECT_EQ(found.n_trials, n_trials) << measure << ' ' << over;
+      EXPECT_EQ(found.n_hits, n_hits) << measure << ' ' << over;
+    };
+    is("false_alarm", 1, 3);
+    is("choice_at_zero", 1, 1);
+    is("choice", 3, 4);
+  }
 }
 
 TEST(Comparison, LevelsAreWithoutCatchTrials) {
-  const SessionData data = comparisons();
-  const ComparisonSummary summary = comparisons_of({&data, 1});
-  ASSERT_EQ(summary.by_level.size(), 3);
-  EXPECT_EQ(summary.by_level[0].level_g, 0);
-  EXPECT_EQ(summary.by_level[0].n_trials, 1);
-  EXPECT_EQ(summary.by_level[1].level_g, 125);
-  EXPECT_EQ(summary.by_level[1].difference.percent, 50);
-  EXPECT_EQ(summary.by_level[1].wrong_cube.percent, 100);
+  const Summary summary = summarized({comparisons()});
+  const auto trials = estimates_of(summary.estimates, "comparisons", {{"over", "level"}});
+  ASSERT_EQ(trials.size(), 3u);
+  EXPECT_EQ(trials[0]->text_at("level_g"), "0");
+  EXPECT_EQ(trials[0]->value, 1);
+  EXPECT_EQ(trials[1]->text_at("level_g"), "125");
+  EXPECT_EQ(figure(summary, "choice", {{"level_g", "125"}}).value, 50);
+  EXPECT_EQ(figure(summary, "incorrect_choice", {{"level_g", "125"}}).value, 100);
 }
 
 TEST(Comparison, NothingIsFoundInNothing) {
-  const ComparisonSummary summary = comparisons_of(ComparisonTrials());
-  EXPECT_FALSE(summary.wrong_cube.percent.has_value());
-  EXPECT_TRUE(summary.by_reference.empty());
+  const Summary summary = summarized({});
+  EXPECT_FALSE(figure(summary, "incorrect_choice").value.has_value());
+  EXPECT_TRUE(estimates_of(summary.estimates, "choice", {{"over", "each"}}).empty());
 }
 
 TEST(Timing, ResponseTimeIsWithoutPausesAndLosses) {
@@ -81,10 +79,11 @@ TEST(Timing, MediansPerTaskAndConditionOfCompletedTrials) {
   }
   data.attempts.push_back(data.attempts.back());
   data.attempts.back().trial.status = TrialStatus::voided;
-  const auto times = response_times({&data, 1});
-  ASSERT_EQ(times.size(), 1);
-  EXPECT_EQ(times[0].n_trials, 3);
-  EXPECT_DOUBLE_EQ(*times[0].median_s, 2);
+  const Summary summary = summarized({data});
+  const auto times = estimates_of(summary.estimates, "response_time");
+  ASSERT_EQ(times.size(), 1u);
+  EXPECT_EQ(times[0]->n_trials, 3);
+  EXPECT_DOUBLE_EQ(*times[0]->value, 2);
 }
 
 TEST(Timing, VoidsByReasonMostFrequentFirst) {
@@ -94,10 +93,11 @@ TEST(Timing, VoidsByReasonMostFrequentFirst) {
     attempt.trial.status = TrialStatus::voided;
     attempt.trial.void_reason = reason;
   }
-  const auto voids = voids_of({&data, 1});
-  ASSERT_EQ(voids.size(), 2);
-  EXPECT_EQ(voids[0].reason, "interrupted");
-  EXPECT_EQ(voids[0].n, 2);
+  const Summary summary = summarized({data});
+  const auto voids = estimates_of(summary.estimates, "void_attempts");
+  ASSERT_EQ(voids.size(), 2u);
+  EXPECT_EQ(voids[0]->text_at("reason"), "interrupted");
+  EXPECT_EQ(voids[0]->value, 2);
 }
 
 std::vector<SessionData> choosers(int n) {
@@ -112,7 +112,7 @@ std::vector<SessionData> choosers(int n) {
 
 TEST(ChoiceCurves, EachParticipantIsALineUntilThereAreTooMany) {
   const auto lines = [](int n) {
-    const Summary summary = summarize({"x.db", choosers(n)}, "");
+    const Summary summary = summarized(choosers(n));
     std::map<std::string, double> percent;
     for (const StudyEstimate& one : all_estimates(summary))
       if (one.measure->name == "chosen_heavier" && !one.participant.empty())

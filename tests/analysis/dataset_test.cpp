@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
+#include "Figures.h"
 #include "MadeUpSessions.h"
-#include "analysis/Summary.h"
 #include "base/Error.h"
 #include "base/TextFile.h"
 #include "record/SessionLog.h"
@@ -112,19 +112,20 @@ TEST_F(LogFile, IsReadBack) {
   const Summary summary = analyze({{path()}, {}, false, ""});
   EXPECT_EQ(summary.sessions.size(), 1);
   EXPECT_EQ(summary.data, "human");
-  EXPECT_EQ(summary.sorting[0].n_trials, 1);
-  EXPECT_EQ(summary.sorting[0].incorrect.mean_percent, 100);
-  EXPECT_THAT(summary.sorting[0].swaps, ElementsAre(1, 0, 0, 0));
-  EXPECT_EQ(summary.sorting[0].published, published::Condition::decoupled);
+  const StudyEstimate incorrect = figure(summary, "sorting_answers", {{"answer", "incorrect"}});
+  EXPECT_EQ(incorrect.n_trials, 1);
+  EXPECT_EQ(incorrect.value, 100);
+  EXPECT_EQ(incorrect.published, &published::sorting_decoupled.incorrect);
+  EXPECT_EQ(figure(summary, "sorting_swapped", {{"exchanged", "light_intermediate"}}).value, 1);
 }
 
 TEST_F(LogFile, PurposesAreMixedOnlyOnDemandAndSessionsCanBeNamed) {
   write_session("P01", Purpose::main);
   write_session("P02", Purpose::pilot);
   EXPECT_THROW(analyze({{path()}, {}, false, ""}), Error);
-  EXPECT_EQ(analyze({{path()}, {}, true, ""}).sorting[0].n_trials, 2);
-  EXPECT_EQ(analyze({{path()}, {2}, false, ""}).sorting[0].n_trials, 1);
-  EXPECT_EQ(analyze({{path()}, {2, 2}, false, ""}).sorting[0].n_trials, 1);
+  EXPECT_EQ(figure(analyze({{path()}, {}, true, ""}), "sorting_chance").n_trials, 2);
+  EXPECT_EQ(figure(analyze({{path()}, {2}, false, ""}), "sorting_chance").n_trials, 1);
+  EXPECT_EQ(figure(analyze({{path()}, {2, 2}, false, ""}), "sorting_chance").n_trials, 1);
   EXPECT_THROW(analyze({{path()}, {3}, false, ""}), Error);
 }
 
@@ -134,7 +135,7 @@ TEST_F(LogFile, PeopleNamedAlikeInTwoLogsAreTwo) {
   std::filesystem::copy(path(), other);
   const Summary summary = analyze({{path(), other}, {}, false, ""});
   EXPECT_EQ(summary.n_participants, 2);
-  EXPECT_EQ(summary.sorting[0].correct.n_participants, 2);
+  EXPECT_EQ(figure(summary, "sorting_answers").n, 2);
   EXPECT_EQ(summary.sessions.at(1).participant, other + ": P01");
   EXPECT_EQ(summary.database, path() + ", " + other);
   EXPECT_THROW(analyze({{path(), path()}, {}, false, ""}), Error);
@@ -151,7 +152,7 @@ TEST_F(LogFile, WhoIsLeftOutIsInNoFigure) {
   EXPECT_EQ(summary.sessions.size(), 2);
   EXPECT_TRUE(summary.participants.at(1).excluded());
   EXPECT_EQ(summary.n_participants, 1);
-  EXPECT_EQ(summary.sorting[0].n_trials, 1);
+  EXPECT_EQ(figure(summary, "sorting_chance").n_trials, 1);
   EXPECT_EQ(summary.flow.n_analyzed, 1);
 }
 

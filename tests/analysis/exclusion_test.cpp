@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "Figures.h"
 #include "MadeUpSessions.h"
 #include "analysis/Summary.h"
 
@@ -34,7 +35,7 @@ TEST(Exclusion, FollowsTheProtocolAndSaysSo) {
   for (SessionData& data : sessions) data.exclusion.false_alarms = 0.5;
   const Summary summary = summarize({"x.db", sessions}, "");
   EXPECT_EQ(summary.n_participants, 1);
-  EXPECT_EQ(summary.jnd.at(0).n(), 1);
+  EXPECT_EQ(figure(summary, "jnd").n, 1);
   ASSERT_EQ(summary.participants.size(), 2);
   EXPECT_THAT(summary.participants[1].excluded_because,
               HasSubstr("false alarms: 4 of 4, the protocol allows 50 %"));

@@ -3,10 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include "Figures.h"
 #include "MadeUpChoosers.h"
 #include "analysis/PersonThresholds.h"
 #include "analysis/Quality.h"
-#include "analysis/TrackingQuality.h"
 
 namespace heft {
 namespace {
@@ -60,18 +60,19 @@ TEST(TrackingQuality, AddsUpAParticipantsSessions) {
   attempt.trial.shown_s = 10;
   attempt.trial.validated_s = 20;
   attempt.trial.lost_s = 1;
-  const auto people = tracking_of(std::vector{one, other});
-  ASSERT_EQ(people.size(), 1u);
-  EXPECT_DOUBLE_EQ(*people[0].in_view_percent(), 90);
-  EXPECT_DOUBLE_EQ(*people[0].tracked_percent(), 97.5);
-  EXPECT_EQ(people[0].counts.frames.n_jumps, 2);
-  EXPECT_DOUBLE_EQ(*people[0].counts.frames.mean_quality, 0.8);
+  const Summary summary = summarized({one, other});
+  EXPECT_EQ(estimates_of(all_estimates(summary), "in_view").size(), 1u);
+  EXPECT_DOUBLE_EQ(*figure(summary, "in_view").value, 90);
+  EXPECT_DOUBLE_EQ(*figure(summary, "tracked").value, 97.5);
+  EXPECT_EQ(figure(summary, "jumps").value, 2);
+  EXPECT_DOUBLE_EQ(*figure(summary, "tracking_quality").value, 0.8);
 }
 
 TEST(TrackingQuality, WithoutFramesTellsOfTheTimeAlone) {
-  const auto people = tracking_of(std::vector{session(1, "a")});
-  EXPECT_FALSE(people.at(0).tracked_percent().has_value());
-  EXPECT_FALSE(people[0].in_view_percent().has_value());
+  const Summary summary = summarized({session(1, "a")});
+  EXPECT_EQ(figure(summary, "times_lost").value, 0);
+  EXPECT_FALSE(figure(summary, "tracked").value.has_value());
+  EXPECT_FALSE(figure(summary, "in_view").value.has_value());
 }
 
 TEST(PersonThresholds, AreGivenWhereTheTrialsBearThem) {

@@ -123,7 +123,8 @@ TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
     const auto row = [](double reference_g, const PooledSensitivity& pooled) {
       return ReferenceSensitivity{{reference_g, "C2"}, pooled, true};
     };
-    summary.sensitivity = {row(100, light), row(100 * ratio, heavy), row(100 * ratio, heaviest)};
+    put_sensitivities(summary.estimates, std::vector{row(100, light), row(100 * ratio, heavy),
+                                                     row(100 * ratio, heaviest)});
     return hypotheses_of(summary).at(4).verdict;
   };
   const Interval one = threshold_ratio_interval(light, heavy);
@@ -251,8 +252,8 @@ Misled misled_by(const Population& population, bool papers, int n_people, int st
     for (double reference_g : {15.0, 200.0, 800.0})
       designs.push_back(papers ? papers_at(reference_g) : recommended_at(reference_g));
     const Summary summary = summarize({"x.db", study(n_people, population, designs, stream)}, "");
-    for (const ReferenceSensitivity& row : summary.sensitivity)
-      n_thresholds += row.pooled.identifiable() ? 1 : 0;
+    for (const StudyEstimate* one : estimates_of(summary.estimates, "threshold_75"))
+      n_thresholds += one->value ? 1 : 0;
     n_supported += summary.hypotheses.at(3).verdict == HypothesisVerdict::supported ? 1 : 0;
   }
   return {100.0 * n_thresholds / (3 * studies), 100.0 * n_supported / studies};

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "Figures.h"
 #include "MadeUpSessions.h"
 #include "base/Random.h"
 
@@ -14,6 +15,15 @@ namespace {
 
 using namespace made_up;
 using testing::ElementsAre;
+
+// Of all trials, or of those that were answered.
+StudyEstimate share(const Summary& summary, const char* trials, const char* answer) {
+  return figure(summary, "sorting_answers", {{"trials", trials}, {"answer", answer}});
+}
+int n_trials(const SessionData& data) {
+  return share(summarized({data}), "all", "correct").n_trials;
+}
+
 using Labels = std::array<std::optional<Label>, 3>;
 
 constexpr Label L = "lightest", I = "intermediate", H = "heaviest";
@@ -69,23 +79,24 @@ TEST(Sorting, PercentagesOverAllAndOverAnsweredTrials) {
   add_sortings(a, "C1", "incorrect", 1);
   add_sortings(a, "C1", "dont_know", 3);
   add_sortings(b, "C1", "dont_know", 5);  // answered none
-  const auto sorting = sorting_of(std::vector{a, b});
-  EXPECT_EQ(sorting[0].n_trials, 10);
-  EXPECT_DOUBLE_EQ(*sorting[0].correct.mean_percent, 10);
-  EXPECT_DOUBLE_EQ(*sorting[0].incorrect.mean_percent, 10);
-  EXPECT_DOUBLE_EQ(*sorting[0].none.mean_percent, 80);
-  EXPECT_DOUBLE_EQ(*sorting[0].answered_correct.mean_percent, 50);
-  EXPECT_EQ(sorting[0].answered_correct.n_participants, 1);
-  EXPECT_EQ(sorting.size(), 1);  // of conditions that were run
+  const Summary summary = summarized({a, b});
+  EXPECT_EQ(share(summary, "all", "correct").n_trials, 10);
+  EXPECT_DOUBLE_EQ(*share(summary, "all", "correct").value, 10);
+  EXPECT_DOUBLE_EQ(*share(summary, "all", "incorrect").value, 10);
+  EXPECT_DOUBLE_EQ(*share(summary, "all", "I don't know").value, 80);
+  EXPECT_DOUBLE_EQ(*share(summary, "answered", "correct").value, 50);
+  EXPECT_EQ(share(summary, "answered", "correct").n, 1);
+  // of conditions that were run
+  EXPECT_EQ(estimates_of(summary.estimates, "sorting_chance").size(), 1u);
 }
 
 TEST(Sorting, SessionsOfOneParticipantCountTogether) {
   SessionData first = session(1, "a"), again = session(2, "a");
   add_sortings(first, "C2", "correct", 5);
   add_sortings(again, "C2", "incorrect", 5);
-  const auto sorting = sorting_of(std::vector{first, again});
-  EXPECT_EQ(sorting[0].n_participants, 1);
-  EXPECT_DOUBLE_EQ(*sorting[0].correct.mean_percent, 50);
+  const StudyEstimate correct = share(summarized({first, again}), "all", "correct");
+  EXPECT_EQ(correct.n, 1);
+  EXPECT_DOUBLE_EQ(*correct.value, 50);
 }
 
 TEST(Sorting, OnlyCompletedTrialsCount) {
@@ -93,23 +104,28 @@ TEST(Sorting, OnlyCompletedTrialsCount) {
   add_sorting(data, "C2", "correct");
   add_sorting(data, "C2", "incorrect").trial.status = TrialStatus::voided;
   add_sorting(data, "C2", "incorrect").trial.status = TrialStatus::open;
-  EXPECT_EQ(sorting_of({&data, 1})[0].n_trials, 1);
+  EXPECT_EQ(n_trials(data), 1);
 }
 
 TEST(Sorting, CountsSwapsOfIncorrectTrials) {
   SessionData data = session(1, "a");
   add_sorting(data, "C2", "incorrect").answers = {label(1, I), label(2, L), label(3, H)};
   add_sorting(data, "C2", "correct").answers = {label(1, L), label(2, I), label(3, H)};
-  EXPECT_THAT(sorting_of({&data, 1})[0].swaps, ElementsAre(1, 0, 0, 0));
+  const Summary summary = summarized({data});
+  std::vector<double> swaps;
+  for (const StudyEstimate* one : estimates_of(summary.estimates, "sorting_swapped"))
+    swaps.push_back(*one->value);
+  EXPECT_THAT(swaps, ElementsAre(1, 0, 0, 0));
 }
 
 TEST(Sorting, ChanceIsOneOfTheOrdersOfAsManyCubes) {
   SessionData data = session(1, "a");
-  EXPECT_TRUE(sorting_of({&data, 1}).empty());
+  const auto chance = [&] { return figure({data}, "sorting_chance").value; };
+  EXPECT_FALSE(chance().has_value());
   add_sorting(data, "C2", "correct");
-  EXPECT_DOUBLE_EQ(*sorting_of({&data, 1})[0].chance_percent(), 100.0 / 6);
+  EXPECT_DOUBLE_EQ(*chance(), 100.0 / 6);
   add_sorting(data, "C2", "correct").cubes = cubes({15, 100, 250, 800});
-  EXPECT_DOUBLE_EQ(*sorting_of({&data, 1})[0].chance_percent(), (100.0 / 6 + 100.0 / 24) / 2);
+  EXPECT_DOUBLE_EQ(*chance(), (100.0 / 6 + 100.0 / 24) / 2);
   EXPECT_DOUBLE_EQ(chance_percent(2), 50);
   EXPECT_DOUBLE_EQ(chance_percent(5), 100.0 / 120);
 }
@@ -117,9 +133,12 @@ TEST(Sorting, ChanceIsOneOfTheOrdersOfAsManyCubes) {
 TEST(Sorting, PublishedFiguresNeedThePublishedMasses) {
   SessionData data = session(1, "a");
   add_sorting(data, "C1", "correct");
-  EXPECT_EQ(sorting_of({&data, 1})[0].published, published::Condition::coupled);
+  const auto correct = [&] { return share(summarized({data}), "all", "correct"); };
+  EXPECT_EQ(correct().published, &published::sorting_coupled.correct);
+  EXPECT_TRUE(correct().as_published);
   add_sorting(data, "C1", "correct").cubes = cubes({15, 250, 800});
-  EXPECT_FALSE(sorting_of({&data, 1})[0].published.has_value());
+  EXPECT_EQ(correct().published, nullptr);
+  EXPECT_FALSE(correct().as_published);
 }
 
 TEST(Sorting, PublishedFiguresNeedThePublishedTechnique) {
@@ -127,9 +146,11 @@ TEST(Sorting, PublishedFiguresNeedThePublishedTechnique) {
   data.published_conditions = {{"mine", published::Condition::decoupled}};
   add_sorting(data, "C2", "correct");  // here a technique of another law
   add_sorting(data, "mine", "correct");
-  const auto sorting = sorting_of({&data, 1});
-  EXPECT_FALSE(sorting.at(0).published.has_value());
-  EXPECT_EQ(sorting.at(1).published, published::Condition::decoupled);
+  const auto beside = [&](const char* condition) {
+    return figure({data}, "sorting_answers", {{"condition", condition}}).published;
+  };
+  EXPECT_EQ(beside("C2"), nullptr);
+  EXPECT_EQ(beside("mine"), &published::sorting_decoupled.correct);
 }
 
 TEST(Sorting, EveryLabelIsCountedWhateverTheNumberOfCubes) {
@@ -137,8 +158,11 @@ TEST(Sorting, EveryLabelIsCountedWhateverTheNumberOfCubes) {
   Attempt& attempt = add_sorting(data, "C2", "incorrect");
   attempt.cubes = cubes({400, 100});
   attempt.answers = {label(1, "1"), label(2, "2")};
-  EXPECT_THAT(sorting_of({&data, 1}).at(0).labels.at(2),
-              ElementsAre(ElementsAre(0, 1), ElementsAre(1, 0)));
+  const Summary summary = summarized({data});
+  std::vector<double> counts;  // of the lighter cube, then of the heavier one
+  for (const StudyEstimate* one : estimates_of(summary.estimates, "sorting_labels"))
+    counts.push_back(*one->value);
+  EXPECT_THAT(counts, ElementsAre(0, 1, 1, 0));
 }
 
 }  // namespace

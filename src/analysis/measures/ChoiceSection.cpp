@@ -1,12 +1,9 @@
-// What was chosen in comparisons, whatever the staircases made of it: incorrect choices and false
-// alarms, choices by difference, hits of each participant, response times by difference.
+// What was chosen in comparisons, whatever the staircases made of it: how often the chosen cube was
+// the lighter one, and how often a difference was seen where there was none.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
 
-#include "analysis/Comparison.h"
 #include "analysis/Section.h"
 
 namespace heft {
@@ -25,136 +22,51 @@ constexpr Measure false_alarm{"false_alarm", "%", "false alarms",
 constexpr Measure at_zero{"choice_at_zero", "%", "chosen at 0 g",
                           "share of a procedure's own trials at difference 0 in which a cube was "
                           "chosen"};
-constexpr Measure right{
-    "chosen_heavier", "%", "the heavier cube",
-    "share of comparisons of about one difference in which the heavier cube was "
-    "chosen"};
-constexpr Measure wrong{"chosen_lighter", "%", "the lighter cube",
-                        "share of them in which the lighter cube was chosen"};
-constexpr Measure none{"chosen_none", "%", "no difference",
-                       "share of them in which no difference was seen"};
-constexpr Measure time_by_level{"response_time_by_level", "s", "response time",
-                                "median response time of comparisons of about one difference, "
-                                "quartiles as low and high"};
-constexpr Measure hits{"hits", "%", "hits",
-                       "a participant's share of comparisons with a difference in which a cube was "
-                       "chosen"};
-constexpr Measure alarms{"alarms", "%", "false alarms",
-                         "the same of comparisons without a difference"};
+struct Counts {
+  int n_trials = 0;
+  Tallies difference, wrong_cube, false_alarm, at_zero;
 
-StudyEstimate at_compared(StudyEstimate estimate, const Compared& compared) {
-  estimate.task = "comparison";
-  estimate.condition = compared.condition;
-  estimate.reference_g = compared.reference_g;
-  return estimate;
-}
-
-struct RateOf {
-  const Measure* measure;
-  Rate ComparisonChoices::*rate;
+  void add(const std::string& participant, const ComparedTrial& trial) {
+    const bool equal = trial.level_g == 0;
+    n_trials += 1;
+    if (trial.is_catch) false_alarm[participant].add(trial.difference);
+    if (!trial.is_catch) difference[participant].add(trial.difference);
+    if (!trial.is_catch && equal) at_zero[participant].add(trial.difference);
+    if (trial.difference && !equal && trial.correct) wrong_cube[participant].add(!*trial.correct);
+  }
 };
-constexpr std::array rates{RateOf{&difference, &ComparisonChoices::difference},
-                           RateOf{&wrong_cube, &ComparisonChoices::wrong_cube},
-                           RateOf{&false_alarm, &ComparisonChoices::false_alarm},
-                           RateOf{&at_zero, &ComparisonChoices::at_zero}};
 
-// @param over "each" reference, each "level" or "all"
-void put_choices(Estimates& all, const ComparisonChoices& choices, std::string over,
-                 bool shown = true) {
+// @param at task, condition, reference and coordinates
+void put_choices(Estimates& all, const StudyEstimate& at, const Counts& counts,
+                 bool of_catches = true) {
   const auto put = [&](StudyEstimate estimate) {
-    estimate = at_compared(std::move(estimate), choices.compared);
-    if (over == "all") estimate.reference_g.reset();
-    estimate.by = {{"over", over}, {"shown", shown && over != "level" ? "yes" : "no"}};
-    if (choices.level_g) estimate.by.push_back(at("level_g", *choices.level_g));
+    estimate.task = at.task;
+    estimate.condition = at.condition;
+    estimate.reference_g = at.reference_g;
+    estimate.by = at.by;
     all.push_back(std::move(estimate));
   };
   StudyEstimate number{&trials};
-  number.value = choices.n_trials;
-  number.n_trials = choices.n_trials;
-  put(number);
-  for (const RateOf& one : rates) {
-    const bool of_catches = one.measure == &false_alarm || one.measure == &at_zero;
-    if (!choices.level_g || !of_catches) put(rate_estimate(*one.measure, choices.*one.rate));
-  }
+  number.value = number.n_trials = counts.n_trials;
+  put(std::move(number));
+  put(rate_estimate(difference, rate_of(counts.difference)));
+  put(rate_estimate(wrong_cube, rate_of(counts.wrong_cube)));
+  if (!of_catches) return;
+  put(rate_estimate(false_alarm, rate_of(counts.false_alarm)));
+  put(rate_estimate(at_zero, rate_of(counts.at_zero)));
 }
 
-constexpr std::size_t most_lines = 60;  // more participants have no line of their own
-
-double mean_level_g(const ComparedTrials& bin) {
-  const double sum =
-      std::accumulate(bin.begin(), bin.end(), 0.0,
-                      [](double so_far, const auto* one) { return so_far + one->level_g; });
-  return sum / static_cast<double>(bin.size());
-}
-
-// What was chosen in a bin. At 0 either choice is half right, half wrong, and not counted.
-struct BinChoices {
-  BinChoices(const ComparedTrials& bin, const ComparisonTrials& of)
-      : level(at("mean_level_g", mean_level_g(bin))) {
-    for (const ComparedTrial* trial : bin) {
-      const std::string& participant = of.participant(*trial);
-      const bool rightly = trial->correct.value_or(false);
-      chose_none[participant].add(!trial->difference);
-      if (trial->response_s) times_s.push_back(*trial->response_s);
-      if (trial->level_g == 0) continue;
-      chose_right[participant].add(trial->difference && rightly);
-      chose_wrong[participant].add(trial->difference && !rightly);
-    }
-  }
-
-  void put(Estimates& all, const Compared& compared, StudyEstimate estimate) const {
-    estimate = at_compared(std::move(estimate), compared);
-    estimate.by = {level};
-    all.push_back(std::move(estimate));
-  }
-
-  Coordinate level;
-  Tallies chose_right, chose_wrong, chose_none;
-  std::deque<double> times_s;
-};
-
-void each_bin(const ComparisonTrials& of,
-              const std::function<void(const Compared&, const BinChoices&)>& use) {
-  for (const auto& [compared, theirs] : of.by_compared()) {
-    ComparedTrials sorted;
-    for (const ComparedTrial& trial : theirs) sorted.push_back(&trial);
-    for (const ComparedTrials& bin : binned(std::move(sorted))) use(compared, BinChoices(bin, of));
-  }
-}
-
-void put_bin(Estimates& all, const Compared& compared, const BinChoices& bin) {
-  bin.put(all, compared, rate_estimate(right, rate_of(bin.chose_right)));
-  bin.put(all, compared, rate_estimate(wrong, rate_of(bin.chose_wrong)));
-  bin.put(all, compared, rate_estimate(none, rate_of(bin.chose_none)));
-  if (!bin.times_s.empty()) bin.put(all, compared, quartiles_estimate(time_by_level, bin.times_s));
-}
-
-StudyEstimate own_share(const Measure& measure, const std::string& participant,
-                        const Tally& tally) {
-  StudyEstimate own{&measure};
-  own.participant = participant;
-  own.value = tally.percent();
-  own.n = 1;
-  own.n_trials = tally.n_trials;
-  own.n_hits = tally.n_hits;
-  return own;
-}
-
-void put_detection(Estimates& all, const ComparisonTrials& of) {
-  std::map<std::pair<std::string, std::string>, std::pair<Tally, Tally>> people;
-  for (const auto& [compared, theirs] : of.by_compared())
-    for (const ComparedTrial& trial : theirs) {
-      auto& [with, without] = people[{of.participant(trial), compared.condition}];
-      (trial.level_g == 0 ? without : with).add(trial.difference);
-    }
-  for (const auto& [person, tallies] : people) {
-    if (tallies.first.n_trials == 0 || tallies.second.n_trials == 0) continue;
-    for (const auto& [measure, tally] :
-         {std::pair(&hits, tallies.first), std::pair(&alarms, tallies.second)}) {
-      all.push_back(own_share(*measure, person.first, tally));
-      all.back().task = "comparison";
-      all.back().condition = person.second;
-    }
+// One level after the other, so that no more than one's counts are in memory.
+void put_levels(Estimates& all, StudyEstimate place, ComparedTrials sorted,
+                const ComparisonTrials& of) {
+  std::ranges::stable_sort(sorted, {}, &ComparedTrial::level_g);
+  for (auto first = sorted.begin(); first != sorted.end();) {
+    const double level_g = (*first)->level_g;
+    Counts counts;
+    for (; first != sorted.end() && (*first)->level_g == level_g; ++first)
+      if (!(*first)->is_catch) counts.add(of.participant(**first), **first);
+    place.by = {{"over", "level"}, {"shown", "no"}, at("level_g", level_g)};
+    if (counts.n_trials > 0) put_choices(all, place, counts, false);
   }
 }
 
@@ -256,154 +168,37 @@ EstimateTable level_table() {
           "comparison.by_level[]"};
 }
 
-EstimateTable curves_table() {
-  EstimateTable table{
-      "choice_curves",
-      "Choices by difference",
-      {key_column("reference_g", "reference g"), key_column("condition", "condition"),
-       key_column("mean_level_g", "difference g"),
-       column(none, Field::n_trials, "n_trials", "trials")},
-      "",
-      TablePlace::csv};
-  for (const auto& [measure, name] :
-       {std::pair(&right, "right"), {&wrong, "wrong"}, {&none, "none"}}) {
-    table.columns.push_back(column(*measure, Field::value, std::string(name) + "_percent",
-                                   std::string(measure->heading) + " %"));
-    table.columns.push_back(
-        column(*measure, Field::low, std::string(name) + "_low_percent", "low"));
-    table.columns.push_back(
-        column(*measure, Field::high, std::string(name) + "_high_percent", "high"));
-  }
-  return table;
-}
-
-EstimateTable times_table() {
-  return {
-      "times_by_level",
-      "Response times by difference",
-      {key_column("reference_g", "reference g"), key_column("condition", "condition"),
-       key_column("mean_level_g", "difference g"), column(time_by_level, Field::n_trials, "n", "n"),
-       column(time_by_level, Field::value, "median_s", "median", 2),
-       column(time_by_level, Field::low, "lower_quartile_s", "25 %", 2),
-       column(time_by_level, Field::high, "upper_quartile_s", "75 %", 2)},
-      "",
-      TablePlace::csv};
-}
-
-EstimateTable detection_table() {
-  EstimateTable table{
-      "hits_and_false_alarms",
-      "Hits against false alarms of each participant",
-      {key_column("participant", "participant"), key_column("condition", "condition"),
-       column(hits, Field::value, "hits_percent", "hits %"),
-       column(hits, Field::n_trials, "n_trials", "trials"),
-       column(alarms, Field::value, "false_alarms_percent", "false alarms %"),
-       column(alarms, Field::n_trials, "n_without", "trials")},
-      "",
-      TablePlace::csv};
-  table.participants = true;
-  return table;
-}
-
-// The model of a participant in the middle, without side bias.
-std::string model_curves(const Summary& summary, const StudyEstimate& of) {
-  const auto row =
-      std::ranges::find(summary.sensitivity, Compared{of.reference_g.value_or(0), of.condition},
-                        &ReferenceSensitivity::compared);
-  if (row == summary.sensitivity.end() || !row->pooled.identifiable() || !row->pooled.indecision)
-    return "";
-  const double s = *row->pooled.sensitivity, t = *row->pooled.indecision;
-  const auto share = [](const std::string& z) {
-    return fmt::format("100*({0}/3 + (1-{0})*norm({1}))", fixed_lapse, z);
-  };
-  const std::string heavier = share(fmt::format("{}*x-{}", s, t));
-  const std::string lighter = share(fmt::format("-{}*x-{}", s, t));
-  return fmt::format(
-      "{0} with lines dashtype 1 linecolor '#2f6fb0' notitle, {1} with lines dashtype 2 linecolor "
-      "'#8a8f98' notitle, 100-({0})-({1}) with lines dashtype 4 linecolor '#3c8d5a'",
-      heavier, lighter);
-}
-
 class ChoiceSection final : public Section {
  public:
   void put(Summary& summary) override {
     const ComparisonTrials& of = summary.shared->comparisons;
-    const ComparisonSummary comparison = comparisons_of(of);
-    ComparisonChoices all{
-        {0, "all"}, {}, 0, {}, comparison.wrong_cube, comparison.false_alarm, comparison.at_zero};
-    for (const ComparisonChoices& choices : comparison.by_reference) {
-      put_choices(summary.estimates, choices, "each");
-      all.n_trials += choices.n_trials;
+    StudyEstimate place;
+    place.task = "comparison";
+    const auto put_at = [&](const Compared& compared) {
+      place.condition = compared.condition;
+      place.reference_g = compared.reference_g;
+    };
+    Counts all;
+    for (const auto& [compared, theirs] : of.by_compared()) {
+      Counts counts;
+      for (const ComparedTrial& trial : theirs)
+        for (Counts* sum : {&all, &counts}) sum->add(of.participant(trial), trial);
+      put_at(compared);
+      place.by = {{"over", "each"}, {"shown", "yes"}};
+      put_choices(summary.estimates, place, counts);
     }
-    put_choices(summary.estimates, all, "all", comparison.by_reference.size() > 1);
-    for (const ComparisonChoices& choices : comparison.by_level)
-      put_choices(summary.estimates, choices, "level");
-    each_bin(of, [&](const Compared& compared, const BinChoices& bin) {
-      put_bin(summary.estimates, compared, bin);
-    });
-  }
-
-  Estimates of_participants(const Summary& summary) const override {
-    Estimates all;
-    const ComparisonTrials& of = summary.shared->comparisons;
-    if (of.participants().size() <= most_lines)
-      each_bin(of, [&](const Compared& compared, const BinChoices& bin) {
-        for (const auto& [participant, tally] : bin.chose_right)
-          bin.put(all, compared, own_share(right, participant, tally));
-      });
-    put_detection(all, of);
-    return all;
+    place.condition = "all";
+    place.reference_g.reset();
+    place.by = {{"over", "all"}, {"shown", of.by_compared().size() > 1 ? "yes" : "no"}};
+    put_choices(summary.estimates, place, all);
+    for (const auto& [compared, theirs] : of.by_compared()) {
+      put_at(compared);
+      put_levels(summary.estimates, place, pointers_to(theirs), of);
+    }
   }
 
   std::vector<EstimateTable> tables() const override {
-    return {choices_table(), references_json(), all_choices_json(), level_table(),
-            curves_table(),  times_table(),     detection_table()};
-  }
-
-  std::vector<ChartSpec> charts() const override {
-    ChartSpec curves{
-        "choice_curves", "Choices by difference",
-        "Percentage of trials in which the heavier cube, the lighter cube or neither "
-        "was chosen; trials of all participants in bins of about as many, those without "
-        "a difference apart, with 95 % intervals over participants. Thin lines: how "
-        "often each participant chose the heavier cube in those bins (not drawn of more "
-        "than 60). Curves: indecision model of the median participant, where the data "
-        "identify one.",
-        "choice_curves.csv"};
-    curves.importance = 25;
-    curves.series = {{&right, "", {}}, {&wrong, "", {}}, {&none, "", {}}};
-    curves.x = "mean_level_g";
-    curves.panels = {"reference_g", "condition"};
-    curves.participants = true;
-    curves.x_label = "difference (g)";
-    curves.y_label = "% of trials";
-    curves.axes = "set yrange [0:100]\nset samples 200\n";
-    curves.curve = model_curves;
-    ChartSpec detection{"hits_and_false_alarms", "Hits against false alarms",
-                        "Each participant's percentage of \"different\" in comparisons with a "
-                        "difference, against those without. On the line a participant says "
-                        "\"different\" whatever is shown.",
-                        "hits_and_false_alarms.csv", ChartShape::scatter};
-    detection.importance = 70;
-    detection.series = {{&alarms, "", {}}, {&hits, "", {}}};
-    detection.split = {"condition"};
-    detection.diagonal = true;
-    detection.x_label = "% \"different\" without a difference";
-    detection.y_label = "% \"different\" with one";
-    detection.axes = "set xrange [-3:103]\nset yrange [-3:103]\n";
-    ChartSpec times{
-        "times_by_level", "Response time by difference",
-        "From all cubes shown to the answer, without pauses and time out of view: median "
-        "and quartiles of comparisons, by reference and condition.",
-        "times_by_level.csv", ChartShape::lines};
-    times.importance = 80;
-    times.series = {{&time_by_level, "", {}}};
-    times.x = "mean_level_g";
-    times.split = {"reference_g", "condition"};
-    times.x_label = "difference (g)";
-    times.y_label = "response time (s)";
-    times.axes = "set yrange [0:*]\n";
-    return {curves, detection, times};
+    return {choices_table(), references_json(), all_choices_json(), level_table()};
   }
 };
 }  // namespace

@@ -1,5 +1,9 @@
-// The introduction: who found the heavier cube on the first try.
-#include "analysis/Introduction.h"
+// The introduction: who found the heavier cube on the first try. Each participant's first completed
+// one counts, as no one is untrained twice.
+#include <fmt/format.h>
+
+#include <set>
+
 #include "analysis/Section.h"
 
 namespace heft {
@@ -11,20 +15,27 @@ constexpr Measure first_try{"introduction_first_try", "%", "right on the first t
 
 class IntroductionSection final : public Section {
  public:
-  void add(const SessionData& data) override { fold_.add(data); }
+  void add(const SessionData& data) override {
+    for (const Attempt& attempt : data.attempts) {
+      if (!attempt.completed() || attempt.trial.plan.task != "introduction") continue;
+      if (!seen_.insert(data.participant()).second) continue;
+      people_.add(std::ranges::count(attempt.answers, "select", &AnswerRow::action) == 1);
+      const std::string& condition = attempt.trial.plan.condition;
+      conditions_.insert(condition);
+      comparable_.add(data.published_condition(condition),
+                      attempt.shows(published::introduction_masses_g));
+    }
+  }
 
   void put(Summary& summary) override {
-    summary.introduction = fold_.result();
-    const Rate& rate = summary.introduction.first_try;
-    if (!rate.percent) return;
-    StudyEstimate estimate{&first_try, "introduction", summary.introduction.conditions};
-    estimate.value = rate.percent;
-    estimate.set(rate.interval_percent);
-    estimate.n = estimate.n_trials = rate.trials.n_trials;
-    estimate.n_hits = rate.trials.n_hits;
+    if (people_.n_trials == 0) return;
+    StudyEstimate& estimate =
+        summary.estimates.emplace_back(rate_estimate(first_try, rate_of_people(people_)));
+    estimate.task = "introduction";
+    estimate.condition = fmt::format("{}", fmt::join(conditions_, ", "));
     estimate.method = "exact";
-    estimate.published = summary.introduction.published;
-    summary.estimates.push_back(std::move(estimate));
+    estimate.as_published = comparable_.condition() == published::Condition::decoupled;
+    if (estimate.as_published) estimate.published = &published::introduction_first_try;
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -47,7 +58,9 @@ class IntroductionSection final : public Section {
   }
 
  private:
-  IntroductionFold fold_;
+  Tally people_;
+  published::Comparable comparable_;
+  std::set<std::string> conditions_, seen_;
 };
 }  // namespace
 

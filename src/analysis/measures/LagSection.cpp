@@ -44,32 +44,32 @@ class LagSection final : public Section {
   }
 
   std::vector<EstimateTable> tables() const override {
-    return {{"lag_by_mass",
-             "Largest lag by mass, and the hand's way",
-             {key_column("group", "group"), key_column("mass_g", "mass g"),
-              column(lag, Field::n_trials, "n", "n"),
-              column(lag, Field::value, "median_mm", "median", 2),
-              column(lag, Field::low, "lower_quartile_mm", "25 %", 2),
-              column(lag, Field::high, "upper_quartile_mm", "75 %", 2)},
-             "",
-             TablePlace::csv}};
+    EstimateTable table{"lag_by_mass",
+                        "Largest lag by mass, and the hand's way",
+                        {key_column("group", "group"), key_column("mass_g", "mass g")},
+                        "",
+                        TablePlace::csv};
+    add_quartiles(table.columns, lag);
+    return {table};
   }
 
   std::vector<ChartSpec> charts() const override {
-    ChartSpec chart{"lag_by_mass", "Lag seen, by mass",
-                    "Largest distance of the clone from the effector while it touched a cube, as "
-                    "displayed: median and quartiles over cubes and trials; beside it how far the "
-                    "hand went from where the touch began: a lag comes to about that and no more. "
-                    "Masses in five bands a decade.",
-                    "lag_by_mass.csv", ChartShape::lines};
-    chart.importance = 75;
-    chart.series = {{&lag, "", {}}};
-    chart.x = "mass_g";
-    chart.split = {"group"};
-    chart.x_label = "mass (g)";
-    chart.y_label = "mm";
-    chart.axes = "set logscale x\nset yrange [0:*]\n";
-    return {chart};
+    return {{.name = "lag_by_mass",
+             .title = "Lag seen, by mass",
+             .caption =
+                 "Largest distance of the clone from the effector while it touched a cube, as "
+                 "displayed: median and quartiles over cubes and trials; beside it how far the "
+                 "hand went from where the touch began: a lag comes to about that and no more. "
+                 "Masses in five bands a decade.",
+             .csv = "lag_by_mass.csv",
+             .shape = ChartShape::lines,
+             .importance = 75,
+             .series = {{&lag}},
+             .x = "mass_g",
+             .split = {"group"},
+             .x_label = "mass (g)",
+             .y_label = "mm",
+             .axes = "set logscale x\nset yrange [0:*]\n"}};
   }
 
  private:

@@ -16,6 +16,11 @@ constexpr Measure sensitivity{"sensitivity", "1/g", "sensitivity",
 constexpr Measure indecision{"indecision", "SD", "criterion half-width",
                              "half the width between the median participant's criteria, in SDs of "
                              "what is felt"};
+constexpr Measure ratio{"threshold_ratio", "", "ratio of thresholds",
+                        "of a reference's threshold to that of the next lighter one"};
+constexpr Measure ratio_of_several{"threshold_ratio_of_several", "", "ratio of thresholds",
+                                   "the same with an interval for all ratios of the condition "
+                                   "together (Bonferroni)"};
 constexpr Measure started_jnd{"started_jnd", "g", "JND",
                               "a participant's JND of the staircases that began on one side"};
 constexpr Measure start{"staircase_start", "g", "start",
@@ -37,10 +42,31 @@ void put_pooled(Estimates& all, const ReferenceSensitivity& row) {
     estimate.n_trials = static_cast<int>(pooled.n_trials);
     estimate.method = "indecision model, bootstrap over participants";
     estimate.why = pooled.why;
+    estimate.as_published = row.as_published;
   };
   put(threshold, pooled.threshold_75_g, pooled.threshold_interval_g);
   put(sensitivity, pooled.sensitivity, pooled.sensitivity_interval);
   put(indecision, pooled.indecision, pooled.indecision_interval);
+}
+
+// What one ratio of several is to show has more chances to come about by chance (Bonferroni).
+void put_ratios(Estimates& all, const std::vector<const ReferenceSensitivity*>& rows) {
+  const double n_ratios = static_cast<double>(rows.size()) - 1;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const PooledSensitivity &lighter = rows[i - 1]->pooled, &heavier = rows[i]->pooled;
+    if (!lighter.identifiable() || !heavier.identifiable()) continue;
+    for (const auto& [measure, confidence] :
+         {std::pair(&ratio, confidence_level),
+          std::pair(&ratio_of_several, 1 - (1 - confidence_level) / n_ratios)}) {
+      StudyEstimate& estimate = all.emplace_back(estimate_at(*measure, rows[i]->compared));
+      estimate.by = {at("lighter_reference_g", rows[i - 1]->compared.reference_g)};
+      estimate.value = *heavier.threshold_75_g / *lighter.threshold_75_g;
+      estimate.set(threshold_ratio_interval(lighter, heavier, confidence));
+      estimate.n = heavier.n;
+      estimate.method = "bootstrap over participants";
+      estimate.as_published = rows[i]->as_published;
+    }
+  }
 }
 
 void put_started(Estimates& all, const PersonThreshold& person, const StartedFigure& figure,
@@ -140,14 +166,14 @@ EstimateTable threshold_table() {
 class SensitivitySection final : public Section {
  public:
   void put(Summary& summary) override {
-    summary.sensitivity = sensitivities_of(summary.shared->comparisons);
-    for (const ReferenceSensitivity& row : summary.sensitivity) put_pooled(summary.estimates, row);
+    sensitivity_ = sensitivities_of(summary.shared->comparisons);
+    put_sensitivities(summary.estimates, sensitivity_);
   }
 
   Estimates of_participants(const Summary& summary) const override {
     Estimates all;
-    for (const PersonThreshold& person : thresholds_of(
-             summary.shared->comparisons, summary.shared->staircases, summary.sensitivity))
+    for (const PersonThreshold& person :
+         thresholds_of(summary.shared->comparisons, summary.shared->staircases, sensitivity_))
       put_person(all, person);
     return all;
   }
@@ -202,8 +228,20 @@ class SensitivitySection final : public Section {
     starts.axes = "set xrange [0:*]\nset yrange [0:*]\n";
     return {thresholds, people, starts};
   }
+
+ private:
+  std::vector<ReferenceSensitivity> sensitivity_;
 };
 }  // namespace
+
+void put_sensitivities(Estimates& all, std::span<const ReferenceSensitivity> rows) {
+  std::map<std::pair<std::string, bool>, std::vector<const ReferenceSensitivity*>> conditions;
+  for (const ReferenceSensitivity& row : rows) {
+    put_pooled(all, row);
+    conditions[{row.compared.condition, row.as_published}].push_back(&row);
+  }
+  for (const auto& [condition, of_condition] : conditions) put_ratios(all, of_condition);
+}
 
 std::shared_ptr<Section> sensitivity_section() {
   return std::make_shared<SensitivitySection>();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "analysis/Section.h"
+#include "analysis/Sorting.h"
 #include "tasks/Sorting.h"
 
 namespace heft {
@@ -15,6 +16,11 @@ constexpr Measure answers{
 constexpr Measure chance{"sorting_chance", "%", "correct by chance",
                          "share of the same trials that a random order gets right, one of the n! "
                          "orders of n cubes"};
+constexpr Measure chance_by_cubes{"sorting_chance_by_cubes", "%", "correct by chance",
+                                  "the same of the trials with so many cubes"};
+constexpr Measure equivalence{"sorting_equivalence", "%", "correct, of answered",
+                              "share of answered trials sorted correctly, with its 90 % interval, "
+                              "for the test of equivalence to chance"};
 constexpr Measure n_incorrect{"sorting_n_incorrect", "", "incorrect",
                               "number of trials sorted incorrectly"};
 constexpr Measure swapped{"sorting_swapped", "", "exchanged",
@@ -22,91 +28,139 @@ constexpr Measure swapped{"sorting_swapped", "", "exchanged",
 constexpr Measure labels{"sorting_labels", "", "labels",
                          "how often each cube got each label, in answered trials"};
 
-std::vector<std::string> ranks(int n_cubes) {
-  std::vector<std::string> names;
-  for (const std::string_view label : Sorting::labels_for(n_cubes)) names.emplace_back(label);
-  return names;
-}
+// Number of cubes -> labels given [cube][label], both from the lightest on.
+using LabelMatrices = std::map<int, std::vector<std::vector<int>>>;
 
-StudyEstimate share(const ConditionSorting& sorting, std::string of, std::string answer,
-                    const Proportion& proportion, const published::Figure* figure) {
-  StudyEstimate estimate{&answers, "sorting", sorting.condition};
+// Which label each cube got, both by rank.
+void count_labels(LabelMatrices& matrices, std::span<const double> masses_g,
+                  std::span<const std::optional<Label>> given) {
+  const auto names = Sorting::labels_for(static_cast<int>(masses_g.size()));
+  auto& matrix = matrices[static_cast<int>(masses_g.size())];
+  matrix.resize(masses_g.size(), std::vector<int>(masses_g.size()));
+  for (std::size_t slot = 0; slot < masses_g.size(); ++slot) {
+    const auto rank = static_cast<std::size_t>(
+        std::ranges::count_if(masses_g, [&](double mass_g) { return mass_g < masses_g[slot]; }));
+    const auto label = std::find(names.begin(), names.end(), given[slot]);
+    if (label != names.end()) matrix[rank][static_cast<std::size_t>(label - names.begin())] += 1;
+  }
+}
+// Completed trials of one condition. A participant's sessions count together.
+struct Counted {
+  Tallies correct, incorrect, none, answered_correct, answered_incorrect;
+  std::array<int, 4> swaps{};
+  std::map<int, int> n_trials_by_cubes;
+  LabelMatrices labels;
+  published::Comparable comparable;
+
+  void add(const std::string& participant, const Attempt& attempt) {
+    const Outcome outcome = *attempt.trial.outcome;
+    correct[participant].add(outcome == "correct");
+    incorrect[participant].add(outcome == "incorrect");
+    none[participant].add(outcome == "dont_know");
+    n_trials_by_cubes[static_cast<int>(attempt.cubes.size())] += 1;
+    if (outcome == "dont_know") return;
+    answered_correct[participant].add(outcome == "correct");
+    answered_incorrect[participant].add(outcome == "incorrect");
+    const std::vector<double> masses_g = attempt.masses_g();
+    const auto given = final_labels(attempt.answers, static_cast<int>(masses_g.size()));
+    count_labels(labels, masses_g, given);
+    if (outcome != "incorrect") return;
+    if (const auto swap = swap_of(masses_g, given)) swaps.at(static_cast<std::size_t>(*swap)) += 1;
+  }
+};
+
+StudyEstimate share(const Tallies& tallies, std::string of, std::string answer,
+                    const published::Figure* figure) {
+  const Proportion found = proportion_of(tallies);
+  StudyEstimate estimate{&answers};
   estimate.by = {{"trials", std::move(of)}, {"answer", std::move(answer)}};
-  estimate.value = proportion.mean_percent;
-  estimate.sd = proportion.sd_percent;
-  estimate.set(proportion.interval_percent);
-  estimate.n = proportion.n_participants;
-  estimate.n_trials = proportion.trials.n_trials;
-  estimate.n_hits = proportion.trials.n_hits;
-  if (proportion.method != IntervalMethod::none) estimate.method = name_of(proportion.method);
-  if (proportion.mean_percent) estimate.published = figure;
+  estimate.value = found.mean_percent;
+  estimate.sd = found.sd_percent;
+  estimate.set(found.interval_percent);
+  estimate.n = found.n_participants;
+  estimate.n_trials = found.trials.n_trials;
+  estimate.n_hits = found.trials.n_hits;
+  if (found.method != IntervalMethod::none) estimate.method = name_of(found.method);
+  if (found.mean_percent) estimate.published = figure;
   return estimate;
 }
 
-void put_shares(Estimates& all, const ConditionSorting& sorting) {
-  const published::Sorting* paper =
-      sorting.published ? &published::sorting_in(*sorting.published) : nullptr;
-  const auto of_paper = [&](const published::Figure& figure) { return paper ? &figure : nullptr; };
-  const published::Sorting& figures = paper ? *paper : published::sorting_coupled;
-  all.push_back(share(sorting, "all", "correct", sorting.correct, of_paper(figures.correct)));
-  all.push_back(share(sorting, "all", "incorrect", sorting.incorrect, of_paper(figures.incorrect)));
-  all.push_back(share(sorting, "all", "I don't know", sorting.none, of_paper(figures.none)));
-  all.push_back(share(sorting, "answered", "correct", sorting.answered_correct,
-                      figures.answered_correct ? of_paper(*figures.answered_correct) : nullptr));
-  all.push_back(share(sorting, "answered", "incorrect", sorting.answered_incorrect, nullptr));
+// As the share of answered trials that are correct.
+StudyEstimate equivalence_of(const Tallies& answered_correct) {
+  StudyEstimate estimate = share(answered_correct, "answered", "correct", nullptr);
+  estimate.measure = &equivalence;
+  const auto interval = interval_percent_of(answered_correct, 0.9);
+  estimate.low = estimate.high = std::nullopt;
+  estimate.set(interval);
+  return estimate;
 }
 
-void put_chance(Estimates& all, const ConditionSorting& sorting) {
-  StudyEstimate estimate{&chance, "sorting", sorting.condition};
-  estimate.by = {{"trials", "all"}, {"answer", "correct"}};
-  estimate.value = sorting.chance_percent();
-  estimate.n = sorting.n_participants;
-  estimate.n_trials = sorting.n_trials;
-  all.push_back(std::move(estimate));
-}
-
-void put_swaps(Estimates& all, const ConditionSorting& sorting) {
-  StudyEstimate estimate{&n_incorrect, "sorting", sorting.condition};
-  estimate.value = sorting.incorrect.trials.n_hits;
-  estimate.n = sorting.n_participants;
-  all.push_back(estimate);
-  estimate.measure = &swapped;
-  for (std::size_t i = 0; i < sorting.swaps.size(); ++i) {
-    estimate.by = {{"exchanged", std::string(EnumNames<Swap>::names.at(i))}};
-    estimate.value = sorting.swaps.at(i);
-    all.push_back(estimate);
+// Each number of cubes apart, and how many of all trials a random order gets right on average.
+std::vector<StudyEstimate> chances_of(const std::map<int, int>& n_trials_by_cubes) {
+  StudyEstimate all{&chance};
+  all.by = {{"trials", "all"}, {"answer", "correct"}};
+  std::vector<StudyEstimate> chances;
+  double sum = 0;
+  for (const auto& [n_cubes, n_trials] : n_trials_by_cubes) {
+    StudyEstimate& one = chances.emplace_back(StudyEstimate{&chance_by_cubes});
+    one.by = {at("n_cubes", n_cubes)};
+    one.value = chance_percent(n_cubes);
+    one.n_trials = n_trials;
+    all.n_trials += n_trials;
+    sum += n_trials * *one.value;
   }
+  if (all.n_trials > 0) all.value = sum / all.n_trials;
+  chances.push_back(std::move(all));
+  return chances;
 }
 
-void put_labels(Estimates& all, const ConditionSorting& sorting) {
-  for (const auto& [n_cubes, matrix] : sorting.labels) {
-    const std::vector<std::string> names = ranks(n_cubes);
-    for (std::size_t cube = 0; cube < names.size(); ++cube)
-      for (std::size_t label = 0; label < names.size(); ++label) {
-        StudyEstimate estimate{&labels, "sorting", sorting.condition};
-        estimate.by = {{"n_cubes", fmt::format("{} cubes", n_cubes)},
-                       {"cube", names[cube]},
-                       {"label", names[label]}};
-        estimate.value = matrix[cube][label];
-        estimate.n = sorting.n_participants;
-        all.push_back(std::move(estimate));
-      }
-  }
+StudyEstimate counted(const Measure& measure, std::vector<Coordinate> by, int n) {
+  StudyEstimate estimate{&measure};
+  estimate.by = std::move(by);
+  estimate.value = n;
+  return estimate;
 }
 
-void put_participants(Estimates& all, const ConditionSorting& sorting) {
-  for (const auto& [participant, tally] : sorting.correct_by_participant) {
-    StudyEstimate estimate{&answers, "sorting", sorting.condition};
-    estimate.participant = participant;
-    estimate.by = {{"answer", "correct"}};
-    estimate.value = tally.percent();
-    estimate.n = 1;
-    estimate.n_trials = tally.n_trials;
-    estimate.n_hits = tally.n_hits;
+void put_condition(Estimates& all, const std::string& condition, const Counted& found) {
+  const auto papers = found.comparable.condition();
+  const published::Sorting* paper = papers ? &published::sorting_in(*papers) : nullptr;
+  const StudyEstimate correct =
+      share(found.correct, "all", "correct", paper ? &paper->correct : nullptr);
+  const auto put = [&](StudyEstimate estimate) {
+    estimate.task = "sorting";
+    estimate.condition = condition;
+    estimate.as_published = paper != nullptr;
     all.push_back(std::move(estimate));
+  };
+  const auto put_of_all = [&](StudyEstimate estimate) {
+    estimate.n = correct.n;
+    put(std::move(estimate));
+  };
+  const StudyEstimate incorrect =
+      share(found.incorrect, "all", "incorrect", paper ? &paper->incorrect : nullptr);
+  put(correct);
+  put(incorrect);
+  put(share(found.none, "all", "I don't know", paper ? &paper->none : nullptr));
+  put(share(found.answered_correct, "answered", "correct",
+            paper && paper->answered_correct ? &*paper->answered_correct : nullptr));
+  put(share(found.answered_incorrect, "answered", "incorrect", nullptr));
+  put(equivalence_of(found.answered_correct));
+  for (StudyEstimate& one : chances_of(found.n_trials_by_cubes)) put_of_all(std::move(one));
+  put_of_all(counted(n_incorrect, {}, incorrect.n_hits));
+  for (std::size_t i = 0; i < found.swaps.size(); ++i)
+    put_of_all(counted(swapped, {{"exchanged", std::string(EnumNames<Swap>::names.at(i))}},
+                       found.swaps.at(i)));
+  for (const auto& [n_cubes, matrix] : found.labels) {
+    const auto ranks = Sorting::labels_for(n_cubes);
+    for (std::size_t cube = 0; cube < ranks.size(); ++cube)
+      for (std::size_t label = 0; label < ranks.size(); ++label)
+        put_of_all(counted(labels,
+                           {{"n_cubes", fmt::format("{} cubes", n_cubes)},
+                            {"cube", std::string(ranks[cube])},
+                            {"label", std::string(ranks[label])}},
+                           matrix[cube][label]));
   }
 }
-
 EstimateTable sorting_table() {
   EstimateTable table{
       "sorting",
@@ -187,18 +241,36 @@ EstimateTable participants_table() {
 
 class SortingSection final : public Section {
  public:
-  void add(const SessionData& data) override { fold_.add(data); }
-
-  void put(Summary& summary) override {
-    summary.sorting = fold_.result();
-    for (const auto& put_all : {put_shares, put_chance, put_swaps, put_labels})
-      for (const ConditionSorting& sorting : summary.sorting) put_all(summary.estimates, sorting);
-    fold_ = {};
+  void add(const SessionData& data) override {
+    const std::string participant = data.participant();
+    for (const Attempt& attempt : data.attempts) {
+      if (attempt.trial.plan.task != "sorting") continue;
+      const std::string& condition = attempt.trial.plan.condition;
+      Counted& counted = conditions_[condition];
+      if (!attempt.completed() || !attempt.trial.outcome) continue;
+      counted.add(participant, attempt);
+      counted.comparable.add(data.published_condition(condition),
+                             attempt.shows(published::sorting_masses_g));
+    }
   }
 
-  Estimates of_participants(const Summary& summary) const override {
+  void put(Summary& summary) override {
+    for (auto& [condition, counted] : conditions_) {
+      put_condition(summary.estimates, condition, counted);
+      correct_[condition] = std::move(counted.correct);
+    }
+    conditions_.clear();
+  }
+
+  Estimates of_participants(const Summary&) const override {
     Estimates all;
-    for (const ConditionSorting& sorting : summary.sorting) put_participants(all, sorting);
+    for (const auto& [condition, people] : correct_)
+      for (const auto& [participant, tally] : people) {
+        StudyEstimate& own = all.emplace_back(own_share(answers, participant, tally));
+        own.task = "sorting";
+        own.condition = condition;
+        own.by = {{"answer", "correct"}};
+      }
     return all;
   }
 
@@ -248,7 +320,8 @@ class SortingSection final : public Section {
   }
 
  private:
-  SortingFold fold_;
+  std::map<std::string, Counted> conditions_;
+  std::map<std::string, Tallies> correct_;  // what is kept of them
 };
 }  // namespace
 

@@ -1,5 +1,8 @@
 // The paper's JND: by reference and condition, from above and from below, of each participant; and
 // how the staircases went.
+#include <algorithm>
+#include <functional>
+
 #include "analysis/Section.h"
 
 namespace heft {
@@ -18,6 +21,10 @@ constexpr Measure n_below{"jnd_n_below", "", "below",
 constexpr Measure n_known{"jnd_n_known", "", "known", "participants with a JND, exact or censored"};
 constexpr Measure n_missing{"jnd_n_missing", "", "missing",
                             "participants of whose JND nothing is known"};
+
+constexpr Measure jnd_rising{"jnd_rising", "%", "rising JNDs",
+                             "share of participants whose JND rises from each of the paper's "
+                             "references to the next, of those with an exact one at all"};
 
 // What is counted of staircases.
 struct Counted {
@@ -92,6 +99,7 @@ constexpr std::array staircase_counts{
 
 StudyEstimate estimate_at(const Measure& measure, const ReferenceJnd& row) {
   StudyEstimate estimate{&measure, "comparison", row.compared.condition, row.compared.reference_g};
+  estimate.as_published = row.published != nullptr;
   estimate.by = {{"method", row.compared.method}};
   return estimate;
 }
@@ -163,6 +171,28 @@ void put_overall(Estimates& all, const ReferenceJnd& row) {
     all.push_back(estimate_at(count.measure, row));
     all.back().value = count.of(row);
   }
+}
+
+// Of the participants with an exact JND at every reference where the paper has one, those whose
+// JND rises at each step.
+void put_rising(Estimates& all, const std::vector<ReferenceJnd>& rows) {
+  std::map<std::string, std::vector<double>> jnds;
+  std::size_t n_references = 0;
+  for (const ReferenceJnd& row : rows) {
+    const StartedJnds began = row.as_published();
+    if (!row.published || !began.mean) continue;
+    ++n_references;
+    for (const ParticipantJnd& one : began.participants)
+      if (one.censored == Censored::none) jnds[one.participant].push_back(one.jnd_g);
+  }
+  if (n_references < 2) return;
+  Tally rising;
+  for (const auto& [participant, values] : jnds)
+    if (values.size() == n_references)
+      rising.add(std::ranges::adjacent_find(values, std::greater_equal()) == values.end());
+  StudyEstimate& estimate = all.emplace_back(rate_estimate(jnd_rising, rate_of_people(rising)));
+  estimate.task = "comparison";
+  estimate.as_published = true;
 }
 
 std::vector<EstimateColumn> columns_of(std::vector<EstimateColumn> columns, const Measure& measure,
@@ -264,17 +294,18 @@ EstimateTable health_table() {
 class StaircaseSection final : public Section {
  public:
   void put(Summary& summary) override {
-    summary.jnd = summary.shared->staircases.jnds();
-    for (const ReferenceJnd& row : summary.jnd) {
+    jnds_ = summary.shared->staircases.jnds();
+    for (const ReferenceJnd& row : jnds_) {
       for (const Began& began : began_in(row))
         put_jnds(summary.estimates, estimate_of(row, began), began.jnds);
       put_overall(summary.estimates, row);
     }
+    put_rising(summary.estimates, jnds_);
   }
 
-  Estimates of_participants(const Summary& summary) const override {
+  Estimates of_participants(const Summary&) const override {
     Estimates all;
-    for (const ReferenceJnd& row : summary.jnd) {
+    for (const ReferenceJnd& row : jnds_) {
       for (const Began& began : began_in(row))
         put_participants(all, estimate_of(row, began), began.jnds.participants);
       const StudyEstimate overall = estimate_at(jnd_overall, row);
@@ -315,6 +346,9 @@ class StaircaseSection final : public Section {
     chart.axes = "set yrange [0:*]\n";
     return {chart};
   }
+
+ private:
+  std::vector<ReferenceJnd> jnds_;
 };
 }  // namespace
 

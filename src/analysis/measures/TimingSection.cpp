@@ -2,8 +2,11 @@
 // void.
 #include <fmt/format.h>
 
+#include <functional>
+#include <set>
+
 #include "analysis/Section.h"
-#include "analysis/Timing.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -22,38 +25,48 @@ constexpr int n_tenths = 10;
 class TimingSection final : public Section {
  public:
   void add(const SessionData& data) override {
-    times_.add(data);
-    voids_.add(data);
-    add_tenths(data);
+    std::map<Task, std::vector<const TrialRow*>, InTaskOrder> by_task;
+    for (const Attempt& attempt : data.attempts) {
+      const TrialRow& trial = attempt.trial;
+      if (trial.status == TrialStatus::voided)
+        n_void_[trial.void_reason.value_or("no reason logged")] += 1;
+      if (!attempt.completed()) continue;
+      std::deque<double>& times_s = times_s_[{trial.plan.task, trial.plan.condition}];
+      if (const auto time_s = response_time_s(trial)) times_s.push_back(*time_s);
+      if (trial.plan.task != "introduction") by_task[trial.plan.task].push_back(&trial);
+    }
+    for (const auto& [task, trials] : by_task)
+      for (std::size_t i = 0; i < trials.size(); ++i) {
+        Times& times = by_task_[task];
+        times.conditions.insert(trials[i]->plan.condition);
+        if (const auto time_s = response_time_s(*trials[i]))
+          times.tenths_s[static_cast<int>(n_tenths * i / trials.size())].push_back(*time_s);
+      }
   }
 
   void put(Summary& summary) override {
-    for (const ResponseTimes& times : times_.result()) {
-      StudyEstimate estimate{&response_time, times.task, times.condition};
-      estimate.value = times.median_s;
-      estimate.low = times.lower_quartile_s;
-      estimate.high = times.upper_quartile_s;
+    const auto put = [&](StudyEstimate estimate, const Task& task, std::string condition) {
+      estimate.task = task;
+      estimate.condition = std::move(condition);
       estimate.n = summary.n_participants;
-      estimate.n_trials = times.n_trials;
-      estimate.method = "quartiles";
       summary.estimates.push_back(std::move(estimate));
-    }
+    };
+    for (const auto& [of, times_s] : times_s_)
+      put(quartiles_estimate(response_time, times_s), of.first, of.second);
     for (const auto& [task, times] : by_task_)
-      for (const auto& [tenth, values] : times.tenths_s) {
-        StudyEstimate estimate = quartiles_estimate(time_by_trial, values);
-        estimate.task = task;
-        estimate.condition = fmt::format("{}", fmt::join(times.conditions, ", "));
-        estimate.n = summary.n_participants;
+      for (const auto& [tenth, times_s] : times.tenths_s) {
+        StudyEstimate estimate = quartiles_estimate(time_by_trial, times_s);
         estimate.by = {at("percent_of_trials", 100.0 * (tenth + 0.5) / n_tenths)};
-        summary.estimates.push_back(std::move(estimate));
+        put(std::move(estimate), task, fmt::format("{}", fmt::join(times.conditions, ", ")));
       }
-    for (const VoidCount& reason : voids_.result()) {
-      StudyEstimate estimate{&n_void};
-      estimate.by = {{"reason", reason.reason}};
-      estimate.value = reason.n;
-      summary.estimates.push_back(std::move(estimate));
+    std::vector<std::pair<std::string, int>> reasons(n_void_.begin(), n_void_.end());
+    std::ranges::stable_sort(reasons, std::greater(), &std::pair<std::string, int>::second);
+    for (const auto& [reason, n] : reasons) {
+      StudyEstimate& estimate = summary.estimates.emplace_back(StudyEstimate{&n_void});
+      estimate.by = {{"reason", reason}};
+      estimate.value = n;
     }
-    times_ = {};
+    times_s_.clear();
     by_task_.clear();
   }
 
@@ -72,13 +85,10 @@ class TimingSection final : public Section {
     EstimateTable by_trial{"times_by_trial",
                            "Response times over the trials",
                            {key_column("task", "task"), key_column("condition", "conditions"),
-                            key_column("percent_of_trials", "% of the trials"),
-                            column(time_by_trial, Field::n_trials, "n", "n"),
-                            column(time_by_trial, Field::value, "median_s", "median", 2),
-                            column(time_by_trial, Field::low, "lower_quartile_s", "25 %", 2),
-                            column(time_by_trial, Field::high, "upper_quartile_s", "75 %", 2)},
+                            key_column("percent_of_trials", "% of the trials")},
                            "",
                            TablePlace::csv};
+    add_quartiles(by_trial.columns, time_by_trial);
     EstimateTable voids{"voids",
                         "Void attempts (each was presented again)",
                         {key_column("reason", "reason"), column(n_void, Field::value, "n", "n", 0)},
@@ -89,18 +99,19 @@ class TimingSection final : public Section {
   }
 
   std::vector<ChartSpec> charts() const override {
-    ChartSpec chart{"times_by_trial", "Response time over the trials",
-                    "From all cubes shown to the answer, without pauses and time out of view: "
-                    "median and quartiles by task, over tenths of each session's trials of it.",
-                    "times_by_trial.csv", ChartShape::lines};
-    chart.importance = 85;
-    chart.series = {{&time_by_trial, "", {}}};
-    chart.x = "percent_of_trials";
-    chart.split = {"task", "condition"};
-    chart.x_label = "% of the trials of a session";
-    chart.y_label = "response time (s)";
-    chart.axes = "set yrange [0:*]\n";
-    return {chart};
+    return {{.name = "times_by_trial",
+             .title = "Response time over the trials",
+             .caption = "From all cubes shown to the answer, without pauses and time out of view: "
+                        "median and quartiles by task, over tenths of each session's trials of it.",
+             .csv = "times_by_trial.csv",
+             .shape = ChartShape::lines,
+             .importance = 85,
+             .series = {{&time_by_trial}},
+             .x = "percent_of_trials",
+             .split = {"task", "condition"},
+             .x_label = "% of the trials of a session",
+             .y_label = "response time (s)",
+             .axes = "set yrange [0:*]\n"}};
   }
 
  private:
@@ -109,23 +120,9 @@ class TimingSection final : public Section {
     std::map<int, std::deque<double>> tenths_s;
   };
 
-  void add_tenths(const SessionData& data) {
-    std::map<Task, std::vector<const Attempt*>, InTaskOrder> by_task;
-    for (const Attempt& attempt : data.attempts)
-      if (attempt.completed() && attempt.trial.plan.task != "introduction")
-        by_task[attempt.trial.plan.task].push_back(&attempt);
-    for (const auto& [task, attempts] : by_task)
-      for (std::size_t i = 0; i < attempts.size(); ++i) {
-        Times& times = by_task_[task];
-        times.conditions.insert(attempts[i]->trial.plan.condition);
-        if (const auto time_s = response_time_s(attempts[i]->trial))
-          times.tenths_s[static_cast<int>(n_tenths * i / attempts.size())].push_back(*time_s);
-      }
-  }
-
-  TimesFold times_;
-  VoidsFold voids_;
+  std::map<std::pair<Task, std::string>, std::deque<double>, InTaskOrder> times_s_;
   std::map<Task, Times, InTaskOrder> by_task_;
+  std::map<std::string, int> n_void_;
 };
 }  // namespace
 

@@ -21,18 +21,57 @@ constexpr Measure n_pictures{"pictures", "", "camera pictures", "pictures of the
 constexpr Measure n_dropped{"pictures_dropped", "", "dropped", "camera pictures never shown"};
 constexpr Measure n_late{"pictures_late", "", "late", "camera pictures that came late"};
 
+struct PersonTracking {
+  TrackingCounts counts;
+  PictureCounts pictures;  // of the camera; none for simulated participants
+
+  void add(const SessionData& data) {
+    const TrackingCounts more = data.tracking();
+    counts.n_lost += more.n_lost;
+    counts.lost_s += more.lost_s;
+    counts.answering_s += more.answering_s;
+    add_frames(more.frames);
+    pictures.shown += data.pictures.shown;
+    pictures.dropped += data.pictures.dropped;
+    pictures.late += data.pictures.late;
+  }
+  // Of the time from all cubes shown to the answer, without pauses; none without such a time.
+  std::optional<double> in_view_percent() const {
+    if (!(counts.answering_s > 0)) return std::nullopt;
+    return 100 * (1 - counts.lost_s / counts.answering_s);
+  }
+  std::optional<double> tracked_percent() const {
+    if (counts.frames.n_frames == 0) return std::nullopt;
+    return 100.0 * counts.frames.n_tracked / counts.frames.n_frames;
+  }
+
+ private:
+  void add_frames(const FrameCounts& more) {
+    FrameCounts& sum = counts.frames;
+    if (more.mean_quality) {  // weighted by frames
+      const int n_before = sum.mean_quality ? sum.n_frames : 0;
+      sum.mean_quality =
+          (sum.mean_quality.value_or(0) * n_before + *more.mean_quality * more.n_frames) /
+          static_cast<double>(n_before + more.n_frames);
+    }
+    sum.n_frames += more.n_frames;
+    sum.n_tracked += more.n_tracked;
+    sum.n_jumps += more.n_jumps;
+  }
+};
+
 class TrackingSection final : public Section {
  public:
   bool of_everyone() const override { return true; }
-  void add(const SessionData& data) override { fold_.add(data); }
+  void add(const SessionData& data) override { people_[data.participant()].add(data); }
   void put(Summary&) override {}
 
   Estimates of_participants(const Summary&) const override {
     Estimates all;
-    for (const PersonTracking& person : fold_.result()) {
+    for (const auto& [participant, person] : people_) {
       const auto put = [&](const Measure& measure, std::optional<double> value) {
         StudyEstimate& estimate = all.emplace_back(StudyEstimate{&measure});
-        estimate.participant = person.participant;
+        estimate.participant = participant;
         estimate.value = value;
         estimate.n = 1;
       };
@@ -75,21 +114,23 @@ class TrackingSection final : public Section {
   }
 
   std::vector<ChartSpec> charts() const override {
-    ChartSpec chart{"tracking_quality", "Tracking of each participant's effector",
-                    "A column for each participant, from the worst tracked on: percentage of the "
-                    "time until the answer with the effector in view, and of displayed frames with "
-                    "it tracked, where frames were kept.",
-                    "tracking_quality.csv", ChartShape::people};
-    chart.importance = 90;
-    chart.series = {{&in_view, "% of the time in view", {}}, {&tracked, "% of frames tracked", {}}};
-    chart.x_label = "participant, worst first";
-    chart.y_label = "%";
-    chart.axes = "set yrange [0:105]\n";
-    return {chart};
+    return {{.name = "tracking_quality",
+             .title = "Tracking of each participant's effector",
+             .caption =
+                 "A column for each participant, from the worst tracked on: percentage of the "
+                 "time until the answer with the effector in view, and of displayed frames with "
+                 "it tracked, where frames were kept.",
+             .csv = "tracking_quality.csv",
+             .shape = ChartShape::people,
+             .importance = 90,
+             .series = {{&in_view, "% of the time in view"}, {&tracked, "% of frames tracked"}},
+             .x_label = "participant, worst first",
+             .y_label = "%",
+             .axes = "set yrange [0:105]\n"}};
   }
 
  private:
-  TrackingFold fold_;
+  std::map<std::string, PersonTracking> people_;
 };
 }  // namespace
 
