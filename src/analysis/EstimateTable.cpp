@@ -10,14 +10,12 @@
 namespace heft {
 
 namespace {
-Cell grams(const std::optional<double>& mass_g) {
-  return mass_g ? Cell{fmt::format("{:g}", *mass_g), mass_g} : Cell{};
-}
-
-Cell coordinate_cell(const StudyEstimate& estimate, std::string_view name, int decimals) {
-  if (name == "reference_g") return grams(estimate.reference_g);
+Cell coordinate_cell(const StudyEstimate& estimate, std::string_view name) {
   const Coordinate* found = estimate.at(name);
-  return found && found->value ? number(found->value, decimals) : word(estimate.text_at(name));
+  const std::optional<double> value = name == "reference_g" ? estimate.reference_g
+                                      : found               ? found->value
+                                                            : std::nullopt;
+  return {estimate.text_at(name), value};
 }
 
 Cell shown(const std::optional<double>& value, const EstimateColumn& column, Censored censored) {
@@ -88,13 +86,9 @@ std::string in_snake_case(std::string text) {
   return text;
 }
 
-std::string text_at(const StudyEstimate& estimate, std::string_view name) {
-  return coordinate_cell(estimate, name, 1).text;
-}
-
 bool belongs(const StudyEstimate& estimate, const EstimateColumn& column) {
   return estimate.measure == column.measure &&
-         (column.only.first.empty() || text_at(estimate, column.only.first) == column.only.second);
+         (column.only.first.empty() || estimate.text_at(column.only.first) == column.only.second);
 }
 
 using Chosen = std::vector<const StudyEstimate*>;
@@ -120,7 +114,7 @@ std::vector<EstimateColumn> columns_for(const EstimateTable& declared, const Cho
     std::vector<std::string> texts;
     for (const StudyEstimate* estimate : chosen)
       if (estimate->measure == column.measure)
-        if (std::string text = text_at(*estimate, column.spread);
+        if (std::string text = estimate->text_at(column.spread);
             std::ranges::find(texts, text) == texts.end())
           texts.push_back(std::move(text));
     for (const std::string& text : texts) {
@@ -147,7 +141,7 @@ Table table_of(const EstimateTable& declared, const Estimates& estimates) {
   const auto key_of = [&](const StudyEstimate& estimate) {
     std::string key;
     for (const EstimateColumn& column : columns)
-      if (!column.measure) key += text_at(estimate, column.name) + '\n';
+      if (!column.measure) key += estimate.text_at(column.name) + '\n';
     return key;
   };
   std::map<std::string, std::size_t> places;
@@ -159,8 +153,7 @@ Table table_of(const EstimateTable& declared, const Estimates& estimates) {
     if (!places.try_emplace(key_of(*estimate), table.rows.size()).second) continue;
     std::vector<Cell>& row = table.rows.emplace_back(columns.size());
     for (std::size_t i = 0; i < columns.size(); ++i)
-      if (!columns[i].measure)
-        row[i] = coordinate_cell(*estimate, columns[i].name, columns[i].decimals);
+      if (!columns[i].measure) row[i] = coordinate_cell(*estimate, columns[i].name);
   }
   for (const StudyEstimate* estimate : chosen) {
     const auto place = places.find(key_of(*estimate));
@@ -207,10 +200,10 @@ Table list_of(const Estimates& estimates) {
     table.rows.push_back(
         {word(std::string(estimate.measure->name)), word_or_nothing(estimate.measure->unit),
          word_or_nothing(estimate.task), word_or_nothing(estimate.condition),
-         grams(estimate.reference_g), word_or_nothing(estimate.participant), word_or_nothing(at),
-         cell(Field::value), cell(Field::sd), cell(Field::low), cell(Field::high), cell(Field::n),
-         cell(Field::n_trials), cell(Field::n_hits), cell(Field::method), cell(Field::censored),
-         cell(Field::why), cell(Field::published)});
+         coordinate_cell(estimate, "reference_g"), word_or_nothing(estimate.participant),
+         word_or_nothing(at), cell(Field::value), cell(Field::sd), cell(Field::low),
+         cell(Field::high), cell(Field::n), cell(Field::n_trials), cell(Field::n_hits),
+         cell(Field::method), cell(Field::censored), cell(Field::why), cell(Field::published)});
   }
   return table;
 }

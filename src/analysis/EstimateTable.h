@@ -46,8 +46,8 @@ struct EstimateColumn {
 };
 
 /// A coordinate as a column.
-inline EstimateColumn key_column(std::string name, std::string heading, int decimals = 1) {
-  return {std::move(name), std::move(heading), nullptr, Field::value, decimals};
+inline EstimateColumn key_column(std::string name, std::string heading) {
+  return {std::move(name), std::move(heading)};
 }
 inline EstimateColumn column(const Measure& measure, Field field, std::string name,
                              std::string heading = "", int decimals = 1, std::string json = "") {
@@ -59,9 +59,9 @@ inline EstimateColumn json_column(const Measure& measure, Field field, std::stri
 }
 /// The columns LOW and HIGH.
 inline void add_interval(std::vector<EstimateColumn>& columns, const Measure& measure,
-                         std::string low, std::string high) {
-  columns.push_back(column(measure, Field::low, std::move(low), "95 % low"));
-  columns.push_back(column(measure, Field::high, std::move(high), "high"));
+                         std::string low, std::string high, int decimals = 1) {
+  columns.push_back(column(measure, Field::low, std::move(low), "95 % low", decimals));
+  columns.push_back(column(measure, Field::high, std::move(high), "high", decimals));
 }
 
 /// The columns N (of trials), median_UNIT and the quartiles.

@@ -13,7 +13,7 @@ namespace heft {
 
 /// What the data say and what they can't, for somebody who reads nothing else: of the sorting, of
 /// the comparisons, of what rests on what.
-std::vector<std::string> three_sentences(const Summary& summary);
+std::vector<std::string> leading_sentences(const Summary& summary);
 
 /// What notes tell of the sessions beside the figures.
 class NotesFold {

@@ -181,7 +181,7 @@ std::string head_html(const Summary& summary) {
       "<h1>Heft report</h1>\n<p>{}</p>\n",
       style, html_escaped(headline(summary)));
   html += "<div class=\"first\">\n" + answer_html(summary);
-  for (const std::string& sentence : three_sentences(summary))
+  for (const std::string& sentence : leading_sentences(summary))
     html += fmt::format("<p>{}</p>\n", html_escaped(sentence));
   html += "</div>\n";
   for (const std::string& note : summary.notes)

@@ -1,4 +1,4 @@
-// The three sentences on top of a report.
+// The sentences on top of a report.
 #include <fmt/format.h>
 
 #include "analysis/Notes.h"
@@ -101,6 +101,17 @@ std::string comparison_sentence(const Summary& summary) {
   return text + ".";
 }
 
+std::string estimation_sentence(const Summary& summary) {
+  std::string text;
+  for (const StudyEstimate* one : estimates_of(summary.estimates, "estimation_exponent")) {
+    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ",
+                        one->value ? fmt::format("{:.2f}", *one->value) : "none", one->condition);
+    if (one->low) text += fmt::format(" [{:.2f}, {:.2f}]", *one->low, *one->high);
+  }
+  return fmt::format(
+      "Magnitude estimation: exponent of the numbers over the masses {}; 1 is proportional.", text);
+}
+
 std::string limits_sentence(const Summary& summary) {
   std::string open;
   for (const Hypothesis& hypothesis : summary.hypotheses)
@@ -123,12 +134,14 @@ std::string limits_sentence(const Summary& summary) {
 }
 }  // namespace
 
-std::vector<std::string> three_sentences(const Summary& summary) {
+std::vector<std::string> leading_sentences(const Summary& summary) {
   std::vector<std::string> sentences;
   if (find_estimate(summary.estimates, "sorting_answers"))
     sentences.push_back(sorting_sentence(summary));
   if (find_estimate(summary.estimates, "threshold_75"))
     sentences.push_back(comparison_sentence(summary));
+  if (find_estimate(summary.estimates, "estimation_exponent"))
+    sentences.push_back(estimation_sentence(summary));
   sentences.push_back(limits_sentence(summary));
   return sentences;
 }

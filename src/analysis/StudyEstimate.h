@@ -46,7 +46,7 @@ struct StudyEstimate {
   int n_trials = 0, n_hits = 0;  ///< of a share: of how many trials, in how many of them
   std::string_view method{};     ///< of the interval or the mean
   Censored censored = Censored::none;
-  std::string why{};
+  std::string why{};  ///< there is no value, or it leaves participants out
   const published::Figure* published = nullptr;  ///< null: the paper has none to compare with
   bool as_published = false;                     ///< technique, masses and task are the paper's
 

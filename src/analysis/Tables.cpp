@@ -88,7 +88,7 @@ std::string headline(const Summary& summary) {
 std::string readable(const Summary& summary) {
   std::string text = headline(summary) + '\n';
   if (!summary.sessions.empty())
-    for (const std::string& sentence : three_sentences(summary))
+    for (const std::string& sentence : leading_sentences(summary))
       for (const std::string& line : wrapped(sentence, text_width)) text += line + '\n';
   for (const std::string& note : summary.notes)
     for (const std::string& line : wrapped(note, text_width)) text += line + '\n';

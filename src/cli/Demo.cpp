@@ -67,7 +67,7 @@ void demo(const DemoOptions& options) {
       "Try it:      ./heft run protocols/quick.toml --participant 01 --responder simulated\n\n",
       result.n_completed, result.duration_s / 60, elapsed.count(), request.db,
       shell_quoted(request.db), result.session_id);
-  for (const std::string& sentence : three_sentences(summary)) say("{}\n", sentence);
+  for (const std::string& sentence : leading_sentences(summary)) say("{}\n", sentence);
   say("The report:  {}/report.html\n", report);
 }
 

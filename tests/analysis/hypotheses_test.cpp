@@ -35,8 +35,9 @@ TEST(HypothesisOfC1, IsSupportedByEquivalenceToChance) {
   for (int i = 0; i < 40; ++i) n_right.push_back(i % 3);  // 16.7 % of 6
   const Summary summary = summarize({"x.db", c1_study(n_right, 6, 8)}, "");
   EXPECT_EQ(summary.hypotheses.at(0).verdict, HypothesisVerdict::supported);
-  EXPECT_THAT(three_sentences(summary).at(0), HasSubstr("equivalent to chance (within 10 points)"));
-  EXPECT_THAT(three_sentences(summary).at(0),
+  EXPECT_THAT(leading_sentences(summary).at(0),
+              HasSubstr("equivalent to chance (within 10 points)"));
+  EXPECT_THAT(leading_sentences(summary).at(0),
               HasSubstr("of the answered trials in C1 (25 % were \"I don't know\"), where"));
 }
 

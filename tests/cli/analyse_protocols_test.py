@@ -40,6 +40,12 @@ def comparison(*staircases):
             + "".join(staircases))
 
 
+def estimation(low, **trials):
+    counts = ", ".join(f"{name} = {n}" for name, n in trials.items())
+    return ('[[block]]\nkind = "estimation"\nname = "estimation"\nmasses_g = [50, 200, 800]\n'
+            f"trials = {{ {counts} }}\nscale = \"number\"\nlow = {low}\nhigh = 500\n")
+
+
 PROTOCOLS = {
     "two cubes": sorting([100, 400], C1=3, C2=3),
     "four cubes": sorting([15, 100, 250, 800], C1=2, C2=2),
@@ -53,6 +59,7 @@ PROTOCOLS = {
     "a mix": SOFT + sorting([100, 400], C2=2, soft=2)
     + comparison(constant("soft"), staircase("C2", 15, 175), staircase("soft", 800, 700)),
     "no comparison": introduction("C2") + sorting([15, 200, 800], C1=2, C2=2),
+    "estimation": SOFT + estimation(0, C2=2, soft=2),
     "no sorting": introduction("C2") + comparison(staircase("C2")),
 }
 # Charts and tables that name the conditions of a task, where there is something to show.
@@ -60,6 +67,7 @@ OF_SORTING = {"sorting", "sorting_by_participant", "labels_by_mass", "sorting_ch
 OF_COMPARISONS = {"choice_curves", "choices", "choices_by_level", "hits_and_false_alarms",
                   "sensitivity", "times_by_level", "thresholds_by_participant"}
 OF_STAIRCASES = {"jnd", "staircase_health", "staircases", "jnd_against_start", "staircase_trials"}
+OF_ESTIMATION = {"estimation", "estimation_exponent", "estimation_by_participant"}
 OF_PAPER = {"C1", "C2"}
 
 
@@ -85,6 +93,12 @@ class Protocols(SessionTest):
         self.assertEqual(sum(row["n_trials"] for row in found["comparison"]["by_reference"]),
                          completed("comparison"))
         self.assertEqual(found["introduction"]["n_participants"] or 0, completed("introduction"))
+        self.assertEqual(sum(row["n_trials"] for row in found["estimation"]),
+                         completed("estimation"))
+        for row in found["estimation"]:
+            self.assertLess(0, row["low"], row)
+            self.assertLess(row["low"], row["geometric_mean"])
+            self.assertLess(row["geometric_mean"], row["high"])
         self.assertEqual(sum(row["n_trials"] for row in found["response_times"]),
                          sum(n for *_, n in trials))
         self.assertEqual(sum(row["n_attempts"] - row["n_void"] for row in
@@ -105,6 +119,7 @@ class Protocols(SessionTest):
                 of = lambda task: {at for one, at, _, _ in trials if one == task}
                 self.assert_named(out, OF_SORTING, of("sorting"))
                 self.assert_named(out, OF_COMPARISONS, of("comparison"))
+                self.assert_named(out, OF_ESTIMATION, of("estimation"))
                 self.assert_named(out, OF_STAIRCASES, {
                     at for task, at, staircase, _ in trials
                     if task == "comparison" and (staircase or "")[:1].isdigit()})

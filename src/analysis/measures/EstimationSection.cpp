@@ -1,6 +1,11 @@
 // Magnitude estimation: the numbers given to single cubes by mass and condition, and the exponent
 // of the power function between mass and number (Stevens 1957), of each participant and over them.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <map>
+#include <ranges>
+#include <tuple>
 
 #include "analysis/Section.h"
 
@@ -9,24 +14,29 @@ namespace heft {
 namespace {
 constexpr Measure geometric_mean{
     "estimation_geometric_mean", "", "geometric mean",
-    "number given to a mass: exp of the mean over participants of each "
-    "one's mean logarithm, Student's t interval on the logarithms; of "
-    "numbers above 0"};
+    "number given to a mass: exp of the mean over participants of each one's mean logarithm, "
+    "Student's t interval on the logarithms; of numbers above 0"};
 constexpr Measure mean_value{"estimation_mean", "", "mean",
                              "number given to a mass: mean over participants of each one's mean"};
+constexpr Measure left_out{"estimation_left_out", "", "not above 0",
+                           "numbers that have no logarithm; geometric mean and exponent are of the "
+                           "others"};
 constexpr Measure exponent{
     "estimation_exponent", "", "exponent",
-    "slope of the logarithm of the number on the logarithm of the mass, by "
-    "least squares for each participant: mean over participants, Student's t "
-    "interval; 1: the numbers are proportional to the mass"};
+    "slope of the logarithm of the number on the logarithm of the mass, by least squares for each "
+    "participant: mean over participants, Student's t interval; 1: the numbers are proportional to "
+    "the mass"};
 
 // One participant's numbers in one condition.
 struct Numbers {
-  std::map<double, std::vector<double>> by_mass, logs_by_mass;
+  std::map<double, std::vector<double>> by_mass;
+  std::map<double, std::vector<double>> logs_by_mass;  // of the numbers above 0
 
   std::optional<double> slope() const {
     double n = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
-    for (const auto& [mass_g, logs] : logs_by_mass)
+    std::size_t n_masses = 0;
+    for (const auto& [mass_g, logs] : logs_by_mass) {
+      n_masses += logs.empty() ? 0 : 1;
       for (const double y : logs) {
         const double x = std::log(mass_g);
         n += 1;
@@ -35,20 +45,47 @@ struct Numbers {
         sum_xx += x * x;
         sum_xy += x * y;
       }
-    if (logs_by_mass.size() < 2) return std::nullopt;
+    }
+    if (n_masses < 2) return std::nullopt;
     return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
   }
 };
 
-// The mean over participants, with its interval.
-StudyEstimate over_people(const Measure& measure, const std::vector<double>& values) {
-  StudyEstimate estimate{&measure};
+// The mean over the participants who have a value, of logarithms where it is geometric.
+StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people) {
+  StudyEstimate estimate = *people.front();
+  const bool of_logs = estimate.measure == &geometric_mean;
+  std::vector<double> values;
+  std::string why;
+  estimate.n_trials = 0;
+  for (const StudyEstimate* own : people) {
+    estimate.n_trials += own->n_trials;
+    if (own->value) values.push_back(of_logs ? std::log(*own->value) : *own->value);
+    if (!own->why.empty()) why = own->why;
+  }
+  estimate.participant.clear();
   estimate.value = mean(values);
-  estimate.sd = sample_sd(values);
   estimate.set(student_t_interval(values));
+  if (!of_logs) estimate.sd = sample_sd(values);
+  for (auto* figure : {&estimate.value, &estimate.low, &estimate.high})
+    if (of_logs && *figure) *figure = std::exp(**figure);
   estimate.n = static_cast<int>(values.size());
   estimate.method = "Student's t";
+  if (values.size() < people.size())
+    estimate.why = fmt::format("{} of {} participants have none: {}", people.size() - values.size(),
+                               people.size(), why);
   return estimate;
+}
+
+StudyEstimate sum_over_people(const std::vector<const StudyEstimate*>& people) {
+  StudyEstimate sum = *people.front();
+  sum.participant.clear();
+  sum.n = static_cast<int>(people.size());
+  for (const StudyEstimate* own : people | std::views::drop(1)) {
+    *sum.value += *own->value;
+    sum.n_trials += own->n_trials;
+  }
+  return sum;
 }
 
 class EstimationSection final : public Section {
@@ -60,57 +97,95 @@ class EstimationSection final : public Section {
           trial.plan.is_practice || attempt.cubes.size() != 1)
         continue;
       const double mass_g = attempt.cubes.front().mass_g;
-      task_ = trial.plan.task;
-      Numbers& numbers = conditions_[trial.plan.condition][data.participant()];
+      Numbers& numbers = people_[{trial.plan.condition, data.participant()}];
       numbers.by_mass[mass_g].push_back(*trial.value);
-      if (*trial.value > 0) numbers.logs_by_mass[mass_g].push_back(std::log(*trial.value));
+      std::vector<double>& logs = numbers.logs_by_mass[mass_g];
+      if (*trial.value > 0) logs.push_back(std::log(*trial.value));
     }
   }
 
-  void put(Summary& summary) override {
-    for (Estimates all = everything(); StudyEstimate & estimate : all)
-      if (estimate.participant.empty()) summary.estimates.push_back(std::move(estimate));
-  }
-
   Estimates of_participants(const Summary&) const override {
-    Estimates all = everything();
-    std::erase_if(all, [](const StudyEstimate& estimate) { return estimate.participant.empty(); });
+    Estimates all;
+    for (const auto& [of, numbers] : people_) {
+      const auto put = [&](const Measure& measure, std::optional<double> value,
+                           std::size_t n_trials) -> StudyEstimate& {
+        StudyEstimate& own = all.emplace_back(StudyEstimate{&measure, "estimation", of.first});
+        own.participant = of.second;
+        own.value = value;
+        own.n = 1;
+        own.n_trials = static_cast<int>(n_trials);
+        return own;
+      };
+      std::size_t n_logs = 0;
+      for (const auto& [mass_g, values] : numbers.by_mass) {
+        const std::vector<double>& logs = numbers.logs_by_mass.at(mass_g);
+        const auto mean_log = mean(logs);
+        n_logs += logs.size();
+        put(mean_value, mean(values), values.size()).by = {at("mass_g", mass_g)};
+        put(left_out, static_cast<double>(values.size() - logs.size()), values.size()).by = {
+            at("mass_g", mass_g)};
+        StudyEstimate& geometric =
+            put(geometric_mean, mean_log ? std::optional(std::exp(*mean_log)) : std::nullopt,
+                logs.size());
+        geometric.by = {at("mass_g", mass_g)};
+        if (!mean_log) geometric.why = "no number above 0";
+      }
+      StudyEstimate& slope = put(exponent, numbers.slope(), n_logs);
+      if (!slope.value) slope.why = "numbers above 0 at fewer than two masses";
+    }
     return all;
   }
 
+  void put(Summary& summary) override {
+    const Estimates own = of_participants(summary);
+    std::map<std::tuple<std::string, std::optional<double>, std::string_view>,
+             std::vector<const StudyEstimate*>>
+        groups;
+    for (const StudyEstimate& one : own) {
+      const Coordinate* mass = one.at("mass_g");
+      groups[{one.condition, mass ? mass->value : std::nullopt, one.measure->name}].push_back(&one);
+    }
+    for (const auto& [key, people] : groups)
+      summary.estimates.push_back(people.front()->measure == &left_out ? sum_over_people(people)
+                                                                       : mean_over_people(people));
+  }
+
   std::vector<EstimateTable> tables() const override {
-    std::vector<EstimateColumn> columns{
-        key_column("condition", "condition"), key_column("mass_g", "mass g"),
-        column(mean_value, Field::n, "n_participants", "n"),
-        column(mean_value, Field::n_trials, "n_trials", "trials"),
-        column(geometric_mean, Field::value, "geometric_mean", "geometric mean", 2)};
-    add_interval(columns, geometric_mean, "low", "high");
-    columns.push_back(column(mean_value, Field::value, "mean", "mean", 2));
-    columns.push_back(column(mean_value, Field::sd, "sd", "SD", 2));
-    EstimateTable by_mass{"estimation",
-                          "Magnitude estimation: numbers by mass",
-                          std::move(columns),
-                          "over participants, each of whom counts once; the interval is the "
-                          "geometric mean's",
-                          TablePlace::results,
-                          "estimation[]"};
-    std::vector<EstimateColumn> slopes{key_column("condition", "condition"),
-                                       column(exponent, Field::n, "n", "n"),
-                                       column(exponent, Field::value, "exponent", "exponent", 3),
-                                       column(exponent, Field::sd, "sd", "SD", 3)};
-    add_interval(slopes, exponent, "low", "high");
-    EstimateTable exponents{"estimation_exponent",
-                            "Magnitude estimation: exponent of the power law",
-                            std::move(slopes),
-                            "slope of log number on log mass of each participant; 1: proportional",
-                            TablePlace::results,
-                            "estimation_exponent[]"};
+    EstimateTable by_mass{
+        "estimation",
+        "Magnitude estimation: numbers by mass",
+        {key_column("condition", "condition"), key_column("mass_g", "mass g"),
+         column(mean_value, Field::n, "n_participants", "n"),
+         column(mean_value, Field::n_trials, "n_trials", "trials"),
+         column(mean_value, Field::value, "mean", "mean", 2),
+         column(mean_value, Field::sd, "sd", "SD", 2),
+         column(left_out, Field::value, "n_left_out", "not above 0", 0),
+         column(geometric_mean, Field::n, "n_geometric_mean", "n above 0"),
+         column(geometric_mean, Field::value, "geometric_mean", "geometric mean", 2)},
+        "over participants, each of whom counts once. A number that is not above 0 has no "
+        "logarithm: it is counted, and the geometric mean and its interval are of the others",
+        TablePlace::results,
+        "estimation[]"};
+    add_interval(by_mass.columns, geometric_mean, "low", "high", 2);
+    by_mass.columns.push_back(column(geometric_mean, Field::why, "why", "no geometric mean"));
+    EstimateTable exponents{
+        "estimation_exponent",
+        "Magnitude estimation: exponent of the power law",
+        {key_column("condition", "condition"), column(exponent, Field::n, "n", "n"),
+         column(exponent, Field::value, "exponent", "exponent", 3),
+         column(exponent, Field::sd, "sd", "SD", 3)},
+        "slope of log number on log mass of each participant, of numbers above 0; 1: proportional",
+        TablePlace::results,
+        "estimation_exponent[]"};
+    add_interval(exponents.columns, exponent, "low", "high", 3);
+    exponents.columns.push_back(column(exponent, Field::why, "why", "no exponent"));
     EstimateTable people{
         "estimation_by_participant",
         "Each participant's exponent",
         {key_column("condition", "condition"), key_column("participant", "participant"),
          column(exponent, Field::value, "exponent", "exponent", 3),
-         column(exponent, Field::n_trials, "n_trials", "trials")},
+         column(exponent, Field::n_trials, "n_trials", "trials"),
+         column(exponent, Field::why, "why", "no exponent, because")},
         "",
         TablePlace::csv};
     people.participants = true;
@@ -145,81 +220,7 @@ class EstimationSection final : public Section {
   }
 
  private:
-  using People = std::map<std::string, Numbers>;
-
-  Estimates everything() const {
-    Estimates all;
-    for (const auto& [condition, people] : conditions_) {
-      put_by_mass(all, condition, people, mean_value, &Numbers::by_mass);
-      put_by_mass(all, condition, people, geometric_mean, &Numbers::logs_by_mass);
-      put_exponents(all, condition, people);
-    }
-    return all;
-  }
-
-  StudyEstimate placed(StudyEstimate estimate, const std::string& condition) const {
-    estimate.task = task_;
-    estimate.condition = condition;
-    return estimate;
-  }
-
-  // Of logarithms what they are of.
-  void put_by_mass(Estimates& all, const std::string& condition, const People& people,
-                   const Measure& measure,
-                   std::map<double, std::vector<double>> Numbers::*numbers) const {
-    const bool of_logs = &measure == &geometric_mean;
-    const auto back = [of_logs](std::optional<double>& value) {
-      if (value && of_logs) value = std::exp(*value);
-    };
-    std::map<double, std::vector<double>> means;
-    std::map<double, int> n_trials;
-    const auto put = [&](StudyEstimate estimate, double mass_g) {
-      estimate = placed(std::move(estimate), condition);
-      estimate.by = {at("mass_g", mass_g)};
-      for (auto* value : {&estimate.value, &estimate.low, &estimate.high}) back(*value);
-      if (of_logs) estimate.sd.reset();
-      all.push_back(std::move(estimate));
-    };
-    for (const auto& [participant, theirs] : people)
-      for (const auto& [mass_g, values] : theirs.*numbers) {
-        StudyEstimate own{&measure};
-        own.participant = participant;
-        own.value = mean(values);
-        own.n = 1;
-        own.n_trials = static_cast<int>(values.size());
-        means[mass_g].push_back(*own.value);
-        n_trials[mass_g] += own.n_trials;
-        put(std::move(own), mass_g);
-      }
-    for (const auto& [mass_g, values] : means) {
-      StudyEstimate estimate = over_people(measure, values);
-      estimate.n_trials = n_trials[mass_g];
-      put(std::move(estimate), mass_g);
-    }
-  }
-
-  void put_exponents(Estimates& all, const std::string& condition, const People& people) const {
-    std::vector<double> slopes;
-    for (const auto& [participant, numbers] : people) {
-      StudyEstimate own = placed({&exponent}, condition);
-      own.participant = participant;
-      own.value = numbers.slope();
-      own.n = 1;
-      for (const auto& [mass_g, logs] : numbers.logs_by_mass)
-        own.n_trials += static_cast<int>(logs.size());
-      if (own.value)
-        slopes.push_back(*own.value);
-      else
-        own.why = "numbers above 0 at fewer than two masses";
-      all.push_back(std::move(own));
-    }
-    StudyEstimate estimate = placed(over_people(exponent, slopes), condition);
-    if (slopes.empty()) estimate.why = "nobody gave numbers above 0 at two masses";
-    all.push_back(std::move(estimate));
-  }
-
-  std::string task_;
-  std::map<std::string, People> conditions_;
+  std::map<std::pair<std::string, std::string>, Numbers> people_;  // by condition and participant
 };
 }  // namespace
 
