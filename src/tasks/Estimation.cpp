@@ -173,7 +173,7 @@ void Estimation::Trial::take(const Action& action) {
 }
 
 std::string Estimation::Trial::answer() const {
-  return result_.value ? fmt::format("{:.3g}", *result_.value) : std::string(*result_.outcome);
+  return result_.value ? fmt::format("{}", *result_.value) : std::string(*result_.outcome);
 }
 
 Answer Estimation::simulated(const Offer& offer, const Percepts& percepts, RandomStream&) {

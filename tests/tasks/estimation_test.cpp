@@ -95,6 +95,8 @@ TEST(Estimation, takes_numbers_of_its_range_alone) {
   EXPECT_EQ(trial.result().outcome, "estimated");
   EXPECT_EQ(trial.result().value, 42.5);
   EXPECT_EQ(trial.answer(), "42.5");
+  trial.take(estimate(42.51));  // another number, though it is the same in three digits
+  EXPECT_EQ(trial.answer(), "42.51");
 }
 
 TEST(Estimation, a_slider_and_points_of_a_question_take_whole_numbers) {
