@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -59,18 +61,20 @@ class XAxis {
   // @param aside to stand beside others, in steps
   double at(const StudyEstimate& one, double aside = 0) const {
     const auto x = number(one);
-    if (x && logarithmic_) return *x * std::pow(1.05, aside);
+    if (x && logarithmic_) return *x * std::pow(1.08, aside);
     if (x) return *x + aside * step();
     const std::string text = text_of(one, coordinate_);
     return static_cast<double>(std::ranges::find(texts_, text) - texts_.begin()) + aside * step();
   }
   std::string axes() const {
     if (is_numeric() && logarithmic_)
-      return fmt::format("set xrange [{}:{}]\n", low_ / 1.3, high_ * 1.3);
+      return fmt::format("set xrange [{}:{}]\n{}", low() / 1.3, high() * 1.3,
+                         places_.size() <= most_tics ? tics_at_places() : "");
     if (is_numeric()) {
       const double aside =
-          high_ > low_ ? step() * (static_cast<double>(n_series_) + 2) : 0.5 * span();
-      return fmt::format("set xrange [{}:{}]\nset xtics {}\n", low_ - aside, high_ + aside, tic());
+          high() > low() ? step() * (static_cast<double>(n_series_) + 1) : 0.5 * span();
+      return fmt::format("set xrange [{}:{}]\n{}", low() - aside, high() + aside,
+                         are_apart() ? tics_at_places() : fmt::format("set xtics {}\n", tic()));
     }
     std::string tics;
     for (std::size_t i = 0; i < texts_.size(); ++i)
@@ -82,21 +86,37 @@ class XAxis {
  private:
   double step() const {
     if (!is_numeric()) return 0.62 / static_cast<double>(std::max<std::size_t>(n_series_, 2));
-    return 0.014 * span();
+    const double n = static_cast<double>(n_series_);
+    if (places_.size() == 1) return 0.62 * span() / std::max(n, 2.0);
+    return std::min(0.03 * span(), 0.8 * least_gap() / (n + 1));
   }
+  double low() const { return *places_.begin(); }
+  double high() const { return *places_.rbegin(); }
   // Of a single place its neighborhood.
-  double span() const { return high_ > low_ ? high_ - low_ : std::max(std::abs(low_), 1.0); }
-  void add(const StudyEstimate& one) {
-    if (const auto x = number(one)) {
-      low_ = std::min(low_, *x);
-      high_ = std::max(high_, *x);
-    } else {
-      add_new(texts_, text_of(one, coordinate_));
-    }
+  double span() const { return high() > low() ? high() - low() : std::max(std::abs(low()), 1.0); }
+  double least_gap() const {
+    double gap = span();
+    for (auto place = places_.begin(); std::next(place) != places_.end(); ++place)
+      gap = std::min(gap, *std::next(place) - *place);
+    return gap;
   }
-  // Five tics or so, however narrow the panel is.
+  // Whole numbers that a tic each can be written at.
+  bool are_apart() const {
+    return least_gap() > 0.1 * span() &&
+           std::ranges::all_of(places_, [](double x) { return x == std::round(x); });
+  }
+  std::string tics_at_places() const {
+    return fmt::format("set xtics ({:g})\n", fmt::join(places_, ", "));
+  }
+  void add(const StudyEstimate& one) {
+    if (const auto x = number(one))
+      places_.insert(*x);
+    else
+      add_new(texts_, text_of(one, coordinate_));
+  }
+  // Six tics or so, however narrow the panel is.
   double tic() const {
-    const double rough = span() / 4;
+    const double rough = span() / 6;
     const double power = std::pow(10, std::floor(std::log10(rough)));
     for (const double factor : {1.0, 2.0, 5.0})
       if (rough <= factor * power) return factor * power;
@@ -108,11 +128,13 @@ class XAxis {
     return found ? found->value : std::nullopt;
   }
 
+  static constexpr std::size_t most_tics = 8;
+
   std::string_view coordinate_;
   bool logarithmic_;
   std::size_t n_series_;
   std::vector<std::string> texts_;
-  double low_ = 1e300, high_ = -1e300;
+  std::set<double> places_;
 };
 
 }  // namespace heft

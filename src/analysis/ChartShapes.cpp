@@ -31,6 +31,9 @@ class Drawing {
     };
     choose(summary.estimates, estimates_);
     choose(of_participants, participants_);
+    std::ranges::copy_if(spec.split, std::back_inserter(split_), [&](std::string_view name) {
+      return name == "condition" || varies(name);
+    });
     for (const Chosen* chosen : {&estimates_, &participants_}) {
       for (const StudyEstimate* one : *chosen) add_new(panels_, text_of(*one, spec.panels));
       for (std::size_t i = 0; i < spec.series.size(); ++i)
@@ -57,9 +60,8 @@ class Drawing {
     PlotFrame frame;
     if (panels.size() > 1) frame.panel_width_px = 300;
     if (spec_.shape == ChartShape::matrix) {
-      frame.left_px = 130;
+      frame.left_px = frame.gap_x_px = 130;  // for the names of the rows
       frame.panel_width_px = 300;
-      frame.axes_of_others = "set format y ''\n";
     }
     if (spec_.shape == ChartShape::people) {
       frame.panel_width_px = panels.size() > 1 ? 420 : 760;
@@ -74,7 +76,7 @@ class Drawing {
  private:
   std::string look_of(std::size_t series, const StudyEstimate& one) const {
     const std::string& title = spec_.series[series].title;
-    const std::string split = text_of(one, spec_.split);
+    const std::string split = text_of(one, split_);
     const std::string named = !title.empty() ? title
                               : spec_.series.size() > 1 || split.empty()
                                   ? std::string(one.measure->heading)
@@ -103,6 +105,13 @@ class Drawing {
     return all;
   }
 
+  bool varies(std::string_view name) const {
+    std::vector<std::string> texts;
+    for (const Chosen* chosen : {&estimates_, &participants_})
+      for (const StudyEstimate* one : *chosen) add_new(texts, text_of(*one, name));
+    return texts.size() > 1;
+  }
+
   int n_people() const {
     std::vector<std::string> names;
     for (const StudyEstimate* one : estimates_) add_new(names, one->participant);
@@ -129,7 +138,7 @@ class Drawing {
       const Drawn& drawn = all[i];
       const double aside =
           side_by_side ? static_cast<double>(i) - (static_cast<double>(all.size()) - 1) / 2 : 0;
-      if (spec_.participants) add_participants(panel, axis, drawn, aside - 0.3);
+      if (spec_.participants) add_participants(panel, axis, drawn, aside - 0.45);
       std::string rows;
       for (const StudyEstimate* one : drawn.estimates) {
         if (one->value) rows += row_of(axis.at(*one, aside), *one);
@@ -182,8 +191,10 @@ class Drawing {
       std::string rows;
       for (const StudyEstimate* one : drawn.participants)
         if (one->censored == look.censored) rows += row_of(axis.at(*one, aside), *one);
-      panel.add(rows, fmt::format("using 1:2 with points {} linecolor '#7f9cbb'", look.sign),
-                std::string(look.title));
+      if (rows.empty()) continue;
+      const std::string how = fmt::format("using 1:2 with points {} linecolor ", look.sign);
+      panel.layers.push_back({"", how + "'#777777'", std::string(look.title), true});
+      panel.add(rows, fmt::format("{}'{}'", how, series_color(drawn.look)));
     }
   }
 
@@ -236,7 +247,8 @@ class Drawing {
       std::ranges::stable_sort(sorted, {}, [](const StudyEstimate* one) { return *one->value; });
       for (const StudyEstimate* one : sorted) add_new(names, one->participant);
     }
-    panel.axes += fmt::format("set xrange [0:{}]\nset xtics 5\n", names.size() + 1);
+    panel.axes += fmt::format("set xrange [0:{}]\nset xtics 1,{},{}\n", names.size() + 1,
+                              std::max<std::size_t>(1, names.size() / 8), names.size());
     for (const Drawn& drawn : all) {
       std::string rows;
       for (const StudyEstimate* one : drawn.estimates) {
@@ -326,6 +338,7 @@ class Drawing {
   const ChartSpec& spec_;
   const Summary& summary_;
   Chosen estimates_, participants_;
+  std::vector<std::string_view> split_;  // the condition, and what is not the same everywhere
   std::vector<std::string> panels_, looks_;
   mutable std::map<std::string, double> asides_;
 };

@@ -113,7 +113,7 @@ void put_script(Chart& chart, const Summary& summary, const PlotFrame& frame,
     chart.script +=
         gnuplot_place(1.0 * left_px / width_px, 1.0 * (left_px + frame.panel_width_px) / width_px,
                       y_px, y_px + frame.panel_height_px);
-    chart.script += column == 0 ? frame.axes : "unset ylabel\n" + frame.axes_of_others;
+    chart.script += column == 0 ? frame.axes : "unset ylabel\n";
     chart.script += panel_text(panels[i], i);
   }
   chart.script += key_text(in_key, title_px - 6 + legend_px) + "unset multiplot\n";

@@ -30,10 +30,9 @@ struct PlotPanel {
 struct PlotFrame {
   int panel_width_px = 600, panel_height_px = 320;
   int most_columns = 3;
-  int left_px = 100, gap_x_px = 30, gap_y_px = 96;
-  std::string axes{};            ///< gnuplot's lines about all panels
-  std::string axes_of_others{};  ///< about those that are not the first of their row
-  std::string legend{};          ///< a line below the title
+  int left_px = 108, gap_x_px = 44, gap_y_px = 108;
+  std::string axes{};    ///< gnuplot's lines about all panels
+  std::string legend{};  ///< a line below the title
 };
 
 /// Puts the panels in rows; the key stands above them and names each title once.

@@ -165,8 +165,9 @@ std::string model_curves(const Summary& summary, const StudyEstimate& of) {
   const auto share = [](const std::string& z) {
     return fmt::format("100*({0}/3 + (1-{0})*norm({1}))", fixed_lapse, z);
   };
-  const std::string heavier = share(fmt::format("{}*x-{}", s, t));
-  const std::string lighter = share(fmt::format("-{}*x-{}", s, t));
+  // Below 0 the reference is the heavier one.
+  const std::string heavier = share(fmt::format("{}*abs(x)-{}", s, t));
+  const std::string lighter = share(fmt::format("-{}*abs(x)-{}", s, t));
   return fmt::format(
       "{0} with lines dashtype 1 linecolor '#2f6fb0' notitle, {1} with lines dashtype 2 linecolor "
       "'#8a8f98' notitle, 100-({0})-({1}) with lines dashtype 4 linecolor '#3c8d5a'",

@@ -206,7 +206,9 @@ class EstimationSection final : public Section {
     numbers.participants = true;
     numbers.x_label = "mass (g)";
     numbers.y_label = "number";
-    numbers.axes = "set logscale x\nset logscale y\n";
+    numbers.axes =
+        "set logscale x\nset logscale y\nset yrange [*:*] noextend\n"
+        "set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)\n";
     ChartSpec exponents{"estimation_exponent", "Exponents of magnitude estimation, 95 % intervals",
                         "Slope of the logarithm of the number on the logarithm of the mass: mean "
                         "over participants, and each participant's.",
