@@ -105,7 +105,7 @@ std::vector<ProtocolChoice> choices_in(const Protocol& protocol) {
   return Collector(protocol).choices;
 }
 
-void InForce::add(const SessionData& data, const Protocol& protocol) {
+void RunAs::add(const SessionData& data, const Protocol& protocol) {
   const SessionHeader& header = data.session.header;
   hashes_.insert(header.protocol_sha256);
   seeds_.insert(fmt::format("{}", header.seed));
@@ -127,7 +127,7 @@ void InForce::add(const SessionData& data, const Protocol& protocol) {
   }
 }
 
-std::vector<ProtocolChoice> InForce::choices(const std::string& protocol) const {
+std::vector<ProtocolChoice> RunAs::choices(const std::string& protocol) const {
   constexpr std::size_t most_seeds = 3;
   std::vector<ProtocolChoice> choices{{protocol, "SHA-256", joined(hashes_)}};
   if (!programs_.empty()) choices.push_back({protocol, "program and build", joined(programs_)});
@@ -155,7 +155,7 @@ void ChoicesFold::add(const SessionData& data) {
     }
   }
   Ran& ran = ran_[place->second];
-  if (ran.protocol) ran.in_force.add(data, *ran.protocol);
+  if (ran.protocol) ran.run_as.add(data, *ran.protocol);
 }
 
 std::vector<ProtocolChoice> ChoicesFold::result() const {
@@ -169,7 +169,7 @@ std::vector<ProtocolChoice> ChoicesFold::result() const {
     if (hashes_by_name[ran.name].size() > 1)
       protocol.name = fmt::format("{} {:.8}", ran.name, ran.sha256);
     if (ran.is_changed) protocol.name += " with --set";
-    for (const auto& choices : {ran.in_force.choices(protocol.name), choices_in(protocol)})
+    for (const auto& choices : {ran.run_as.choices(protocol.name), choices_in(protocol)})
       all.insert(all.end(), choices.begin(), choices.end());
   }
   return all;

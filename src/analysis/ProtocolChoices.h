@@ -20,8 +20,8 @@ struct ProtocolChoice {
 /// The choices of one protocol, in the order of paper.toml.
 std::vector<ProtocolChoice> choices_in(const Protocol& protocol);
 
-/// What was in force in the trials of a protocol's sessions, as their setups tell it; each once.
-class InForce {
+/// The configurations of a protocol's sessions, as their setups record them; each once.
+class RunAs {
  public:
   void add(const SessionData& data, const Protocol& protocol);
   std::vector<ProtocolChoice> choices(const std::string& protocol) const;
@@ -42,7 +42,7 @@ class ChoicesFold {
     std::optional<Protocol> protocol;  // none: the text is none
     std::string name, sha256;
     bool is_changed = false;  // by --set
-    InForce in_force;
+    RunAs run_as;
   };
   std::vector<Ran> ran_;                       // in the order of sessions
   std::map<std::string, std::size_t> places_;  // by what makes it one protocol

@@ -22,6 +22,7 @@ struct EnumNames<ConstantOrder> {
 };
 
 struct ConstantConfig {
+  static constexpr bool estimates_nothing = true;  ///< its answers are for a fit
   static constexpr std::string_view kind = "constant";
   using Procedure = class Constant;
 

@@ -22,6 +22,28 @@ struct KindsOfProcedure : NamedKinds<KindConfig...> {
     (describe(procedure.get_if<typename KindConfig::Procedure>()), ...);
     return text;
   }
+
+  /// Where it starts and how it moves, as an adaptive kind says it; empty for the others.
+  /// @param unit of levels
+  static std::string course(const Procedure& procedure, std::string_view unit) {
+    std::string text;
+    const auto describe = [&](const auto* kind) {
+      if constexpr (requires { kind->config().course(unit); })
+        if (kind) text = kind->config().course(unit);
+    };
+    (describe(procedure.get_if<typename KindConfig::Procedure>()), ...);
+    return text;
+  }
+
+  /// Whether it estimates a level; a kind that does not declares `estimates_nothing`.
+  static bool estimates_level(const Procedure& procedure) {
+    const auto is_without = [&]<typename Config>() {
+      if constexpr (requires { Config::estimates_nothing; })
+        return procedure.get_if<typename Config::Procedure>() != nullptr;
+      return false;
+    };
+    return !(is_without.template operator()<KindConfig>() || ...);
+  }
 };
 
 /// The first is what a file means that names none.

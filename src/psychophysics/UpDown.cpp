@@ -63,6 +63,17 @@ void check_bounds(const UpDownConfig& config, ConfigMistakes& mistakes) {
 }
 }  // namespace
 
+std::string UpDownConfig::course(std::string_view unit) const {
+  const std::string_view step_unit = step_scale == StepScale::linear ? unit : name_of(step_scale);
+  if (!steps.empty())
+    return fmt::format("from {:g} {}, steps {:g} {}", start, unit, fmt::join(steps, ", "),
+                       step_unit);
+  const std::string halved =
+      halve_every > 0 ? fmt::format(", halved every {} reversals", halve_every) : "";
+  return fmt::format("from {:g} {}, steps {:g} {}{}", start, unit, step.value_or(0), step_unit,
+                     halved);
+}
+
 ConfigMistakes UpDownConfig::check() const {
   ConfigMistakes mistakes = out_of_range(*this);
   check_steps(*this, mistakes);

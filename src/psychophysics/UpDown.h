@@ -90,6 +90,9 @@ struct UpDownConfig {
   int discard_reversals = 2;
   CensoringRule censoring = CensoringRule::cut_moves;  ///< no key of a file
 
+  /// "from 175 g, steps 50 g, halved every 2 reversals". @param unit of levels
+  std::string course(std::string_view unit) const;
+
   ConfigMistakes check() const;
   /// Mistakes where levels are differences from a reference: a difference that is perceived, or
   /// not, means the opposite where the comparison is the lighter one, so that levels must not get

@@ -84,18 +84,6 @@ std::string catch_text(const Comparison::Block& block) {
     text += fmt::format("{}{} at {:g} g", text.empty() ? "" : ", ", trials, reference_g);
   return text + fmt::format(", one in every {} trials", block.catch_every);
 }
-
-std::string course_text(const UpDownConfig& config) {
-  const std::string unit =
-      config.step_scale == StepScale::linear ? "g" : std::string(name_of(config.step_scale));
-  if (!config.steps.empty())
-    return fmt::format("from {:g} g, steps {:g} {}", config.start, fmt::join(config.steps, ", "),
-                       unit);
-  const std::string halved =
-      config.halve_every > 0 ? fmt::format(", halved every {} reversals", config.halve_every) : "";
-  return fmt::format("from {:g} g, steps {:g} {}{}", config.start, config.step.value_or(0), unit,
-                     halved);
-}
 }  // namespace
 
 ConfigMistakes Comparison::Block::check() const {
@@ -116,8 +104,8 @@ std::vector<std::pair<std::string, std::string>> Comparison::Block::choices() co
       {"moves a staircase down", std::string(name_of(positive_answer))}};
   for (const ReferenceStaircase& reference : staircases) {
     const std::string its_name = "staircase " + reference.staircase.name();
-    if (const auto* up_down = reference.staircase.get_if<UpDown>())
-      choices.emplace_back(its_name + ", start and steps", course_text(up_down->config()));
+    if (std::string course = ProcedureKinds::course(reference.staircase, "g"); !course.empty())
+      choices.emplace_back(its_name + ", start and steps", std::move(course));
     choices.emplace_back(its_name, ProcedureKinds::described(reference.staircase));
   }
   return choices;
