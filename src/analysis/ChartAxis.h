@@ -1,4 +1,4 @@
-// Where estimates stand on a chart's x axis, and what its series are called.
+// Places on a chart's x axis, and the names of its series.
 #pragma once
 
 #include <fmt/format.h>
@@ -58,7 +58,7 @@ class XAxis {
         for (const StudyEstimate* one : *chosen) add(*one);
   }
   bool is_numeric() const { return texts_.empty(); }
-  // @param aside to stand beside others, in steps
+  // @param aside offset in steps, to be beside others
   double at(const StudyEstimate& one, double aside = 0) const {
     const auto x = number(one);
     if (x && logarithmic_) return *x * std::pow(1.08, aside);

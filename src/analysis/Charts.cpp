@@ -104,7 +104,7 @@ Chart published_chart(const Summary& summary) {
       "means, with Student's t interval where it gives an SD (of 13 participants; the "
       "introduction's is exact), and without one where it gives none; no circle: too much is "
       "censored for a mean. The paper's JNDs are of staircases from above. Where in the paper each "
-      "stands is in the CSV.",
+      "is from is in the CSV.",
       who);
   chart.csv = "beside_published.csv";
   std::map<std::string_view, std::vector<const StudyEstimate*>> by_unit;

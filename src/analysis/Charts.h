@@ -11,7 +11,7 @@ namespace heft {
 
 struct Chart {
   std::string name;       ///< of its files, without extension: NAME.gp draws NAME.svg
-  std::string title;      ///< what it shows; stands in the report, too
+  std::string title;      ///< what it shows; in the report too
   std::string script;     ///< gnuplot; empty: there is nothing to draw
   std::string caption{};  ///< how to read it
   int n = 0;              ///< participants, or what the caption says is counted

@@ -27,7 +27,7 @@ struct Attempt {
 
   bool completed() const { return trial.status == TrialStatus::completed; }
   std::vector<double> masses_g() const;  ///< by slot
-  /// Whether its cubes have these masses, told from light to heavy.
+  /// Whether its cubes have these masses, given from light to heavy.
   bool shows(std::span<const double> masses) const;
 };
 
@@ -68,7 +68,7 @@ struct SessionData {
   EventCounts events;
   std::vector<Noted> noted{};       ///< in order
   FrameCounts frames;               ///< none where frames were not kept
-  std::vector<LoggedSetup> setups;  ///< what was in force, in order
+  std::vector<LoggedSetup> setups;  ///< configurations, in order
   /// Staircases of the protocol that estimate no JND, such as constant stimuli.
   std::set<std::string> without_jnd{};
   std::optional<AnalysisPlan> plan{};  ///< what its protocol declares to test; none: nothing
@@ -82,7 +82,7 @@ struct SessionData {
   std::optional<std::string> model() const;
   /// Who is counted as one. Simulated responders of one name but different models are not.
   std::string participant() const;
-  /// What was in force in a trial; null: the log doesn't tell.
+  /// A trial's configuration; null: the log has none.
   const SessionConfig* setup_of(const Attempt& attempt) const;
   TrackingCounts tracking() const;
   /// The paper's condition that a trial was in; none: another technique.
@@ -93,7 +93,7 @@ struct SessionData {
 /// The sum of a session's `camera` events.
 PictureCounts count_pictures(const std::vector<LoggedEvent>& events);
 
-/// What of them is to be told in words.
+/// Those that are reported in words.
 std::vector<Noted> noted_in(const std::vector<LoggedEvent>& events);
 
 EventCounts count_events(const std::vector<LoggedEvent>& events);

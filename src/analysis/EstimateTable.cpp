@@ -215,9 +215,9 @@ Table measures_in(const Estimates& estimates) {
               {},
               "",
               TablePlace::run_only};
-  std::set<const Measure*> told;
+  std::set<const Measure*> listed;
   for (const StudyEstimate& estimate : estimates)
-    if (told.insert(estimate.measure).second)
+    if (listed.insert(estimate.measure).second)
       table.rows.push_back({word(std::string(estimate.measure->name)),
                             word(std::string(estimate.measure->unit)),
                             word(std::string(estimate.measure->meaning))});

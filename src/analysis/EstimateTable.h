@@ -11,7 +11,7 @@
 
 namespace heft {
 
-/// What of an estimate stands in a cell.
+/// What of an estimate a cell shows.
 enum class Field {
   value,
   sd,

@@ -22,7 +22,7 @@ struct ChartFrame {
 /// `caption_top`, in screen coordinates, for placing the rest.
 std::string gnuplot_header(const ChartFrame& frame);
 
-/// Where the next plot stands: from left to right as parts of the chart's width, its top and bottom
+/// Where the next plot is: from left to right as parts of the chart's width, its top and bottom
 /// in pixels from the chart's top.
 std::string gnuplot_place(double left, double right, int top_px, int bottom_px);
 

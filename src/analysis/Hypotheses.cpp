@@ -43,7 +43,7 @@ std::string first_try_figure(const StudyEstimate& first_try) {
                      beside(first_try, " %"));
 }
 
-// JNDs that stand beside the paper's.
+// JNDs that the paper has figures for.
 std::vector<const StudyEstimate*> jnds_of(const Summary& summary) {
   auto jnds = estimates_of(summary.estimates, "jnd");
   std::erase_if(jnds, [](const StudyEstimate* one) { return !one->published || !one->value; });

@@ -12,7 +12,7 @@
 #include "analysis/Dataset.h"
 #include "protocol/Protocol.h"
 #include "protocol/TomlDocument.h"
-#include "psychophysics/Constant.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 
@@ -27,7 +27,7 @@ std::map<std::string, Compared> compared_by(const SessionData& data) {
         !data.without_jnd.contains(plan.staircase))
       staircases.emplace(plan.staircase, Compared{*plan.reference_g, plan.condition});
   }
-  for (const EstimateRow& row : data.estimates | std::views::reverse)  // the first one stands
+  for (const EstimateRow& row : data.estimates | std::views::reverse)  // the first one is kept
     if (const auto found = staircases.find(row.staircase); found != staircases.end())
       found->second.method = row.method;
   return staircases;
@@ -67,13 +67,13 @@ Censored direction_of(const EstimateRow& row, const Course& course) {
   return last_g > first_g ? Censored::above : Censored::below;
 }
 
-std::string why_censored(const EstimateRow& row, Censored told) {
-  if (told == Censored::above) return "at the ceiling";
-  if (told == Censored::below) return "at the floor";
-  if (row.method != jnd_method) return told == Censored::unsettled ? "indeterminate" : "";
+std::string why_censored(const EstimateRow& row, Censored censored) {
+  if (censored == Censored::above) return "at the ceiling";
+  if (censored == Censored::below) return "at the floor";
+  if (row.method != jnd_method) return censored == Censored::unsettled ? "indeterminate" : "";
   if (row.n_reversals < least_reversals) return fmt::format("{} reversals", row.n_reversals);
   if (row.reason == Finish::trials) return "trial limit";
-  return told == Censored::unsettled ? "at both bounds" : "";
+  return censored == Censored::unsettled ? "at both bounds" : "";
 }
 
 void judge(StaircaseResult& result, const EstimateRow& row, const Course& course) {
@@ -114,38 +114,23 @@ using AboveAndBelow = StaircaseFold::AboveAndBelow;
 using Results = std::vector<const StaircaseResult*>;
 
 // Staircases of one session first, then sessions: a participant counts once. Staircases that began
-// and have no result are unknown. Sessions that tell nothing don't count where another one does.
-void put_participants(ReferenceJnd& jnd, const Results& results, const Began& began) {
+// and have no result are unknown. Sessions without a figure don't count where another one has one.
+Jnds overall_of(const Results& results, const Began& began) {
+  Jnds jnds;
   for (const auto& [participant, sessions] : began) {
-    std::vector<std::optional<CensoredValue>> told;
+    std::vector<std::optional<CensoredValue>> of_sessions;
     for (const auto& [session_id, n_began] : sessions) {
       std::vector<std::optional<CensoredValue>> values;
       for (const StaircaseResult* result : results)
         if (result->participant == participant && result->session_id == session_id)
           values.push_back(censored_value(*result));
       values.resize(std::max(values.size(), static_cast<std::size_t>(n_began)));
-      if (auto value = mean_figure(values)) told.push_back(value);
+      if (auto value = mean_figure(values)) of_sessions.push_back(value);
     }
-    const auto value = told.empty() ? std::nullopt : mean_figure(told);
-    if (value)
-      jnd.participants.push_back({participant, value->value, value->censored});
-    else
-      jnd.missing.push_back(participant);
+    jnds.add(participant, of_sessions.empty() ? std::nullopt : mean_figure(of_sessions));
   }
-}
-
-FigureSummary summary_of(std::span<const ParticipantJnd> participants, int n_missing) {
-  std::vector<CensoredValue> values;
-  for (const ParticipantJnd& one : participants) values.push_back({one.jnd_g, one.censored});
-  return summarize_figures(values, n_missing);
-}
-
-void put_mean(ReferenceJnd& jnd) {
-  const FigureSummary found = summary_of(jnd.participants, static_cast<int>(jnd.missing.size()));
-  jnd.summary = found.kind;
-  jnd.mean_g = found.mean;
-  jnd.sd_g = found.sd;
-  jnd.interval_g = found.interval;
+  jnds.put_mean();
+  return jnds;
 }
 
 void put_session(AboveAndBelow& figures, const Results& results) {
@@ -154,14 +139,6 @@ void put_session(AboveAndBelow& figures, const Results& results) {
   if (low->start_g == high->start_g) return;
   for (const StaircaseResult* result : results)
     (result->start_g > middle_g ? figures.above : figures.below).push_back(censored_value(*result));
-}
-
-void put(StartedJnds& jnds, const std::string& participant,
-         const std::optional<CensoredValue>& figure) {
-  if (figure)
-    jnds.participants.push_back({participant, figure->value, figure->censored});
-  else
-    jnds.n_missing += 1;
 }
 
 // None where no session has staircases of both kinds.
@@ -174,12 +151,12 @@ std::optional<StartEffect> start_effect(const std::map<std::string, AboveAndBelo
     const bool any = figures != participants.end();
     const auto above = any ? mean_figure(figures->second.above) : std::nullopt;
     const auto below = any ? mean_figure(figures->second.below) : std::nullopt;
-    put(effect.from_above_g, participant, above);
-    put(effect.from_below_g, participant, below);
-    put(effect.difference_g, participant, difference(above, below));
+    effect.from_above_g.add(participant, above);
+    effect.from_below_g.add(participant, below);
+    effect.difference_g.add(participant, difference(above, below));
   }
-  for (StartedJnds* jnds : {&effect.from_above_g, &effect.from_below_g, &effect.difference_g})
-    static_cast<FigureSummary&>(*jnds) = summary_of(jnds->participants, jnds->n_missing);
+  for (Jnds* jnds : {&effect.from_above_g, &effect.from_below_g, &effect.difference_g})
+    jnds->put_mean();
   return effect;
 }
 
@@ -205,8 +182,7 @@ ReferenceJnd jnd_at(const Compared& compared, const Results& results, const Bega
   for (const auto& [participant, sessions] : began)
     for (const auto& [session_id, n] : sessions) n_began += n;
   jnd.n_unfinished = n_began - jnd.n_staircases;
-  put_participants(jnd, results, began);
-  put_mean(jnd);
+  jnd.overall = overall_of(results, began);
   return jnd;
 }
 }  // namespace
@@ -222,7 +198,8 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
     for (const Block& block : parse_protocol(protocol_text, "protocol").blocks)
       if (const auto* comparison = block_as<Comparison::Block>(block))
         for (const ReferenceStaircase& entry : comparison->staircases)
-          if (entry.staircase.get_if<Constant>()) names.insert(entry.staircase.name());
+          if (!ProcedureKinds::estimates_level(entry.staircase))
+            names.insert(entry.staircase.name());
   } catch (const InvalidFile&) {
   }
   return names;
@@ -273,17 +250,21 @@ std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions) {
   return folded<StaircaseFold>(sessions).jnds();
 }
 
-int StartedJnds::n_censored(Censored direction) const {
-  return static_cast<int>(std::ranges::count(participants, direction, &ParticipantJnd::censored));
+void Jnds::add(const std::string& participant, const std::optional<CensoredValue>& figure) {
+  if (figure)
+    participants.push_back({participant, figure->value, figure->censored});
+  else
+    missing.push_back(participant);
 }
 
-int ReferenceJnd::n_censored(Censored direction) const {
-  return static_cast<int>(std::ranges::count(participants, direction, &ParticipantJnd::censored));
+void Jnds::put_mean() {
+  std::vector<CensoredValue> values;
+  for (const ParticipantJnd& one : participants) values.push_back({one.jnd_g, one.censored});
+  static_cast<FigureSummary&>(*this) = summarize_figures(values, static_cast<int>(missing.size()));
 }
 
-StartedJnds ReferenceJnd::as_published() const {
-  if (starts) return starts->from_above_g;
-  return {{summary, mean_g, sd_g, interval_g}, participants, static_cast<int>(missing.size())};
+int Jnds::n_censored(Censored direction) const {
+  return static_cast<int>(std::ranges::count(participants, direction, &ParticipantJnd::censored));
 }
 
 }  // namespace heft

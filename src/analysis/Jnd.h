@@ -62,35 +62,33 @@ struct ParticipantJnd {
   Censored censored = Censored::none;
 };
 
-/// JNDs of participants' staircases that began on one side, or by how much they differ.
-struct StartedJnds : FigureSummary {
+/// Participants' JNDs at a reference, and their mean.
+struct Jnds : FigureSummary {
   std::vector<ParticipantJnd> participants;  ///< with a figure, exact or censored
-  int n_missing = 0;                         ///< participants without one
+  /// Without a figure, or without one that a mean could hold: a staircase unfinished, without a JND
+  /// and a direction, or one above and one below.
+  std::vector<std::string> missing;
 
-  int n() const { return static_cast<int>(participants.size()) + n_missing; }
+  void add(const std::string& participant, const std::optional<CensoredValue>& figure);
+  void put_mean();  ///< when all are added
+  int n() const { return static_cast<int>(participants.size() + missing.size()); }
   int n_censored(Censored direction) const;
 };
 
 /// What staircases that began high and low say of one reference. Their difference is how far a JND
-/// follows from where its staircase began. Whoever has not both kinds in a session is missing.
+/// follows from where its staircase began. A participant without both kinds in a session is
+/// missing.
 struct StartEffect {
-  StartedJnds from_above_g, from_below_g, difference_g;
+  Jnds from_above_g, from_below_g, difference_g;
 };
 
 struct ReferenceJnd {
   Compared compared;
   /// Where staircases of a session differ in their start: those that begin above the middle between
-  /// the highest and the lowest start, and those below. None: there is one start, and `mean_g` is
-  /// of it; otherwise that is of both kinds together, and nothing that the paper measured.
+  /// the highest and the lowest start, and those below. None: there is one start.
   std::optional<StartEffect> starts;
-  /// Over participants; sd_g over n-1. None where half of them or more are censored or missing.
-  std::optional<double> mean_g, sd_g;
-  std::optional<Interval> interval_g;  ///< none for one participant or SD 0
-  MeanKind summary = MeanKind::none;
-  std::vector<ParticipantJnd> participants;  ///< with a figure, exact or censored
-  /// Of whom a session told nothing, or nothing that a mean could hold: a staircase unfinished,
-  /// without a JND and a direction, or one above and one below.
-  std::vector<std::string> missing;
+  /// Of all staircases together, which the paper measured only where there is one start.
+  Jnds overall;
   int n_staircases = 0;  ///< finished
   int n_unfinished = 0;  ///< started in a session that did not finish them
   int n_without_estimate = 0;
@@ -102,10 +100,8 @@ struct ReferenceJnd {
   /// Where all sessions compared in the paper's technique, at a reference of the paper's.
   const published::Figure* published = nullptr;
 
-  int n() const { return static_cast<int>(participants.size() + missing.size()); }
-  int n_censored(Censored direction) const;  ///< participants
   /// Of staircases that began as the paper's did: from above, where there are others too.
-  StartedJnds as_published() const;
+  const Jnds& as_published() const { return starts ? starts->from_above_g : overall; }
 };
 
 /// Names of a protocol's staircases whose kind estimates nothing; none where the text is no

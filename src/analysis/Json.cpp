@@ -24,7 +24,7 @@ ordered_json json_of(const Cell& cell) {
 std::vector<std::string> parts_of(const std::string& path) {
   std::vector<std::string> parts;
   std::string part;
-  int depth = 0;  // names of keys may stand in brackets
+  int depth = 0;  // names of keys may be in brackets
   for (char c : path) {
     if (c == '[') ++depth;
     if (c == ']') --depth;
@@ -96,7 +96,7 @@ class RowPath {
     if (!keys.empty()) put_keys(list.back(), keys);
     return list.back();
   }
-  // What stands for "all" or "I don't know" among names.
+  // The keys for "all" or "I don't know" among names.
   static std::string json_key(const std::string& text) {
     return text == "all" ? "" : text == "I don't know" ? "none" : text;
   }

@@ -96,7 +96,7 @@ std::string NotesFold::other_methods_note() const {
                      jnd_method, fmt::join(methods_, ", "));
 }
 
-// Nobody held anything: what they felt is of the same physics, and of another hand.
+// Without a held effector the physics are the same, the movements are not.
 std::string NotesFold::dragged_note() const {
   if (dragged_.empty()) return "";
   return fmt::format(

@@ -11,8 +11,7 @@
 
 namespace heft {
 
-/// What the data say and what they can't, for somebody who reads nothing else: of the sorting, of
-/// the comparisons, of what rests on what.
+/// The results of each task in a sentence, and what limits them.
 std::vector<std::string> leading_sentences(const Summary& summary);
 
 /// What notes tell of the sessions beside the figures.

@@ -35,7 +35,7 @@ struct PlotFrame {
   std::string legend{};  ///< a line below the title
 };
 
-/// Puts the panels in rows; the key stands above them and names each title once.
+/// Puts the panels in rows; the key is above them and names each title once.
 void put_script(Chart& chart, const Summary& summary, const PlotFrame& frame,
                 const std::vector<PlotPanel>& panels);
 

@@ -21,7 +21,7 @@ bool was_touched(const Attempt& attempt) {
   return false;
 }
 
-// The rule that was in force; where the log tells none, that of new protocols.
+// The session's rule; where the log has none, that of new protocols.
 double least_answer_s(const SessionData& data, const Attempt& attempt) {
   const SessionConfig* setup = data.setup_of(attempt);
   return setup ? setup->min_answer_s.value_or(Onset{}.min_answer_s) : Onset{}.min_answer_s;
@@ -118,7 +118,7 @@ std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losse
       {too_early(sums.least_answers_s), sums.n_early, sums.n_completed,
        "after all cubes were shown; as the session's setup has it"},
       {"answers faster than 0.3 s", sums.n_fast, sums.n_completed,
-       "faster than anybody sees and presses; among those above"},
+       "faster than a person can see and press; among those above"},
       {"answers without contact", sums.n_untouched, sums.n_completed, "no cube was touched before"},
       {"void attempts", all.n_void, all.n_attempts, "each was presented again"},
       {"attempts with the effector out of view", all.n_lost, all.n_attempts,
@@ -128,7 +128,8 @@ std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losse
       {"checks that failed", sums.events.checks_failed, std::nullopt,
        "of the apparatus, before a session"},
       {"checks that warned", sums.events.checks_warned, std::nullopt, "as above"},
-      {"unblindings", sums.events.unblindings, std::nullopt, "somebody was shown what is hidden"},
+      {"unblindings", sums.events.unblindings, std::nullopt,
+       "the experimenter was shown what is hidden"},
       {"unfinished sessions", sums.n_unfinished, sums.n_sessions,
        "their completed trials and finished staircases count"}};
 }

@@ -15,7 +15,7 @@
 
 namespace heft {
 
-/// Nobody sees, judges and presses in less.
+/// No one sees, judges and presses in less.
 inline constexpr double fastest_answer_s = 0.3;
 
 struct CountedRow {

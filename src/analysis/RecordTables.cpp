@@ -55,7 +55,7 @@ Table counted_table(const Summary& summary) {
               "Data quality",
               {{"what", "what"}, {"n", "n"}, {"of", "of"}, {"meaning", "meaning"}},
               {},
-              "nobody and nothing is left out for any of it",
+              "no participant and no trial is excluded for any of it",
               {},
               "quality.counted_first[]"};
   if (summary.sessions.empty()) return table;
@@ -144,7 +144,7 @@ Table published_table(const Summary& summary) {
       "published: the paper's figures, of 13 participants, for its own techniques, masses "
       "and tasks only; intervals by Student's t from its SDs (the introduction's is exact), "
       "none where it gives none. Its 10.1 % of answered C1 trials is a ratio of means. The "
-      "CSV says where in the paper each stands."};
+      "CSV says where in the paper each is from."};
   for (const StudyEstimate* one : published_among(summary)) {
     const published::Figure& figure = *one->published;
     const auto paper = interval_of(figure);
@@ -254,19 +254,18 @@ Table choices_of_protocols(const Summary& summary) {
 }
 
 Table setup_table(const Summary& summary) {
-  Table table{
-      "setups",
-      "Session configurations",
-      {{"what", "what"},
-       {"value", "value"},
-       {"unit", "unit"},
-       {"n_sessions", "sessions"},
-       {"n_attempts", "attempts"},
-       {"meaning", "meaning"}},
-      {},
-      "as the log has them; two values of one thing: it differed between sessions or was "
-      "changed in one. Protocol, hash, build and seeds stand in the table of the protocol's "
-      "choices"};
+  Table table{"setups",
+              "Session configurations",
+              {{"what", "what"},
+               {"value", "value"},
+               {"unit", "unit"},
+               {"n_sessions", "sessions"},
+               {"n_attempts", "attempts"},
+               {"meaning", "meaning"}},
+              {},
+              "as the log has them; two values of one thing: it differed between sessions or was "
+              "changed in one. Protocol, hash, build and seeds are in the table of the protocol's "
+              "choices"};
   for (const SetupValue& row : summary.setups)
     table.rows.push_back({word(row.what), word(row.value), word(row.unit), count(row.n_sessions),
                           count(row.n_attempts), word(row.meaning)});

@@ -117,7 +117,7 @@ h2, h3 { break-after: avoid; }
 @page { size: A4; margin: 15mm; }
 )";
 
-// An SVG without what stands before its element: inside HTML that is not allowed.
+// An SVG from its element on: what precedes it is not allowed inside HTML.
 std::string_view svg_element(std::string_view svg) {
   const auto start = svg.find("<svg");
   return start == std::string_view::npos ? std::string_view() : svg.substr(start);
@@ -164,9 +164,9 @@ std::string answer_html(const Summary& summary) {
   const std::string condition = html_escaped(found->condition);
   std::string answer = "These data can't tell.";
   if (found->verdict == HypothesisVerdict::supported)
-    answer = fmt::format("Yes{}: {} tells masses apart.", whom, condition);
+    answer = fmt::format("Yes{}: masses are discriminated in {}.", whom, condition);
   if (found->verdict == HypothesisVerdict::not_supported)
-    answer = fmt::format("No{}: {} tells masses apart hardly or not at all.", whom, condition);
+    answer = fmt::format("No{}: masses are hardly or not discriminated in {}.", whom, condition);
   return fmt::format(
       "<p class=\"answer\"><b>Did {0} work? {1}</b> {0} is decoupling, where a heavy cube pushes "
       "the clone back.</p>\n",

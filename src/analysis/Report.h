@@ -15,7 +15,7 @@ struct ReportResult {
 };
 
 /// Writes into `folder`, which is made if need be. A folder that an earlier analysis made is
-/// written anew.
+/// replaced.
 /// @throws Error when the folder holds anything else, or can't be written
 ReportResult write_report(const Summary& summary, const std::string& folder);
 

@@ -48,17 +48,18 @@ std::string verdicts_in_words(const Summary& summary) {
   std::string text;
   if (!works.condition.empty()) {
     std::string verdict =
-        fmt::format("whether {} tells masses apart is inconclusive", works.condition);
+        fmt::format("whether masses are discriminated in {} is inconclusive", works.condition);
     if (works.verdict == HypothesisVerdict::supported)
-      verdict = works.condition + " tells masses apart";
+      verdict = fmt::format("masses are discriminated in {}", works.condition);
     if (works.verdict == HypothesisVerdict::not_supported)
-      verdict = works.condition +
-                " tells masses apart hardly or not at all (at most 10 points above chance)";
+      verdict = fmt::format(
+          "masses are hardly or not discriminated in {} (at most 10 points above chance)",
+          works.condition);
     text += "; " + verdict;
   }
   if (!blind.condition.empty()) {
     std::string verdict =
-        fmt::format("whether {} tells masses apart is inconclusive", blind.condition);
+        fmt::format("whether masses are discriminated in {} is inconclusive", blind.condition);
     if (blind.verdict == HypothesisVerdict::supported)
       verdict = fmt::format("answers in {} are equivalent to chance (within {:g} points)",
                             blind.condition, equivalence_margin_percent(summary));
@@ -74,9 +75,7 @@ std::string sorting_sentence(const Summary& summary) {
   for (const StudyEstimate* correct : estimates_of(summary.estimates, "sorting_answers",
                                                    {{"trials", "all"}, {"answer", "correct"}}))
     if (correct->value) text += (text.empty() ? "" : "; ") + sorting_in_words(summary, *correct);
-  if (text.empty())
-    return fmt::format("Sorting: of {} nobody completed a trial, so nothing is said of it.",
-                       who(summary));
+  if (text.empty()) return fmt::format("Sorting: of {} no one completed a trial.", who(summary));
   return fmt::format("Sorting: of {}, {}{}.", who(summary), text, verdicts_in_words(summary));
 }
 
@@ -92,12 +91,10 @@ std::string comparison_sentence(const Summary& summary) {
   }
   std::string text = "Comparisons: ";
   if (!known.empty())
-    text += fmt::format(
-        "by the model, people who had to choose would be right three times in four at a difference "
-        "of {}",
-        known);
+    text +=
+        fmt::format("75 %-correct discrimination threshold of the median participant {}", known);
   if (!unknown.empty())
-    text += fmt::format("{}the data bear no threshold at {}", known.empty() ? "" : "; ", unknown);
+    text += fmt::format("{}no threshold is identifiable at {}", known.empty() ? "" : "; ", unknown);
   return text + ".";
 }
 

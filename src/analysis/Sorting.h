@@ -24,7 +24,7 @@ struct EnumNames<Swap> {
 /// One of the n! orders of n cubes is right. @return percent
 double chance_percent(int n_cubes);
 
-/// The labels that the cubes bear after a trial's answers, by slot. A used label moves.
+/// The labels of the cubes after a trial's answers, by slot. A used label moves.
 std::vector<std::optional<Label>> final_labels(std::span<const AnswerRow> answers, int n_slots);
 
 /// @param masses_g, labels  of three cubes by slot

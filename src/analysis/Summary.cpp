@@ -27,7 +27,7 @@ SessionSummary summary_of(const SessionData& data) {
   return summary;
 }
 
-// What is told of all people, those too who are left out.
+// Of all participants, the excluded too.
 struct EverybodyFold {
   ParticipantsFold participants;
   PlanFold plan;
@@ -89,7 +89,7 @@ struct CountedFold {
   }
 };
 
-// Who is left out is known at the end; only where somebody is, sessions are gone through again.
+// Who is excluded is known at the end; only where there are such, sessions are read again.
 CountedFold counted_of(CountedFold&& all, const EachSession& each,
                        std::span<const ParticipantRow> participants) {
   if (std::ranges::none_of(participants, &ParticipantRow::excluded)) return std::move(all);

@@ -11,8 +11,7 @@
 
 #include "analysis/ComparisonTrials.h"
 #include "analysis/Dataset.h"
-#include "analysis/Exclusion.h"
-#include "analysis/Flow.h"
+#include "analysis/Participants.h"
 #include "analysis/ProtocolChoices.h"
 #include "analysis/Quality.h"
 #include "analysis/StudyEstimate.h"
@@ -25,7 +24,7 @@ struct AnalysisOptions {
   std::vector<std::string> databases;     ///< the logs' files
   std::vector<std::int64_t> session_ids;  ///< of a single log; empty: all
   bool mix = false;                       ///< put sessions of several purposes together
-  std::string command;                    ///< what was typed; stands below every chart
+  std::string command;                    ///< what was typed; below every chart
 };
 
 /// One session and how much of it counts.
@@ -40,7 +39,7 @@ enum class HypothesisVerdict { supported, not_supported, not_judged };
 template <>
 struct EnumNames<HypothesisVerdict> {
   static constexpr std::array<std::string_view, 3> names{"supported", "not supported",
-                                                         "can't be judged"};
+                                                         "inconclusive"};
 };
 
 /// One of the paper's hypotheses, what these data say of it, and the figures. It is judged where
@@ -88,7 +87,7 @@ struct Summary {
   bool simulated() const { return data == "simulated" || data == "human and simulated"; }
 };
 
-/// Reads the logs and summarizes them together; people of several logs are told apart.
+/// Reads the logs and summarizes them together; participants of several logs are different.
 /// @throws Error as LoggedSessions, or when they hold several purposes that were not to be mixed
 Summary analyze(const AnalysisOptions& options);
 

@@ -25,7 +25,7 @@ struct Column {
   std::string name;     ///< in CSV: snake_case with its unit; empty: not in CSV
   std::string heading;  ///< in text and HTML, with its unit; empty: not there
   /// In JSON; empty: `name`; "-": not there. A dot opens an object: "difference.low"; with "?"
-  /// before the dot, null stands for an object that holds nothing.
+  /// before the dot, an object without a figure is null.
   std::string json{};
 };
 

@@ -10,7 +10,7 @@
 
 namespace heft {
 
-/// The tables that stand in these places, of records and of estimates, with rows or without.
+/// The tables of these places, of records and of estimates, with rows or without.
 std::vector<Table> tables_at(const Summary& summary, const std::vector<TablePlace>& places);
 
 /// Those over participants, then each participant's.

@@ -1,4 +1,5 @@
-// What a reviewer asks of sessions beside their figures: what was in force, and what was noted.
+// What a reviewer asks of sessions beside their figures: the configurations they ran with, and what
+// was noted.
 #pragma once
 
 #include <map>
@@ -13,10 +14,10 @@ namespace heft {
 /// One value of a column of the log's table `setup`.
 struct SetupValue {
   std::string what, unit, value, meaning;
-  int n_sessions = 0, n_attempts = 0;  ///< that it was in force in
+  int n_sessions = 0, n_attempts = 0;  ///< that ran with it
 };
 
-/// Every value that was told, in the order of the columns; what nobody told is left away.
+/// Every recorded value, in the order of the columns.
 class SetupsFold {
  public:
   void add(const SessionData& data);

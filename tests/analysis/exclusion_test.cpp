@@ -1,10 +1,9 @@
 // Who is left out, and what was declared: only what the protocol says.
-#include "analysis/Exclusion.h"
-
 #include <gmock/gmock.h>
 
 #include "Figures.h"
 #include "MadeUpSessions.h"
+#include "analysis/Participants.h"
 #include "analysis/Summary.h"
 
 namespace heft {

@@ -1,12 +1,11 @@
 // Who took part, how well they were tracked, and each one's own threshold.
-#include "analysis/Flow.h"
-
 #include <gmock/gmock.h>
 
 #include "Figures.h"
 #include "MadeUpChoosers.h"
-#include "analysis/PersonThresholds.h"
+#include "analysis/Participants.h"
 #include "analysis/Quality.h"
+#include "analysis/Sensitivity.h"
 
 namespace heft {
 namespace {

@@ -26,9 +26,9 @@ TEST(Jnd, MeansSpreadAndIntervalOverParticipants) {
   }
   const auto jnds = jnd_of(sessions);
   ASSERT_EQ(jnds.size(), 1);
-  EXPECT_DOUBLE_EQ(*jnds[0].mean_g, 80);
-  EXPECT_DOUBLE_EQ(*jnds[0].sd_g, std::sqrt(800.0 / 3));
-  EXPECT_NEAR(jnds[0].interval_g->high, 105.984565272502, 1e-9);
+  EXPECT_DOUBLE_EQ(*jnds[0].overall.mean, 80);
+  EXPECT_DOUBLE_EQ(*jnds[0].overall.sd, std::sqrt(800.0 / 3));
+  EXPECT_NEAR(jnds[0].overall.interval->high, 105.984565272502, 1e-9);
   ASSERT_NE(jnds[0].published, nullptr);
   EXPECT_EQ(jnds[0].published->value, 172.3);
   EXPECT_EQ(jnds[0].published->sd, 72.4);
@@ -42,9 +42,9 @@ TEST(Jnd, StaircasesThenSessionsAreAveragedWithinAParticipant) {
   add_staircase(other, "from above", 200, 400);
   const auto jnds = jnd_of(std::vector{first, again, other});
   ASSERT_EQ(jnds.size(), 1);
-  ASSERT_EQ(jnds[0].participants.size(), 2);
-  EXPECT_DOUBLE_EQ(jnds[0].participants[0].jnd_g, 200);
-  EXPECT_DOUBLE_EQ(*jnds[0].mean_g, 300);
+  ASSERT_EQ(jnds[0].overall.participants.size(), 2);
+  EXPECT_DOUBLE_EQ(jnds[0].overall.participants[0].jnd_g, 200);
+  EXPECT_DOUBLE_EQ(*jnds[0].overall.mean, 300);
   EXPECT_EQ(jnds[0].n_staircases, 4);
 }
 
@@ -69,7 +69,7 @@ TEST(Jnd, AboveAndBelowAreApart) {
   add_comparison(sessions.back(), "up", 200, 20);
   add_staircase(sessions.back(), "up", 200, 100);
   const ReferenceJnd jnd = jnd_of(sessions).at(0);
-  EXPECT_EQ(jnd.starts.value().from_above_g.n_missing, 1);
+  EXPECT_EQ(jnd.starts.value().from_above_g.missing.size(), 1);
   EXPECT_EQ(jnd.starts->difference_g.n(), 3);
   EXPECT_EQ(jnd.as_published().mean, 310);  // not 210, which is of both together
 
@@ -94,9 +94,9 @@ TEST(Jnd, OneParticipantHasNoSpreadAndNoInterval) {
   SessionData data = session(1, "a");
   add_staircase(data, "800g", 800, 700);
   const auto jnds = jnd_of({&data, 1});
-  EXPECT_EQ(jnds[0].mean_g, 700);
-  EXPECT_FALSE(jnds[0].sd_g.has_value());
-  EXPECT_FALSE(jnds[0].interval_g.has_value());
+  EXPECT_EQ(jnds[0].overall.mean, 700);
+  EXPECT_FALSE(jnds[0].overall.sd.has_value());
+  EXPECT_FALSE(jnds[0].overall.interval.has_value());
 }
 
 TEST(Jnd, CountsTrialsLimitsAndBounds) {
@@ -134,34 +134,34 @@ TEST(Jnd, WhatLeansOnABoundIsCensoredAndCounted) {
       with_jnds(3, {{70, Censored::none}}), with_jnds(4, {{300, Censored::above}}),
       with_jnds(5, {{5, Censored::below}})};
   const ReferenceJnd jnd = jnd_of(sessions).at(0);
-  EXPECT_EQ(jnd.n(), 5);
-  EXPECT_EQ(jnd.n_censored(Censored::above), 1);
-  EXPECT_EQ(jnd.n_censored(Censored::below), 1);
-  EXPECT_EQ(jnd.summary, MeanKind::tobit_mean);
-  EXPECT_GT(*jnd.mean_g, 70);  // not 70, as if they were not there, nor as if 300 were exact
-  EXPECT_LT(jnd.interval_g->low, *jnd.mean_g);
+  EXPECT_EQ(jnd.overall.n(), 5);
+  EXPECT_EQ(jnd.overall.n_censored(Censored::above), 1);
+  EXPECT_EQ(jnd.overall.n_censored(Censored::below), 1);
+  EXPECT_EQ(jnd.overall.kind, MeanKind::tobit_mean);
+  EXPECT_GT(*jnd.overall.mean, 70);  // not 70, as if they were not there, nor as if 300 were exact
+  EXPECT_LT(jnd.overall.interval->low, *jnd.overall.mean);
 }
 
 TEST(Jnd, WhereHalfAreCensoredOrMissingThereIsNoMean) {
   std::vector sessions{with_jnds(1, {{60, Censored::none}}), with_jnds(2, {{80, Censored::none}}),
                        with_jnds(3, {{300, Censored::above}}), with_jnds(4, {{1, Censored::none}})};
-  EXPECT_TRUE(jnd_of(sessions).at(0).mean_g.has_value());
+  EXPECT_TRUE(jnd_of(sessions).at(0).overall.mean.has_value());
   sessions[3].estimates.clear();  // unfinished
   const ReferenceJnd jnd = jnd_of(sessions).at(0);
-  EXPECT_FALSE(jnd.mean_g || jnd.sd_g || jnd.interval_g);
-  EXPECT_EQ(jnd.summary, MeanKind::none);
-  EXPECT_EQ(jnd.missing, std::vector<std::string>{"4"});
-  EXPECT_EQ(jnd.n(), 4);
+  EXPECT_FALSE(jnd.overall.mean || jnd.overall.sd || jnd.overall.interval);
+  EXPECT_EQ(jnd.overall.kind, MeanKind::none);
+  EXPECT_EQ(jnd.overall.missing, std::vector<std::string>{"4"});
+  EXPECT_EQ(jnd.overall.n(), 4);
 }
 
 TEST(Jnd, AParticipantIsAsCensoredAsTheStaircases) {
   const ReferenceJnd one_above =
       jnd_of(std::vector{with_jnds(1, {{100, Censored::none}, {300, Censored::above}})}).at(0);
-  EXPECT_EQ(one_above.participants.at(0).censored, Censored::above);
-  EXPECT_EQ(one_above.participants.at(0).jnd_g, 200);
+  EXPECT_EQ(one_above.overall.participants.at(0).censored, Censored::above);
+  EXPECT_EQ(one_above.overall.participants.at(0).jnd_g, 200);
   const ReferenceJnd both =
       jnd_of(std::vector{with_jnds(1, {{1, Censored::below}, {300, Censored::above}})}).at(0);
-  EXPECT_EQ(both.missing.size(), 1);
+  EXPECT_EQ(both.overall.missing.size(), 1);
 }
 
 TEST(Jnd, FewReversalsOrTheTrialLimitCensorTheWayTheStaircaseWent) {
@@ -192,7 +192,7 @@ TEST(Jnd, AStaircaseWithoutEstimateIsUnfinished) {
   EXPECT_EQ(jnd.n_unfinished, 1);
   EXPECT_EQ(jnd.n_staircases, 0);
   EXPECT_EQ(jnd.least_trials, 0);
-  EXPECT_FALSE(jnd.mean_g.has_value());
+  EXPECT_FALSE(jnd.overall.mean.has_value());
 }
 
 TEST(Jnd, ConstantStimuliAreNoStaircaseThatLacksAJnd) {
@@ -211,7 +211,7 @@ TEST(Jnd, ConstantStimuliAreNoStaircaseThatLacksAJnd) {
   EXPECT_EQ(jnds[0].n_staircases, 1);
   EXPECT_EQ(jnds[0].n_unfinished, 0);
   EXPECT_EQ(jnds[0].n_without_estimate, 0);
-  EXPECT_EQ(jnds[0].mean_g, 100);
+  EXPECT_EQ(jnds[0].overall.mean, 100);
   EXPECT_EQ(staircase_results({&data, 1}).size(), 1);
   ASSERT_EQ(example_tracks({&data, 1})->tracks.size(), 1);
   EXPECT_EQ(example_tracks({&data, 1})->tracks[0].staircase, "15g");
@@ -232,11 +232,11 @@ TEST(Jnd, EstimatesOfAnyProcedureAreThereWithTheirIntervals) {
   const auto jnds = jnd_of({&data, 1});
   ASSERT_EQ(jnds.size(), 2);  // never averaged over methods
   EXPECT_EQ(jnds[0].compared.method, "mean_of_posterior");
-  EXPECT_EQ(jnds[0].mean_g, 80);
+  EXPECT_EQ(jnds[0].overall.mean, 80);
   EXPECT_EQ(jnds[0].n_unfinished, 0);
   EXPECT_EQ(jnds[0].published, nullptr);
   EXPECT_EQ(jnds[1].compared.method, jnd_method);
-  EXPECT_EQ(jnds[1].mean_g, 100);
+  EXPECT_EQ(jnds[1].overall.mean, 100);
   const auto results = staircase_results({&data, 1});
   ASSERT_EQ(results.size(), 2);
   EXPECT_EQ(results[1].censored, Censored::none);

@@ -199,49 +199,53 @@ class CurveSection final : public Section {
   }
 
   std::vector<ChartSpec> charts() const override {
-    ChartSpec curves{
-        "choice_curves", "Choices by difference",
-        "Percentage of trials in which the heavier cube, the lighter cube or neither "
-        "was chosen; trials of all participants in bins of about as many, those without "
-        "a difference apart, with 95 % intervals over participants. Thin lines: how "
-        "often each participant chose the heavier cube in those bins (not drawn of more "
-        "than 60). Curves: indecision model of the median participant, where the data "
-        "identify one.",
-        "choice_curves.csv"};
-    curves.importance = 25;
-    curves.series = {{&right, "", {}}, {&wrong, "", {}}, {&none, "", {}}};
-    curves.x = "mean_level_g";
-    curves.panels = {"reference_g", "condition"};
-    curves.participants = true;
-    curves.x_label = "difference (g)";
-    curves.y_label = "% of trials";
-    curves.axes = "set yrange [0:100]\nset samples 200\n";
-    curves.curve = model_curves;
-    ChartSpec detection{"hits_and_false_alarms", "Hits against false alarms",
-                        "Each participant's percentage of \"different\" in comparisons with a "
+    return {{.name = "choice_curves",
+             .title = "Choices by difference",
+             .caption =
+                 "Percentage of trials in which the heavier cube, the lighter cube or neither "
+                 "was chosen; trials of all participants in bins of about as many, those without "
+                 "a difference apart, with 95 % intervals over participants. Thin lines: how "
+                 "often each participant chose the heavier cube in those bins (not drawn of more "
+                 "than 60). Curves: indecision model of the median participant, where the data "
+                 "identify one.",
+             .csv = "choice_curves.csv",
+             .importance = 25,
+             .series = {{&right}, {&wrong}, {&none}},
+             .x = "mean_level_g",
+             .panels = {"reference_g", "condition"},
+             .participants = true,
+             .x_label = "difference (g)",
+             .y_label = "% of trials",
+             .axes = "set yrange [0:100]\nset samples 200\n",
+             .curve = model_curves},
+            {.name = "hits_and_false_alarms",
+             .title = "Hits against false alarms",
+             .caption = "Each participant's percentage of \"different\" in comparisons with a "
                         "difference, against those without. On the line a participant says "
                         "\"different\" whatever is shown.",
-                        "hits_and_false_alarms.csv", ChartShape::scatter};
-    detection.importance = 70;
-    detection.series = {{&alarms, "", {}}, {&hits, "", {}}};
-    detection.split = {"condition"};
-    detection.diagonal = true;
-    detection.x_label = "% \"different\" without a difference";
-    detection.y_label = "% \"different\" with one";
-    detection.axes = "set xrange [-3:103]\nset yrange [-3:103]\n";
-    ChartSpec times{
-        "times_by_level", "Response time by difference",
-        "From all cubes shown to the answer, without pauses and time out of view: median "
-        "and quartiles of comparisons, by reference and condition.",
-        "times_by_level.csv", ChartShape::lines};
-    times.importance = 80;
-    times.series = {{&time_by_level, "", {}}};
-    times.x = "mean_level_g";
-    times.split = {"reference_g", "condition"};
-    times.x_label = "difference (g)";
-    times.y_label = "response time (s)";
-    times.axes = "set yrange [0:*]\n";
-    return {curves, detection, times};
+             .csv = "hits_and_false_alarms.csv",
+             .shape = ChartShape::scatter,
+             .importance = 70,
+             .series = {{&alarms}, {&hits}},
+             .split = {"condition"},
+             .diagonal = true,
+             .x_label = "% \"different\" without a difference",
+             .y_label = "% \"different\" with one",
+             .axes = "set xrange [-3:103]\nset yrange [-3:103]\n"},
+            {.name = "times_by_level",
+             .title = "Response time by difference",
+             .caption =
+                 "From all cubes shown to the answer, without pauses and time out of view: median "
+                 "and quartiles of comparisons, by reference and condition.",
+             .csv = "times_by_level.csv",
+             .shape = ChartShape::lines,
+             .importance = 80,
+             .series = {{&time_by_level}},
+             .x = "mean_level_g",
+             .split = {"reference_g", "condition"},
+             .x_label = "difference (g)",
+             .y_label = "response time (s)",
+             .axes = "set yrange [0:*]\n"}};
   }
 };
 }  // namespace

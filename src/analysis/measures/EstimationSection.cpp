@@ -193,32 +193,30 @@ class EstimationSection final : public Section {
   }
 
   std::vector<ChartSpec> charts() const override {
-    ChartSpec numbers{
-        "estimation", "Magnitude estimation: numbers by mass, 95 % intervals",
-        "Geometric mean over participants of the numbers given to each mass, with "
-        "Student's t interval on the logarithms; small points: each participant. Both "
-        "axes are logarithmic: a power function is a straight line.",
-        "estimation.csv"};
-    numbers.importance = 36;
-    numbers.series = {{&geometric_mean, "", {}}};
-    numbers.x = "mass_g";
-    numbers.split = {"condition"};
-    numbers.participants = true;
-    numbers.x_label = "mass (g)";
-    numbers.y_label = "number";
-    numbers.axes =
-        "set logscale x\nset logscale y\nset yrange [*:*] noextend\n"
-        "set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)\n";
-    ChartSpec exponents{"estimation_exponent", "Exponents of magnitude estimation, 95 % intervals",
-                        "Slope of the logarithm of the number on the logarithm of the mass: mean "
-                        "over participants, and each participant's.",
-                        "estimation_exponent.csv"};
-    exponents.importance = 37;
-    exponents.series = {{&exponent, "exponent", {}}};
-    exponents.x = "condition";
-    exponents.participants = true;
-    exponents.y_label = "exponent";
-    return {numbers, exponents};
+    return {
+        {.name = "estimation",
+         .title = "Magnitude estimation: numbers by mass, 95 % intervals",
+         .caption = "Geometric mean over participants of the numbers given to each mass, with "
+                    "Student's t interval on the logarithms; small points: each participant. Both "
+                    "axes are logarithmic: a power function is a straight line.",
+         .csv = "estimation.csv",
+         .importance = 36,
+         .series = {{&geometric_mean}},
+         .x = "mass_g",
+         .split = {"condition"},
+         .participants = true,
+         .x_label = "mass (g)",
+         .y_label = "number"},
+        {.name = "estimation_exponent",
+         .title = "Exponents of magnitude estimation, 95 % intervals",
+         .caption = "Slope of the logarithm of the number on the logarithm of the mass: mean "
+                    "over participants, and each participant's.",
+         .csv = "estimation_exponent.csv",
+         .importance = 37,
+         .series = {{&exponent, "exponent"}},
+         .x = "condition",
+         .participants = true,
+         .y_label = "exponent"}};
   }
 
  private:

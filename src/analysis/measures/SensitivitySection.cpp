@@ -1,9 +1,9 @@
-// How well masses are told apart, whatever the criterion: 75 % thresholds by reference and
+// How well masses are discriminated, whatever the criterion: 75 % thresholds by reference and
 // condition, and of each participant beside their JND and its start.
 #include <fmt/format.h>
 
-#include "analysis/PersonThresholds.h"
 #include "analysis/Section.h"
+#include "analysis/Sensitivity.h"
 
 namespace heft {
 
@@ -124,8 +124,8 @@ EstimateTable sensitivity_table() {
       "indecision model (left, none, right; lapse rate .02) with criteria and side bias of each "
       "participant's own; the median participant's threshold of a forced choice, free of the "
       "criterion. Interval: bootstrap over participants. Criterion half-width: half the width "
-      "between the median participant's criteria in SDs of what is felt. What the data can't "
-      "bear is not printed.",
+      "between the median participant's criteria in SDs of what is felt. Thresholds that are not "
+      "identifiable are not printed.",
       TablePlace::results,
       "sensitivity[]"};
 }
@@ -183,50 +183,54 @@ class SensitivitySection final : public Section {
   }
 
   std::vector<ChartSpec> charts() const override {
-    ChartSpec thresholds{"thresholds", "75 %-correct discrimination thresholds, 95 % intervals",
-                         "The median participant's threshold at each reference and in each "
-                         "condition, where the data identify one; small points: participants whose "
-                         "own trials do.",
-                         "sensitivity.csv"};
-    thresholds.importance = 28;
-    thresholds.series = {{&threshold, "threshold", {}}};
-    thresholds.x = "reference_g";
-    thresholds.split = {"condition"};
-    thresholds.participants = true;
-    thresholds.x_label = "reference mass (g)";
-    thresholds.y_label = "threshold (g)";
-    thresholds.axes = "set yrange [0:*]\n";
-    ChartSpec people{"thresholds_by_participant",
-                     "Each participant's threshold, the paper's JND and its start",
-                     "A column for each participant, ordered by threshold, a panel for each "
-                     "reference and condition: the 75 %-correct threshold with its likelihood "
-                     "interval, where their trials identify one; the paper's JND of their "
-                     "staircases from above and from below apart (censored ones at what they lie "
-                     "beyond); where these began.",
-                     "thresholds_by_participant.csv", ChartShape::people};
-    people.importance = 30;
-    people.series = {{&threshold, "threshold", {}},
-                     {&started_jnd, "JND from above", {"staircases", "from above"}},
-                     {&started_jnd, "JND from below", {"staircases", "from below"}},
-                     {&start, "start", {}}};
-    people.panels = {"reference_g", "condition"};
-    people.x_label = "participant, ordered by threshold";
-    people.y_label = "difference (g)";
-    people.axes = "set logscale y\n";
-    ChartSpec starts{
-        "jnd_against_start", "JND against the start of its staircase",
-        "The paper's JND of each participant's staircases against the difference that "
-        "they began with; on the line a JND is its start. \"> this\", \"< this\": known "
-        "to lie above or below only.",
-        "thresholds_by_participant.csv", ChartShape::scatter};
-    starts.importance = 40;
-    starts.series = {{&start, "", {}}, {&started_jnd, "", {}}};
-    starts.split = {"reference_g", "condition"};
-    starts.diagonal = true;
-    starts.x_label = "start (g)";
-    starts.y_label = "JND (g)";
-    starts.axes = "set xrange [0:*]\nset yrange [0:*]\n";
-    return {thresholds, people, starts};
+    return {
+        {.name = "thresholds",
+         .title = "75 %-correct discrimination thresholds, 95 % intervals",
+         .caption = "The median participant's threshold at each reference and in each "
+                    "condition, where the data identify one; small points: participants whose "
+                    "own trials do.",
+         .csv = "sensitivity.csv",
+         .importance = 28,
+         .series = {{&threshold, "threshold"}},
+         .x = "reference_g",
+         .split = {"condition"},
+         .participants = true,
+         .x_label = "reference mass (g)",
+         .y_label = "threshold (g)",
+         .axes = "set yrange [0:*]\n"},
+        {.name = "thresholds_by_participant",
+         .title = "Each participant's threshold, the paper's JND and its start",
+         .caption = "A column for each participant, ordered by threshold, a panel for each "
+                    "reference and condition: the 75 %-correct threshold with its likelihood "
+                    "interval, where their trials identify one; the paper's JND of their "
+                    "staircases from above and from below apart (censored ones at what they lie "
+                    "beyond); where these began.",
+         .csv = "thresholds_by_participant.csv",
+         .shape = ChartShape::people,
+         .importance = 30,
+         .series = {{&threshold, "threshold"},
+                    {&started_jnd, "JND from above", {"staircases", "from above"}},
+                    {&started_jnd, "JND from below", {"staircases", "from below"}},
+                    {&start, "start"}},
+         .panels = {"reference_g", "condition"},
+         .x_label = "participant, ordered by threshold",
+         .y_label = "difference (g)",
+         .axes = "set logscale y\n"},
+        {.name = "jnd_against_start",
+         .title = "JND against the start of its staircase",
+         .caption =
+             "The paper's JND of each participant's staircases against the difference that "
+             "they began with; on the line a JND is its start. \"> this\", \"< this\": known "
+             "to lie above or below only.",
+         .csv = "thresholds_by_participant.csv",
+         .shape = ChartShape::scatter,
+         .importance = 40,
+         .series = {{&start}, {&started_jnd}},
+         .split = {"reference_g", "condition"},
+         .diagonal = true,
+         .x_label = "start (g)",
+         .y_label = "JND (g)",
+         .axes = "set xrange [0:*]\nset yrange [0:*]\n"}};
   }
 
  private:

@@ -183,7 +183,7 @@ EstimateTable sorting_table() {
       "trials that their differences leave effective, and Student's t; exact (Clopper-Pearson) "
       "over "
       "people where all have the same percentage, over the trials of one alone. The paper's 10.1 % "
-      "of answered trials is a ratio of means, nearest to pooled; its figures stand beside its own "
+      "of answered trials is a ratio of means, nearest to pooled; its figures are beside its own "
       "techniques and masses only."};
   table.json = "sorting.{condition}.{trials}.{answer}";
   return table;
@@ -279,44 +279,48 @@ class SortingSection final : public Section {
   }
 
   std::vector<ChartSpec> charts() const override {
-    ChartSpec shares{
-        "sorting", "Sorting: answers per condition, 95 % intervals",
-        "Percentage of completed trials, mean over participants with 95 % intervals "
-        "over participants, side by side for each condition; diamonds: the paper's "
-        "means. \"I don't know\" is an outcome of its own. Dashed: what a random order "
-        "gets right.",
-        "sorting.csv"};
-    shares.importance = 10;
-    shares.series = {{&answers, "", {"trials", "all"}}};
-    shares.x = "answer";
-    shares.split = {"condition"};
-    shares.reference = &chance;
-    shares.y_label = "% of trials, mean over participants";
-    shares.axes = "set yrange [0:100]\n";
-    ChartSpec people{"sorting_by_participant", "Correct sortings of each participant",
-                     "Percentage of each participant's completed trials that were sorted "
-                     "correctly; a line joins one's conditions. \"I don't know\" is not correct.",
-                     "sorting_by_participant.csv", ChartShape::linked};
-    people.importance = 45;
-    people.series = {{&answers, "", {"answer", "correct"}}};
-    people.x = "condition";
-    people.reference = &chance;
-    people.y_label = "% of trials sorted correctly";
-    people.axes = "set yrange [-3:103]\n";
-    ChartSpec matrix{
-        "labels_by_mass", "Confusion matrix: which label which cube was given",
-        "Sorted trials, all participants together, without \"I don't know\": how often "
-        "each cube got each label, and in how many percent of its labels. Right ones on "
-        "the diagonal.",
-        "labels_by_mass.csv", ChartShape::matrix};
-    matrix.importance = 50;
-    matrix.series = {{&labels, "", {}}};
-    matrix.x = "label";
-    matrix.y = "cube";
-    matrix.panels = {"condition", "n_cubes"};
-    matrix.x_label = "label";
-    matrix.y_label = "cube";
-    return {shares, people, matrix};
+    return {
+        {.name = "sorting",
+         .title = "Sorting: answers per condition, 95 % intervals",
+         .caption = "Percentage of completed trials, mean over participants with 95 % intervals "
+                    "over participants, side by side for each condition; diamonds: the paper's "
+                    "means. \"I don't know\" is an outcome of its own. Dashed: what a random order "
+                    "gets right.",
+         .csv = "sorting.csv",
+         .importance = 10,
+         .series = {{&answers, "", {"trials", "all"}}},
+         .x = "answer",
+         .split = {"condition"},
+         .reference = &chance,
+         .y_label = "% of trials, mean over participants",
+         .axes = "set yrange [0:100]\n"},
+        {.name = "sorting_by_participant",
+         .title = "Correct sortings of each participant",
+         .caption = "Percentage of each participant's completed trials that were sorted "
+                    "correctly; a line joins one's conditions. \"I don't know\" is not correct.",
+         .csv = "sorting_by_participant.csv",
+         .shape = ChartShape::linked,
+         .importance = 45,
+         .series = {{&answers, "", {"answer", "correct"}}},
+         .x = "condition",
+         .reference = &chance,
+         .y_label = "% of trials sorted correctly",
+         .axes = "set yrange [-3:103]\n"},
+        {.name = "labels_by_mass",
+         .title = "Confusion matrix: which label which cube was given",
+         .caption =
+             "Sorted trials, all participants together, without \"I don't know\": how often "
+             "each cube got each label, and in how many percent of its labels. Right ones on "
+             "the diagonal.",
+         .csv = "labels_by_mass.csv",
+         .shape = ChartShape::matrix,
+         .importance = 50,
+         .series = {{&labels}},
+         .x = "label",
+         .y = "cube",
+         .panels = {"condition", "n_cubes"},
+         .x_label = "label",
+         .y_label = "cube"}};
   }
 
  private:

@@ -104,20 +104,24 @@ StudyEstimate estimate_at(const Measure& measure, const ReferenceJnd& row) {
   return estimate;
 }
 
-void put_participants(Estimates& all, const StudyEstimate& over_all,
-                      const std::vector<ParticipantJnd>& participants) {
-  for (const ParticipantJnd& one : participants) {
-    StudyEstimate& estimate =
-        all.emplace_back(StudyEstimate{over_all.measure, over_all.task, over_all.condition,
-                                       over_all.reference_g, one.participant, over_all.by});
+void put_participants(Estimates& all, StudyEstimate of, const Jnds& jnds) {
+  of.published = nullptr;
+  const auto put = [&](const std::string& participant) -> StudyEstimate& {
+    of.participant = participant;
+    return all.emplace_back(of);
+  };
+  for (const ParticipantJnd& one : jnds.participants) {
+    StudyEstimate& estimate = put(one.participant);
     estimate.value = one.jnd_g;
     estimate.censored = one.censored;
     estimate.n = 1;
   }
+  for (const std::string& participant : jnds.missing)
+    put(participant).why = "nothing is known of it";
 }
 
 // The mean of several, and who is censored.
-void put_jnds(Estimates& all, StudyEstimate estimate, const StartedJnds& jnds) {
+void put_jnds(Estimates& all, StudyEstimate estimate, const Jnds& jnds) {
   estimate.value = jnds.mean;
   estimate.sd = jnds.sd;
   estimate.set(jnds.interval);
@@ -135,14 +139,14 @@ void put_jnds(Estimates& all, StudyEstimate estimate, const StartedJnds& jnds) {
   };
   put_number(n_above, jnds.n_censored(Censored::above));
   put_number(n_below, jnds.n_censored(Censored::below));
-  put_number(n_missing, jnds.n_missing);
-  put_number(n_known, jnds.n() - jnds.n_missing);
+  put_number(n_missing, static_cast<int>(jnds.missing.size()));
+  put_number(n_known, jnds.n() - static_cast<int>(jnds.missing.size()));
 }
 
 // JNDs by where the staircases began.
 struct Began {
   const char* staircases;
-  StartedJnds jnds;
+  Jnds jnds;
   bool beside_paper;  // its staircases began above
 };
 
@@ -163,10 +167,7 @@ StudyEstimate estimate_of(const ReferenceJnd& row, const Began& began) {
 void put_overall(Estimates& all, const ReferenceJnd& row) {
   StudyEstimate estimate = estimate_at(jnd_overall, row);
   estimate.published = row.published;
-  put_jnds(all, std::move(estimate),
-           {{row.summary, row.mean_g, row.sd_g, row.interval_g},
-            row.participants,
-            static_cast<int>(row.missing.size())});
+  put_jnds(all, std::move(estimate), row.overall);
   for (const Counted& count : staircase_counts) {
     all.push_back(estimate_at(count.measure, row));
     all.back().value = count.of(row);
@@ -179,7 +180,7 @@ void put_rising(Estimates& all, const std::vector<ReferenceJnd>& rows) {
   std::map<std::string, std::vector<double>> jnds;
   std::size_t n_references = 0;
   for (const ReferenceJnd& row : rows) {
-    const StartedJnds began = row.as_published();
+    const Jnds& began = row.as_published();
     if (!row.published || !began.mean) continue;
     ++n_references;
     for (const ParticipantJnd& one : began.participants)
@@ -307,14 +308,8 @@ class StaircaseSection final : public Section {
     Estimates all;
     for (const ReferenceJnd& row : jnds_) {
       for (const Began& began : began_in(row))
-        put_participants(all, estimate_of(row, began), began.jnds.participants);
-      const StudyEstimate overall = estimate_at(jnd_overall, row);
-      put_participants(all, overall, row.participants);
-      for (const std::string& participant : row.missing) {
-        all.push_back(overall);
-        all.back().participant = participant;
-        all.back().why = "nothing is known of it";
-      }
+        put_participants(all, estimate_of(row, began), began.jnds);
+      put_participants(all, estimate_at(jnd_overall, row), row.overall);
     }
     return all;
   }
@@ -324,27 +319,25 @@ class StaircaseSection final : public Section {
   }
 
   std::vector<ChartSpec> charts() const override {
-    ChartSpec chart{
-        "jnd", "JND against reference mass, 95 % intervals",
-        "The paper's JND, which moves with the criterion and the start as much as with "
-        "what is perceived; of staircases from above and from below apart. Large points: "
-        "mean over participants where more than half have an exact JND; arrows: "
-        "participants of whom it is known only to lie above or below; diamonds: "
-        "published, of staircases from above.",
-        "jnd.csv"};
-    chart.importance = 35;
-    for (const char* began : {"all", "from above", "from below"})
-      chart.series.push_back(
-          {&jnd,
-           std::string_view(began) == "all" ? "mean" : std::string("mean ") + began,
-           {"staircases", began}});
-    chart.x = "reference_g";
-    chart.split = {"condition", "method"};
-    chart.participants = true;
-    chart.x_label = "reference mass (g)";
-    chart.y_label = "JND (g)";
-    chart.axes = "set yrange [0:*]\n";
-    return {chart};
+    return {{.name = "jnd",
+             .title = "JND against reference mass, 95 % intervals",
+             .caption =
+                 "The paper's JND, which moves with the criterion and the start as much as with "
+                 "what is perceived; of staircases from above and from below apart. Large points: "
+                 "mean over participants where more than half have an exact JND; arrows: "
+                 "participants of whom it is known only to lie above or below; diamonds: "
+                 "published, of staircases from above.",
+             .csv = "jnd.csv",
+             .importance = 35,
+             .series = {{&jnd, "mean", {"staircases", "all"}},
+                        {&jnd, "mean from above", {"staircases", "from above"}},
+                        {&jnd, "mean from below", {"staircases", "from below"}}},
+             .x = "reference_g",
+             .split = {"condition", "method"},
+             .participants = true,
+             .x_label = "reference mass (g)",
+             .y_label = "JND (g)",
+             .axes = "set yrange [0:*]\n"}};
   }
 
  private:
