@@ -26,10 +26,6 @@ Cell shown(const std::optional<double>& value, const EstimateColumn& column, Cen
   return cell;
 }
 
-Cell word_or_nothing(std::string_view text) {
-  return text.empty() ? Cell{} : word(std::string(text));
-}
-
 Cell cell_of(const StudyEstimate& estimate, const EstimateColumn& column) {
   const auto of_published = [&](auto member) {
     return number(
@@ -57,15 +53,15 @@ Cell cell_of(const StudyEstimate& estimate, const EstimateColumn& column) {
                         : std::nullopt,
                     column.decimals);
     case Field::method:
-      return word_or_nothing(estimate.method);
+      return word(std::string(estimate.method));
     case Field::censored:
       if (!estimate.value) return word("missing");
       return estimate.censored == Censored::none ? Cell{}
                                                  : word(std::string(name_of(estimate.censored)));
     case Field::why:
-      return word_or_nothing(estimate.why);
+      return word(estimate.why);
     case Field::why_in_short:
-      return word_or_nothing(std::string_view(estimate.why).substr(0, estimate.why.find(':')));
+      return word(estimate.why.substr(0, estimate.why.find(':')));
     case Field::identifiable:
       return flag(estimate.why.empty());
     case Field::published:
@@ -197,13 +193,13 @@ Table list_of(const Estimates& estimates) {
     const auto cell = [&](Field field) {
       return cell_of(estimate, {"", "", estimate.measure, field, 4});
     };
-    table.rows.push_back(
-        {word(std::string(estimate.measure->name)), word_or_nothing(estimate.measure->unit),
-         word_or_nothing(estimate.task), word_or_nothing(estimate.condition),
-         coordinate_cell(estimate, "reference_g"), word_or_nothing(estimate.participant),
-         word_or_nothing(at), cell(Field::value), cell(Field::sd), cell(Field::low),
-         cell(Field::high), cell(Field::n), cell(Field::n_trials), cell(Field::n_hits),
-         cell(Field::method), cell(Field::censored), cell(Field::why), cell(Field::published)});
+    table.rows.push_back({word(std::string(estimate.measure->name)),
+                          word(std::string(estimate.measure->unit)), word(estimate.task),
+                          word(estimate.condition), coordinate_cell(estimate, "reference_g"),
+                          word(estimate.participant), word(at), cell(Field::value), cell(Field::sd),
+                          cell(Field::low), cell(Field::high), cell(Field::n),
+                          cell(Field::n_trials), cell(Field::n_hits), cell(Field::method),
+                          cell(Field::censored), cell(Field::why), cell(Field::published)});
   }
   return table;
 }

@@ -16,10 +16,6 @@ Cell session_cell(std::int64_t id) {
   return {std::to_string(id), static_cast<double>(id), true};
 }
 
-Cell word_or_nothing(const std::string& text) {
-  return text.empty() ? Cell{} : word(text);
-}
-
 template <typename Enum>
 Cell named_cell(Enum value) {
   return word(std::string(name_of(value)));
@@ -46,7 +42,7 @@ Table participant_table(const Summary& summary) {
     table.rows.push_back({word(row.participant), count(row.n_sessions), count(row.n_finished),
                           count(row.n_completed), count(row.n_impossible), count(row.n_lost),
                           count(row.n_catch), count(row.n_false_alarms),
-                          word_or_nothing(row.excluded_because)});
+                          word(row.excluded_because)});
   return table;
 }
 

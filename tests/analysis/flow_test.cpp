@@ -5,7 +5,6 @@
 #include "MadeUpChoosers.h"
 #include "analysis/Participants.h"
 #include "analysis/Quality.h"
-#include "analysis/Sensitivity.h"
 
 namespace heft {
 namespace {
@@ -74,25 +73,27 @@ TEST(TrackingQuality, WithoutFramesTellsOfTheTimeAlone) {
   EXPECT_FALSE(figure(summary, "in_view").value.has_value());
 }
 
-TEST(PersonThresholds, AreGivenWhereTheTrialsBearThem) {
+TEST(PersonThresholds, AreGivenWhereTheTrialsIdentifyThem) {
   RandomStream stream(3, "two people");
   std::vector<SessionData> sessions{session(1, "sees"), session(2, "sees nothing")};
   for (int i = 0; i < 6; ++i) {
     compare(sessions[0], {0.6745 / 100}, recommended_at(200), stream);
     compare(sessions[1], {0}, recommended_at(200), stream);
   }
-  const auto people = thresholds_of(folded<ComparisonTrials>(sessions),
-                                    folded<StaircaseFold>(sessions), sensitivities_of(sessions));
-  ASSERT_EQ(people.size(), 2u);
-  EXPECT_EQ(people[0].participant, "sees");
-  ASSERT_TRUE(people[0].identifiable()) << people[0].why;
-  EXPECT_LT(people[0].interval_g->low, 100);
-  EXPECT_GT(people[0].interval_g->high, 100);
-  EXPECT_FALSE(people[1].identifiable());
-  EXPECT_THAT(people[1].why, HasSubstr("holds 0"));
-  EXPECT_FALSE(people[1].threshold_75_g.has_value());
-  EXPECT_EQ(people[1].from_above.start_g, 600);
-  EXPECT_EQ(people[1].from_below.start_g, 20);
+  const Summary summary = summarized(sessions);
+  const auto of = [&](std::string_view measure, const char* participant,
+                      const char* staircases = "") {
+    return figure(summary, measure, {{"participant", participant}, {"staircases", staircases}});
+  };
+  const StudyEstimate sees = of("threshold_75", "sees");
+  ASSERT_TRUE(sees.value.has_value()) << sees.why;
+  EXPECT_LT(*sees.low, 100);
+  EXPECT_GT(*sees.high, 100);
+  const StudyEstimate blind = of("threshold_75", "sees nothing");
+  EXPECT_FALSE(blind.value.has_value());
+  EXPECT_THAT(blind.why, HasSubstr("holds 0"));
+  EXPECT_EQ(of("staircase_start", "sees nothing", "from above").value, 600);
+  EXPECT_EQ(of("staircase_start", "sees nothing", "from below").value, 20);
 }
 
 TEST(EarlyAnswers, AreThoseThatTheSetupForbade) {

@@ -2,6 +2,10 @@
 // condition, and of each participant beside their JND and its start.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <set>
+
 #include "analysis/Section.h"
 #include "analysis/Sensitivity.h"
 
@@ -69,38 +73,66 @@ void put_ratios(Estimates& all, const std::vector<const ReferenceSensitivity*>& 
   }
 }
 
-void put_started(Estimates& all, const PersonThreshold& person, const StartedFigure& figure,
-                 const char* staircases) {
-  if (!figure.start_g) return;
-  const auto put = [&](const Measure& measure, double value, Censored censored) {
-    StudyEstimate& estimate = all.emplace_back(estimate_at(measure, person.compared));
-    estimate.participant = person.participant;
-    estimate.by = {{"staircases", staircases}};
-    estimate.value = value;
-    estimate.censored = censored;
-    estimate.n = 1;
-  };
-  put(start, *figure.start_g, Censored::none);
-  if (figure.jnd) put(started_jnd, figure.jnd->value, figure.jnd->censored);
+using Key = std::pair<Compared, std::string>;
+
+// Null: too few people to draw on.
+const OwnSensitivity* own_of(const Key& key, const std::vector<ReferenceSensitivity>& all) {
+  const auto reference = std::ranges::find(all, key.first, &ReferenceSensitivity::compared);
+  if (reference == all.end()) return nullptr;
+  const auto own = reference->pooled.people.find(key.second);
+  return own == reference->pooled.people.end() ? nullptr : &own->second;
 }
 
-void put_person(Estimates& all, const PersonThreshold& person) {
-  StudyEstimate& estimate = all.emplace_back(estimate_at(threshold, person.compared));
-  estimate.participant = person.participant;
-  estimate.value = person.threshold_75_g;
-  estimate.set(person.interval_g);
-  estimate.n = 1;
-  estimate.n_trials = person.n_trials;
-  estimate.why = person.why;
-  if (person.jnd) {
-    StudyEstimate& own = all.emplace_back(estimate_at(own_jnd, person.compared));
-    own.participant = person.participant;
-    own.value = person.jnd->jnd_g;
-    own.censored = person.jnd->censored;
-    own.n = 1;
+using Results = std::vector<const StaircaseResult*>;
+
+std::map<Key, Results> results_by_person(const std::deque<StaircaseResult>& all) {
+  std::map<Key, Results> results;
+  for (const StaircaseResult& result : all)
+    results[{result.compared, result.participant}].push_back(&result);
+  return results;
+}
+
+std::map<Key, ParticipantJnd> jnds_by_person(const StaircaseFold& staircases) {
+  std::map<Key, ParticipantJnd> jnds;
+  for (const ReferenceJnd& jnd : staircases.jnds())
+    for (const ParticipantJnd& one : jnd.overall.participants)
+      jnds[{jnd.compared, one.participant}] = one;
+  return jnds;
+}
+
+// @param of of the participant at the reference
+void put_value(Estimates& all, StudyEstimate of, const Measure& measure, double value,
+               Censored censored = Censored::none) {
+  of.measure = &measure;
+  of.value = value;
+  of.censored = censored;
+  all.push_back(std::move(of));
+}
+
+void put_started(Estimates& all, StudyEstimate of, const char* staircases, const Results& results) {
+  if (results.empty()) return;
+  std::vector<double> starts_g;
+  std::vector<std::optional<CensoredValue>> jnds;
+  for (const StaircaseResult* result : results) {
+    starts_g.push_back(result->start_g);
+    jnds.push_back(censored_value(*result));
   }
-  put_started(all, person, person.from_above, "from above");
-  put_started(all, person, person.from_below, "from below");
+  of.by = {{"staircases", staircases}};
+  put_value(all, of, start, *mean(starts_g));
+  if (const auto jnd = mean_figure(jnds))
+    put_value(all, of, started_jnd, jnd->value, jnd->censored);
+}
+
+// Of the staircases that began high and low; of a single start all are from above.
+void put_starts(Estimates& all, const StudyEstimate& of, const Results& results) {
+  const auto [low, high] = std::ranges::minmax(results, {}, &StaircaseResult::start_g);
+  const double middle_g = (low->start_g + high->start_g) / 2;
+  const bool is_one = low->start_g == high->start_g;
+  Results above, below;
+  for (const StaircaseResult* result : results)
+    (is_one || result->start_g > middle_g ? above : below).push_back(result);
+  put_started(all, of, "from above", above);
+  put_started(all, of, "from below", below);
 }
 
 EstimateTable sensitivity_table() {
@@ -171,10 +203,29 @@ class SensitivitySection final : public Section {
   }
 
   Estimates of_participants(const Summary& summary) const override {
+    const ComparisonTrials& trials = summary.shared->comparisons;
+    const StaircaseFold& staircases = summary.shared->staircases;
+    const auto jnds = jnds_by_person(staircases);
+    const auto results = results_by_person(staircases.results());
     Estimates all;
-    for (const PersonThreshold& person :
-         thresholds_of(summary.shared->comparisons, summary.shared->staircases, sensitivity_))
-      put_person(all, person);
+    for (const auto& [compared, theirs] : trials.by_compared())
+      for (const auto& [participant, answers] : answers_by_side(trials, compared)) {
+        const Key key{compared, participant};
+        StudyEstimate of = estimate_at(threshold, compared);
+        of.participant = participant;
+        of.n = 1;
+        StudyEstimate& own = all.emplace_back(of);
+        const auto [threshold_g, interval_g, why] =
+            own_threshold(answers, own_of(key, sensitivity_));
+        own.value = threshold_g;
+        own.set(interval_g);
+        own.n_trials = static_cast<int>(trials_in(answers));
+        own.why = why;
+        if (const auto jnd = jnds.find(key); jnd != jnds.end())
+          put_value(all, of, own_jnd, jnd->second.jnd_g, jnd->second.censored);
+        if (const auto found = results.find(key); found != results.end())
+          put_starts(all, of, found->second);
+      }
     return all;
   }
 
@@ -237,6 +288,15 @@ class SensitivitySection final : public Section {
   std::vector<ReferenceSensitivity> sensitivity_;
 };
 }  // namespace
+
+std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trials) {
+  const std::set<std::string> study(trials.participants().begin(), trials.participants().end());
+  std::vector<ReferenceSensitivity> all;
+  for (const auto& [compared, theirs] : trials.by_compared())
+    all.push_back({compared, pooled_sensitivity(answers_by_side(trials, compared), study),
+                   trials.as_published(compared)});
+  return all;
+}
 
 void put_sensitivities(Estimates& all, std::span<const ReferenceSensitivity> rows) {
   std::map<std::pair<std::string, bool>, std::vector<const ReferenceSensitivity*>> conditions;
