@@ -14,6 +14,13 @@ namespace heft {
 /// The results of each task in a sentence, and what limits them.
 std::vector<std::string> leading_sentences(const Summary& summary);
 
+/// "13 simulated participants"
+std::string participants_in_words(const Summary& summary);
+
+/// The verdicts on the paper's hypotheses about sorting, of those of its conditions that were run:
+/// "; masses are discriminated in C2".
+std::string verdicts_in_words(const Summary& summary);
+
 /// What notes tell of the sessions beside the figures.
 class NotesFold {
  public:

@@ -150,6 +150,19 @@ class EstimationSection final : public Section {
                                                                        : mean_over_people(people));
   }
 
+  std::string sentence(const Summary& summary) const override {
+    std::string text;
+    for (const StudyEstimate* one : estimates_of(summary.estimates, exponent.name)) {
+      text += fmt::format("{}{} in {}", text.empty() ? "" : ", ",
+                          one->value ? fmt::format("{:.2f}", *one->value) : "none", one->condition);
+      if (one->low) text += fmt::format(" [{:.2f}, {:.2f}]", *one->low, *one->high);
+    }
+    if (text.empty()) return "";
+    return fmt::format(
+        "Magnitude estimation: exponent of the numbers over the masses {}; 1 is proportional.",
+        text);
+  }
+
   std::vector<EstimateTable> tables() const override {
     EstimateTable by_mass{
         "estimation",

@@ -229,6 +229,28 @@ class SensitivitySection final : public Section {
     return all;
   }
 
+  std::string sentence(const Summary& summary) const override {
+    const auto thresholds = estimates_of(summary.estimates, threshold.name);
+    if (thresholds.empty()) return "";
+    std::string known, unknown;
+    for (const StudyEstimate* one : thresholds) {
+      const std::string where = fmt::format("{:g} g in {}", *one->reference_g, one->condition);
+      if (one->value)
+        known += fmt::format("{}{:.0f} g [{:.0f}, {:.0f}] at {}", known.empty() ? "" : ", ",
+                             *one->value, *one->low, *one->high, where);
+      else
+        unknown += fmt::format("{}{}", unknown.empty() ? "" : ", ", where);
+    }
+    std::string text = "Comparisons: ";
+    if (!known.empty())
+      text +=
+          fmt::format("75 %-correct discrimination threshold of the median participant: {}", known);
+    if (!unknown.empty())
+      text +=
+          fmt::format("{}no threshold is identifiable at {}", known.empty() ? "" : "; ", unknown);
+    return text + ".";
+  }
+
   std::vector<EstimateTable> tables() const override {
     return {sensitivity_table(), threshold_table()};
   }

@@ -2,6 +2,7 @@
 // for which.
 #include <fmt/format.h>
 
+#include "analysis/Notes.h"
 #include "analysis/Section.h"
 #include "analysis/Sorting.h"
 #include "tasks/Sorting.h"
@@ -239,6 +240,29 @@ EstimateTable participants_table() {
   return table;
 }
 
+std::string percent(const StudyEstimate& share) {
+  if (!share.value) return "-";
+  std::string text = fmt::format("{:.0f} %", *share.value);
+  if (share.low) text += fmt::format(" [{:.0f}, {:.0f}]", *share.low, *share.high);
+  return text;
+}
+
+// Chance is of answers: who doesn't know is neither right nor wrong.
+std::string sorting_in_words(const Summary& summary, const StudyEstimate& correct) {
+  const std::string& name = correct.condition;
+  const auto of = [&](std::string_view measure, std::string_view trials, std::string_view answer) {
+    return *find_estimate(summary.estimates, measure,
+                          {{"condition", name}, {"trials", trials}, {"answer", answer}});
+  };
+  const double none_percent = of(answers.name, "all", "I don't know").value.value_or(0);
+  std::string text = fmt::format("{} of trials were correct in {}", percent(correct), name);
+  if (none_percent > 0)
+    text += fmt::format(" and {} of the answered trials in {} ({:.0f} % were \"I don't know\")",
+                        percent(of(answers.name, "answered", "correct")), name, none_percent);
+  return text + fmt::format(", where chance is {:.0f} %",
+                            of(chance.name, "all", "correct").value.value_or(0));
+}
+
 class SortingSection final : public Section {
  public:
   void add(const SessionData& data) override {
@@ -272,6 +296,19 @@ class SortingSection final : public Section {
         own.by = {{"answer", "correct"}};
       }
     return all;
+  }
+
+  std::string sentence(const Summary& summary) const override {
+    if (!find_estimate(summary.estimates, answers.name)) return "";
+    std::string text;
+    for (const StudyEstimate* correct :
+         estimates_of(summary.estimates, answers.name, {{"trials", "all"}, {"answer", "correct"}}))
+      if (correct->value) text += (text.empty() ? "" : "; ") + sorting_in_words(summary, *correct);
+    if (text.empty())
+      return fmt::format("Sorting: of {} no one completed a trial.",
+                         participants_in_words(summary));
+    return fmt::format("Sorting: of {}, {}{}.", participants_in_words(summary), text,
+                       verdicts_in_words(summary));
   }
 
   std::vector<EstimateTable> tables() const override {
