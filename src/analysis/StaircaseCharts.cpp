@@ -112,8 +112,9 @@ Chart all_at(const Summary& summary, const Compared& compared, bool several_cond
 
 Chart tracks_chart(const Summary& summary) {
   Chart chart{"staircases", "", ""};
-  if (!summary.tracks) return chart;
-  const SessionTracks& session = *summary.tracks;
+  const SessionTracks* example = example_of(summary.all_tracks);
+  if (!example) return chart;
+  const SessionTracks& session = *example;
   chart.title = fmt::format("Staircases of session {}, {}{}", session.session_id,
                             session.participant, session.simulated ? " (simulated)" : "");
   chart.caption =

@@ -84,7 +84,6 @@ struct CountedFold {
       section->put(summary);
       summary.sections.push_back(section);
     }
-    summary.tracks = tracks.example();
     summary.all_tracks = std::move(tracks).result();
   }
 };

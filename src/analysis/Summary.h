@@ -76,7 +76,6 @@ struct Summary {
   std::shared_ptr<const SharedFolds> shared = std::make_shared<SharedFolds>();
   Quality quality;
   ParticipantFlow flow;
-  std::optional<SessionTracks> tracks;
   std::vector<SessionTracks> all_tracks;
   std::vector<Hypothesis> hypotheses;
   std::vector<ProtocolChoice> choices;

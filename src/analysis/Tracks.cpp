@@ -41,20 +41,14 @@ void TracksFold::add(const SessionData& data) {
   std::vector<Track> tracks = tracks_of(data);
   if (tracks.empty()) return;
   for (Track& track : tracks) track.points.shrink_to_fit();  // of a thousand, what is spare is much
-  if (data.finished() && !first_finished_) first_finished_ = all_.size();
   all_.push_back({data.session.session_id, data.session.header.participant, data.simulated(),
-                  std::move(tracks)});
+                  data.finished(), std::move(tracks)});
 }
 
-std::optional<SessionTracks> TracksFold::example() const {
-  if (all_.empty()) return std::nullopt;
-  return all_[first_finished_.value_or(0)];
-}
-
-std::optional<SessionTracks> example_tracks(std::span<const SessionData> sessions) {
-  TracksFold fold;
-  for (const SessionData& data : sessions) fold.add(data);
-  return fold.example();
+const SessionTracks* example_of(const std::vector<SessionTracks>& all) {
+  const auto finished = std::ranges::find(all, true, &SessionTracks::finished);
+  if (finished != all.end()) return &*finished;
+  return all.empty() ? nullptr : &all.front();
 }
 
 }  // namespace heft

@@ -31,7 +31,7 @@ struct Track {
 struct SessionTracks {
   std::int64_t session_id = 0;
   std::string participant;
-  bool simulated = false;
+  bool simulated = false, finished = false;
   std::vector<Track> tracks;  ///< by reference, then name
 };
 
@@ -41,17 +41,12 @@ class TracksFold {
   void add(const SessionData& data);
   const std::vector<SessionTracks>& result() const& { return all_; }
   std::vector<SessionTracks> result() && { return std::move(all_); }
-  /// The first finished one of them, or else the first.
-  std::optional<SessionTracks> example() const;
 
  private:
   std::vector<SessionTracks> all_;
-  std::optional<std::size_t> first_finished_;
 };
 
-inline std::vector<SessionTracks> all_tracks(std::span<const SessionData> sessions) {
-  return folded<TracksFold>(sessions);
-}
-std::optional<SessionTracks> example_tracks(std::span<const SessionData> sessions);
+/// The first finished one, or else the first; null: there is none.
+const SessionTracks* example_of(const std::vector<SessionTracks>& all);
 
 }  // namespace heft

@@ -213,8 +213,9 @@ TEST(Jnd, ConstantStimuliAreNoStaircaseThatLacksAJnd) {
   EXPECT_EQ(jnds[0].n_without_estimate, 0);
   EXPECT_EQ(jnds[0].overall.mean, 100);
   EXPECT_EQ(staircase_results({&data, 1}).size(), 1);
-  ASSERT_EQ(example_tracks({&data, 1})->tracks.size(), 1);
-  EXPECT_EQ(example_tracks({&data, 1})->tracks[0].staircase, "15g");
+  const auto sessions = folded<TracksFold>({&data, 1});
+  ASSERT_EQ(sessions.at(0).tracks.size(), 1u);
+  EXPECT_EQ(sessions[0].tracks[0].staircase, "15g");
 }
 
 TEST(Jnd, EstimatesOfAnyProcedureAreThereWithTheirIntervals) {

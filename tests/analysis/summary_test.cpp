@@ -159,8 +159,9 @@ TEST(Summary, ShowsTheStaircasesOfAFinishedSession) {
   SessionData running = full_session(1, "a"), finished = full_session(2, "b");
   running.session.state = SessionState::running;
   finished.attempts.back().is_reversal = true;
-  const auto tracks = summarize({"x.db", {running, finished}}, "").tracks;
-  ASSERT_TRUE(tracks.has_value());
+  const Summary summary = summarize({"x.db", {running, finished}}, "");
+  const SessionTracks* tracks = example_of(summary.all_tracks);
+  ASSERT_NE(tracks, nullptr);
   EXPECT_EQ(tracks->session_id, 2);
   ASSERT_EQ(tracks->tracks.size(), 2);
   EXPECT_EQ(tracks->tracks[1].jnd_g, 200);
