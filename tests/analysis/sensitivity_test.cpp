@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "MadeUpChoosers.h"
+#include "analysis/Charts.h"
 #include "analysis/Notes.h"
 #include "analysis/Summary.h"
 #include "inference/Coverage.h"
@@ -16,6 +17,7 @@ namespace {
 
 using namespace made_up;
 using testing::HasSubstr;
+using testing::Not;
 
 std::vector<SessionData> study(int n_people, const Population& population,
                                const std::vector<ComparisonDesign>& designs, RandomStream& stream,
@@ -104,6 +106,19 @@ TEST(Sensitivity, OfOnePersonIsThatPersonsOwn) {
   ASSERT_TRUE(rows.at(0).pooled.identifiable()) << rows[0].pooled.why;
   EXPECT_LT(rows[0].pooled.threshold_interval_g->low, 100);
   EXPECT_GT(rows[0].pooled.threshold_interval_g->high, 100);
+}
+
+// Below 0 the reference is the heavier cube: it is chosen as often as the comparison above 0.
+TEST(ChoiceCurves, TheModelIsTheSameOnBothSidesOfZero) {
+  RandomStream stream(7, "one");
+  SessionData data = session(1, "a");
+  for (int i = 0; i < 6; ++i) compare(data, {0.6745 / 100}, recommended_at(200), stream);
+  const Summary summary = summarize({"x.db", {data}}, "");
+  std::string script;
+  for (const Chart& chart : charts_of(summary))
+    if (chart.name == "choice_curves") script = chart.script;
+  EXPECT_THAT(script, HasSubstr("*abs(x)-"));
+  EXPECT_THAT(script, Not(HasSubstr("*x-")));
 }
 
 // Of two ratios one may be off by chance twice as often as the only one.
