@@ -68,8 +68,9 @@ class XAxis {
   }
   std::string axes() const {
     if (is_numeric() && logarithmic_)
-      return fmt::format("set xrange [{}:{}]\n{}", low() / 1.3, high() * 1.3,
-                         places_.size() <= most_tics ? tics_at_places() : "");
+      return fmt::format(
+          "set xrange [{}:{}]\n{}", low() / 1.3, high() * 1.3,
+          places_.size() <= most_tics && are_whole() ? tics_at_places() : tics_on_logarithm());
     if (is_numeric()) {
       const double aside =
           high() > low() ? step() * (static_cast<double>(n_series_) + 1) : 0.5 * span();
@@ -100,13 +101,20 @@ class XAxis {
       gap = std::min(gap, *std::next(place) - *place);
     return gap;
   }
-  // Whole numbers that a tic each can be written at.
-  bool are_apart() const {
-    return least_gap() > 0.1 * span() &&
-           std::ranges::all_of(places_, [](double x) { return x == std::round(x); });
+  bool are_whole() const {
+    return std::ranges::all_of(places_, [](double x) { return x == std::round(x); });
   }
+  // Whole numbers that a tic each can be written at.
+  bool are_apart() const { return least_gap() > 0.1 * span() && are_whole(); }
   std::string tics_at_places() const {
     return fmt::format("set xtics ({:g})\n", fmt::join(places_, ", "));
+  }
+  // 1, 2 and 5 of each decade.
+  std::string tics_on_logarithm() const {
+    std::vector<double> tics;
+    for (double power = std::floor(std::log10(low())); power <= std::log10(high()); power += 1)
+      for (const double factor : {1.0, 2.0, 5.0}) tics.push_back(factor * std::pow(10, power));
+    return fmt::format("set xtics ({:g})\n", fmt::join(tics, ", "));
   }
   void add(const StudyEstimate& one) {
     if (const auto x = number(one))

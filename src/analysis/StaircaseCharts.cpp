@@ -100,7 +100,7 @@ Chart all_at(const Summary& summary, const Compared& compared, bool several_cond
           ? fmt::format(", the first {} of {}", panels.size(), chart.n)
           : "");
   chart.csv = "staircase_trials.csv";
-  PlotFrame frame{162, 94, 5, 60, 18, 52};
+  PlotFrame frame{140, 94, 5, 60, 40, 74};
   frame.axes =
       fmt::format("set xrange [0:*]\nset yrange [{}:{}]\nset tics font ',9'\nset xtics 20\n",
                   lowest_g - 0.04 * highest_g, 1.05 * highest_g);
