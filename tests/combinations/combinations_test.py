@@ -209,7 +209,8 @@ class Combinations(unittest.TestCase):
     def test_an_older_log_goes_on_with_another_simulator(self):
         for simulator in ("", "bullet-ea", "boxes"):  # "": the one that it was begun with
             with self.subTest(simulator=simulator):
-                db = shutil.copy(GOLDEN_LOGS / "version_2.db", self.folder / f"old-{simulator}.db")
+                db = shutil.copy(GOLDEN_LOGS / "version_5_unfinished.db",
+                                 self.folder / f"old-{simulator}.db")
                 self.heft("resume", "--db", db, "--tracker", "hand",
                           *(["--simulator", simulator] if simulator else []))
                 self.verified(db)
