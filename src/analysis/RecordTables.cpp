@@ -121,26 +121,22 @@ Table incident_table(const Summary& summary) {
 }
 
 Table published_table(const Summary& summary) {
-  Table table{
-      "beside_published",
-      "Found beside published",
-      {{"figure", "figure"},
-       {"unit", "unit"},
-       {"found", "found"},
-       {"found_sd", "SD"},
-       {"found_low", "95 % low"},
-       {"found_high", "high"},
-       {"n_participants", "n"},
-       {"published", "published"},
-       {"published_sd", "SD"},
-       {"published_low", "95 % low"},
-       {"published_high", "high"},
-       {"source", ""}},
-      {},
-      "published: the paper's figures, of 13 participants, for its own techniques, masses "
-      "and tasks only; intervals by Student's t from its SDs (the introduction's is exact), "
-      "none where it gives none. Its 10.1 % of answered C1 trials is a ratio of means. The "
-      "CSV says where in the paper each is from."};
+  Table table{"beside_published",
+              "Found beside published",
+              {{"figure", "figure"},
+               {"unit", "unit"},
+               {"found", "found"},
+               {"found_sd", "SD"},
+               {"found_low", "95 % low"},
+               {"found_high", "high"},
+               {"n_participants", "n"},
+               {"published", "published"},
+               {"published_sd", "SD"},
+               {"published_low", "95 % low"},
+               {"published_high", "high"},
+               {"source", ""}},
+              {},
+              std::string(published::about_figures)};
   for (const StudyEstimate* one : published_among(summary)) {
     const published::Figure& figure = *one->published;
     const auto paper = interval_of(figure);

@@ -13,14 +13,14 @@ namespace heft {
 namespace {
 constexpr std::size_t text_width = 102;
 
-// Where there is nothing to show, say so rather than leave it out.
+// Where comparisons have no JND, says so rather than leave it out.
 std::string absences(const Summary& summary) {
-  std::string text;
-  if (std::ranges::none_of(estimates_of(summary.estimates, "sorting_answers"),
-                           [](const StudyEstimate* one) { return one->value.has_value(); }))
-    text += "Sorting: no completed trials.\n";
-  if (!find_estimate(summary.estimates, "jnd")) text += "JND: no staircases that estimate one.\n";
-  return text;
+  const bool compared =
+      std::ranges::any_of(estimates_of(summary.estimates, "comparisons"),
+                          [](const StudyEstimate* one) { return one->n_trials > 0; });
+  return compared && !find_estimate(summary.estimates, "jnd")
+             ? "JND: no staircases that estimate one.\n"
+             : "";
 }
 
 std::string hypotheses_text(const Summary& summary) {

@@ -122,8 +122,7 @@ TEST(Summary, NothingIsSaidClearly) {
   add_sorting(data, "C1", "correct").trial.status = TrialStatus::voided;
   const std::string text = text_of({data});
   EXPECT_THAT(text, HasSubstr("No trial was completed"));
-  EXPECT_THAT(text, HasSubstr("Sorting: no completed trials."));
-  EXPECT_THAT(text, HasSubstr("JND: no staircases that estimate one."));
+  EXPECT_THAT(text, Not(HasSubstr("JND"))) << "no block of comparisons was begun";
 }
 
 TEST(Summary, HypothesesCarryTheirExperiment) {
