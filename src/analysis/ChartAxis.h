@@ -22,7 +22,7 @@ inline std::string text_of(const StudyEstimate& estimate, std::string_view coord
   return coordinate == "reference_g" && !text.empty() ? text + " g" : text;
 }
 
-// "200 g, C2"
+// "200 g, soft"
 inline std::string text_of(const StudyEstimate& estimate,
                            const std::vector<std::string_view>& names) {
   std::string text;

@@ -74,7 +74,7 @@ Cell cell_of(const StudyEstimate& estimate, const EstimateColumn& column) {
   return {};
 }
 
-// "c2_percent" of the condition C2, where a column is spread over conditions.
+// "soft_percent" of the condition "soft", where a column is spread over conditions.
 std::string in_snake_case(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) {
     return std::isalnum(c) ? static_cast<char>(std::tolower(c)) : '_';

@@ -18,7 +18,7 @@ std::vector<std::string> leading_sentences(const Summary& summary);
 std::string participants_in_words(const Summary& summary);
 
 /// The verdicts on the paper's hypotheses about sorting, of those of its conditions that were run:
-/// "; masses are discriminated in C2".
+/// "; masses are discriminated in soft".
 std::string verdicts_in_words(const Summary& summary);
 
 /// What notes tell of the sessions beside the figures.

@@ -27,7 +27,7 @@ Block read_demonstration(TableReader& table, NamesInUse&) {
   return block;
 }
 
-// trials = { C1 = 5, C2 = 5 }
+// trials = { soft = 5, hard = 5 }
 std::vector<TechniqueTrials> read_trials_by_technique(TableReader& table, NamesInUse& names) {
   auto counts = table.table("trials");
   std::vector<TechniqueTrials> trials;

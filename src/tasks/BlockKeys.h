@@ -28,7 +28,7 @@ struct TechniqueTrials {
 
 int total_of(const std::vector<TechniqueTrials>& trials);
 
-/// Trials of each mass: `trials_per_mass` with `condition`, or trials = { C1 = 3, C2 = 3 }.
+/// Trials of each mass: `trials_per_mass` with `condition`, or trials = { soft = 3, hard = 3 }.
 template <typename Trials>
 struct TrialsOfEachMass {
   Trials& trials;

@@ -1,21 +1,20 @@
 #include "tasks/Tasks.h"
 
 #include <algorithm>
-#include <ranges>
 
 namespace heft {
 
 namespace {
-constexpr bool fills_same_columns(const ActionSpec& a, const ActionSpec& b) {
-  return a.slot == b.slot && a.label == b.label && a.value == b.value;
+constexpr bool agree(const ActionSpec& a, const ActionSpec& b) {
+  return a.kind != b.kind || (a.slot == b.slot && a.label == b.label && a.value == b.value);
 }
 
 constexpr bool columns_agree() {
   for (const TaskDeclaration* task : Tasks::declarations)
     for (const TaskDeclaration* other : Tasks::declarations)
       for (const ActionSpec& action : task->actions)
-        if (const ActionSpec* same = other->action(action.kind))
-          if (!fills_same_columns(action, *same)) return false;
+        for (const ActionSpec& same : other->actions)
+          if (!agree(action, same)) return false;
   return true;
 }
 static_assert(columns_agree(), "two tasks give one action different columns");
@@ -44,7 +43,9 @@ std::vector<std::string_view> words_of<Task>() {
 template <>
 std::vector<std::string_view> words_of<ActionKind>() {
   return all_words([](const TaskDeclaration& task) {
-    return task.actions | std::views::transform(&ActionSpec::kind);
+    std::vector<std::string_view> kinds;
+    for (const ActionSpec& action : task.actions) kinds.push_back(action.kind);
+    return kinds;
   });
 }
 template <>
