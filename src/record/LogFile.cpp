@@ -31,8 +31,7 @@ namespace {
 [[noreturn]] void refuse_outdated_log(const std::string& path, int version) {
   throw Error(
       fmt::format("{} is a log of version {}; heft {} reads versions {} to {}. Read it with the "
-                  "heft that wrote "
-                  "it, or choose another file with --db FILE.",
+                  "heft that wrote it, or choose another file with --db FILE.",
                   path, version, HEFT_VERSION, oldest_log_version, todays_log_version));
 }
 

@@ -180,10 +180,9 @@ EstimateTable sorting_table() {
        column(answers, Field::published_sd, "published_sd_percent", "published SD", 1,
               "published_sd")},
       "n participants; SD between them (n-1). Interval over participants: a score interval with "
-      "the "
-      "trials that their differences leave effective, and Student's t; exact (Clopper-Pearson) "
-      "over "
-      "people where all have the same percentage, over the trials of one alone. The paper's 10.1 % "
+      "the trials that their differences leave effective, and Student's t; exact "
+      "(Clopper-Pearson) over people where all have the same percentage, over the trials of one "
+      "alone. The paper's 10.1 % "
       "of answered trials is a ratio of means, nearest to pooled; its figures are beside its own "
       "techniques and masses only."};
   table.json = "sorting.{condition}.{trials}.{answer}";
