@@ -34,7 +34,6 @@ struct ComparedTrial {
 class ComparisonTrials {
  public:
   void add(const SessionData& data);
-  const ComparisonTrials& result() const { return *this; }
 
   /// In the order of sessions and trials.
   const std::map<Compared, std::deque<ComparedTrial>>& by_compared() const { return trials_; }

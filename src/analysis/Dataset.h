@@ -115,15 +115,6 @@ struct Dataset {
   std::vector<SessionData> sessions;
 };
 
-/// Figures that are made of sessions one by one, so that of a thousand no more than one is in
-/// memory: a fold takes each (add), and `result` is what they come to.
-template <typename Fold>
-auto folded(std::span<const SessionData> sessions) {
-  Fold fold;
-  for (const SessionData& data : sessions) fold.add(data);
-  return fold.result();
-}
-
 /// The sessions of one or several logs, read one by one: of a thousand no more than one is in
 /// memory.
 class LoggedSessions {

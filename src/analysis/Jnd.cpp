@@ -242,14 +242,6 @@ std::vector<ReferenceJnd> StaircaseFold::jnds() const {
   return jnds;
 }
 
-std::deque<StaircaseResult> staircase_results(std::span<const SessionData> sessions) {
-  return folded<StaircaseFold>(sessions).results();
-}
-
-std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions) {
-  return folded<StaircaseFold>(sessions).jnds();
-}
-
 void Jnds::add(const std::string& participant, const std::optional<CensoredValue>& figure) {
   if (figure)
     participants.push_back({participant, figure->value, figure->censored});

@@ -112,7 +112,6 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 class StaircaseFold {
  public:
   void add(const SessionData& data);
-  const StaircaseFold& result() const { return *this; }
 
   /// Finished staircases in the order of sessions and estimates, each with the reference of its
   /// trials.
@@ -135,8 +134,5 @@ class StaircaseFold {
   std::map<Compared, published::Comparable> comparable_;
   std::map<Compared, std::map<std::string, AboveAndBelow>> starts_;
 };
-
-std::deque<StaircaseResult> staircase_results(std::span<const SessionData> sessions);
-std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions);
 
 }  // namespace heft

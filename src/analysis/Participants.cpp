@@ -90,11 +90,4 @@ ParticipantFlow FlowFold::result(std::span<const ParticipantRow> participants) c
   return flow;
 }
 
-ParticipantFlow flow_of(std::span<const SessionData> sessions,
-                        std::span<const ParticipantRow> participants) {
-  FlowFold fold;
-  for (const SessionData& data : sessions) fold.add(data);
-  return fold.result(participants);
-}
-
 }  // namespace heft

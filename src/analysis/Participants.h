@@ -50,13 +50,6 @@ class PlanFold {
   bool differ_ = false;
 };
 
-inline std::vector<ParticipantRow> participants_of(std::span<const SessionData> sessions) {
-  return folded<ParticipantsFold>(sessions);
-}
-inline std::optional<AnalysisPlan> declared_plan(std::span<const SessionData> sessions) {
-  return folded<PlanFold>(sessions);
-}
-
 /// Numbers of participants.
 struct ParticipantFlow {
   int n_asked = 0;                      ///< with a session in the log
@@ -85,9 +78,5 @@ class FlowFold {
   };
   std::map<std::string, Way> ways_;
 };
-
-/// @param participants all, of the same sessions
-ParticipantFlow flow_of(std::span<const SessionData> sessions,
-                        std::span<const ParticipantRow> participants);
 
 }  // namespace heft

@@ -48,8 +48,4 @@ class ChoicesFold {
   std::map<std::string, std::size_t> places_;  // by what makes it one protocol
 };
 
-inline std::vector<ProtocolChoice> protocol_choices(const std::vector<SessionData>& sessions) {
-  return folded<ChoicesFold>(sessions);
-}
-
 }  // namespace heft

@@ -70,8 +70,4 @@ class QualityFold {
   std::map<std::size_t, ResetRow> resets_;  // by band of masses
 };
 
-inline Quality quality_of(std::span<const SessionData> sessions) {
-  return folded<QualityFold>(sessions);
-}
-
 }  // namespace heft

@@ -20,9 +20,6 @@ struct ReferenceSensitivity {
 
 /// By reference, lightest first, and condition; participants' sessions together.
 std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trials);
-inline std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions) {
-  return sensitivities_of(folded<ComparisonTrials>(sessions));
-}
 
 /// Threshold, sensitivity and criterion of each, and the ratios of thresholds at neighboring
 /// references.

@@ -25,7 +25,9 @@ std::vector<Track> tracks_of(const SessionData& data) {
                                !attempt.trial.choice_correct.value_or(true),
                            attempt.trial.outcome == "difference", attempt.is_reversal});
   }
-  for (const StaircaseResult& result : staircase_results({&data, 1}))
+  StaircaseFold staircases;
+  staircases.add(data);
+  for (const StaircaseResult& result : staircases.results())
     for (Track& track : tracks)
       if (track.staircase == result.staircase) {
         track.jnd_g = result.shown_g;

@@ -3,6 +3,7 @@
 
 #include "Figures.h"
 #include "MadeUpChoosers.h"
+#include "analysis/Folds.h"
 #include "analysis/Participants.h"
 #include "analysis/Quality.h"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "MadeUpSessions.h"
+#include "analysis/Folds.h"
 #include "analysis/Summary.h"
 #include "analysis/Table.h"
 #include "analysis/Tables.h"
@@ -213,7 +214,7 @@ TEST(Jnd, ConstantStimuliAreNoStaircaseThatLacksAJnd) {
   EXPECT_EQ(jnds[0].n_without_estimate, 0);
   EXPECT_EQ(jnds[0].overall.mean, 100);
   EXPECT_EQ(staircase_results({&data, 1}).size(), 1);
-  const auto sessions = folded<TracksFold>({&data, 1});
+  const auto sessions = folded<TracksFold>({&data, 1}).result();
   ASSERT_EQ(sessions.at(0).tracks.size(), 1u);
   EXPECT_EQ(sessions[0].tracks[0].staircase, "15g");
 }

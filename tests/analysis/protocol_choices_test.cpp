@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "analysis/Folds.h"
 #include "analysis/ProtocolChoices.h"
 #include "psychophysics/ProcedureKinds.h"
 #include "tasks/Tasks.h"

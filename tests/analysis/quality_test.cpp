@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "MadeUpSessions.h"
+#include "analysis/Folds.h"
 
 namespace heft {
 namespace {

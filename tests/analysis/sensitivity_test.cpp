@@ -8,6 +8,7 @@
 
 #include "MadeUpChoosers.h"
 #include "analysis/Charts.h"
+#include "analysis/Folds.h"
 #include "analysis/Notes.h"
 #include "analysis/Summary.h"
 #include "inference/Coverage.h"

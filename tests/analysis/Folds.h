@@ -1,0 +1,52 @@
+// Made-up sessions through the analysis' folds, as summarize() takes those of a log.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/ComparisonTrials.h"
+#include "analysis/Dataset.h"
+#include "analysis/Jnd.h"
+#include "analysis/Participants.h"
+#include "analysis/ProtocolChoices.h"
+#include "analysis/Quality.h"
+#include "analysis/Sensitivity.h"
+
+namespace heft {
+
+template <typename Fold>
+Fold folded(std::span<const SessionData> sessions) {
+  Fold fold;
+  for (const SessionData& data : sessions) fold.add(data);
+  return fold;
+}
+
+inline std::vector<ParticipantRow> participants_of(std::span<const SessionData> sessions) {
+  return folded<ParticipantsFold>(sessions).result();
+}
+inline std::optional<AnalysisPlan> declared_plan(std::span<const SessionData> sessions) {
+  return folded<PlanFold>(sessions).result();
+}
+inline ParticipantFlow flow_of(std::span<const SessionData> sessions,
+                               std::span<const ParticipantRow> participants) {
+  return folded<FlowFold>(sessions).result(participants);
+}
+inline Quality quality_of(std::span<const SessionData> sessions) {
+  return folded<QualityFold>(sessions).result();
+}
+inline std::vector<ProtocolChoice> protocol_choices(const std::vector<SessionData>& sessions) {
+  return folded<ChoicesFold>(sessions).result();
+}
+inline std::deque<StaircaseResult> staircase_results(std::span<const SessionData> sessions) {
+  return folded<StaircaseFold>(sessions).results();
+}
+inline std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions) {
+  return folded<StaircaseFold>(sessions).jnds();
+}
+inline std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions) {
+  return sensitivities_of(folded<ComparisonTrials>(sessions));
+}
+
+}  // namespace heft
