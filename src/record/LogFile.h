@@ -31,8 +31,9 @@ class DisplacedLog : public std::runtime_error {
 class LogFile {
  public:
   /// @throws Error when another writer has the file, or it is no heft log, newer or much older than
-  ///   this program, has a second name, or can't be written. An empty file has no tables yet afterwards;
-  ///   an older log is brought up to date, with the older file kept beside it as FILE.vN.
+  ///   this program, has a second name, or can't be written. An empty file has no tables yet
+  ///   afterwards; an older log is brought up to date, with the older file kept beside it as
+  ///   FILE.vN.
   explicit LogFile(const std::string& path);
   LogFile(LogFile&&) noexcept;
   ~LogFile();
