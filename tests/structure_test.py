@@ -9,9 +9,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
+STUDIES = ROOT / "results"
 
-# The layer table of src/README.md. Rooms on one row don't include each other; bench/main.cpp alone, the
-# program heft-bench, stands on cli's command line.
+# The layer table of src/README.md. Rooms on one row don't include each other; results/main.cpp
+# alone, the program heft-bench, stands on cli's command line.
 ROWS_1_2 = {"base", "psychophysics", "inference", "experiment", "tasks", "physics", "tracking"}
 ROW_3 = {"engine", "protocol", "record", "responders", "view"}
 MAY_INCLUDE = {
@@ -34,16 +35,16 @@ MAY_INCLUDE = {
     "session": ROWS_1_2 | ROW_3 | {"apparatus", "replay"},
 }
 # window is loaded when it is asked for, and included by nobody.
-MAY_INCLUDE["bench"] = MAY_INCLUDE["cli"] = set(MAY_INCLUDE) - {"window"}
+MAY_INCLUDE["results"] = MAY_INCLUDE["cli"] = set(MAY_INCLUDE) - {"window"}
 
-# Third-party headers that stay inside one room (or two); what is compared with stands in bench.
+# Third-party headers that stay inside one room (or two); what is compared with stands in results.
 LIBRARY_ROOMS = {
-    r"bullet/|btBullet|Bullet": {"physics", "bench"},
+    r"bullet/|btBullet|Bullet": {"physics", "results"},
     r"apriltag": {"tracking"},
     r"cairo": {"tracking"},
     r"pango": {"view"},
-    r"ode/|mujoco": {"bench"},
-    r"opencv": {"tracking", "view", "bench"},
+    r"ode/|mujoco": {"results"},
+    r"opencv": {"tracking", "view", "results"},
     r"SDL|imgui|GL/": {"window"},
     r"SQLiteCpp|sqlite3": {"record"},
     r"toml": {"protocol"},
@@ -57,16 +58,16 @@ ROOT_NAMES = {"CMakeLists.txt", "CMakePresets.json", "src", "protocols", "tests"
 
 
 def sources():
-    return sorted(p for p in SRC.rglob("*") if p.suffix in {".h", ".cpp"})
+    return sorted(p for folder in (SRC, STUDIES) for p in folder.rglob("*") if p.suffix in {".h", ".cpp"})
 
 
 def room_of(path):
-    return path.relative_to(SRC).parts[0]
+    return path.relative_to(SRC if SRC in path.parents else ROOT).parts[0]
 
 
 def may_include(path):
     room = room_of(path)
-    return MAY_INCLUDE[room] | ({"cli"} if path == SRC / "bench" / "main.cpp" else set())
+    return MAY_INCLUDE[room] | ({"cli"} if path == STUDIES / "main.cpp" else set())
 
 
 def includes(path):
@@ -85,8 +86,9 @@ class Structure(unittest.TestCase):
                 if quote == '"':
                     other = target.split("/")[0]
                     with self.subTest(file=str(path.relative_to(ROOT)), includes=target):
-                        self.assertTrue((SRC / target).exists(),
-                                        "include our files from src/: \"room/File.h\"")
+                        self.assertTrue(((ROOT if other == "results" else SRC) / target).exists(),
+                                        "include our files from src/: \"room/File.h\"; those of"
+                                        " studies from the root: \"results/File.h\"")
                         self.assertTrue(other == room or other in may_include(path),
                                         f"{room} may not include {other}")
 

@@ -71,7 +71,7 @@ struct SimulatorEntry {
 std::span<const SimulatorEntry> simulators();
 
 /// A simulator that the table only names, where this program is linked with it; else null, which is
-/// what this weak definition returns. bench/stock/linked.cpp has the other one.
+/// what this weak definition returns. results/physics/stock/linked.cpp has the other one.
 MakeSimulator linked_simulator(std::string_view name);
 
 /// @throws Error (usage) naming the nearest simulator when there is none of that name;

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/Gnuplot.h"
+#include "base/Quantile.h"
+#include "results/physics/PhysicsStudy.h"
+#include "results/physics/scenes/RandomScenes.h"
+#include "results/physics/scenes/SceneRun.h"
+
+namespace heft {
+
+namespace {
+// Of each of four promises; a scene that breaks one mostly breaks another, so that together they
+// are kept in 99.5 %, as n_over_tolerance counts.
+constexpr double nearly_all = 0.9975;
+
+// A simulator and the rates that it is measured at.
+struct Entry {
+  std::string_view name;
+  std::vector<int> rates_hz;
+};
+
+std::vector<Entry> entries(bool quick) {
+  if (quick) return {{"push", {15}}, {"boxes", {60, 240}}};
+  return {{"push", {15}},
+          {"boxes", {bench_rates_hz.begin(), bench_rates_hz.end()}},
+          {"bullet-lx", {60, 120, 240, 480}}};
+}
+
+// Runs of one simulator at one rate through the scenes of one setting.
+struct Runs {
+  int n_outside = 0, n_blown_up = 0, n_over = 0;
+  std::vector<double> clone_mm, lag_g, cubes_mm, turn_deg;
+
+  void add(const SceneRun& run, const SceneTrack& truth, const BenchScene& scene) {
+    n_outside += run.fate == Fate::outside_model;
+    n_blown_up += run.fate == Fate::blew_up;
+    if (run.fate != Fate::ran) return;
+    const TrackError error = error_of(run.track, truth, scene);
+    clone_mm.push_back(error.clone_rms_mm);
+    lag_g.push_back(scene.scene.displacement ? 0 : std::abs(error.lag_error_g));
+    cubes_mm.push_back(error.cubes_rms_mm);
+    turn_deg.push_back(error.clone_turn_rms_deg);
+    const Tolerance allowed;
+    n_over += error.clone_rms_mm > 1e3 * allowed.clone_rms_m || lag_g.back() > allowed.lag_g ||
+              error.cubes_rms_mm > 1e3 * allowed.cubes_rms_m ||
+              error.clone_turn_rms_deg > allowed.turn_rms_rad * 180 / M_PI;
+  }
+
+  void add(const Runs& more) {
+    n_outside += more.n_outside, n_blown_up += more.n_blown_up, n_over += more.n_over;
+    for (auto list : {&Runs::clone_mm, &Runs::lag_g, &Runs::cubes_mm, &Runs::turn_deg})
+      (this->*list).insert((this->*list).end(), (more.*list).begin(), (more.*list).end());
+  }
+
+  std::size_t n_ran() const { return clone_mm.size(); }
+};
+
+using Key = std::pair<std::string_view, int>;  // simulator, steps a second
+
+double at(const std::vector<double>& values, double fraction) {
+  return quantile(values, fraction).value_or(std::nan(""));
+}
+
+void write(CsvFile& csv, std::uint64_t seed, const Key& key, std::string_view setting,
+           const Runs& runs) {
+  csv.row(fmt::format("{}", seed), key.first, key.second, setting,
+          static_cast<double>(runs.n_ran()), runs.n_outside, runs.n_blown_up, runs.n_over,
+          at(runs.clone_mm, 0.5), at(runs.clone_mm, 0.95), at(runs.clone_mm, nearly_all),
+          at(runs.lag_g, nearly_all), at(runs.cubes_mm, nearly_all), at(runs.turn_deg, nearly_all));
+}
+
+// A line a simulator over its rates, for half of the scenes and for nearly all.
+void chart(const StudyOptions& options, const std::map<Key, Runs>& all) {
+  struct Panel {
+    const char* title;
+    std::vector<double> Runs::*errors;
+    double allowed;
+  };
+  const Tolerance allowed;
+  const Panel panels[] = {
+      {"clone (mm RMS)", &Runs::clone_mm, 1e3 * allowed.clone_rms_m},
+      {"cubes (mm RMS)", &Runs::cubes_mm, 1e3 * allowed.cubes_rms_m},
+      {"lag (g)", &Runs::lag_g, allowed.lag_g},
+      {"orientation (degrees RMS)", &Runs::turn_deg, allowed.turn_rms_rad * 180 / M_PI}};
+  std::string data, plots;
+  int block = 0;
+  for (const Panel& panel : panels) {
+    plots += fmt::format("set title {}\nplot {} with lines dashtype 2 linecolor '#999999' notitle",
+                         gnuplot_quoted(panel.title), panel.allowed);
+    for (const std::string_view simulator : {"boxes", "bullet-lx"}) {
+      data += fmt::format("$block{} << END\n", block);
+      for (const auto& [key, runs] : all)
+        if (key.first == simulator)
+          data += fmt::format("{} {} {}\n", key.second, std::max(1e-6, at(runs.*panel.errors, 0.5)),
+                              std::max(1e-6, at(runs.*panel.errors, nearly_all)));
+      data += "END\n";
+      plots += fmt::format(
+          ", $block{0} using 1:3 with linespoints pointtype 7 pointsize 0.5 linewidth 2 linecolor "
+          "'{1}' title '{2}', $block{0} using 1:2 with lines linewidth 1 linecolor '{1}' notitle",
+          block++, color_of(simulator), simulator);
+    }
+    plots += "\nunset label\n";  // or each panel draws title and caption again
+  }
+  const std::string caption = fmt::format(
+      "Random scenes with one answer: minimum-jerk strokes that sway, tremble and turn, seen at 15 "
+      "to 60 Hz, at "
+      "one to three cubes. Thick: what 99.75 % stay within; thin: the median. Dashed: "
+      "what auto tolerates. Truth: boxes at {} Hz. {}",
+      16 * reference_rate_hz, provenance(options));
+  draw(options, "hands",
+       gnuplot_header({"hands.svg", 1300, 440, "Hands as they are: error against rate", caption}) +
+           data +
+           "set logscale xy\nset format y '%g'\nset xtics (15, 60, 240, 960)\n"
+           "set xlabel 'steps a second'\nset key bottom left font ',10'\n"
+           "set multiplot layout 1,4 margins screen 0.065, screen 0.985, screen caption_top + "
+           "72*pixel, screen 1-80*pixel spacing screen 0.065\n" +
+           plots + "unset multiplot\n");
+}
+}  // namespace
+
+void study_hands(const StudyOptions& options) {
+  CsvFile csv(options, "hands.csv",
+              "seed,simulator,rate_hz,setting,n_ran,n_outside_model,n_blew_up,n_over_tolerance,"
+              "median_clone_rms_mm,p95_clone_rms_mm,most_clone_rms_mm,most_lag_g,"
+              "most_cubes_rms_mm,most_turn_deg");
+  const auto& settings = EnumNames<Setting>::names;
+  const int n_each = options.quick ? 1 : 100;
+  std::map<Key, Runs> promised;
+  StudyProgress progress(static_cast<int>(settings.size()));
+  for (std::size_t s = 0; s < settings.size(); ++s) {
+    progress.next(fmt::format("hands of seed {}: {}", options.seed, settings[s]));
+    std::map<Key, Runs> here;
+    for (int n = 0; n < n_each; ++n) {
+      const BenchScene scene = random_scene(static_cast<Setting>(s), options.seed, n);
+      const int poses_hz = poses_hz_of(scene);
+      const auto run = [&](std::string_view name, int rate_hz) {
+        return run_scene(make_simulator(name), scene, rate_hz, poses_hz, poses_hz);
+      };
+      const SceneTrack truth = run("boxes", 16 * reference_rate_hz).track;
+      for (const auto& [name, rates_hz] : entries(options.quick))
+        for (int rate_hz : rates_hz)
+          if (name != "push" || static_cast<Setting>(s) == Setting::straight)
+            here[{name, rate_hz}].add(run(name, rate_hz), truth, scene);
+    }
+    for (const auto& [key, runs] : here) {
+      write(csv, options.seed, key, settings[s], runs);
+      if (has_one_answer(static_cast<Setting>(s))) promised[key].add(runs);
+    }
+  }
+  for (const auto& [key, runs] : promised) write(csv, options.seed, key, "promised", runs);
+  chart(options, promised);
+}
+
+}  // namespace heft

@@ -1,0 +1,70 @@
+// A map of where methods fail: each at each rate, over decades of spring stiffness, torsional
+// stiffness, cube mass, and the mass of a second cube that is swept along.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/Names.h"
+#include "results/Study.h"
+#include "results/physics/scenes/Measurements.h"
+
+namespace heft {
+
+/// What is varied; the rest stays as in the paper.
+enum class Varied { stiffness, torsional_stiffness, cube_mass, second_cube_mass };
+
+inline constexpr std::array all_varied{Varied::stiffness, Varied::torsional_stiffness,
+                                       Varied::cube_mass, Varied::second_cube_mass};
+
+template <>
+struct EnumNames<Varied> {
+  static constexpr std::array<std::string_view, 4> names{
+      "stiffness_n_per_m", "torsional_stiffness_nm_per_rad", "cube_mass_kg", "second_cube_mass_kg"};
+};
+
+/// Gravest last.
+enum class Verdict {
+  stable,
+  creeps,      ///< a cube moves by more than a micrometer while the hand is still
+  rings,       ///< the clone moves back and forth by more than 20 um while the hand is still
+  penetrates,  ///< boxes overlap by more than 0.1 mm
+  wrong_lag,   ///< at the end of the stroke, by more than 2 % and 0.1 mm
+  blows_up,
+  outside_model  ///< the simulator does not take this scene
+};
+
+template <>
+struct EnumNames<Verdict> {
+  static constexpr std::array<std::string_view, 7> names{
+      "stable", "creeps", "rings", "penetrates", "wrong_lag", "blows_up", "outside_model"};
+};
+
+/// A push of 10 cm at 0.1 m/s, then a second of rest; of two cubes, one 5 mm behind the other, by
+/// the effector's long side.
+BenchScene stability_scene(Varied varied, double value);
+
+/// The gravest fault of a run through a stability_scene.
+/// @param reference at reference_rate_hz
+Verdict judge(const SimulatorEntry& simulator, const BenchScene& scene, const SceneTrack& reference,
+              int rate_hz);
+
+struct StabilityCell {
+  std::string simulator;
+  Varied varied = Varied::stiffness;
+  double value = 0;
+  int rate_hz = 0;
+  Verdict verdict = Verdict::stable;
+};
+
+/// The values that the map holds.
+std::vector<double> values_of(Varied varied, bool quick);
+
+/// stability.csv and stability.svg
+void study_stability(const StudyOptions& options);
+
+void draw_stability(const StudyOptions& options, const std::vector<StabilityCell>& cells);
+
+}  // namespace heft

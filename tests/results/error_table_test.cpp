@@ -1,0 +1,72 @@
+// What `auto` picks from is what the bench measured. HEFT_WRITE_ERROR_TABLE=1 in the environment
+// writes the table anew, after a new `heft bench physics`.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <span>
+
+#include "base/Error.h"
+#include "base/TextFile.h"
+
+namespace heft {
+namespace {
+
+std::string error_table_text(std::string_view hands_csv) {
+  const auto lines = lines_of(hands_csv);
+  if (lines.empty()) throw Error("hands.csv is empty");
+  const auto names = cells_of(lines.front());
+  const auto column = [&](std::string_view name) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) throw Error(fmt::format("hands.csv has no column {}", name));
+    return static_cast<std::size_t>(found - names.begin());
+  };
+  const std::size_t simulator = column("simulator"), rate = column("rate_hz"),
+                    setting = column("setting");
+  const std::array most{column("most_clone_rms_mm"), column("most_lag_g"),
+                        column("most_cubes_rms_mm"), column("most_turn_deg")};
+  constexpr std::array units{1e-3, 1.0, 1e-3, M_PI / 180};
+  std::string text =
+      "// Written from results/physics/hands.csv; see tests/results/error_table_test.cpp.\n";
+  for (std::string_view wanted : {"push", "boxes"}) {
+    for (const std::string_view line : std::span(lines).subspan(1)) {
+      const auto cells = cells_of(line);
+      if (cells.size() != names.size() || cells[simulator] != wanted ||
+          cells[setting] != "promised")
+        continue;
+      std::string values;
+      for (std::size_t i = 0; i < most.size(); ++i)
+        values += fmt::format("{}{:.3g}", i ? ", " : "",
+                              units[i] * number_in(cells[most[i]]).value_or(1e9));
+      text += fmt::format("{{\"{}\", {}, {{{}}}}},\n", wanted, cells[rate], values);
+    }
+  }
+  return text;
+}
+
+TEST(ErrorTable, IsThatOfTheCheckedInResults) {
+  const std::string source = HEFT_SOURCE_DIR "/src/physics/auto/ErrorTable.inc";
+  const std::string text =
+      error_table_text(read_text_file(HEFT_SOURCE_DIR "/results/physics/hands.csv"));
+  if (std::getenv("HEFT_WRITE_ERROR_TABLE")) std::ofstream(source) << text;
+  EXPECT_EQ(read_text_file(source), text) << "HEFT_WRITE_ERROR_TABLE=1 writes it anew";
+}
+
+TEST(ErrorTable, TakesPushAndBoxesOverWhatIsPromisedInSIUnits) {
+  const std::string text = error_table_text(
+      "simulator,rate_hz,setting,most_clone_rms_mm,most_lag_g,most_cubes_rms_mm,most_turn_deg\n"
+      "boxes,60,one,9,9,9,9\nboxes,60,promised,0.12345,0.5,0.25,18\nbullet-lx,60,promised,1,1,1,1\n"
+      "push,15,promised,0,0,0,0\n");
+  EXPECT_NE(text.find("{\"push\", 15, {0, 0, 0, 0}},\n"
+                      "{\"boxes\", 60, {0.000123, 0.5, 0.00025, 0.314}},\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("bullet"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace heft
