@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "analysis/Gnuplot.h"
-#include "base/Csv.h"
+#include "analysis/charts/Gnuplot.h"
 #include "base/Error.h"
 #include "base/PlugTable.h"
+#include "base/files/Csv.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/pipeline/Chain.h"
 #include "results/tracking/TrackingStudy.h"

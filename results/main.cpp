@@ -8,7 +8,7 @@
 #include <random>
 
 #include "cli/Commands.h"
-#include "cli/Terminal.h"
+#include "cli/console/Terminal.h"
 #include "results/Study.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // What a step costs with more and more cubes: asleep, standing apart while one is pushed, in a row.
-#include "analysis/Gnuplot.h"
+#include "analysis/charts/Gnuplot.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/physics/scenes/RandomScenes.h"
 #include "results/physics/scenes/SceneRun.h"

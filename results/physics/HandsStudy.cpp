@@ -2,8 +2,8 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/Gnuplot.h"
-#include "base/Quantile.h"
+#include "analysis/charts/Gnuplot.h"
+#include "base/math/Quantile.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/physics/scenes/RandomScenes.h"
 #include "results/physics/scenes/SceneRun.h"

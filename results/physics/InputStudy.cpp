@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "analysis/Gnuplot.h"
+#include "analysis/charts/Gnuplot.h"
 #include "base/DefaultTechniques.h"
 #include "base/Pose.h"
 #include "base/Random.h"

@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/Gnuplot.h"
+#include "analysis/charts/Gnuplot.h"
 #include "base/DefaultTechniques.h"
 #include "base/Error.h"
-#include "physics/Oracles.h"
+#include "physics/scene/Oracles.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/physics/scenes/RandomScenes.h"
 #include "results/physics/scenes/SceneRun.h"

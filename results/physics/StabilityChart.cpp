@@ -4,7 +4,7 @@
 #include <functional>
 #include <map>
 
-#include "analysis/Gnuplot.h"
+#include "analysis/charts/Gnuplot.h"
 #include "results/physics/Stability.h"
 
 namespace heft {

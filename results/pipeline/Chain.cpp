@@ -14,8 +14,8 @@
 #include "base/Pose.h"
 #include "results/Study.h"
 #include "session/Demonstration.h"
-#include "tracking/ImageFile.h"
-#include "tracking/SyntheticCamera.h"
+#include "tracking/camera/ImageFile.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 

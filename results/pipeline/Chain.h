@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "apparatus/FilmedPictures.h"
 #include "apparatus/TrialWorld.h"
+#include "apparatus/sources/FilmedPictures.h"
 #include "base/Names.h"
 #include "protocol/Protocol.h"
 #include "results/Study.h"
-#include "tracking/MarkerBody.h"
-#include "view/SceneDrawing.h"
+#include "tracking/pose/MarkerBody.h"
+#include "view/scene/SceneDrawing.h"
 
 namespace heft {
 

@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "base/Pose.h"
-#include "base/Quantile.h"
+#include "base/math/Quantile.h"
 #include "results/Study.h"
 #include "results/tracking/TrackingStudy.h"
-#include "tracking/MarkerBody.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -3,8 +3,8 @@
 #include <limits>
 #include <map>
 
-#include "analysis/Gnuplot.h"
-#include "base/Quantile.h"
+#include "analysis/charts/Gnuplot.h"
+#include "base/math/Quantile.h"
 #include "results/tracking/TrackingStudy.h"
 
 namespace heft {

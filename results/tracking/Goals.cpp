@@ -3,11 +3,11 @@
 #include <iterator>
 #include <limits>
 
-#include "base/Quantile.h"
+#include "base/math/Quantile.h"
 #include "physics/Drive.h"
 #include "results/tracking/faults/FaultStudy.h"
-#include "tracking/CameraCalibration.h"
-#include "tracking/ViewCollector.h"
+#include "tracking/calibration/CameraCalibration.h"
+#include "tracking/calibration/ViewCollector.h"
 #include "tracking/synthetic/BoardViews.h"
 
 namespace heft {

@@ -7,8 +7,8 @@
 
 #include "base/Pose.h"
 #include "base/Random.h"
-#include "protocol/Files.h"
-#include "tracking/MarkerBody.h"
+#include "protocol/readers/Files.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

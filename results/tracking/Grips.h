@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tracking/SyntheticCamera.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "results/tracking/faults/FaultStudy.h"
-#include "tracking/ShutterCalibration.h"
+#include "tracking/calibration/ShutterCalibration.h"
 
 namespace heft {
 

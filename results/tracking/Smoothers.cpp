@@ -5,7 +5,7 @@
 
 #include "base/Pose.h"
 #include "results/tracking/TrackingStudy.h"
-#include "tracking/PoseFilter.h"
+#include "tracking/pose/PoseFilter.h"
 
 namespace heft {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/Build.h"
-#include "record/EventRow.h"
+#include "record/schema/EventRow.h"
 
 namespace heft {
 

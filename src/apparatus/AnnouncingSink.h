@@ -8,7 +8,7 @@
 
 #include "apparatus/EventOutlet.h"
 #include "experiment/TrialPlan.h"
-#include "record/EventSink.h"
+#include "record/stream/EventSink.h"
 
 namespace heft {
 

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "base/Error.h"
-#include "base/Printable.h"
+#include "base/files/Printable.h"
 
 namespace heft {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apparatus/configuration/ResolvedConfig.h"
-#include "record/LogReader.h"
+#include "record/reader/LogReader.h"
 
 namespace heft {
 

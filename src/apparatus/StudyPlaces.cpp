@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/Error.h"
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 
 namespace heft {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "protocol/StudyPlan.h"
-#include "record/LogReader.h"
+#include "protocol/study/StudyPlan.h"
+#include "record/reader/LogReader.h"
 
 namespace heft {
 

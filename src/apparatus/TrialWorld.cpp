@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/Boxes.h"
+#include "base/math/Boxes.h"
 
 namespace heft {
 

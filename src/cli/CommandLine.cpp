@@ -14,7 +14,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 #include "cli/Help.h"
 
 namespace heft::cli {

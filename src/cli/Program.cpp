@@ -13,7 +13,7 @@
 #include "base/Error.h"
 #include "base/Installation.h"
 #include "cli/Commands.h"
-#include "cli/Terminal.h"
+#include "cli/console/Terminal.h"
 #include "physics/DecouplingSimulator.h"
 
 namespace heft::cli {

@@ -7,13 +7,13 @@
 #include "base/DefaultTechniques.h"
 #include "base/Error.h"
 #include "base/PlugTable.h"
-#include "cli/Terminal.h"
-#include "cli/TerminalConsole.h"
+#include "cli/console/Terminal.h"
+#include "cli/console/TerminalConsole.h"
 #include "physics/DecouplingSimulator.h"
-#include "physics/Oracles.h"
 #include "physics/auto/Choice.h"
-#include "protocol/ExpectedLength.h"
-#include "record/Backup.h"
+#include "physics/scene/Oracles.h"
+#include "protocol/study/ExpectedLength.h"
+#include "record/writer/Backup.h"
 #include "session/Session.h"
 
 namespace heft::cli {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/Printable.h"
+#include "base/files/Printable.h"
 
 namespace heft {
 

@@ -9,7 +9,7 @@
 
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 
 namespace heft {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/Csv.h"
 #include "base/PlugTable.h"
-#include "base/Printable.h"
-#include "base/TextFile.h"
+#include "base/files/Csv.h"
+#include "base/files/Printable.h"
+#include "base/files/TextFile.h"
 
 namespace heft {
 

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <numeric>
 
-#include "base/Quantile.h"
 #include "base/Random.h"
+#include "base/math/Quantile.h"
 #include "inference/CriteriaFit.h"
 #include "inference/MaximumLikelihood.h"
 #include "inference/SensitivitySpread.h"

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "base/Error.h"
-#include "physics/Scene.h"
-#include "physics/WorldState.h"
+#include "physics/scene/Scene.h"
+#include "physics/scene/WorldState.h"
 
 namespace heft {
 

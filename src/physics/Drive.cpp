@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/Boxes.h"
 #include "base/Error.h"
 #include "base/Pose.h"
+#include "base/math/Boxes.h"
 #include "physics/techniques/DisplacedSimulator.h"
 
 namespace heft {

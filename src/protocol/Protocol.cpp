@@ -9,11 +9,11 @@
 #include <set>
 
 #include "base/PlugTable.h"
-#include "base/Printable.h"
-#include "base/Sha256.h"
-#include "base/TextFile.h"
+#include "base/files/Printable.h"
+#include "base/files/Sha256.h"
+#include "base/files/TextFile.h"
 #include "physics/DecouplingSimulator.h"
-#include "protocol/ProtocolTables.h"
+#include "protocol/toml/ProtocolTables.h"
 
 namespace heft {
 

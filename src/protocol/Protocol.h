@@ -10,8 +10,8 @@
 #include "experiment/SessionConfig.h"
 #include "experiment/Stage.h"
 #include "physics/DriveInput.h"
-#include "physics/Scene.h"
-#include "protocol/AnalysisPlan.h"
+#include "physics/scene/Scene.h"
+#include "protocol/study/AnalysisPlan.h"
 #include "tasks/SessionPlan.h"
 
 namespace heft {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/Keys.h"
 #include "base/Random.h"
+#include "base/files/Keys.h"
 #include "psychophysics/Procedure.h"
 
 namespace heft {

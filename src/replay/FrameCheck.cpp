@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/Error.h"
-#include "record/EventRow.h"
+#include "record/schema/EventRow.h"
 #include "replay/AttemptReplay.h"
 
 namespace heft {

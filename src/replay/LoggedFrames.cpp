@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "record/EventRow.h"
+#include "record/schema/EventRow.h"
 
 namespace heft {
 

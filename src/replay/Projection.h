@@ -10,7 +10,7 @@
 
 #include "engine/Engine.h"
 #include "experiment/Rows.h"
-#include "record/LogReader.h"
+#include "record/reader/LogReader.h"
 
 namespace heft {
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "apparatus/PictureSource.h"
+#include "apparatus/sources/PictureSource.h"
 #include "base/Build.h"
 #include "base/Error.h"
-#include "base/Sha256.h"
+#include "base/files/Sha256.h"
 #include "physics/DecouplingSimulator.h"
-#include "record/EventRow.h"
+#include "record/schema/EventRow.h"
 #include "replay/FrameCheck.h"
 #include "replay/Projection.h"
 

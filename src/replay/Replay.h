@@ -9,7 +9,7 @@
 #include <string>
 
 #include "apparatus/LoggedSession.h"
-#include "record/LogReader.h"
+#include "record/reader/LogReader.h"
 
 namespace heft {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apparatus/LoggedSession.h"
-#include "record/RecordedSession.h"
-#include "replay/Noticed.h"
+#include "record/stream/RecordedSession.h"
+#include "replay/VisibleCues.h"
 
 namespace heft {
 

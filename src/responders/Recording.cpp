@@ -11,7 +11,7 @@
 #include <optional>
 #include <system_error>
 
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 #include "tasks/Tasks.h"
 
 namespace heft {

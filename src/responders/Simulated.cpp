@@ -2,13 +2,13 @@
 #include <optional>
 #include <vector>
 
-#include "responders/Answering.h"
-#include "responders/Decision.h"
-#include "responders/Hand.h"
-#include "responders/Perception.h"
-#include "responders/Questions.h"
 #include "responders/Responder.h"
 #include "responders/ResponderParameters.h"
+#include "responders/decision/Answering.h"
+#include "responders/decision/Decision.h"
+#include "responders/decision/Questions.h"
+#include "responders/hand/Hand.h"
+#include "responders/perception/Perception.h"
 
 namespace heft {
 

@@ -6,7 +6,7 @@
 #include "base/DefaultTechniques.h"
 #include "base/Random.h"
 #include "tasks/Sorting.h"
-#include "view/Viewpoint.h"
+#include "view/scene/Viewpoint.h"
 
 namespace heft {
 

@@ -8,7 +8,7 @@
 
 #include "apparatus/TrialWorld.h"
 #include "responders/Responder.h"
-#include "tracking/SyntheticCamera.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 #include "view/ArView.h"
 
 namespace heft {

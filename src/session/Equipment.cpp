@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "protocol/Files.h"
-#include "responders/Hand.h"
+#include "protocol/readers/Files.h"
+#include "responders/hand/Hand.h"
 
 namespace heft {
 

@@ -11,7 +11,7 @@
 
 #include "apparatus/SessionClock.h"
 #include "engine/Engine.h"
-#include "record/EventSink.h"
+#include "record/stream/EventSink.h"
 
 namespace heft {
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "base/Sha256.h"
-#include "protocol/Files.h"
-#include "session/AskedModel.h"
+#include "base/files/Sha256.h"
+#include "protocol/readers/Files.h"
 #include "session/Demonstration.h"
+#include "session/QuestionnaireResponder.h"
 
 namespace heft {
 

@@ -12,7 +12,7 @@
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
 #include "session/SessionControl.h"
-#include "tracking/MarkerBody.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

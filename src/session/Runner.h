@@ -2,9 +2,9 @@
 // demonstration, one attempt after the other.
 #pragma once
 
-#include "apparatus/PictureSource.h"
+#include "apparatus/sources/PictureSource.h"
 #include "engine/Engine.h"
-#include "record/EventSink.h"
+#include "record/stream/EventSink.h"
 #include "responders/Responder.h"
 #include "session/Console.h"
 #include "session/Pages.h"

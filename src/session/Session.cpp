@@ -8,9 +8,9 @@
 #include "apparatus/AnnouncingSink.h"
 #include "base/Build.h"
 #include "base/Error.h"
-#include "base/Printable.h"
-#include "record/SessionLog.h"
-#include "record/SetupJson.h"
+#include "base/files/Printable.h"
+#include "record/schema/SetupJson.h"
+#include "record/writer/SessionLog.h"
 #include "replay/Replay.h"
 #include "session/Equipment.h"
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/Clock.h"
-#include "base/Sha256.h"
-#include "protocol/Files.h"
+#include "base/files/Sha256.h"
+#include "protocol/readers/Files.h"
 
 namespace heft {
 

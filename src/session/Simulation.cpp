@@ -13,8 +13,8 @@
 
 #include "base/Error.h"
 #include "base/Random.h"
-#include "record/LogReader.h"
-#include "record/SessionArchive.h"
+#include "record/reader/LogReader.h"
+#include "record/writer/SessionArchive.h"
 
 namespace heft {
 

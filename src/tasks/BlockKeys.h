@@ -1,6 +1,6 @@
-// What blocks of several tasks have among their keys. A block declares them as base/Keys.h says, in
-// a member visit_keys(visit), all but `name`; the reader fills the fields by their types. `check()`
-// says what is wrong with a block's values, from a file or not.
+// What blocks of several tasks have among their keys. A block declares them as base/files/Keys.h
+// says, in a member visit_keys(visit), all but `name`; the reader fills the fields by their types.
+// `check()` says what is wrong with a block's values, from a file or not.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/DefaultTechniques.h"
-#include "base/Keys.h"
+#include "base/files/Keys.h"
 
 namespace heft {
 

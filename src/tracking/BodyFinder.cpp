@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/Clock.h"
-#include "tracking/RollingShutter.h"
+#include "tracking/camera/RollingShutter.h"
 
 namespace heft {
 

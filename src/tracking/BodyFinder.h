@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/Image.h"
-#include "tracking/BodyPose.h"
-#include "tracking/DensePose.h"
-#include "tracking/TagDetector.h"
-#include "tracking/ToneLearning.h"
+#include "tracking/detection/TagDetector.h"
+#include "tracking/detection/ToneLearning.h"
+#include "tracking/pose/BodyPose.h"
+#include "tracking/pose/DensePose.h"
 
 namespace heft {
 

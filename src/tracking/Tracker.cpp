@@ -8,10 +8,10 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "base/Shrinkage.h"
-#include "tracking/ImageConversion.h"
-#include "tracking/Response.h"
-#include "tracking/RollingShutter.h"
+#include "base/math/Shrinkage.h"
+#include "tracking/calibration/Response.h"
+#include "tracking/camera/ImageConversion.h"
+#include "tracking/camera/RollingShutter.h"
 
 namespace heft {
 

@@ -9,9 +9,9 @@
 #include "base/Image.h"
 #include "base/PoseTypes.h"
 #include "tracking/BodyFinder.h"
-#include "tracking/MarkerBody.h"
 #include "tracking/SeenEffector.h"
-#include "tracking/TagDetector.h"
+#include "tracking/detection/TagDetector.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

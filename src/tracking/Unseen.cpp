@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "tracking/ImageConversion.h"
-#include "tracking/TagDetector.h"
 #include "tracking/Tracker.h"
+#include "tracking/camera/ImageConversion.h"
+#include "tracking/detection/TagDetector.h"
 
 namespace heft {
 

@@ -9,10 +9,10 @@
 
 #include "base/Error.h"
 #include "base/PlugTable.h"
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 #include "tracking/codecs/Codecs.h"
-#include "view/SceneDrawing.h"
 #include "view/Window.h"
+#include "view/scene/SceneDrawing.h"
 
 namespace heft {
 

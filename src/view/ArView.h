@@ -18,7 +18,7 @@
 #include "experiment/ScreenTexts.h"
 #include "experiment/Stage.h"
 #include "experiment/Touch.h"
-#include "tracking/Intrinsics.h"
+#include "tracking/camera/Intrinsics.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "view/screens/Typeface.h"
+#include "view/text/Typeface.h"
 #include "window/GlWindow.h"
 
 namespace heft {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "view/SceneDrawing.h"
-#include "view/screens/Places.h"
-#include "view/screens/Typeface.h"
+#include "view/scene/SceneDrawing.h"
+#include "view/text/Places.h"
+#include "view/text/Typeface.h"
 #include "window/WrittenTextures.h"
 
 struct ImDrawList;

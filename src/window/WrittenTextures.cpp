@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "view/screens/Typeface.h"
+#include "view/text/Typeface.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "view/letters/Letters.h"
+#include "view/text/Letters.h"
 
 namespace heft {
 

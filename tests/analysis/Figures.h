@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/Tables.h"
+#include "analysis/report/Tables.h"
 
 namespace heft {
 

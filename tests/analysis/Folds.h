@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "analysis/ComparisonTrials.h"
-#include "analysis/Dataset.h"
-#include "analysis/Jnd.h"
-#include "analysis/Participants.h"
-#include "analysis/ProtocolChoices.h"
-#include "analysis/Quality.h"
-#include "analysis/Sensitivity.h"
+#include "analysis/dataset/ComparisonTrials.h"
+#include "analysis/dataset/Dataset.h"
+#include "analysis/dataset/Jnd.h"
+#include "analysis/dataset/Participants.h"
+#include "analysis/dataset/ProtocolChoices.h"
+#include "analysis/dataset/Quality.h"
+#include "analysis/dataset/Sensitivity.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/Dataset.h"
+#include "analysis/dataset/Dataset.h"
 
 namespace heft::made_up {
 

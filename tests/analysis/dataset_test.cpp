@@ -1,5 +1,5 @@
 // From a log to a Dataset: joined rows, participants, purposes, and a real file read back.
-#include "analysis/Dataset.h"
+#include "analysis/dataset/Dataset.h"
 
 #include <gmock/gmock.h>
 
@@ -8,8 +8,8 @@
 #include "Figures.h"
 #include "MadeUpSessions.h"
 #include "base/Error.h"
-#include "base/TextFile.h"
-#include "record/SessionLog.h"
+#include "base/files/TextFile.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft {
 namespace {

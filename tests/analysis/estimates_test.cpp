@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "MadeUpSessions.h"
-#include "analysis/Charts.h"
-#include "analysis/Json.h"
-#include "analysis/Tables.h"
+#include "analysis/charts/Charts.h"
+#include "analysis/report/Json.h"
+#include "analysis/report/Tables.h"
 
 namespace heft {
 namespace {

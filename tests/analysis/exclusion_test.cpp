@@ -4,8 +4,8 @@
 #include "Figures.h"
 #include "MadeUpSessions.h"
 #include "analysis/Folds.h"
-#include "analysis/Participants.h"
-#include "analysis/Summary.h"
+#include "analysis/dataset/Participants.h"
+#include "analysis/dataset/Summary.h"
 
 namespace heft {
 namespace {

@@ -4,8 +4,8 @@
 #include "Figures.h"
 #include "MadeUpChoosers.h"
 #include "analysis/Folds.h"
-#include "analysis/Participants.h"
-#include "analysis/Quality.h"
+#include "analysis/dataset/Participants.h"
+#include "analysis/dataset/Quality.h"
 
 namespace heft {
 namespace {

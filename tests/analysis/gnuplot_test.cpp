@@ -1,5 +1,5 @@
 // Texts in gnuplot's scripts.
-#include "analysis/Gnuplot.h"
+#include "analysis/charts/Gnuplot.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "MadeUpSessions.h"
-#include "analysis/Json.h"
-#include "analysis/Notes.h"
-#include "analysis/Summary.h"
+#include "analysis/dataset/Summary.h"
+#include "analysis/report/Json.h"
+#include "analysis/report/Notes.h"
 #include "nlohmann/json.hpp"
 
 namespace heft {

@@ -1,5 +1,5 @@
 // JNDs by reference: what is averaged first, and what is counted of the staircases.
-#include "analysis/Jnd.h"
+#include "analysis/dataset/Jnd.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 
 #include "MadeUpSessions.h"
 #include "analysis/Folds.h"
-#include "analysis/Summary.h"
-#include "analysis/Table.h"
-#include "analysis/Tables.h"
-#include "analysis/Tracks.h"
+#include "analysis/dataset/Summary.h"
+#include "analysis/dataset/Tracks.h"
+#include "analysis/report/Table.h"
+#include "analysis/report/Tables.h"
 
 namespace heft {
 namespace {

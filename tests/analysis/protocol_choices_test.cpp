@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "analysis/Folds.h"
-#include "analysis/ProtocolChoices.h"
+#include "analysis/dataset/ProtocolChoices.h"
 #include "psychophysics/ProcedureKinds.h"
 #include "tasks/Tasks.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "MadeUpSessions.h"
-#include "analysis/Charts.h"
-#include "analysis/RecordTables.h"
+#include "analysis/charts/Charts.h"
+#include "analysis/report/RecordTables.h"
 
 namespace heft {
 namespace {

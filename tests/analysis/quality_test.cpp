@@ -1,5 +1,5 @@
 // What is counted before anything else.
-#include "analysis/Quality.h"
+#include "analysis/dataset/Quality.h"
 
 #include <gtest/gtest.h>
 

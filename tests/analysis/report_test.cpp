@@ -1,5 +1,5 @@
 // The report's folder: what is in it, and that nothing of others is overwritten.
-#include "analysis/Report.h"
+#include "analysis/report/Report.h"
 
 #include <gmock/gmock.h>
 #include <stdlib.h>
@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "MadeUpSessions.h"
-#include "analysis/Charts.h"
+#include "analysis/charts/Charts.h"
 #include "base/Error.h"
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 
 namespace heft {
 namespace {

@@ -1,16 +1,16 @@
 // Sensitivity, free of the criterion: what was put in is found, its interval holds it as often as
 // it says, and people who see nothing get no threshold.
-#include "analysis/Sensitivity.h"
+#include "analysis/dataset/Sensitivity.h"
 
 #include <gmock/gmock.h>
 
 #include <iostream>
 
 #include "MadeUpChoosers.h"
-#include "analysis/Charts.h"
 #include "analysis/Folds.h"
-#include "analysis/Notes.h"
-#include "analysis/Summary.h"
+#include "analysis/charts/Charts.h"
+#include "analysis/dataset/Summary.h"
+#include "analysis/report/Notes.h"
 #include "inference/Coverage.h"
 
 namespace heft {

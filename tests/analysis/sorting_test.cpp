@@ -1,5 +1,5 @@
 // Sorting: final labels, what was exchanged, and percentages per condition.
-#include "analysis/Sorting.h"
+#include "analysis/dataset/Sorting.h"
 
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 // The whole Summary: the JSON contract, what is said about what was counted, and that nothing at
 // all is fine too.
-#include "analysis/Summary.h"
+#include "analysis/dataset/Summary.h"
 
 #include <gmock/gmock.h>
 
@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "MadeUpSessions.h"
-#include "analysis/Json.h"
-#include "analysis/Tables.h"
+#include "analysis/report/Json.h"
+#include "analysis/report/Tables.h"
 
 namespace heft {
 namespace {

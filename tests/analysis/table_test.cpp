@@ -1,5 +1,5 @@
 // Tables as text, CSV and HTML.
-#include "analysis/Table.h"
+#include "analysis/report/Table.h"
 
 #include <gmock/gmock.h>
 

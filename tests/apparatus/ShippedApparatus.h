@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "protocol/Files.h"
-#include "tracking/Intrinsics.h"
-#include "tracking/MarkerBody.h"
+#include "protocol/readers/Files.h"
+#include "tracking/camera/Intrinsics.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

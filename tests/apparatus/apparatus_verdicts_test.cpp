@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apparatus/ApparatusCheck.h"
+#include "apparatus/checks/ApparatusCheck.h"
 
 namespace heft {
 namespace {

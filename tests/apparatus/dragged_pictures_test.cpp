@@ -4,11 +4,11 @@
 #include <chrono>
 #include <thread>
 
-#include "apparatus/DraggedPictures.h"
 #include "apparatus/ShippedApparatus.h"
+#include "apparatus/sources/DraggedPictures.h"
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 
 namespace heft {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <thread>
 
-#include "apparatus/FilmedPictures.h"
-#include "apparatus/PacedPictures.h"
 #include "apparatus/ShippedApparatus.h"
-#include "tracking/LiveCamera.h"
+#include "apparatus/sources/FilmedPictures.h"
+#include "apparatus/sources/PacedPictures.h"
+#include "tracking/camera/LiveCamera.h"
 
 namespace heft {
 namespace {

@@ -1,8 +1,8 @@
 // When the board counts as lost: after half a second without it, counted anew after every pause.
 #include <gtest/gtest.h>
 
-#include "apparatus/FilmedPictures.h"
 #include "apparatus/ShippedApparatus.h"
+#include "apparatus/sources/FilmedPictures.h"
 
 namespace heft {
 namespace {

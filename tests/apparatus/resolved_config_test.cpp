@@ -4,12 +4,12 @@
 
 #include <filesystem>
 
-#include "apparatus/PictureSource.h"
 #include "apparatus/configuration/ResolvedConfig.h"
+#include "apparatus/sources/PictureSource.h"
 #include "base/Error.h"
-#include "base/Sha256.h"
-#include "base/TextFile.h"
-#include "record/SetupJson.h"
+#include "base/files/Sha256.h"
+#include "base/files/TextFile.h"
+#include "record/schema/SetupJson.h"
 #include "record/temporary_folder.h"
 #include "view/ArView.h"
 

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/Boxes.h"
 #include "base/Build.h"
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/Pose.h"
 #include "base/Random.h"
-#include "base/Sha256.h"
-#include "base/TextFile.h"
+#include "base/files/Sha256.h"
+#include "base/files/TextFile.h"
+#include "base/math/Boxes.h"
 
 namespace heft {
 namespace {

@@ -1,5 +1,5 @@
 // Comma-separated text as spreadsheets and careful and careless people write it.
-#include "base/Csv.h"
+#include "base/files/Csv.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,8 +7,8 @@
 #include <array>
 #include <limits>
 
-#include "base/LevenbergMarquardt.h"
 #include "base/Random.h"
+#include "base/math/LevenbergMarquardt.h"
 
 namespace heft {
 namespace {

@@ -1,5 +1,5 @@
 // Clipping: what is kept and what is cut off make up the whole.
-#include "base/Polygon.h"
+#include "base/math/Polygon.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

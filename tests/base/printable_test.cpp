@@ -1,5 +1,5 @@
 // Names and notes from anywhere: shown, never obeyed.
-#include "base/Printable.h"
+#include "base/files/Printable.h"
 
 #include <gtest/gtest.h>
 

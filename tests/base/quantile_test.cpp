@@ -1,4 +1,4 @@
-#include "base/Quantile.h"
+#include "base/math/Quantile.h"
 
 #include <gtest/gtest.h>
 

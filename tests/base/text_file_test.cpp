@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "base/Error.h"
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 #include "record/temporary_folder.h"
 
 namespace heft {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/Pose.h"
-#include "physics/Scene.h"
+#include "physics/scene/Scene.h"
 
 namespace heft {
 

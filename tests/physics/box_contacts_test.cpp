@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "physics/BoxContacts.h"
+#include "physics/scene/BoxContacts.h"
 
 namespace heft {
 namespace {

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "base/Pose.h"
-#include "physics/BoxContacts.h"
 #include "physics/ContactScenes.h"
-#include "physics/Oracles.h"
+#include "physics/scene/BoxContacts.h"
+#include "physics/scene/Oracles.h"
 
 namespace heft {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "physics/CouplingLaw.h"
-#include "physics/Oracles.h"
+#include "physics/coupling/CouplingLaw.h"
+#include "physics/scene/Oracles.h"
 
 namespace heft {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "base/Pose.h"
-#include "physics/Oracles.h"
 #include "physics/Pushes.h"
+#include "physics/scene/Oracles.h"
 
 namespace heft {
 namespace {

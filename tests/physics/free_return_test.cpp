@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "base/Pose.h"
-#include "physics/Oracles.h"
 #include "physics/Pushes.h"
+#include "physics/scene/Oracles.h"
 
 namespace heft {
 namespace {

@@ -1,4 +1,4 @@
-#include "physics/Oracles.h"
+#include "physics/scene/Oracles.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,8 +1,8 @@
 // Pushing one cube: Newton's third law as the clone shows it.
 #include <gtest/gtest.h>
 
-#include "physics/Oracles.h"
 #include "physics/Pushes.h"
+#include "physics/scene/Oracles.h"
 
 namespace heft {
 namespace {

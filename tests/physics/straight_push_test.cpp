@@ -6,8 +6,8 @@
 
 #include "base/Pose.h"
 #include "physics/ContactScenes.h"
-#include "physics/Oracles.h"
 #include "physics/push/Oscillation.h"
+#include "physics/scene/Oracles.h"
 
 namespace heft {
 namespace {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "physics/Drive.h"
-#include "physics/Oracles.h"
 #include "physics/Pushes.h"
+#include "physics/scene/Oracles.h"
 
 namespace heft {
 namespace {

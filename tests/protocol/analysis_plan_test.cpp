@@ -3,8 +3,8 @@
 
 #include "EditedFile.h"
 #include "base/Error.h"
-#include "protocol/AnalysisPlan.h"
 #include "protocol/Protocol.h"
+#include "protocol/study/AnalysisPlan.h"
 
 namespace heft {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "EditedFile.h"
-#include "physics/Scene.h"
-#include "protocol/ExpectedLength.h"
-#include "protocol/Files.h"
+#include "physics/scene/Scene.h"
+#include "protocol/readers/Files.h"
+#include "protocol/study/ExpectedLength.h"
 #include "psychophysics/Interleaving.h"
-#include "tracking/MarkerBody.h"
-#include "tracking/SyntheticCamera.h"
+#include "tracking/pose/MarkerBody.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "base/Error.h"
 #include "experiment/DisplayFacts.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 
 namespace heft {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
-#include "protocol/Files.h"
-#include "tracking/MarkerBody.h"
+#include "protocol/readers/Files.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "EditedFile.h"
 #include "experiment/Parameter.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 
 namespace heft {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 #include "psychophysics/Interleaving.h"
 #include "psychophysics/ProcedureKinds.h"
 

@@ -5,8 +5,8 @@
 
 #include "EditedFile.h"
 #include "experiment/ScreenTexts.h"
-#include "protocol/Files.h"
 #include "protocol/Protocol.h"
+#include "protocol/readers/Files.h"
 
 namespace heft {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "EditedFile.h"
-#include "physics/Scene.h"
-#include "protocol/Files.h"
+#include "physics/scene/Scene.h"
+#include "protocol/readers/Files.h"
 
 namespace heft {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "EditedFile.h"
-#include "protocol/Files.h"
 #include "protocol/Protocol.h"
+#include "protocol/readers/Files.h"
 
 namespace heft {
 namespace {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "base/Error.h"
-#include "protocol/Files.h"
 #include "protocol/Protocol.h"
-#include "protocol/StudyPlan.h"
+#include "protocol/readers/Files.h"
+#include "protocol/study/StudyPlan.h"
 
 namespace heft {
 namespace {

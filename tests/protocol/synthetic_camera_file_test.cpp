@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "EditedFile.h"
-#include "protocol/Files.h"
-#include "tracking/SyntheticCamera.h"
+#include "protocol/readers/Files.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 namespace {

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
-#include "physics/Scene.h"
-#include "protocol/Files.h"
+#include "physics/scene/Scene.h"
 #include "protocol/Protocol.h"
+#include "protocol/readers/Files.h"
 #include "tasks/Tasks.h"
 
 namespace heft {

@@ -5,7 +5,7 @@
 #include "EditedFile.h"
 #include "base/Error.h"
 #include "experiment/ScreenTexts.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 #include "tasks/SessionPlan.h"
 #include "tasks/Tasks.h"
 

@@ -1,5 +1,5 @@
 // A backup is a whole, sound log of its owner's alone, or there is none.
-#include "record/Backup.h"
+#include "record/writer/Backup.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -15,12 +15,12 @@
 #include <thread>
 
 #include "base/Error.h"
-#include "record/Integrity.h"
-#include "record/LogReader.h"
-#include "record/SessionLog.h"
 #include "record/child.h"
+#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft::test {
 namespace {

@@ -12,13 +12,13 @@
 #include <thread>
 
 #include "base/Random.h"
-#include "record/Integrity.h"
-#include "record/LogReader.h"
-#include "record/SessionLog.h"
 #include "record/child.h"
+#include "record/integrity/Integrity.h"
 #include "record/older_log.h"
+#include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft::test {
 namespace {

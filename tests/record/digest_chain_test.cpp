@@ -4,12 +4,12 @@
 #include <rapidcheck/gtest.h>
 
 #include "base/Error.h"
-#include "record/LogReader.h"
-#include "record/SessionArchive.h"
-#include "record/SessionLog.h"
 #include "record/random_rows.h"
+#include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionArchive.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft::test {
 namespace {

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "record/Integrity.h"
-#include "record/LogReader.h"
-#include "record/SessionArchive.h"
-#include "record/SessionLog.h"
 #include "record/failure.h"
+#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionArchive.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft::test {
 namespace {

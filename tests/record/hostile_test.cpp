@@ -3,13 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/Integrity.h"
-#include "record/LogFile.h"
-#include "record/LogReader.h"
-#include "record/ReadOnlyDatabase.h"
-#include "record/SessionLog.h"
+#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
+#include "record/reader/ReadOnlyDatabase.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
+#include "record/writer/LogFile.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft::test {
 namespace {

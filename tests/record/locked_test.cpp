@@ -6,10 +6,10 @@
 
 #include <chrono>
 
-#include "record/LogReader.h"
-#include "record/SessionLog.h"
+#include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft::test {
 namespace {

@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 #include "experiment/EachCell.h"
-#include "record/Integrity.h"
-#include "record/Schema.h"
-#include "record/SetupJson.h"
 #include "record/failure.h"
+#include "record/integrity/Integrity.h"
 #include "record/older_log.h"
+#include "record/schema/Schema.h"
+#include "record/schema/SetupJson.h"
 #include "record/tampered_log.h"
 
 namespace heft::test {

@@ -9,16 +9,16 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/TextFile.h"
-#include "record/Integrity.h"
-#include "record/LogReader.h"
-#include "record/Schema.h"
-#include "record/SessionArchive.h"
-#include "record/SessionLog.h"
+#include "base/files/TextFile.h"
 #include "record/child.h"
 #include "record/failure.h"
+#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
 #include "record/rows.h"
+#include "record/schema/Schema.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionArchive.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "record/Pseudonyms.h"
+#include "record/export/Pseudonyms.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "record/RowSql.h"
 #include "record/rows.h"
+#include "record/schema/RowSql.h"
 #include "tasks/Tasks.h"
 
 namespace heft::test {

@@ -7,11 +7,11 @@
 #include <thread>
 
 #include "base/Error.h"
-#include "record/LogReader.h"
-#include "record/SessionLog.h"
 #include "record/child.h"
+#include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft::test {
 namespace {

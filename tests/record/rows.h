@@ -7,9 +7,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "record/EventRow.h"
-#include "record/LogReader.h"
-#include "record/RecordedSession.h"
+#include "record/reader/LogReader.h"
+#include "record/schema/EventRow.h"
+#include "record/stream/RecordedSession.h"
 
 namespace heft::test {
 

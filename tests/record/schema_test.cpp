@@ -1,5 +1,5 @@
 // The file itself keeps the rules: types, references, names and ranges, whoever writes to it.
-#include "record/Schema.h"
+#include "record/schema/Schema.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "record/Integrity.h"
-#include "record/RowSql.h"
-#include "record/SessionLog.h"
+#include "record/integrity/Integrity.h"
 #include "record/rows.h"
+#include "record/schema/RowSql.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionLog.h"
 #include "tasks/Tasks.h"
 
 namespace heft::test {

@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
-#include "record/LogReader.h"
-#include "record/SessionLog.h"
+#include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft::test {
 

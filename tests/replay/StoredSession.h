@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "record/SessionArchive.h"
+#include "record/writer/SessionArchive.h"
 #include "session/Session.h"
 
 namespace heft::testing {

@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "base/Random.h"
-#include "record/Integrity.h"
-#include "record/SessionArchive.h"
+#include "record/integrity/Integrity.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionArchive.h"
 #include "replay/Replay.h"
 #include "session/Recorded.h"
 #include "session/Session.h"

@@ -1,5 +1,5 @@
 // The finger: taps at human intervals, only what the screen offers, and it notices the outcome.
-#include "responders/Answering.h"
+#include "responders/decision/Answering.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

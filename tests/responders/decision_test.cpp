@@ -1,5 +1,5 @@
 // From percepts to answers.
-#include "responders/Decision.h"
+#include "responders/decision/Decision.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The simulated hand: human strokes, careful ways.
-#include "responders/Hand.h"
+#include "responders/hand/Hand.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The simulated eye: what pictures tell, and what they don't.
-#include "responders/Perception.h"
+#include "responders/perception/Perception.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "FakeTrial.h"
 #include "base/Pose.h"
-#include "responders/Hand.h"
+#include "responders/hand/Hand.h"
 
 namespace heft {
 namespace {

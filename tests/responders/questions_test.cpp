@@ -1,5 +1,5 @@
 // What models say to questionnaires: something that each question takes, and the same each time.
-#include "responders/Questions.h"
+#include "responders/decision/Questions.h"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <regex>
 
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 
 namespace heft {
 namespace {

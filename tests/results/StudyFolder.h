@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 #include "results/Study.h"
 
 namespace heft {

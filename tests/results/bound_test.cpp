@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "results/tracking/Filming.h"
-#include "tracking/TagEdges.h"
+#include "tracking/detection/TagEdges.h"
 
 namespace heft {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/Pose.h"
-#include "physics/Oracles.h"
+#include "physics/scene/Oracles.h"
 #include "results/physics/scenes/Measurements.h"
 
 namespace heft {

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "base/Error.h"
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 
 namespace heft {
 namespace {

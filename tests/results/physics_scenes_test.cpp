@@ -7,10 +7,10 @@
 #include <fstream>
 #include <set>
 
-#include "base/TextFile.h"
-#include "physics/Oracles.h"
-#include "physics/Scene.h"
-#include "protocol/Files.h"
+#include "base/files/TextFile.h"
+#include "physics/scene/Oracles.h"
+#include "physics/scene/Scene.h"
+#include "protocol/readers/Files.h"
 #include "results/physics/scenes/Reference.h"
 
 namespace heft {

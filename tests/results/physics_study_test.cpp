@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 #include "results/Study.h"
 #include "results/physics/Stability.h"
 #include "results/physics/scenes/Measurements.h"

@@ -4,8 +4,8 @@
 #include "base/Error.h"
 #include "base/Pose.h"
 #include "physics/DecouplingSimulator.h"
-#include "physics/Oracles.h"
 #include "physics/Pushes.h"
+#include "physics/scene/Oracles.h"
 
 namespace heft {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "StudyFolder.h"
 #include "base/Random.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 #include "results/tracking/TrackingStudy.h"
 #include "results/tracking/comparison/ComparisonTracker.h"
 

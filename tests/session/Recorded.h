@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "record/RecordedSession.h"
+#include "record/stream/RecordedSession.h"
 
 namespace heft::testing {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "apparatus/PictureSource.h"
 #include "apparatus/TrialWorld.h"
+#include "apparatus/sources/PictureSource.h"
 #include "base/Random.h"
 #include "engine/RunningAttempt.h"
 #include "session/Protocols.h"

@@ -8,7 +8,7 @@
 
 #include "base/Error.h"
 #include "base/Random.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 #include "session/MadeUpPeople.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"

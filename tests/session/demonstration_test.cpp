@@ -8,15 +8,15 @@
 
 #include "apparatus/ShippedApparatus.h"
 #include "experiment/ScreenTexts.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 #include "session/Equipment.h"
 #include "session/MadeUpPeople.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"
-#include "tracking/MarkerBody.h"
 #include "tracking/Tracker.h"
-#include "view/SceneDrawing.h"
+#include "tracking/pose/MarkerBody.h"
+#include "view/scene/SceneDrawing.h"
 
 namespace heft {
 namespace {

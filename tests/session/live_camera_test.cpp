@@ -4,20 +4,20 @@
 
 #include <atomic>
 
-#include "apparatus/FilmedPictures.h"
 #include "apparatus/ShippedApparatus.h"
+#include "apparatus/sources/FilmedPictures.h"
 #include "experiment/ScreenTexts.h"
-#include "protocol/Files.h"
-#include "record/EventRow.h"
+#include "protocol/readers/Files.h"
+#include "record/schema/EventRow.h"
 #include "record/temporary_folder.h"
 #include "session/MadeUpPeople.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"
-#include "tracking/ImageFile.h"
-#include "tracking/LiveCamera.h"
-#include "tracking/MarkerBody.h"
-#include "tracking/SyntheticCamera.h"
+#include "tracking/camera/ImageFile.h"
+#include "tracking/camera/LiveCamera.h"
+#include "tracking/pose/MarkerBody.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/Error.h"
 #include "experiment/ScreenTexts.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 #include "session/MadeUpPeople.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "base/Random.h"
-#include "base/TextFile.h"
-#include "protocol/Files.h"
+#include "base/files/TextFile.h"
+#include "protocol/readers/Files.h"
 #include "record/temporary_folder.h"
 #include "session/Session.h"
 #include "session/TappedSession.h"

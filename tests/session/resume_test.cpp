@@ -5,11 +5,11 @@
 #include <atomic>
 #include <optional>
 
-#include "analysis/Dataset.h"
-#include "base/TextFile.h"
+#include "analysis/dataset/Dataset.h"
+#include "base/files/TextFile.h"
 #include "experiment/ScreenTexts.h"
-#include "record/SessionLog.h"
 #include "record/temporary_folder.h"
+#include "record/writer/SessionLog.h"
 #include "replay/Replay.h"
 #include "session/MadeUpPeople.h"
 #include "session/Session.h"

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "experiment/ScreenTexts.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"

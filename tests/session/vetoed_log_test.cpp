@@ -6,8 +6,8 @@
 
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Build.h"
-#include "record/SessionArchive.h"
-#include "record/SetupJson.h"
+#include "record/schema/SetupJson.h"
+#include "record/writer/SessionArchive.h"
 #include "replay/Replay.h"
 #include "session/Session.h"
 

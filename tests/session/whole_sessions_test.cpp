@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "base/Random.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 #include "session/TappedSession.h"
 #include "tasks/Offers.h"
 

@@ -6,12 +6,12 @@
 #include <filesystem>
 
 #include "base/Error.h"
-#include "base/TextFile.h"
-#include "record/Export.h"
-#include "replay/Judging.h"
+#include "base/files/TextFile.h"
+#include "record/export/Export.h"
+#include "replay/OfflineResponder.h"
 #include "replay/Replay.h"
 #include "replay/StoredSession.h"
-#include "responders/Decision.h"
+#include "responders/decision/Decision.h"
 #include "tasks/Tasks.h"
 
 namespace heft {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/Random.h"
-#include "tracking/MarkerBody.h"
-#include "tracking/SyntheticCamera.h"
+#include "tracking/pose/MarkerBody.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "Scenes.h"
+#include "tracking/Scenes.h"
 #include "tracking/Tracker.h"
 
 namespace heft {

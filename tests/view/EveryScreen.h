@@ -7,7 +7,7 @@
 #include "base/Pose.h"
 #include "experiment/ScreenState.h"
 #include "experiment/ScreenTexts.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 #include "tasks/Offers.h"
 #include "tasks/Tasks.h"
 #include "view/ArView.h"

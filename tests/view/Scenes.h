@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "base/Pose.h"
-#include "view/SceneDrawing.h"
+#include "view/scene/SceneDrawing.h"
 
 namespace heft::test {
 

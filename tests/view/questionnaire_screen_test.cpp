@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "EveryScreen.h"
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 #include "view/screens/ScreenPages.h"
-#include "view/screens/TextFit.h"
 #include "view/screens/TouchScreen.h"
+#include "view/text/TextFit.h"
 
 namespace heft {
 namespace {

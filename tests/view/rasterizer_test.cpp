@@ -1,6 +1,6 @@
 // Triangles: which samples they cover, what is in front, and that nothing of a frame stays for
 // the next.
-#include "view/Rasterizer.h"
+#include "view/scene/Rasterizer.h"
 
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>

@@ -12,8 +12,8 @@
 #include "EveryScreen.h"
 #include "base/Error.h"
 #include "tasks/Tasks.h"
-#include "view/screens/Places.h"
-#include "view/screens/TextFit.h"
+#include "view/text/Places.h"
+#include "view/text/TextFit.h"
 
 namespace heft {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "base/Error.h"
-#include "base/TextFile.h"
+#include "base/files/TextFile.h"
 #include "record/temporary_folder.h"
 #include "tracking/codecs/Codecs.h"
 #include "view/ArView.h"

@@ -9,7 +9,7 @@
 
 #include "base/Names.h"
 #include "experiment/Trajectory.h"
-#include "physics/Scene.h"
+#include "physics/scene/Scene.h"
 
 namespace heft {
 

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "physics/CouplingLaw.h"
 #include "physics/DecouplingSimulator.h"
-#include "physics/Scene.h"
-#include "physics/WorldState.h"
+#include "physics/coupling/CouplingLaw.h"
+#include "physics/scene/Scene.h"
+#include "physics/scene/WorldState.h"
 
 namespace heft {
 
@@ -70,7 +70,8 @@ Velocity velocity_of(const btRigidBody& body);
 
 // How people tie a body to a target with what Bullet offers: forces before the step, or constraint
 // rows in it. Each is one way; none gives the contact solver the spring as part of the clone's
-// mass, which is what physics/CouplingLaw.h does. Where each fails: see the function that makes it.
+// mass, which is what physics/coupling/CouplingLaw.h does. Where each fails: see the function that
+// makes it.
 
 /// One step of the target.
 struct TargetStep {

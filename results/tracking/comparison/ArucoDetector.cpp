@@ -7,7 +7,7 @@
 #include <opencv2/aruco.hpp>
 
 #include "base/Error.h"
-#include "tracking/ImageConversion.h"
+#include "tracking/camera/ImageConversion.h"
 
 namespace heft {
 

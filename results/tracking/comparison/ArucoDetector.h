@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/Image.h"
-#include "tracking/TagDetector.h"
+#include "tracking/detection/TagDetector.h"
 
 namespace heft {
 

@@ -5,8 +5,8 @@
 #include <opencv2/calib3d.hpp>
 
 #include "base/Pose.h"
-#include "tracking/ImageConversion.h"
-#include "tracking/MarkerBody.h"
+#include "tracking/camera/ImageConversion.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/PoseTypes.h"
-#include "tracking/MarkerBody.h"
-#include "tracking/TagDetector.h"
+#include "tracking/detection/TagDetector.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -5,7 +5,7 @@
 
 #include "results/tracking/comparison/ArucoDetector.h"
 #include "results/tracking/comparison/BodyPnp.h"
-#include "tracking/ImageConversion.h"
+#include "tracking/camera/ImageConversion.h"
 
 namespace heft {
 

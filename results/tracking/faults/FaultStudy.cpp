@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "tracking/Intrinsics.h"
+#include "tracking/camera/Intrinsics.h"
 
 namespace heft {
 

@@ -8,8 +8,8 @@
 
 #include "base/Pose.h"
 #include "results/tracking/Filming.h"
-#include "tracking/ImageConversion.h"
-#include "tracking/Intrinsics.h"
+#include "tracking/camera/ImageConversion.h"
+#include "tracking/camera/Intrinsics.h"
 
 namespace heft {
 

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "tracking/SyntheticCamera.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "analysis/Gnuplot.h"
+#include "analysis/charts/Gnuplot.h"
 #include "results/tracking/TrackingStudy.h"
 
 namespace heft {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "analysis/Section.h"
+#include "analysis/measures/Section.h"
 
 namespace heft {
 

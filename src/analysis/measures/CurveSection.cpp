@@ -6,7 +6,7 @@
 #include <functional>
 #include <numeric>
 
-#include "analysis/Section.h"
+#include "analysis/measures/Section.h"
 #include "inference/PooledSensitivity.h"
 
 namespace heft {

@@ -7,7 +7,7 @@
 #include <ranges>
 #include <tuple>
 
-#include "analysis/Section.h"
+#include "analysis/measures/Section.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "analysis/Section.h"
+#include "analysis/measures/Section.h"
 
 namespace heft {
 

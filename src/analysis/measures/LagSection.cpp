@@ -2,7 +2,7 @@
 #include <cmath>
 #include <deque>
 
-#include "analysis/Section.h"
+#include "analysis/measures/Section.h"
 
 namespace heft {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "analysis/Section.h"
-#include "analysis/Sensitivity.h"
+#include "analysis/dataset/Sensitivity.h"
+#include "analysis/measures/Section.h"
 
 namespace heft {
 

@@ -2,9 +2,9 @@
 // for which.
 #include <fmt/format.h>
 
-#include "analysis/Notes.h"
-#include "analysis/Section.h"
-#include "analysis/Sorting.h"
+#include "analysis/dataset/Sorting.h"
+#include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
 #include "tasks/Sorting.h"
 
 namespace heft {

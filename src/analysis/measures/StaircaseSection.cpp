@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "analysis/Section.h"
+#include "analysis/measures/Section.h"
 
 namespace heft {
 

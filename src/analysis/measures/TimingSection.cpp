@@ -5,7 +5,7 @@
 #include <functional>
 #include <set>
 
-#include "analysis/Section.h"
+#include "analysis/measures/Section.h"
 #include "tasks/Tasks.h"
 
 namespace heft {

@@ -1,5 +1,5 @@
 // How well each participant's effector was tracked: what a reviewer holds beside their figures.
-#include "analysis/Section.h"
+#include "analysis/measures/Section.h"
 
 namespace heft {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "apparatus/PictureSource.h"
+#include "apparatus/sources/PictureSource.h"
 #include "base/Error.h"
 #include "physics/DecouplingSimulator.h"
 #include "view/ArView.h"

@@ -3,19 +3,19 @@
 #include <filesystem>
 #include <utility>
 
-#include "apparatus/PictureSource.h"
 #include "apparatus/configuration/Combinations.h"
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "apparatus/configuration/Texts.h"
+#include "apparatus/sources/PictureSource.h"
 #include "base/Build.h"
 #include "base/Installation.h"
-#include "base/Sha256.h"
-#include "base/TextFile.h"
+#include "base/files/Sha256.h"
+#include "base/files/TextFile.h"
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"
-#include "protocol/Files.h"
-#include "tracking/Camera.h"
-#include "tracking/SyntheticCamera.h"
+#include "protocol/readers/Files.h"
+#include "tracking/camera/Camera.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 #include "view/ArView.h"
 
 namespace heft {

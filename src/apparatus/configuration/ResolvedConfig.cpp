@@ -7,14 +7,14 @@
 #include <filesystem>
 #include <utility>
 
-#include "apparatus/PictureSource.h"
+#include "apparatus/sources/PictureSource.h"
 #include "base/DefaultTechniques.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "experiment/EachCell.h"
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"
-#include "protocol/Files.h"
+#include "protocol/readers/Files.h"
 #include "responders/ResponderParameters.h"
 #include "view/ArView.h"
 

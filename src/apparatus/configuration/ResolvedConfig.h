@@ -15,7 +15,7 @@
 #include "experiment/SessionConfig.h"
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
-#include "tracking/MarkerBody.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -11,11 +11,11 @@
 #include "base/Error.h"
 #include "base/Installation.h"
 #include "base/PlugTable.h"
-#include "base/Sha256.h"
-#include "base/TextFile.h"
+#include "base/files/Sha256.h"
+#include "base/files/TextFile.h"
 #include "experiment/ScreenTexts.h"
-#include "protocol/Files.h"
 #include "protocol/Protocol.h"
+#include "protocol/readers/Files.h"
 
 namespace heft {
 

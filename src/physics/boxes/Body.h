@@ -1,7 +1,7 @@
 // One box of a BoxWorld: where it is, how fast at this moment, and what pushes do to it in a step.
 #pragma once
 
-#include "physics/BoxContacts.h"
+#include "physics/scene/BoxContacts.h"
 
 namespace heft::boxes {
 

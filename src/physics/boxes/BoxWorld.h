@@ -26,8 +26,8 @@
 #include <optional>
 #include <vector>
 
-#include "physics/WorldState.h"
 #include "physics/boxes/Manifold.h"
+#include "physics/scene/WorldState.h"
 
 namespace heft::boxes {
 

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "base/Pose.h"
-#include "physics/BoxInertia.h"
-#include "physics/CouplingLaw.h"
 #include "physics/boxes/BoxWorld.h"
+#include "physics/coupling/CouplingLaw.h"
+#include "physics/scene/BoxInertia.h"
 
 namespace heft {
 

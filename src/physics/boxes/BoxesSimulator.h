@@ -1,5 +1,5 @@
 // `boxes`: the decoupling technique on our own solver for a handful of boxes on a table. Law:
-// physics/CouplingLaw.h; contacts: boxes/BoxWorld.h.
+// physics/coupling/CouplingLaw.h; contacts: boxes/BoxWorld.h.
 #pragma once
 
 #include <memory>

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "base/Pose.h"
-#include "physics/BoxInertia.h"
-#include "physics/CloneCoupling.h"
 #include "physics/bullet/ContactWorld.h"
+#include "physics/coupling/CloneCoupling.h"
+#include "physics/scene/BoxInertia.h"
 
 namespace heft {
 

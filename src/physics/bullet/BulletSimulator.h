@@ -1,4 +1,5 @@
-// The decoupling technique on Bullet's rigid bodies. Law and schemes: physics/CouplingLaw.h.
+// The decoupling technique on Bullet's rigid bodies. Law and schemes:
+// physics/coupling/CouplingLaw.h.
 #pragma once
 
 #include <memory>

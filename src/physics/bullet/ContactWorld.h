@@ -10,9 +10,9 @@
 #include <memory>
 #include <vector>
 
-#include "physics/BoxContacts.h"
 #include "physics/bullet/DiskFrictionSolver.h"
 #include "physics/bullet/RigidBox.h"
+#include "physics/scene/BoxContacts.h"
 
 namespace heft {
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "base/PoseTypes.h"
-#include "physics/BoxInertia.h"
+#include "physics/scene/BoxInertia.h"
 
 namespace heft {
 

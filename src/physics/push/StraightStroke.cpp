@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/Boxes.h"
 #include "base/Pose.h"
+#include "base/math/Boxes.h"
 
 namespace heft {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "base/Boxes.h"
 #include "base/Pose.h"
+#include "base/math/Boxes.h"
 
 namespace heft {
 

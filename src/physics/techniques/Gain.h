@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "base/Keys.h"
+#include "base/files/Keys.h"
 #include "physics/techniques/MassCurve.h"
 
 namespace heft {

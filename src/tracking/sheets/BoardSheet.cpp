@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "base/Error.h"
-#include "tracking/MarkerBody.h"
-#include "tracking/Sheet.h"
+#include "tracking/pose/MarkerBody.h"
 #include "tracking/sheets/PdfSheet.h"
+#include "tracking/sheets/Sheet.h"
 
 namespace heft {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "tracking/MarkerBody.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "base/Error.h"
-#include "tracking/Sheet.h"
 #include "tracking/sheets/EffectorNet.h"
 #include "tracking/sheets/PdfSheet.h"
+#include "tracking/sheets/Sheet.h"
 
 namespace heft {
 

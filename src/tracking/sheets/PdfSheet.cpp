@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/Error.h"
-#include "base/TextFile.h"
-#include "tracking/MarkerBody.h"
+#include "base/files/TextFile.h"
+#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "tracking/Sheet.h"
-#include "tracking/TagFamily.h"
+#include "tracking/detection/TagFamily.h"
+#include "tracking/sheets/Sheet.h"
 
 namespace heft {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "base/Scan.h"
+#include "base/files/Scan.h"
 
 namespace heft {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/Quantile.h"
+#include "base/math/Quantile.h"
 
 namespace heft {
 

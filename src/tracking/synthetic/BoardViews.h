@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "tracking/SyntheticCamera.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "base/Polygon.h"
+#include "base/math/Polygon.h"
 
 namespace heft {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/PoseTypes.h"
-#include "tracking/Intrinsics.h"
-#include "tracking/MarkerBody.h"
+#include "tracking/camera/Intrinsics.h"
+#include "tracking/pose/MarkerBody.h"
 #include "tracking/synthetic/AreaRaster.h"
 #include "tracking/synthetic/PrintedFaces.h"
 

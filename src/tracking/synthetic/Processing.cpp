@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "tracking/ImageConversion.h"
+#include "tracking/camera/ImageConversion.h"
 #include "tracking/codecs/Codecs.h"
 
 namespace heft {

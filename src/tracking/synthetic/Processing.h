@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/Image.h"
-#include "tracking/SyntheticCamera.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/Image.h"
-#include "tracking/SyntheticCamera.h"
 #include "tracking/synthetic/AreaRaster.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 #include "tracking/synthetic/UnevenLight.h"
 
 namespace heft {

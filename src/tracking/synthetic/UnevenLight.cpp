@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "tracking/SyntheticCamera.h"
-#include "tracking/ToneCurve.h"
+#include "tracking/detection/ToneCurve.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 

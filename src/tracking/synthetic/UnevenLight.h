@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "tracking/SyntheticCamera.h"
+#include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
 

@@ -11,7 +11,7 @@
 #include "experiment/ScreenState.h"
 #include "experiment/ScreenTexts.h"
 #include "view/screens/Page.h"
-#include "view/screens/Typeface.h"
+#include "view/text/Typeface.h"
 
 namespace heft {
 

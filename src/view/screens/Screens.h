@@ -10,7 +10,7 @@
 #include "experiment/Touch.h"
 #include "view/screens/Page.h"
 #include "view/screens/ScreenPages.h"
-#include "view/screens/Typeface.h"
+#include "view/text/Typeface.h"
 
 namespace heft {
 

@@ -1,0 +1,35 @@
+// The charts of a Summary, as gnuplot scripts that hold their data.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/dataset/Summary.h"
+
+namespace heft {
+
+struct Chart {
+  std::string name;       ///< of its files, without extension: NAME.gp draws NAME.svg
+  std::string title;      ///< what it shows; in the report too
+  std::string script;     ///< gnuplot; empty: there is nothing to draw
+  std::string caption{};  ///< how to read it
+  int n = 0;              ///< participants, or what the caption says is counted
+  std::string csv{};      ///< the report's file with its figures
+};
+
+/// In the order of the report, what a reviewer looks for first; those there is something to draw
+/// for.
+std::vector<Chart> charts_of(const Summary& summary);
+
+/// The color that the paper's figures have in every chart.
+inline constexpr std::string_view published_color = "#c0561f";
+
+/// "Made by: heft analyse --db heft.db --out report (heft 0.1.0)"
+std::string caption_of(const Summary& summary);
+
+// Of staircases, which are no estimates.
+Chart tracks_chart(const Summary& summary);
+std::vector<Chart> multiples_charts(const Summary& summary);
+
+}  // namespace heft

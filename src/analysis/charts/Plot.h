@@ -1,0 +1,47 @@
+// A chart's script from panels of layers: each layer has its data in the script and says how
+// gnuplot draws it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/charts/Charts.h"
+
+namespace heft {
+
+struct PlotLayer {
+  std::string rows;   ///< data; empty: `how` is a function of x, or the layer is left out
+  std::string how;    ///< "using 1:2 with points linecolor '#222222'"
+  std::string title;  ///< in the key; empty: not there
+  bool key_only = false;
+};
+
+struct PlotPanel {
+  std::string title;
+  std::string axes;  ///< gnuplot's lines about this panel alone
+  std::vector<PlotLayer> layers;
+
+  void add(std::string rows, std::string how, std::string in_key = "") {
+    if (!rows.empty()) layers.push_back({std::move(rows), std::move(how), std::move(in_key)});
+  }
+};
+
+struct PlotFrame {
+  int panel_width_px = 600, panel_height_px = 320;
+  int most_columns = 3;
+  int left_px = 108, gap_x_px = 44, gap_y_px = 108;
+  std::string axes{};    ///< gnuplot's lines about all panels
+  std::string legend{};  ///< a line below the title
+};
+
+/// Puts the panels in rows; the key is above them and names each title once.
+void put_script(Chart& chart, const Summary& summary, const PlotFrame& frame,
+                const std::vector<PlotPanel>& panels);
+
+/// The looks of series: they differ in sign and dash, not only in color.
+std::string_view series_color(std::size_t index);
+int series_sign(std::size_t index);
+int series_dash(std::size_t index);
+
+}  // namespace heft

@@ -1,0 +1,99 @@
+#include "analysis/dataset/ComparisonTrials.h"
+
+#include <algorithm>
+
+namespace heft {
+
+namespace {
+bool is_usable(const Attempt& attempt) {
+  const TrialRow& trial = attempt.trial;
+  return attempt.completed() && trial.plan.task == "comparison" && trial.outcome &&
+         trial.plan.reference_g && trial.plan.level_g && !trial.plan.is_practice;
+}
+
+SideChosen side_chosen(const TrialRow& trial) {
+  if (trial.outcome != "difference" || !trial.chosen_slot) return SideChosen::none;
+  return *trial.chosen_slot == 1 ? SideChosen::left : SideChosen::right;
+}
+
+// Without a logged place the reference counts as on the left.
+ComparedTrial compared_trial(const TrialRow& trial, std::uint32_t person) {
+  return {*trial.plan.level_g,
+          response_time_s(trial),
+          person,
+          side_chosen(trial),
+          trial.outcome == "difference",
+          trial.plan.is_catch,
+          trial.plan.reference_slot.value_or(1) != 1,
+          trial.choice_correct};
+}
+}  // namespace
+
+std::uint32_t ComparisonTrials::place_of(const std::string& participant) {
+  const auto [found, is_new] =
+      places_.emplace(participant, static_cast<std::uint32_t>(participants_.size()));
+  if (is_new) participants_.push_back(participant);
+  return found->second;
+}
+
+void ComparisonTrials::add(const SessionData& data) {
+  const std::string participant = data.participant();
+  for (const Attempt& attempt : data.attempts) {
+    if (!is_usable(attempt)) continue;
+    const TrialPlan& plan = attempt.trial.plan;
+    const Compared compared{*plan.reference_g, plan.condition};
+    trials_[compared].push_back(compared_trial(attempt.trial, place_of(participant)));
+    comparable_[compared].add(data.published_condition(plan.condition),
+                              published::jnd_at(*plan.reference_g) != nullptr);
+  }
+}
+
+bool ComparisonTrials::as_published(const Compared& compared) const {
+  const auto found = comparable_.find(compared);
+  return found != comparable_.end() && found->second.condition() == published::Condition::decoupled;
+}
+
+std::map<std::string, AnswersByLevel> answers_by_side(const ComparisonTrials& trials,
+                                                      const Compared& compared) {
+  std::map<std::string, AnswersByLevel> answers;
+  for (const ComparedTrial& trial : trials.by_compared().at(compared)) {
+    const double signed_g = trial.level_g == 0 ? 0 : trial.right_minus_left_g();  // no -0
+    answers[trials.participant(trial)][signed_g][static_cast<std::size_t>(trial.side)] += 1;
+  }
+  return answers;
+}
+
+ComparedTrials pointers_to(const std::deque<ComparedTrial>& trials) {
+  ComparedTrials pointers;
+  for (const ComparedTrial& trial : trials) pointers.push_back(&trial);
+  return pointers;
+}
+
+std::vector<ComparedTrials> binned(ComparedTrials sorted) {
+  constexpr std::size_t most_bins = 7;
+  std::ranges::stable_sort(sorted, {}, &ComparedTrial::level_g);
+  std::vector<ComparedTrials> bins;
+  const auto put = [&](auto first, auto last) {
+    const auto n = static_cast<std::size_t>(last - first);
+    const std::size_t n_bins = std::min(most_bins, n);
+    const std::size_t n_before = bins.size();
+    for (std::size_t i = 0; i < n_bins; ++i) {
+      const auto from = first + static_cast<std::ptrdiff_t>(i * n / n_bins);
+      const auto to = first + static_cast<std::ptrdiff_t>((i + 1) * n / n_bins);
+      const bool same = bins.size() > n_before && bins.back().back()->level_g == (*from)->level_g &&
+                        bins.back().front()->level_g == (*(to - 1))->level_g;
+      if (same)  // many at a bound
+        bins.back().insert(bins.back().end(), from, to);
+      else
+        bins.emplace_back(from, to);
+    }
+  };
+  const auto zero = std::ranges::find_if(sorted, [](const auto* one) { return one->level_g >= 0; });
+  const auto above = std::ranges::find_if(sorted, [](const auto* one) { return one->level_g > 0; });
+  put(sorted.begin(), zero);
+  if (zero != above) bins.emplace_back(zero, above);
+  put(above, sorted.end());
+  return bins;
+}
+
+}  // namespace heft

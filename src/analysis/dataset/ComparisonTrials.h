@@ -1,0 +1,68 @@
+// Completed comparisons, as little of each as the figures need: of a thousand participants this is
+// what stays in memory.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/dataset/Dataset.h"
+#include "analysis/dataset/Jnd.h"
+#include "inference/Fit.h"
+
+namespace heft {
+
+enum class SideChosen : std::uint8_t { left, none, right };
+
+struct ComparedTrial {
+  double level_g = 0;                ///< comparison - reference
+  std::optional<double> response_s;  ///< see response_time_s
+  std::uint32_t person = 0;          ///< place in ComparisonTrials::participants
+  SideChosen side = SideChosen::none;
+  bool difference : 1 = false;  ///< a cube was chosen
+  bool is_catch : 1 = false;
+  bool reference_on_right : 1 = false;
+  std::optional<bool> correct;  ///< it was the heavier one
+
+  double right_minus_left_g() const { return reference_on_right ? -level_g : level_g; }
+};
+
+/// Those with an answer and a level, no practice.
+class ComparisonTrials {
+ public:
+  void add(const SessionData& data);
+
+  /// In the order of sessions and trials.
+  const std::map<Compared, std::deque<ComparedTrial>>& by_compared() const { return trials_; }
+  const std::vector<std::string>& participants() const { return participants_; }
+  /// All in the paper's technique, at a reference of the paper's.
+  bool as_published(const Compared& compared) const;
+  const std::string& participant(const ComparedTrial& trial) const {
+    return participants_[trial.person];
+  }
+
+ private:
+  std::uint32_t place_of(const std::string& participant);
+
+  std::map<Compared, std::deque<ComparedTrial>> trials_;
+  std::map<Compared, published::Comparable> comparable_;
+  std::vector<std::string> participants_;
+  std::map<std::string, std::uint32_t> places_;
+};
+
+/// Each participant's answers at one reference, catch trials too: left, none, right by the mass on
+/// the right minus that on the left.
+std::map<std::string, AnswersByLevel> answers_by_side(const ComparisonTrials& trials,
+                                                      const Compared& compared);
+
+using ComparedTrials = std::vector<const ComparedTrial*>;
+ComparedTrials pointers_to(const std::deque<ComparedTrial>& trials);
+
+/// Those whose differences lie next to each other, in bins of about as many; those at 0, catch
+/// trials too, are one of their own.
+std::vector<ComparedTrials> binned(ComparedTrials trials);
+
+}  // namespace heft

@@ -1,0 +1,242 @@
+#include "analysis/dataset/Dataset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "analysis/dataset/Jnd.h"
+#include "base/Error.h"
+#include "protocol/Protocol.h"
+#include "record/export/Export.h"
+
+namespace heft {
+
+std::vector<double> Attempt::masses_g() const {
+  std::vector<double> masses;
+  for (const CubeRow& cube : cubes) masses.push_back(cube.mass_g);
+  return masses;
+}
+
+bool Attempt::shows(std::span<const double> masses) const {
+  std::vector<double> shown = masses_g();
+  std::ranges::sort(shown);
+  return std::ranges::equal(shown, masses);
+}
+
+std::optional<double> response_time_s(const TrialRow& trial) {
+  if (!trial.shown_s || !trial.validated_s) return std::nullopt;
+  return *trial.validated_s - *trial.shown_s - trial.paused_s - trial.lost_s;
+}
+
+std::optional<std::string> SessionData::model() const {
+  for (const LoggedSetup& logged : setups) {
+    if (has_person(logged.setup)) continue;
+    const bool answered = std::ranges::any_of(attempts, [&](const Attempt& attempt) {
+      return attempt.trial.setup_index == logged.setup_index;
+    });
+    if (answered || attempts.empty()) return to_text(logged.setup.responder);
+  }
+  return std::nullopt;
+}
+
+std::string SessionData::participant() const {
+  const auto responder = model();
+  return responder ? fmt::format("{} ({})", session.header.participant, *responder)
+                   : session.header.participant;
+}
+
+const SessionConfig* SessionData::setup_of(const Attempt& attempt) const {
+  const auto found =
+      std::ranges::find(setups, attempt.trial.setup_index, &LoggedSetup::setup_index);
+  return found == setups.end() ? nullptr : &found->setup;
+}
+
+std::optional<published::Condition> SessionData::published_condition(
+    const std::string& condition) const {
+  const auto found = published_conditions.find(condition);
+  return found == published_conditions.end() ? std::nullopt : std::optional(found->second);
+}
+
+TrackingCounts SessionData::tracking() const {
+  TrackingCounts counts{events.effector_lost, 0, 0, frames};
+  for (const Attempt& attempt : attempts) {
+    const TrialRow& trial = attempt.trial;
+    if (!trial.shown_s || !trial.validated_s) continue;
+    counts.lost_s += trial.lost_s;
+    counts.answering_s += *trial.validated_s - *trial.shown_s - trial.paused_s;
+  }
+  return counts;
+}
+
+SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
+  SessionData data;
+  data.session = session;
+  data.estimates = rows.estimates;
+  std::map<int, std::size_t> place;  // attempt index -> its place in data.attempts
+  for (const TrialRow& trial : rows.trials) {
+    place[trial.attempt_index] = data.attempts.size();
+    data.attempts.push_back({trial, {}, {}, false});
+  }
+  const auto with_attempt = [&](int attempt_index, auto change) {
+    const auto found = place.find(attempt_index);
+    if (found != place.end()) change(data.attempts[found->second]);
+  };
+  for (const CubeRow& cube : rows.cubes)
+    with_attempt(cube.attempt_index, [&](Attempt& a) { a.cubes.push_back(cube); });
+  for (const AnswerRow& answer : rows.answers)
+    with_attempt(answer.attempt_index, [&](Attempt& a) { a.answers.push_back(answer); });
+  for (const ReversalRow& reversal : rows.reversals)
+    with_attempt(reversal.attempt_index, [&](Attempt& a) { a.is_reversal = true; });
+  for (Attempt& attempt : data.attempts) std::ranges::sort(attempt.cubes, {}, &CubeRow::slot);
+  return data;
+}
+
+PictureCounts count_pictures(const std::vector<LoggedEvent>& events) {
+  PictureCounts counts;
+  for (const LoggedEvent& logged : events)
+    if (const auto* report = logged.event.as<CameraReport>()) {
+      counts.shown += report->n_shown;
+      counts.dropped += report->n_dropped;
+      counts.late += report->n_late;
+    }
+  return counts;
+}
+
+namespace {
+std::optional<std::string> text_noted(const Event& event) {
+  if (const auto* note = event.as<Note>()) return note->text;
+  if (const auto* deviation = event.as<Deviation>()) return deviation->text;
+  if (const auto* unblinding = event.as<Unblinding>()) return unblinding->who;
+  if (const auto* check = event.as<CheckResult>(); check && check->verdict != CheckVerdict::ok)
+    return fmt::format("{}, {}: {}", check->name, name_of(check->verdict), check->finding);
+  return std::nullopt;
+}
+}  // namespace
+
+std::vector<Noted> noted_in(const std::vector<LoggedEvent>& events) {
+  std::vector<Noted> noted;
+  for (const LoggedEvent& logged : events)
+    if (const auto text = text_noted(logged.event))
+      noted.push_back({logged.event.t_s, logged.event.kind(), *text});
+  return noted;
+}
+
+EventCounts count_events(const std::vector<LoggedEvent>& events) {
+  EventCounts counts;
+  for (const LoggedEvent& logged : events) {
+    counts.notes += logged.event.is<Note>() ? 1 : 0;
+    counts.deviations += logged.event.is<Deviation>() ? 1 : 0;
+    counts.unblindings += logged.event.is<Unblinding>() ? 1 : 0;
+    counts.effector_lost += logged.event.is<EffectorLost>() ? 1 : 0;
+    if (const auto* consent = logged.event.as<Consent>()) counts.consented = consent->agreed;
+    if (const auto* check = logged.event.as<CheckResult>()) {
+      counts.checks_failed += check->verdict == CheckVerdict::failed ? 1 : 0;
+      counts.checks_warned += check->verdict == CheckVerdict::warning ? 1 : 0;
+    }
+  }
+  return counts;
+}
+
+namespace {
+struct Declared {
+  std::set<std::string> without_jnd;
+  std::optional<AnalysisPlan> plan;
+  ExclusionRules exclusion;
+  std::map<std::string, published::Condition> published_conditions;
+};
+
+constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviation>,
+                                   event_kind<Unblinding>,   event_kind<CheckResult>,
+                                   event_kind<CameraReport>, event_kind<Consent>,
+                                   event_kind<EffectorLost>};
+
+// --set may change a technique's parameters; the text stays as it was.
+Declared declared_in(const std::string& protocol_text,
+                     const std::vector<ProtocolSetting>& settings) {
+  Declared declared{staircases_without_jnd(protocol_text), {}, {}, {}};
+  try {
+    const Protocol protocol = parse_protocol(protocol_text, "protocol", settings);
+    if (protocol.analysis.declares_any()) declared.plan = protocol.analysis;
+    declared.exclusion = protocol.exclusion;
+    declared.published_conditions = published::conditions_in(protocol);
+  } catch (const Error&) {
+  }
+  return declared;
+}
+
+/// Protocols are read once, however many sessions ran them with the same settings.
+using DeclaredByText = std::map<std::pair<std::string, std::string>, Declared>;
+
+SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& declared_by_text) {
+  SessionData data = join_rows(log.session(id), {log.trials(id), log.cubes(id), log.answers(id),
+                                                 log.reversals(id), log.estimates(id)});
+  data.setups = log.setups(id);
+  const std::string& protocol_text = data.session.header.protocol_text;
+  const auto settings =
+      data.setups.empty() ? std::vector<ProtocolSetting>{} : data.setups.front().setup.settings;
+  const auto [found, is_new] = declared_by_text.try_emplace({protocol_text, to_text(settings)});
+  if (is_new) found->second = declared_in(protocol_text, settings);
+  data.without_jnd = found->second.without_jnd;
+  data.plan = found->second.plan;
+  data.exclusion = found->second.exclusion;
+  data.published_conditions = found->second.published_conditions;
+  const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
+  data.frames = log.frame_counts(id);
+  data.events = count_events(events);
+  data.noted = noted_in(events);
+  if (!data.simulated()) data.pictures = count_pictures(events);
+  return data;
+}
+}  // namespace
+
+LoggedSessions::LoggedSessions(const std::vector<std::string>& databases,
+                               const std::vector<std::int64_t>& session_ids) {
+  if (databases.size() > 1 && !session_ids.empty())
+    throw Error("--session names sessions of a single log; give one --db", ExitCode::usage);
+  const std::set named(session_ids.begin(), session_ids.end());
+  std::set<std::string> files;
+  for (const std::string& database : databases) {
+    if (!files.insert(std::filesystem::weakly_canonical(database).string()).second)
+      throw Error(fmt::format("{} is given twice", database), ExitCode::usage);
+    OneLog& log =
+        logs_.emplace_back(OneLog{database, LogReader(database), {named.begin(), named.end()}});
+    if (log.session_ids.empty()) log.session_ids = log.reader.session_ids();
+    for (const std::int64_t id : log.session_ids)
+      purposes_[std::string(name_of(log.reader.session(id).header.purpose))] += 1;
+  }
+}
+
+std::string LoggedSessions::database() const {
+  std::string all;
+  for (const OneLog& log : logs_) all += (all.empty() ? "" : ", ") + log.name;
+  return all;
+}
+
+void LoggedSessions::each(const std::function<void(const SessionData&)>& use) const {
+  DeclaredByText declared_by_text;
+  for (const OneLog& log : logs_)
+    for (const std::int64_t id : log.session_ids) {
+      SessionData data = read_session(log.reader, id, declared_by_text);
+      std::string& participant = data.session.header.participant;
+      if (logs_.size() > 1) participant = person_name(log.name, participant);
+      use(data);
+    }
+}
+
+void refuse_mixed_purposes(const LoggedSessions& sessions) {
+  if (sessions.purposes().size() < 2) return;
+  std::string counts;
+  for (const auto& [name, n] : sessions.purposes())
+    counts += fmt::format("{}{} of purpose \"{}\"", counts.empty() ? "" : ", ", n, name);
+  throw Error(fmt::format("{} holds sessions of several purposes ({}), and their figures don't "
+                          "belong together. Name the sessions to use with --session, or put all "
+                          "together with --mix.",
+                          sessions.database(), counts),
+              ExitCode::usage);
+}
+
+}  // namespace heft

@@ -1,0 +1,262 @@
+#include "analysis/dataset/Jnd.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <ranges>
+
+#include "analysis/dataset/Dataset.h"
+#include "protocol/Protocol.h"
+#include "protocol/toml/TomlDocument.h"
+#include "psychophysics/ProcedureKinds.h"
+
+namespace heft {
+
+namespace {
+// What each of a session's staircases that estimate a JND compared with, from its trials. One that
+// did not finish has not logged its method: most likely it is the paper's.
+std::map<std::string, Compared> compared_by(const SessionData& data) {
+  std::map<std::string, Compared> staircases;
+  for (const Attempt& attempt : data.attempts) {
+    const TrialPlan& plan = attempt.trial.plan;
+    if (plan.task == "comparison" && !plan.staircase.empty() && plan.reference_g &&
+        !data.without_jnd.contains(plan.staircase))
+      staircases.emplace(plan.staircase, Compared{*plan.reference_g, plan.condition});
+  }
+  for (const EstimateRow& row : data.estimates | std::views::reverse)  // the first one is kept
+    if (const auto found = staircases.find(row.staircase); found != staircases.end())
+      found->second.method = row.method;
+  return staircases;
+}
+
+// A damaged log may hold an infinite JND: that is none.
+std::optional<double> finite(std::optional<double> value) {
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+// The levels of a staircase's completed trials, in order.
+struct Course {
+  std::vector<double> levels_g;
+
+  double lowest() const { return levels_g.empty() ? 0 : *std::ranges::min_element(levels_g); }
+  double highest() const { return levels_g.empty() ? 0 : *std::ranges::max_element(levels_g); }
+};
+
+std::map<std::string, Course> courses_of(const SessionData& data) {
+  std::map<std::string, Course> courses;
+  for (const Attempt& attempt : data.attempts) {
+    const TrialPlan& plan = attempt.trial.plan;
+    if (!attempt.completed() || plan.staircase.empty() || !plan.level_g) continue;
+    courses[plan.staircase].levels_g.push_back(*plan.level_g);
+  }
+  return courses;
+}
+
+// Which way a staircase was going that did not settle: by the bound that it hit, or from where it
+// began to where it got.
+Censored direction_of(const EstimateRow& row, const Course& course) {
+  if ((row.n_ceiling > 0) != (row.n_floor > 0))
+    return row.n_ceiling > 0 ? Censored::above : Censored::below;
+  if (row.n_ceiling > 0 || course.levels_g.empty()) return Censored::unsettled;
+  const double first_g = course.levels_g.front(), last_g = course.levels_g.back();
+  if (first_g == last_g) return Censored::unsettled;
+  return last_g > first_g ? Censored::above : Censored::below;
+}
+
+std::string why_censored(const EstimateRow& row, Censored censored) {
+  if (censored == Censored::above) return "at the ceiling";
+  if (censored == Censored::below) return "at the floor";
+  if (row.method != jnd_method) return censored == Censored::unsettled ? "indeterminate" : "";
+  if (row.n_reversals < least_reversals) return fmt::format("{} reversals", row.n_reversals);
+  if (row.reason == Finish::trials) return "trial limit";
+  return censored == Censored::unsettled ? "at both bounds" : "";
+}
+
+void judge(StaircaseResult& result, const EstimateRow& row, const Course& course) {
+  result.start_g = course.levels_g.empty() ? 0 : course.levels_g.front();
+  result.censored = row.censored.value_or(Censored::none);
+  result.why = why_censored(row, result.censored);
+  if (result.why.empty()) {
+    result.shown_g = result.jnd_g;
+    return;
+  }
+  if (result.censored == Censored::none || result.censored == Censored::unsettled)
+    result.censored = direction_of(row, course);
+  if (result.censored == Censored::unsettled) return;
+  const bool above = result.censored == Censored::above;
+  if (result.jnd_g || !course.levels_g.empty())
+    result.shown_g = result.jnd_g.value_or(above ? course.highest() : course.lowest());
+}
+
+std::vector<StaircaseResult> results_of(const SessionData& data) {
+  const auto staircases = compared_by(data);
+  auto courses = courses_of(data);
+  std::vector<StaircaseResult> results;
+  for (const EstimateRow& row : data.estimates) {
+    const auto compared = staircases.find(row.staircase);
+    if (compared == staircases.end() || row.method != compared->second.method) continue;
+    StaircaseResult result{
+        data.session.session_id, data.participant(), row.staircase,      compared->second,
+        finite(row.jnd_g),       finite(row.low_g),  finite(row.high_g), row.n_trials,
+        row.n_reversals,         row.n_floor,        row.n_ceiling,      row.reason};
+    judge(result, row, courses[row.staircase]);
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+using Began = StaircaseFold::Began;
+using AboveAndBelow = StaircaseFold::AboveAndBelow;
+using Results = std::vector<const StaircaseResult*>;
+
+// Staircases of one session first, then sessions: a participant counts once. Staircases that began
+// and have no result are unknown. Sessions without a figure don't count where another one has one.
+Jnds overall_of(const Results& results, const Began& began) {
+  Jnds jnds;
+  for (const auto& [participant, sessions] : began) {
+    std::vector<std::optional<CensoredValue>> of_sessions;
+    for (const auto& [session_id, n_began] : sessions) {
+      std::vector<std::optional<CensoredValue>> values;
+      for (const StaircaseResult* result : results)
+        if (result->participant == participant && result->session_id == session_id)
+          values.push_back(censored_value(*result));
+      values.resize(std::max(values.size(), static_cast<std::size_t>(n_began)));
+      if (auto value = mean_figure(values)) of_sessions.push_back(value);
+    }
+    jnds.add(participant, of_sessions.empty() ? std::nullopt : mean_figure(of_sessions));
+  }
+  jnds.put_mean();
+  return jnds;
+}
+
+void put_session(AboveAndBelow& figures, const Results& results) {
+  const auto [low, high] = std::ranges::minmax(results, {}, &StaircaseResult::start_g);
+  const double middle_g = (low->start_g + high->start_g) / 2;
+  if (low->start_g == high->start_g) return;
+  for (const StaircaseResult* result : results)
+    (result->start_g > middle_g ? figures.above : figures.below).push_back(censored_value(*result));
+}
+
+// None where no session has staircases of both kinds.
+std::optional<StartEffect> start_effect(const std::map<std::string, AboveAndBelow>& participants,
+                                        const Began& began) {
+  if (participants.empty()) return std::nullopt;
+  StartEffect effect;
+  for (const auto& [participant, sessions] : began) {
+    const auto figures = participants.find(participant);
+    const bool any = figures != participants.end();
+    const auto above = any ? mean_figure(figures->second.above) : std::nullopt;
+    const auto below = any ? mean_figure(figures->second.below) : std::nullopt;
+    effect.from_above_g.add(participant, above);
+    effect.from_below_g.add(participant, below);
+    effect.difference_g.add(participant, difference(above, below));
+  }
+  for (Jnds* jnds : {&effect.from_above_g, &effect.from_below_g, &effect.difference_g})
+    jnds->put_mean();
+  return effect;
+}
+
+void add_staircase(ReferenceJnd& jnd, const StaircaseResult& result) {
+  jnd.n_staircases += 1;
+  jnd.n_without_estimate += result.jnd_g ? 0 : 1;
+  jnd.mean_trials += (result.n_trials - jnd.mean_trials) / jnd.n_staircases;
+  jnd.least_trials = std::min(jnd.least_trials, result.n_trials);
+  jnd.most_trials = std::max(jnd.most_trials, result.n_trials);
+  jnd.n_trial_limit += result.reason == Finish::trials ? 1 : 0;
+  jnd.n_floor += result.n_floor;
+  jnd.n_ceiling += result.n_ceiling;
+  jnd.n_floor_staircases += result.n_floor > 0 ? 1 : 0;
+  jnd.n_ceiling_staircases += result.n_ceiling > 0 ? 1 : 0;
+}
+
+ReferenceJnd jnd_at(const Compared& compared, const Results& results, const Began& began) {
+  ReferenceJnd jnd;
+  jnd.compared = compared;
+  jnd.least_trials = results.empty() ? 0 : std::numeric_limits<int>::max();
+  for (const StaircaseResult* result : results) add_staircase(jnd, *result);
+  int n_began = 0;
+  for (const auto& [participant, sessions] : began)
+    for (const auto& [session_id, n] : sessions) n_began += n;
+  jnd.n_unfinished = n_began - jnd.n_staircases;
+  jnd.overall = overall_of(results, began);
+  return jnd;
+}
+}  // namespace
+
+std::optional<CensoredValue> censored_value(const StaircaseResult& result) {
+  if (!result.shown_g) return std::nullopt;
+  return CensoredValue{*result.shown_g, result.censored};
+}
+
+std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
+  std::set<std::string> names;
+  try {
+    for (const Block& block : parse_protocol(protocol_text, "protocol").blocks)
+      if (const auto* comparison = block_as<Comparison::Block>(block))
+        for (const ReferenceStaircase& entry : comparison->staircases)
+          if (!ProcedureKinds::estimates_level(entry.staircase))
+            names.insert(entry.staircase.name());
+  } catch (const InvalidFile&) {
+  }
+  return names;
+}
+
+void StaircaseFold::add_starts(const std::string& participant,
+                               std::span<const StaircaseResult> of_session) {
+  std::map<Compared, Results> by_compared;
+  for (const StaircaseResult& result : of_session) by_compared[result.compared].push_back(&result);
+  for (const auto& [compared, same] : by_compared) {
+    AboveAndBelow& of_person = starts_[compared][participant];
+    put_session(of_person, same);
+    if (of_person.above.empty()) starts_[compared].erase(participant);
+  }
+}
+
+void StaircaseFold::add(const SessionData& data) {
+  const std::string participant = data.participant();
+  for (const auto& [staircase, compared] : compared_by(data)) {
+    began_[compared][participant][data.session.session_id] += 1;
+    comparable_[compared].add(data.published_condition(compared.condition), true);
+  }
+  std::vector<StaircaseResult> of_session = results_of(data);
+  add_starts(participant, of_session);
+  std::ranges::move(of_session, std::back_inserter(results_));
+}
+
+std::vector<ReferenceJnd> StaircaseFold::jnds() const {
+  std::map<Compared, Results> finished;
+  for (const StaircaseResult& result : results_) finished[result.compared].push_back(&result);
+  std::vector<ReferenceJnd> jnds;
+  for (const auto& [compared, participants] : began_) {
+    jnds.push_back(jnd_at(compared, finished[compared], participants));
+    if (compared.method == jnd_method &&
+        comparable_.at(compared).condition() == published::Condition::decoupled)
+      jnds.back().published = published::jnd_at(compared.reference_g);
+    if (const auto starts = starts_.find(compared); starts != starts_.end())
+      jnds.back().starts = start_effect(starts->second, participants);
+  }
+  return jnds;
+}
+
+void Jnds::add(const std::string& participant, const std::optional<CensoredValue>& figure) {
+  if (figure)
+    participants.push_back({participant, figure->value, figure->censored});
+  else
+    missing.push_back(participant);
+}
+
+void Jnds::put_mean() {
+  std::vector<CensoredValue> values;
+  for (const ParticipantJnd& one : participants) values.push_back({one.jnd_g, one.censored});
+  static_cast<FigureSummary&>(*this) = summarize_figures(values, static_cast<int>(missing.size()));
+}
+
+int Jnds::n_censored(Censored direction) const {
+  return static_cast<int>(std::ranges::count(participants, direction, &ParticipantJnd::censored));
+}
+
+}  // namespace heft

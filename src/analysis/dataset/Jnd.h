@@ -1,0 +1,138 @@
+// Just noticeable differences: what the staircases estimated, by reference mass.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/dataset/Dataset.h"
+#include "inference/CensoredMean.h"
+#include "inference/Statistics.h"
+
+namespace heft {
+
+/// The paper's JND: mean level of a staircase's reversals but the first ones.
+inline constexpr std::string_view jnd_method = "mean_of_reversals";
+
+/// What a staircase compared with, how the clone was coupled, and how the JND is estimated: the
+/// first of its procedure's methods. Ordered by reference.
+struct Compared {
+  double reference_g = 0;
+  std::string condition;
+  std::string method{jnd_method};
+
+  auto operator<=>(const Compared&) const = default;
+};
+
+/// One finished staircase.
+struct StaircaseResult {
+  std::int64_t session_id = 0;
+  std::string participant, staircase;
+  Compared compared;
+  std::optional<double> jnd_g;          ///< as logged; none: it ended with too few reversals
+  std::optional<double> low_g, high_g;  ///< its interval; none: the method gives none
+  int n_trials = 0, n_reversals = 0;
+  int n_floor = 0, n_ceiling = 0;  ///< moves that a bound cut short
+  Finish reason = Finish::reversals;
+  /// above, below: the JND is known to lie beyond `shown_g` only. unsettled: not even that.
+  Censored censored = Censored::none;
+  std::string why{};  ///< "at the ceiling", "trial limit", "3 reversals"...; empty: it settled
+  /// The JND; where that is censored, what it lies beyond; none where nothing is known.
+  std::optional<double> shown_g{};
+  double start_g = 0;  ///< the first level presented
+};
+
+/// None where nothing is known.
+std::optional<CensoredValue> censored_value(const StaircaseResult& result);
+
+/// A staircase that ended with fewer is censored.
+inline constexpr int least_reversals = 4;
+
+/// One participant's JND at a reference: the mean over sessions of each session's mean staircase.
+/// Of staircases that are censored the mean is censored too, in their direction.
+struct ParticipantJnd {
+  std::string participant;
+  double jnd_g = 0;  ///< censored: what it lies beyond
+  Censored censored = Censored::none;
+};
+
+/// Participants' JNDs at a reference, and their mean.
+struct Jnds : FigureSummary {
+  std::vector<ParticipantJnd> participants;  ///< with a figure, exact or censored
+  /// Without a figure, or without one that a mean could hold: a staircase unfinished, without a JND
+  /// and a direction, or one above and one below.
+  std::vector<std::string> missing;
+
+  void add(const std::string& participant, const std::optional<CensoredValue>& figure);
+  void put_mean();  ///< when all are added
+  int n() const { return static_cast<int>(participants.size() + missing.size()); }
+  int n_censored(Censored direction) const;
+};
+
+/// What staircases that began high and low say of one reference. Their difference is how far a JND
+/// follows from where its staircase began. A participant without both kinds in a session is
+/// missing.
+struct StartEffect {
+  Jnds from_above_g, from_below_g, difference_g;
+};
+
+struct ReferenceJnd {
+  Compared compared;
+  /// Where staircases of a session differ in their start: those that begin above the middle between
+  /// the highest and the lowest start, and those below. None: there is one start.
+  std::optional<StartEffect> starts;
+  /// Of all staircases together, which the paper measured only where there is one start.
+  Jnds overall;
+  int n_staircases = 0;  ///< finished
+  int n_unfinished = 0;  ///< started in a session that did not finish them
+  int n_without_estimate = 0;
+  double mean_trials = 0;  ///< per finished staircase
+  int least_trials = 0, most_trials = 0;
+  int n_trial_limit = 0;           ///< staircases that it ended
+  int n_floor = 0, n_ceiling = 0;  ///< hits, all staircases
+  int n_floor_staircases = 0, n_ceiling_staircases = 0;
+  /// Where all sessions compared in the paper's technique, at a reference of the paper's.
+  const published::Figure* published = nullptr;
+
+  /// Of staircases that began as the paper's did: from above, where there are others too.
+  const Jnds& as_published() const { return starts ? starts->from_above_g : overall; }
+};
+
+/// Names of a protocol's staircases whose kind estimates nothing; none where the text is no
+/// protocol.
+std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
+
+/// What the sessions' staircases come to.
+class StaircaseFold {
+ public:
+  void add(const SessionData& data);
+
+  /// Finished staircases in the order of sessions and estimates, each with the reference of its
+  /// trials.
+  const std::deque<StaircaseResult>& results() const { return results_; }
+  /// By reference, lightest first, and condition.
+  std::vector<ReferenceJnd> jnds() const;
+
+  /// How many staircases each participant's sessions began.
+  using Began = std::map<std::string, std::map<std::int64_t, int>>;
+  /// One participant's figures at one reference, by where the staircases of a session began.
+  struct AboveAndBelow {
+    std::vector<std::optional<CensoredValue>> above, below;
+  };
+
+ private:
+  void add_starts(const std::string& participant, std::span<const StaircaseResult> of_session);
+
+  std::deque<StaircaseResult> results_;
+  std::map<Compared, Began> began_;
+  std::map<Compared, published::Comparable> comparable_;
+  std::map<Compared, std::map<std::string, AboveAndBelow>> starts_;
+};
+
+}  // namespace heft

@@ -1,0 +1,82 @@
+// Who took part, from the first question to the figures: where participants were lost on the way,
+// and whom a rule of the protocol excludes. How many were planned is not in a log.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/dataset/Dataset.h"
+#include "protocol/study/AnalysisPlan.h"
+
+namespace heft {
+
+/// What one participant did, and whether it counts.
+struct ParticipantRow {
+  std::string participant;
+  int n_sessions = 0, n_finished = 0;
+  int n_completed = 0;  ///< trials
+  int n_impossible = 0, n_lost = 0, n_catch = 0, n_false_alarms = 0;
+  std::string excluded_because;  ///< empty: counts
+
+  bool excluded() const { return !excluded_because.empty(); }
+};
+
+/// By name. The rules are those of each one's first session.
+class ParticipantsFold {
+ public:
+  void add(const SessionData& data);
+  std::vector<ParticipantRow> result() const;
+
+ private:
+  struct Seen {
+    ParticipantRow row;
+    int n_attempts = 0;
+    ExclusionRules rules;
+  };
+  std::map<std::string, Seen> participants_;
+};
+
+/// What all sessions' protocols declare alike; none where one declares nothing or something else.
+class PlanFold {
+ public:
+  void add(const SessionData& data);
+  std::optional<AnalysisPlan> result() const { return differ_ ? std::nullopt : plan_; }
+
+ private:
+  std::optional<AnalysisPlan> plan_;
+  bool differ_ = false;
+};
+
+/// Numbers of participants.
+struct ParticipantFlow {
+  int n_asked = 0;                      ///< with a session in the log
+  int n_declined = 0;                   ///< did not agree to take part, in any session
+  int n_started = 0;                    ///< began a trial
+  int n_finished = 0;                   ///< finished a session
+  int n_analyzed = 0;                   ///< in the figures
+  std::map<std::string, int> excluded;  ///< left out, by the rule that did it
+  std::map<std::string, int>
+      unfinished;  ///< started but finished none, by the last session's state
+};
+
+/// "impossible answers: 12 of 40, the protocol allows 5 %" is "impossible answers".
+std::string in_short(const std::string& why);
+
+class FlowFold {
+ public:
+  void add(const SessionData& data);
+  /// @param participants all, of the same sessions
+  ParticipantFlow result(std::span<const ParticipantRow> participants) const;
+
+ private:
+  struct Way {
+    bool declined = false, agreed = false, started = false, finished = false;
+    SessionState last = SessionState::running;
+  };
+  std::map<std::string, Way> ways_;
+};
+
+}  // namespace heft

@@ -1,0 +1,178 @@
+#include "analysis/dataset/ProtocolChoices.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <variant>
+
+#include "base/Error.h"
+#include "protocol/study/StudyPlan.h"
+#include "tasks/Tasks.h"
+
+namespace heft {
+
+namespace {
+
+// What a declared technique does, for people.
+struct LawText {
+  std::string operator()(const Coupling& coupling) const {
+    if (!coupling.decoupled) return "coupled: the clone stays on the effector";
+    return fmt::format("spring, {:g} N/m and {:g} N m/rad, clone of {:g} g, damping ratio {:g}",
+                       coupling.stiffness_n_per_m, coupling.torsional_stiffness_nm_per_rad,
+                       1e3 * coupling.clone_mass_kg, coupling.damping_ratio);
+  }
+  std::string operator()(const Displacement& displacement) const {
+    return std::visit([](const auto& law) { return law.described(); }, displacement);
+  }
+};
+
+// Collects the choices of one protocol; of blocks too, which may differ in theirs.
+class Collector {
+ public:
+  explicit Collector(const Protocol& protocol) : name_(protocol.name) {
+    add("effector, length x width x height",
+        fmt::format("{:g} x {:g} x {:g} mm", 1e3 * protocol.effector_size_m.x(),
+                    1e3 * protocol.effector_size_m.y(), 1e3 * protocol.effector_size_m.z()));
+    add("gap between cubes", fmt::format("{:g} mm", 1e3 * protocol.layout.gap_m));
+    add("start distance", fmt::format("{:g} mm", 1e3 * protocol.layout.start_distance_m));
+    add("cubes that leave their area", std::string(name_of(protocol.layout.out_of_area)));
+    add("friction", fmt::format("{:g}, {}", protocol.friction, name_of(protocol.friction_is)));
+    add("effector between pictures", input_text(protocol.simulator.input));
+    add("answers need contact with every cube", protocol.require_contact ? "yes" : "no");
+    add("practice and feedback", "none");
+    for (const Technique& technique : protocol.techniques)
+      add("technique " + technique.name, std::visit(LawText{}, technique.law));
+    for (const Block& block : protocol.blocks) std::visit(*this, block);
+  }
+
+  void operator()(const DemonstrationBlock&) {}
+  void operator()(const TaskBlock& block) {
+    Tasks::call(block.task().name, [&]<typename Kind>() {
+      const auto& keys = *block.as<typename Kind::Block>();
+      if constexpr (requires { keys.choices(); })
+        for (auto& [choice, value] : keys.choices()) add(choice, value);
+    });
+  }
+  void operator()(const BreakBlock& block) {
+    add(block.name, fmt::format("a break of at least {:g} s", block.least_duration_s));
+  }
+  std::vector<ProtocolChoice> choices;
+
+ private:
+  static std::string input_text(const DriveInput& input) {
+    return fmt::format("{}, {}", name_of(input.mode),
+                       input.predict_s > 0 ? fmt::format("predicted {:g} s ahead", input.predict_s)
+                                           : "not predicted");
+  }
+  void add(std::string choice, std::string value) {
+    choices.push_back({name_, std::move(choice), std::move(value)});
+  }
+
+  std::string name_;
+};
+
+// Participants of a study have one protocol, each in an order of its own.
+bool is_order(const ProtocolSetting& setting) {
+  return setting.key == order_key;
+}
+
+std::vector<ProtocolSetting> changed_by(const SessionConfig& setup) {
+  std::vector<ProtocolSetting> settings = setup.settings;
+  std::erase_if(settings, is_order);
+  return settings;
+}
+
+std::vector<ProtocolSetting> changed_by(const SessionData& data) {
+  if (data.setups.empty()) return {};
+  return changed_by(data.setups.front().setup);
+}
+
+std::string joined(const std::set<std::string>& texts) {
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+// Sessions with one key had one protocol.
+std::string key_of(const SessionData& data) {
+  const SessionHeader& header = data.session.header;
+  return fmt::format("{}{}{}", header.protocol_name, header.protocol_sha256,
+                     to_text(changed_by(data)));
+}
+
+}  // namespace
+
+std::vector<ProtocolChoice> choices_in(const Protocol& protocol) {
+  return Collector(protocol).choices;
+}
+
+void RunAs::add(const SessionData& data, const Protocol& protocol) {
+  const SessionHeader& header = data.session.header;
+  hashes_.insert(header.protocol_sha256);
+  seeds_.insert(fmt::format("{}", header.seed));
+  for (const LoggedSetup& logged : data.setups) {
+    const SessionConfig& setup = logged.setup;
+    if (!setup.heft_version.empty())
+      programs_.insert(fmt::format("heft {}, {}", setup.heft_version, setup.build));
+    simulators_.insert(fmt::format("{} at {:g} Hz", setup.simulator,
+                                   setup.rate_hz.value_or(protocol.simulator.rate_hz)));
+    const double wanted_hz = setup.display_rate_hz.value_or(protocol.display_rate_hz);
+    rates_.insert(
+        setup.source_rate_hz && *setup.source_rate_hz < wanted_hz
+            ? fmt::format("{:g}, of a source that gives {:.3g}", wanted_hz, *setup.source_rate_hz)
+            : fmt::format("{:g}", wanted_hz));
+    if (const auto changed = changed_by(setup); !changed.empty())
+      settings_.insert(to_text(changed));
+    for (const ProtocolSetting& setting : setup.settings)
+      if (is_order(setting)) orders_.insert(to_text(setting));
+  }
+}
+
+std::vector<ProtocolChoice> RunAs::choices(const std::string& protocol) const {
+  constexpr std::size_t most_seeds = 3;
+  std::vector<ProtocolChoice> choices{{protocol, "SHA-256", joined(hashes_)}};
+  if (!programs_.empty()) choices.push_back({protocol, "program and build", joined(programs_)});
+  choices.push_back({protocol, "seeds of the sessions",
+                     seeds_.size() <= most_seeds
+                         ? joined(seeds_)
+                         : fmt::format("{} different ones, in the log", seeds_.size())});
+  choices.push_back({protocol, "frames a second", joined(rates_)});
+  choices.push_back({protocol, "simulator", joined(simulators_)});
+  if (!settings_.empty()) choices.push_back({protocol, "changed by --set", joined(settings_)});
+  if (!orders_.empty()) choices.push_back({protocol, "orders of blocks", joined(orders_)});
+  return choices;
+}
+
+void ChoicesFold::add(const SessionData& data) {
+  const SessionHeader& header = data.session.header;
+  const std::vector<ProtocolSetting> settings = changed_by(data);
+  const auto [place, is_new] = places_.emplace(key_of(data), ran_.size());
+  if (is_new) {
+    Ran& ran = ran_.emplace_back(
+        Ran{{}, header.protocol_name, header.protocol_sha256, !settings.empty(), {}});
+    try {
+      ran.protocol = parse_protocol(header.protocol_text, header.protocol_name, settings);
+    } catch (const InvalidFile&) {
+    }
+  }
+  Ran& ran = ran_[place->second];
+  if (ran.protocol) ran.run_as.add(data, *ran.protocol);
+}
+
+std::vector<ProtocolChoice> ChoicesFold::result() const {
+  std::map<std::string, std::set<std::string>> hashes_by_name;
+  for (const Ran& ran : ran_) hashes_by_name[ran.name].insert(ran.sha256);
+  std::vector<ProtocolChoice> all;
+  for (const Ran& ran : ran_) {
+    if (!ran.protocol) continue;
+    Protocol protocol = *ran.protocol;
+    protocol.name = ran.name;
+    if (hashes_by_name[ran.name].size() > 1)
+      protocol.name = fmt::format("{} {:.8}", ran.name, ran.sha256);
+    if (ran.is_changed) protocol.name += " with --set";
+    for (const auto& choices : {ran.run_as.choices(protocol.name), choices_in(protocol)})
+      all.insert(all.end(), choices.begin(), choices.end());
+  }
+  return all;
+}
+
+}  // namespace heft

@@ -1,0 +1,51 @@
+// What a protocol chose where the paper leaves it open, so that a report says what was run.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "analysis/dataset/Dataset.h"
+#include "protocol/Protocol.h"
+
+namespace heft {
+
+struct ProtocolChoice {
+  std::string protocol;  ///< its name; the first digits of its hash where several share one
+  std::string choice, value;
+};
+
+/// The choices of one protocol, in the order of paper.toml.
+std::vector<ProtocolChoice> choices_in(const Protocol& protocol);
+
+/// The configurations of a protocol's sessions, as their setups record them; each once.
+class RunAs {
+ public:
+  void add(const SessionData& data, const Protocol& protocol);
+  std::vector<ProtocolChoice> choices(const std::string& protocol) const;
+
+ private:
+  std::set<std::string> hashes_, seeds_, programs_, simulators_, rates_, settings_, orders_;
+};
+
+/// Those of every protocol that the sessions ran, each once. A logged text that is no protocol has
+/// none.
+class ChoicesFold {
+ public:
+  void add(const SessionData& data);
+  std::vector<ProtocolChoice> result() const;
+
+ private:
+  struct Ran {
+    std::optional<Protocol> protocol;  // none: the text is none
+    std::string name, sha256;
+    bool is_changed = false;  // by --set
+    RunAs run_as;
+  };
+  std::vector<Ran> ran_;                       // in the order of sessions
+  std::map<std::string, std::size_t> places_;  // by what makes it one protocol
+};
+
+}  // namespace heft

@@ -1,0 +1,166 @@
+#include "analysis/dataset/Quality.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "experiment/Block.h"
+
+namespace heft {
+
+namespace {
+struct Impossible {
+  bool early = false, fast = false, untouched = false;
+  bool any() const { return early || fast || untouched; }
+};
+
+bool was_touched(const Attempt& attempt) {
+  if (attempt.trial.first_contact_s) return true;
+  for (const CubeRow& cube : attempt.cubes)
+    if (cube.n_pushes > 0) return true;
+  return false;
+}
+
+// The session's rule; where the log has none, that of new protocols.
+double least_answer_s(const SessionData& data, const Attempt& attempt) {
+  const SessionConfig* setup = data.setup_of(attempt);
+  return setup ? setup->min_answer_s.value_or(Onset{}.min_answer_s) : Onset{}.min_answer_s;
+}
+
+Impossible impossible_in(const SessionData& data, const Attempt& attempt) {
+  Impossible found;
+  if (const auto time = response_time_s(attempt.trial)) {
+    found.early = *time < least_answer_s(data, attempt);
+    found.fast = *time < fastest_answer_s;
+  }
+  found.untouched = !was_touched(attempt);
+  return found;
+}
+
+// Bands rather than levels: staircases show a level of their own in almost every trial.
+template <std::size_t n>
+std::size_t band_of(double value_g, const std::array<double, n>& tops_g) {
+  std::size_t band = 0;
+  while (band < n && value_g > tops_g[band]) ++band;
+  return band;
+}
+
+template <std::size_t n>
+std::string band_name(std::size_t band, const std::array<double, n>& tops_g) {
+  if (band == 0) return tops_g[0] == 0 ? "0 g" : fmt::format("to {:g} g", tops_g[0]);
+  if (band == n) return fmt::format("over {:g} g", tops_g[n - 1]);
+  return fmt::format("over {:g} to {:g} g", tops_g[band - 1], tops_g[band]);
+}
+
+constexpr std::array differences_g{0.0, 100.0, 300.0, 700.0};
+constexpr std::array masses_g{20.0, 100.0, 300.0, 700.0, 1000.0};
+
+using LossKey = std::tuple<Task, std::string, std::size_t>;
+
+LossKey key_of(const TrialPlan& plan) {
+  const bool compared = plan.task == "comparison" && plan.level_g;
+  return {plan.task, plan.condition, compared ? band_of(*plan.level_g, differences_g) + 1 : 0};
+}
+
+void count_loss(LossRow& row, const SessionData& data, const Attempt& attempt) {
+  row.n_attempts += 1;
+  row.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
+  row.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
+  row.lost_s += attempt.trial.lost_s;
+  row.n_impossible += attempt.completed() && is_impossible(data, attempt) ? 1 : 0;
+}
+
+void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attempt) {
+  for (const CubeRow& cube : attempt.cubes) {
+    const std::size_t band = band_of(cube.mass_g, masses_g);
+    ResetRow& row = resets[band];
+    row.mass = band_name(band, masses_g);
+    row.n_cubes += 1;
+    row.n_reset += cube.n_resets > 0 ? 1 : 0;
+  }
+}
+
+using Sums = QualityFold::Sums;
+
+void count_completed(Sums& sums, const SessionData& data, const Attempt& attempt) {
+  const Impossible found = impossible_in(data, attempt);
+  sums.least_answers_s.insert(least_answer_s(data, attempt));
+  sums.n_completed += 1;
+  sums.n_early += found.early ? 1 : 0;
+  sums.n_fast += found.fast ? 1 : 0;
+  sums.n_untouched += found.untouched ? 1 : 0;
+}
+
+void count_session(Sums& sums, const SessionData& data) {
+  sums.events.notes += data.events.notes;
+  sums.events.deviations += data.events.deviations;
+  sums.events.checks_failed += data.events.checks_failed;
+  sums.events.checks_warned += data.events.checks_warned;
+  sums.events.unblindings += data.events.unblindings;
+  sums.n_sessions += 1;
+  sums.n_unfinished += data.finished() ? 0 : 1;
+}
+
+std::string too_early(const std::set<double>& least_answers_s) {
+  if (least_answers_s.empty())
+    return fmt::format("answers earlier than {:g} s", Onset{}.min_answer_s);
+  return fmt::format("answers earlier than {:g} s", fmt::join(least_answers_s, " or "));
+}
+
+std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losses) {
+  LossRow all;
+  for (const LossRow& row : losses) {
+    all.n_attempts += row.n_attempts;
+    all.n_void += row.n_void;
+    all.n_lost += row.n_lost;
+  }
+  return {
+      {too_early(sums.least_answers_s), sums.n_early, sums.n_completed,
+       "after all cubes were shown; as the session's setup has it"},
+      {"answers faster than 0.3 s", sums.n_fast, sums.n_completed,
+       "faster than a person can see and press; among those above"},
+      {"answers without contact", sums.n_untouched, sums.n_completed, "no cube was touched before"},
+      {"void attempts", all.n_void, all.n_attempts, "each was presented again"},
+      {"attempts with the effector out of view", all.n_lost, all.n_attempts,
+       "they count; the time is taken off the response time"},
+      {"notes", sums.events.notes, std::nullopt, "of the experimenter or the program, in the log"},
+      {"deviations from the protocol", sums.events.deviations, std::nullopt, "in the log"},
+      {"checks that failed", sums.events.checks_failed, std::nullopt,
+       "of the apparatus, before a session"},
+      {"checks that warned", sums.events.checks_warned, std::nullopt, "as above"},
+      {"unblindings", sums.events.unblindings, std::nullopt,
+       "the experimenter was shown what is hidden"},
+      {"unfinished sessions", sums.n_unfinished, sums.n_sessions,
+       "their completed trials and finished staircases count"}};
+}
+}  // namespace
+
+bool is_impossible(const SessionData& data, const Attempt& attempt) {
+  return impossible_in(data, attempt).any();
+}
+
+void QualityFold::add(const SessionData& data) {
+  count_session(sums_, data);
+  for (const Attempt& attempt : data.attempts) {
+    const TrialPlan& plan = attempt.trial.plan;
+    const LossKey key = key_of(plan);
+    LossRow& row = losses_[key];
+    row.task = plan.task;
+    row.condition = plan.condition;
+    if (std::get<2>(key) > 0) row.difference = band_name(std::get<2>(key) - 1, differences_g);
+    count_loss(row, data, attempt);
+    if (!attempt.completed()) continue;
+    count_completed(sums_, data, attempt);
+    count_resets(resets_, attempt);
+  }
+}
+
+Quality QualityFold::result() const {
+  Quality quality;
+  for (const auto& [key, row] : losses_) quality.losses.push_back(row);
+  quality.counted = rows_of(sums_, quality.losses);
+  for (const auto& [band, row] : resets_) quality.resets.push_back(row);
+  return quality;
+}
+
+}  // namespace heft

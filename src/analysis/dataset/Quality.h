@@ -1,0 +1,73 @@
+// What must be seen before any figure: answers that can't be answers, what went wrong and was
+// noted, and whether what was lost goes with what was shown.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "analysis/dataset/Dataset.h"
+#include "tasks/Tasks.h"
+
+namespace heft {
+
+/// No one sees, judges and presses in less.
+inline constexpr double fastest_answer_s = 0.3;
+
+struct CountedRow {
+  std::string what;
+  int n = 0;
+  std::optional<int> of;  ///< how many could have been
+  std::string meaning;
+};
+
+/// What can go with level and condition, and must not.
+struct LossRow {
+  Task task;
+  std::string condition;
+  std::string difference;  ///< comparisons: "0 g", "1-100 g"...; otherwise empty
+  int n_attempts = 0, n_void = 0, n_lost = 0;  ///< n_lost: the effector was out of view
+  double lost_s = 0;                           ///< in all
+  int n_impossible = 0;  ///< answers too early (as the setup has it), too fast or without contact
+};
+
+struct ResetRow {
+  std::string mass;  ///< "15 g", "16-50 g"...
+  int n_cubes = 0;   ///< shown in a completed trial
+  int n_reset = 0;   ///< that were put back to their start at least once
+};
+
+struct Quality {
+  std::vector<CountedRow> counted;
+  std::vector<LossRow> losses;
+  std::vector<ResetRow> resets;
+};
+
+/// Whether a completed trial's answer can't be one: earlier than its setup takes any, faster than
+/// anybody, or without contact.
+bool is_impossible(const SessionData& data, const Attempt& attempt);
+
+class QualityFold {
+ public:
+  void add(const SessionData& data);
+  Quality result() const;
+
+  struct Sums {
+    int n_sessions = 0, n_unfinished = 0;
+    int n_completed = 0, n_early = 0, n_fast = 0, n_untouched = 0;
+    std::set<double> least_answers_s;
+    EventCounts events;
+  };
+
+ private:
+  Sums sums_;
+  std::map<std::tuple<Task, std::string, std::size_t>, LossRow, InTaskOrder>
+      losses_;                              // by band of differences
+  std::map<std::size_t, ResetRow> resets_;  // by band of masses
+};
+
+}  // namespace heft

@@ -1,0 +1,86 @@
+#include "analysis/dataset/StudyEstimate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/math/Quantile.h"
+
+namespace heft {
+
+std::string StudyEstimate::text_at(std::string_view name) const {
+  if (name == "task") return task;
+  if (name == "condition") return condition;
+  if (name == "participant") return participant;
+  if (name == "reference_g") return reference_g ? fmt::format("{:g}", *reference_g) : "";
+  const Coordinate* found = at(name);
+  return found ? found->text : "";
+}
+
+std::vector<const StudyEstimate*> estimates_of(const Estimates& estimates, std::string_view measure,
+                                               std::initializer_list<Place> places) {
+  std::vector<const StudyEstimate*> found;
+  for (const StudyEstimate& one : estimates)
+    if (one.measure->name == measure && std::ranges::all_of(places, [&](const Place& place) {
+          return one.text_at(place.first) == place.second;
+        }))
+      found.push_back(&one);
+  return found;
+}
+
+const StudyEstimate* find_estimate(const Estimates& estimates, std::string_view measure,
+                                   std::initializer_list<Place> places) {
+  const auto found = estimates_of(estimates, measure, places);
+  return found.empty() ? nullptr : found.front();
+}
+
+std::string_view beyond_sign(Censored censored) {
+  if (censored == Censored::none || censored == Censored::unsettled) return "";
+  return censored == Censored::above ? "> " : "< ";
+}
+
+Coordinate at(std::string_view name, double value) {
+  return {name, fmt::format("{:g}", value), value};
+}
+
+std::optional<Interval> interval_of(const published::Figure& figure) {
+  if (figure.sd) return student_t_interval(figure.value, *figure.sd, published::n_participants);
+  if (!figure.n_hits) return std::nullopt;
+  const Interval shares = exact_interval(*figure.n_hits, published::n_participants);
+  return Interval{100 * shares.low, 100 * shares.high};
+}
+
+StudyEstimate quartiles_estimate(const Measure& measure, const std::deque<double>& values) {
+  StudyEstimate estimate{&measure};
+  estimate.n_trials = static_cast<int>(values.size());
+  estimate.method = "quartiles";
+  if (const auto found = quartiles({values.begin(), values.end()})) {
+    estimate.value = found->median;
+    estimate.low = found->lower;
+    estimate.high = found->upper;
+  }
+  return estimate;
+}
+
+StudyEstimate rate_estimate(const Measure& measure, const Rate& rate) {
+  StudyEstimate estimate{&measure};
+  estimate.value = rate.percent;
+  estimate.set(rate.interval_percent);
+  estimate.n = rate.n_participants;
+  estimate.n_trials = rate.trials.n_trials;
+  estimate.n_hits = rate.trials.n_hits;
+  return estimate;
+}
+
+StudyEstimate own_share(const Measure& measure, const std::string& participant,
+                        const Tally& tally) {
+  StudyEstimate own{&measure};
+  own.participant = participant;
+  own.value = tally.percent();
+  own.n = 1;
+  own.n_trials = tally.n_trials;
+  own.n_hits = tally.n_hits;
+  return own;
+}
+
+}  // namespace heft

@@ -1,0 +1,101 @@
+// One figure of a study with all that may be printed beside it. Every figure of the analysis is
+// one: tables, JSON, CSV, the dictionary and charts are made of lists of these.
+#pragma once
+
+#include <deque>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "analysis/dataset/Published.h"
+#include "inference/Proportion.h"
+#include "inference/Statistics.h"
+#include "psychophysics/ProcedureTypes.h"
+
+namespace heft {
+
+/// What is estimated: declared once, in the file that does it.
+struct Measure {
+  std::string_view name;     ///< snake_case, unique
+  std::string_view unit;     ///< "g", "%", "s"; empty: a number
+  std::string_view heading;  ///< in charts and tables
+  std::string_view meaning;  ///< for the data dictionary
+};
+
+/// Where an estimate belongs, beside task, condition and reference: a level, a mass, an answer.
+struct Coordinate {
+  std::string_view name;  ///< "level_g", "answer"
+  std::string text;
+  std::optional<double> value{};
+};
+
+struct StudyEstimate {
+  const Measure* measure = nullptr;
+  std::string task{};
+  std::string condition{};
+  std::optional<double> reference_g{};
+  std::string participant{};  ///< empty: over all participants
+  std::vector<Coordinate> by{};
+  std::optional<double> value{};  ///< none: `why` says why
+  std::optional<double> sd{};     ///< between participants, over n-1
+  std::optional<double> low{}, high{};
+  int n = 0;                     ///< participants
+  int n_trials = 0, n_hits = 0;  ///< of a share: of how many trials, in how many of them
+  std::string_view method{};     ///< of the interval or the mean
+  Censored censored = Censored::none;
+  std::string why{};  ///< there is no value, or it leaves participants out
+  const published::Figure* published = nullptr;  ///< null: the paper has none to compare with
+  bool as_published = false;                     ///< technique, masses and task are the paper's
+
+  void set(const std::optional<Interval>& interval) {
+    if (interval) {
+      low = interval->low;
+      high = interval->high;
+    }
+  }
+  /// Null: it has no coordinate of that name in `by`.
+  const Coordinate* at(std::string_view name) const {
+    for (const Coordinate& coordinate : by)
+      if (coordinate.name == name) return &coordinate;
+    return nullptr;
+  }
+  /// Of task, condition, participant and reference_g too; empty: it has none.
+  std::string text_at(std::string_view name) const;
+};
+
+/// All of a study. Growing a deque moves nothing, so that a thousand participants take no more
+/// memory for it than their estimates.
+using Estimates = std::deque<StudyEstimate>;
+
+/// A coordinate's name and its text.
+using Place = std::pair<std::string_view, std::string_view>;
+
+/// Those of a measure at all of these places.
+std::vector<const StudyEstimate*> estimates_of(const Estimates& estimates, std::string_view measure,
+                                               std::initializer_list<Place> places = {});
+/// The first of them; null: there is none.
+const StudyEstimate* find_estimate(const Estimates& estimates, std::string_view measure,
+                                   std::initializer_list<Place> places = {});
+
+/// "> " where the value lies above what is given, "< " below, otherwise nothing.
+std::string_view beyond_sign(Censored censored);
+
+/// A coordinate that is a number.
+Coordinate at(std::string_view name, double value);
+
+/// Student's t from the paper's SD, or exact over its people; none where the paper gives neither.
+std::optional<Interval> interval_of(const published::Figure& figure);
+
+/// The median, with quartiles as low and high.
+StudyEstimate quartiles_estimate(const Measure& measure, const std::deque<double>& values);
+
+/// A share of trials in percent, with its interval over participants.
+StudyEstimate rate_estimate(const Measure& measure, const Rate& rate);
+
+/// One participant's share of trials in percent.
+StudyEstimate own_share(const Measure& measure, const std::string& participant, const Tally& tally);
+
+}  // namespace heft

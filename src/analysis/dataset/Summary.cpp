@@ -1,0 +1,144 @@
+#include "analysis/dataset/Summary.h"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <utility>
+
+#include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
+
+namespace heft {
+
+namespace {
+/// Gives each session in turn, as often as it is called.
+using EachSession = std::function<void(const std::function<void(const SessionData&)>&)>;
+
+SessionSummary summary_of(const SessionData& data) {
+  const SessionHeader& header = data.session.header;
+  SessionSummary summary{data.session.session_id,        header.participant,
+                         header.protocol_name,           std::string(name_of(header.purpose)),
+                         data.model().value_or("human"), data.session.state};
+  for (const Attempt& attempt : data.attempts) {
+    summary.n_completed += attempt.trial.status == TrialStatus::completed ? 1 : 0;
+    summary.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
+    summary.n_open += attempt.trial.status == TrialStatus::open ? 1 : 0;
+  }
+  return summary;
+}
+
+// Of all participants, the excluded too.
+struct EverybodyFold {
+  ParticipantsFold participants;
+  PlanFold plan;
+  QualityFold quality;
+  FlowFold flow;
+  ChoicesFold choices;
+  NotesFold notes;
+  SetupsFold setups;
+  IncidentsFold incidents;
+  std::vector<SessionSummary> sessions;
+  std::size_t n_simulated = 0;
+
+  void add(const SessionData& data) {
+    participants.add(data);
+    plan.add(data);
+    quality.add(data);
+    flow.add(data);
+    choices.add(data);
+    notes.add(data);
+    setups.add(data);
+    incidents.add(data);
+    sessions.push_back(summary_of(data));
+    n_simulated += data.simulated() ? 1 : 0;
+  }
+
+  std::string kind_of_data() const {
+    if (sessions.empty()) return "";
+    if (n_simulated == 0) return "human";
+    return n_simulated == sessions.size() ? "simulated" : "human and simulated";
+  }
+};
+
+// The figures, of those who count.
+struct CountedFold {
+  std::set<std::string> participants;
+  std::shared_ptr<SharedFolds> shared = std::make_shared<SharedFolds>();
+  TracksFold tracks;
+  std::vector<std::shared_ptr<Section>> sections = all_sections();
+
+  void add(const SessionData& data, bool counts = true) {
+    for (const auto& section : sections)
+      if (counts || section->of_everyone()) section->add(data);
+    if (!counts) return;
+    participants.insert(data.participant());
+    shared->comparisons.add(data);
+    shared->staircases.add(data);
+    tracks.add(data);
+  }
+
+  void put(Summary& summary) && {
+    summary.n_participants = static_cast<int>(participants.size());
+    summary.shared = shared;
+    for (const auto& section : sections) {
+      section->put(summary);
+      summary.sections.push_back(section);
+    }
+    summary.all_tracks = std::move(tracks).result();
+  }
+};
+
+// Who is excluded is known at the end; only where there are such, sessions are read again.
+CountedFold counted_of(CountedFold&& all, const EachSession& each,
+                       std::span<const ParticipantRow> participants) {
+  if (std::ranges::none_of(participants, &ParticipantRow::excluded)) return std::move(all);
+  std::set<std::string> excluded;
+  for (const ParticipantRow& row : participants)
+    if (row.excluded()) excluded.insert(row.participant);
+  CountedFold counted;
+  each([&](const SessionData& data) { counted.add(data, !excluded.contains(data.participant())); });
+  return counted;
+}
+
+Summary summarize(const std::string& database, const EachSession& each,
+                  const std::string& command) {
+  EverybodyFold everybody;
+  CountedFold all;
+  each([&](const SessionData& data) {
+    everybody.add(data);
+    all.add(data);
+  });
+  Summary summary;
+  summary.database = database;
+  summary.command = command;
+  summary.data = everybody.kind_of_data();
+  summary.participants = everybody.participants.result();
+  summary.plan = everybody.plan.result();
+  summary.quality = everybody.quality.result();
+  summary.flow = everybody.flow.result(summary.participants);
+  summary.choices = everybody.choices.result();
+  summary.setups = everybody.setups.result();
+  summary.incidents = everybody.incidents.result();
+  summary.sessions = std::move(everybody.sessions);
+  counted_of(std::move(all), each, summary.participants).put(summary);
+  summary.hypotheses = hypotheses_of(summary);
+  summary.notes = everybody.notes.result(summary);
+  return summary;
+}
+}  // namespace
+
+Summary summarize(const Dataset& dataset, const std::string& command) {
+  const auto each = [&](const std::function<void(const SessionData&)>& use) {
+    std::ranges::for_each(dataset.sessions, use);
+  };
+  return summarize(dataset.database, each, command);
+}
+
+Summary analyze(const AnalysisOptions& options) {
+  const LoggedSessions sessions(options.databases, options.session_ids);
+  if (!options.mix) refuse_mixed_purposes(sessions);
+  const auto each = [&](const std::function<void(const SessionData&)>& use) { sessions.each(use); };
+  return summarize(sessions.database(), each, options.command);
+}
+
+}  // namespace heft

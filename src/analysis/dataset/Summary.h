@@ -1,0 +1,97 @@
+// The whole analysis of a log: options in, one Summary out. Tables, JSON, charts and the report are
+// ways to show a Summary.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/dataset/ComparisonTrials.h"
+#include "analysis/dataset/Dataset.h"
+#include "analysis/dataset/Participants.h"
+#include "analysis/dataset/ProtocolChoices.h"
+#include "analysis/dataset/Quality.h"
+#include "analysis/dataset/SessionIncidents.h"
+#include "analysis/dataset/StudyEstimate.h"
+#include "analysis/dataset/Tracks.h"
+
+namespace heft {
+
+struct AnalysisOptions {
+  std::vector<std::string> databases;     ///< the logs' files
+  std::vector<std::int64_t> session_ids;  ///< of a single log; empty: all
+  bool mix = false;                       ///< put sessions of several purposes together
+  std::string command;                    ///< what was typed; below every chart
+};
+
+/// One session and how much of it counts.
+struct SessionSummary {
+  std::int64_t session_id = 0;
+  std::string participant, protocol, purpose, responder;
+  SessionState state = SessionState::running;
+  int n_completed = 0, n_void = 0, n_open = 0;  ///< attempts
+};
+
+enum class HypothesisVerdict { supported, not_supported, not_judged };
+template <>
+struct EnumNames<HypothesisVerdict> {
+  static constexpr std::array<std::string_view, 3> names{"supported", "not supported",
+                                                         "inconclusive"};
+};
+
+/// One of the paper's hypotheses, what these data say of it, and the figures. It is judged where
+/// technique, masses and task are the paper's.
+struct Hypothesis {
+  std::string name;  ///< "E1-H1"
+  std::string statement;
+  bool declared = false;  ///< by the protocols of all sessions; otherwise it is exploratory
+  HypothesisVerdict verdict = HypothesisVerdict::not_judged;
+  std::string why;
+  std::vector<std::string> figures;  ///< a sentence each
+  std::string condition{};           ///< of this log that is the paper's; empty: none is
+
+  bool applies() const { return declared || !condition.empty(); }
+};
+
+/// What several sections are made of; sessions are read once for all.
+struct SharedFolds {
+  ComparisonTrials comparisons;
+  StaircaseFold staircases;
+};
+
+class Section;
+
+struct Summary {
+  std::string database, command;
+  std::string data;  ///< "human", "simulated" or "human and simulated"; empty: no sessions
+  std::vector<SessionSummary> sessions;
+  int n_participants = 0;                    ///< that count
+  std::vector<ParticipantRow> participants;  ///< all, those left out too
+  std::optional<AnalysisPlan> plan;
+  Estimates estimates;  ///< over participants, in the order of the sections
+  std::vector<std::shared_ptr<const Section>> sections;  ///< which have each participant's
+  std::shared_ptr<const SharedFolds> shared = std::make_shared<SharedFolds>();
+  Quality quality;
+  ParticipantFlow flow;
+  std::vector<SessionTracks> all_tracks;
+  std::vector<Hypothesis> hypotheses;
+  std::vector<ProtocolChoice> choices;
+  std::vector<SetupValue> setups;
+  std::vector<Incident> incidents;
+  std::vector<std::string> notes;  ///< what a reader must know about what was counted
+
+  bool simulated() const { return data == "simulated" || data == "human and simulated"; }
+};
+
+/// Reads the logs and summarizes them together; participants of several logs are different.
+/// @throws Error as LoggedSessions, or when they hold several purposes that were not to be mixed
+Summary analyze(const AnalysisOptions& options);
+
+/// The same for data at hand.
+/// @param command as AnalysisOptions has it
+Summary summarize(const Dataset& dataset, const std::string& command);
+
+}  // namespace heft

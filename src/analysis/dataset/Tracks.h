@@ -1,0 +1,52 @@
+// The courses of one session's staircases, for looking at.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/dataset/Dataset.h"
+#include "analysis/dataset/Jnd.h"
+
+namespace heft {
+
+struct TrackPoint {
+  double level_g = 0;   ///< as presented
+  bool wrong = false;   ///< the lighter cube was chosen
+  bool chosen = false;  ///< a cube was; otherwise "no difference"
+  bool is_reversal = false;
+};
+
+struct Track {
+  std::string staircase;
+  Compared compared;
+  std::vector<TrackPoint> points;  ///< the staircase's completed trials in order
+  std::optional<double> jnd_g;     ///< where `censored`, what it lies beyond
+  Censored censored = Censored::none;
+};
+
+struct SessionTracks {
+  std::int64_t session_id = 0;
+  std::string participant;
+  bool simulated = false, finished = false;
+  std::vector<Track> tracks;  ///< by reference, then name
+};
+
+/// Every session that has staircases that estimate a JND.
+class TracksFold {
+ public:
+  void add(const SessionData& data);
+  const std::vector<SessionTracks>& result() const& { return all_; }
+  std::vector<SessionTracks> result() && { return std::move(all_); }
+
+ private:
+  std::vector<SessionTracks> all_;
+};
+
+/// The first finished one, or else the first; null: there is none.
+const SessionTracks* example_of(const std::vector<SessionTracks>& all);
+
+}  // namespace heft

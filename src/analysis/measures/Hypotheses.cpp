@@ -1,0 +1,312 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "analysis/report/Notes.h"
+#include "inference/PooledSensitivity.h"
+
+namespace heft {
+
+namespace {
+std::string beside(const StudyEstimate& one, std::string_view unit) {
+  return one.published ? fmt::format("; published {:.1f}{}", one.published->value, unit) : "";
+}
+
+std::string within(const StudyEstimate& one) {
+  return one.low ? fmt::format(" [{:.1f}, {:.1f}]", *one.low, *one.high) : "";
+}
+
+std::string share_figure(std::string_view what, const StudyEstimate& share) {
+  if (!share.value) return fmt::format("{}: no trials", what);
+  return fmt::format("{}: {:.1f} %{}, n = {}{}", what, *share.value, within(share), share.n,
+                     beside(share, " %"));
+}
+
+std::string chance_figure(const Summary& summary, const std::string& condition) {
+  const Estimates& all = summary.estimates;
+  const StudyEstimate& chance = *find_estimate(all, "sorting_chance", {{"condition", condition}});
+  if (!chance.value) return "a random order: no trials to be right in";
+  std::string figure = fmt::format("a random order is right in {:.1f} % of trials", *chance.value);
+  const auto by_cubes = estimates_of(all, "sorting_chance_by_cubes", {{"condition", condition}});
+  if (by_cubes.size() == 1) return figure;
+  std::string parts;
+  for (const StudyEstimate* one : by_cubes)
+    parts += fmt::format("{}{:.1f} % of {} trials with {} cubes", parts.empty() ? "" : ", ",
+                         *one->value, one->n_trials, one->text_at("n_cubes"));
+  return fmt::format("{}: {}", figure, parts);
+}
+
+std::string first_try_figure(const StudyEstimate& first_try) {
+  return fmt::format("introduction right on the first try: {} of {} participants, {:.1f} %{}{}",
+                     first_try.n_hits, first_try.n_trials, *first_try.value, within(first_try),
+                     beside(first_try, " %"));
+}
+
+// JNDs that the paper has figures for.
+std::vector<const StudyEstimate*> jnds_of(const Summary& summary) {
+  auto jnds = estimates_of(summary.estimates, "jnd");
+  std::erase_if(jnds, [](const StudyEstimate* one) { return !one->published || !one->value; });
+  return jnds;
+}
+
+std::string_view began(const StudyEstimate& jnd) {
+  return jnd.text_at("staircases") == "from above" ? " (staircases from above)" : "";
+}
+
+constexpr std::string_view no_staircase = "no finished staircase in the paper's technique";
+
+std::vector<std::string> jnd_figures(const Summary& summary) {
+  std::vector<std::string> figures;
+  for (const StudyEstimate* jnd : jnds_of(summary))
+    figures.push_back(fmt::format("JND{} at {:g} g: {:.1f} g{}, n = {}{}", began(*jnd),
+                                  *jnd->reference_g, *jnd->value, within(*jnd), jnd->n,
+                                  beside(*jnd, " g")));
+  if (figures.empty()) figures.emplace_back(no_staircase);
+  const StudyEstimate* rising = find_estimate(summary.estimates, "jnd_rising");
+  figures.push_back(rising ? fmt::format("JND rises from each reference to the next in {} of {} "
+                                         "participants with all of them",
+                                         rising->n_hits, rising->n_trials)
+                           : "rising JNDs need two references or more");
+  return figures;
+}
+
+std::vector<std::string> ratio_figures(const Summary& summary) {
+  std::vector<std::string> figures;
+  for (const StudyEstimate* jnd : jnds_of(summary)) {
+    const double reference_g = *jnd->reference_g;
+    if (reference_g == 0) continue;
+    const std::string interval =
+        jnd->low
+            ? fmt::format(" [{:.2f}, {:.2f}]", *jnd->low / reference_g, *jnd->high / reference_g)
+            : "";
+    figures.push_back(fmt::format("JND{} / reference at {:g} g: {:.2f}{}; published {:.2f}",
+                                  began(*jnd), reference_g, *jnd->value / reference_g, interval,
+                                  jnd->published->value / reference_g));
+  }
+  if (figures.empty()) figures.emplace_back(no_staircase);
+  return figures;
+}
+
+struct Judgment {
+  HypothesisVerdict verdict = HypothesisVerdict::not_judged;
+  std::string why;
+};
+
+constexpr double usual_margin_percent = 10;  // beside chance: what counts as no better
+
+// "Blind" by two one-sided tests (Schuirmann 1987): the 90 % interval within chance +- 10 points.
+Judgment judge_blind(const StudyEstimate& answered_correct, double chance, double margin_percent) {
+  if (answered_correct.n < 2)
+    return {
+        HypothesisVerdict::not_judged,
+        fmt::format("fewer than two participants answered a {} trial", answered_correct.condition)};
+  const double low = *answered_correct.low, high = *answered_correct.high;
+  const Interval blind{chance - margin_percent, chance + margin_percent};
+  const std::string figures = fmt::format(
+      "of the answered trials {:.1f} % were right, 90 % interval [{:.1f}, {:.1f}]; chance is "
+      "{:.1f} %, and [{:.1f}, {:.1f}] counts as chance",
+      *answered_correct.value, low, high, chance, blind.low, blind.high);
+  if (low >= blind.low && high <= blind.high)
+    return {HypothesisVerdict::supported, figures + ": equivalent to chance"};
+  if (high < blind.low || low > blind.high)
+    return {HypothesisVerdict::not_supported, figures + ": not chance"};
+  return {HypothesisVerdict::not_judged,
+          figures + ": too wide to say that it is chance, or that it is not"};
+}
+
+Judgment judge_above_chance(const StudyEstimate& correct, double chance) {
+  if (correct.n < 2)
+    return {HypothesisVerdict::not_judged,
+            fmt::format("fewer than two participants completed a {} trial", correct.condition)};
+  const std::string figures = fmt::format(
+      "{:.1f} % of the trials were right, 95 % interval [{:.1f}, {:.1f}]; chance is "
+      "{:.1f} %",
+      *correct.value, *correct.low, *correct.high, chance);
+  if (*correct.low > chance) return {HypothesisVerdict::supported, figures};
+  if (*correct.high <= chance + usual_margin_percent)
+    return {HypothesisVerdict::not_supported, figures};
+  return {HypothesisVerdict::not_judged, figures + ": the interval holds chance and much more"};
+}
+
+Judgment judge_first_try(const StudyEstimate& first_try) {
+  if (first_try.n < 2)
+    return {HypothesisVerdict::not_judged,
+            "fewer than two participants completed the introduction"};
+  const std::string figures = fmt::format(
+      "{} of {} participants were right on the first try, 95 % interval [{:.1f}, {:.1f}] %; "
+      "guessing between two cubes makes 50 %",
+      first_try.n_hits, first_try.n_trials, *first_try.low, *first_try.high);
+  if (*first_try.low > 50) return {HypothesisVerdict::supported, figures};
+  if (*first_try.high < 50) return {HypothesisVerdict::not_supported, figures};
+  return {HypothesisVerdict::not_judged, figures};
+}
+
+// In the paper's technique and at its references.
+std::vector<const StudyEstimate*> papers(const Summary& summary, std::string_view measure) {
+  auto rows = estimates_of(summary.estimates, measure);
+  std::erase_if(rows, [](const StudyEstimate* one) { return !one->as_published; });
+  return rows;
+}
+
+// Why thresholds can't be compared; empty: they can. The JND itself is no ground: it follows the
+// criterion and the start of its staircase, and coin flips make it grow with the reference too.
+std::string why_not_comparable(const std::vector<const StudyEstimate*>& thresholds) {
+  if (thresholds.size() < 2)
+    return "it takes comparisons at two of the paper's references or more in its technique";
+  std::string why;
+  for (const StudyEstimate* one : thresholds)
+    if (!one->why.empty())
+      why += fmt::format("{}at {:g} g there is no threshold, because {}", why.empty() ? "" : "; ",
+                         *one->reference_g, one->why);
+  if (why.empty() && thresholds.front()->n < least_people)
+    why = "there are too few participants to tell how people differ";
+  return why;
+}
+
+std::string threshold_figures(const std::vector<const StudyEstimate*>& thresholds) {
+  std::string text = "75 % thresholds";
+  for (const StudyEstimate* one : thresholds)
+    text += fmt::format("{} {:.1f} g{} at {:g} g", one == thresholds.front() ? "" : ",",
+                        *one->value, within(*one), *one->reference_g);
+  return text;
+}
+
+Judgment judge_rising(const Summary& summary) {
+  const auto thresholds = papers(summary, "threshold_75");
+  if (const std::string why = why_not_comparable(thresholds); !why.empty())
+    return {HypothesisVerdict::not_judged, why};
+  const std::string figures = threshold_figures(thresholds);
+  if (std::ranges::all_of(papers(summary, "threshold_ratio"),
+                          [](const StudyEstimate* ratio) { return *ratio->low > 1; }))
+    return {HypothesisVerdict::supported, figures + ": each larger than the one before"};
+  if (std::ranges::any_of(papers(summary, "threshold_ratio_of_several"),
+                          [](const StudyEstimate* ratio) { return *ratio->high < 1; }))
+    return {HypothesisVerdict::not_supported, figures + ": one is smaller than the one before"};
+  return {HypothesisVerdict::not_judged, figures + ": their intervals don't tell which is larger"};
+}
+
+// Proportional: from each reference to the next the threshold grows as the reference does, within
+// a factor of 1.5.
+Judgment judge_proportional(const Summary& summary) {
+  const auto thresholds = papers(summary, "threshold_75");
+  if (const std::string why = why_not_comparable(thresholds); !why.empty())
+    return {HypothesisVerdict::not_judged, why};
+  constexpr double near = 1.5;
+  const std::string figures = threshold_figures(thresholds);
+  const auto expected = [](const StudyEstimate& ratio) {
+    return *ratio.reference_g / *ratio.at("lighter_reference_g")->value;
+  };
+  if (std::ranges::all_of(papers(summary, "threshold_ratio"), [&](const StudyEstimate* ratio) {
+        return *ratio->low >= expected(*ratio) / near && *ratio->high <= expected(*ratio) * near;
+      }))
+    return {HypothesisVerdict::supported, figures + ": in proportion within a factor of 1.5"};
+  if (std::ranges::any_of(
+          papers(summary, "threshold_ratio_of_several"), [&](const StudyEstimate* ratio) {
+            return *ratio->low > expected(*ratio) || *ratio->high < expected(*ratio);
+          }))
+    return {HypothesisVerdict::not_supported, figures + ": not in proportion to the reference"};
+  return {HypothesisVerdict::not_judged, figures + ": too uncertain to say"};
+}
+
+Judgment not_run(std::string_view what) {
+  return {
+      HypothesisVerdict::not_judged,
+      fmt::format("no completed {} the paper's masses and technique, by law and parameters", what)};
+}
+
+Hypothesis judged(std::size_t index, Judgment judgment, std::vector<std::string> figures,
+                  std::string condition) {
+  const published::HypothesisText& text = published::hypotheses.at(index);
+  return {std::string(text.name), std::string(text.statement), false,
+          judgment.verdict,       std::move(judgment.why),     std::move(figures),
+          std::move(condition)};
+}
+
+// What was sorted in one of the paper's conditions, whatever it is called here.
+struct PaperSorting {
+  PaperSorting(const Summary& summary, const published::Sorting& paper) : summary_(summary) {
+    for (const StudyEstimate* one : estimates_of(summary.estimates, "sorting_answers"))
+      if (one->published == &paper.correct) condition = one->condition;
+    if (condition.empty()) return;
+    chance = *estimate("sorting_chance", "all", "correct").value;
+    chance_text = chance_figure(summary, condition);
+  }
+  const StudyEstimate& estimate(std::string_view measure, std::string_view trials,
+                                std::string_view answer) const {
+    return *find_estimate(summary_.estimates, measure,
+                          {{"condition", condition}, {"trials", trials}, {"answer", answer}});
+  }
+  const StudyEstimate& share(std::string_view trials, std::string_view answer) const {
+    return estimate("sorting_answers", trials, answer);
+  }
+  std::string none_figure() const {
+    return share_figure(condition + " \"I don't know\", an outcome of its own",
+                        share("all", "I don't know"));
+  }
+
+  std::string condition;  // empty: no completed trial was in it with its masses
+  std::string chance_text;
+  double chance = 0;
+
+ private:
+  const Summary& summary_;
+};
+
+Hypothesis judged_of_control(const Summary& summary) {
+  const PaperSorting control(summary, published::sorting_coupled);
+  const std::string& name = control.condition;
+  if (name.empty()) return judged(0, not_run("sorting of"), {}, "");
+  return judged(
+      0,
+      judge_blind(control.estimate("sorting_equivalence", "answered", "correct"), control.chance,
+                  equivalence_margin_percent(summary)),
+      {share_figure(name + " correct", control.share("all", "correct")),
+       share_figure(name + " correct, of answered trials", control.share("answered", "correct")),
+       control.none_figure(), control.chance_text},
+      name);
+}
+
+Hypothesis judged_of_technique(const Summary& summary) {
+  const PaperSorting technique(summary, published::sorting_decoupled);
+  const std::string& name = technique.condition;
+  if (name.empty()) return judged(1, not_run("sorting of"), {}, "");
+  const StudyEstimate& correct = technique.share("all", "correct");
+  return judged(
+      1, judge_above_chance(correct, technique.chance),
+      {share_figure(name + " correct", correct), technique.none_figure(), technique.chance_text},
+      name);
+}
+
+Hypothesis judged_of_introduction(const Summary& summary) {
+  const StudyEstimate* first_try = find_estimate(summary.estimates, "introduction_first_try");
+  if (!first_try || !first_try->published) return judged(2, not_run("introduction with"), {}, "");
+  return judged(2, judge_first_try(*first_try), {first_try_figure(*first_try)},
+                first_try->condition);
+}
+
+std::vector<Hypothesis> judged_of_jnds(const Summary& summary) {
+  const auto thresholds = papers(summary, "threshold_75");
+  if (thresholds.empty())
+    return {judged(3, not_run("comparison with"), {}, ""),
+            judged(4, not_run("comparison with"), {}, "")};
+  const std::string& condition = thresholds.front()->condition;
+  return {judged(3, judge_rising(summary), jnd_figures(summary), condition),
+          judged(4, judge_proportional(summary), ratio_figures(summary), condition)};
+}
+}  // namespace
+
+double equivalence_margin_percent(const Summary& summary) {
+  return summary.plan ? summary.plan->equivalence_margin : usual_margin_percent;
+}
+
+std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
+  std::vector<Hypothesis> all{judged_of_control(summary), judged_of_technique(summary),
+                              judged_of_introduction(summary)};
+  for (Hypothesis& hypothesis : judged_of_jnds(summary)) all.push_back(std::move(hypothesis));
+  for (Hypothesis& hypothesis : all)
+    hypothesis.declared = summary.plan && summary.plan->declares(hypothesis.name);
+  return all;
+}
+
+}  // namespace heft

@@ -1,0 +1,41 @@
+// One topic of a study's analysis in one file: the measures that it declares, how they are
+// estimated from the log's sessions, and the tables and charts that show them. Sections.cpp lists
+// all.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/charts/ChartSpec.h"
+#include "analysis/dataset/Summary.h"
+#include "analysis/report/EstimateTable.h"
+
+namespace heft {
+
+class Section {
+ public:
+  Section() = default;
+  Section(const Section&) = delete;
+  Section& operator=(const Section&) = delete;
+  virtual ~Section() = default;
+
+  /// Whether it is about those too who are left out of the figures.
+  virtual bool of_everyone() const { return false; }
+  /// A session of a participant who counts. Sessions come in order, and one is in memory at a time.
+  virtual void add(const SessionData& /*data*/) {}
+  /// Adds the estimates over participants to the summary. What they alone were made of may go.
+  virtual void put(Summary& summary) = 0;
+  /// Each participant's own, made where they are printed: of a thousand participants they would be
+  /// most of what is in memory. @param summary that they belong to
+  virtual Estimates of_participants(const Summary& /*summary*/) const { return {}; }
+  /// What came out, for the top of the report; empty: nothing to say.
+  virtual std::string sentence(const Summary& /*summary*/) const { return ""; }
+  virtual std::vector<EstimateTable> tables() const { return {}; }
+  virtual std::vector<ChartSpec> charts() const { return {}; }
+};
+
+/// New ones.
+std::vector<std::shared_ptr<Section>> all_sections();
+
+}  // namespace heft

@@ -1,0 +1,24 @@
+// The list of all sections. A new one is a file in measures/ and its name here.
+#include "analysis/measures/Section.h"
+
+namespace heft {
+
+std::shared_ptr<Section> timing_section();
+std::shared_ptr<Section> lag_section();
+std::shared_ptr<Section> tracking_section();
+std::shared_ptr<Section> sorting_section();
+std::shared_ptr<Section> introduction_section();
+std::shared_ptr<Section> sensitivity_section();
+std::shared_ptr<Section> staircase_section();
+std::shared_ptr<Section> choice_section();
+std::shared_ptr<Section> curve_section();
+std::shared_ptr<Section> estimation_section();
+
+// Those first that hold most of each participant, as sections let go of it one after the other.
+std::vector<std::shared_ptr<Section>> all_sections() {
+  return {timing_section(),       lag_section(),         tracking_section(),  sorting_section(),
+          introduction_section(), sensitivity_section(), staircase_section(), choice_section(),
+          curve_section(),        estimation_section()};
+}
+
+}  // namespace heft

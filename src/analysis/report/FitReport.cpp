@@ -1,0 +1,81 @@
+#include "analysis/report/FitReport.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/Table.h"
+
+namespace heft {
+
+namespace {
+using nlohmann::ordered_json;
+
+Cell figure(const std::optional<double>& value) {
+  return value ? Cell{fmt::format("{:.5g}", *value), value} : Cell{};
+}
+
+std::string title(const NamedFit& named) {
+  const Fit& fit = named.fit;
+  std::string text = named.group ? fmt::format("{}: ", *named.group) : "";
+  text += fmt::format("{:.0f} trials at {} levels", fit.n_trials, fit.n_levels);
+  if (fit.log_likelihood) text += fmt::format(", log likelihood {:.4f}", *fit.log_likelihood);
+  return text;
+}
+
+Table table_of(const NamedFit& named) {
+  Table table{"fit", title(named), {}, {}, ""};
+  table.columns = {{"parameter", "parameter"}, {"value", "estimate"}, {"se", "SE"},
+                   {"low", "95 % from"},       {"high", "to"},        {"note", " "}};
+  for (const FittedParameter& parameter : named.fit.parameters)
+    table.rows.push_back({word(parameter.name), figure(parameter.value), figure(parameter.se),
+                          figure(parameter.low), figure(parameter.high),
+                          parameter.fixed ? word("fixed") : word(" ")});
+  if (!named.fit.identifiable())
+    table.note = fmt::format("No threshold, because {}.", named.fit.why);
+  return table;
+}
+
+ordered_json or_null(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : nullptr;
+}
+
+ordered_json object_of(const FittedParameter& parameter) {
+  return {{"value", or_null(parameter.value)},
+          {"se", or_null(parameter.se)},
+          {"low", or_null(parameter.low)},
+          {"high", or_null(parameter.high)},
+          {"fixed", parameter.fixed}};
+}
+
+ordered_json object_of(const NamedFit& named) {
+  const Fit& fit = named.fit;
+  ordered_json object, parameters;
+  for (const FittedParameter& parameter : fit.parameters)
+    parameters[parameter.name] = object_of(parameter);
+  object["group"] = named.group ? ordered_json(*named.group) : nullptr;
+  object["parameters"] = parameters;
+  if (parameters.contains("threshold_75_g"))
+    object["threshold_75_g"] = parameters["threshold_75_g"]["value"];
+  object["log_likelihood"] = or_null(fit.log_likelihood);
+  object["n_trials"] = static_cast<std::int64_t>(fit.n_trials);
+  object["identifiable"] = fit.identifiable();
+  object["why"] = fit.identifiable() ? nullptr : ordered_json(fit.why);
+  return object;
+}
+}  // namespace
+
+std::string fits_as_text(std::span<const NamedFit> fits) {
+  std::string text;
+  for (const NamedFit& fit : fits) text += (text.empty() ? "" : "\n") + as_text(table_of(fit));
+  return text;
+}
+
+std::string fits_as_json(std::span<const NamedFit> fits) {
+  ordered_json all = ordered_json::array();
+  for (const NamedFit& fit : fits) all.push_back(object_of(fit));
+  return all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace heft

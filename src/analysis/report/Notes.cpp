@@ -1,0 +1,125 @@
+#include "analysis/report/Notes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+namespace heft {
+
+namespace {
+// "1, 2, 3 and 40 more"
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 8;
+  const std::size_t shown = std::min(most, names.size());
+  std::string text = fmt::format("{}", fmt::join(std::span(names).first(shown), ", "));
+  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+std::string unfinished_note(const Summary& summary) {
+  std::vector<std::string> sessions;
+  for (const SessionSummary& session : summary.sessions)
+    if (session.state != SessionState::finished)
+      sessions.push_back(fmt::format("{} ({}, {})", session.session_id, session.participant,
+                                     name_of(session.state)));
+  if (sessions.empty()) return "";
+  return fmt::format(
+      "Not finished: session {}. Only completed trials and finished staircases "
+      "count.",
+      some_of(sessions));
+}
+
+std::string excluded_note(const Summary& summary) {
+  std::vector<std::string> excluded;
+  for (const ParticipantRow& row : summary.participants)
+    if (row.excluded())
+      excluded.push_back(fmt::format("{} ({})", row.participant, row.excluded_because));
+  if (excluded.empty()) return "";
+  return fmt::format("Left out of every figure, as the protocol declares: {}.", some_of(excluded));
+}
+
+std::string simulated_note(const Summary& summary) {
+  if (summary.data == "simulated") return "Every figure here is of simulated responders.";
+  if (!summary.simulated()) return "";
+  return "Figures of persons and of simulated responders are mixed here.";
+}
+
+std::string missing_note(const Summary& summary) {
+  if (summary.sessions.empty()) return fmt::format("{} holds no sessions.", summary.database);
+  const bool any = std::ranges::any_of(summary.sessions,
+                                       [](const auto& session) { return session.n_completed > 0; });
+  return any ? "" : "No trial was completed: there is nothing to estimate from.";
+}
+}  // namespace
+
+void NotesFold::add(const SessionData& data) {
+  const SessionHeader& header = data.session.header;
+  n_sessions_[data.participant()] += 1;
+  protocols_[header.protocol_sha256] = header.protocol_name;
+  for (const EstimateRow& row : data.estimates)
+    if (row.method != jnd_method) methods_.insert(row.method);
+  if (std::ranges::any_of(data.setups,
+                          [](const auto& s) { return s.setup.tracker.name == "mouse"; }))
+    dragged_.push_back(fmt::format("{} ({})", data.session.session_id, header.participant));
+  pictures_.shown += data.pictures.shown;
+  pictures_.dropped += data.pictures.dropped;
+  pictures_.late += data.pictures.late;
+}
+
+std::string NotesFold::repeated_note() const {
+  std::vector<std::string> repeated;
+  for (const auto& [participant, n] : n_sessions_)
+    if (n > 1) repeated.push_back(fmt::format("{} ({} sessions)", participant, n));
+  if (repeated.empty()) return "";
+  return fmt::format(
+      "More than one session: {}. All are used and the participant counts once: "
+      "sorting trials together, JNDs as the mean over sessions, the introduction "
+      "from the first session only.",
+      some_of(repeated));
+}
+
+std::string NotesFold::protocols_note() const {
+  if (protocols_.size() < 2) return "";
+  std::vector<std::string> names;
+  for (const auto& [sha256, name] : protocols_)
+    names.push_back(fmt::format("{} ({:.8})", name, sha256));
+  return fmt::format(
+      "The sessions used {} different protocols: {}. Their figures are put "
+      "together; --session N... takes single sessions.",
+      protocols_.size(), some_of(names));
+}
+
+std::string NotesFold::other_methods_note() const {
+  if (methods_.empty()) return "";
+  return fmt::format("The JNDs are those of the method {}; estimates by {} are in the log too.",
+                     jnd_method, fmt::join(methods_, ", "));
+}
+
+// Without a held effector the physics are the same, the movements are not.
+std::string NotesFold::dragged_note() const {
+  if (dragged_.empty()) return "";
+  return fmt::format(
+      "The effector was dragged on the screen (tracker mouse), not held, in session {}: to try and "
+      "to teach, not to be put beside a held one's figures.",
+      some_of(dragged_));
+}
+
+std::string NotesFold::pictures_note() const {
+  if (pictures_.dropped == 0 && pictures_.late == 0) return "";
+  return fmt::format(
+      "Of {} pictures shown to persons {} came late, and {} of the camera's were never shown; the "
+      "log's frames say which.",
+      pictures_.shown, pictures_.late, pictures_.dropped);
+}
+
+std::vector<std::string> NotesFold::result(const Summary& summary) const {
+  std::vector<std::string> notes{
+      simulated_note(summary), missing_note(summary), unfinished_note(summary),
+      excluded_note(summary),  repeated_note(),       protocols_note(),
+      other_methods_note(),    dragged_note(),        pictures_note()};
+  std::erase(notes, "");
+  return notes;
+}
+
+}  // namespace heft

@@ -1,0 +1,348 @@
+// Tables of records: participants, sessions, staircases, what went wrong, what was run.
+#include "analysis/report/RecordTables.h"
+
+#include <fmt/format.h>
+
+#include "experiment/EachCell.h"
+
+namespace heft {
+
+namespace {
+Cell grams(double mass_g) {
+  return {fmt::format("{:g}", mass_g), mass_g};
+}
+
+Cell session_cell(std::int64_t id) {
+  return {std::to_string(id), static_cast<double>(id), true};
+}
+
+template <typename Enum>
+Cell named_cell(Enum value) {
+  return word(std::string(name_of(value)));
+}
+
+Table participant_table(const Summary& summary) {
+  Table table{"participants",
+              "Participants",
+              {{"participant", "participant"},
+               {"n_sessions", "sessions"},
+               {"n_finished", "finished"},
+               {"n_completed", "trials"},
+               {"n_impossible", "anticipatory"},
+               {"n_lost", "out of view"},
+               {"n_catch", "catch trials"},
+               {"n_false_alarms", "false alarms"},
+               {"excluded_because", "excluded, because"}},
+              {},
+              "anticipatory: answers too early, too fast or without contact. Participants are "
+              "excluded only by a rule that the protocol declares",
+              {},
+              "participants[]"};
+  for (const ParticipantRow& row : summary.participants)
+    table.rows.push_back({word(row.participant), count(row.n_sessions), count(row.n_finished),
+                          count(row.n_completed), count(row.n_impossible), count(row.n_lost),
+                          count(row.n_catch), count(row.n_false_alarms),
+                          word(row.excluded_because)});
+  return table;
+}
+
+Table counted_table(const Summary& summary) {
+  Table table{"counted_first",
+              "Data quality",
+              {{"what", "what"}, {"n", "n"}, {"of", "of"}, {"meaning", "meaning"}},
+              {},
+              "no participant and no trial is excluded for any of it",
+              {},
+              "quality.counted_first[]"};
+  if (summary.sessions.empty()) return table;
+  for (const CountedRow& row : summary.quality.counted)
+    table.rows.push_back(
+        {word(row.what), count(row.n), row.of ? count(*row.of) : Cell(), word(row.meaning)});
+  return table;
+}
+
+Table losses_table(const Summary& summary) {
+  Table table{
+      "losses",
+      "Voids, losses and anticipatory responses by level and condition",
+      {{"task", "task"},
+       {"condition", "condition"},
+       {"difference", "difference"},
+       {"n_attempts", "attempts"},
+       {"n_void", "void"},
+       {"n_lost", "out of view"},
+       {"lost_s", "for s"},
+       {"n_impossible", "anticipatory"}},
+      {},
+      "losses that depend on the level are bias: compare the rows. out of view: attempts in "
+      "which the effector was, and for how long in all",
+      {},
+      "quality.losses[]"};
+  for (const LossRow& row : summary.quality.losses)
+    table.rows.push_back({named_cell(row.task), word(row.condition), word(row.difference),
+                          count(row.n_attempts), count(row.n_void), count(row.n_lost),
+                          number(row.lost_s), count(row.n_impossible)});
+  return table;
+}
+
+Table resets_table(const Summary& summary) {
+  Table table{
+      "resets",
+      "Cubes that were put back to their start, by mass",
+      {{"mass", "mass"},
+       {"n_cubes", "cubes shown"},
+       {"n_reset", "put back"},
+       {"percent", "%", "-"}},
+      {},
+      "where each cube goes back alone and the percentages differ, one that jumps home shows "
+      "its mass; where all of a trial go back together (out_of_area), it does not",
+      {},
+      "quality.resets[]"};
+  for (const ResetRow& row : summary.quality.resets)
+    table.rows.push_back({word(row.mass), count(row.n_cubes), count(row.n_reset),
+                          number(100.0 * row.n_reset / row.n_cubes)});
+  return table;
+}
+
+Table incident_table(const Summary& summary) {
+  Table table{"deviations",
+              "Deviations, notes, unblindings and checks not passed",
+              {{"session_id", "session"},
+               {"participant", "participant"},
+               {"t_s", "at s"},
+               {"kind", "kind"},
+               {"text", "what"}},
+              {},
+              "as the experimenter or the program logged them"};
+  for (const Incident& row : summary.incidents)
+    table.rows.push_back({session_cell(row.session_id), word(row.participant),
+                          number(row.noted.t_s), named_cell(row.noted.kind), word(row.noted.text)});
+  return table;
+}
+
+Table published_table(const Summary& summary) {
+  Table table{"beside_published",
+              "Found beside published",
+              {{"figure", "figure"},
+               {"unit", "unit"},
+               {"found", "found"},
+               {"found_sd", "SD"},
+               {"found_low", "95 % low"},
+               {"found_high", "high"},
+               {"n_participants", "n"},
+               {"published", "published"},
+               {"published_sd", "SD"},
+               {"published_low", "95 % low"},
+               {"published_high", "high"},
+               {"source", ""}},
+              {},
+              std::string(published::about_figures)};
+  for (const StudyEstimate* one : published_among(summary)) {
+    const published::Figure& figure = *one->published;
+    const auto paper = interval_of(figure);
+    const auto end = [&](double Interval::*which) {
+      return number(paper ? std::optional(*paper.*which) : std::nullopt);
+    };
+    table.rows.push_back({word(std::string(figure.what)), word(std::string(one->measure->unit)),
+                          number(one->value), number(one->sd), number(one->low), number(one->high),
+                          count(one->n), number(figure.value), number(figure.sd),
+                          end(&Interval::low), end(&Interval::high),
+                          word(std::string(figure.source))});
+  }
+  return table;
+}
+
+Table flow_table(const Summary& summary) {
+  Table table{"participant_flow",
+              "Participants, from the first page to the figures",
+              {{"step", "step"}, {"n", "participants"}, {"meaning", "meaning"}},
+              {},
+              "how many were planned is not in a log"};
+  const ParticipantFlow& flow = summary.flow;
+  if (flow.n_asked == 0) return table;
+  const auto add = [&](std::string step, int n, std::string meaning) {
+    table.rows.push_back({word(std::move(step)), count(n), word(std::move(meaning))});
+  };
+  add("asked", flow.n_asked, "with a session in the log");
+  add("declined", flow.n_declined, "did not agree to take part");
+  add("started", flow.n_started, "began a trial");
+  for (const auto& [state, n] : flow.unfinished)
+    add("finished no session", n, "the last one is " + state);
+  add("finished", flow.n_finished, "a session or more");
+  for (const auto& [rule, n] : flow.excluded) add("excluded", n, rule);
+  add("analyzed", flow.n_analyzed, "in the figures");
+  return table;
+}
+
+Table session_table(const Summary& summary) {
+  Table table{"sessions",
+              "Sessions",
+              {{"session_id", "session"},
+               {"participant", "participant"},
+               {"protocol", "protocol"},
+               {"purpose", "purpose"},
+               {"responder", "responder"},
+               {"state", "state"},
+               {"n_completed", "completed"},
+               {"n_void", "void"},
+               {"n_open", "open"}},
+              {},
+              "completed, void and open are attempts at trials",
+              {},
+              "sessions[]"};
+  for (const SessionSummary& session : summary.sessions)
+    table.rows.push_back({session_cell(session.session_id), word(session.participant),
+                          word(session.protocol), word(session.purpose), word(session.responder),
+                          named_cell(session.state), count(session.n_completed),
+                          count(session.n_void), count(session.n_open)});
+  return table;
+}
+
+Table staircase_table(const Summary& summary) {
+  Table table{"staircases",
+              "Finished staircases",
+              {{"session_id", "session"},
+               {"participant", "participant"},
+               {"staircase", "staircase"},
+               {"reference_g", "reference g"},
+               {"condition", "condition"},
+               {"jnd_g", "JND g"},
+               {"censored", "censored"},
+               {"why_censored", "because"},
+               {"start_g", "start g"},
+               {"n_trials", "trials"},
+               {"n_reversals", "reversals"},
+               {"n_floor", "floor hits"},
+               {"n_ceiling", "ceiling hits"},
+               {"reason", "ended by"},
+               {"method", "method"},
+               {"low_g", "from g"},
+               {"high_g", "to g"}},
+              {},
+              ""};
+  for (const StaircaseResult& result : summary.shared->staircases.results()) {
+    Cell shown = number(result.shown_g);
+    shown.text = std::string(beyond_sign(result.censored)) + shown.text;
+    table.rows.push_back({session_cell(result.session_id), word(result.participant),
+                          word(result.staircase), grams(result.compared.reference_g),
+                          word(result.compared.condition), shown, named_cell(result.censored),
+                          word(result.why), number(result.start_g), count(result.n_trials),
+                          count(result.n_reversals), count(result.n_floor), count(result.n_ceiling),
+                          named_cell(result.reason), word(result.compared.method),
+                          number(result.low_g), number(result.high_g)});
+  }
+  return table;
+}
+
+Table choices_of_protocols(const Summary& summary) {
+  Table table{"protocol_choices",
+              "What the protocol chose where the paper leaves it open",
+              {{"protocol", "protocol"}, {"choice", "choice"}, {"value", "value"}},
+              {},
+              "each is a key of the protocol, which is kept in the log; paper.toml explains them"};
+  for (const ProtocolChoice& choice : summary.choices)
+    table.rows.push_back({word(choice.protocol), word(choice.choice), word(choice.value)});
+  return table;
+}
+
+Table setup_table(const Summary& summary) {
+  Table table{"setups",
+              "Session configurations",
+              {{"what", "what"},
+               {"value", "value"},
+               {"unit", "unit"},
+               {"n_sessions", "sessions"},
+               {"n_attempts", "attempts"},
+               {"meaning", "meaning"}},
+              {},
+              "as the log has them; two values of one thing: it differed between sessions or was "
+              "changed in one. Protocol, hash, build and seeds are in the table of the protocol's "
+              "choices"};
+  for (const SetupValue& row : summary.setups)
+    table.rows.push_back({word(row.what), word(row.value), word(row.unit), count(row.n_sessions),
+                          count(row.n_attempts), word(row.meaning)});
+  return table;
+}
+
+template <typename Row>
+void explain(Table& table, const char* log_table) {
+  visit_cells(Row{}, [&](const CellColumn& column, const auto&) {
+    table.rows.push_back({word(log_table), word(column.full_name()), word(std::string(column.unit)),
+                          word(std::string(column.meaning))});
+  });
+}
+
+Table dictionary_table(const Summary& summary) {
+  Table table{
+      "dictionary",
+      "Data dictionary: the columns of the log",
+      {{"table", "table"}, {"column", "column"}, {"unit", "unit"}, {"meaning", "meaning"}},
+      {},
+      "heft export writes these as CSV, Psych-DS or BIDS, with a dictionary of their own; the CSV "
+      "files of this report are explained below each of its tables and figures, and measures.csv "
+      "says what each measure is"};
+  if (summary.sessions.empty()) return table;
+  explain<TrialRow>(table, "trial");
+  explain<CubeRow>(table, "cube");
+  explain<AnswerRow>(table, "answer");
+  explain<ReversalRow>(table, "reversal");
+  explain<EstimateRow>(table, "estimate");
+  explain<SessionConfig>(table, "setup");
+  explain<FrameRow>(table, "frame");
+  return table;
+}
+}  // namespace
+
+std::vector<const StudyEstimate*> published_among(const Summary& summary) {
+  std::vector<const StudyEstimate*> found;
+  for (const StudyEstimate& one : summary.estimates)
+    if (one.published && std::ranges::none_of(found, [&](const StudyEstimate* other) {
+          return other->published == one.published && other->condition == one.condition;
+        }))
+      found.push_back(&one);
+  return found;
+}
+
+std::vector<RecordTable> record_tables() {
+  return {{TablePlace::report_first, participant_table},
+          {TablePlace::first, counted_table},
+          {TablePlace::first, losses_table},
+          {TablePlace::first, resets_table},
+          {TablePlace::report_first, incident_table},
+          {TablePlace::report, published_table},
+          {TablePlace::run, choices_of_protocols},
+          {TablePlace::run_only, setup_table},
+          {TablePlace::run_only, dictionary_table},
+          {TablePlace::csv, flow_table},
+          {TablePlace::csv, session_table},
+          {TablePlace::csv, staircase_table}};
+}
+
+Table track_table(const SessionTracks& session) {
+  Table table{"staircase_trials",
+              "Every trial of every staircase",
+              {{"session_id", "session"},
+               {"participant", "participant"},
+               {"staircase", "staircase"},
+               {"reference_g", "reference g"},
+               {"condition", "condition"},
+               {"trial", "trial"},
+               {"level_g", "difference g"},
+               {"chosen", "chosen"},
+               {"wrong", "wrong"},
+               {"reversal", "reversal"}},
+              {},
+              ""};
+  for (const Track& track : session.tracks)
+    for (std::size_t i = 0; i < track.points.size(); ++i) {
+      const TrackPoint& point = track.points[i];
+      table.rows.push_back({session_cell(session.session_id), word(session.participant),
+                            word(track.staircase), grams(track.compared.reference_g),
+                            word(track.compared.condition), count(static_cast<int>(i) + 1),
+                            number(point.level_g), count(point.chosen ? 1 : 0),
+                            count(point.wrong ? 1 : 0), count(point.is_reversal ? 1 : 0)});
+    }
+  return table;
+}
+
+}  // namespace heft

@@ -1,0 +1,31 @@
+// The tables of a Summary, and all of it as text for a terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/dataset/Summary.h"
+#include "analysis/report/Table.h"
+
+namespace heft {
+
+/// The tables of these places, of records and of estimates, with rows or without.
+std::vector<Table> tables_at(const Summary& summary, const std::vector<TablePlace>& places);
+
+/// Those over participants, then each participant's.
+Estimates all_estimates(const Summary& summary);
+
+/// Those of them that have rows.
+std::vector<Table> filled(std::vector<Table> tables);
+
+/// Title, notes, tables and hypotheses.
+std::string readable(const Summary& summary);
+
+/// "heft 0.1.0: 13 sessions of 13 participants in heft.db (simulated)"
+std::string headline(const Summary& summary);
+
+/// "Sorting" becomes "Sorting (simulated)" where it is.
+std::string titled(std::string_view title, const Summary& summary);
+
+}  // namespace heft

@@ -1,0 +1,99 @@
+// Pictures of a camera, a video file, a folder of images or a synthetic camera, tracked alike.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "apparatus/sources/PictureRecording.h"
+#include "apparatus/sources/PictureSource.h"
+#include "tracking/Tracker.h"
+#include "tracking/camera/Camera.h"
+#include "tracking/pose/PoseFilter.h"
+#include "tracking/synthetic/SyntheticCamera.h"
+
+namespace heft {
+
+/// What was seen of the effector, smoothed, as Drive wants it.
+TargetSample smoothed(PoseFilter& filter, const TrackedPicture& tracked, double t_s);
+
+/// From a camera's picture to what the session needs of it: tracks board and effector, smooths the
+/// effector's pose without lag, and says when the board is lost.
+class PictureTracker {
+ public:
+  explicit PictureTracker(const Apparatus& apparatus) : tracker_(apparatus) {}
+
+  /// @param t_s of its capture, increasing; Picture::sample has the same time
+  Picture track(std::shared_ptr<const Image> image, double t_s);
+
+  /// How long the board is out of view is counted from the next picture on.
+  void look_anew() { board_seen_s_.reset(); }
+
+  /// What comes next is no continuation.
+  void reset();
+
+ private:
+  Tracker tracker_;
+  PoseFilter filter_;
+  std::optional<Pose> camera_from_board_;
+  std::optional<double> board_seen_s_;
+};
+
+/// Pictures of a camera, a video file or a folder of images.
+class CameraPictures final : public PictureSource {
+ public:
+  using OpenCamera = std::function<std::unique_ptr<Camera>()>;
+
+  /// @param open called once here, and for a file once more by each check(): what is looked at
+  ///   before the session must not be missing from it
+  /// @throws Error as open_camera
+  CameraPictures(OpenCamera open, const PictureParts& parts);
+
+  void begin_attempt(const AttemptStart& attempt) override;
+  std::optional<Picture> next() override;
+  void listen_anew() override;
+  std::optional<double> rate_hz() const override;
+  std::vector<CheckResult> check(double wanted_rate_hz) override;
+  bool has_checks() const override { return true; }
+  bool ended() const override { return camera_->ended(); }
+
+ private:
+  double time_of(const CameraPicture& taken);
+  std::optional<Picture> picture_of_silence();
+
+  OpenCamera open_;
+  std::unique_ptr<Camera> camera_;
+  Apparatus apparatus_;
+  PictureTracker tracker_;
+  std::optional<PictureRecording> recording_;
+  const SessionClock& clock_;
+  double attempt_start_s_ = 0;
+  // A file's times go on from picture to picture; an attempt starts with the one after the last.
+  std::optional<double> last_capture_s_, attempt_capture_s_;
+  std::optional<std::int64_t> last_number_;
+  double heard_s_ = 0;  ///< session time of the last sign of life of a live camera
+};
+
+/// Pictures of a synthetic camera that films the responder's hand.
+class SyntheticPictures final : public PictureSource {
+ public:
+  explicit SyntheticPictures(const PictureParts& parts);
+
+  void begin_attempt(const AttemptStart& attempt) override;
+  std::optional<Picture> next() override;
+  void skip_to(double t_s) override { count_.skip_to(t_s); }
+  void listen_anew() override;
+  std::vector<CheckResult> check(double wanted_rate_hz) override;
+  bool has_checks() const override { return true; }
+
+ private:
+  Responder& hand_;
+  Apparatus apparatus_;
+  SyntheticSettings settings_;
+  SyntheticCamera camera_;
+  PictureTracker tracker_;
+  std::optional<PictureRecording> recording_;
+  AttemptStart attempt_;
+  PictureCount count_;
+};
+
+}  // namespace heft

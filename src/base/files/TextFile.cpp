@@ -1,0 +1,147 @@
+#include "base/files/TextFile.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/Error.h"
+
+namespace heft {
+
+namespace {
+namespace fs = std::filesystem;
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+[[noreturn]] void refuse_writing(const std::string& path, const std::string& why) {
+  throw Error(fmt::format("can't write {}: {}", path, why));
+}
+
+// A copy under the first name that is free; an earlier one is never written over.
+std::string keep_beside(const std::string& path) {
+  for (int i = 1;; ++i) {
+    const std::string kept = path + ".before" + (i > 1 ? std::to_string(i) : "");
+    std::error_code error;
+    if (fs::copy_file(path, kept, error)) return kept;
+    if (error != std::errc::file_exists)
+      refuse_writing(kept, error.message() + "; it would hold the file that is there now");
+  }
+}
+
+void write_whole(const std::string& path, const std::string& text) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) refuse_writing(path, std::strerror(errno));
+  std::string_view left = text;
+  bool written = true;
+  while (written && !left.empty()) {
+    const ssize_t n = ::write(file, left.data(), left.size());
+    written = n > 0;
+    if (written) left.remove_prefix(static_cast<std::size_t>(n));
+  }
+  written = written && fsync(file) == 0;
+  const int reason = errno;
+  ::close(file);
+  if (written) return;
+  ::unlink(path.c_str());
+  refuse_writing(path, std::strerror(reason));
+}
+}  // namespace
+
+std::string read_text_file(const std::string& path) {
+  std::error_code unknown;  // what can't be looked at is explained when it is opened
+  const fs::file_status there = fs::status(path, unknown);
+  if (fs::is_directory(there))
+    throw Error(fmt::format("can't read {}: it is a folder, expected a file", path));
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw Error(fmt::format("can't read {}: it is a device or a pipe, expected a file", path));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(fmt::format("can't read {}: {}", path, std::strerror(errno)));
+  std::ostringstream text;
+  text << file.rdbuf();
+  return std::move(text).str();
+}
+
+bool create_file(const std::string& path, unsigned mode) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  if (file < 0 && errno != EEXIST) refuse_writing(path, std::strerror(errno));
+  if (file >= 0) ::close(file);
+  return file >= 0;
+}
+
+void require_writable(const std::string& path) {
+  std::error_code unknown;
+  const fs::file_status there = fs::status(path, unknown);
+  if (fs::is_directory(there)) refuse_writing(path, "it is a folder, expected a file");
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    refuse_writing(path, "it is a device or a pipe, expected a file");
+  const fs::path folder = fs::path(path).parent_path();
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
+    refuse_writing(
+        path, fmt::format("{}; does its folder exist, may you write there?", std::strerror(errno)));
+}
+
+std::string replace_text_file(const std::string& path, const std::string& text) {
+  require_writable(path);
+  // Through a symbolic link the file that it stands for.
+  const std::string target = fs::exists(path) ? fs::canonical(path).string() : path;
+  const std::string kept = fs::exists(target) ? keep_beside(target) : "";
+  const std::string half_done = target + ".new";
+  write_whole(half_done, text);
+  if (std::rename(half_done.c_str(), target.c_str()) != 0)
+    refuse_writing(target, std::strerror(errno));
+  return kept;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as spreadsheets put it in front
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  return text;
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  text = without_byte_order_mark(text);
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    lines.push_back(line);
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+  }
+  return lines;
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (;;) {
+    const auto comma = line.find(',');
+    cells.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<double> number_in(std::string_view cell) {
+  if (cell.starts_with('+')) cell.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+}  // namespace heft

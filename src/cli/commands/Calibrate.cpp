@@ -1,0 +1,394 @@
+// heft calibrate: the camera from views of the board, where the effector's tags really are, and how
+// large a display is.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <regex>
+#include <string>
+
+#include "base/Error.h"
+#include "base/files/TextFile.h"
+#include "cli/Commands.h"
+#include "cli/SessionOptions.h"
+#include "cli/console/Terminal.h"
+#include "experiment/DisplayFacts.h"
+#include "protocol/readers/Files.h"
+#include "tracking/Tracker.h"
+#include "tracking/calibration/EffectorCalibration.h"
+#include "tracking/calibration/Response.h"
+#include "tracking/calibration/ShutterCalibration.h"
+#include "tracking/calibration/ViewCollector.h"
+#include "tracking/camera/Camera.h"
+#include "view/Window.h"
+
+namespace heft::cli {
+
+namespace {
+constexpr const char* doubtful =
+    "{} is written, but should not be trusted: see above, and calibrate once more\n";
+constexpr double patience_s = 5;  ///< with a camera that gives no picture
+
+struct CalibrateOptions {
+  std::optional<Plug> source;
+  std::string board, camera_file, effector, out, size;
+  std::optional<double> exposure_ms;
+  bool shutter = false;
+};
+
+// A calibration that turned out worse than the last one must not have cost it.
+void write_result(const std::string& path, const std::string& text) {
+  const std::string kept = replace_text_file(path, text);
+  if (!kept.empty()) say("the {} that was there is kept as {}\n", path, kept);
+}
+
+// How a live camera is to be set while it is calibrated; and so it is set ever after.
+CameraRequest request_of(const CalibrateOptions& options) {
+  constexpr double shortest_ms = 0.1, longest_ms = 100;
+  CameraRequest request;
+  if (!options.size.empty()) {
+    static const std::regex width_x_height("([1-9][0-9]{1,4})x([1-9][0-9]{1,4})");
+    std::smatch sides;
+    if (!std::regex_match(options.size, sides, width_x_height))
+      throw Error(fmt::format("--size {}: expected width and height in pixels, as in 1280x720",
+                              options.size),
+                  ExitCode::usage);
+    request.width_px = std::stoi(sides[1]);
+    request.height_px = std::stoi(sides[2]);
+  }
+  const double exposure_ms = options.exposure_ms.value_or(1e3 * request.exposure_s);
+  if (!(exposure_ms >= shortest_ms && exposure_ms <= longest_ms))
+    throw Error(fmt::format("--exposure-ms {}: expected {} to {} ms; 4 is short enough for a fast "
+                            "hand",
+                            exposure_ms, shortest_ms, longest_ms),
+                ExitCode::usage);
+  request.exposure_s = exposure_ms / 1e3;
+  return request;
+}
+
+// What was asked of a camera that can't do it, or of pictures that were taken long ago.
+void require_as_asked(const CalibrateOptions& options, const CameraRequest& request,
+                      const Camera& camera, const Image& picture) {
+  if (options.exposure_ms && !camera.is_live())
+    throw Error(fmt::format("--exposure-ms: the pictures of {} have been taken; it sets live "
+                            "cameras only",
+                            to_text(*options.source)),
+                ExitCode::usage);
+  const bool fits = picture.width == request.width_px && picture.height == request.height_px;
+  if (options.size.empty() || fits) return;
+  throw Error(fmt::format("--size {}: {} gives pictures of {} x {} pixels; {}", options.size,
+                          to_text(*options.source), picture.width, picture.height,
+                          camera.is_live() ? "heft doctor lists the sizes that it can"
+                                           : "leave --size out, it sets live cameras only"));
+}
+
+void say_locks(const Camera& camera) {
+  const CameraMode mode = camera.mode();
+  if (!mode.locked.empty()) say("the camera holds: {}\n", fmt::join(mode.locked, ", "));
+  for (const std::string& what : mode.not_locked) say("it does not hold {}\n", what);
+}
+
+// The next picture; none at the end of a file, or when the person stops.
+std::optional<CameraPicture> next_picture(Camera& camera, const StopOnSignal& stop) {
+  if (stop.requested() || camera.ended()) return std::nullopt;
+  auto picture = camera.next(patience_s);
+  if (!picture && !camera.ended() && !stop.requested())
+    throw Error(
+        fmt::format("the camera gave no picture for {} s; is it still plugged in?", patience_s),
+        ExitCode::device_missing);
+  return picture;
+}
+
+std::string name_of_picture(const CameraPicture& picture) {
+  return picture.name.empty() ? fmt::format("picture {}", picture.number) : picture.name;
+}
+
+void say_progress(const ViewCollector& views) {
+  say("{}{} views of {}; {:.0f} % of the picture\n", views.coverage().drawing(), views.size(),
+      ViewCollector::enough, 100 * views.coverage().fraction());
+  if (!views.wanted().empty()) say("next: {}\n", views.wanted());
+}
+
+// Every picture of a file; of a live camera until all is there or the person presses Ctrl-C.
+ViewCollector board_views(Camera& camera, const MarkerBody& board, const CalibrateOptions& options,
+                          const CameraRequest& request) {
+  const StopOnSignal stop;
+  const bool live = camera.is_live();
+  auto picture = next_picture(camera, stop);
+  if (!picture) throw Error("there is no picture to calibrate from");
+  require_as_asked(options, request, camera, picture->image);
+  say_locks(camera);
+  if (live)
+    say("Move the board slowly through the whole picture, near and far, tilted to all sides. Hold\n"
+        "it still for a moment in each place. Ctrl-C ends it with what is there.\n");
+  ViewCollector views(board, picture->image.width, picture->image.height, live);
+  for (; picture; picture = next_picture(camera, stop)) {
+    if (views.offer(picture->image, name_of_picture(*picture)) && live) say_progress(views);
+    if (live ? views.complete() || views.full() : views.full()) break;
+  }
+  return views;
+}
+
+// What can't become a camera file, and what to film to make it one.
+void require_views(const ViewCollector& views, const MarkerBody& board) {
+  if (views.size() >= least_views) return;
+  std::string missing;
+  for (const std::string& what : views.missing()) missing += "\n  " + what;
+  if (views.size() == 0)
+    throw Error(fmt::format("no picture shows the board: {}. Of the last one: {}", views.tally(),
+                            why_unseen(views.last_offered(), board, "board")));
+  throw Error(
+      fmt::format("too few views of the board that differ: {}; expected at least {} and "
+                  "better {}. What is missing:{}",
+                  views.tally(), least_views, ViewCollector::enough, missing));
+}
+
+void say_views(const CameraCalibration& result) {
+  for (const CalibratedView& view : result.views)
+    say("{}: {} tags, {:.3f} px{}\n", view.name, view.n_tags, view.reprojection_px,
+        view.used ? "" : ", left out: does not fit the others");
+  say("{}", result.coverage.drawing());
+}
+
+void calibrate_the_camera(const CalibrateOptions& options) {
+  require_writable(options.out);
+  const CameraRequest request = request_of(options);
+  const MarkerBody board = load_board(options.board);
+  const auto camera = open_camera(options.source->name, options.source->what, request);
+  const ViewCollector views = board_views(*camera, board, options, request);
+  require_views(views, board);
+  say("{}; computing...\n", views.tally());
+  CameraCalibration result = calibrate_camera(board, views.pictures(), views.names());
+  result.camera.calibrated_at = camera->mode().held;
+  result.camera.response = learned_response(result.camera, board, views.pictures());
+  say_views(result);
+  const std::string text = summary(result) + response_in_words(result.camera);
+  write_result(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));
+  print("{}", text);
+  if (!doubts(result).empty())
+    say(doubtful, options.out);
+  else
+    say("{} is written. Next: heft calibrate effector --camera camera:0 --camera-file {} "
+        "--effector EFFECTOR.toml --out MEASURED.toml\n",
+        options.out, shell_quoted(options.out));
+}
+
+// Every picture of a file; of a live camera until there are enough of a moving board, or Ctrl-C.
+std::vector<TimedView> waved_views(Camera& camera, const MarkerBody& board,
+                                   const Intrinsics& intrinsics) {
+  constexpr std::size_t wanted = 3 * enough_waved_pictures, most = 600;
+  const StopOnSignal stop;
+  say_locks(camera);
+  if (camera.is_live())
+    say("Wave the board to and fro and up and down in front of the camera, as fast as it stays\n"
+        "sharp. Ctrl-C ends it with what is there.\n");
+  TagViewer viewer(board);
+  std::vector<TimedView> views;
+  ProgressBar bar("board");
+  while (const auto picture = next_picture(camera, stop)) {
+    TagView view = viewer.view(picture->image, intrinsics);
+    if (view.tags.size() >= least_tags_of_a_view)
+      views.push_back({picture->capture_s, std::move(view)});
+    bar.update(static_cast<double>(views.size()) / wanted,
+               fmt::format("{} pictures", views.size()));
+    if (views.size() >= (camera.is_live() ? wanted : most)) break;
+  }
+  return views;
+}
+
+void calibrate_the_shutter(const CalibrateOptions& options) {
+  if (options.camera_file.empty())
+    throw Error("--shutter needs --camera-file: the camera, calibrated already", ExitCode::usage);
+  if (!options.size.empty() || options.exposure_ms)
+    throw Error("--shutter takes the size and the exposure of the camera file", ExitCode::usage);
+  require_writable(options.out);
+  Intrinsics intrinsics = load_intrinsics(options.camera_file);
+  const MarkerBody board = load_board(options.board);
+  const auto camera =
+      open_camera(options.source->name, options.source->what, request_for(intrinsics, 0));
+  const auto views = waved_views(*camera, board, intrinsics);
+  const ShutterCalibration result = calibrate_shutter(board, intrinsics, views);
+  const std::string text = summary(result);
+  print("{}", text);
+  if (!doubts(result).empty())
+    throw Error(
+        fmt::format("the read-out was not found, and {} is not written: see above", options.out));
+  intrinsics.readout_s = std::max(result.readout_s, 0.0);
+  write_result(options.out,
+               to_yaml(intrinsics, "Made by heft calibrate camera --shutter.\n" + text));
+  say("{} is written. Next: heft doctor\n", options.out);
+}
+
+void calibrate_the_effector(const CalibrateOptions& options) {
+  constexpr double usual_rate_hz = 0;  // no display waits for the pictures
+  require_writable(options.out);
+  const Intrinsics intrinsics = load_intrinsics(options.camera_file);
+  const MarkerBody nominal = load_effector(options.effector);
+  const auto camera = open_camera(options.source->name, options.source->what,
+                                  request_for(intrinsics, usual_rate_hz));
+  const StopOnSignal stop;
+  EffectorViews views(nominal, intrinsics);
+  say_locks(*camera);
+  if (camera->is_live())
+    say("Turn the effector slowly in front of the camera, near, so that two faces or three are\n"
+        "seen at a time. Ctrl-C ends it with what is there.\n");
+  {
+    ProgressBar bar("effector");
+    while (const auto picture = next_picture(*camera, stop)) {
+      views.offer(picture->image, name_of_picture(*picture));
+      bar.update(views.progress(), views.counts());
+      if (camera->is_live() ? views.complete() || views.full() : views.full()) break;
+    }
+  }
+  const EffectorCalibration result = calibrate_effector(nominal, intrinsics, views.views());
+  const std::string text = summary(result);
+  write_result(options.out,
+               effector_to_toml(result.effector, "Made by heft calibrate effector from " +
+                                                     options.effector + ".\n" + text));
+  print("{}", text);
+  if (!doubts(result).empty())
+    say(doubtful, options.out);
+  else
+    say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
+}
+
+void add_source(Command& command, CalibrateOptions& options) {
+  add_plug(command, "--camera", options.source, "camera:N, video:FILE or frames:FOLDER").required();
+}
+
+void add_camera(Command& parent) {
+  Command command = parent.add_command(
+      "camera", "the camera, from views of the board",
+      {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
+       "heft calibrate camera --camera frames:views --board BOARD.toml --out camera.yaml",
+       "heft calibrate camera --shutter --camera camera:0 --camera-file camera.yaml \\\n"
+       "      --board BOARD.toml --out camera.yaml"});
+  const auto options = std::make_shared<CalibrateOptions>();
+  add_source(command, *options);
+  command.add_option("--board", &options->board, "board file").required();
+  command.add_option("--out", &options->out, "the camera file (OpenCV YAML) to write").required();
+  command.add_option("--size", &options->size,
+                     "of a live camera's pictures, WIDTHxHEIGHT (640x480 unless told)");
+  command.add_option("--exposure-ms", &options->exposure_ms,
+                     "how long a live camera's shutter is open (4 unless told)");
+  command.add_flag("--shutter", options->shutter,
+                   "only its read-out (rolling shutter), from a board that is waved; the rest is "
+                   "--camera-file's");
+  command.add_option("--camera-file", &options->camera_file,
+                     "for --shutter: the calibrated camera");
+  command.does([options] {
+    if (options->shutter) return calibrate_the_shutter(*options);
+    if (!options->camera_file.empty())
+      throw Error("--camera-file goes with --shutter", ExitCode::usage);
+    calibrate_the_camera(*options);
+  });
+}
+
+void add_effector(Command& parent) {
+  Command command =
+      parent.add_command("effector", "where the effector's tags really are, from pictures",
+                         {"heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
+                          "      --effector EFFECTOR.toml --out MEASURED.toml"});
+  const auto options = std::make_shared<CalibrateOptions>();
+  add_source(command, *options);
+  command.add_option("--camera-file", &options->camera_file, "the calibrated camera").required();
+  command.add_option("--effector", &options->effector, "effector file as designed").required();
+  command.add_option("--out", &options->out, "the effector file to write").required();
+  command.does([options] { calibrate_the_effector(*options); });
+}
+
+struct DisplayOptions {
+  int display = 0;
+  std::optional<double> width_mm, height_mm, eye_distance_mm;
+  std::string out = "display.toml";
+};
+
+double asked_mm(const std::string& what, const std::string& option) {
+  if (isatty(STDIN_FILENO) != 1)
+    throw Error(fmt::format("there is no terminal to ask for {}; give it with {}", what, option),
+                ExitCode::usage);
+  for (std::string line;;) {
+    say("{}, in millimeters: ", what);
+    if (!std::getline(std::cin, line)) throw Error("nothing was answered", ExitCode::usage);
+    if (const auto mm = number_in(line); mm && *mm > 0) return *mm;
+    say("expected a number such as 450\n");
+  }
+}
+
+// Its pixels are square.
+DisplayMeasures by_card(int display) {
+  const std::string how =
+      "Hold a bank card against the display and make the blue rectangle as large as it is: with "
+      "the arrow keys (Shift: faster), the wheel or the mouse. Enter when it is, Escape to leave.";
+  say("{}\n", how);
+  const auto card = window_module().measure_card(display, how);
+  if (!card) throw Error("the display was not measured", ExitCode::interrupted);
+  const double mm_per_px = card_w_mm / card->w_px;
+  const DisplayFacts& facts = card->display;
+  return {facts.w_px, facts.h_px, facts.w_px * mm_per_px, facts.h_px * mm_per_px, 0};
+}
+
+DisplayMeasures by_ruler(const DisplayOptions& options) {
+  const std::vector<DisplayFacts> all = window_module().displays();
+  const auto number = static_cast<std::size_t>(options.display);
+  if (options.display < 0 || number >= all.size())
+    throw Error(fmt::format("there is no display {}; heft doctor lists them", options.display),
+                ExitCode::device_missing);
+  return {all[number].w_px, all[number].h_px, *options.width_mm, *options.height_mm, 0};
+}
+
+void calibrate_the_display(const DisplayOptions& options) {
+  require_writable(options.out);
+  if (options.width_mm.has_value() != options.height_mm.has_value())
+    throw Error("expected both --width-mm and --height-mm, or neither", ExitCode::usage);
+  DisplayMeasures measured = options.width_mm ? by_ruler(options) : by_card(options.display);
+  measured.eye_distance_mm =
+      options.eye_distance_mm
+          ? *options.eye_distance_mm
+          : asked_mm("from the participant's eyes to the display", "--eye-distance-mm");
+  const std::string text = to_toml(measured);
+  parse_display(text, options.out);  // what can't be is not written
+  write_result(options.out, text);
+  print("{} x {} pixels are {:.1f} x {:.1f} mm, seen from {:.0f} mm\n", measured.w_px,
+        measured.h_px, measured.w_mm, measured.h_mm, measured.eye_distance_mm);
+  say("{} is written. Sessions that start in this folder take it, others with --display-file\n",
+      options.out);
+}
+
+void add_display(Command& parent) {
+  Command command = parent.add_command(
+      "display", "how large the participant's display is, with a bank card held to it",
+      {"heft calibrate display", "heft calibrate display --display 1 --eye-distance-mm 450",
+       "heft calibrate display --width-mm 154 --height-mm 90 --eye-distance-mm 450"});
+  const auto options = std::make_shared<DisplayOptions>();
+  command.add_option("--display", &options->display, "its number (heft doctor lists them)")
+      .shows_default();
+  command.add_option("--width-mm", &options->width_mm, "of its picture, by a ruler: no card then");
+  command.add_option("--height-mm", &options->height_mm, "likewise");
+  command.add_option("--eye-distance-mm", &options->eye_distance_mm,
+                     "from the participant's eyes to the display (default: it is asked)");
+  command.add_option("--out", &options->out, "the file to write").shows_default();
+  command.does([options] { calibrate_the_display(*options); });
+}
+}  // namespace
+
+void add_calibrate(Command& app) {
+  Command command = app.add_command(
+      "calibrate", "measure the camera, where the effector's tags are, or the display",
+      {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
+       "heft calibrate camera --camera camera:0 --size 1280x720 --board BOARD.toml \\\n"
+       "      --out camera.yaml",
+       "heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
+       "      --effector EFFECTOR.toml --out MEASURED.toml",
+       "heft calibrate display"});
+  command.needs_command();
+  add_camera(command);
+  add_effector(command);
+  add_display(command);
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,309 @@
+// heft doctor: whether this machine has what a session needs, with a verdict each.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/statvfs.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include "apparatus/checks/ApparatusCheck.h"
+#include "apparatus/configuration/Texts.h"
+#include "apparatus/sources/PictureSource.h"
+#include "base/Build.h"
+#include "base/Error.h"
+#include "base/Installation.h"
+#include "base/files/TextFile.h"
+#include "cli/Commands.h"
+#include "cli/SessionOptions.h"
+#include "cli/console/Terminal.h"
+#include "physics/DecouplingSimulator.h"
+#include "protocol/readers/Files.h"
+#include "record/integrity/Integrity.h"
+#include "responders/Responder.h"
+#include "session/Session.h"
+#include "tracking/calibration/ShutterCalibration.h"
+#include "tracking/camera/Camera.h"
+#include "tracking/camera/VideoDevices.h"
+#include "view/ArView.h"
+#include "view/Window.h"
+
+namespace heft::cli {
+
+namespace {
+
+// Prints one line a check and remembers the worst.
+class Report {
+ public:
+  void line(CheckVerdict verdict, const std::string& what, const std::string& found) {
+    constexpr std::array<const char*, 3> marks{"ok     ", "warning", "FAILED "};
+    print("{}  {:<14} {}\n", marks[static_cast<std::size_t>(verdict)], what, found);
+    worst_ = std::max(worst_, verdict);
+  }
+  bool failed() const { return worst_ == CheckVerdict::failed; }
+
+ private:
+  CheckVerdict worst_ = CheckVerdict::ok;
+};
+
+// What a command prints; nothing if it can't be run.
+std::string output_of(const std::string& command) {
+  std::string output;
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::array<char, 256> part{};
+  while (pipe && fgets(part.data(), part.size(), pipe.get())) output += part.data();
+  return output;
+}
+
+void check_packages(Report& report) {
+  const std::string file = installed_file_or_none(".packages");
+  if (file.empty())
+    return report.line(CheckVerdict::ok, "packages", "came with heft when it was installed");
+  std::istringstream list(read_text_file(file));
+  std::string line, missing;
+  int n = 0;
+  while (std::getline(list, line)) {
+    std::istringstream words(line);
+    std::string package, purpose;
+    if (!(words >> package >> purpose) || package.starts_with('#') || purpose == "test") continue;
+    ++n;
+    if (output_of("dpkg-query -W -f '${db:Status-Status}' " + package + " 2>/dev/null") !=
+        "installed")
+      missing += " " + package;
+  }
+  if (missing.empty())
+    report.line(CheckVerdict::ok, "packages", fmt::format("all {} are installed", n));
+  else
+    report.line(CheckVerdict::failed, "packages",
+                fmt::format("missing; install them: sudo apt-get install{}", missing));
+}
+
+void check_space(Report& report, const std::string& folder) {
+  struct statvfs space {};
+  if (statvfs(folder.c_str(), &space) != 0)
+    return report.line(CheckVerdict::failed, "disk",
+                       fmt::format("{} can't be looked at; is the folder there?", folder));
+  const double free_gb =
+      static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize) / 1e9;
+  const std::string found = fmt::format("{:.1f} GB free in {}", free_gb, folder);
+  if (free_gb < 0.1)
+    report.line(CheckVerdict::failed, "disk",
+                found + ": too little for a session (about 20 MB each)");
+  else
+    report.line(free_gb < 1 ? CheckVerdict::warning : CheckVerdict::ok, "disk", found);
+}
+
+// SQLite's write-ahead log needs shared memory, which network file systems do not give.
+void check_file_system(Report& report, const std::string& folder) {
+  constexpr long nfs = 0x6969, smb = 0x517B, smb2 = 0xFE534D42L, cifs = 0xFF534D42L;
+  struct statfs system {};
+  if (statfs(folder.c_str(), &system) != 0) return;
+  const bool remote = system.f_type == nfs || system.f_type == smb || system.f_type == smb2 ||
+                      system.f_type == cifs;
+  report.line(remote ? CheckVerdict::failed : CheckVerdict::ok, "file system",
+              remote ? "a network file system: keep the log on a local disk and copy it afterwards"
+                     : "local");
+}
+
+// A file that is written as the log is, a page at a time until it is safe on disk.
+class WrittenForTrial {
+ public:
+  explicit WrittenForTrial(const std::string& folder) : path_(folder + "/heft-doctor-XXXXXX") {
+    file_ = mkstemp(path_.data());
+  }
+  ~WrittenForTrial() {
+    if (file_ < 0) return;
+    close(file_);
+    unlink(path_.c_str());
+  }
+  WrittenForTrial(const WrittenForTrial&) = delete;
+
+  bool is_there() const { return file_ >= 0; }
+  bool write_page() const {
+    return write(file_, page_.data(), page_.size()) > 0 && fsync(file_) == 0;
+  }
+
+ private:
+  const std::string page_ = std::string(4096, 'x');
+  std::string path_;
+  int file_ = -1;
+};
+
+// How long an answer takes to be safe on disk.
+void check_commit(Report& report, const std::string& folder) {
+  const WrittenForTrial file(folder);
+  if (!file.is_there())
+    return report.line(
+        CheckVerdict::failed, "writing",
+        fmt::format("no file can be made in {}; choose another folder with --db", folder));
+  std::vector<double> times_ms;
+  for (int i = 0; i < 20; ++i) {
+    const auto started = std::chrono::steady_clock::now();
+    const bool written = file.write_page();
+    const std::chrono::duration<double, std::milli> took =
+        std::chrono::steady_clock::now() - started;
+    if (written) times_ms.push_back(took.count());
+  }
+  if (times_ms.empty())
+    return report.line(CheckVerdict::failed, "writing",
+                       "nothing can be written; is the disk full?");
+  std::ranges::sort(times_ms);
+  const double median_ms = times_ms[times_ms.size() / 2], worst_ms = times_ms.back();
+  report.line(worst_ms > 100 ? CheckVerdict::warning : CheckVerdict::ok, "writing",
+              fmt::format("an answer is safe on disk in {:.1f} ms (worst of 20: {:.1f} ms)",
+                          median_ms, worst_ms));
+}
+
+void check_displays(Report& report, const ScreenTexts& texts) try {
+  for (const CheckResult& result : window_module().check_displays(texts))
+    report.line(result.verdict, result.name, result.finding);
+} catch (const Error& error) {
+  report.line(CheckVerdict::failed, "display", error.what());
+}
+
+// From a touch to the disk and the display. Of fifty, one may be late.
+void check_touch_delay(Report& report, const std::string& folder, const ScreenTexts& texts) try {
+  constexpr int n_taps = 50;
+  constexpr double usual_refresh_hz = 60, beside_a_frame_s = 0.020;
+  const auto found = window_module().displays();
+  if (found.empty())
+    return report.line(CheckVerdict::ok, "touch delay", "not measured: there is no display");
+  const WrittenForTrial file(folder);
+  std::vector<double> times_s = window_module().touch_delays_s(
+      texts, [&] { file.is_there() && file.write_page(); }, n_taps);
+  if (times_s.size() < n_taps / 2)
+    return report.line(
+        CheckVerdict::warning, "touch delay",
+        fmt::format("not measured: the window took {} of {} taps", times_s.size(), n_taps));
+  std::ranges::sort(times_s);
+  const double frame_s = 1 / found.front().refresh_hz.value_or(usual_refresh_hz);
+  const bool is_late = times_s[times_s.size() - 2] > frame_s + beside_a_frame_s;
+  report.line(is_late ? CheckVerdict::warning : CheckVerdict::ok, "touch delay",
+              fmt::format("{:.1f} ms from the touch's event until it is on disk and its answer "
+                          "presented (worst two of {}: {:.1f} and {:.1f} ms; a frame and 20 ms are "
+                          "{:.1f} ms); what the touch screen and the panel take is not in it",
+                          1e3 * times_s[times_s.size() / 2], times_s.size(),
+                          1e3 * times_s[times_s.size() - 2], 1e3 * times_s.back(),
+                          1e3 * (frame_s + beside_a_frame_s)));
+} catch (const Error& error) {
+  report.line(CheckVerdict::warning, "touch delay", fmt::format("not measured: {}", error.what()));
+}
+
+void check_log(Report& report, const std::string& db) {
+  if (!std::filesystem::exists(db))
+    return report.line(CheckVerdict::ok, "log", fmt::format("{} is not there yet", db));
+  const std::vector<std::string> faults = check_integrity(db);
+  if (faults.empty()) return report.line(CheckVerdict::ok, "log", fmt::format("{} is sound", db));
+  for (const std::string& fault : faults) report.line(CheckVerdict::failed, "log", fault);
+}
+
+void check_shutter(Report& report, const Intrinsics& camera) {
+  if (!(camera.readout_s > 0))
+    return report.line(CheckVerdict::ok, "shutter",
+                       "the camera file has no readout_s: a global shutter, or not measured yet "
+                       "(heft calibrate camera --shutter)");
+  report.line(CheckVerdict::ok, "shutter",
+              fmt::format("read-out {:.1f} ms, taken back by the tracker; untold, it would be half "
+                          "a millimeter off at {:.2f} m/s",
+                          1e3 * camera.readout_s, half_millimeter_m_s(camera.readout_s)));
+}
+
+// The camera, its calibration, the light, the board: with pictures from it.
+void check_tracker(Report& report, SessionOptions given, double rate_hz) {
+  const auto& [name, what, text] = given.tracker.value();
+  if (tracker_named(name).what != TrackerWhat::source)
+    throw Error("--tracker: expected camera:N, video:FILE or frames:FOLDER", ExitCode::usage);
+  given.responder = Plug{"simulated"};
+  const ResolvedConfig config = resolve(given, {}, 0);
+  tell_camera_file(given, config->config);
+  const Apparatus& apparatus = config->apparatus;
+  const auto camera =
+      open_camera(name, config->config.tracker.what, request_for(apparatus.camera, rate_hz));
+  for (const CheckResult& result : check_camera(*camera, apparatus, rate_hz))
+    report.line(result.verdict, result.name, result.finding);
+  check_shutter(report, apparatus.camera);
+}
+
+void list_cameras() {
+  print("\ncameras:\n");
+  const std::vector<VideoDevice> devices = video_devices();
+  for (const VideoDevice& device : devices) {
+    print("  camera:{:<9} /dev/video{} {}\n", device.number, device.number, device.name);
+    for (const std::string& mode : device_modes(device)) print("  {:<16}   {}\n", "", mode);
+  }
+  if (devices.empty()) print("  none is attached\n");
+  print("check one: heft doctor --tracker camera:0 --camera-file camera.yaml\n");
+}
+
+void list_plugs() {
+  print("\nsimulators:\n");
+  for (const SimulatorEntry& entry : simulators()) {
+    print("  {:<22} {}\n", entry.name, entry.summary);
+    if (!entry.warning.empty()) print("  {:<22} warning: {}\n", "", entry.warning);
+  }
+  print("trackers:\n");
+  for (const TrackerEntry& entry : trackers()) print("  {:<16} {}\n", entry.name, entry.summary);
+  print("views:\n");
+  for (const ViewEntry& entry : views()) print("  {:<16} {}\n", entry.name, entry.summary);
+  print("responders:\n");
+  for (const ResponderEntry& entry : responders())
+    print("  {:<16} {}\n", entry.name, entry.summary);
+  print("the parameters of a responder: heft doctor --responder NAME\n");
+}
+
+void diagnose(const std::string& db, const SessionOptions& given, double rate_hz) {
+  refuse_special_file(db);
+  Report report;
+  report.line(CheckVerdict::ok, "program", fmt::format("heft {}, {}", HEFT_VERSION, build_name()));
+  check_packages(report);
+  const auto parent = std::filesystem::path(db).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  check_space(report, folder);
+  check_file_system(report, folder);
+  check_commit(report, folder);
+  check_log(report, db);
+  const ScreenTexts texts = load_texts(texts_file("en"));
+  check_displays(report, texts);
+  check_touch_delay(report, folder, texts);
+  if (given.tracker) check_tracker(report, given, rate_hz);
+  list_cameras();
+  list_plugs();
+  if (report.failed()) throw Error("this machine is not ready; see the lines marked FAILED");
+}
+
+}  // namespace
+
+void add_doctor(Command& app) {
+  struct DoctorOptions {
+    std::string db = "heft.db", responder;
+    SessionOptions given;
+    double rate_hz = 15;
+  };
+  const auto options = std::make_shared<DoctorOptions>();
+  Command command = app.add_command(
+      "doctor", "check this machine, a camera too, and list what can be plugged in",
+      {"heft doctor", "heft doctor --db lab.db", "heft doctor --tracker camera:0",
+       "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
+       "heft doctor --responder simulated"});
+  command.add_option("--db", &options->db, "the log to check, and whose folder").shows_default();
+  add_plug(command, "--tracker", options->given.tracker,
+           "look through this camera: camera:N, video:FILE, frames:FOLDER");
+  add_apparatus_options(command, options->given);
+  command.group("Options");
+  command.add_option("--display-rate", &options->rate_hz, "pictures a second that are wanted")
+      .shows_default();
+  command.add_option("--responder", &options->responder, "only describe its parameters");
+  command.does([options] {
+    if (options->responder.empty()) return diagnose(options->db, options->given, options->rate_hz);
+    const std::string text = describe_parameters(responder_named(options->responder));
+    print("{}", text.empty() ? "it has no parameters\n" : text);
+  });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,99 @@
+// heft list: which sessions a log holds, and how far each is.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/files/Printable.h"
+#include "cli/Commands.h"
+#include "cli/console/Terminal.h"
+#include "cli/reports/SessionFacts.h"
+#include "session/Session.h"
+
+namespace heft::cli {
+
+namespace {
+using Line = std::vector<std::string>;
+
+const Line headings{"session", "participant", "protocol", "purpose", "state",
+                    "trials",  "minutes",     "started",  "study",   "group, order"};
+
+std::string seconds_of(const std::string& utc) {
+  return utc.substr(0, utc.find('.')) + (utc.find('.') == std::string::npos ? "" : "Z");
+}
+
+Line line_of(const SessionFacts& facts) {
+  const SessionHeader& header = facts.row.header;
+  Line line{fmt::format("{}", facts.row.session_id),
+            header.participant,
+            header.protocol_name,
+            std::string(name_of(header.purpose)),
+            std::string(name_of(facts.row.state)),
+            trials_text(facts),
+            fmt::format("{:.0f}", facts.duration_s / 60),
+            seconds_of(header.started_utc),
+            "",
+            ""};
+  if (const auto& place = facts.place) {
+    line[8] = fmt::format("{} {} of {}", place->study, place->number, place->participants);
+    line[9] =
+        place->group + (place->group.empty() || place->order.empty() ? "" : ": ") + place->order;
+  }
+  return line;
+}
+
+std::string in_columns(std::vector<Line> lines) {
+  for (Line& line : lines)
+    for (std::string& cell : line) cell = escaped_line(cell);
+  std::vector<int> widths(lines.front().size());
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    for (std::size_t k = 0; k < widths.size(); ++k)
+      widths[k] = std::max(widths[k], columns_of(lines[i][k]));
+  std::string text;
+  for (const Line& line : lines) {
+    std::string row;
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+      if (widths[k] == 0) continue;  // nothing in that column
+      const int width = std::max(widths[k], columns_of(headings[k])) + 2;
+      row += line[k] + std::string(static_cast<std::size_t>(width - columns_of(line[k])), ' ');
+    }
+    text += row.substr(0, row.find_last_not_of(' ') + 1) + '\n';
+  }
+  return text;
+}
+
+void list(const std::string& db, bool json) {
+  refuse_special_file(db);
+  const LogReader reader(db);
+  std::vector<SessionFacts> sessions;
+  for (const SessionRow& row : reader.sessions()) sessions.push_back(facts_of(reader, row));
+  if (json) {
+    auto all = nlohmann::ordered_json::array();
+    for (const SessionFacts& facts : sessions) all.push_back(as_json(facts));
+    return fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  }
+  if (sessions.empty()) return say("{} holds no session yet\n", db);
+  std::vector<Line> lines{headings};
+  for (const SessionFacts& facts : sessions) lines.push_back(line_of(facts));
+  print("{}", in_columns(lines));
+  flush_output();
+  say("\nmore of one: heft show --db {} --session N\n", shell_quoted(db));
+  for (const std::string& step : next_steps(sessions, db)) say("{}\n", step);
+}
+}  // namespace
+
+void add_list(Command& app) {
+  struct ListOptions {
+    std::string db = "heft.db";
+    bool json = false;
+  };
+  const auto options = std::make_shared<ListOptions>();
+  Command command = app.add_command("list", "the sessions of a log: who, what, how far, since when",
+                                    {"heft list --db lab.db", "heft list --db lab.db --json"});
+  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_flag("--json", options->json, "JSON on stdout instead of a table");
+  command.does([options] { list(options->db, options->json); });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,77 @@
+// heft procedure: procedures for programs in any language. The formats are shown by its --help.
+#include <fmt/format.h>
+
+#include <csignal>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/Commands.h"
+#include "cli/commands/ProcedureDialog.h"
+#include "protocol/readers/Files.h"
+#include "psychophysics/ProcedureKinds.h"
+
+namespace heft::cli {
+
+namespace {
+void converse(const std::string& file) {
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error to report, not a kill
+  std::ios::sync_with_stdio(false);
+  ProcedureDialog(load_procedure(file), std::cout).run(std::cin);
+}
+
+// The keys of a file, as their declarations have them.
+std::vector<std::string> keys_of_files() {
+  std::vector<std::string> lines{"", "Keys of a procedure file: seed,"};
+  const auto add = [&](const ConfigKey& key, const auto&...) {
+    lines.push_back(
+        fmt::format("  {:<18}{}{}", key.name, key.meaning, key.is_required ? " (required)" : ""));
+  };
+  const InterleaveConfig interleaving{};
+  visit_keys(interleaving, add);
+  lines.emplace_back("and of each [[staircase]] name, kind, and by kind:");
+  ProcedureKinds::for_each([&](const auto& config) {
+    lines.push_back(fmt::format(R"(kind = "{}")", config.kind));
+    visit_keys(config, add);
+  });
+  return lines;
+}
+}  // namespace
+
+void add_procedure(Command& app) {
+  std::vector<std::string> lines{
+      "heft procedure staircases.toml",
+      "",
+      "A session (> is written by heft, < is your program's answer, a line a trial):",
+      R"(  > {"event":"trial","trial":1,"staircase":"15g","level":175})",
+      R"(  < {"response":true}                 perceived, correct: the level goes down)",
+      R"(  > {"event":"trial","trial":2,"staircase":"15g","level":125})",
+      R"(  < {"void":true}                     the staircase is untouched, a new trial is drawn)",
+      R"(  > {"event":"trial","trial":3,"staircase":"15g","level":125})",
+      R"(  < {"response":false,"level":124.5}  the level really shown, where it was another)",
+      R"(  > {"event":"reversal","staircase":"15g","trial":3,"number":1,"level":124.5,)"
+      R"("step_before":50,"step_after":50})",
+      R"(  > {"event":"trial","trial":4,"staircase":"15g","level":175})",
+      "  ...",
+      R"(  > {"event":"finished","staircase":"15g","reason":"reversals","estimate":112.5,)"
+      R"("low":null,"high":null,"n_trials":19})",
+      R"(  > {"event":"done"})",
+      "",
+      R"(Where two stimuli are compared, {"answer":"comparison"|"reference"|"none"} says which was)",
+      "more. Every kind takes it as a response: any choice is true, none is false.",
+      R"(A kind that ends by "trials" alone, such as "constant", estimates null; low and high are)",
+      "the ends of the estimate's interval, null where the kind gives none.",
+      R"(Input it can't use is answered by {"event":"error","line":N,"message":...}; the trial)",
+      "stays open. It ends, with exit code 0, when all staircases are done or its input ends."};
+  for (std::string& line : keys_of_files()) lines.push_back(std::move(line));
+  Command command = app.add_command(
+      "procedure", "drive psychophysical procedures over JSON lines on stdin and stdout", lines);
+  const auto file = std::make_shared<std::string>();
+  command
+      .add_option("FILE", file.get(), "procedure file (TOML): seed, interleave, [[staircase]]...")
+      .required();
+  command.does([file] { converse(*file); });
+}
+
+}  // namespace heft::cli

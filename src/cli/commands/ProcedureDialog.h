@@ -1,0 +1,38 @@
+// Procedures by a conversation, a JSON object a line: trials out and answers in. `heft procedure
+// --help` shows the lines.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/commands/AnswerLine.h"
+#include "psychophysics/Interleaving.h"
+
+namespace heft::cli {
+
+class ProcedureDialog {
+ public:
+  /// @param out every line is flushed
+  ProcedureDialog(InterleavedProcedures procedures, std::ostream& out);
+
+  /// Holds the conversation until every staircase is finished or the input ends.
+  /// @throws Error when a line can't be written
+  void run(std::istream& in);
+
+ private:
+  void take(const std::string& line, int line_number);
+  void respond(const AnswerLine& answer);
+  void next_trial();
+  void write(const std::string& json);
+
+  InterleavedProcedures procedures_;
+  std::ostream& out_;
+  std::optional<std::size_t> current_;   ///< staircase of the open trial; none: all are finished
+  std::optional<std::size_t> previous_;  ///< of the last completed trial
+  int trial_ = 0;                        ///< number of the open trial
+  double level_ = 0;                     ///< that it presents
+};
+
+}  // namespace heft::cli

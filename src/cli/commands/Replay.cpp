@@ -1,0 +1,394 @@
+// heft replay: verify a log, or ask what a session would have been.
+#include "replay/Replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "apparatus/configuration/Texts.h"
+#include "base/Clock.h"
+#include "base/Error.h"
+#include "cli/Commands.h"
+#include "cli/SessionOptions.h"
+#include "cli/console/Terminal.h"
+#include "cli/reports/OfflineResponderReport.h"
+#include "experiment/ScreenTexts.h"
+#include "physics/DecouplingSimulator.h"
+#include "physics/auto/Choice.h"
+#include "protocol/readers/Files.h"
+#include "record/integrity/Integrity.h"
+#include "replay/ReplayView.h"
+#include "replay/WhatIf.h"
+#include "session/Session.h"
+
+namespace heft::cli {
+
+namespace {
+
+struct ReplayOptions {
+  std::string db = "heft.db";
+  std::optional<std::int64_t> session;
+  std::optional<WhoAnswers> responder;
+  std::optional<std::string> simulator;
+  std::optional<Plug> view;
+  std::vector<ProtocolSetting> set;
+  bool rerun = false, json = false;
+  bool supposes() const { return simulator || !set.empty(); }
+  bool judges() const { return responder && !rerun; }
+};
+
+// Of a protocol, what a logged hand's world is made of.
+constexpr std::array world{"physics", "coupling", "technique", "layout", "effector"};
+
+// Who asks what else would have been is not to take a key that says nothing of it for one that
+// makes no difference.
+void check_world(const std::vector<ProtocolSetting>& settings) {
+  for (const ProtocolSetting& setting : settings) {
+    const std::string section = setting.key.substr(0, setting.key.find('.'));
+    if (std::ranges::find(world, section) != world.end()) continue;
+    throw Error(fmt::format("--set {}: a replay takes the logged hand through another world, with "
+                            "the logged trials; expected a key of {}. --rerun with a --responder "
+                            "runs the trials anew",
+                            to_text(setting), fmt::join(world, ", ")),
+                ExitCode::usage);
+  }
+}
+
+void check(const ReplayOptions& options) {
+  const auto refuse = [](const char* why) { throw Error(why, ExitCode::usage); };
+  if (options.rerun && !options.responder)
+    refuse("--rerun runs the trials anew with a --responder, and none is named");
+  if (options.judges() && options.supposes())
+    refuse(
+        "a --responder judges what was displayed, which --set and --simulator would change; add "
+        "--rerun to run the trials anew");
+  if (!options.rerun) check_world(options.set);
+  if (options.json && !options.judges())
+    refuse("--json is for what a --responder judges, without --rerun");
+  if (options.view && options.responder)
+    refuse(
+        "--view shows the logged frames, with --set or --simulator another clone beside them; "
+        "it takes no --responder");
+}
+
+std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const ReplayOptions& options) {
+  if (options.session) return {reader.session(*options.session).session_id};
+  std::vector<std::int64_t> ids;
+  for (const SessionRow& row : reader.sessions()) ids.push_back(row.session_id);
+  if (ids.empty()) throw Error(fmt::format("{} holds no session yet", options.db));
+  return ids;
+}
+
+void print_divergence(const Divergence& divergence) {
+  const std::string trial =
+      divergence.trial_number > 0 ? fmt::format("trial {}", divergence.trial_number) : "no trial";
+  print("  first divergence: {}, at {:.6f} s: {}\n    logged:   {}\n    came out: {}\n", trial,
+        divergence.t_s, divergence.what, divergence.logged, divergence.came_out);
+}
+
+std::string how_frames_were_checked(const Verification& found) {
+  if (found.n_frames == 0) return "no frames logged, so the simulator was not checked";
+  const int n_same_edition = found.n_frames - found.n_other_edition;
+  std::vector<std::string> how;
+  if (found.n_other_edition > 0)
+    how.push_back(
+        fmt::format("{} of them logged with an edition of the simulator that this heft does not "
+                    "have: only measured, they differ by up to {:.3g} m",
+                    found.n_other_edition, found.largest_of_other_edition_m));
+  if (found.n_other_build > 0)
+    how.push_back(fmt::format(
+        "{}logged by another build: poses within 1e-6 m demanded, largest difference {:.3g} m",
+        found.n_other_build == found.n_frames ? ""
+                                              : fmt::format("{} of them ", found.n_other_build),
+        found.largest_difference_m));
+  if (const int n_same = n_same_edition - found.n_other_build; n_same > 0)
+    how.push_back(n_same == found.n_frames
+                      ? "equal bits demanded"
+                      : fmt::format("of the other {} equal bits demanded", n_same));
+  return fmt::format("{} frames simulated again, {}", found.n_frames, fmt::join(how, "; "));
+}
+
+// @return whether the log says what its events give
+bool verify(const LogReader& reader, std::int64_t session_id) {
+  ProgressBar bar(fmt::format("session {}", session_id));
+  const Verification found = verify_session(reader, session_id, [&](double done) {
+    bar.update(done, fmt::format("{:.0f} %", 100 * done));
+  });
+  const std::string verified =
+      found.ended ? "verified" : fmt::format("verified up to event {}, unfinished", found.n_events);
+  print("session {}: {}: {} events folded, {} rows in {} attempts compared; {}\n", session_id,
+        found.first ? "DIVERGED" : verified, found.n_events, found.n_rows, found.n_attempts,
+        how_frames_were_checked(found));
+  if (found.first) print_divergence(*found.first);
+  return !found.first;
+}
+
+// What this program is built without another one verifies, from the first line on. What can't be
+// read is told where it is verified.
+void require_simulators(const LogReader& reader, const std::string& db,
+                        const std::vector<std::int64_t>& ids) {
+  for (const std::int64_t id : ids) try {
+      for (const LoggedSetup& logged : load_session(reader, db, id).setups)
+        simulator_named(logged.setup.simulator);
+    } catch (const OnlyForStudies&) {
+      if (reader.frame_counts(id).n_frames > 0) throw;
+    } catch (const Error&) {
+    }
+}
+
+// Sessions are numbered from 1, and none is ever taken out. The last ones can't be missed.
+bool none_is_missing(const std::vector<std::int64_t>& ids) {
+  std::int64_t before = 0;
+  bool none = true;
+  for (const std::int64_t id : ids) {
+    if (id != before + 1) {
+      none = false;
+      print("between sessions {} and {} numbers are missing: rows were taken out of the log\n",
+            before, id);
+    }
+    before = id;
+  }
+  return none;
+}
+
+void verify_all(const LogReader& reader, const ReplayOptions& options) {
+  bool same = true;
+  for (const std::string& fault : check_integrity(options.db)) {
+    print("the file is damaged: {}\n", fault);
+    same = false;
+  }
+  try {
+    const auto ids = chosen_sessions(reader, options);
+    require_simulators(reader, options.db, ids);
+    for (const std::int64_t session_id : ids) same = verify(reader, session_id) && same;
+    if (!options.session) same = none_is_missing(ids) && same;
+  } catch (const OnlyForStudies&) {
+    throw;
+  } catch (const Error& error) {
+    if (same) throw;  // what was asked for is not there
+    print("first divergence: no trial: {}\n", error.what());
+  }
+  if (!same)
+    throw Error(fmt::format("{} does not hold what its events give", options.db),
+                ExitCode::diverged);
+}
+
+void print_paths(const std::vector<PathDifference>& differences) {
+  print(
+      "  where things would have been, against the log (mm):\n"
+      "  {:<13} {:<4} {:>9} {:>11} {:>10} {:>11} {:>10}\n",
+      "task", "", "frames", "clone RMS", "clone max", "cubes RMS", "cubes max");
+  for (const PathDifference& d : differences)
+    print("  {:<13} {:<4} {:>9} {:>11.4f} {:>10.4f} {:>11.4f} {:>10.4f}\n", name_of(d.task),
+          d.condition, d.n_pictures, 1e3 * d.clone_rms_m, 1e3 * d.clone_max_m, 1e3 * d.cubes_rms_m,
+          1e3 * d.cubes_max_m);
+}
+
+std::string both(const std::string& logged, const std::string& would_be) {
+  return fmt::format("{:>7} > {:<7}", logged, would_be);
+}
+
+std::string millimeters(double logged_m, double would_be_m) {
+  return both(fmt::format("{:.2f}", 1e3 * logged_m), fmt::format("{:.2f}", 1e3 * would_be_m));
+}
+
+std::string as_grams(double lag_m, const std::optional<double>& g_per_m) {
+  return g_per_m ? fmt::format("{:.1f}", *g_per_m * lag_m) : "-";
+}
+
+// Of each push its largest lag, mean over pushes; of each pushed cube its path, mean over cubes.
+void print_noticed(const std::vector<PathDifference>& differences) {
+  print(
+      "  what a participant would notice, logged > as it would be: of a push the clone's largest "
+      "lag along it\n  (mean, largest, and as grams where lag tells mass), of a pushed cube its "
+      "path "
+      "and how far from its start it ends (means)\n"
+      "  {:<13} {:<4} {:>7} {:^17} {:^17} {:^17} {:^17} {:^17} {:^17}\n",
+      "task", "", "cube g", "pushes", "lag mm", "largest lag mm", "lag as g", "path mm", "end mm");
+  for (const PathDifference& d : differences)
+    for (const auto& [mass_g, logged, would_be] : d.noticed)
+      print("  {:<13} {:<4} {:>7g} {} {} {} {} {} {}\n", name_of(d.task), d.condition, mass_g,
+            both(std::to_string(logged.n_pushes), std::to_string(would_be.n_pushes)),
+            millimeters(logged.mean_lag_m(), would_be.mean_lag_m()),
+            millimeters(logged.largest_lag_m, would_be.largest_lag_m),
+            both(as_grams(logged.mean_lag_m(), d.logged_g_per_m),
+                 as_grams(would_be.mean_lag_m(), d.would_be_g_per_m)),
+            millimeters(logged.mean_path_m(), would_be.mean_path_m()),
+            millimeters(logged.mean_end_m(), would_be.mean_end_m()));
+}
+
+std::string grams(const std::optional<double>& value_g) {
+  return value_g ? fmt::format("{:.1f} g", *value_g) : "none";
+}
+
+void print_responder(const OtherResponder& other) {
+  print("  {:<13} {:<4} {:>20} {:>20}\n", "task", "", "logged, right of n", "would be, right of n");
+  for (const OutcomeDifference& o : other.outcomes)
+    print("  {:<13} {:<4} {:>20} {:>20}\n", name_of(o.task), o.condition,
+          fmt::format("{} of {}", o.n_logged_correct, o.n_logged),
+          fmt::format("{} of {}", o.n_would_be_correct, o.n_would_be));
+  for (const EstimateDifference& e : other.estimates)
+    print("  JND of staircase {:<12} logged {:>9}, would be {:>9}\n", '"' + e.staircase + '"',
+          grams(e.logged_g), grams(e.would_be_g));
+}
+
+// What the question supposes: the logged protocol and configuration with the changes.
+struct Supposed {
+  Protocol protocol;
+  SessionConfig config;
+};
+
+Supposed supposed(const LoggedSession& session, const ReplayOptions& options) {
+  SessionConfig config = session.setup;
+  config.settings = session.setups.front().setup.settings;
+  config.settings.insert(config.settings.end(), options.set.begin(), options.set.end());
+  Protocol protocol = parse_protocol(session.row.header.protocol_text,
+                                     session.row.header.protocol_name, config.settings);
+  std::string simulator = options.simulator.value_or(config.simulator);
+  for (const ProtocolSetting& set : options.set)
+    if (set.key == "physics.simulator" && !options.simulator) simulator = protocol.simulator.name;
+  if (options.supposes()) {  // the rate may be among what was set
+    const SimulatorPick pick = simulator_for(simulator, protocol);
+    config.simulator = pick.simulator;
+    config.rate_hz = pick.rate_hz;
+    config.simulator_why = pick.why;
+  }
+  config.input = protocol.simulator.input.mode;
+  config.predict_s = protocol.simulator.input.predict_s;
+  return {*protocol_for(std::move(protocol), config), std::move(config)};
+}
+
+// The responder's own hand, without camera or view.
+OtherResponder run_anew(const LogReader& reader, const LoggedSession& session,
+                        const WhoAnswers& responder, const Supposed& supposed) {
+  SessionOptions given;
+  given.responder = responder;
+  given.tracker = Plug{"hand"};
+  given.view = Plug{"headless"};
+  const SessionRequest request{
+      resolve(given, supposed.config, supposed.protocol, session.row.header.seed),
+      session.row.header.participant};
+  const std::int64_t session_id = session.row.session_id;
+  ProgressBar bar(fmt::format("session {}", session_id));
+  RunnerOptions runner;
+  runner.keep_frames = false;
+  runner.progress = [&](const Engine& engine) {
+    bar.update(0, fmt::format("{} trials", engine.n_completed()));
+  };
+  return compare_sessions(reader, session_id, compute_session(request, runner));
+}
+
+void ask_what_if(const LogReader& reader, const ReplayOptions& options) {
+  for (const std::int64_t session_id : chosen_sessions(reader, options)) {
+    const LoggedSession session = load_session(reader, options.db, session_id);
+    const Supposed would_be = supposed(session, options);
+    print("session {}, participant {}:\n", session_id, session.row.header.participant);
+    if (options.rerun) {
+      print_responder(run_anew(reader, session, *options.responder, would_be));
+      continue;
+    }
+    const auto differences = compare_paths(reader, session, would_be.protocol);
+    print_paths(differences);
+    print_noticed(differences);
+  }
+}
+
+void judge(const LogReader& reader, const ReplayOptions& options) {
+  std::vector<JudgedSession> judged;
+  for (const std::int64_t session_id : chosen_sessions(reader, options)) {
+    ProgressBar bar(fmt::format("session {}", session_id));
+    const double start_s = monotonic_s();
+    const LoggedSession session = load_session(reader, options.db, session_id);
+    Judgments judgments = judge_session(reader, session, *options.responder, [&](double done) {
+      bar.update(done, fmt::format("{:.0f} %", 100 * done));
+    });
+    judged.push_back({session_id, session.row.header.participant, to_text(*options.responder),
+                      std::move(judgments), monotonic_s() - start_s});
+  }
+  if (options.json) return fmt::print("{}", as_json(judged));
+  for (const JudgedSession& session : judged) print_judged(session);
+}
+
+// The words are the log's, where it keeps any.
+ScreenTexts texts_of(const SessionConfig& setup) {
+  if (!setup.texts.text.empty()) return parse_texts(setup.texts.text, setup.texts.path);
+  return load_texts(texts_file("en"));
+}
+
+void show(const LogReader& reader, const ReplayOptions& options) {
+  const auto ids = chosen_sessions(reader, options);
+  if (ids.size() > 1)
+    throw Error(fmt::format("{} holds {} sessions; say with --session which one --view is to show",
+                            options.db, ids.size()),
+                ExitCode::usage);
+  const auto& [name, file, text] = *options.view;
+  const ViewEntry& entry = view_named(name);
+  if (entry.has_file == file.empty() || !(entry.has_file || entry.has_screen))
+    throw Error(fmt::format("can't show a replay with --view {}; expected window or video:FILE",
+                            to_text(*options.view)),
+                ExitCode::usage);
+  const LoggedSession session = load_session(reader, options.db, ids.front());
+  const Protocol what_if = supposed(session, options).protocol;
+  ViewSetup setup;
+  setup.stage = stage_of(*session.protocol, 3);
+  if (entry.has_screen) setup.texts = texts_of(session.setup);
+  setup.left_handed = session.setup.handed == Side::left;
+  setup.text_size = session.protocol->screens.text_size;
+  setup.file = file;
+  setup.rate_hz = session.protocol->display_rate_hz;
+  const StopOnSignal stop;
+  const auto view = entry.make(setup);
+  const int n =
+      show_session(reader, session, *view,
+                   {options.supposes() ? &what_if : nullptr, entry.has_screen, &stop.requested()});
+  print("session {}: {} frames shown\n", session.row.session_id, n);
+  if (stop.requested()) throw Error("stopped before the last frame", ExitCode::interrupted);
+}
+
+}  // namespace
+
+void add_replay(Command& app) {
+  const auto options = std::make_shared<ReplayOptions>();
+  Command command = app.add_command(
+      "replay", "verify a log (exit 5 at a divergence), or ask what a session would have been",
+      {"heft replay --db lab.db", "heft replay --db lab.db --session 3",
+       "heft replay --db lab.db --session 3 --simulator bullet-ea",
+       "heft replay --db lab.db --set physics.friction=0.64",
+       "heft replay --db lab.db --set physics.predict_s=0.05",
+       "heft replay --db lab.db --responder simulated",
+       "heft replay --db lab.db --responder coin --rerun",
+       "heft replay --db lab.db --session 3 --view video:three.mp4 --set physics.friction=0.64"});
+  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_session(options->session, "all");
+  add_responder(command, options->responder,
+                "NAME[:FILE]: give this responder the frames that were displayed, and compare "
+                "its answers; the logged one without a file has its logged parameters");
+  command.add_flag("--rerun", options->rerun, "run the trials anew with the responder instead");
+  command.add_flag("--json", options->json, "what the responder answers as JSON");
+  command.add_option("--simulator", &options->simulator,
+                     "run the logged hand through this simulator, and compare lags and paths");
+  add_settings(command, options->set,
+               fmt::format("change a key of the protocol, such as "
+                           "coupling.stiffness_n_per_m=100: of its {}; with --rerun any",
+                           fmt::join(world, ", ")));
+  add_plug(command, "--view", options->view,
+           "window or video:FILE: show the logged frames, with --set or --simulator also "
+           "the clone as it would be");
+  command.does([options] {
+    check(*options);
+    refuse_special_file(options->db);
+    const LogReader reader(options->db);
+    if (options->view)
+      show(reader, *options);
+    else if (options->judges())
+      judge(reader, *options);
+    else if (options->rerun || options->supposes())
+      ask_what_if(reader, *options);
+    else
+      verify_all(reader, *options);
+  });
+}
+
+}  // namespace heft::cli

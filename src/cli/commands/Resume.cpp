@@ -1,0 +1,107 @@
+// heft resume: going on with a session that was interrupted, or ending it.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "apparatus/StudyPlaces.h"
+#include "cli/Commands.h"
+#include "cli/SessionOptions.h"
+#include "cli/console/Terminal.h"
+#include "session/Session.h"
+
+namespace heft::cli {
+
+namespace {
+void say_next_parts(const ResolvedConfig& config) {
+  const Plug& view = config->config.view;
+  if (config->film != view.what)
+    say("{} is there already; from here on it is {}\n", to_text(view),
+        to_text(Plug{view.name, config->film}));
+  if (const std::string& pictures = config->config.record_camera; config->pictures != pictures)
+    say("{} is there already; from here on it is {}\n", pictures, config->pictures);
+}
+
+// The folder that was given, or the session's; older logs have a plan's elsewhere.
+std::string backup_of(const LoggedSession& session, const std::string& given) {
+  if (!given.empty()) return given;
+  if (!session.setup.backup.empty()) return session.setup.backup;
+  const auto place = place_of(session.row.header.participant_info);
+  return place ? place->backup : "";
+}
+
+void resume(const std::string& db, std::optional<std::int64_t> session_id, SessionOptions again,
+            const std::optional<EventTarget>& events, bool unblind, bool go_on) {
+  const LoggedSession session = session_to_resume(db, session_id);
+  again.backup = backup_of(session, again.backup);
+  const ResolvedConfig config =
+      resolve(again, session.setup, *session.protocol, session.row.header.seed);
+  say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
+      session.row.header.participant, session.protocol->name);
+  for (const auto& [column, from, to] : changes_between(session.setup, config->config))
+    if (to.empty())
+      say("from here on without {} ({})\n", column, from);
+    else if (!from.empty())
+      say("from here on with {} {} instead of {}\n", column, to, from);
+  say_next_parts(config);
+  say_finished(
+      run_session(
+          {config, db, unblind, go_on, events, place_words(session.row.header.participant_info)},
+          [&](const RunnerOptions& runner) { return resume_session(session, config, runner); }),
+      db);
+}
+
+// There is no way back, so it is never somebody's because they happened to come last.
+void end(const std::string& db, std::optional<std::int64_t> session_id, const std::string& backup) {
+  if (!session_id)
+    throw Error(fmt::format("--end needs --session N: which one to end for good; heft list --db {} "
+                            "shows them",
+                            shell_quoted(db)),
+                ExitCode::usage);
+  const LoggedSession session = session_to_resume(db, session_id);
+  abort_session(session);
+  back_up_and_tell(db, backup_of(session, backup), session.row.session_id);
+  say("session {} of participant {} is ended as it is; what was answered is kept\n",
+      session.row.session_id, session.row.header.participant);
+}
+}  // namespace
+
+void add_resume(Command& app) {
+  struct ResumeOptions {
+    std::string db = "heft.db";
+    std::optional<EventTarget> events;
+    std::optional<std::int64_t> session;
+    SessionOptions again;
+    bool end = false, unblind = false, go_on = false, keys = false;
+  };
+  const auto options = std::make_shared<ResumeOptions>();
+  Command command = app.add_command(
+      "resume",
+      "go on with an unfinished session; options that are not given again stay as they were",
+      {"heft resume --db lab.db", "heft resume --db lab.db --session 3",
+       "heft resume --db lab.db --responder scripted:recorded/07-second-half",
+       "heft resume --db lab.db --session 3 --end"});
+  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_session(options->session, "the newest unfinished one");
+  add_session_options(command, options->again, true);
+  command.add_option("--simulator", &options->again.simulator,
+                     "from here on; each trial is replayed with the one that it ran with");
+  command.add_option("--language", &options->again.language,
+                     "of the participant's screens: en, fr, or a text FILE.toml");
+  add_elsewhere_options(command, options->again.backup, options->events);
+  command.group("Options");
+  command.add_flag("--unblind", options->unblind,
+                   "show the experimenter masses and conditions; it is logged");
+  command.add_flag("--keys", options->keys,
+                   "let the participant's window take keys as answers from here on");
+  add_go_on(command, options->go_on);
+  command.add_flag("--end", options->end,
+                   "don't go on: end that --session as it is, for somebody who will not come back");
+  command.does([options] {
+    if (options->end) return end(options->db, options->session, options->again.backup);
+    if (options->keys) options->again.keys = TakesKeys::yes;
+    resume(options->db, options->session, options->again, options->events, options->unblind,
+           options->go_on);
+  });
+}
+
+}  // namespace heft::cli

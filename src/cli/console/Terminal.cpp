@@ -1,0 +1,95 @@
+#include "cli/console/Terminal.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include "analysis/report/Report.h"
+
+namespace heft::cli {
+
+namespace {
+constexpr std::array stopping_signals{SIGINT, SIGTERM, SIGHUP};
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+
+void request_stop(int) {
+  stop_requested = true;
+}
+}  // namespace
+
+void flush_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw output_error(errno != 0 ? std::strerror(errno) : "an earlier write failed");
+}
+
+int columns_of(std::string_view line) {
+  constexpr char32_t first_wide = 0x1100;
+  int columns = 0;
+  for (const std::string_view letter : letters_of(line))
+    columns += first_letter(letter).code >= first_wide ? 2 : 1;
+  return columns;
+}
+
+Error output_error(const std::string& reason) {
+  return Error(fmt::format("can't write to the standard output: {}. What it holds is not complete.",
+                           reason));
+}
+
+void ring() {
+  if (isatty(STDERR_FILENO) == 1) draw("\a");
+}
+
+ProgressBar::ProgressBar(std::string label)
+    : label_(std::move(label)), shown_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+  if (shown_) draw("\r\033[K");
+}
+
+std::string of_about(int n_done, double expected, std::string_view between) {
+  if (n_done > std::round(expected)) return fmt::format("{}", n_done);
+  return fmt::format("{}{}{:.0f}", n_done, between, expected);
+}
+
+void ProgressBar::update(double done, const std::string& text) {
+  constexpr int width = 30;
+  const auto now = std::chrono::steady_clock::now();
+  if (!shown_ || now - drawn_ < std::chrono::milliseconds(100)) return;
+  drawn_ = now;
+  const int filled = static_cast<int>(width * std::clamp(done, 0.0, 1.0));
+  draw(fmt::format("\r\033[K{} [{:=<{}}{:{}}] {}", label_, "", filled, "", width - filled,
+                   escaped_line(text)));
+}
+
+StopOnSignal::StopOnSignal() {
+  for (std::size_t i = 0; i < stopping_signals.size(); ++i) {
+    before_[i] = std::signal(stopping_signals[i], request_stop);
+    if (stopping_signals[i] == SIGHUP && before_[i] == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  }
+}
+
+StopOnSignal::~StopOnSignal() {
+  for (std::size_t i = 0; i < stopping_signals.size(); ++i)
+    std::signal(stopping_signals[i], before_[i]);
+}
+
+const std::atomic<bool>& StopOnSignal::requested() const {
+  return stop_requested;
+}
+
+void explain_missing_charts(const ReportResult& report, const std::string& folder) {
+  if (report.charts_drawn) return;
+  say("No charts: gnuplot is not installed (sudo apt-get install gnuplot-nox). The .gp files in {} "
+      "draw them later: gnuplot NAME.gp\n",
+      folder);
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,34 @@
+// What is worth knowing of a logged session at a glance: for heft list and heft show. Blind: no
+// mass, level or correctness.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apparatus/StudyPlaces.h"
+#include "record/reader/LogReader.h"
+
+namespace heft::cli {
+
+struct SessionFacts {
+  SessionRow row;
+  int n_completed = 0, n_void = 0;       ///< attempts
+  std::optional<double> planned_trials;  ///< about so many; none: the protocol can't be read
+  double duration_s = 0;                 ///< session time
+  std::optional<LoggedPlace> place;      ///< in a study
+};
+
+SessionFacts facts_of(const LogReader& reader, const SessionRow& row);
+
+/// "31 of about 70", "68"
+std::string trials_text(const SessionFacts& facts);
+
+nlohmann::ordered_json as_json(const SessionFacts& facts);
+
+/// What can be done next with a log of these sessions: a line each, with commands to copy.
+std::vector<std::string> next_steps(const std::vector<SessionFacts>& sessions,
+                                    const std::string& db);
+
+}  // namespace heft::cli

@@ -1,0 +1,113 @@
+#include "cli/reports/TextChecks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "apparatus/configuration/Texts.h"
+#include "base/files/Printable.h"
+#include "base/files/TextFile.h"
+#include "cli/SessionOptions.h"
+#include "protocol/Protocol.h"
+#include "protocol/readers/Files.h"
+#include "view/text/TextFit.h"
+#include "view/text/Typeface.h"
+
+namespace heft::cli {
+
+namespace {
+// What of the texts would not be read well on the smallest screen, a sentence each.
+std::vector<std::string> misfits(const ScreenTexts& texts, double text_size) {
+  return texts_that_do_not_fit(texts, smallest_screen(text_size));
+}
+
+std::string on_smallest_screen(const std::string& sentence) {
+  const Measures smallest = smallest_screen();
+  return fmt::format("on a screen of {} x {}: {}", smallest.width, smallest.height, sentence);
+}
+
+bool has_letter(std::string_view line, char32_t code) {
+  return std::ranges::any_of(
+      letters_of(line), [&](std::string_view letter) { return first_letter(letter).code == code; });
+}
+
+// The line that the character is first written in; 0 where it is only spelled out as an escape.
+int line_with(char32_t code, const std::string& file) {
+  const std::string text = read_text_file(file);
+  int number = 0;
+  for (const std::string_view line : lines_of(text)) {
+    ++number;
+    if (!line.starts_with('#') && has_letter(line, code)) return number;
+  }
+  return 0;
+}
+
+void tell_lacking(const std::vector<LackingCharacter>& lacking, const std::string& file,
+                  WordFaults& faults) {
+  if (!lacking.empty())
+    faults.mistakes.push_back(
+        {{file, line_with(lacking.front().code, file), 0}, without_font(lacking)});
+}
+
+// The texts of a session, and which file each page is from.
+struct SessionWords {
+  ScreenTexts texts;
+  std::string texts_file;
+  std::map<std::string, std::string> file_of_page;  ///< of those from elsewhere
+
+  const std::string& file_of(const std::string& page) const {
+    const auto found = file_of_page.find(page);
+    return found == file_of_page.end() ? texts_file : found->second;
+  }
+};
+
+SessionWords words_of(const Protocol& protocol, const std::string& protocol_file,
+                      const std::string& language) {
+  ConfigFile file{texts_file(language)};
+  file.text = read_text_file(file.path);
+  SessionWords words;
+  for (const auto& [name, from] : add_questionnaires(file, protocol_file, protocol))
+    words.file_of_page[questionnaire_page(name)] = from;
+  words.texts = parse_texts(file.text, file.path);
+  words.texts_file = file.path;
+  return words;
+}
+
+void tell_lacking(const SessionWords& words, WordFaults& faults) {
+  std::map<std::string, std::vector<LackingCharacter>> by_file;
+  for (const LackingCharacter& one : characters_without_font(words.texts))
+    by_file[words.file_of(one.text.substr(0, one.text.find('.')))].push_back(one);
+  for (const auto& [file, lacking] : by_file) tell_lacking(lacking, file, faults);
+}
+}  // namespace
+
+WordFaults faults_in_words(const ScreenTexts& texts, const std::string& file) {
+  WordFaults faults;
+  tell_lacking(characters_without_font(texts), file, faults);
+  for (const std::string& sentence : misfits(texts, 1))
+    faults.cautions.push_back(on_smallest_screen(sentence));
+  // In the largest letters that somebody may ask for, what fits in small ones will do.
+  for (const std::string& sentence : misfits(texts, most_text_size))
+    if (sentence.find("only in small letters") == std::string::npos)
+      faults.cautions.push_back(
+          fmt::format("with --text-size {}, {}", most_text_size, on_smallest_screen(sentence)));
+  return faults;
+}
+
+WordFaults faults_in_words(const Protocol& protocol, const std::string& protocol_file,
+                           const std::string& language) {
+  const SessionWords words = words_of(protocol, protocol_file, language);
+  const double text_size = protocol.screens.text_size;
+  const bool is_shipped = !language.ends_with(".toml");
+  if (is_shipped && words.file_of_page.empty() && text_size == 1) return {};
+  WordFaults faults;
+  tell_lacking(words, faults);
+  for (const std::string& sentence : misfits(words.texts, text_size)) {
+    const std::string page = sentence.substr(0, sentence.find(": "));
+    faults.cautions.push_back(words.file_of(page) + ": " + on_smallest_screen(sentence));
+  }
+  return faults;
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,57 @@
+#include "protocol/readers/ProcedureReader.h"
+
+#include <fmt/format.h>
+
+#include "base/files/Printable.h"
+
+namespace heft {
+
+Procedure StaircaseSettings::procedure() const {
+  return std::visit(
+      [&](const auto& of_kind) {
+        return of_kind.check().empty() ? Procedure(name, of_kind)
+                                       : Procedure(name, ConstantConfig{.levels = {0}});
+      },
+      config);
+}
+
+std::optional<StaircaseSettings> read_staircase(TableReader& table) {
+  StaircaseSettings settings;
+  table.require({"name"});
+  table.read("name", settings.name);
+  const bool has_kind = table.has("kind");
+  const auto kind = has_kind ? table.read_nearest_name("kind", ProcedureKinds::names)
+                             : table.read_name("kind", ProcedureKinds::names);
+  if (has_kind && !kind) return std::nullopt;
+  if (kind) settings.config = ProcedureKinds::defaults(*kind);
+  std::visit(
+      [&](auto& config) {
+        table.read_keys(config);
+        table.close();
+        table.note(config.check());
+      },
+      settings.config);
+  return settings;
+}
+
+void check_beside(TableReader& table, const StaircaseSettings& settings, double reference_g) {
+  table.note(std::visit([&](const auto& config) { return config.check_beside(reference_g); },
+                        settings.config));
+}
+
+InterleaveConfig read_interleaving(TableReader& table) {
+  InterleaveConfig config;
+  table.read_keys(config);
+  return config;
+}
+
+void UniqueNames::check(TableReader& table, const std::string& name) {
+  if (!table.has("name") || !table.good({"name"})) return;
+  const auto [first, is_new] = lines_.try_emplace(name, table.place().line);
+  if (!is_new)
+    table.mistake("name", fmt::format("there is already a {} named \"{}\" (line {}), expected "
+                                      "another name",
+                                      what_, printable(name), first->second));
+}
+
+}  // namespace heft

@@ -1,0 +1,166 @@
+#include "record/export/ExportFolder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "base/Error.h"
+#include "base/files/Csv.h"
+
+namespace heft {
+
+namespace {
+namespace fs = std::filesystem;
+
+constexpr auto unfinished = "export_unfinished.txt";
+
+[[noreturn]] void refuse_writing(const fs::path& path) {
+  throw Error(
+      fmt::format("can't write {}: {}. The logs are untouched; export again to another "
+                  "folder.",
+                  path.string(), std::strerror(errno)));
+}
+
+// BIDS knows no quotes: what parts cells and lines is a space.
+std::string tsv_cell(std::string text) {
+  for (char& c : text)
+    if (c == '\t' || c == '\n' || c == '\r') c = ' ';
+  return text;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  if (!folder.empty()) fs::create_directories(folder, error);
+  if (error)
+    throw Error(fmt::format("can't make the folder {}: {}", folder.string(), error.message()));
+}
+}  // namespace
+
+RowFile::RowFile(const fs::path& path, Kind kind)
+    : path_(path), kind_(kind), file_(path, std::ios::binary) {}
+
+void RowFile::header(const std::vector<ExportColumn>& columns) {
+  std::vector<std::string> names;
+  for (const ExportColumn& column : columns)
+    names.push_back(shown({ExportCell::Kind::text, column.name}));
+  line(names);
+}
+
+void RowFile::row(std::span<const ExportCell> cells) {
+  std::vector<std::string> texts;
+  texts.reserve(cells.size());
+  for (const ExportCell& cell : cells) texts.push_back(shown(cell));
+  line(texts);
+}
+
+void RowFile::close() {
+  file_.close();
+  if (!file_) refuse_writing(path_);
+}
+
+void RowFile::line(const std::vector<std::string>& cells) {
+  const char between = kind_ == Kind::csv ? ',' : '\t';
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i > 0) file_ << between;
+    file_ << cells[i];
+  }
+  file_ << '\n';
+}
+
+std::string RowFile::shown(const ExportCell& cell) const {
+  const bool is_text = cell.kind == ExportCell::Kind::text;
+  if (kind_ == Kind::csv) return is_text ? csv_cell(without_formula(cell.text)) : cell.text;
+  return cell.text.empty() ? "n/a" : tsv_cell(cell.text);
+}
+
+ExportFolder::ExportFolder(const std::string& folder) : folder_(folder) {
+  refuse_filled_folder(folder);
+  make_folder(folder_);
+  write_text(unfinished,
+             "heft export is writing into this folder, or was interrupted: what is here is not "
+             "whole. Delete the folder and export again; the logs are untouched.\n");
+}
+
+fs::path ExportFolder::place(const std::string& name) {
+  const fs::path path = folder_ / name;
+  make_folder(path.parent_path());
+  return path;
+}
+
+void ExportFolder::write_text(const std::string& name, const std::string& text) {
+  const fs::path path = place(name);
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) refuse_writing(path);
+  files_.push_back({name, std::nullopt});
+}
+
+std::vector<ExportedFile> ExportFolder::finished() {
+  fs::remove(folder_ / unfinished);
+  std::erase_if(files_, [](const ExportedFile& file) { return file.name == unfinished; });
+  return std::move(files_);
+}
+
+void ExportProgress::row() {
+  constexpr std::int64_t now_and_then = 1000;
+  if (++n_done_ % now_and_then == 0)
+    tell_(std::min(1.0, static_cast<double>(n_done_) / static_cast<double>(n_all_)));
+}
+
+std::string readme_of(const std::string& standard) {
+  return fmt::format(
+      "# Sessions of perceived mass\n\nExported by heft {} as {}. Participants pushed virtual "
+      "cubes "
+      "of different mass with an effector in their hand and said which is heavier. Times are "
+      "seconds since a session's start, masses grams. Trials with a status other than `completed` "
+      "were presented again; those with `is_practice` 1 count in no figure.\n",
+      HEFT_VERSION, standard);
+}
+
+std::vector<ExportTable> write_tables(const ExportSource& source, ExportFolder& folder,
+                                      const std::string& begin, const std::string& end,
+                                      const std::function<void(double)>& tell) {
+  std::vector<ExportTable> tables = source.tables();
+  std::erase_if(tables, [&](const ExportTable& table) {
+    return table.name == "frames" && source.count(table) == 0;
+  });
+  std::int64_t n_rows = 0;
+  for (const ExportTable& table : tables) n_rows += source.count(table);
+  ExportProgress progress(n_rows, tell);
+  for (const ExportTable& table : tables) {
+    const std::string name = begin + table.name + end;
+    RowFile file(folder.place(name), RowFile::Kind::csv);
+    file.header(source.columns(table));
+    std::int64_t n = 0;
+    source.each_row(table, [&](const ExportCells& cells) {
+      file.row(cells);
+      progress.row();
+      ++n;
+    });
+    file.close();
+    folder.wrote(name, n);
+  }
+  return tables;
+}
+
+void refuse_filled_folder(const std::string& folder) {
+  std::error_code unknown;  // what can't be looked at is explained when it is written to
+  if (!fs::exists(folder, unknown)) return;
+  if (!fs::is_directory(folder, unknown))
+    throw Error(fmt::format("--out {}: it is a file, expected a folder", folder), ExitCode::usage);
+  if (fs::exists(fs::path(folder) / unfinished, unknown))
+    throw Error(fmt::format("--out {}: an export is being written there, or was interrupted, and "
+                            "nothing is overwritten. Delete the folder, or name a new one.",
+                            folder),
+                ExitCode::usage);
+  if (!fs::is_empty(folder, unknown))
+    throw Error(fmt::format("--out {}: the folder holds files already, and nothing is overwritten. "
+                            "Name a new or empty folder.",
+                            folder),
+                ExitCode::usage);
+}
+
+}  // namespace heft

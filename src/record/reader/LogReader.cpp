@@ -1,0 +1,291 @@
+#include "record/reader/LogReader.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include <deque>
+#include <type_traits>
+
+#include "base/Error.h"
+#include "record/integrity/DigestCheck.h"
+#include "record/reader/ReadOnlyDatabase.h"
+#include "record/schema/Binding.h"
+#include "record/schema/Cells.h"
+#include "record/schema/EventRow.h"
+#include "record/schema/RowSql.h"
+#include "record/schema/Schema.h"
+#include "record/writer/Failures.h"
+#include "record/writer/LogFile.h"
+
+namespace heft {
+
+namespace {
+SessionRow session_from(Cells& cells) {
+  SessionRow row;
+  row.session_id = cells.id();
+  row.header = row_from<SessionHeader>(cells);
+  row.state = cells.name<SessionState>();
+  return row;
+}
+
+std::pair<std::string, std::string> info_from(Cells& cells) {
+  std::string key = cells.text();
+  return {std::move(key), cells.text()};
+}
+
+// A row that says what was in force: the setup's index is the first cell after the row's id.
+template <typename Row>
+Row setup_row_from(Cells& cells) {
+  const int setup_index = cells.integer();
+  Row row = row_from<Row>(cells);
+  row.setup_index = setup_index;
+  return row;
+}
+
+template <typename Row>
+std::string with_setups(std::string_view table) {
+  return fmt::format(
+      "SELECT rowid, ifnull((SELECT setup_index FROM setup s WHERE s.setup_id = t.setup_id AND "
+      "s.session_id = t.session_id), 0), {} FROM {} t WHERE session_id = ? ORDER BY rowid",
+      columns_of<Row>(), table);
+}
+}  // namespace
+
+class LogReader::Impl {
+ public:
+  explicit Impl(const std::string& path) : path_(path), database_(open_for_reading(path)) {
+    has_tables_ = holds_log(*database_, path_);
+    if (!has_tables_) return;
+    // One moment for all reads: a transaction that the first of them opens.
+    database_->exec("BEGIN");
+    database_->execAndGet("SELECT count(*) FROM session");
+  }
+
+  /// Every row of a query, made into a value by `make`. The query's first column is the row's id.
+  template <typename Make, typename... Values>
+  auto rows(const Make& make, std::string_view table, const std::string& sql,
+            const Values&... values) const try {
+    std::vector<std::invoke_result_t<Make, Cells&>> found;
+    if (!has_tables_) return found;
+    SQLite::Statement query(*database_, sql);
+    Binding binding(query, values...);
+    while (binding.step()) {
+      Cells cells(query, path_, table);
+      found.push_back(make(cells));
+    }
+    return found;
+  } catch (const SQLite::Exception& error) {
+    refuse_damaged(fmt::format("table {}", table), error);
+  }
+
+  std::vector<std::string> foreign_objects() const {
+    return has_tables_ ? schema::foreign_objects(*database_) : std::vector<std::string>{};
+  }
+
+  std::optional<BrokenDigest> first_broken_digest(std::int64_t session_id) const try {
+    if (!has_tables_) refuse_unknown(session_id);
+    return heft::first_broken_digest(*database_, path_, session_id);
+  } catch (const SQLite::Exception& error) {
+    refuse_damaged("the digests", error);
+  }
+
+  std::vector<SessionRow> sessions(const std::string& condition) const {
+    return with_participant_info(rows(session_from, "session", session_sql(condition)));
+  }
+
+  /// Those of a session that fulfill a condition, as SQL over the columns of `event`.
+  std::vector<LoggedEvent> events(std::int64_t session_id, std::string_view condition) const {
+    std::vector<LoggedEvent> events;
+    for (const EventRow& row :
+         rows(attempt_row_from<EventRow>, "event",
+              in_session("event", "event_id", columns_of<EventRow>(), condition), session_id))
+      events.push_back({event_of(row), row.attempt_index});
+    return events;
+  }
+
+  /// Sessions as their rows have them, once each is of a version that is read.
+  std::vector<SessionRow> with_participant_info(std::vector<SessionRow> sessions) const {
+    for (SessionRow& session : sessions) {
+      if (session.header.log_version < oldest_log_version)
+        throw Error(fmt::format(
+            "{}: session {} was recorded in version {} of the log; heft {} reads versions {} to "
+            "{}. Read it with the heft that recorded it.",
+            path_, session.session_id, session.header.log_version, HEFT_VERSION, oldest_log_version,
+            todays_log_version));
+      for (const auto& [key, value] :
+           rows(info_from, "participant_info",
+                "SELECT rowid, key, value FROM participant_info WHERE session_id = ?",
+                session.session_id))
+        session.header.participant_info[key] = value;
+    }
+    return sessions;
+  }
+
+  static std::string session_sql(const std::string& condition) {
+    return fmt::format("SELECT session_id, {}, state FROM session WHERE {} ORDER BY session_id",
+                       columns_of<SessionHeader>(), condition);
+  }
+
+  [[noreturn]] void refuse_unknown(std::int64_t session_id) const {
+    throw Error(fmt::format("{} holds no session {}", path_, session_id));
+  }
+
+ private:
+  [[noreturn]] void refuse_damaged(const std::string& part, const SQLite::Exception& error) const {
+    const SqliteFailure failure = explained(error, database_.get());
+    throw Error(
+        fmt::format("can't read {} of {}: {}. {}.", part, path_, failure.reason, failure.advice));
+  }
+
+  std::string path_;
+  std::unique_ptr<SQLite::Database> database_;
+  bool has_tables_ = false;
+};
+
+LogReader::LogReader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+LogReader::LogReader(LogReader&&) noexcept = default;
+LogReader& LogReader::operator=(LogReader&&) noexcept = default;
+LogReader::~LogReader() = default;
+
+std::vector<SessionRow> LogReader::sessions() const {
+  return impl_->sessions("true");
+}
+
+std::vector<std::int64_t> LogReader::session_ids() const {
+  return impl_->rows([](Cells& cells) { return cells.id(); }, "session",
+                     "SELECT session_id FROM session ORDER BY session_id");
+}
+
+SessionRow LogReader::session(std::int64_t session_id) const {
+  const auto found = impl_->with_participant_info(
+      impl_->rows(session_from, "session", Impl::session_sql("session_id = ?1"), session_id));
+  if (found.empty()) impl_->refuse_unknown(session_id);
+  return found.front();
+}
+
+std::vector<SessionRow> LogReader::sessions_of(const std::string& participant,
+                                               const std::string& protocol_name) const {
+  return impl_->with_participant_info(impl_->rows(
+      session_from, "session", Impl::session_sql("participant = ?1 AND protocol_name = ?2"),
+      participant, protocol_name));
+}
+
+std::optional<SessionRow> LogReader::newest_unfinished_session() const {
+  auto unfinished = impl_->sessions("state IN ('running', 'paused')");
+  if (unfinished.empty()) return std::nullopt;
+  return std::move(unfinished.back());
+}
+
+std::vector<LoggedEvent> LogReader::events(std::int64_t session_id) const {
+  return impl_->events(session(session_id).session_id, "true");
+}
+
+std::vector<LoggedEvent> LogReader::events(std::int64_t session_id,
+                                           std::span<const EventKind> kinds) const {
+  std::string names;
+  for (const EventKind kind : kinds)
+    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", name_of(kind));
+  return impl_->events(session(session_id).session_id, fmt::format("kind IN ({})", names));
+}
+
+std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
+  // Their files' contents are in the events.
+  std::deque<SessionConfig> logged_events;
+  for (const LoggedEvent& logged : impl_->events(session(session_id).session_id, "kind = 'setup'"))
+    if (const auto* setup = logged.event.as<SessionConfig>()) logged_events.push_back(*setup);
+  const auto setup_from = [&](Cells& cells) {
+    LoggedSetup logged{cells.integer(), cells.integer(), {}};
+    if (!logged_events.empty()) {
+      logged.setup = std::move(logged_events.front());
+      logged_events.pop_front();
+    }
+    visit_columns(logged.setup, FillRow(cells));
+    return logged;
+  };
+  return impl_->rows(
+      setup_from, "setup",
+      fmt::format(
+          "SELECT setup_id, setup_index, (SELECT count(*) FROM event e WHERE e.session_id = "
+          "?1 AND e.event_id <= from_event_id), {} FROM setup WHERE session_id = ?1 ORDER "
+          "BY setup_index",
+          columns_of<SessionConfig>()),
+      session_id);
+}
+
+std::vector<TrialRow> LogReader::trials(std::int64_t session_id) const {
+  auto trials =
+      impl_->rows(setup_row_from<TrialRow>, "trial", with_setups<TrialRow>("trial"), session_id);
+  std::map<int, std::vector<double>> masses_g;
+  for (const CubeRow& cube : cubes(session_id)) masses_g[cube.attempt_index].push_back(cube.mass_g);
+  for (TrialRow& trial : trials) trial.plan.masses_g = masses_g[trial.attempt_index];
+  return trials;
+}
+
+std::vector<CubeRow> LogReader::cubes(std::int64_t session_id) const {
+  return impl_->rows(attempt_row_from<CubeRow>, "cube",
+                     in_trials("cube", "rowid", columns_of<CubeRow>()), session_id);
+}
+
+std::vector<AnswerRow> LogReader::answers(std::int64_t session_id) const {
+  return impl_->rows(attempt_row_from<AnswerRow>, "answer",
+                     in_trials("answer", "answer_id", columns_of<AnswerRow>()), session_id);
+}
+
+std::vector<ReversalRow> LogReader::reversals(std::int64_t session_id) const {
+  return impl_->rows(attempt_row_from<ReversalRow>, "reversal",
+                     in_session("reversal", "rowid", columns_of<ReversalRow>()), session_id);
+}
+
+std::vector<EstimateRow> LogReader::estimates(std::int64_t session_id) const {
+  return impl_->rows(
+      row_from<EstimateRow>, "estimate",
+      fmt::format("SELECT rowid, {} FROM estimate WHERE session_id = ? ORDER BY rowid",
+                  columns_of<EstimateRow>()),
+      session_id);
+}
+
+std::vector<ParticipantParameterRow> LogReader::participant_parameters(
+    std::int64_t session_id) const {
+  return impl_->rows(setup_row_from<ParticipantParameterRow>, "participant_parameter",
+                     with_setups<ParticipantParameterRow>("participant_parameter"), session_id);
+}
+
+std::vector<FrameRow> LogReader::frames(std::int64_t session_id, int attempt_index) const {
+  const std::string of_attempt =
+      attempt_index == 0 ? "trial_id IS NULL AND ?2 = 0"
+                         : "trial_id = (SELECT trial_id FROM trial WHERE session_id = ?1 AND "
+                           "attempt_index = ?2)";
+  return impl_->rows(
+      attempt_row_from<FrameRow>, "frame",
+      fmt::format("SELECT frame_id, ?2 AS trial_id, {} FROM frame WHERE session_id = ?1 AND {} "
+                  "ORDER BY frame_id",
+                  columns_of<FrameRow>(), of_attempt),
+      session_id, attempt_index);
+}
+
+FrameCounts LogReader::frame_counts(std::int64_t session_id) const {
+  const auto counts_from = [](Cells& cells) {
+    FrameCounts counts;
+    cells.read(counts.n_frames);
+    cells.read(counts.n_tracked);
+    cells.read(counts.n_jumps);
+    cells.read(counts.mean_quality);
+    return counts;
+  };
+  const auto counts = impl_->rows(
+      counts_from, "frame",
+      "SELECT 0, count(*), coalesce(sum(tracked), 0), coalesce(sum(jump), 0), avg(quality) "
+      "FROM frame WHERE trial_id IN (SELECT trial_id FROM trial WHERE session_id = ?1)",
+      session_id);
+  return counts.empty() ? FrameCounts{} : counts.front();
+}
+
+std::vector<std::string> LogReader::foreign_objects() const {
+  return impl_->foreign_objects();
+}
+
+std::optional<BrokenDigest> LogReader::first_broken_digest(std::int64_t session_id) const {
+  return impl_->first_broken_digest(session_id);
+}
+
+}  // namespace heft

@@ -1,0 +1,222 @@
+#include "record/schema/EventRow.h"
+
+#include <fmt/format.h>
+
+#include <concepts>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/Error.h"
+#include "base/files/Printable.h"
+#include "record/schema/RowSql.h"
+#include "record/schema/SetupJson.h"
+
+namespace heft {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] void refuse(const EventRow& row, std::string_view expected) {
+  throw Error(fmt::format("event \"{}\" at {} s: expected {}, found \"{}\"", name_of(row.kind),
+                          row.t_s, expected, row.detail));
+}
+
+// Puts a payload into the row's columns.
+class ToRow {
+ public:
+  explicit ToRow(EventRow& row) : row_(row) {}
+
+  template <typename Value>
+  ToRow& detail(const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+      row_.detail = name_of(value);
+    else if constexpr (std::same_as<Value, SessionConfig>)
+      row_.detail = to_json(value);
+    else
+      row_.detail = value;
+    return *this;
+  }
+  void detail_is(std::string_view text, std::string_view) { row_.detail = text; }
+  ToRow& slot(std::optional<int> slot) { return set(row_.slot, slot); }
+  ToRow& label(const std::optional<Label>& label) { return set(row_.label, label); }
+  ToRow& number(std::optional<double> number) { return set(row_.value, number); }
+  ToRow& push(const CubeTouch& touch) {
+    row_.deepest_push_m = touch.deepest_push_m;
+    row_.peak_lag_m = touch.peak_lag_m;
+    return *this;
+  }
+  ToRow& duration(std::optional<double> duration_s, std::optional<double> = {}) {
+    return set(row_.value, duration_s);
+  }
+  template <typename Value>
+  ToRow& json(const char* key, const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+      json_[key] = name_of(value);
+    else
+      json_[key] = value;
+    return *this;
+  }
+  // Bytes that are no text must not keep an event from being saved.
+  void finish() {
+    if (!json_.empty()) row_.detail = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+
+ private:
+  template <typename Value>
+  ToRow& set(std::optional<Value>& column, std::optional<Value> value) {
+    column = value;
+    return *this;
+  }
+
+  EventRow& row_;
+  Json json_;
+};
+
+// Takes it out of them again.
+class FromRow {
+ public:
+  explicit FromRow(const EventRow& row) : row_(row) {}
+
+  template <typename Value>
+  FromRow& detail(Value& value) {
+    if constexpr (is_listed<Value>)
+      value = named_in<Value>(row_.detail);
+    else if constexpr (std::same_as<Value, SessionConfig>)
+      value = setup_from_json(row_.detail);
+    else
+      value = row_.detail;
+    return *this;
+  }
+  void detail_is(std::string_view text, std::string_view expected) {
+    if (row_.detail != text) refuse(row_, expected);
+  }
+  FromRow& slot(auto& slot) { return take(slot, row_.slot, "a cube's slot"); }
+  FromRow& label(std::optional<Label>& label) { return take(label, row_.label, "a label"); }
+  FromRow& number(std::optional<double>& number) { return take(number, row_.value, "a number"); }
+  FromRow& push(CubeTouch& touch) {
+    touch.deepest_push_m = row_.deepest_push_m;
+    touch.peak_lag_m = row_.peak_lag_m;
+    return *this;
+  }
+  FromRow& duration(auto& duration_s, std::optional<double> if_none = {}) {
+    const auto value = row_.value ? row_.value : if_none;
+    if (value && !(*value >= 0)) refuse(row_, "a duration");
+    return take(duration_s, value, "a duration");
+  }
+  template <typename Value>
+  FromRow& json(const char* key, Value& value) try {
+    if (json_.is_null()) json_ = Json::parse(row_.detail, nullptr, /*allow_exceptions=*/false);
+    if (!json_.is_object()) refuse(row_, "a JSON object");
+    if constexpr (is_listed<Value>)
+      value = named_in<Value>(json_.at(key).template get<std::string>());
+    else
+      value = json_.at(key).template get<Value>();
+    return *this;
+  } catch (const nlohmann::json::exception&) {
+    refuse(row_, fmt::format("JSON with \"{}\"", key));
+  }
+
+ private:
+  template <typename To, typename Value>
+  FromRow& take(To& to, const std::optional<Value>& value, std::string_view expected) {
+    if constexpr (std::same_as<To, Value>) {
+      if (!value) refuse(row_, expected);
+      to = *value;
+    } else {
+      to = value;
+    }
+    return *this;
+  }
+  template <typename Listed>
+  Listed named_in(const std::string& text) {
+    const auto names = listed_names<Listed>();
+    const auto found = std::ranges::find(names, text);
+    if (found == names.end()) refuse(row_, quoted_list(names));
+    if constexpr (is_word<Listed>)
+      return Listed(*found);
+    else
+      return static_cast<Listed>(found - names.begin());
+  }
+
+  const EventRow& row_;
+  Json json_;
+};
+
+// Both ways. A payload with fields that declares no columns does not compile.
+void convert(auto& payload, auto& row) {
+  using Payload = std::remove_const_t<std::remove_reference_t<decltype(payload)>>;
+  if constexpr (!std::is_empty_v<Payload>) Payload::event_columns(payload, row);
+}
+
+template <std::size_t... Kinds>
+EventPayload empty_of(EventKind kind, std::index_sequence<Kinds...>) {
+  EventPayload what;
+  ((static_cast<std::size_t>(kind) == Kinds ? void(what.emplace<Kinds>()) : void()), ...);
+  return what;
+}
+
+// At most so many bytes, and no half letter.
+std::string begun(const std::string& text, std::size_t most) {
+  std::string kept;
+  for (const std::string_view letter : letters_of(text)) {
+    if (kept.size() + letter.size() > most) break;
+    kept += letter;
+  }
+  return kept;
+}
+
+}  // namespace
+
+EventRow row_of(const Event& event) {
+  EventRow row;
+  row.t_s = event.t_s;
+  row.kind = event.kind();
+  ToRow to(row);
+  std::visit([&](const auto& payload) { convert(payload, to); }, event.what);
+  to.finish();
+  return row;
+}
+
+Event event_of(const EventRow& row) {
+  EventPayload what =
+      empty_of(row.kind, std::make_index_sequence<std::variant_size_v<EventPayload>>());
+  FromRow from(row);
+  std::visit([&](auto& payload) { convert(payload, from); }, what);
+  return {row.t_s, std::move(what)};
+}
+
+std::string text_of(const Event& event) {
+  const EventRow row = row_of(event);
+  std::string text = fmt::format("{} \"{}\"", name_of(row.kind), row.detail);
+  if (row.slot) text += fmt::format(" cube {}", *row.slot);
+  if (row.label) text += fmt::format(" {}", name_of(*row.label));
+  text += fmt::format(" at {} s", row.t_s);
+  const bool is_number = event.is<Action, ActionRefused>();
+  if (row.value) text += fmt::format(", {}{}", *row.value, is_number ? "" : " s");
+  if (row.deepest_push_m && row.peak_lag_m)
+    text += fmt::format(", {} m deep, {} m behind", *row.deepest_push_m, *row.peak_lag_m);
+  return text;
+}
+
+std::string event_line(const Event& event, const AnnouncedEvent& about) {
+  constexpr std::size_t longest_detail = 240, longest_name = 60;  // bytes; escaped at most sixfold
+  const EventRow row = row_of(event);
+  Json line;
+  line["t_s"] = event.t_s;
+  line["utc"] = about.utc;
+  line["session"] = about.session_id;
+  line["participant"] = begun(about.participant, longest_name);
+  line["kind"] = name_of(row.kind);
+  if (about.plan) {
+    line["trial"] = about.plan->trial_number;
+    line["attempt"] = about.plan->attempt;
+  }
+  if (row.slot) line["slot"] = *row.slot;
+  if (row.label) line["label"] = name_of(*row.label);
+  if (!row.detail.empty() && row.kind != event_kind<SessionConfig>)
+    line["detail"] = begun(row.detail, longest_detail);
+  return line.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+}  // namespace heft

@@ -1,0 +1,156 @@
+// What the rows' descriptions give as SQL: their columns' names, how a table declares them, the
+// closed lists that columns refer to, and the queries and inserts that take all columns. Private to
+// this room.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <concepts>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiment/EachCell.h"
+#include "experiment/Event.h"
+#include "record/schema/SessionHeader.h"
+#include "tasks/Tasks.h"
+
+namespace heft {
+
+// The closed lists: each enumeration's names stand in a table, which the columns that use it refer
+// to.
+
+/// The table of an enumeration's names.
+template <typename Enum>
+inline constexpr std::string_view closed_list = "";
+template <>
+inline constexpr std::string_view closed_list<Task> = "list_task";
+template <>
+inline constexpr std::string_view closed_list<Label> = "list_label";
+template <>
+inline constexpr std::string_view closed_list<ActionKind> = "list_action";
+template <>
+inline constexpr std::string_view closed_list<TrialStatus> = "list_status";
+template <>
+inline constexpr std::string_view closed_list<Outcome> = "list_outcome";
+template <>
+inline constexpr std::string_view closed_list<EventKind> = "list_event";
+template <>
+inline constexpr std::string_view closed_list<SessionState> = "list_state";
+template <>
+inline constexpr std::string_view closed_list<Finish> = "list_finish";
+template <>
+inline constexpr std::string_view closed_list<Censored> = "list_censored";
+template <>
+inline constexpr std::string_view closed_list<Purpose> = "list_purpose";
+
+struct ClosedList {
+  std::string_view table;
+  std::vector<std::string_view> names;
+};
+
+/// Whether a value is one of a closed list's names.
+template <typename Value>
+inline constexpr bool is_listed = std::is_enum_v<Value> || is_word<Value>;
+
+template <typename Listed>
+std::vector<std::string_view> listed_names() {
+  if constexpr (is_word<Listed>)
+    return words_of<Listed>();
+  else
+    return {EnumNames<Listed>::names.begin(), EnumNames<Listed>::names.end()};
+}
+
+/// Those that the program closes, filled when a log is made.
+std::span<const ClosedList> closed_lists();
+
+/// The lists of the tasks' words. A task's words are added, with its name and edition, when its
+/// first trial starts: so a further task needs no further version of the log.
+inline constexpr std::array<std::string_view, 4> word_lists{
+    closed_list<Task>, closed_list<Label>, closed_list<ActionKind>, closed_list<Outcome>};
+
+/// What a task adds to the list of that table.
+std::vector<std::string_view> words_for(std::string_view table, const TaskDeclaration& task);
+
+/// Each column's name and declaration.
+class ColumnSql {
+ public:
+  template <typename Value>
+  void operator()(const CellColumn& column, const Value&) {
+    names.push_back(column.full_name());
+    declarations.push_back(fmt::format("{} {}", names.back(), declared<Value>(column)));
+  }
+
+  std::vector<std::string> names, declarations;
+
+ private:
+  template <typename Value>
+  static std::string declared(const CellColumn& column) {
+    // A REAL column forgets the sign of -0.0, and physics makes other bits of it.
+    if (column.exact)
+      return fmt::format("ANY NOT NULL CHECK (typeof({}) IN ('real', 'integer'))",
+                         column.full_name());
+    if constexpr (requires(Value value) { value.has_value(); })
+      return type_of<typename Value::value_type>() + checked<typename Value::value_type>(column);
+    else
+      return type_of<Value>() + " NOT NULL" + checked<Value>(column);
+  }
+  template <typename Value>
+  static std::string type_of() {
+    if constexpr (is_listed<Value> || std::same_as<Value, std::string>)
+      return "TEXT";
+    else if constexpr (std::floating_point<Value>)
+      return "REAL";
+    else
+      return "INTEGER";
+  }
+  template <typename Value>
+  static std::string checked(const CellColumn& column) {
+    if constexpr (is_listed<Value>)
+      return fmt::format(" REFERENCES {}", closed_list<Value>);
+    else if constexpr (std::same_as<Value, bool>)
+      return fmt::format(" CHECK ({} IN (0, 1))", column.name);
+    else
+      return column.check.empty() ? "" : fmt::format(" CHECK ({} {})", column.name, column.check);
+  }
+};
+
+template <typename Row>
+ColumnSql sql_of() {
+  ColumnSql sql;
+  visit_cells(Row{}, sql);
+  return sql;
+}
+
+/// "t_s, kind, slot"
+template <typename Row>
+std::string columns_of() {
+  return fmt::format("{}", fmt::join(sql_of<Row>().names, ", "));
+}
+
+/// What a session's chains of digests start from. Parameter: the session's id.
+inline constexpr auto chain_start_sql =
+    "SELECT participant || '/' || protocol_sha256 || '/' || seed FROM session WHERE session_id = ?";
+
+// First column the row's id, then the attempt (0 where the row names no trial; a text, which Cells
+// refuses, where its session has no such trial), then `columns`; ordered by id. ?1 is the session.
+
+/// Rows that carry the session's id themselves. @param condition that they fulfill, as SQL
+std::string in_session(std::string_view table, std::string_view id, std::string_view columns,
+                       std::string_view condition = "true");
+
+/// The same for frames of all attempts, which are many: without a look at other sessions'.
+std::string frames_in_session(std::string_view columns);
+
+/// Rows that belong to a session through their trial.
+std::string in_trials(std::string_view table, std::string_view id, std::string_view columns);
+
+/// INSERT INTO table(columns) VALUES (?, ?, ...)
+std::string insert_sql(std::string_view table, std::string_view columns);
+
+/// insert_sql, but a row with the same key columns takes over the new values.
+std::string upsert_sql(std::string_view table, std::string_view columns, std::string_view key);
+
+}  // namespace heft

@@ -1,0 +1,150 @@
+#include "record/writer/Backup.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "base/Build.h"
+#include "base/Error.h"
+#include "base/files/TextFile.h"
+#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
+#include "record/reader/ReadOnlyDatabase.h"
+#include "record/writer/Failures.h"
+
+namespace heft {
+
+namespace fs = std::filesystem;
+
+namespace {
+[[noreturn]] void fail(const std::string& path, const std::string& why) {
+  throw Error(fmt::format("the backup {} can't be made: {}", path, why));
+}
+
+std::string system_reason() {
+  return std::strerror(errno);
+}
+
+// Of the owner's eyes alone, from its first byte on.
+void make_backup_folder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::create_directories(folder, error)) {
+    if (error) fail(folder.string(), error.message());
+    return;
+  }
+  fs::permissions(folder, fs::perms::owner_all, error);  // where the disk has permissions
+}
+
+// An empty file under the first name that is free, for the copy that will be called NAME.db.
+std::string make_part(const fs::path& folder, const std::string& name) {
+  for (int i = 1;; ++i) {
+    const std::string free = i == 1 ? name : fmt::format("{}-{}", name, i);
+    const std::string path = (folder / (free + ".db")).string();
+    if (!fs::exists(fs::symlink_status(path)) && create_file(path + ".part", 0600)) return path;
+  }
+}
+
+void copy_into(const std::string& db, const std::string& part) {
+  const auto source = open_for_reading(db);
+  source->exec("PRAGMA query_only = OFF");  // what it was opened with forbids any other file too
+  SQLite::Statement vacuum(*source, "VACUUM INTO ?");
+  vacuum.bind(1, part);
+  vacuum.exec();
+}
+
+void sync(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail(path, system_reason());
+  const bool is_saved = fsync(file) == 0;
+  const int reason = errno;
+  close(file);
+  errno = reason;
+  if (!is_saved && errno != EINVAL) fail(path, system_reason());  // EINVAL: nothing to be done here
+}
+
+void check_copy(const std::string& part, std::int64_t session_id) {
+  if (const auto faults = check_integrity(part); !faults.empty())
+    fail(part, "the copy is not sound: " + faults.front());
+  if (const auto broken = LogReader(part).first_broken_digest(session_id))
+    fail(part, fmt::format("in the copy {} is not as it was written", broken->row));
+}
+
+// Takes the name only where it is free. Disks without links (FAT) can't do both at once.
+void give_name(const std::string& part, const std::string& path) {
+  if (renameat2(AT_FDCWD, part.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) fail(path, system_reason());
+  if (fs::exists(fs::symlink_status(path))) fail(path, "a file of that name was made meanwhile");
+  if (std::rename(part.c_str(), path.c_str()) != 0) fail(path, system_reason());
+}
+
+// A copy that is no good is not left lying about.
+class Part {
+ public:
+  explicit Part(std::string path) : path_(std::move(path)) {}
+  ~Part() {
+    if (path_.empty()) return;
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+    fs::remove(path_ + "-journal", ignored);
+  }
+  Part(const Part&) = delete;
+  void keep() { path_.clear(); }
+
+ private:
+  std::string path_;
+};
+}  // namespace
+
+std::string backup_name(const std::string& participant, std::int64_t session_id,
+                        const std::string& utc) {
+  constexpr std::size_t longest = 60;
+  std::string who;
+  for (const char c : participant.substr(0, longest))
+    who += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
+  std::string when;
+  for (const char c : utc.substr(0, utc.find('.')))
+    if (c != '-' && c != ':' && c != 'Z') when += c;
+  return fmt::format("{}_session{}_{}Z", who, session_id, when);
+}
+
+void require_backup_folder(const std::string& folder) try {
+  make_backup_folder(folder);
+  const std::string path = make_part(folder, "written-to-try") + ".part";
+  const Part part(path);
+  std::ofstream file(path);
+  file << "heft\n" << std::flush;
+  if (!file) fail(folder, "nothing can be written there: " + system_reason());
+  sync(path);
+} catch (const fs::filesystem_error& error) {
+  fail(folder, error.code().message());
+}
+
+std::string back_up(const std::string& db, const std::string& folder, std::int64_t session_id) try {
+  make_backup_folder(folder);
+  const std::string who = LogReader(db).session(session_id).header.participant;
+  const std::string path = make_part(folder, backup_name(who, session_id, utc_now()));
+  const std::string made = path + ".part";
+  Part part(made);
+  copy_into(db, made);
+  sync(made);
+  check_copy(made, session_id);
+  give_name(made, path);
+  part.keep();
+  sync(folder);
+  return path;
+} catch (const SQLite::Exception& error) {
+  const SqliteFailure failure = explained(error, nullptr);
+  fail(folder, fmt::format("{}. {}", failure.reason, failure.advice));
+} catch (const fs::filesystem_error& error) {
+  fail(folder, error.code().message());
+}
+
+}  // namespace heft

@@ -1,0 +1,109 @@
+#include "record/writer/Failures.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "record/writer/LogFile.h"
+
+namespace heft {
+
+namespace {
+SqliteFailure input_output_failure(int extended_code, int system_error) {
+  const bool no_space = system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG;
+  if (no_space || extended_code == SQLITE_IOERR_SHMSIZE)
+    return {system_error == EDQUOT  ? "the disk quota is used up"
+            : system_error == EFBIG ? "the file has reached the largest size allowed"
+                                    : "the disk is full",
+            "Free some space"};
+  return {"the disk could not be read or written", "Check the disk and its cable"};
+}
+
+// The system's reason. SQLite passes it on for some failures only; the write-ahead log's file has
+// the others.
+int system_error_of(sqlite3* connection) {
+  if (const int error = sqlite3_system_errno(connection); error != 0) return error;
+  sqlite3_file* log = nullptr;
+  sqlite3_file_control(connection, "main", SQLITE_FCNTL_JOURNAL_POINTER, &log);
+  int error = 0;
+  if (log != nullptr && log->pMethods != nullptr)
+    log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &error);
+  return error;
+}
+
+SqliteFailure in_plain_words(int code, int extended_code, int system_error) {
+  switch (code) {
+    case SQLITE_FULL:
+      return {"the disk is full", "Free some space"};
+    case SQLITE_IOERR:
+      return input_output_failure(extended_code, system_error);
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+      return {"the file or its folder is read-only", "Make both writable"};
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return {"another program keeps the file locked", "Close the other program"};
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return {"the file is damaged", "Copy it away, then go on with a backup"};
+    case SQLITE_CANTOPEN:
+      return {"the file or its -wal or -shm file can't be opened",
+              "Check that the folder is there and that you may write to it"};
+    case SQLITE_CONSTRAINT:
+      return {"it breaks a rule of the log", "This is a mistake in heft: please report it"};
+    default:
+      return {"the database could not do it", "Check the disk and the file"};
+  }
+}
+
+std::string action_text(const Action& action) {
+  std::string text(name_of(action.kind));
+  if (action.slot) text += fmt::format(" cube {}", *action.slot);
+  if (action.label) text += fmt::format(" {}", name_of(*action.label));
+  return text;
+}
+}  // namespace
+
+SqliteFailure explained(const SQLite::Exception& error, const SQLite::Database* database) {
+  const int code = error.getErrorCode() & 0xff;
+  const bool from_system = code == SQLITE_IOERR || code == SQLITE_CANTOPEN;
+  const int system_error =
+      from_system && database != nullptr ? system_error_of(database->getHandle()) : 0;
+  SqliteFailure failure = in_plain_words(code, error.getExtendedErrorCode(), system_error);
+  failure.reason += fmt::format(" (SQLite: {}", error.what());
+  if (system_error != 0) failure.reason += fmt::format("; {}", std::strerror(system_error));
+  failure.reason += ')';
+  return failure;
+}
+
+bool is_busy(const std::exception& error) {
+  const auto* reason = dynamic_cast<const SQLite::Exception*>(&error);
+  const int code = reason ? reason->getErrorCode() & 0xff : SQLITE_OK;
+  return code == SQLITE_BUSY || code == SQLITE_LOCKED;
+}
+
+std::string description(const Event& event, std::optional<int> trial_number) {
+  const auto* action = event.as<Action>();
+  const std::string text = action ? fmt::format("the answer \"{}\"", action_text(*action))
+                                  : fmt::format("the event \"{}\"", name_of(event.kind()));
+  return trial_number ? fmt::format("{} of trial {}", text, *trial_number) : text;
+}
+
+Error write_error(const std::string& what, const LogFile& file, const std::exception& reason,
+                  const std::string& next) {
+  if (const auto* displaced = dynamic_cast<const DisplacedLog*>(&reason))
+    return Error(fmt::format("{} is not safe in {}: {}. {}, then {}", what, file.path(),
+                             displaced->what(), displaced->remedy(), next));
+  SqliteFailure failure{reason.what(), "This is a mistake in heft: please report it"};
+  if (const auto* error = dynamic_cast<const SQLite::Exception*>(&reason))
+    failure = explained(*error, &file.database());
+  return Error(
+      fmt::format("could not save {} in {}: {}. Nothing of it is in the file; all that was "
+                  "acknowledged before it is. {}, then {}",
+                  what, file.path(), failure.reason, failure.advice, next));
+}
+
+}  // namespace heft

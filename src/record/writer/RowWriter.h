@@ -1,0 +1,85 @@
+// Rows into tables, inside the transaction that the caller holds. Statements are prepared once.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "record/integrity/Digests.h"
+#include "record/stream/RecordedSession.h"
+
+namespace SQLite {
+class Database;
+class Statement;
+}  // namespace SQLite
+
+namespace heft {
+
+/// Throws SQLite::Exception where the database refuses, Error where a row can't be kept as it is
+/// (not a number, too many cubes, an unknown attempt).
+class RowWriter {
+ public:
+  /// @param database must have its tables when the first row is written
+  explicit RowWriter(SQLite::Database& database);
+  RowWriter(RowWriter&&) noexcept;
+  ~RowWriter();
+
+  /// @return the new session's id
+  std::int64_t write_session(const SessionHeader& header);
+
+  void write(std::int64_t session_id, const RecordedEntry& entry);
+
+  /// What the participant told; told again, it takes the place of what was there.
+  void write_info(std::int64_t session_id, const std::string& key, const std::string& value);
+
+  /// How many events and frames the session has now: call it before each commit, so that rows cut
+  /// off at the end are missed.
+  void write_counts(std::int64_t session_id);
+
+  /// The attempt's planned trial, if it is in the log.
+  std::optional<int> trial_number(std::int64_t session_id, int attempt_index);
+
+  /// After a rollback: what was looked up may be gone.
+  void forget();
+
+ private:
+  struct Attempt {
+    std::int64_t session_id = 0;
+    int attempt_index = 0;
+    std::int64_t trial_id = 0;
+    int trial_number = 0;
+  };
+
+  SQLite::Statement& statement(const std::string& sql);
+  std::optional<Attempt> find_attempt(std::int64_t session_id, int attempt_index);
+  std::int64_t trial_id(std::int64_t session_id, int attempt_index);
+  std::optional<std::int64_t> trial_id_or_none(std::int64_t session_id, int attempt_index);
+  std::optional<std::int64_t> setup_id(std::int64_t session_id, int setup_index);
+
+  void write_event(std::int64_t session_id, const RecordedEvent& recorded);
+  void write_setup(std::int64_t session_id, std::int64_t event_id, const SessionConfig& setup);
+  void write_event_row(std::int64_t session_id, int attempt_index, const Event& event);
+  void write_frame(std::int64_t session_id, const FrameRow& frame);
+  void write_trial(std::int64_t session_id, const TrialRow& trial);
+  void write_masses(std::int64_t session_id, const TrialRow& trial);
+  void withdraw(std::int64_t session_id, const Changes& changes);
+  void write_cube(std::int64_t session_id, const CubeRow& cube);
+  void write_info_digest(std::int64_t session_id);
+  template <typename... Keys>
+  std::optional<std::int64_t> first_cell(const std::string& sql, const Keys&... keys);
+  template <typename Row, typename... Keys>
+  void insert(const std::string& sql, const Row& row, const Keys&... keys);
+
+  SQLite::Database& database_;
+  std::map<std::string, std::unique_ptr<SQLite::Statement>> statements_;
+  std::optional<Attempt> last_attempt_;
+  std::set<std::string> tasks_;              ///< whose words are in the log
+  int n_new_events_ = 0, n_new_frames_ = 0;  ///< not yet counted
+  DigestChain chain_;
+  RowDigest digest_;  ///< of the row being written
+};
+
+}  // namespace heft

@@ -1,0 +1,262 @@
+#include "record/writer/SessionLog.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include "base/Error.h"
+#include "base/files/Printable.h"
+#include "record/schema/Schema.h"
+#include "record/writer/Failures.h"
+#include "record/writer/LogFile.h"
+#include "record/writer/RowWriter.h"
+
+namespace heft {
+
+namespace {
+constexpr auto longest_wait = std::chrono::seconds(1);
+constexpr int busy_timeout_ms = 1000;  ///< so long may a session stand still unannounced
+
+std::string counted(const std::vector<RecordedEntry>& entries) {
+  if (entries.empty()) return "the session";
+  std::size_t n_frames = 0;
+  for (const RecordedEntry& entry : entries)
+    if (std::holds_alternative<FrameRow>(entry)) ++n_frames;
+  return fmt::format("the last {} events and {} pictures", entries.size() - n_frames, n_frames);
+}
+}  // namespace
+
+class SessionLog::Impl {
+ public:
+  explicit Impl(const std::string& path) : file_(path), writer_(file_.database()) {
+    file_.database().setBusyTimeout(busy_timeout_ms);
+  }
+  Impl(const Impl&) = delete;
+  ~Impl() { write_last(); }
+
+  void start(const SessionHeader& header, const std::optional<RecordedEvent>& first);
+  void reopen(std::int64_t session_id);
+  void append(const Event& event, const Changes& changes, Durability durability);
+  void add_frame(const FrameRow& frame);
+  void add_info(const std::string& key, const std::string& value);
+  void flush();
+  std::int64_t session_id() const { return session_id_; }
+
+ private:
+  void check_session(std::int64_t session_id);
+  void refuse_after_failure() const;
+  [[noreturn]] void fail(const std::string& what, const std::exception& reason);
+  Error told(const std::string& what, const std::exception& reason);
+  void forget_lock();
+  void wait_with(RecordedEntry entry);
+  void commit_waiting();
+  void commit_or_fail(const std::string& what);
+  void write_last() noexcept;
+  std::string described(const Event& event, const Changes& changes);
+
+  LogFile file_;
+  RowWriter writer_;
+  std::int64_t session_id_ = 0;
+  std::vector<RecordedEntry> waiting_;  ///< taken, in order, not yet written
+  std::vector<std::pair<std::string, std::string>> waiting_info_;  ///< what the participant told
+  std::chrono::steady_clock::time_point waiting_since_;
+  std::string failure_;     ///< once a call has thrown
+  bool is_locked_ = false;  ///< by another program, as the last call has thrown
+};
+
+void SessionLog::Impl::start(const SessionHeader& header,
+                             const std::optional<RecordedEvent>& first) {
+  try {
+    SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
+    schema::create(file_.database());
+    session_id_ = writer_.write_session(header);
+    if (first) {
+      writer_.write(session_id_, *first);
+      writer_.write_counts(session_id_);
+    }
+    transaction.commit();
+  } catch (const std::exception& error) {
+    throw write_error("the start of the session", file_, error, "start again");
+  }
+}
+
+void SessionLog::Impl::reopen(std::int64_t session_id) {
+  if (schema::kind_of(file_.database()) == schema::FileKind::empty)
+    throw Error(fmt::format("{} holds no session yet. Start one with heft run.", file_.path()));
+  try {
+    SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
+    schema::create(file_.database());
+    check_session(session_id);
+    transaction.commit();
+  } catch (const SQLite::Exception& error) {
+    throw write_error("the return to the session", file_, error, "try again");
+  }
+  session_id_ = session_id;
+}
+
+void SessionLog::Impl::check_session(std::int64_t session_id) {
+  SQLite::Statement query(file_.database(), "SELECT 1 FROM session WHERE session_id = ?");
+  query.bind(1, session_id);
+  if (!query.executeStep())
+    throw Error(
+        fmt::format("{} holds no session {}. heft resume --db {} without --session takes "
+                    "the newest unfinished one.",
+                    file_.path(), session_id, shell_quoted(file_.path())));
+}
+
+void SessionLog::Impl::append(const Event& event, const Changes& changes, Durability durability) {
+  refuse_after_failure();
+  if (durability == Durability::buffered) return wait_with(RecordedEvent{event, changes});
+  waiting_.push_back(RecordedEvent{event, changes});
+  try {
+    commit_waiting();
+  } catch (const std::exception& error) {
+    const std::string what = described(event, changes);
+    // What came before it may still be saved at the end; what comes after it must not.
+    if (!is_busy(error) && !waiting_.empty()) waiting_.pop_back();
+    fail(what, error);
+  }
+}
+
+void SessionLog::Impl::add_frame(const FrameRow& frame) {
+  refuse_after_failure();
+  wait_with(frame);
+}
+
+void SessionLog::Impl::add_info(const std::string& key, const std::string& value) {
+  refuse_after_failure();
+  waiting_info_.emplace_back(key, value);
+  try {
+    commit_waiting();
+  } catch (const std::exception& error) {
+    if (!is_busy(error) && !waiting_info_.empty()) waiting_info_.pop_back();
+    fail(fmt::format("what the participant told ({})", key), error);
+  }
+}
+
+void SessionLog::Impl::flush() {
+  refuse_after_failure();
+  commit_or_fail(counted(waiting_));
+}
+
+void SessionLog::Impl::refuse_after_failure() const {
+  if (!failure_.empty()) throw Error(failure_);
+}
+
+// Another program's lock is no failure: what waits is tried again.
+void SessionLog::Impl::fail(const std::string& what, const std::exception& reason) {
+  const Error error = told(what, reason);
+  if (is_busy(reason)) {
+    is_locked_ = true;
+    file_.database().setBusyTimeout(0);
+    throw LogBusy(error.what());
+  }
+  failure_ = error.what();
+  throw error;
+}
+
+Error SessionLog::Impl::told(const std::string& what, const std::exception& reason) {
+  return write_error(what, file_, reason,
+                     fmt::format("go on with: heft resume --db {} --session {}",
+                                 shell_quoted(file_.path()), session_id_));
+}
+
+void SessionLog::Impl::forget_lock() {
+  if (std::exchange(is_locked_, false)) file_.database().setBusyTimeout(busy_timeout_ms);
+}
+
+void SessionLog::Impl::wait_with(RecordedEntry entry) {
+  const auto now = std::chrono::steady_clock::now();
+  if (waiting_.empty()) waiting_since_ = now;
+  waiting_.push_back(std::move(entry));
+  if (now - waiting_since_ >= longest_wait) commit_or_fail(counted(waiting_));
+}
+
+void SessionLog::Impl::commit_or_fail(const std::string& what) {
+  try {
+    commit_waiting();
+  } catch (const std::exception& error) {
+    fail(what, error);
+  }
+}
+
+void SessionLog::Impl::commit_waiting() {
+  file_.check_in_place();
+  if (waiting_.empty() && waiting_info_.empty() && !is_locked_) return;
+  try {
+    SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
+    for (const RecordedEntry& entry : waiting_) writer_.write(session_id_, entry);
+    for (const auto& [key, value] : waiting_info_) writer_.write_info(session_id_, key, value);
+    writer_.write_counts(session_id_);
+    transaction.commit();
+  } catch (...) {
+    writer_.forget();
+    throw;
+  }
+  waiting_.clear();
+  waiting_info_.clear();
+  forget_lock();
+  file_.check_in_place();
+}
+
+// What a call has told already is not told again.
+void SessionLog::Impl::write_last() noexcept {
+  try {
+    commit_waiting();
+  } catch (const std::exception& error) {
+    if (!failure_.empty() || is_locked_) return;
+    std::fprintf(stderr, "heft: %s\n", escaped(told(counted(waiting_), error).what()).c_str());
+  }
+}
+
+std::string SessionLog::Impl::described(const Event& event, const Changes& changes) {
+  std::optional<int> trial_number;
+  if (changes.trial)
+    trial_number = changes.trial->plan.trial_number;
+  else if (changes.attempt_index > 0)
+    trial_number = writer_.trial_number(session_id_, changes.attempt_index);
+  return description(event, trial_number);
+}
+
+SessionLog SessionLog::start(const std::string& path, const SessionHeader& header,
+                             const std::optional<RecordedEvent>& first) {
+  auto impl = std::make_unique<Impl>(path);
+  impl->start(header, first);
+  return SessionLog(std::move(impl));
+}
+
+SessionLog SessionLog::reopen(const std::string& path, std::int64_t session_id) {
+  auto impl = std::make_unique<Impl>(path);
+  impl->reopen(session_id);
+  return SessionLog(std::move(impl));
+}
+
+SessionLog::SessionLog(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SessionLog::SessionLog(SessionLog&&) noexcept = default;
+SessionLog& SessionLog::operator=(SessionLog&&) noexcept = default;
+SessionLog::~SessionLog() = default;
+
+std::int64_t SessionLog::session_id() const {
+  return impl_->session_id();
+}
+
+void SessionLog::append(const Event& event, const Changes& changes, Durability durability) {
+  impl_->append(event, changes, durability);
+}
+
+void SessionLog::add_frame(const FrameRow& frame) {
+  impl_->add_frame(frame);
+}
+
+void SessionLog::add_info(const std::string& key, const std::string& value) {
+  impl_->add_info(key, value);
+}
+
+void SessionLog::flush() {
+  impl_->flush();
+}
+
+}  // namespace heft

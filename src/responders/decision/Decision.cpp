@@ -1,0 +1,60 @@
+#include "responders/decision/Decision.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "responders/Responder.h"
+#include "tasks/Tasks.h"
+
+namespace heft {
+
+Decision::Decision(const ResponderParameters& parameters, std::uint64_t seed,
+                   const TrialView& trial)
+    : parameters_(parameters),
+      task_(trial.task),
+      offer_(trial.offer),
+      stream_(trial_stream(seed, "decision", trial)) {}
+
+Answer Decision::decide(std::span<const double> percepts_mm, std::span<const int> wrong_slots) {
+  Percepts percepts{.remembered_mm = remembered_mm(percepts_mm),
+                    .lapse = stream_.coin(parameters_.lapse_rate),
+                    .guess_probability = parameters_.guess_probability,
+                    .correction_probability = parameters_.correction_probability,
+                    .wrong_slots = wrong_slots};
+  // A lapse answers as if something else had been seen; all of it equally likely.
+  if (percepts.lapse)
+    for (double& value : percepts.remembered_mm) value = stream_.uniform();
+  percepts.differ = differ(percepts.remembered_mm);
+  Answer answer;
+  Tasks::call(task_, [&]<typename Kind>() {
+    answer = Kind::simulated(offer_of<Kind>(offer_), percepts, stream_);
+  });
+  return answer;
+}
+
+// Noise in proportion to the percept, and some that is there even when nothing was seen.
+std::vector<double> Decision::remembered_mm(std::span<const double> percepts_mm) {
+  std::vector<double> remembered;
+  for (double percept : percepts_mm) {
+    const double noise_mm =
+        std::hypot(parameters_.judgment_noise_mm, parameters_.memory_noise * percept);
+    remembered.push_back(percept + noise_mm * stream_.normal());
+  }
+  return remembered;
+}
+
+bool Decision::differ(std::span<const double> remembered_mm) const {
+  const auto [smallest, largest] = std::ranges::minmax(remembered_mm);
+  return largest - smallest >
+         parameters_.criterion_mm + parameters_.criterion_fraction * std::max(0.0, largest);
+}
+
+Answer blind_answer(const TrialView& trial, const Unseen& unseen, RandomStream& stream) {
+  Answer answer;
+  Tasks::call(trial.task, [&]<typename Kind>() {
+    answer = Kind::blind(offer_of<Kind>(trial.offer), unseen, stream);
+  });
+  return answer;
+}
+
+}  // namespace heft

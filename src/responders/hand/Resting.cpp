@@ -1,0 +1,102 @@
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "base/Random.h"
+#include "responders/Responder.h"
+#include "responders/ResponderParameters.h"
+#include "responders/decision/Answering.h"
+#include "responders/decision/Decision.h"
+#include "responders/decision/Questions.h"
+#include "responders/hand/Hand.h"
+
+namespace heft {
+
+namespace {
+constexpr double hover_m = 0.005;
+constexpr double tap_interval_s = 0.7;
+
+/// Gives the answer to a trial.
+/// @param wrong_slots chosen wrongly so far, oldest first, where the task asks again
+using Mind = std::function<Answer(std::span<const int> wrong_slots)>;
+/// Makes the mind for one trial.
+using MakeMind = std::function<Mind(const TrialView& trial)>;
+
+class Resting : public Responder {
+ public:
+  Resting(std::uint64_t seed, MakeMind make_mind) : seed_(seed), make_mind_(std::move(make_mind)) {}
+
+  void begin_trial(const TrialView& trial) override {
+    rest_ = resting_pose(trial.stage, hover_m);
+    mind_ = make_mind_(trial);
+    answering_.emplace(seed_, trial, tap_interval_s);
+    delays_ = trial_stream(seed_, "delay", trial);
+  }
+
+  HandSample hand(double) override { return {rest_, true}; }
+
+  std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {
+    const bool to_answer = answering_->free() && answering_->cubes_seen();
+    if (to_answer && screen.screen == Screen::trial)
+      answering_->give(mind_(answering_->wrong_slots()), frame.t_s + 1 + delays_->uniform());
+    return answering_->see(frame, screen);
+  }
+
+  bool has_more(double t_s) const override { return !answering_->gave_up(t_s); }
+
+  std::optional<Answer> judge(const TrialView& trial,
+                              std::span<const DisplayedFrame>) const override {
+    return make_mind_(trial)({});
+  }
+
+  std::optional<std::string> answer(const FormQuestion& question,
+                                    const std::string& key) const override {
+    return any_answer_to(question, seed_, key);
+  }
+
+ private:
+  std::uint64_t seed_;
+  MakeMind make_mind_;
+  Pose rest_;
+  Mind mind_;
+  std::optional<Answering> answering_;
+  std::optional<RandomStream> delays_;
+};
+
+// Finds a difference with a probability, whatever there is.
+std::unique_ptr<Responder> make_blind(std::uint64_t seed, double p_different) {
+  return std::make_unique<Resting>(seed, [=](const TrialView& trial) -> Mind {
+    RandomStream stream = trial_stream(seed, "blind answer", trial);
+    return [trial, p_different, stream](std::span<const int> wrong_slots) mutable {
+      const bool differ = stream.coin(p_different);
+      return blind_answer(trial, {trial.stage.n_slots(), differ, wrong_slots}, stream);
+    };
+  });
+}
+}  // namespace
+
+std::unique_ptr<Responder> make_always_yes(const ResponderOptions& options) {
+  return make_blind(options.seed, 1);
+}
+
+std::unique_ptr<Responder> make_always_no(const ResponderOptions& options) {
+  return make_blind(options.seed, 0);
+}
+
+std::unique_ptr<Responder> make_coin(const ResponderOptions& options) {
+  return make_blind(options.seed, participant_parameters(options, coin_parts).p);
+}
+
+std::unique_ptr<Responder> make_criterion_only(const ResponderOptions& options) {
+  const auto parameters = participant_parameters(options, criterion_only_parts);
+  return std::make_unique<Resting>(
+      options.seed, [seed = options.seed, parameters](const TrialView& trial) -> Mind {
+        const std::vector<double> nothing(trial.stage.slots_m.size(), 0.0);
+        return [decision = Decision(parameters, seed, trial),
+                nothing](std::span<const int> wrong_slots) mutable {
+          return decision.decide(nothing, wrong_slots);
+        };
+      });
+}
+
+}  // namespace heft

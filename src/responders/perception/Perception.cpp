@@ -1,0 +1,89 @@
+#include "responders/perception/Perception.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "responders/Responder.h"
+#include "responders/perception/SeenGeometry.h"
+
+namespace heft {
+
+namespace {
+// A touch that flickers for less is one touch; strokes are further apart.
+constexpr double touch_break_s = 0.3;
+constexpr double mm_per_m = 1000;
+
+double horizontal_mm(const Eigen::Vector3d& distance_m) {
+  return mm_per_m * distance_m.head<2>().norm();
+}
+}  // namespace
+
+Perception::Perception(const ResponderParameters& parameters, std::uint64_t seed,
+                       const TrialView& trial)
+    : parameters_(parameters),
+      stage_(trial.stage),
+      stream_(trial_stream(seed, "picture noise", trial)),
+      looks_mm_(trial.stage.slots_m.size()) {}
+
+void Perception::see(const DisplayedFrame& frame) {
+  const double since_last_s = last_frame_s_ ? frame.t_s - *last_frame_s_ : 0;
+  last_frame_s_ = frame.t_s;
+  if (!frame.tracked || !frame.clone) return;
+  const auto cube = touched_cube(*frame.clone, frame.cubes, stage_);
+  if (!cube) return;
+  keep_touch(*cube, frame);
+  const double gain =
+      parameters_.integration_s > 0 ? 1 - std::exp(-since_last_s / parameters_.integration_s) : 1;
+  touch_->smoothed_mm += gain * (reading_mm(cue_mm(frame)) - touch_->smoothed_mm);
+  double& peak_mm = looks_mm_[static_cast<std::size_t>(*cube)].back();
+  peak_mm = std::max(peak_mm, touch_->smoothed_mm);
+}
+
+void Perception::keep_touch(int cube, const DisplayedFrame& frame) {
+  const std::size_t i = static_cast<std::size_t>(cube);
+  if (!touch_ || touch_->cube != cube || frame.t_s > touch_->last_s + touch_break_s) {
+    touch_ = Touch{cube, frame.t_s, 0, frame.effector, frame.cubes[i]};
+    looks_mm_[i].push_back(0);
+  }
+  touch_->last_s = frame.t_s;
+}
+
+double Perception::cue_mm(const DisplayedFrame& frame) const {
+  if (parameters_.cue == Cue::offset)
+    return horizontal_mm(frame.clone->position_m - frame.effector.position_m);
+  const Pose& cube = frame.cubes[static_cast<std::size_t>(touch_->cube)];
+  return horizontal_mm(frame.effector.position_m - touch_->effector_at_start.position_m) -
+         horizontal_mm(cube.position_m - touch_->cube_at_start.position_m);
+}
+
+// Nothing visible is read as nothing, without noise: the noise of judging it comes later.
+double Perception::reading_mm(double shown_mm) {
+  if (shown_mm <= parameters_.just_visible_mm) return 0;
+  const double noise_mm =
+      std::hypot(parameters_.localization_noise_mm, parameters_.length_noise * shown_mm);
+  return std::max(0.0, shown_mm + noise_mm * stream_.normal());
+}
+
+std::vector<double> Perception::percepts_mm() const {
+  std::vector<double> percepts_mm;
+  for (const auto& looks : looks_mm_) {
+    const double sum_mm = std::accumulate(looks.begin(), looks.end(), 0.0);
+    percepts_mm.push_back(looks.empty() ? 0 : sum_mm / static_cast<double>(looks.size()));
+  }
+  return percepts_mm;
+}
+
+std::vector<int> Perception::not_looked_at() const {
+  std::vector<int> cubes;
+  for (std::size_t i = 0; i < looks_mm_.size(); ++i)
+    if (looks_mm_[i].empty()) cubes.push_back(static_cast<int>(i));
+  return cubes;
+}
+
+void Perception::forget() {
+  touch_.reset();
+  for (auto& looks : looks_mm_) looks.clear();
+}
+
+}  // namespace heft

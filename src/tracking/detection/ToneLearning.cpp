@@ -1,0 +1,60 @@
+#include "tracking/detection/ToneLearning.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "base/math/Shrinkage.h"
+
+namespace heft {
+
+namespace {
+// What cameras differ by: a power of 1.8 is about -.4 of the first bend, a film's shoulder 1 of the
+// second.
+const ToneBend usual_bend_sd(1, 0.3, 0.3);
+// Print grows or shrinks a little, too.
+constexpr double least_bias_sd_px = 0.01;
+// Neither is a picture's noise all that is wrong with an edge's profile.
+constexpr double shape_weight = 0.5;
+// Of what was learned before, a picture: a camera may set its curve anew.
+constexpr double memory = 0.97;
+constexpr double worth_measuring_px = 0.01;
+constexpr double most_bend = 2, most_saturated = 0.1;
+}  // namespace
+
+void PictureTone::add(const FittedEdge& edge, double outward) {
+  if (edge.saturated) ++n_saturated;
+  if (edge.tone.information.isZero()) return;
+  sum.information += edge.tone.information;
+  sum.pull += edge.tone.pull;
+  sum.outward += outward * edge.tone.outward;
+  ++n_edges;
+}
+
+bool ToneLearner::learn(const PictureTone& seen, double bias_px, double bias_sd_px) {
+  // Where white is clipped, what is left is a choice of the edges that happen not to be.
+  if (seen.n_edges == 0 || most_saturated * seen.n_edges < seen.n_saturated) return false;
+  const ToneBend outward = seen.sum.outward / seen.n_edges, at = curve_.bend();
+  const double bias_variance = bias_sd_px * bias_sd_px + least_bias_sd_px * least_bias_sd_px;
+  seen_ = shape_weight * seen.sum.information + outward * outward.transpose() / bias_variance;
+  Eigen::Matrix3d before = information_;
+  before.diagonal() += usual_bend_sd.cwiseAbs2().cwiseInverse();
+  const ToneBend pull = shape_weight * seen.sum.pull - outward * bias_px / bias_variance +
+                        information_ * mean_ - before * at;
+  const ToneBend change = (before + seen_).ldlt().solve(pull);
+  if (!change.allFinite()) return false;
+  bend_ = (at + change).cwiseMax(-most_bend).cwiseMin(most_bend);
+  // Most cameras' curve is sRGB, and what then seems bent is what the model of edges, the print and
+  // rounding to levels do to them.
+  curve_ = ToneCurve(believed_fraction(outward.dot(bend_) / least_bias_sd_px) * bend_);
+  return std::abs(outward.dot(curve_.bend() - at)) > worth_measuring_px;
+}
+
+void ToneLearner::next_picture() {
+  if (seen_.isZero()) return;
+  information_ = memory * (information_ + seen_);
+  mean_ = bend_;
+  seen_.setZero();
+}
+
+}  // namespace heft

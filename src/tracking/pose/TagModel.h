@@ -1,0 +1,121 @@
+// What a tag's pixels should show. Each is
+//
+//   tone_curve((dark + contrast * B(s) + reflected(s)) * (1 + gradient . s))
+//
+// B being the tag's cells, 0 black and 1 white, blurred by a normal distribution; s the place on
+// the tag that the pixel's ray hits; reflected a lamp's gloss, a polynomial of second degree, since
+// light that lies over a tag like a hill looks like larger cells to a plane.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <array>
+#include <cstddef>
+
+#include "base/PoseTypes.h"
+#include "tracking/detection/TagFamily.h"
+#include "tracking/detection/ToneCurve.h"
+#include "tracking/pose/BodyPose.h"
+
+namespace heft {
+
+// Where rays hit a tag.
+
+/// A tag as a plane in the camera's frame: its border's top left corner and its cells' sides.
+struct TagPlane {
+  Eigen::Vector3d corner_m, right_m, down_m;
+  /// Of a point: how many cells to the right and down, and 1, times its depth.
+  Eigen::Matrix3d cell_of;
+
+  TagPlane(const Pose& pose, const std::array<Eigen::Vector3d, 4>& c, int n_cells)
+      : corner_m(pose * c[0]),
+        right_m(pose.orientation * (c[1] - c[0]) / n_cells),
+        down_m(pose.orientation * (c[3] - c[0]) / n_cells) {
+    Eigen::Matrix3d sides;
+    sides << right_m, down_m, corner_m;
+    cell_of = sides.inverse();
+  }
+};
+
+/// Where a ray hits it, and what the place on it does to the ray.
+struct TagHit {
+  Eigen::Vector2d cell;           ///< from the border's corner
+  Eigen::Matrix2d cell_by_slant;  ///< of the ray's distance from a point, at the point's depth
+  Eigen::Vector3d point_m;
+
+  TagHit(const TagPlane& plane, const Eigen::Vector2d& ray) {
+    const Eigen::Vector3d at_depth_1 = plane.cell_of.leftCols<2>() * ray + plane.cell_of.col(2);
+    const double depth_m = 1 / at_depth_1.z();
+    cell = depth_m * at_depth_1.head<2>();
+    cell_by_slant = plane.cell_of.topLeftCorner<2, 2>() - cell * plane.cell_of.row(2).head<2>();
+    point_m = depth_m * ray.homogeneous();
+  }
+};
+
+struct DenseTag {
+  const TagObservation* seen;
+  const TagPattern* pattern;
+};
+
+/// A body that moves while the shutter is open: its cells are smeared along its way.
+struct Smear {
+  Velocity velocity;         ///< of the body's origin, in the camera's frame
+  double still_blur_px = 0;  ///< of what stands still
+};
+
+class TagModel {
+ public:
+  /// What tags share: turn, shift, bias.
+  static constexpr int n_shared = 7;
+  /// A tag's own: dark, contrast, gradient along and down, log of the blur; reflected light.
+  static constexpr int n_sure = 5, n_reflected = 5, n_own = n_sure + n_reflected;
+  static constexpr int n_all = n_shared + n_own;
+  enum Own { dark, contrast, along, down, log_blur, reflected };
+  using VectorAll = Eigen::Matrix<double, n_all, 1>;
+  using VectorOwn = Eigen::Matrix<double, n_own, 1>;
+
+  TagModel(const DenseTag& tag, const ToneCurve& curve);
+
+  /// Bright enough, and not blurred over cells.
+  bool is_clear() const;
+  TagPlane plane(const Pose& pose) const;
+  int border_cells() const { return pattern_.border_cells; }
+
+  /// From now on the blur's shape is that of a tag that moves.
+  void smear_along(const Smear& smear, const Pose& pose);
+
+  /// How far beyond the border pixels are compared; how far an edge is blurred: cells along both
+  /// axes.
+  Eigen::Vector2d beyond_cells(const TagPlane& plane) const;
+  Eigen::Vector2d near_cells(const TagPlane& plane) const;
+
+  /// No edge of the pattern within so many cells of a place.
+  bool is_flat(const Eigen::Vector2d& cell, const Eigen::Vector2d& near) const;
+
+  double blur_px() const { return blur_px_.maxCoeff(); }
+
+  const VectorOwn& own() const { return own_; }
+  void change_own(const VectorOwn& change);
+
+  /// What the pixel of a ray shows, gray levels.
+  /// @param bias_px by which white is smaller on both sides  @param by its derivative
+  double gray_level(const Eigen::Vector2d& ray, const TagPlane& plane, const Pose& pose,
+                    double bias_px, VectorAll& by) const;
+
+ private:
+  TagHit middle(const TagPlane& plane) const;
+  void paint();
+
+  const TagObservation& seen_;
+  const TagPattern& pattern_;
+  const ToneCurve& curve_;
+  const Eigen::Vector2d blur_px_;
+  Eigen::Matrix2d blur_shape_ = Eigen::Matrix2d::Identity();  ///< covariance, times what it may be
+  Eigen::MatrixXd white_;                                     ///< 0 or 1
+  int n_painted_ = 0;
+  VectorOwn own_ = VectorOwn::Zero();
+  double wider_ = 1;  ///< what is blurred, by own_(log_blur)
+};
+
+}  // namespace heft

@@ -1,0 +1,130 @@
+// Triangles to pixels: four samples a pixel in a 2 x 2 grid, a depth for each, one solid and one
+// translucent layer, and soft shade on what lies below both. Knows no cameras and no boxes. A dozen
+// boxes don't need a graphics card; touching only the rows and columns that are drawn on makes this
+// faster than reading a frame back from one.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/Image.h"
+#include "base/files/Scan.h"
+
+namespace heft {
+
+template <typename Value>
+class Layer {
+ public:
+  Layer(int n_columns, int n_rows)
+      : n_columns_(n_columns),
+        n_rows_(n_rows),
+        values_(static_cast<std::size_t>(n_columns) * static_cast<std::size_t>(n_rows)),
+        touched_(static_cast<std::size_t>(n_rows), {n_columns, 0}) {}
+
+  int n_columns() const { return n_columns_; }
+  int n_rows() const { return n_rows_; }
+
+  /// The columns of a row that may hold something else than Value{}.
+  Span touched(int row) const { return touched_[static_cast<std::size_t>(row)]; }
+
+  const Value* row(int row) const { return values_.data() + start(row); }
+
+  /// The first of the columns begin to end of a row, to be written to.
+  Value* write(int row, int begin, int end) {
+    Span& span = touched_[static_cast<std::size_t>(row)];
+    span = {std::min(span.begin, begin), std::max(span.end, end)};
+    return values_.data() + start(row) + begin;
+  }
+
+  void clear() {
+    for (int y = 0; y < n_rows_; ++y) {
+      Span& span = touched_[static_cast<std::size_t>(y)];
+      if (!span.empty())
+        std::fill_n(values_.data() + start(y) + span.begin, span.end - span.begin, Value{});
+      span = {n_columns_, 0};
+    }
+  }
+
+ private:
+  std::size_t start(int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(n_columns_);
+  }
+
+  int n_columns_, n_rows_;
+  std::vector<Value> values_;
+  std::vector<Span> touched_;
+};
+
+/// How a part of the frame is painted.
+struct Surface {
+  std::array<std::uint8_t, 3> bgr{};
+  double opacity = 1;  ///< less than 1: drawn into the translucent layer
+  int object = 0;      ///< what find_object() answers for a solid surface; 0: nothing
+};
+
+/// A corner of a triangle. Pixel centers are integers.
+struct RasterCorner {
+  Eigen::Vector2d pixel;
+  double value = 0;  ///< fill: 1 / distance, greater is nearer; shade: darkness, 0...1
+};
+
+using RasterTriangle = std::array<RasterCorner, 3>;
+
+class Rasterizer {
+ public:
+  Rasterizer(int width_px, int height_px);
+
+  /// Forgets all triangles and surfaces. Costs what was drawn, not what could be.
+  void clear();
+
+  /// @return the surface's number, for fill()
+  /// @throws Error when there are more than 255
+  std::uint8_t add_surface(const Surface& surface);
+
+  /// Draws a triangle, of either winding, where nothing of its layer is nearer. Triangles with an
+  /// edge in common cover no sample twice and leave none out. Translucent ones are seen in front of
+  /// solid ones, not behind them, in whatever order they come; of several only the nearest.
+  void fill(const RasterTriangle& triangle, std::uint8_t surface);
+
+  /// Darkens the frame below all surfaces. Shades on one another add up as filters do.
+  void shade(const RasterTriangle& triangle);
+
+  /// Paints everything over a frame of blue, green and red of the rasterizer's size.
+  /// @param in_front one channel of the same size: how much of the frame, of 255, is in front of
+  ///   all solid surfaces and shade and stays; translucent ones are painted over it. Null: nothing
+  void paint(Image& frame, const Image* in_front = nullptr) const;
+
+  /// The object whose solid surface was filled nearest to a pixel, within so many pixels.
+  std::optional<int> find_object(const Eigen::Vector2d& pixel, double reach_px) const;
+
+ private:
+  // A sample holds its nearness above 8 bits of surface number, so that the nearer of two is the
+  // greater number: one comparison tests the depth and takes the color. 0 is nothing.
+  using Sample = std::int32_t;
+  using Four = std::array<Sample, 4>;  // of a pixel
+
+  struct Paint {
+    std::array<std::uint8_t, 3> bgr{};
+    int opacity = 256;  // of 256
+    int object = 0;
+  };
+
+  void shade_row(int y, std::uint8_t* bgr) const;
+  void paint_row(int y, std::uint8_t* bgr) const;
+  void put_in_front(int y, const std::uint8_t* opacity, const std::uint8_t* below,
+                    std::uint8_t* bgr) const;
+  Span columns_in(int y) const;
+  void paint_pixel(const Four& solid, const Four& glass, std::uint8_t* bgr) const;
+  std::array<int, 3> color(Sample solid, Sample glass, const std::uint8_t* below) const;
+
+  std::vector<Paint> paints_;     // by surface number; 0 is no surface
+  Layer<Sample> solid_, glass_;   // two rows and columns a pixel
+  Layer<std::uint8_t> darkness_;  // of 255, one a pixel
+};
+
+}  // namespace heft

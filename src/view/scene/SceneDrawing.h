@@ -1,0 +1,58 @@
+// Draws what the participant sees: the camera picture, and over it cubes on the board with a soft
+// contact shadow and the effector's clone, with correct depth between clone, cubes and table. One
+// software rasterizer for every view, so what is recorded is what was seen.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "view/ArView.h"
+#include "view/scene/Rasterizer.h"
+#include "view/scene/Viewpoint.h"
+
+namespace heft {
+
+class SceneDrawing {
+ public:
+  explicit SceneDrawing(const ViewSetup& setup);
+
+  /// The frame as shown: blue, green, red, of the camera's size (640 x 480 without a camera).
+  /// Valid until the next call.
+  const Image& draw(const ViewFrame& shown);
+
+  /// The slot (from 1) of the cube drawn at a pixel of the last frame; none: no cube.
+  std::optional<int> slot_at(double x_px, double y_px) const;
+
+  /// The pixel above the middle of a cube's top in the last frame, where its label goes; none:
+  /// not in the frame.
+  std::optional<Eigen::Vector2d> label_place(int slot) const;
+
+  /// The pixel of a point of the board frame in the last frame; none: not in it.
+  std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector3d& board_m) const;
+
+  /// The pixels that a box of the board frame reaches, within the frame: its least and last corner.
+  Eigen::AlignedBox2d pixels_around(const Eigen::AlignedBox3d& board_m) const;
+
+  /// The point at that height over the table that is seen at a pixel; none: there is none.
+  std::optional<Eigen::Vector3d> point_at_height(const Eigen::Vector2d& pixel,
+                                                 double height_m) const {
+    return viewpoint_.point_at_height(pixel, height_m);
+  }
+
+ private:
+  SceneDrawing(const Stage& stage, const Intrinsics& camera);
+  void draw_plain_table();
+  void draw_background(const ViewFrame& shown);
+  void draw_real_effector(const Pose& effector);
+  void draw_virtual(const ViewFrame& shown);
+
+  Stage stage_;
+  Viewpoint viewpoint_;
+  Image frame_;
+  Rasterizer rasterizer_;
+  Image plain_table_;        ///< as seen from the viewpoint; empty: not drawn from there yet
+  std::vector<Pose> cubes_;  ///< of the last frame
+};
+
+}  // namespace heft

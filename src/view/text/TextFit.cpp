@@ -1,0 +1,129 @@
+#include "view/text/TextFit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tasks/Tasks.h"
+#include "view/screens/Screens.h"
+#include "view/text/Places.h"
+
+namespace heft {
+
+namespace {
+constexpr float least_size = 0.7f;  // of what texts are written in elsewhere
+
+// Every screen that has words of its own, as full of them as it gets.
+std::vector<ScreenState> states(const ScreenTexts& texts) {
+  std::vector<ScreenState> all;
+  for (std::size_t i = 0; i < EnumNames<Screen>::names.size(); ++i)
+    if (const auto screen = static_cast<Screen>(i); screen != Screen::trial &&
+                                                    screen != Screen::instructions &&
+                                                    screen != Screen::questionnaire)
+      all.push_back({.screen = screen});
+  Tasks::each([&]<typename Kind>() {
+    const Task task(Kind::task.name);
+    if (!texts.pages.contains(text_page(Screen::trial, task))) return;  // not of every task
+    all.push_back({.screen = Screen::instructions, .task = task});
+    for (ScreenState trial : Kind::fullest_screens()) {
+      trial.screen = Screen::trial;
+      trial.task = task;
+      all.push_back(trial);
+      trial.touch_first = true;
+      all.push_back(trial);
+    }
+  });
+  all.push_back({.screen = Screen::rest, .wait_s = 599});
+  for (const auto& [name, questionnaire] : texts.questionnaires)
+    all.push_back({.screen = Screen::questionnaire, .form = name, .form_prefix = name});
+  return all;
+}
+
+class FitCheck {
+ public:
+  FitCheck(const ScreenTexts& texts, const Measures& measures)
+      : measures_(measures), typeface_(Typeface::whatever_lacks(texts)), screens_(texts, false) {}
+
+  void look_at(const ScreenState& state) {
+    screens_.show(state, true);
+    name_ = text_page(state);
+    constexpr int most_parts = 100;
+    for (int i = 0; i < most_parts && look_at(screens_.page(typeface_, measures_)); ++i) continue;
+  }
+
+  std::vector<std::string> found;
+
+ private:
+  // @return whether it turned to another part
+  bool look_at(const Page& page) {
+    for (const Control& control : page.controls) {
+      const ControlWords words = words_on(control, typeface_, measures_);
+      look_at(control.text, words.text, words.text_area, "on its button");
+      if (!control.note.empty())
+        look_at(control.note, words.note, words.note_area, "on its button");
+    }
+    for (const TextLine& line : page.lines) look_at(line, page);
+    if (page.scene && !page.notice.empty()) {
+      const NoticeWords notice = words_of_notice(page.notice, *page.scene, typeface_, measures_);
+      look_at(page.notice, notice.text, notice.area, "over the scene");
+    }
+    return turned(page);
+  }
+
+  void look_at(const std::string& text, const FittedText& words, const Rect& area,
+               std::string_view where) {
+    const bool wide = std::ranges::any_of(words.lines, [&](const std::string& line) {
+      return typeface_.width_px(line, words.size_px) > area.width;
+    });
+    const float height_px = static_cast<float>(words.lines.size()) * words.size_px;
+    if (wide || height_px > area.height)
+      tell(text, fmt::format("does not fit {}", where));
+    else if (words.size_px < least_size * measures_.body)
+      tell(text, fmt::format("fits {} only in small letters", where));
+  }
+
+  void look_at(const TextLine& line, const Page& page) {
+    const Rect area{line.x, line.y, typeface_.width_px(line.text, line.size_px), line.size_px};
+    const Rect window{0, 0, measures_.width, measures_.height};
+    const bool inside =
+        area.x >= 0 && area.right() <= window.right() && area.bottom() <= window.bottom();
+    const bool covered = std::ranges::any_of(
+        page.controls, [&](const Control& control) { return control.area.overlaps(area); });
+    if (!inside || covered || (page.scene && page.scene->overlaps(area)))
+      tell(line.text, "does not fit its place");
+    else if (line.size_px < least_size * measures_.body)
+      tell(line.text, "fits its place only in small letters");
+  }
+
+  void tell(const std::string& text, const std::string& what) {
+    std::string sentence = fmt::format("{}: \"{}\" {}", name_, text, what);
+    if (std::ranges::find(found, sentence) == found.end()) found.push_back(std::move(sentence));
+  }
+
+  bool turned(const Page& page) {
+    for (const Control& control : page.controls)
+      if (const auto* turn = std::get_if<TurnPart>(&control.effect); turn && turn->by > 0) {
+        screens_.tapped(control);
+        return true;
+      }
+    return false;
+  }
+
+  Measures measures_;
+  Typeface typeface_;
+  Screens screens_;
+  std::string name_;
+};
+}  // namespace
+
+Measures smallest_screen(double text_size) {
+  return {1024, 600, static_cast<float>(text_size)};
+}
+
+std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures) {
+  FitCheck check(texts, measures);
+  for (const ScreenState& state : states(texts)) check.look_at(state);
+  return check.found;
+}
+
+}  // namespace heft

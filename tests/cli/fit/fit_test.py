@@ -1,0 +1,159 @@
+"""heft fit: against other programs' figures, and what it reads, prints and refuses.
+
+Run: python3 tests/cli/fit/fit_test.py PATH_TO_HEFT
+"""
+import json
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import fit_harness
+from fit_harness import choice_differences, differences, fits, interval_differences, run
+
+GOLDEN = Path(__file__).resolve().parents[2] / "golden" / "fit"
+RISING = "x,n_positive,n\n1,2,20\n2,5,20\n3,9,20\n4,15,20\n5,19,20\n"
+PSYCHOMETRIC = ["--model", "psychometric"]
+INDECISION = ["--model", "indecision"]
+
+
+class Golden(unittest.TestCase):
+    def test_psychometric_functions_as_scipy_finds_them(self):
+        n_thresholds = 0
+        for case in json.loads((GOLDEN / "psychometric.json").read_text()):
+            found = {fit["group"]: fit for fit in fits(GOLDEN / case["file"], *case["arguments"])}
+            self.assertEqual(found.keys(), case["fits"].keys())
+            for name, expected in case["fits"].items():
+                with self.subTest(file=case["file"], dataset=name):
+                    self.assertEqual(differences(found[name], expected), [])
+                    self.assertEqual(
+                        interval_differences(found[name], expected.get("interval", {})), [])
+                n_thresholds += found[name]["identifiable"]
+        self.assertGreater(n_thresholds, 55)
+
+    def test_indecision_as_clm_finds_it(self):
+        golden = json.loads((GOLDEN / "indecision.json").read_text())
+        found = fits(GOLDEN / "indecision.csv", *INDECISION, "--by", "dataset")
+        self.assertEqual({fit["group"] for fit in found}, golden.keys())
+        for fit in found:
+            with self.subTest(dataset=fit["group"]):
+                self.assertEqual(choice_differences(fit, golden[fit["group"]]), [])
+
+
+class Fit(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.data = Path(self.folder.name) / "data.csv"
+
+    def run_on(self, text, *words):
+        self.data.write_bytes(text.encode("utf-8"))
+        done = run(self.data, *words)
+        return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+    def fits_of(self, text, *words):
+        self.data.write_bytes(text.encode("utf-8"))
+        return fits(self.data, *words)
+
+    def test_people_who_are_pooled_are_warned_of(self):
+        trials = [f"{level},{int(level > 2 + person)},P{person},{'ab'[person]}"
+                  for level in range(1, 6) for person in (0, 1) for _ in range(3)]
+        for column in ("participant", "person"):
+            data = f"x,response,{column},room\n" + "\n".join(trials) + "\n"
+            _, _, message = self.run_on(data, *PSYCHOMETRIC)
+            self.assertIn("warning: trials of 2 people are pooled", message)
+            for group in (column, "room"):  # each of one person
+                self.assertEqual(self.run_on(data, *PSYCHOMETRIC, "--by", group)[2], "")
+        self.assertEqual(self.run_on(RISING, *PSYCHOMETRIC)[2], "")
+
+    def test_json_has_the_names_of_the_contract(self):
+        (fit,) = self.fits_of(RISING, *PSYCHOMETRIC)
+        self.assertEqual(list(fit), ["group", "parameters", "log_likelihood", "n_trials",
+                                     "identifiable", "why"])
+        self.assertEqual((fit["group"], fit["n_trials"], fit["identifiable"], fit["why"]),
+                         (None, 100, True, None))
+        self.assertEqual(list(fit["parameters"]), ["threshold", "slope", "guess", "lapse"])
+        threshold = fit["parameters"]["threshold"]
+        self.assertEqual(list(threshold), ["value", "se", "low", "high", "fixed"])
+        self.assertLess(threshold["low"], threshold["value"])
+        self.assertLess(threshold["value"], threshold["high"])
+        self.assertEqual(fit["parameters"]["guess"],
+                         {"value": 0.0, "se": None, "low": None, "high": None, "fixed": True})
+
+    def test_indecision_has_a_threshold_or_null(self):
+        choices = "level_g,answer\n" + "".join(
+            f"{x},{answer}\n" * n for x, *counts in ((0, 9, 20, 11), (100, 3, 12, 25), (200, 0, 6, 34))
+            for answer, n in zip(("reference", "none", "comparison"), counts))
+        (fit,) = self.fits_of(choices, *INDECISION)
+        self.assertEqual(list(fit["parameters"]), ["sensitivity", "indecision", "bias", "lapse",
+                                                   "threshold_75_g"])
+        self.assertAlmostEqual(fit["threshold_75_g"] * fit["parameters"]["sensitivity"]["value"],
+                               0.6745)
+        self.assertEqual(fit["threshold_75_g"], fit["parameters"]["threshold_75_g"]["value"])
+        coin = "level_g,answer\n" + "10,reference\n10,none\n10,comparison\n" * 9 + \
+            "90,reference\n90,none\n90,comparison\n" * 9
+        (fit,) = self.fits_of(coin, *INDECISION)
+        self.assertFalse(fit["identifiable"])
+        self.assertIsNone(fit["threshold_75_g"])
+        self.assertIn("no sensitivity", fit["why"])
+        self.assertIsNotNone(fit["parameters"]["sensitivity"]["value"])
+
+    def test_text_is_a_table_or_says_why_not(self):
+        code, text, talk = self.run_on(RISING, *PSYCHOMETRIC, "--lapse", "0.02")
+        self.assertEqual((code, talk), (0, ""))
+        self.assertIn("100 trials at 5 levels, log likelihood -4", text)
+        self.assertRegex(text, r"threshold +\d\.\d+ +0\.\d+ +\d\.\d+ +\d\.\d+\n")
+        self.assertRegex(text, r"lapse +0\.02 +- +- +- +fixed\n")
+        code, text, _ = self.run_on("x,n_positive,n\n1,5,10\n2,4,10\n3,6,10\n", *PSYCHOMETRIC)
+        self.assertEqual(code, 0)
+        self.assertRegex(text, r"threshold +- +- +- +-\n")
+        self.assertIn("No threshold, because there is no slope", text)
+
+    def test_groups(self):
+        rows = "".join(f"{row},{who}\r\n" for who in ('"B, 2"', "01")
+                       for row in RISING.splitlines()[1:])
+        text = "\ufeffx,n_positive,n,who\r\n" + rows
+        self.assertEqual([fit["group"] for fit in self.fits_of(text, *PSYCHOMETRIC, "--by", "who")],
+                         ["B, 2", "01"])
+        (together,) = self.fits_of(text, *PSYCHOMETRIC)
+        self.assertEqual(together["n_trials"], 200)
+        self.assertEqual(self.run_on(text, *PSYCHOMETRIC, "--by", "whom")[0], 2)
+
+    def test_a_terminal_shows_what_a_group_is_called(self):
+        rows = "".join(f"{row},\x1b[2J\n" for row in RISING.splitlines()[1:])
+        _, text, _ = self.run_on("x,n_positive,n,who\n" + rows, *PSYCHOMETRIC, "--by", "who")
+        self.assertIn("\\x1b[2J: 100 trials", text)
+
+    def test_bytes_that_are_no_text_make_json_all_the_same(self):
+        rows = b"".join(row.encode() + b",\xff\n" for row in RISING.splitlines()[1:])
+        self.data.write_bytes(b"x,n_positive,n,who\n" + rows)
+        (fit,) = fits(self.data, *PSYCHOMETRIC, "--by", "who")
+        self.assertEqual(fit["group"], "\ufffd")
+
+    def test_wrong_files_are_refused_in_their_place(self):
+        for text, where in (("x,n_positive,n\n1,2,3\n2,4,3\n", ":3:3: "), ("x,response\n1,2\n", ":2:3: "),
+                            ("x,response\nnan,1\n", ":2:1: "), ("x,response\n1\n", ":2:1: "),
+                            ('x,response\n"1,1\n', ":2:1: "), ("a,b\n1,2\n", ":1:1: ")):
+            code, out, talk = self.run_on(text, *PSYCHOMETRIC)
+            with self.subTest(text=text):
+                self.assertEqual((code, out), (3, ""))
+                self.assertTrue(talk.startswith(f"{self.data}{where}"), talk)
+
+    def test_wrong_commands(self):
+        for words in ([], ["--model", "probit"], [*PSYCHOMETRIC, "--guess", "1"],
+                      [*PSYCHOMETRIC, "--lapse", "-0.1"], [*PSYCHOMETRIC, "--lapse", "fre"],
+                      [*PSYCHOMETRIC, "--guess", "0.6", "--lapse", "0.4"],
+                      [*PSYCHOMETRIC, "--scale", "ln"], [*INDECISION, "--guess", "0"]):
+            with self.subTest(words=words):
+                self.assertEqual(self.run_on(RISING, *words)[0], 2)
+        self.assertEqual(run("/nowhere.csv", *PSYCHOMETRIC).returncode, 1)
+
+    def test_help_has_examples_and_formulas(self):
+        text = run("--help").stdout.decode()
+        self.assertIn("heft fit answers.csv --model psychometric", text)
+        self.assertIn("threshold_75_g = 0.6745 / sensitivity", text)
+
+
+if __name__ == "__main__":
+    fit_harness.program = sys.argv.pop(1)
+    unittest.main()

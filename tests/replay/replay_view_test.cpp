@@ -1,0 +1,77 @@
+// Logged frames shown again.
+#include <gmock/gmock.h>
+
+#include "replay/ReplayView.h"
+#include "replay/StoredSession.h"
+#include "view/scene/SceneDrawing.h"
+
+namespace heft {
+namespace {
+using testing::shipped_protocol;
+using testing::StoredSession;
+
+class Onlooker final : public ArView {
+ public:
+  std::optional<double> present(const ViewFrame& shown, const ScreenState& screen) override {
+    pictures.push_back(shown);
+    only_trials = only_trials && screen.screen == Screen::trial;
+    return {};
+  }
+  std::vector<Touch> wait(double) override { return {}; }
+
+  std::vector<ViewFrame> pictures;
+  bool only_trials = true;
+};
+
+TEST(Showing, EveryFrameAsItWasLogged) {
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
+  Onlooker view;
+  const int n = show_session(stored.reader(), stored.session(), view, {});
+  std::vector<FrameRow> rows;
+  for (const TrialRow& trial : stored.reader().trials(stored.id()))
+    for (const FrameRow& row : stored.reader().frames(stored.id(), trial.attempt_index))
+      rows.push_back(row);
+  ASSERT_EQ(n, static_cast<int>(rows.size()));
+  ASSERT_EQ(view.pictures.size(), rows.size());
+  EXPECT_TRUE(view.only_trials);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const DisplayedFrame& frame = view.pictures[i].frame;
+    EXPECT_EQ(frame.effector.position_m, rows[i].effector.position_m);
+    ASSERT_EQ(frame.cubes.size(), rows[i].cubes.size());
+    EXPECT_FALSE(view.pictures[i].other_clone);
+  }
+}
+
+TEST(Showing, AWhatIfsCloneStandsBesideTheLoggedOne) {
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
+  const auto header = stored.session().row.header;
+  const Protocol stiffer = parse_protocol(header.protocol_text, header.protocol_name,
+                                          {{"coupling.stiffness_n_per_m", "200"}});
+  Onlooker same, other;
+  show_session(stored.reader(), stored.session(), same, {stored.session().protocol.get()});
+  show_session(stored.reader(), stored.session(), other, {&stiffer});
+  double largest_m = 0;
+  const ViewFrame* farthest = nullptr;
+  for (std::size_t i = 0; i < same.pictures.size(); ++i) {
+    ASSERT_TRUE(same.pictures[i].other_clone);
+    EXPECT_EQ(same.pictures[i].other_clone->position_m, same.pictures[i].frame.clone->position_m);
+    const double apart_m =
+        (other.pictures[i].other_clone->position_m - other.pictures[i].frame.clone->position_m)
+            .norm();
+    if (apart_m > largest_m) {
+      largest_m = apart_m;
+      farthest = &other.pictures[i];
+    }
+  }
+  ASSERT_GT(largest_m, 0.02);
+  ViewSetup setup;
+  setup.stage = stage_of(stiffer, 3);
+  SceneDrawing drawing(setup);
+  ViewFrame alone = *farthest;
+  alone.other_clone.reset();
+  const Image without = drawing.draw(alone);
+  EXPECT_NE(drawing.draw(*farthest).pixels, without.pixels);
+}
+
+}  // namespace
+}  // namespace heft

@@ -1,0 +1,112 @@
+// Lags of pushes and paths of cubes, from frames made by hand and from a replayed session.
+#include <gmock/gmock.h>
+
+#include "base/Pose.h"
+#include "replay/StoredSession.h"
+#include "replay/VisibleCues.h"
+#include "replay/WhatIf.h"
+
+namespace heft {
+namespace {
+using testing::shipped_protocol;
+using testing::StoredSession;
+
+// Pushes a cube along y with its clone so far behind. @return the frame
+DisplayedFrame pushing(double t_s, double effector_y_m, double lag_m, double cube_y_m) {
+  DisplayedFrame frame;
+  frame.t_s = t_s;
+  frame.effector = upright_pose({0, effector_y_m, 0.02}, 0);
+  frame.clone = upright_pose({0, effector_y_m - lag_m, 0.02}, 0);
+  frame.cubes = {upright_pose({0, cube_y_m, 0.0175}, 0), upright_pose({0.1, 0, 0.0175}, 0)};
+  return frame;
+}
+
+TEST(Noticed, APushHasItsLargestLagAndItsCubeAPath) {
+  NoticedByMass noticed;
+  {
+    NoticedMeter meter(noticed);
+    const std::vector<double> masses_g{200, 15};
+    for (int i = 0; i < 10; ++i) {
+      const double y_m = 0.01 * i;
+      meter.add(pushing(0.1 * i, y_m, i == 5 ? 0.03 : 0.02, y_m),
+                i > 0 ? std::optional(1) : std::nullopt, masses_g);
+    }
+    // Back without touching, then again.
+    meter.add(pushing(2, 0, 0, 0.09), std::nullopt, masses_g);
+    meter.add(pushing(3, 0.08, 0, 0.09), 1, masses_g);
+    meter.add(pushing(3.1, 0.10, 0.01, 0.10), 1, masses_g);
+  }
+  ASSERT_EQ(noticed.size(), 1u) << "the other cube was not pushed";
+  const Noticed& found = noticed.at(200);
+  EXPECT_EQ(found.n_pushes, 2);
+  EXPECT_NEAR(found.mean_lag_m(), 0.02, 1e-12);
+  EXPECT_NEAR(found.largest_lag_m, 0.03, 1e-12);
+  EXPECT_EQ(found.n_cubes, 1);
+  EXPECT_NEAR(found.mean_path_m(), 0.10, 1e-12);
+  EXPECT_NEAR(found.mean_end_m(), 0.10, 1e-12);
+}
+
+TEST(Noticed, AShortGapIsTheSamePushAndAnotherCubeAnotherOne) {
+  NoticedByMass noticed;
+  {
+    NoticedMeter meter(noticed);
+    const std::vector<double> masses_g{200, 15};
+    meter.add(pushing(0, 0, 0, 0), 1, masses_g);
+    meter.add(pushing(0.1, 0.01, 0, 0), std::nullopt, masses_g);
+    meter.add(pushing(0.19, 0.02, 0, 0), 1, masses_g);
+    meter.add(pushing(0.3, 0.03, 0, 0), 2, masses_g);
+  }
+  EXPECT_EQ(noticed.at(200).n_pushes, 1);
+  EXPECT_EQ(noticed.at(15).n_pushes, 1);
+}
+
+TEST(Noticed, ACubePutBackHasNotGoneThere) {
+  NoticedByMass noticed;
+  {
+    NoticedMeter meter(noticed);
+    meter.add(pushing(0, 0, 0, 0), 1, {200, 15});
+    meter.add(pushing(0.1, 0.05, 0, 0.05), 1, {200, 15});
+    meter.add(pushing(0.2, 0.05, 0, 0), std::nullopt, {200, 15});
+  }
+  EXPECT_NEAR(noticed.at(200).mean_path_m(), 0.05, 1e-12);
+  EXPECT_NEAR(noticed.at(200).mean_end_m(), 0, 1e-12);
+}
+
+// μ m g / k: twice the stiffness, half the lag, the same grams.
+TEST(Noticed, AWhatIfTellsLagsBeforeAndAfter) {
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
+  const auto header = stored.session().row.header;
+  const Protocol stiffer = parse_protocol(header.protocol_text, header.protocol_name,
+                                          {{"coupling.stiffness_n_per_m", "100"}});
+  bool compared = false;
+  for (const PathDifference& kind : compare_paths(stored.reader(), stored.session(), stiffer))
+    for (const NoticedDifference& cube : kind.noticed) {
+      if (kind.condition == "C1") {
+        EXPECT_LT(cube.would_be.largest_lag_m, 1e-9);
+        EXPECT_FALSE(kind.logged_g_per_m);
+      }
+      if (kind.task != "sorting" || kind.condition != "C2" || cube.mass_g != 200) continue;
+      compared = true;
+      EXPECT_EQ(cube.logged.n_pushes, 2);
+      EXPECT_NEAR(cube.would_be.mean_lag_m(), cube.logged.mean_lag_m() / 2,
+                  0.15 * cube.logged.mean_lag_m());
+      EXPECT_NEAR(*kind.would_be_g_per_m, 2 * *kind.logged_g_per_m, 1e-6);
+      EXPECT_GT(cube.would_be.mean_path_m(), cube.logged.mean_path_m());
+    }
+  EXPECT_TRUE(compared);
+}
+
+TEST(Noticed, TheSameWorldIsNoticedTheSame) {
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
+  for (const PathDifference& kind :
+       compare_paths(stored.reader(), stored.session(), *stored.session().protocol))
+    for (const NoticedDifference& cube : kind.noticed) {
+      EXPECT_EQ(cube.logged.n_pushes, cube.would_be.n_pushes);
+      EXPECT_EQ(cube.logged.lag_m, cube.would_be.lag_m);
+      EXPECT_EQ(cube.logged.path_m, cube.would_be.path_m);
+      EXPECT_EQ(cube.logged.end_m, cube.would_be.end_m);
+    }
+}
+
+}  // namespace
+}  // namespace heft
