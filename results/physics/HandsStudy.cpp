@@ -34,9 +34,9 @@ struct Runs {
   std::vector<double> clone_mm, lag_g, cubes_mm, turn_deg;
 
   void add(const SceneRun& run, const SceneTrack& truth, const BenchScene& scene) {
-    n_outside += run.fate == Fate::outside_model;
-    n_blown_up += run.fate == Fate::blew_up;
-    if (run.fate != Fate::ran) return;
+    n_outside += run.outcome == RunOutcome::outside_model;
+    n_blown_up += run.outcome == RunOutcome::blew_up;
+    if (run.outcome != RunOutcome::ran) return;
     const TrackError error = error_of(run.track, truth, scene);
     clone_mm.push_back(error.clone_rms_mm);
     lag_g.push_back(scene.scene.displacement ? 0 : std::abs(error.lag_error_g));

@@ -69,7 +69,7 @@ double expected_mm(const std::string& technique, double mass_g) {
 std::optional<Lag> lag_of(const Series& series, double mass_g) {
   const BenchScene scene = push_of(mass_g, series.technique);
   const SceneRun run = run_scene(make_simulator(series.simulator), scene, rate_hz, rate_hz);
-  if (run.fate != Fate::ran) return std::nullopt;
+  if (run.outcome != RunOutcome::ran) return std::nullopt;
   const Trajectory path(scene.path);
   const double stroke_s = scene.duration_s() - 1;
   Lag lag;

@@ -90,8 +90,8 @@ Verdict judge(const SimulatorEntry& simulator, const BenchScene& scene, const Sc
               int rate_hz) {
   const int keep_hz = std::min(rate_hz, reference_rate_hz);
   const SceneRun run = run_scene(simulator.make(), scene, rate_hz, keep_hz);
-  if (run.fate == Fate::outside_model) return Verdict::outside_model;
-  if (run.fate == Fate::blew_up) return Verdict::blows_up;
+  if (run.outcome == RunOutcome::outside_model) return Verdict::outside_model;
+  if (run.outcome == RunOutcome::blew_up) return Verdict::blows_up;
   const std::vector<WorldState>& states = run.track.states;
   const auto far = [&](const WorldState& s) { return s.clone.pose.position_m.norm() > 1; };
   if (std::ranges::any_of(states, far)) return Verdict::blows_up;

@@ -20,7 +20,7 @@ struct Point {
 
 // What counts as error: a blow-up is drawn on a line of its own, far above any other error.
 double error_mm(const Measurement& one) {
-  if (one.fate == Fate::blew_up) return blown_up_mm;
+  if (one.outcome == RunOutcome::blew_up) return blown_up_mm;
   return std::max(one.error.clone_rms_mm, smallest_mm);
 }
 
@@ -29,8 +29,9 @@ using Lines = std::map<std::string, std::vector<Point>>;
 // Scenes with contact and one answer, in the paper's range of stiffness.
 bool is_counted(const Measurement& one) {
   const Coupling& coupling = one.scene.scene.coupling;
-  return one.fate != Fate::outside_model && one.scene.unique_if_rigid() && coupling.decoupled &&
-         one.scene.kind != SceneClass::free_air && coupling.stiffness_n_per_m == 50;
+  return one.outcome != RunOutcome::outside_model && one.scene.unique_if_rigid() &&
+         coupling.decoupled && one.scene.kind != SceneClass::free_air &&
+         coupling.stiffness_n_per_m == 50;
 }
 
 Lines lines_of(std::span<const Measurement> measurements) {

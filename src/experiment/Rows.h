@@ -163,11 +163,12 @@ struct EstimateRow {
   std::string method;
   std::optional<double> jnd_g, low_g, high_g;
   int n_trials = 0, n_reversals = 0, n_floor = 0, n_ceiling = 0;
-  Finish reason = Finish::reversals;
+  StopReason reason = StopReason::reversals;
   std::optional<Censored> censored;
 };
 /// What a procedure that ended so says, as its row.
-inline EstimateRow row_of(const std::string& staircase, const Estimate& estimate, Finish finish) {
+inline EstimateRow row_of(const std::string& staircase, const Estimate& estimate,
+                          StopReason finish) {
   return {
       staircase,         estimate.method,      estimate.value,   estimate.low,       estimate.high,
       estimate.n_trials, estimate.n_reversals, estimate.n_floor, estimate.n_ceiling, finish,

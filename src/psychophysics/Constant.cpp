@@ -66,8 +66,8 @@ Update Constant::respond(const Response&, double) {
   return {std::nullopt, finish()};
 }
 
-std::optional<Finish> Constant::finish() const {
-  return n_trials_ < planned_trials() ? std::nullopt : std::optional(Finish::trials);
+std::optional<StopReason> Constant::finish() const {
+  return n_trials_ < planned_trials() ? std::nullopt : std::optional(StopReason::trials);
 }
 
 std::vector<Estimate> Constant::estimates() const {

@@ -56,7 +56,7 @@ class Constant {
   /// Undefined after the end.
   double next_level(const RandomStream& stream) const;
   Update respond(const Response& response, double shown);
-  std::optional<Finish> finish() const;
+  std::optional<StopReason> finish() const;
   /// One, without a value: its trials are there, a threshold is none without a fit.
   std::vector<Estimate> estimates() const;
 

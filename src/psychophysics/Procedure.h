@@ -30,7 +30,7 @@ concept ProcedureKind = std::copyable<Kind> &&
   { fixed.next_level(stream) } -> std::convertible_to<double>;
   /// Takes the answer to a trial that presented `shown`.
   { kind.respond(response, shown) } -> std::same_as<Update>;
-  { fixed.finish() } -> std::same_as<std::optional<Finish>>;  ///< none: it continues
+  { fixed.finish() } -> std::same_as<std::optional<StopReason>>;  ///< none: it continues
   /// One a method, at any time; the first is the one that is summarized.
   { fixed.estimates() } -> std::same_as<std::vector<Estimate>>;
 };
@@ -70,7 +70,7 @@ class Procedure {
   }
 
   bool finished() const { return finish().has_value(); }
-  std::optional<Finish> finish() const { return kind_->finish(); }  ///< none: it continues
+  std::optional<StopReason> finish() const { return kind_->finish(); }  ///< none: it continues
   /// One a method, whether finished or not.
   std::vector<Estimate> estimates() const { return kind_->estimates(); }
 
@@ -94,7 +94,7 @@ class Procedure {
     virtual std::unique_ptr<AnyKind> copy() const = 0;
     virtual double next_level(const RandomStream& stream) const = 0;
     virtual Update respond(const Response& response, double shown) = 0;
-    virtual std::optional<Finish> finish() const = 0;
+    virtual std::optional<StopReason> finish() const = 0;
     virtual std::vector<Estimate> estimates() const = 0;
     virtual std::optional<int> planned_trials() const = 0;
     virtual std::vector<double> planned_levels() const = 0;
@@ -108,7 +108,7 @@ class Procedure {
     Update respond(const Response& response, double shown) override {
       return kind.respond(response, shown);
     }
-    std::optional<Finish> finish() const override { return kind.finish(); }
+    std::optional<StopReason> finish() const override { return kind.finish(); }
     std::vector<Estimate> estimates() const override { return kind.estimates(); }
     std::optional<int> planned_trials() const override {
       if constexpr (requires { kind.planned_trials(); }) return kind.planned_trials();

@@ -40,16 +40,16 @@ struct Reversal {
 
 /// Why a procedure ended: by its reversals, because it had all the trials that it may have, or
 /// because its estimate is as precise as was asked for.
-enum class Finish { reversals, trials, precision };
+enum class StopReason { reversals, trials, precision };
 template <>
-struct EnumNames<Finish> {
+struct EnumNames<StopReason> {
   static constexpr std::array<std::string_view, 3> names{"reversals", "trials", "precision"};
 };
 
 /// What one answer did.
 struct Update {
   std::optional<Reversal> reversal;
-  std::optional<Finish> finish;
+  std::optional<StopReason> finish;
 };
 
 /// Whether an estimate is censored. above, below: the ceiling, the floor cut moves that it depends

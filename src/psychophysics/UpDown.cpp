@@ -157,7 +157,7 @@ Censored UpDown::censored() const {
   const bool below = cut_below_ || last == Censored::below;
   const bool above = cut_above_ || last == Censored::above;
   if (below != above) return above ? Censored::above : Censored::below;
-  return above || finish_ == Finish::trials ? Censored::unsettled : Censored::none;
+  return above || finish_ == StopReason::trials ? Censored::unsettled : Censored::none;
 }
 
 // The bound that cut the move to `target`, by more than rounding; by the older rule, the one that
@@ -253,11 +253,11 @@ void UpDown::make(const Move& move) {
   target_ = move.target;
 }
 
-std::optional<Finish> UpDown::reason_to_finish() const {
+std::optional<StopReason> UpDown::reason_to_finish() const {
   const int n_reversals = static_cast<int>(reversals_.size());
   if (n_reversals >= config_.stop_reversals && n_trials_ >= config_.min_trials)
-    return Finish::reversals;
-  if (n_trials_ >= config_.stop_trials) return Finish::trials;
+    return StopReason::reversals;
+  if (n_trials_ >= config_.stop_trials) return StopReason::trials;
   return std::nullopt;
 }
 

@@ -162,7 +162,7 @@ class UpDown {
   std::vector<double> planned_levels() const { return {presented(config_.start)}; }
 
   bool finished() const { return finish_.has_value(); }
-  std::optional<Finish> finish() const { return finish_; }
+  std::optional<StopReason> finish() const { return finish_; }
   /// Mean level of the reversals but the first `discard_reversals`; none if there is none left.
   std::optional<double> estimate() const;
 
@@ -195,7 +195,7 @@ class UpDown {
   bool passes_bound(const Move& move) const;
   Censored side_of(double target, double shown) const;
   Censored censored() const;
-  std::optional<Finish> reason_to_finish() const;
+  std::optional<StopReason> reason_to_finish() const;
 
   UpDownConfig config_;
   double target_ = 0;  ///< level that the last move led to, not held within the bounds
@@ -204,7 +204,7 @@ class UpDown {
   std::vector<Reversal> reversals_;
   bool cut_below_ = false, cut_above_ = false;  ///< reversals that count, by a bound
   int n_trials_ = 0, n_floor_ = 0, n_ceiling_ = 0;
-  std::optional<Finish> finish_;
+  std::optional<StopReason> finish_;
 };
 
 }  // namespace heft

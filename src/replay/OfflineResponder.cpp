@@ -36,18 +36,18 @@ std::unique_ptr<TaskTrial> answered(const TaskBlock& block, const TrialPlan& pla
 }
 
 // The responder of the question under each of the session's setups, with the stage as it was then.
-class Minds {
+class DecisionModels {
  public:
-  Minds(const LoggedSession& session, const WhoAnswers& responder)
+  DecisionModels(const LoggedSession& session, const WhoAnswers& responder)
       : session_(session), named_(named(responder)) {}
 
-  struct Mind {
+  struct DecisionModel {
     std::unique_ptr<Responder> responder;
     std::shared_ptr<const Protocol> protocol;
   };
 
-  const Mind& in_force(const TrialRow& trial) {
-    Mind& mind = minds_[trial.setup_index];
+  const DecisionModel& in_effect(const TrialRow& trial) {
+    DecisionModel& mind = models_[trial.setup_index];
     if (mind.responder) return mind;
     // Without a file of its own it has the logged one's.
     const auto* logged = std::get_if<Plug>(&session_.setup_of(trial).responder);
@@ -70,7 +70,7 @@ class Minds {
 
   const LoggedSession& session_;
   ResolvedModel named_;
-  std::map<int, Mind> minds_;
+  std::map<int, DecisionModel> models_;
 };
 
 // The attempt's actions, and after how many events its one answer came.
@@ -86,8 +86,9 @@ std::pair<std::vector<Action>, int> logged_answer(const AttemptFold& attempt) {
   return {actions, 0};
 }
 
-void judge(const AttemptFold& attempt, const std::vector<FrameRow>& rows, const Minds::Mind& mind,
-           std::uint64_t seed, Judgments& judgments) {
+void judge(const AttemptFold& attempt, const std::vector<FrameRow>& rows,
+           const DecisionModels::DecisionModel& mind, std::uint64_t seed,
+           OfflineAnswers& judgments) {
   const TrialPlan& plan = attempt.first_plan;
   const auto [actions, before] = logged_answer(attempt);
   const std::vector<DisplayedFrame> frames = seen_frames(attempt, rows, before);
@@ -114,7 +115,7 @@ void judge(const AttemptFold& attempt, const std::vector<FrameRow>& rows, const 
                               judged->labels()});
 }
 
-void count(const JudgedTrial& trial, const std::string& answer, DetectionCounts& counts) {
+void count(const OfflineTrial& trial, const std::string& answer, DetectionCounts& counts) {
   const int yes = answer == "none" ? 0 : 1;
   ++(trial.has_difference ? counts.n_signal : counts.n_noise);
   (trial.has_difference ? counts.n_hits : counts.n_false_alarms) += yes;
@@ -122,15 +123,16 @@ void count(const JudgedTrial& trial, const std::string& answer, DetectionCounts&
 
 }  // namespace
 
-Judgments judge_session(const LogReader& reader, const LoggedSession& session,
-                        const WhoAnswers& responder, const std::function<void(double)>& progress) {
-  Minds minds(session, responder);
+OfflineAnswers answer_session(const LogReader& reader, const LoggedSession& session,
+                              const WhoAnswers& responder,
+                              const std::function<void(double)>& progress) {
+  DecisionModels models(session, responder);
   const Projection fold = sound_fold(reader, session);
-  Judgments judgments;
+  OfflineAnswers judgments;
   double n_done = 0;
   for (const auto& [index, attempt] : fold.attempts) {
     if (attempt.row.status == TrialStatus::completed)
-      judge(attempt, reader.frames(session.row.session_id, index), minds.in_force(attempt.row),
+      judge(attempt, reader.frames(session.row.session_id, index), models.in_effect(attempt.row),
             session.row.header.seed, judgments);
     progress(++n_done / static_cast<double>(fold.attempts.size()));
   }
@@ -149,13 +151,13 @@ int Confusion::n_agree() const {
   return n;
 }
 
-std::vector<Agreement> agreements(const std::vector<JudgedTrial>& trials) {
+std::vector<Agreement> agreements(const std::vector<OfflineTrial>& trials) {
   struct Counted {
     Agreement agreement;
     DetectionCounts logged, judged;
   };
   std::map<std::tuple<Task, std::string, std::optional<double>>, Counted, InTaskOrder> groups;
-  for (const JudgedTrial& trial : trials) {
+  for (const OfflineTrial& trial : trials) {
     auto& [agreement, logged, judged] = groups[{trial.task, trial.condition, trial.reference_g}];
     agreement.task = trial.task;
     agreement.condition = trial.condition;

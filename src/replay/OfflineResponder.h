@@ -16,7 +16,7 @@ namespace heft {
 
 /// Two answers to one trial, of the participant and of the responder who saw the same, in the words
 /// of TaskTrial::answer(): "reference", "comparison" (the cube that was chosen) or "none".
-struct JudgedTrial {
+struct OfflineTrial {
   int trial_number = 0;
   Task task;
   std::string condition;  ///< technique
@@ -27,8 +27,8 @@ struct JudgedTrial {
   std::vector<std::string> logged_labels, judged_labels;
 };
 
-struct Judgments {
-  std::vector<JudgedTrial> trials;
+struct OfflineAnswers {
+  std::vector<OfflineTrial> trials;
   int n_without_frames = 0;  ///< completed trials that the log keeps no frames of
   int n_without_answer = 0;  ///< completed trials that the responder has no answer to
   double shown_s = 0;        ///< how long the judged frames took to be seen
@@ -39,8 +39,9 @@ struct Judgments {
 /// @param responder the logged one without a file has its logged parameters
 /// @param progress called with the fraction of trials done, 0...1
 /// @throws Error (usage) for an unknown responder or a person; Error as sound_fold()
-Judgments judge_session(const LogReader& reader, const LoggedSession& session,
-                        const WhoAnswers& responder, const std::function<void(double)>& progress);
+OfflineAnswers answer_session(const LogReader& reader, const LoggedSession& session,
+                              const WhoAnswers& responder,
+                              const std::function<void(double)>& progress);
 
 /// How often which logged answer met which judged one.
 struct Confusion {
@@ -63,6 +64,6 @@ struct Agreement {
 };
 
 /// By task, technique and reference.
-std::vector<Agreement> agreements(const std::vector<JudgedTrial>& trials);
+std::vector<Agreement> agreements(const std::vector<OfflineTrial>& trials);
 
 }  // namespace heft

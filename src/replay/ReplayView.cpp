@@ -13,7 +13,7 @@ constexpr double longest_wait_s = 0.02;
 
 class Show {
  public:
-  Show(ArView& view, const Showing& showing) : view_(view), showing_(showing) {}
+  Show(ArView& view, const ReplayViewOptions& showing) : view_(view), showing_(showing) {}
 
   void attempt(const AttemptFold& attempt, const std::vector<FrameRow>& frames) {
     const double start_s = monotonic_s();
@@ -48,13 +48,13 @@ class Show {
   }
 
   ArView& view_;
-  const Showing& showing_;
+  const ReplayViewOptions& showing_;
   int n_shown_ = 0;
 };
 }  // namespace
 
 int show_session(const LogReader& reader, const LoggedSession& session, ArView& view,
-                 const Showing& showing) {
+                 const ReplayViewOptions& showing) {
   const Projection fold = sound_fold(reader, session);
   Show show(view, showing);
   for (const auto& [index, attempt] : fold.attempts) {

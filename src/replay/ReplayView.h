@@ -9,7 +9,7 @@
 
 namespace heft {
 
-struct Showing {
+struct ReplayViewOptions {
   const Protocol* what_if = nullptr;  ///< whose clone is drawn too; null: none
   bool in_real_time = false;          ///< frames at their times; otherwise one after the other
   const std::atomic<bool>* stop = nullptr;
@@ -18,6 +18,6 @@ struct Showing {
 /// Presents every logged frame of the session's attempts.
 /// @return how many
 int show_session(const LogReader& reader, const LoggedSession& session, ArView& view,
-                 const Showing& showing);
+                 const ReplayViewOptions& showing);
 
 }  // namespace heft

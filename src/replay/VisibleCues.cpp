@@ -11,8 +11,8 @@ constexpr double push_gap_s = 0.2;
 constexpr double least_way_m = 1e-3;
 }  // namespace
 
-void NoticedMeter::add(const DisplayedFrame& frame, std::optional<int> contact_slot,
-                       const std::vector<double>& masses_g) {
+void CueMeter::add(const DisplayedFrame& frame, std::optional<int> contact_slot,
+                   const std::vector<double>& masses_g) {
   if (frame.cubes.size() != cubes_.size()) finish();  // they appear, or are shuffled
   follow_cubes(frame.cubes, masses_g);
   const bool touches = contact_slot && *contact_slot <= static_cast<int>(cubes_.size());
@@ -23,8 +23,7 @@ void NoticedMeter::add(const DisplayedFrame& frame, std::optional<int> contact_s
 }
 
 // A cube that is put back to its start has not gone there.
-void NoticedMeter::follow_cubes(const std::vector<Pose>& cubes,
-                                const std::vector<double>& masses_g) {
+void CueMeter::follow_cubes(const std::vector<Pose>& cubes, const std::vector<double>& masses_g) {
   if (cubes_.empty()) {
     masses_g_ = masses_g;
     for (const Pose& cube : cubes) cubes_.push_back({cube.position_m, cube.position_m});
@@ -38,7 +37,7 @@ void NoticedMeter::follow_cubes(const std::vector<Pose>& cubes,
   }
 }
 
-void NoticedMeter::follow_push(const DisplayedFrame& frame, std::size_t cube) {
+void CueMeter::follow_push(const DisplayedFrame& frame, std::size_t cube) {
   const Eigen::Vector2d effector_m = frame.effector.position_m.head<2>();
   if (!push_) push_ = Push{cube, frame.t_s, effector_m};
   push_->last_s = frame.t_s;
@@ -49,19 +48,19 @@ void NoticedMeter::follow_push(const DisplayedFrame& frame, std::size_t cube) {
   push_->lag_m = std::max(push_->lag_m, behind_m.dot(way_m.normalized()));
 }
 
-void NoticedMeter::end_push() {
-  Noticed& noticed = noticed_[masses_g_.at(push_->cube)];
+void CueMeter::end_push() {
+  VisibleCues& noticed = noticed_[masses_g_.at(push_->cube)];
   ++noticed.n_pushes;
   noticed.lag_m += push_->lag_m;
   noticed.largest_lag_m = std::max(noticed.largest_lag_m, push_->lag_m);
   push_.reset();
 }
 
-void NoticedMeter::finish() {
+void CueMeter::finish() {
   if (push_) end_push();
   for (std::size_t i = 0; i < cubes_.size(); ++i) {
     if (!cubes_[i].pushed) continue;
-    Noticed& noticed = noticed_[masses_g_.at(i)];
+    VisibleCues& noticed = noticed_[masses_g_.at(i)];
     ++noticed.n_cubes;
     noticed.path_m += cubes_[i].path_m;
     noticed.end_m += (cubes_[i].last_m - cubes_[i].start_m).norm();

@@ -11,7 +11,7 @@
 namespace heft {
 
 /// Sums over the pushes and cubes of one mass.
-struct Noticed {
+struct VisibleCues {
   int n_pushes = 0;
   double lag_m = 0, largest_lag_m = 0;  ///< of each push its largest lag: their sum, the largest
   int n_cubes = 0;                      ///< that were pushed, each anew in each attempt
@@ -23,16 +23,16 @@ struct Noticed {
 };
 
 /// By mass of the cube, g.
-using NoticedByMass = std::map<double, Noticed>;
+using CuesByMass = std::map<double, VisibleCues>;
 
 /// Measures the frames of one attempt.
-class NoticedMeter {
+class CueMeter {
  public:
   /// @param noticed where it is added; outlives this
-  explicit NoticedMeter(NoticedByMass& noticed) : noticed_(noticed) {}
-  ~NoticedMeter() { finish(); }
-  NoticedMeter(const NoticedMeter&) = delete;
-  NoticedMeter& operator=(const NoticedMeter&) = delete;
+  explicit CueMeter(CuesByMass& noticed) : noticed_(noticed) {}
+  ~CueMeter() { finish(); }
+  CueMeter(const CueMeter&) = delete;
+  CueMeter& operator=(const CueMeter&) = delete;
 
   /// @param contact_slot the cube pressed hardest
   /// @param masses_g of the cubes, by slot
@@ -57,7 +57,7 @@ class NoticedMeter {
   void end_push();
   void finish();
 
-  NoticedByMass& noticed_;
+  CuesByMass& noticed_;
   std::vector<double> masses_g_;
   std::optional<Push> push_;
   std::vector<Cube> cubes_;

@@ -29,13 +29,13 @@ struct Distances {
 struct Paths {
   int n_pictures = 0;
   Distances clone, cubes;
-  NoticedByMass logged, would_be;
+  CuesByMass logged, would_be;
 };
 
 void add_attempt(const AttemptFold& attempt, const std::vector<FrameRow>& frames,
                  const Protocol& protocol, Paths& paths) {
   AttemptReplay replay(protocol, attempt);
-  NoticedMeter logged(paths.logged), would_be(paths.would_be);
+  CueMeter logged(paths.logged), would_be(paths.would_be);
   const std::vector<double>* masses_g = &attempt.first_plan.masses_g;
   auto event = attempt.events.begin();
   for (const FrameRow& frame : frames) {
@@ -70,11 +70,11 @@ void count(const std::vector<TrialRow>& rows,
   }
 }
 
-std::vector<NoticedDifference> noticed_differences(const Paths& paths) {
-  std::map<double, NoticedDifference> by_mass;
+std::vector<CueDifference> cue_differences(const Paths& paths) {
+  std::map<double, CueDifference> by_mass;
   for (const auto& [mass_g, noticed] : paths.logged) by_mass[mass_g].logged = noticed;
   for (const auto& [mass_g, noticed] : paths.would_be) by_mass[mass_g].would_be = noticed;
-  std::vector<NoticedDifference> differences;
+  std::vector<CueDifference> differences;
   for (auto& [mass_g, difference] : by_mass) {
     difference.mass_g = mass_g;
     differences.push_back(difference);
@@ -101,10 +101,10 @@ std::vector<PathDifference> compare_paths(const LogReader& reader, const LoggedS
                 by_kind[{attempt.first_plan.task, attempt.first_plan.condition}]);
   std::vector<PathDifference> differences;
   for (const auto& [kind, paths] : by_kind)
-    differences.push_back(
-        {kind.first, kind.second, paths.n_pictures, paths.clone.rms_m(), paths.clone.largest_m,
-         paths.cubes.rms_m(), paths.cubes.largest_m, noticed_differences(paths),
-         grams_per_lag(*session.protocol, kind.second), grams_per_lag(protocol, kind.second)});
+    differences.push_back({kind.first, kind.second, paths.n_pictures, paths.clone.rms_m(),
+                           paths.clone.largest_m, paths.cubes.rms_m(), paths.cubes.largest_m,
+                           cue_differences(paths), grams_per_lag(*session.protocol, kind.second),
+                           grams_per_lag(protocol, kind.second)});
   return differences;
 }
 

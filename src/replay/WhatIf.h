@@ -12,9 +12,9 @@
 namespace heft {
 
 /// What a participant would notice in one kind of trial of cubes of one mass.
-struct NoticedDifference {
+struct CueDifference {
   double mass_g = 0;
-  Noticed logged, would_be;
+  VisibleCues logged, would_be;
 };
 
 /// How far bodies end up from where they were logged, over all frames of one kind of trial.
@@ -24,7 +24,7 @@ struct PathDifference {
   int n_pictures = 0;
   double clone_rms_m = 0, clone_max_m = 0;
   double cubes_rms_m = 0, cubes_max_m = 0;
-  std::vector<NoticedDifference> noticed;  ///< by mass
+  std::vector<CueDifference> noticed;  ///< by mass
   /// Where the technique's lag tells mass, as a spring's does (μ m g / k): grams a meter of lag.
   std::optional<double> logged_g_per_m, would_be_g_per_m;
 };

@@ -111,7 +111,7 @@ void AttemptRun::listen() {
   if (parts_.clock.is_wall()) parts_.pictures.skip_to(parts_.clock.now_s() - start_s_);
   if (journal_.n_continued() == n_continued_) return;
   n_continued_ = journal_.n_continued();
-  parts_.pictures.listen_anew();
+  parts_.pictures.listen_again();
 }
 
 // On a wall clock. @return whether the attempt goes on

@@ -95,7 +95,7 @@ void Pages::ask(const std::string& name, const std::string& after) {
 
 // As show(), with the model's touches in place of a person's.
 TouchKind Pages::ask_model(const Questionnaire& form, const ScreenState& screen) {
-  AskedModel model(*asked_.mind, form, screen);
+  QuestionnaireResponder model(*asked_.mind, form, screen);
   SessionClock& clock = journal_.clock();
   const double since_s = clock.now_s();
   while (!control_.leaving()) {

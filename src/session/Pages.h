@@ -18,7 +18,7 @@ namespace heft {
 
 // What a person went through before their session went on: it does not come again.
 
-struct GoneThrough {
+struct ResumeState {
   bool consented = false;
   std::set<std::string> pages = {};                 ///< that were turned
   std::map<std::string, std::string> entries = {};  ///< of forms, answered so far
@@ -31,9 +31,9 @@ inline bool covers_a_page(const std::string& page) {
 }
 
 /// @param entries what the log keeps of the participant
-inline GoneThrough gone_through(const std::vector<Event>& events,
+inline ResumeState resume_state(const std::vector<Event>& events,
                                 std::map<std::string, std::string> entries) {
-  GoneThrough gone{.entries = std::move(entries)};
+  ResumeState gone{.entries = std::move(entries)};
   std::string page;
   for (const Event& event : events) {
     if (const auto* consent = event.as<Consent>()) gone.consented = consent->agreed;
@@ -60,7 +60,7 @@ class Pages {
   ///   demonstration and breaks, which go on by themselves
   /// @param before the session went on
   Pages(const Protocol& protocol, Journal& journal, SessionControl& control,
-        ParticipantScreen& screen, const ScreenTexts* texts, GoneThrough before,
+        ParticipantScreen& screen, const ScreenTexts* texts, ResumeState before,
         AskedMind asked = {})
       : protocol_(protocol),
         journal_(journal),
@@ -114,7 +114,7 @@ class Pages {
   SessionControl& control_;
   ParticipantScreen& screen_;
   const ScreenTexts* texts_;
-  GoneThrough gone_;
+  ResumeState gone_;
   std::set<std::string> instructed_;  // of which blocks, since the session goes on
   AskedMind asked_;
 };

@@ -6,8 +6,8 @@ namespace {
 constexpr double reading_s = 3;  // of a question
 }
 
-AskedModel::AskedModel(const Responder& mind, const Questionnaire& form,
-                       const ScreenState& screen) {
+QuestionnaireResponder::QuestionnaireResponder(const Responder& mind, const Questionnaire& form,
+                                               const ScreenState& screen) {
   double at_s = 0;
   const auto add = [&](TouchKind kind, const std::string& key, const std::string& value) {
     Touch touch;
@@ -29,7 +29,7 @@ AskedModel::AskedModel(const Responder& mind, const Questionnaire& form,
   add(TouchKind::next, "", "");
 }
 
-std::vector<Touch> AskedModel::touch(double elapsed_s) {
+std::vector<Touch> QuestionnaireResponder::touch(double elapsed_s) {
   std::vector<Touch> touches;
   for (; n_given_ < touches_.size() && at_s_[n_given_] <= elapsed_s; ++n_given_)
     touches.push_back(touches_[n_given_]);

@@ -10,10 +10,11 @@
 
 namespace heft {
 
-class AskedModel {
+class QuestionnaireResponder {
  public:
   /// @param screen of the questionnaire: what its entries have is not answered again
-  AskedModel(const Responder& mind, const Questionnaire& form, const ScreenState& screen);
+  QuestionnaireResponder(const Responder& mind, const Questionnaire& form,
+                         const ScreenState& screen);
 
   /// What it touches until that time after the page came that it has not touched before: an answer
   /// or none every few seconds, then the button to go on.

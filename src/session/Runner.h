@@ -25,7 +25,7 @@ struct SessionParts {
   bool has_screen = false;             ///< the view can be looked at and touched
   const ScreenTexts* texts = nullptr;  ///< of the person who answers; null: the responder answers
   Apparatus apparatus = {};  ///< what the demonstration shows; without a board a plain table
-  GoneThrough before = {};   ///< of a session that goes on
+  ResumeState before = {};   ///< of a session that goes on
   bool left_hand = false;    ///< holds the effector in it
   const ScreenTexts* asked =
       nullptr;  ///< of questionnaires that the responder is asked; null: none

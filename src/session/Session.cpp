@@ -64,7 +64,7 @@ SessionHeader header_of(const SessionRequest& request, const SessionConfig& setu
 }
 
 RunEnd run_with(Equipment& equipment, Engine& engine, EventSink& sink, const RunnerOptions& runner,
-                double start_s, GoneThrough before = {}) {
+                double start_s, ResumeState before = {}) {
   equipment.clock.restart(start_s);
   SessionParts parts = equipment.parts(engine, sink);
   parts.before = std::move(before);
@@ -202,7 +202,7 @@ SessionResult resume_session(const LoggedSession& session, const ResolvedConfig&
     tell_setup(reopened.engine, sink, setup);
   sink.flush();  // all of the return or nothing of it
   const RunEnd end = run_with(equipment, reopened.engine, sink, runner, now_s,
-                              gone_through(reopened.events, session.row.header.participant_info));
+                              resume_state(reopened.events, session.row.header.participant_info));
   sink.flush();
   return result_of(reopened.engine, end, session.row.session_id);
 }

@@ -28,7 +28,7 @@ struct Percepts {
 };
 
 /// What a mind has that does not look: baselines.
-struct Unseen {
+struct WithoutPercepts {
   int n_slots = 0;
   bool differ = false;
   std::span<const int> wrong_slots = {};

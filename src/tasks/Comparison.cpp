@@ -247,7 +247,7 @@ Answer Comparison::simulated(const Offer&, const Percepts& percepts, RandomStrea
   return {{{"select", heaviest_slot(percepts.remembered_mm, {})}}};
 }
 
-Answer Comparison::blind(const Offer&, const Unseen& unseen, RandomStream& stream) {
+Answer Comparison::blind(const Offer&, const WithoutPercepts& unseen, RandomStream& stream) {
   if (!unseen.differ) return {{{"no_difference"}}};
   const auto n = static_cast<std::uint64_t>(unseen.n_slots);
   return {{{"select", 1 + static_cast<int>(stream.below(n))}}};

@@ -136,7 +136,7 @@ struct Comparison {
 
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream& stream);
   /// Any cube, or no difference.
-  static Answer blind(const Offer&, const Unseen& unseen, RandomStream& stream);
+  static Answer blind(const Offer&, const WithoutPercepts& unseen, RandomStream& stream);
   static std::vector<ScreenState> fullest_screens();
   /// The participant's (view/screens/ComparisonScreen.cpp).
   static void screen(PageBuilder& builder, const Offer& offer);

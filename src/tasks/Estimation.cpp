@@ -190,7 +190,7 @@ Answer Estimation::simulated(const Offer& offer, const Percepts& percepts, Rando
       scale, std::min(1.0, std::log1p(remembered / least_mm) / std::log1p(most_mm / least_mm)));
 }
 
-Answer Estimation::blind(const Offer& offer, const Unseen&, RandomStream& stream) {
+Answer Estimation::blind(const Offer& offer, const WithoutPercepts&, RandomStream& stream) {
   if (offer.is_standard) return {{{"validate"}}};
   return answer_at(scale_of(offer.question), stream.uniform());
 }

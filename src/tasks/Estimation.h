@@ -117,7 +117,7 @@ struct Estimation {
   /// alone; a lapse is any place on the scale.
   static Answer simulated(const Offer& offer, const Percepts& percepts, RandomStream&);
   /// Any place on the scale.
-  static Answer blind(const Offer& offer, const Unseen&, RandomStream& stream);
+  static Answer blind(const Offer& offer, const WithoutPercepts&, RandomStream& stream);
   static std::vector<ScreenState> fullest_screens();
   /// The participant's (view/screens/EstimationScreen.cpp).
   static void screen(PageBuilder& builder, const Offer& offer);

@@ -82,7 +82,7 @@ struct Introduction {
 
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream&);
   /// Tries one cube after the other, from the left.
-  static Answer blind(const Offer&, const Unseen& unseen, RandomStream&);
+  static Answer blind(const Offer&, const WithoutPercepts& unseen, RandomStream&);
   static std::vector<ScreenState> fullest_screens();
   /// The participant's (view/screens/IntroductionScreen.cpp).
   static void screen(PageBuilder& builder, const Offer& offer);

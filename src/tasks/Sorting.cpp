@@ -218,7 +218,7 @@ Answer Sorting::simulated(const Offer&, const Percepts& percepts, RandomStream& 
   return answer_of(percepts.remembered_mm, corrected);
 }
 
-Answer Sorting::blind(const Offer&, const Unseen& unseen, RandomStream& stream) {
+Answer Sorting::blind(const Offer&, const WithoutPercepts& unseen, RandomStream& stream) {
   if (!unseen.differ) return {{{"dont_know"}}};
   std::vector<double> values;
   for (int i = 0; i < unseen.n_slots; ++i) values.push_back(stream.uniform());

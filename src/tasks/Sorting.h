@@ -97,7 +97,7 @@ struct Sorting {
 
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream& stream);
   /// Any order, or "I don't know".
-  static Answer blind(const Offer&, const Unseen& unseen, RandomStream& stream);
+  static Answer blind(const Offer&, const WithoutPercepts& unseen, RandomStream& stream);
   static std::vector<ScreenState> fullest_screens();
   /// The participant's (view/screens/SortingScreen.cpp).
   static void screen(PageBuilder& builder, const Offer& offer);

@@ -83,7 +83,7 @@ void paint_words(ImDrawList& list, const Control& control, const Paint& paint, I
 }
 
 // A line from end to end, and a bar where it is set.
-void paint_slider(ImDrawList& list, const Rect& area, const Slid& slid, float target) {
+void paint_slider(ImDrawList& list, const Rect& area, const SliderValue& slid, float target) {
   const float thick = 0.06f * target, inset = 0.12f * target;
   const float left = area.x + inset, right = area.right() - inset, y = area.y + area.height / 2;
   list.AddRectFilled({left, y - thick / 2}, {right, y + thick / 2}, colors::soft, thick / 2);

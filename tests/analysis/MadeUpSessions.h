@@ -111,7 +111,7 @@ inline void add_staircase(SessionData& data, const std::string& staircase, doubl
   row.jnd_g = jnd_g;
   row.n_trials = n_trials;
   row.n_reversals = 10;
-  row.reason = Finish::reversals;
+  row.reason = StopReason::reversals;
   data.estimates.push_back(row);
 }
 

@@ -106,7 +106,7 @@ TEST(Jnd, CountsTrialsLimitsAndBounds) {
   add_staircase(data, "two", 15, 100, 200);
   data.estimates[0].n_floor = 3;
   data.estimates[1].n_ceiling = 2;
-  data.estimates[1].reason = Finish::trials;
+  data.estimates[1].reason = StopReason::trials;
   data.estimates[1].jnd_g.reset();
   const ReferenceJnd jnd = jnd_of({&data, 1}).at(0);
   EXPECT_DOUBLE_EQ(jnd.mean_trials, 109);
@@ -169,7 +169,7 @@ TEST(Jnd, FewReversalsOrTheTrialLimitCensorTheWayTheStaircaseWent) {
   SessionData data = session(1, "a");
   add_comparison(data, "up", 15, 50);
   add_staircase(data, "up", 15, 400, 60);
-  data.estimates[0].reason = Finish::trials;
+  data.estimates[0].reason = StopReason::trials;
   add_comparison(data, "down", 15, 500);
   add_staircase(data, "down", 15, 20);
   data.estimates[1].n_reversals = 3;
@@ -227,7 +227,7 @@ TEST(Jnd, EstimatesOfAnyProcedureAreThereWithTheirIntervals) {
   data.estimates[1].low_g = 70;
   data.estimates[1].high_g = 95;
   data.estimates[1].n_reversals = 0;
-  data.estimates[1].reason = Finish::precision;
+  data.estimates[1].reason = StopReason::precision;
   data.estimates.push_back(data.estimates[1]);
   data.estimates[2].method = "mode_of_posterior";  // the first method stands for the staircase
   data.estimates[2].jnd_g = 60;
@@ -245,7 +245,7 @@ TEST(Jnd, EstimatesOfAnyProcedureAreThereWithTheirIntervals) {
   EXPECT_EQ(results[1].why, "");  // it has no reversals that could be too few
   EXPECT_EQ(results[1].low_g, 70);
   EXPECT_EQ(results[1].high_g, 95);
-  data.estimates[1].reason = Finish::trials;  // as planned
+  data.estimates[1].reason = StopReason::trials;  // as planned
   EXPECT_EQ(staircase_results({&data, 1})[1].censored, Censored::none);
   data.estimates[1].censored = Censored::above;
   EXPECT_EQ(staircase_results({&data, 1})[1].censored, Censored::above);

@@ -21,7 +21,7 @@ TEST(PictureTracker, ABoardIsLostAfterHalfASecondWithoutIt) {
 TEST(PictureTracker, OnePictureWithoutBoardAfterABreakIsNoLostBoard) {
   PictureTracker tracker(shipped_apparatus());
   trouble_at(tracker, 1);
-  tracker.look_anew();  // as after a break, a pause, between attempts
+  tracker.look_again();  // as after a break, a pause, between attempts
   EXPECT_EQ(trouble_at(tracker, 61), "");
   EXPECT_EQ(trouble_at(tracker, 61.4), "");
   EXPECT_EQ(trouble_at(tracker, 61.6), "board_lost");

@@ -25,7 +25,7 @@ struct Problem {
     residuals(x, r, by);
     NormalEquations<n> equations;
     equations.matrix = by.transpose() * by;
-    equations.pull = -by.transpose() * r;
+    equations.rhs = -by.transpose() * r;
     equations.cost = r.squaredNorm();
     return equations;
   }
@@ -101,7 +101,7 @@ RC_GTEST_PROP(LevenbergMarquardt, ALineIsWhereNoStepAsideCostsLess, (std::uint64
       const double residual = by.dot(line) - point.y();
       const RobustResidual robust = huber(std::abs(residual) / sd);
       equations.matrix += robust.weight / (sd * sd) * by * by.transpose();
-      equations.pull -= robust.weight / (sd * sd) * residual * by;
+      equations.rhs -= robust.weight / (sd * sd) * residual * by;
       equations.cost += robust.cost;
       equations.sum_squares += residual * residual;
       ++equations.n;
@@ -148,7 +148,7 @@ TEST(LevenbergMarquardt, StaysWhereEveryStepLeadsOutOfTheWorld) {
   const auto at = [](const Eigen::Vector2d& there) {
     NormalEquations<2> equations;
     equations.matrix.setIdentity();
-    equations.pull << 1, 1;
+    equations.rhs << 1, 1;
     equations.cost = there == Eigen::Vector2d(1, 2) ? 1 : std::numeric_limits<double>::quiet_NaN();
     return equations;
   };

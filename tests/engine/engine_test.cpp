@@ -213,7 +213,7 @@ TEST(Engine, runs_both_staircases_to_their_estimates_and_finishes) {
   }
   ASSERT_EQ(estimates.size(), 2u);
   for (const EstimateRow& estimate : estimates) {
-    if (estimate.reason != Finish::reversals) continue;
+    if (estimate.reason != StopReason::reversals) continue;
     double sum = 0;
     for (const ReversalRow& reversal : reversals)
       if (reversal.staircase == estimate.staircase && reversal.number > 2) sum += reversal.level_g;
@@ -504,7 +504,7 @@ TEST(Engine, constant_stimuli_run_beside_a_staircase_and_end_without_a_jnd) {
   const auto row = std::ranges::find(estimates, "constant", &EstimateRow::staircase);
   ASSERT_NE(row, estimates.end());
   EXPECT_EQ(row->method, "constant");
-  EXPECT_EQ(row->reason, Finish::trials);
+  EXPECT_EQ(row->reason, StopReason::trials);
   EXPECT_EQ(row->jnd_g, std::nullopt);
   EXPECT_EQ(row->n_trials, 12);
   EXPECT_EQ(session.engine.next().kind, Next::Kind::finish);

@@ -181,7 +181,7 @@ TEST(MixedProcedures, AnOwnProceduresIntervalReachesItsRow) {
   EXPECT_EQ(row.jnd_g, 37.5);
   EXPECT_EQ(row.low_g, 25);
   EXPECT_EQ(row.high_g, 50);
-  EXPECT_EQ(row.reason, Finish::precision);
+  EXPECT_EQ(row.reason, StopReason::precision);
   EXPECT_EQ(row.n_trials, 2);
 }
 

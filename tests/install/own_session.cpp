@@ -15,8 +15,8 @@ struct Bisection {
     (response.positive ? high : low) = shown;
     return {{}, finish()};
   }
-  std::optional<heft::Finish> finish() const {
-    return high - low < 2 ? std::optional(heft::Finish::precision) : std::nullopt;
+  std::optional<heft::StopReason> finish() const {
+    return high - low < 2 ? std::optional(heft::StopReason::precision) : std::nullopt;
   }
   std::vector<heft::Estimate> estimates() const {
     return {{.method = "bisection", .value = (low + high) / 2, .low = low, .high = high}};

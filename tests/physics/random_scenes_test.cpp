@@ -123,7 +123,7 @@ Track reference_track(const RandomScene& made) {
 struct Tried {
   Track track;
   double turned_rad = 0;  ///< the most that any cube has
-  long n_unsettled = 0;
+  long n_not_converged = 0;
 };
 
 Tried tried_track(const std::string& name, const RandomScene& made, int rate_hz) {
@@ -146,7 +146,7 @@ Tried tried_track(const std::string& name, const RandomScene& made, int rate_hz)
           std::max(tried.turned_rad, rotation_vector(pose.orientation * start.conjugate()).norm());
     }
   }
-  if (const auto counts = simulator->counts()) tried.n_unsettled = counts->unsettled;
+  if (const auto counts = simulator->counts()) tried.n_not_converged = counts->not_converged;
   return tried;
 }
 
@@ -180,12 +180,12 @@ TEST_P(RandomScenes, AreTheReferences) {
   const unsigned first = from_environment("HEFT_SCENE_SEED", 1);
   const char* named = std::getenv("HEFT_SIMULATOR");
   std::vector<Found> all;
-  long n_unsettled = 0;
+  long n_not_converged = 0;
   for (unsigned seed = first; seed < first + n; ++seed) {
     const RandomScene made = random_scene(seed);
     const Track truth = reference_track(made);
     const Tried tried = tried_track(named ? named : "boxes", made, GetParam());
-    n_unsettled += tried.n_unsettled;
+    n_not_converged += tried.n_not_converged;
     double cubes_mm = 0;
     for (std::size_t j = 1; j < truth[0].size(); ++j)
       cubes_mm = std::max(cubes_mm, 1e3 * (truth.back()[j] - tried.track.back()[j]).norm());
@@ -203,7 +203,7 @@ TEST_P(RandomScenes, AreTheReferences) {
             << percentile(clone_mm, 0.5) << ", p95 " << percentile(clone_mm, 0.95) << ", worst "
             << all[0].clone_mm << " mm; cubes' ends p95 " << percentile(cubes_mm, 0.95)
             << ", worst " << percentile(cubes_mm, 1) << " mm; turned at most "
-            << percentile(turned_deg, 1) << " degrees; " << n_unsettled << " unsettled\n";
+            << percentile(turned_deg, 1) << " degrees; " << n_not_converged << " unsettled\n";
   if (std::getenv("HEFT_SCENES_WORST"))
     for (std::size_t i = 0; i < std::min<std::size_t>(25, all.size()); ++i)
       std::cout << "  seed " << all[i].seed << " " << random_scene(all[i].seed).kind << " clone "

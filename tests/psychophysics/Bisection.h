@@ -16,8 +16,8 @@ class Bisection {
     ++n_trials_;
     return {{}, finish()};
   }
-  std::optional<Finish> finish() const {
-    return high_ - low_ <= width_ ? std::optional(Finish::precision) : std::nullopt;
+  std::optional<StopReason> finish() const {
+    return high_ - low_ <= width_ ? std::optional(StopReason::precision) : std::nullopt;
   }
   std::vector<Estimate> estimates() const {
     return {{.method = "bisection",

@@ -95,7 +95,7 @@ RC_GTEST_PROP(ConstantProperty, EndsByItsTrialsAndEstimatesNothing, ()) {
     RC_ASSERT(!update.reversal);
     RC_ASSERT(update.finish.has_value() == (trial == planned));
   }
-  RC_ASSERT(procedure.finish() == Finish::trials);
+  RC_ASSERT(procedure.finish() == StopReason::trials);
   const std::vector<Estimate> estimates = procedure.estimates();
   RC_ASSERT(estimates.size() == 1u);
   RC_ASSERT(estimates[0].method == "constant");

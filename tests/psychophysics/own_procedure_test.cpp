@@ -33,13 +33,13 @@ TEST(OwnProcedure, IsInterleavedWithOurs) {
   for (const Interleave order :
        {Interleave::random, Interleave::round_robin, Interleave::sequential}) {
     const auto staircases = run(fresh, {order, 2}, 101);
-    EXPECT_EQ(staircases[0].finish(), Finish::precision);
+    EXPECT_EQ(staircases[0].finish(), StopReason::precision);
     EXPECT_EQ(staircases[0].n_trials(), 7);  // 512 / 2^7 = 4
     const Estimate estimate = staircases[0].estimates().at(0);
     EXPECT_THAT(estimate.value, Optional(102));
     EXPECT_THAT(estimate.low, Optional(100));
     EXPECT_THAT(estimate.high, Optional(104));
-    EXPECT_EQ(staircases[1].finish(), Finish::reversals);
+    EXPECT_EQ(staircases[1].finish(), StopReason::reversals);
     EXPECT_EQ(staircases[2].n_trials(), 2);
   }
 }

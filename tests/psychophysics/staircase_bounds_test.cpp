@@ -77,7 +77,7 @@ TEST(UpDown, VirtualLevelGoesOnBeyondTheBound) {
 TEST(UpDown, AlwaysYesAtTheFloorEndsByTrials) {
   UpDown staircase(paper_15g());
   answer(staircase, std::string(500, '+'));
-  EXPECT_EQ(staircase.finish(), Finish::trials);
+  EXPECT_EQ(staircase.finish(), StopReason::trials);
   EXPECT_EQ(staircase.n_trials(), 200);
   EXPECT_EQ(staircase.estimate(), std::nullopt);
 }
@@ -87,7 +87,7 @@ TEST(UpDown, AlwaysYesEndsByReversalsWhereABoundIsOne) {
   config.bound_is_reversal = true;
   UpDown staircase(config);  // 175 125 75 25, then the floor cuts every move short
   const Trace trace = answer(staircase, std::string(500, '+'));
-  EXPECT_EQ(staircase.finish(), Finish::reversals);
+  EXPECT_EQ(staircase.finish(), StopReason::reversals);
   EXPECT_THAT(trace.reversal_trials, ElementsAre(4, 5, 6, 7, 8, 9, 10, 11, 12, 13));
   EXPECT_THAT(trace.reversal_levels, ElementsAre(25, 0, 0, 0, 0, 0, 0, 0, 0, 0));
   EXPECT_EQ(staircase.estimate(), 0);

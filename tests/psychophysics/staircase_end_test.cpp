@@ -23,7 +23,7 @@ TEST(UpDown, TenthReversalEndsWithoutAMove) {
   EXPECT_EQ(last.reversal->level, 131.25);
   EXPECT_EQ(last.reversal->step_before, 3.125);
   EXPECT_EQ(last.reversal->step_after, 1.5625);
-  EXPECT_EQ(last.finish, Finish::reversals);
+  EXPECT_EQ(last.finish, StopReason::reversals);
   EXPECT_EQ(staircase.level(), 131.25);
   EXPECT_EQ(staircase.n_trials(), 13);
   // (100 + 125 + 112.5 + 125 + 118.75 + 131.25 + 128.125 + 131.25) / 8
@@ -37,7 +37,7 @@ TEST(UpDown, EndsAtTheTrialLimitAndSaysSo) {
   UpDown staircase(config);
   answer(staircase, "+-+");
   EXPECT_FALSE(staircase.finished());
-  EXPECT_EQ(staircase.respond(true).finish, Finish::trials);
+  EXPECT_EQ(staircase.respond(true).finish, StopReason::trials);
   EXPECT_EQ(staircase.estimate(), 9.5);  // reversals at 9 and 10
 }
 
@@ -48,7 +48,7 @@ TEST(UpDown, BothLimitsAtOnceIsReversals) {
   EXPECT_THAT(answer(config, "+-+").reversal_trials, ElementsAre(2, 3));
   UpDown staircase(config);
   answer(staircase, "+-+");
-  EXPECT_EQ(staircase.finish(), Finish::reversals);
+  EXPECT_EQ(staircase.finish(), StopReason::reversals);
 }
 
 TEST(UpDown, LeastTrialsKeepItGoingAndReversalsGoOn) {
@@ -59,7 +59,7 @@ TEST(UpDown, LeastTrialsKeepItGoingAndReversalsGoOn) {
   const Trace trace = answer(staircase, "+-+-++");
   EXPECT_THAT(trace.reversal_trials, ElementsAre(2, 3, 4, 5));
   EXPECT_EQ(staircase.n_trials(), 5);
-  EXPECT_EQ(staircase.finish(), Finish::reversals);
+  EXPECT_EQ(staircase.finish(), StopReason::reversals);
 }
 
 TEST(UpDown, LeastTrialsMayEndItOnAnAnswerWithoutReversal) {
@@ -71,7 +71,7 @@ TEST(UpDown, LeastTrialsMayEndItOnAnAnswerWithoutReversal) {
   EXPECT_THAT(trace.levels, ElementsAre(10, 9, 10, 9, 8));  // no move after the fifth
   EXPECT_THAT(trace.reversal_trials, ElementsAre(2, 3));
   EXPECT_EQ(staircase.level(), 8);
-  EXPECT_EQ(staircase.finish(), Finish::reversals);
+  EXPECT_EQ(staircase.finish(), StopReason::reversals);
 }
 
 TEST(UpDown, EstimateNeedsMoreReversalsThanAreDiscarded) {

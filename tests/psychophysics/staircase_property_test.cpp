@@ -43,7 +43,7 @@ RC_GTEST_PROP(StaircaseProperty, EndsByItsTrialLimitAndNotBeforeItsLeastTrials, 
   RC_ASSERT(staircase.finished());
   const int n_reversals = static_cast<int>(staircase.reversals().size());
   RC_ASSERT(staircase.n_trials() <= config.stop_trials);
-  if (staircase.finish() == Finish::reversals) {
+  if (staircase.finish() == StopReason::reversals) {
     RC_ASSERT(n_reversals >= config.stop_reversals);
     RC_ASSERT(staircase.n_trials() >= config.min_trials);
   } else {
@@ -118,7 +118,7 @@ RC_GTEST_PROP(StaircaseProperty, BoundReversalsEndOneSidedAnswersLongBeforeTheLi
   config.stop_trials = 100;
   UpDown staircase(config);
   play(staircase, std::vector<bool>(100, true), [](double, bool, const Update&) {});
-  RC_ASSERT(staircase.finish() == Finish::reversals);
+  RC_ASSERT(staircase.finish() == StopReason::reversals);
 }
 
 RC_GTEST_PROP(StaircaseProperty, ShownLevelsChangeOnlyTheReversalValues, ()) {

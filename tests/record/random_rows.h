@@ -262,7 +262,7 @@ inline Changes any_changes(const TrialRow& trial, int number, Written& written) 
                                heft::test::number(), heft::test::number()});
   changes.estimates.push_back({words() + std::to_string(number), words(), maybe(heft::test::number),
                                maybe(heft::test::number), maybe(heft::test::number), count(),
-                               count(), count(), count(), any_of<Finish>(),
+                               count(), count(), count(), any_of<StopReason>(),
                                maybe(any_of<Censored>)});
   written.trials.push_back(trial);
   const auto add = [](auto& to, const auto& from) {

@@ -37,7 +37,7 @@ class schema_rules : public testing::Test {
                             10,
                             0,
                             0,
-                            Finish::reversals,
+                            StopReason::reversals,
                             Censored::none}};
       log.append(answer, changes, Durability::acknowledged);
       log.add_frame(frame(1, 2));
@@ -109,7 +109,7 @@ TEST_F(schema_rules, enumerations_take_every_name_of_ours_and_no_other) {
   expect_exactly_the_names<ActionKind>("answer", "action");
   expect_exactly_the_names<Label>("answer", "label");
   expect_exactly_the_names<Purpose>("session", "purpose");
-  expect_exactly_the_names<Finish>("estimate", "reason");
+  expect_exactly_the_names<StopReason>("estimate", "reason");
   expect_exactly_the_names<Censored>("estimate", "censored");
 }
 

@@ -107,7 +107,7 @@ TEST_F(views, jnd_names_the_reference_of_its_staircase) {
   trial.plan.reference_g = 800;
   Changes changes = starting(trial);
   changes.estimates = {
-      {"fine", "mean_of_reversals", 101.5, {}, {}, 32, 10, 1, 0, Finish::reversals, {}}};
+      {"fine", "mean_of_reversals", 101.5, {}, {}, 32, 10, 1, 0, StopReason::reversals, {}}};
   log_.append(event(10, event_kind<TrialStarted>), changes, Durability::acknowledged);
   EXPECT_EQ(of("SELECT participant || ' ' || staircase || ' ' || reference_g || ' ' || jnd_g || ' "
                "' || n_trials || ' ' || reason FROM v_jnd"),

@@ -15,14 +15,14 @@ using ::testing::HasSubstr;
 using testing::shipped_protocol;
 using testing::StoredSession;
 
-Judgments judged(const StoredSession& stored, const std::string& responder) {
+OfflineAnswers judged(const StoredSession& stored, const std::string& responder) {
   WhoAnswers who;
   from_text(responder, who);
-  return judge_session(stored.reader(), stored.session(), who, [](double) {});
+  return answer_session(stored.reader(), stored.session(), who, [](double) {});
 }
 
-void expect_full_agreement(const std::vector<JudgedTrial>& trials) {
-  for (const JudgedTrial& trial : trials) {
+void expect_full_agreement(const std::vector<OfflineTrial>& trials) {
+  for (const OfflineTrial& trial : trials) {
     EXPECT_EQ(trial.logged, trial.judged) << "trial " << trial.trial_number;
     EXPECT_EQ(trial.logged_labels, trial.judged_labels) << "trial " << trial.trial_number;
   }
@@ -33,7 +33,7 @@ TEST(Judging, EveryResponderAgreesWithItself) {
   for (const std::string name : {"simulated", "coin", "criterion_only"})
     for (const std::uint64_t seed : {1u, 2u}) {
       const StoredSession stored(protocol, name, seed);
-      const Judgments found = judged(stored, name);
+      const OfflineAnswers found = judged(stored, name);
       SCOPED_TRACE(name);
       EXPECT_EQ(static_cast<int>(found.trials.size()), stored.n_completed());
       EXPECT_GT(found.shown_s, 60);
@@ -47,7 +47,7 @@ TEST(Judging, TheIntroductionIsAnsweredByItsFirstChoice) {
   std::set<std::string> seen;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const StoredSession stored(protocol, "coin", seed);
-    const std::vector<JudgedTrial> trials = judged(stored, "coin").trials;
+    const std::vector<OfflineTrial> trials = judged(stored, "coin").trials;
     expect_full_agreement(trials);
     seen.insert(trials.front().logged);
   }
@@ -57,7 +57,7 @@ TEST(Judging, TheIntroductionIsAnsweredByItsFirstChoice) {
 TEST(Judging, WhoNeverFindsADifferenceAnswersSoWhateverWasLogged) {
   const StoredSession stored(shipped_protocol("quick"), "always_yes", 3);
   int n_comparisons = 0;
-  for (const JudgedTrial& trial : judged(stored, "always_no").trials) {
+  for (const OfflineTrial& trial : judged(stored, "always_no").trials) {
     if (trial.task == "introduction") continue;
     const bool compares = trial.task == "comparison";
     EXPECT_EQ(trial.judged, compares ? "none" : "dont_know");
@@ -69,7 +69,7 @@ TEST(Judging, WhoNeverFindsADifferenceAnswersSoWhateverWasLogged) {
 
 TEST(Judging, TrialsWithoutFramesAreToldNotJudged) {
   const StoredSession stored(shipped_protocol("quick"), "coin", 3, false);
-  const Judgments found = judged(stored, "coin");
+  const OfflineAnswers found = judged(stored, "coin");
   EXPECT_TRUE(found.trials.empty());
   EXPECT_EQ(found.n_without_frames, stored.n_completed());
 }
@@ -102,9 +102,9 @@ TEST(SeenFrames, EndWithTheAnswerAndLackWhatAPauseHid) {
   EXPECT_THAT(seen_s, ElementsAre(0, 1, 3, 4));
 }
 
-JudgedTrial comparison(double reference_g, bool has_difference, const std::string& logged,
-                       const std::string& judged) {
-  JudgedTrial trial;
+OfflineTrial comparison(double reference_g, bool has_difference, const std::string& logged,
+                        const std::string& judged) {
+  OfflineTrial trial;
   trial.task = "comparison";
   trial.condition = "C2";
   trial.reference_g = reference_g;

@@ -23,7 +23,7 @@ class Onlooker final : public ArView {
   bool only_trials = true;
 };
 
-TEST(Showing, EveryFrameAsItWasLogged) {
+TEST(ReplayViewOptions, EveryFrameAsItWasLogged) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
   Onlooker view;
   const int n = show_session(stored.reader(), stored.session(), view, {});
@@ -42,7 +42,7 @@ TEST(Showing, EveryFrameAsItWasLogged) {
   }
 }
 
-TEST(Showing, AWhatIfsCloneStandsBesideTheLoggedOne) {
+TEST(ReplayViewOptions, AWhatIfsCloneStandsBesideTheLoggedOne) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
   const auto header = stored.session().row.header;
   const Protocol stiffer = parse_protocol(header.protocol_text, header.protocol_name,

@@ -21,10 +21,10 @@ DisplayedFrame pushing(double t_s, double effector_y_m, double lag_m, double cub
   return frame;
 }
 
-TEST(Noticed, APushHasItsLargestLagAndItsCubeAPath) {
-  NoticedByMass noticed;
+TEST(VisibleCues, APushHasItsLargestLagAndItsCubeAPath) {
+  CuesByMass noticed;
   {
-    NoticedMeter meter(noticed);
+    CueMeter meter(noticed);
     const std::vector<double> masses_g{200, 15};
     for (int i = 0; i < 10; ++i) {
       const double y_m = 0.01 * i;
@@ -37,7 +37,7 @@ TEST(Noticed, APushHasItsLargestLagAndItsCubeAPath) {
     meter.add(pushing(3.1, 0.10, 0.01, 0.10), 1, masses_g);
   }
   ASSERT_EQ(noticed.size(), 1u) << "the other cube was not pushed";
-  const Noticed& found = noticed.at(200);
+  const VisibleCues& found = noticed.at(200);
   EXPECT_EQ(found.n_pushes, 2);
   EXPECT_NEAR(found.mean_lag_m(), 0.02, 1e-12);
   EXPECT_NEAR(found.largest_lag_m, 0.03, 1e-12);
@@ -46,10 +46,10 @@ TEST(Noticed, APushHasItsLargestLagAndItsCubeAPath) {
   EXPECT_NEAR(found.mean_end_m(), 0.10, 1e-12);
 }
 
-TEST(Noticed, AShortGapIsTheSamePushAndAnotherCubeAnotherOne) {
-  NoticedByMass noticed;
+TEST(VisibleCues, AShortGapIsTheSamePushAndAnotherCubeAnotherOne) {
+  CuesByMass noticed;
   {
-    NoticedMeter meter(noticed);
+    CueMeter meter(noticed);
     const std::vector<double> masses_g{200, 15};
     meter.add(pushing(0, 0, 0, 0), 1, masses_g);
     meter.add(pushing(0.1, 0.01, 0, 0), std::nullopt, masses_g);
@@ -60,10 +60,10 @@ TEST(Noticed, AShortGapIsTheSamePushAndAnotherCubeAnotherOne) {
   EXPECT_EQ(noticed.at(15).n_pushes, 1);
 }
 
-TEST(Noticed, ACubePutBackHasNotGoneThere) {
-  NoticedByMass noticed;
+TEST(VisibleCues, ACubePutBackHasNotGoneThere) {
+  CuesByMass noticed;
   {
-    NoticedMeter meter(noticed);
+    CueMeter meter(noticed);
     meter.add(pushing(0, 0, 0, 0), 1, {200, 15});
     meter.add(pushing(0.1, 0.05, 0, 0.05), 1, {200, 15});
     meter.add(pushing(0.2, 0.05, 0, 0), std::nullopt, {200, 15});
@@ -73,14 +73,14 @@ TEST(Noticed, ACubePutBackHasNotGoneThere) {
 }
 
 // μ m g / k: twice the stiffness, half the lag, the same grams.
-TEST(Noticed, AWhatIfTellsLagsBeforeAndAfter) {
+TEST(VisibleCues, AWhatIfTellsLagsBeforeAndAfter) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
   const auto header = stored.session().row.header;
   const Protocol stiffer = parse_protocol(header.protocol_text, header.protocol_name,
                                           {{"coupling.stiffness_n_per_m", "100"}});
   bool compared = false;
   for (const PathDifference& kind : compare_paths(stored.reader(), stored.session(), stiffer))
-    for (const NoticedDifference& cube : kind.noticed) {
+    for (const CueDifference& cube : kind.noticed) {
       if (kind.condition == "C1") {
         EXPECT_LT(cube.would_be.largest_lag_m, 1e-9);
         EXPECT_FALSE(kind.logged_g_per_m);
@@ -96,11 +96,11 @@ TEST(Noticed, AWhatIfTellsLagsBeforeAndAfter) {
   EXPECT_TRUE(compared);
 }
 
-TEST(Noticed, TheSameWorldIsNoticedTheSame) {
+TEST(VisibleCues, TheSameWorldIsNoticedTheSame) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
   for (const PathDifference& kind :
        compare_paths(stored.reader(), stored.session(), *stored.session().protocol))
-    for (const NoticedDifference& cube : kind.noticed) {
+    for (const CueDifference& cube : kind.noticed) {
       EXPECT_EQ(cube.logged.n_pushes, cube.would_be.n_pushes);
       EXPECT_EQ(cube.logged.lag_m, cube.would_be.lag_m);
       EXPECT_EQ(cube.logged.path_m, cube.would_be.path_m);

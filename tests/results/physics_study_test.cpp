@@ -83,11 +83,11 @@ TEST_F(QuickStudy, KnowsThatTheExplicitForceBlowsUpAndThatBoxesDoNot) {
   for (const Row& row : rows("work_precision.csv")) {
     if (row.at("scene_class") != "push") continue;
     if (row.at("simulator") == "bullet-explicit") {
-      EXPECT_EQ(row.at("fate"), "blew_up");
+      EXPECT_EQ(row.at("outcome"), "blew_up");
       EXPECT_EQ(row.at("clone_rms_mm"), "");
     }
     if (row.at("simulator") == "boxes") {
-      EXPECT_EQ(row.at("fate"), "ran");
+      EXPECT_EQ(row.at("outcome"), "ran");
       EXPECT_LT(std::stod(row.at("clone_rms_mm")), 0.25);
     }
   }

@@ -420,7 +420,7 @@ RunEnd go_on(Session& session, RecordedSession& sink) {
   session.engine.apply({session.engine.last_s(), SessionResumed{}});
   SessionParts parts{*session.protocol, session.engine, sink, session.pictures, *session.hand,
                      session.screen,    session.clock,  true, &session.texts};
-  parts.before = gone_through(events, session.sink.header().participant_info);
+  parts.before = resume_state(events, session.sink.header().participant_info);
   session.screen.screens.clear();
   return Runner(parts, {}).run();
 }
@@ -481,21 +481,21 @@ TEST(Person, reads_instructions_again_that_they_were_in_the_middle_of) {
   EXPECT_THAT(pages_of(sink), Contains("instructions_comparison"));
 }
 
-TEST(GoneThrough, WhatAnotherPageCoveredForAWhileOrABreakOffEndedWasNotTurned) {
+TEST(ResumeState, WhatAnotherPageCoveredForAWhileOrABreakOffEndedWasNotTurned) {
   const auto shown = [](const std::string& page) { return Event{0, TextShown{page, "en", ""}}; };
   for (const char* cover : {"paused", "setting_up"})
-    EXPECT_THAT(gone_through({shown("welcome"), shown(cover)}, {}).pages, IsEmpty()) << cover;
-  EXPECT_THAT(gone_through({shown("welcome"), Event{0, SessionResumed{}}, shown("rest")}, {}).pages,
+    EXPECT_THAT(resume_state({shown("welcome"), shown(cover)}, {}).pages, IsEmpty()) << cover;
+  EXPECT_THAT(resume_state({shown("welcome"), Event{0, SessionResumed{}}, shown("rest")}, {}).pages,
               IsEmpty());
-  EXPECT_THAT(gone_through({shown("welcome"), shown("rest")}, {}).pages, ElementsAre("welcome"));
+  EXPECT_THAT(resume_state({shown("welcome"), shown("rest")}, {}).pages, ElementsAre("welcome"));
 }
 
-TEST(GoneThrough, ABreakIsOverWhenItWasTakenOrTheTrialIsThere) {
+TEST(ResumeState, ABreakIsOverWhenItWasTakenOrTheTrialIsThere) {
   const auto shown = [](const std::string& page) { return Event{0, TextShown{page, "en", ""}}; };
   const Event taken{0, BreakTaken{"asked for", 3}};
-  EXPECT_TRUE(gone_through({shown("rest"), shown("paused"), {0, SessionResumed{}}}, {}).in_break);
-  EXPECT_FALSE(gone_through({shown("rest"), taken}, {}).in_break);
-  EXPECT_FALSE(gone_through({shown("rest"), shown("trial_sorting")}, {}).in_break);
+  EXPECT_TRUE(resume_state({shown("rest"), shown("paused"), {0, SessionResumed{}}}, {}).in_break);
+  EXPECT_FALSE(resume_state({shown("rest"), taken}, {}).in_break);
+  EXPECT_FALSE(resume_state({shown("rest"), shown("trial_sorting")}, {}).in_break);
 }
 
 TEST(Experimenter, notes_takes_a_break_and_ends) {

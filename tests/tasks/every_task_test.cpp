@@ -69,8 +69,8 @@ TEST_P(EveryTask, is_simulated_replayed_judged_and_exported) {
     expect_verified(stored.reader(), stored.id());
 
     int n_judged = 0;
-    for (const JudgedTrial& trial :
-         judge_session(stored.reader(), stored.session(), Plug{responder}, [](double) {}).trials) {
+    for (const OfflineTrial& trial :
+         answer_session(stored.reader(), stored.session(), Plug{responder}, [](double) {}).trials) {
       if (trial.task != GetParam()) continue;
       ++n_judged;
       EXPECT_EQ(trial.judged, trial.logged) << "trial " << trial.trial_number;
@@ -139,7 +139,7 @@ TEST_P(EveryTask, is_presented_again_after_each_answer_was_vetoed) {
       const std::vector<int> wrong_slots(static_cast<std::size_t>(wrong), 1);
       const TrialView view{
           trial.trial_number, trial.attempt, trial.task, {}, engine.screen().offer};
-      const Unseen unseen{trial.n_slots(), true, wrong_slots};
+      const WithoutPercepts unseen{trial.n_slots(), true, wrong_slots};
       for (const Action& action : blind_answer(view, unseen, stream).actions) last = tell(action);
     }
     return last;

@@ -28,14 +28,14 @@ Measurement measure_one(const SimulatorEntry& simulator, const BenchScene& scene
   one.scene = scene;
   one.cpu_us_per_s = nothing;
   const SceneRun run = run_scene(simulator.make(), scene, rate_hz, rate_hz);
-  one.fate = run.fate;
+  one.outcome = run.outcome;
   one.why = run.why;
   one.counts = run.counts;
-  if (run.fate == Fate::ran) {
+  if (run.outcome == RunOutcome::ran) {
     one.error = error_of(run.track, reference, scene);
     one.energy = energy_balance(run.track, scene);
   }
-  if (run.fate != Fate::outside_model)
+  if (run.outcome != RunOutcome::outside_model)
     one.cpu_us_per_s = cpu_us_per_s(simulator, scene, rate_hz, quick ? 0 : 0.01);
   return one;
 }
@@ -76,21 +76,24 @@ Measurements measure(const StudyOptions& options) {
 }
 
 void write_tables(const StudyOptions& options, const Measurements& measurements) {
-  CsvFile csv(options, "work_precision.csv",
-              "simulator,rate_hz,scene,scene_class,unique_if_rigid,fate,clone_rms_mm,clone_max_mm,"
-              "clone_turn_rms_deg,cubes_rms_mm,lag_error_g,cpu_us_per_simulated_s,unsettled_per_s,"
-              "hits_per_s,hand_work_mj,energy_left_mj");
+  CsvFile csv(
+      options, "work_precision.csv",
+      "simulator,rate_hz,scene,scene_class,unique_if_rigid,outcome,clone_rms_mm,clone_max_mm,"
+      "clone_turn_rms_deg,cubes_rms_mm,lag_error_g,cpu_us_per_simulated_s,not_converged_per_s,"
+      "hits_per_s,hand_work_mj,energy_left_mj");
   for (const Measurement& one : measurements.all) {
-    const auto known = [&](double value) { return one.fate == Fate::ran ? value : nothing; };
+    const auto known = [&](double value) {
+      return one.outcome == RunOutcome::ran ? value : nothing;
+    };
     const auto per_s = [&](long SolveCounts::*n) {
       return one.counts ? known(static_cast<double>(*one.counts.*n) / one.scene.duration_s())
                         : nothing;
     };
     csv.row(one.simulator, one.rate_hz, one.scene.name, name_of(one.scene.kind),
-            one.scene.unique_if_rigid() ? "yes" : "no", name_of(one.fate),
+            one.scene.unique_if_rigid() ? "yes" : "no", name_of(one.outcome),
             known(one.error.clone_rms_mm), known(one.error.clone_max_mm),
             known(one.error.clone_turn_rms_deg), known(one.error.cubes_rms_mm),
-            known(one.error.lag_error_g), one.cpu_us_per_s, per_s(&SolveCounts::unsettled),
+            known(one.error.lag_error_g), one.cpu_us_per_s, per_s(&SolveCounts::not_converged),
             per_s(&SolveCounts::hits), one.energy ? 1e3 * one.energy->hand_work_j : nothing,
             one.energy ? 1e3 * one.energy->left_j() : nothing);
   }

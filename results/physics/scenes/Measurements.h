@@ -34,7 +34,7 @@ struct Measurement {
   std::string simulator;
   int rate_hz = 0;
   BenchScene scene;
-  Fate fate = Fate::ran;
+  RunOutcome outcome = RunOutcome::ran;
   std::string why;
   TrackError error;
   double cpu_us_per_s = 0;            ///< of one core, per simulated second

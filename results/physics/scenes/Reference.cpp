@@ -41,7 +41,7 @@ SceneTrack free_return(const BenchScene& scene) {
 SceneTrack converged(std::unique_ptr<DecouplingSimulator> simulator, const BenchScene& scene,
                      int rate_hz) {
   SceneRun run = run_scene(std::move(simulator), scene, rate_hz, reference_rate_hz);
-  if (run.fate != Fate::ran)
+  if (run.outcome != RunOutcome::ran)
     throw Error(
         fmt::format("no reference for the scene {} at {} Hz: {}", scene.name, rate_hz, run.why));
   return std::move(run.track);

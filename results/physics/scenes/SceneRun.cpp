@@ -66,10 +66,10 @@ SceneRun run_scene(std::unique_ptr<DecouplingSimulator> simulator, const BenchSc
       run.counts = drive.counts();
     }
   } catch (const OutsideModel& error) {
-    run.fate = Fate::outside_model;
+    run.outcome = RunOutcome::outside_model;
     run.why = error.what();
   } catch (const Error& error) {
-    run.fate = Fate::blew_up;
+    run.outcome = RunOutcome::blew_up;
     run.why = error.what();
   }
   return run;

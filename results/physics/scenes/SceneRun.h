@@ -26,19 +26,19 @@ struct SceneTrack {
   std::vector<WorldState> states;
 };
 
-enum class Fate {
+enum class RunOutcome {
   ran,
   outside_model,  ///< the simulator cannot represent this scene and said so
   blew_up
 };
 
 template <>
-struct EnumNames<Fate> {
+struct EnumNames<RunOutcome> {
   static constexpr std::array<std::string_view, 3> names{"ran", "outside_model", "blew_up"};
 };
 
 struct SceneRun {
-  Fate fate = Fate::ran;
+  RunOutcome outcome = RunOutcome::ran;
   std::string why;   ///< in the simulator's words, unless it ran
   SceneTrack track;  ///< until then
   std::optional<SolveCounts> counts;

@@ -72,7 +72,7 @@ std::string why_censored(const EstimateRow& row, Censored censored) {
   if (censored == Censored::below) return "at the floor";
   if (row.method != jnd_method) return censored == Censored::unsettled ? "indeterminate" : "";
   if (row.n_reversals < least_reversals) return fmt::format("{} reversals", row.n_reversals);
-  if (row.reason == Finish::trials) return "trial limit";
+  if (row.reason == StopReason::trials) return "trial limit";
   return censored == Censored::unsettled ? "at both bounds" : "";
 }
 
@@ -166,7 +166,7 @@ void add_staircase(ReferenceJnd& jnd, const StaircaseResult& result) {
   jnd.mean_trials += (result.n_trials - jnd.mean_trials) / jnd.n_staircases;
   jnd.least_trials = std::min(jnd.least_trials, result.n_trials);
   jnd.most_trials = std::max(jnd.most_trials, result.n_trials);
-  jnd.n_trial_limit += result.reason == Finish::trials ? 1 : 0;
+  jnd.n_trial_limit += result.reason == StopReason::trials ? 1 : 0;
   jnd.n_floor += result.n_floor;
   jnd.n_ceiling += result.n_ceiling;
   jnd.n_floor_staircases += result.n_floor > 0 ? 1 : 0;

@@ -39,7 +39,7 @@ struct StaircaseResult {
   std::optional<double> low_g, high_g;  ///< its interval; none: the method gives none
   int n_trials = 0, n_reversals = 0;
   int n_floor = 0, n_ceiling = 0;  ///< moves that a bound cut short
-  Finish reason = Finish::reversals;
+  StopReason reason = StopReason::reversals;
   /// above, below: the JND is known to lie beyond `shown_g` only. unsettled: not even that.
   Censored censored = Censored::none;
   std::string why{};  ///< "at the ceiling", "trial limit", "3 reversals"...; empty: it settled

@@ -54,7 +54,7 @@ void PictureTracker::reset() {
   tracker_.reset();
   filter_.reset();
   camera_from_board_.reset();
-  look_anew();
+  look_again();
 }
 
 Picture PictureTracker::track(std::shared_ptr<const Image> image, double t_s) {
@@ -86,13 +86,13 @@ CameraPictures::CameraPictures(OpenCamera open, const PictureParts& parts)
 void CameraPictures::begin_attempt(const AttemptStart& attempt) {
   attempt_start_s_ = attempt.start_s;
   attempt_capture_s_ = last_capture_s_;
-  listen_anew();  // nobody listened between attempts
+  listen_again();  // nobody listened between attempts
 }
 
-void CameraPictures::listen_anew() {
+void CameraPictures::listen_again() {
   heard_s_ = clock_.now_s();
   last_number_.reset();
-  tracker_.look_anew();
+  tracker_.look_again();
 }
 
 std::optional<double> CameraPictures::rate_hz() const {
@@ -156,9 +156,9 @@ void SyntheticPictures::begin_attempt(const AttemptStart& attempt) {
   tracker_.reset();
 }
 
-void SyntheticPictures::listen_anew() {
+void SyntheticPictures::listen_again() {
   count_.skipped();
-  tracker_.look_anew();
+  tracker_.look_again();
 }
 
 std::optional<Picture> SyntheticPictures::next() {

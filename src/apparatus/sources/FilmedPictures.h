@@ -26,7 +26,7 @@ class PictureTracker {
   Picture track(std::shared_ptr<const Image> image, double t_s);
 
   /// How long the board is out of view is counted from the next picture on.
-  void look_anew() { board_seen_s_.reset(); }
+  void look_again() { board_seen_s_.reset(); }
 
   /// What comes next is no continuation.
   void reset();
@@ -50,7 +50,7 @@ class CameraPictures final : public PictureSource {
 
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
-  void listen_anew() override;
+  void listen_again() override;
   std::optional<double> rate_hz() const override;
   std::vector<CheckResult> check(double wanted_rate_hz) override;
   bool has_checks() const override { return true; }
@@ -81,7 +81,7 @@ class SyntheticPictures final : public PictureSource {
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { count_.skip_to(t_s); }
-  void listen_anew() override;
+  void listen_again() override;
   std::vector<CheckResult> check(double wanted_rate_hz) override;
   bool has_checks() const override { return true; }
 

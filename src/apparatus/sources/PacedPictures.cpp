@@ -18,8 +18,8 @@ void PacedPictures::begin_attempt(const AttemptStart& attempt) {
   jumped_ = false;
 }
 
-void PacedPictures::listen_anew() {
-  source_->listen_anew();
+void PacedPictures::listen_again() {
+  source_->listen_again();
   due_s_.reset();
   n_lost_ = 0;
 }

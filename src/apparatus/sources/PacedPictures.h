@@ -18,7 +18,7 @@ class PacedPictures final : public PictureSource {
   /// As the source's. Dropped are only pictures that would have been shown.
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { source_->skip_to(t_s); }
-  void listen_anew() override;
+  void listen_again() override;
   std::vector<CheckResult> check(double wanted_rate_hz) override {
     return source_->check(wanted_rate_hz);
   }

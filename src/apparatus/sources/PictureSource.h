@@ -54,7 +54,7 @@ class PictureSource {
 
   /// What came until now was not listened to: the session was held, or a break taken. Nothing of it
   /// is dropped, and a camera or board that is missing now is missing since now.
-  virtual void listen_anew() {}
+  virtual void listen_again() {}
 
   /// Pictures a second that come by themselves, as the source tells; none: as many as are shown.
   virtual std::optional<double> rate_hz() const { return std::nullopt; }
@@ -144,7 +144,7 @@ class HandPictures final : public PictureSource {
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { count_.skip_to(t_s); }
-  void listen_anew() override { count_.skipped(); }
+  void listen_again() override { count_.skipped(); }
 
  private:
   Responder& responder_;

@@ -31,14 +31,14 @@ inline RobustResidual huber(double deviations) {
 template <int size>
 struct NormalEquations {
   Eigen::Matrix<double, size, size> matrix;
-  Eigen::Matrix<double, size, 1> pull;
+  Eigen::Matrix<double, size, 1> rhs;
   double cost = 0;         ///< in variances
   double sum_squares = 0;  ///< of residuals, in their own unit
   int n = 0;               ///< residuals
 
   explicit NormalEquations(Eigen::Index n_unknowns = size)
       : matrix(decltype(matrix)::Zero(n_unknowns, n_unknowns)),
-        pull(decltype(pull)::Zero(n_unknowns)) {}
+        rhs(decltype(rhs)::Zero(n_unknowns)) {}
 
   double rms() const { return std::sqrt(sum_squares / std::max(1, n)); }
 
@@ -46,7 +46,7 @@ struct NormalEquations {
   void add_prior(Eigen::Index unknown, double off, double sd) {
     const double deviations = off / sd;
     matrix(unknown, unknown) += 1 / (sd * sd);
-    pull(unknown) -= deviations / sd;
+    rhs(unknown) -= deviations / sd;
     cost += deviations * deviations;
   }
 };
@@ -65,7 +65,7 @@ auto levenberg_marquardt(Unknowns& at, int most_steps, double settled,
   for (int i = 0; i < most_steps && damping < most_damping; ++i) {
     auto damped = equations.matrix;
     damped.diagonal() *= 1 + damping;
-    Unknowns there = moved(at, damped.ldlt().solve(equations.pull).eval());
+    Unknowns there = moved(at, damped.ldlt().solve(equations.rhs).eval());
     auto next = equations_at(there);
     if (!(next.cost <= equations.cost)) {
       damping *= 10;

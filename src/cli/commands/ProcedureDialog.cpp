@@ -64,7 +64,7 @@ std::string json_number(const std::optional<double>& number) {
 }
 
 // By the first of its methods.
-std::string finished_event(const Procedure& staircase, Finish reason) {
+std::string finished_event(const Procedure& staircase, StopReason reason) {
   const Estimate estimate = staircase.estimates().front();
   return fmt::format(
       R"({{"event":"finished","staircase":{},"reason":{},"estimate":{},"low":{},"high":{},)"

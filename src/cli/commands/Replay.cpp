@@ -199,7 +199,7 @@ std::string as_grams(double lag_m, const std::optional<double>& g_per_m) {
 }
 
 // Of each push its largest lag, mean over pushes; of each pushed cube its path, mean over cubes.
-void print_noticed(const std::vector<PathDifference>& differences) {
+void print_visible_cues(const std::vector<PathDifference>& differences) {
   print(
       "  what a participant would notice, logged > as it would be: of a push the clone's largest "
       "lag along it\n  (mean, largest, and as grams where lag tells mass), of a pushed cube its "
@@ -261,8 +261,8 @@ Supposed supposed(const LoggedSession& session, const ReplayOptions& options) {
 }
 
 // The responder's own hand, without camera or view.
-OtherResponder run_anew(const LogReader& reader, const LoggedSession& session,
-                        const WhoAnswers& responder, const Supposed& supposed) {
+OtherResponder run_again(const LogReader& reader, const LoggedSession& session,
+                         const WhoAnswers& responder, const Supposed& supposed) {
   SessionOptions given;
   given.responder = responder;
   given.tracker = Plug{"hand"};
@@ -286,29 +286,29 @@ void ask_what_if(const LogReader& reader, const ReplayOptions& options) {
     const Supposed would_be = supposed(session, options);
     print("session {}, participant {}:\n", session_id, session.row.header.participant);
     if (options.rerun) {
-      print_responder(run_anew(reader, session, *options.responder, would_be));
+      print_responder(run_again(reader, session, *options.responder, would_be));
       continue;
     }
     const auto differences = compare_paths(reader, session, would_be.protocol);
     print_paths(differences);
-    print_noticed(differences);
+    print_visible_cues(differences);
   }
 }
 
 void judge(const LogReader& reader, const ReplayOptions& options) {
-  std::vector<JudgedSession> judged;
+  std::vector<AnsweredSession> judged;
   for (const std::int64_t session_id : chosen_sessions(reader, options)) {
     ProgressBar bar(fmt::format("session {}", session_id));
     const double start_s = monotonic_s();
     const LoggedSession session = load_session(reader, options.db, session_id);
-    Judgments judgments = judge_session(reader, session, *options.responder, [&](double done) {
-      bar.update(done, fmt::format("{:.0f} %", 100 * done));
-    });
+    OfflineAnswers judgments =
+        answer_session(reader, session, *options.responder,
+                       [&](double done) { bar.update(done, fmt::format("{:.0f} %", 100 * done)); });
     judged.push_back({session_id, session.row.header.participant, to_text(*options.responder),
                       std::move(judgments), monotonic_s() - start_s});
   }
   if (options.json) return fmt::print("{}", as_json(judged));
-  for (const JudgedSession& session : judged) print_judged(session);
+  for (const AnsweredSession& session : judged) print_offline_responder(session);
 }
 
 // The words are the log's, where it keeps any.

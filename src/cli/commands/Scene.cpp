@@ -97,7 +97,7 @@ void explain_solves(const SceneOptions& options, const Drive& drive) {
   const std::optional<SolveCounts> counts = drive.counts();
   if (options.explain && counts)
     say("heft: {} hits; {} solves ended before velocities had settled\n", counts->hits,
-        counts->unsettled);
+        counts->not_converged);
 }
 
 // Climbs the ladder until a simulator models all of the path; only its rows are shown.

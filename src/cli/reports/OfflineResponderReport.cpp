@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 constexpr double z_95 = 1.959964;  // standard errors in a 95 % interval
 
-double times_real_time(const JudgedSession& session) {
+double times_real_time(const AnsweredSession& session) {
   return session.judgments.shown_s / std::max(session.took_s, 1e-9);
 }
 
@@ -104,8 +104,8 @@ ordered_json object_of(const Agreement& group) {
   return object;
 }
 
-ordered_json object_of(const JudgedSession& session) {
-  const Judgments& judgments = session.judgments;
+ordered_json object_of(const AnsweredSession& session) {
+  const OfflineAnswers& judgments = session.judgments;
   ordered_json groups = ordered_json::array();
   int n_agree = 0;
   for (const Agreement& group : agreements(judgments.trials)) {
@@ -124,8 +124,8 @@ ordered_json object_of(const JudgedSession& session) {
 }
 }  // namespace
 
-void print_judged(const JudgedSession& session) {
-  const Judgments& judgments = session.judgments;
+void print_offline_responder(const AnsweredSession& session) {
+  const OfflineAnswers& judgments = session.judgments;
   print("session {}, participant {}, as {} judges what was shown:\n", session.session_id,
         session.participant, session.responder);
   for (const Agreement& group : agreements(judgments.trials)) print_agreement(group);
@@ -143,9 +143,9 @@ void print_judged(const JudgedSession& session) {
       judgments.trials.size(), times_real_time(session));
 }
 
-std::string as_json(const std::vector<JudgedSession>& sessions) {
+std::string as_json(const std::vector<AnsweredSession>& sessions) {
   ordered_json all = ordered_json::array();
-  for (const JudgedSession& session : sessions) all.push_back(object_of(session));
+  for (const AnsweredSession& session : sessions) all.push_back(object_of(session));
   return ordered_json{{"sessions", all}}.dump(2, ' ', false,
                                               ordered_json::error_handler_t::replace) +
          "\n";

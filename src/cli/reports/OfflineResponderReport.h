@@ -9,17 +9,17 @@
 
 namespace heft::cli {
 
-struct JudgedSession {
+struct AnsweredSession {
   std::int64_t session_id = 0;
   std::string participant, responder;
-  Judgments judgments;
+  OfflineAnswers judgments;
   double took_s = 0;  ///< wall time that the judging took
 };
 
-void print_judged(const JudgedSession& session);
+void print_offline_responder(const AnsweredSession& session);
 
 /// Agreement's intervals: exact (Clopper and Pearson), 95 %. Those of d' and criterion: 1.96
 /// standard errors. What does not exist is null.
-std::string as_json(const std::vector<JudgedSession>& sessions);
+std::string as_json(const std::vector<AnsweredSession>& sessions);
 
 }  // namespace heft::cli

@@ -241,7 +241,7 @@ void BoxWorld::relax() {
     for (Body& body : bodies_) body.step.ahead = body.step.free;
     change_m_s = sweeps(false);
   }
-  if (change_m_s > settled_m_s) ++counts_.unsettled;
+  if (change_m_s > settled_m_s) ++counts_.not_converged;
   if (change_m_s > squeezed_m_s) forget_impulses();
 }
 

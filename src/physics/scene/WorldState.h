@@ -31,8 +31,9 @@ struct WorldState {
 std::string state_hash(const WorldState& state);
 
 struct SolveCounts {
-  long unsettled = 0;  ///< times that velocities were taken before the solver had settled on them
-  long hits = 0;       ///< of bodies: closed in at once, without duration
+  long not_converged =
+      0;          ///< times that velocities were taken before the solver had settled on them
+  long hits = 0;  ///< of bodies: closed in at once, without duration
 };
 
 }  // namespace heft

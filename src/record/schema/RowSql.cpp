@@ -32,7 +32,7 @@ std::vector<std::string_view> columns_in(std::string_view list) {
 
 std::span<const ClosedList> closed_lists() {
   static const std::array lists{list<TrialStatus>(), list<EventKind>(), list<SessionState>(),
-                                list<Finish>(),      list<Censored>(),  list<Purpose>()};
+                                list<StopReason>(),  list<Censored>(),  list<Purpose>()};
   return lists;
 }
 

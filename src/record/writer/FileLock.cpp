@@ -116,7 +116,7 @@ bool FileLock::has_name() const {
   return ::fstat(descriptor_, &mine) != 0 || mine.st_nlink > 0;
 }
 
-std::string FileLock::misfortune() const {
+std::string FileLock::displacement() const {
   struct stat mine {
   }, there{}, named{};
   if (::fstat(descriptor_, &mine) != 0)

@@ -21,7 +21,7 @@ class FileLock {
 
   /// What has happened to the file since: "was moved to /lab/old.db". Empty while it still lies
   /// under its name, and under no other.
-  std::string misfortune() const;
+  std::string displacement() const;
 
   /// Whether the file still lies somewhere.
   bool has_name() const;

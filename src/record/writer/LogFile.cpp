@@ -66,12 +66,12 @@ LogFile::LogFile(const std::string& path)
       file_(resolved_path(path)),
       database_(opened(path, file_)) {
   try {
-    refuse_misfortune();
+    refuse_if_displaced();
     holds_log(*database_, path_);
     prepare();
     if (schema::kind_of(*database_) == schema::FileKind::older_log) bring_up_to_date();
   } catch (const SQLite::Exception& error) {
-    refuse_misfortune();
+    refuse_if_displaced();
     if (error.getErrorCode() == SQLITE_NOTADB) refuse_foreign_file(path_);
     const SqliteFailure failure = explained(error, database_.get());
     throw Error(fmt::format("can't write to {}: {}. {}.", path_, failure.reason, failure.advice));
@@ -81,8 +81,8 @@ LogFile::LogFile(const std::string& path)
 LogFile::LogFile(LogFile&&) noexcept = default;
 LogFile::~LogFile() = default;
 
-void LogFile::refuse_misfortune() const {
-  const std::string why = misfortune();
+void LogFile::refuse_if_displaced() const {
+  const std::string why = displacement();
   if (why.empty()) return;
   throw Error(
       fmt::format("can't write to {}: it {}. Put it in its place and give it no other name, or "
@@ -122,8 +122,8 @@ void LogFile::bring_up_to_date() {
   database_->exec("PRAGMA foreign_keys = ON");
 }
 
-std::string LogFile::misfortune() const {
-  if (const std::string happened = lock_.misfortune(); !happened.empty()) return happened;
+std::string LogFile::displacement() const {
+  if (const std::string happened = lock_.displacement(); !happened.empty()) return happened;
   int has_moved = 0;
   sqlite3_file_control(database_->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
   if (has_moved != 0) return "was replaced by another file";
@@ -134,7 +134,7 @@ std::string LogFile::misfortune() const {
 
 void LogFile::check_in_place() {
   if (displaced_) throw DisplacedLog(*displaced_);
-  const std::string happened = misfortune();
+  const std::string happened = displacement();
   if (happened.empty()) return;
   const bool is_linked = happened.starts_with("was given");
   std::string saved = "All that was saved is in that file";

@@ -47,10 +47,10 @@ class LogFile {
   void check_in_place();
 
  private:
-  void refuse_misfortune() const;
+  void refuse_if_displaced() const;
   void prepare();
   void bring_up_to_date();
-  std::string misfortune() const;
+  std::string displacement() const;
   bool is_gathered();
   std::string rescued() const;
 

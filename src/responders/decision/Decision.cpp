@@ -49,7 +49,7 @@ bool Decision::differ(std::span<const double> remembered_mm) const {
          parameters_.criterion_mm + parameters_.criterion_fraction * std::max(0.0, largest);
 }
 
-Answer blind_answer(const TrialView& trial, const Unseen& unseen, RandomStream& stream) {
+Answer blind_answer(const TrialView& trial, const WithoutPercepts& unseen, RandomStream& stream) {
   Answer answer;
   Tasks::call(trial.task, [&]<typename Kind>() {
     answer = Kind::blind(offer_of<Kind>(trial.offer), unseen, stream);

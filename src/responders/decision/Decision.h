@@ -31,6 +31,6 @@ class Decision {
 };
 
 /// What a mind that does not look says to a trial of any task.
-Answer blind_answer(const TrialView& trial, const Unseen& unseen, RandomStream& stream);
+Answer blind_answer(const TrialView& trial, const WithoutPercepts& unseen, RandomStream& stream);
 
 }  // namespace heft

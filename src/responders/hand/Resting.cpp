@@ -18,17 +18,18 @@ constexpr double tap_interval_s = 0.7;
 
 /// Gives the answer to a trial.
 /// @param wrong_slots chosen wrongly so far, oldest first, where the task asks again
-using Mind = std::function<Answer(std::span<const int> wrong_slots)>;
+using DecisionModel = std::function<Answer(std::span<const int> wrong_slots)>;
 /// Makes the mind for one trial.
-using MakeMind = std::function<Mind(const TrialView& trial)>;
+using MakeDecisionModel = std::function<DecisionModel(const TrialView& trial)>;
 
 class Resting : public Responder {
  public:
-  Resting(std::uint64_t seed, MakeMind make_mind) : seed_(seed), make_mind_(std::move(make_mind)) {}
+  Resting(std::uint64_t seed, MakeDecisionModel make_model)
+      : seed_(seed), make_model_(std::move(make_model)) {}
 
   void begin_trial(const TrialView& trial) override {
     rest_ = resting_pose(trial.stage, hover_m);
-    mind_ = make_mind_(trial);
+    model_ = make_model_(trial);
     answering_.emplace(seed_, trial, tap_interval_s);
     delays_ = trial_stream(seed_, "delay", trial);
   }
@@ -38,7 +39,7 @@ class Resting : public Responder {
   std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {
     const bool to_answer = answering_->free() && answering_->cubes_seen();
     if (to_answer && screen.screen == Screen::trial)
-      answering_->give(mind_(answering_->wrong_slots()), frame.t_s + 1 + delays_->uniform());
+      answering_->give(model_(answering_->wrong_slots()), frame.t_s + 1 + delays_->uniform());
     return answering_->see(frame, screen);
   }
 
@@ -46,7 +47,7 @@ class Resting : public Responder {
 
   std::optional<Answer> judge(const TrialView& trial,
                               std::span<const DisplayedFrame>) const override {
-    return make_mind_(trial)({});
+    return make_model_(trial)({});
   }
 
   std::optional<std::string> answer(const FormQuestion& question,
@@ -56,16 +57,16 @@ class Resting : public Responder {
 
  private:
   std::uint64_t seed_;
-  MakeMind make_mind_;
+  MakeDecisionModel make_model_;
   Pose rest_;
-  Mind mind_;
+  DecisionModel model_;
   std::optional<Answering> answering_;
   std::optional<RandomStream> delays_;
 };
 
 // Finds a difference with a probability, whatever there is.
 std::unique_ptr<Responder> make_blind(std::uint64_t seed, double p_different) {
-  return std::make_unique<Resting>(seed, [=](const TrialView& trial) -> Mind {
+  return std::make_unique<Resting>(seed, [=](const TrialView& trial) -> DecisionModel {
     RandomStream stream = trial_stream(seed, "blind answer", trial);
     return [trial, p_different, stream](std::span<const int> wrong_slots) mutable {
       const bool differ = stream.coin(p_different);
@@ -90,7 +91,7 @@ std::unique_ptr<Responder> make_coin(const ResponderOptions& options) {
 std::unique_ptr<Responder> make_criterion_only(const ResponderOptions& options) {
   const auto parameters = participant_parameters(options, criterion_only_parts);
   return std::make_unique<Resting>(
-      options.seed, [seed = options.seed, parameters](const TrialView& trial) -> Mind {
+      options.seed, [seed = options.seed, parameters](const TrialView& trial) -> DecisionModel {
         const std::vector<double> nothing(trial.stage.slots_m.size(), 0.0);
         return [decision = Decision(parameters, seed, trial),
                 nothing](std::span<const int> wrong_slots) mutable {

@@ -72,29 +72,29 @@ PrintShape shape_of_print(const std::vector<FittedView>& views, const cv::Mat& m
                           const cv::Mat& distortion) {
   const auto n = views_at + n_of_view * static_cast<Eigen::Index>(views.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd pull = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(n);
   double squares = 0, n_residuals = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     const Linear linear = linear_at(views[v], matrix, distortion);
     Eigen::MatrixXd by(linear.residuals.size(), views_at + n_of_view);
     by << linear.by_camera, linear.by_shape, linear.by_view;
     const Eigen::MatrixXd products = by.transpose() * by;
-    const Eigen::VectorXd pulls = by.transpose() * linear.residuals;
+    const Eigen::VectorXd view_rhs = by.transpose() * linear.residuals;
     const Eigen::Index at = views_at + n_of_view * static_cast<Eigen::Index>(v);
     normal.topLeftCorner<views_at, views_at>() += products.topLeftCorner<views_at, views_at>();
     normal.block(0, at, views_at, n_of_view) = products.topRightCorner(views_at, n_of_view);
     normal.block(at, 0, n_of_view, views_at) = products.bottomLeftCorner(n_of_view, views_at);
     normal.block(at, at, n_of_view, n_of_view) = products.bottomRightCorner(n_of_view, n_of_view);
-    pull.head<views_at>() += pulls.head<views_at>();
-    pull.segment(at, n_of_view) = pulls.tail(n_of_view);
+    rhs.head<views_at>() += view_rhs.head<views_at>();
+    rhs.segment(at, n_of_view) = view_rhs.tail(n_of_view);
     squares += linear.residuals.squaredNorm();
     n_residuals += static_cast<double>(linear.residuals.size());
   }
   // Focal lengths and distortion differ by orders of magnitude.
   const Eigen::VectorXd scale = normal.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> solver(scale.asDiagonal() * normal * scale.asDiagonal());
-  const Eigen::VectorXd step = scale.cwiseProduct(solver.solve(scale.cwiseProduct(pull)));
-  const double left = std::max(0.0, squares - step.dot(pull));
+  const Eigen::VectorXd step = scale.cwiseProduct(solver.solve(scale.cwiseProduct(rhs)));
+  const double left = std::max(0.0, squares - step.dot(rhs));
   const double variance = left / std::max(1.0, n_residuals - static_cast<double>(n));
   const auto sd = [&](Eigen::Index at) {
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n, at) * scale[at];

@@ -30,7 +30,7 @@ struct Placed {
 
 struct Equations {
   Matrix7 matrix = Matrix7::Zero();
-  Vector7 pull = Vector7::Zero();
+  Vector7 rhs = Vector7::Zero();
   double sum_squares_px2 = 0;
   int n = 0;
 };
@@ -50,7 +50,7 @@ void add_corner(Equations& equations, const Placed& at, const Intrinsics& camera
   const double weight =
       huber(residual.norm() / corner_sd_px).weight / (corner_sd_px * corner_sd_px);
   equations.matrix.noalias() += weight * by.transpose() * by;
-  equations.pull.noalias() += weight * by.transpose() * residual;
+  equations.rhs.noalias() += weight * by.transpose() * residual;
   equations.sum_squares_px2 += residual.squaredNorm();
   equations.n += 2;
 }
@@ -80,7 +80,7 @@ std::vector<Placed> placed(const MarkerBody& board, const Intrinsics& camera,
     for (int i = 0; i < 10; ++i) {  // as if all rows were read at once
       const Equations equations = equations_of(all.back(), board, camera, 0);
       move(all.back().pose,
-           equations.matrix.topLeftCorner<6, 6>().ldlt().solve(equations.pull.head<6>()));
+           equations.matrix.topLeftCorner<6, 6>().ldlt().solve(equations.rhs.head<6>()));
     }
   }
   return all;
@@ -104,7 +104,7 @@ ShutterCalibration calibrate_shutter(const MarkerBody& board, const Intrinsics& 
   std::vector<double> speeds_m_s;
   for (int round = 0; round < rounds; ++round) {
     find_velocities(all);
-    double information = 0, pull = 0, sum_px2 = 0;
+    double information = 0, rhs = 0, sum_px2 = 0;
     int n = 0;
     for (Placed& at : all) {
       const Equations equations = equations_of(at, board, camera, result.readout_s);
@@ -112,11 +112,11 @@ ShutterCalibration calibrate_shutter(const MarkerBody& board, const Intrinsics& 
       const Eigen::Matrix<double, 6, 1> mixed = equations.matrix.topRightCorner<6, 1>();
       if (at.velocity) {
         information += equations.matrix(6, 6) - mixed.dot(own.solve(mixed));
-        pull += equations.pull(6) - mixed.dot(own.solve(equations.pull.head<6>()));
+        rhs += equations.rhs(6) - mixed.dot(own.solve(equations.rhs.head<6>()));
         sum_px2 += equations.sum_squares_px2;
         n += equations.n;
       }
-      move(at.pose, own.solve(equations.pull.head<6>()));
+      move(at.pose, own.solve(equations.rhs.head<6>()));
     }
     if (n == 0)
       throw Error(fmt::format(
@@ -125,7 +125,7 @@ ShutterCalibration calibrate_shutter(const MarkerBody& board, const Intrinsics& 
           1e3 * longest_between_s));
     result.rms_px = std::sqrt(sum_px2 / n);
     if (!(information > 0)) continue;
-    result.readout_s += pull / information;
+    result.readout_s += rhs / information;
     result.sd_s = std::max(result.rms_px / corner_sd_px, 1.0) / std::sqrt(information);
   }
   for (const Placed& at : all)

@@ -45,7 +45,7 @@ void add_residual(Equations& equations, double residual_px, const Vector7& by, d
   const RobustResidual robust = huber(std::abs(residual_px) / std::sqrt(variance));
   const double weight = robust.weight / variance;
   add_lower<7>(equations.matrix, weight * by, by);
-  equations.pull -= weight * residual_px * by;
+  equations.rhs -= weight * residual_px * by;
   equations.cost += robust.cost;
   equations.sum_squares += residual_px * residual_px;
   ++equations.n;

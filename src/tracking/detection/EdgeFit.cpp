@@ -159,8 +159,8 @@ class StepFit {
   // @return the longest way an end of the edge moved, pixels
   double step(bool drop_outliers) {
     Matrix6 normal_matrix = prior();
-    Vector6 pull = Vector6::Zero();
-    pull(blur) = normal_matrix(blur, blur) * (guess_.blur_px - unknowns(blur));
+    Vector6 rhs = Vector6::Zero();
+    rhs(blur) = normal_matrix(blur, blur) * (guess_.blur_px - unknowns(blur));
     const double clip = 2.5 * noise, per_variance = 1 / (noise * noise);
     const double far = drop_outliers ? outlier_bound() : 1e9;  // another thing lies over the edge
     double sum = 0;
@@ -175,11 +175,11 @@ class StepFit {
       const double weight = size > clip ? clip / size * per_variance : per_variance;
       const Vector6 weighted = weight * by;
       add_lower(normal_matrix, weighted, by);
-      pull += residual * weighted;
+      rhs += residual * weighted;
     }
     complete_upper(normal_matrix);
     noise = std::max(least_noise, 1.2533 * sum / std::max(1, n));
-    const Vector6 change = normal_matrix.llt().solve(pull);
+    const Vector6 change = normal_matrix.llt().solve(rhs);
     if (!change.allFinite()) return 1e9;
     unknowns += change;
     unknowns(blur) = std::clamp(unknowns(blur), least_blur_px, most_blur_px);
@@ -198,7 +198,7 @@ class StepFit {
     own.diagonal().tail<2>().setConstant(1);
     Eigen::Matrix<double, 8, 3> mixed = Eigen::Matrix<double, 8, 3>::Zero();
     ToneEvidence evidence;
-    Vector8 own_pull = Vector8::Zero();
+    Vector8 own_rhs = Vector8::Zero();
     const double clip = 2.5 * noise, far = outlier_bound();
     for (const Sample& sample : samples_) {
       Vector6 by_six;
@@ -214,16 +214,16 @@ class StepFit {
       Vector8 by;
       by << by_six, step * q * (q2 - 3), step * q * ((q2 - 10) * q2 + 15);
       add_lower<8>(own, weight * by, by);
-      own_pull += weight * residual * by;
+      own_rhs += weight * residual * by;
       mixed.noalias() += weight * by * by_bend.transpose();
       evidence.information.noalias() += weight * by_bend * by_bend.transpose();
-      evidence.pull += weight * residual * by_bend;
+      evidence.rhs += weight * residual * by_bend;
     }
     complete_upper(own);
     const Eigen::LLT<Eigen::Matrix<double, 8, 8>> solver(own);
     const Eigen::Matrix<double, 8, 3> by_bend = -solver.solve(mixed);
     evidence.information += mixed.transpose() * by_bend;
-    evidence.pull += by_bend.transpose() * own_pull;
+    evidence.rhs += by_bend.transpose() * own_rhs;
     evidence.outward = -own.topLeftCorner<6, 6>().llt().solve(mixed.topRows<6>()).row(offset);
     return evidence;
   }

@@ -20,10 +20,10 @@
 namespace heft {
 
 /// What pixels tell about their camera's tone curve, near the one that they were fitted with. The
-/// cost of a change of its bend is change^T information change - 2 pull^T change.
+/// cost of a change of its bend is change^T information change - 2 rhs^T change.
 struct ToneEvidence {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  ToneBend pull = ToneBend::Zero();
+  ToneBend rhs = ToneBend::Zero();
   /// How far the edge that was found moves outwards with the bend, pixels.
   ToneBend outward = ToneBend::Zero();
 };

@@ -26,7 +26,7 @@ void PictureTone::add(const FittedEdge& edge, double outward) {
   if (edge.saturated) ++n_saturated;
   if (edge.tone.information.isZero()) return;
   sum.information += edge.tone.information;
-  sum.pull += edge.tone.pull;
+  sum.rhs += edge.tone.rhs;
   sum.outward += outward * edge.tone.outward;
   ++n_edges;
 }
@@ -39,9 +39,9 @@ bool ToneLearner::learn(const PictureTone& seen, double bias_px, double bias_sd_
   seen_ = shape_weight * seen.sum.information + outward * outward.transpose() / bias_variance;
   Eigen::Matrix3d before = information_;
   before.diagonal() += usual_bend_sd.cwiseAbs2().cwiseInverse();
-  const ToneBend pull = shape_weight * seen.sum.pull - outward * bias_px / bias_variance +
-                        information_ * mean_ - before * at;
-  const ToneBend change = (before + seen_).ldlt().solve(pull);
+  const ToneBend rhs = shape_weight * seen.sum.rhs - outward * bias_px / bias_variance +
+                       information_ * mean_ - before * at;
+  const ToneBend change = (before + seen_).ldlt().solve(rhs);
   if (!change.allFinite()) return false;
   bend_ = (at + change).cwiseMax(-most_bend).cwiseMin(most_bend);
   // Most cameras' curve is sRGB, and what then seems bent is what the model of edges, the print and

@@ -48,14 +48,14 @@ std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera
   };
   for (int round = 0; goes_on(round); ++round) {
     matrix.setZero();
-    TagFit::VectorShared pull = TagFit::VectorShared::Zero();
+    TagFit::VectorShared rhs = TagFit::VectorShared::Zero();
     matrix(6, 6) = 1 / bias_variance;
-    pull(6) = (prior.mean_px - fit.bias_px) / bias_variance;
+    rhs(6) = (prior.mean_px - fit.bias_px) / bias_variance;
     const auto kind = round == 0                 ? TagFit::Round::first
                       : round + 1 == most_rounds ? TagFit::Round::last
                                                  : TagFit::Round::next;
-    for (TagFit& tag : fits) tag.add_to(matrix, pull, fit.camera_from_body, fit.bias_px, kind);
-    const TagFit::VectorShared change = matrix.ldlt().solve(pull);
+    for (TagFit& tag : fits) tag.add_to(matrix, rhs, fit.camera_from_body, fit.bias_px, kind);
+    const TagFit::VectorShared change = matrix.ldlt().solve(rhs);
     if (!change.allFinite() || !(change.head<3>().norm() < 0.2)) return std::nullopt;
     for (TagFit& tag : fits) tag.step(change);
     Pose& pose = fit.camera_from_body;

@@ -78,7 +78,7 @@ void add(Equations& equations, const CornerEquation& corner, const Layout& at, s
   const std::array<Eigen::Index, 3> from{0, 6, 12}, length{6, 6, 1};
   for (std::size_t a = 0; a < 3; ++a) {
     const auto rows = by.middleRows(from[a], length[a]);
-    equations.pull.segment(place[a], length[a]) -= weight * rows * corner.residual;
+    equations.rhs.segment(place[a], length[a]) -= weight * rows * corner.residual;
     for (std::size_t b = 0; b < 3; ++b)
       equations.matrix.block(place[a], place[b], length[a], length[b]) +=
           weight * rows * by.middleRows(from[b], length[b]).transpose();

@@ -155,12 +155,12 @@ void TagFit::leave_out_covered(const Pose& pose) {
   });
 }
 
-void TagFit::add_to(MatrixShared& matrix, VectorShared& pull, const Pose& pose, double bias_px,
+void TagFit::add_to(MatrixShared& matrix, VectorShared& rhs, const Pose& pose, double bias_px,
                     Round round) {
   MatrixAll all = MatrixAll::Zero();
-  VectorAll all_pull = VectorAll::Zero();
+  VectorAll all_rhs = VectorAll::Zero();
   all.diagonal().tail<n_own>() = certainty;
-  all_pull.tail<n_own>() = -certainty.cwiseProduct(model_.own());
+  all_rhs.tail<n_own>() = -certainty.cwiseProduct(model_.own());
   const TagPlane plane = model_.plane(pose);
   const double clip = 2.5 * noise_;
   const double share = round == Round::last ? last_far_share : far_share;
@@ -176,24 +176,24 @@ void TagFit::add_to(MatrixShared& matrix, VectorShared& pull, const Pose& pose, 
     ++n;
     const double weight = (size > clip ? clip / size : 1) / (noise_ * noise_);
     add_lower<n_all>(all, weight * by, by);
-    all_pull += weight * residual * by;
+    all_rhs += weight * residual * by;
   }
   complete_upper(all);
   noise_ = std::max(least_noise, 1.2533 * sum / std::max(1, n));
   used_ = n;
-  reflects_ = reflects_ || (round != Round::first && gained(all, all_pull) > least_gain);
+  reflects_ = reflects_ || (round != Round::first && gained(all, all_rhs) > least_gain);
   if (!reflects_) all.diagonal().tail<n_reflected>().array() += 1e12;
   const auto own_part = all.bottomRightCorner<n_own, n_own>();
   const Eigen::LDLT<Eigen::Matrix<double, n_own, n_own>> solver(own_part);
   own_by_shared_ = solver.solve(all.bottomLeftCorner<n_own, n_shared>());
-  own_step_ = solver.solve(all_pull.tail<n_own>());
+  own_step_ = solver.solve(all_rhs.tail<n_own>());
   matrix += all.topLeftCorner<n_shared, n_shared>() -
             all.topRightCorner<n_shared, n_own>() * own_by_shared_;
-  pull += all_pull.head<n_shared>() - all.topRightCorner<n_shared, n_own>() * own_step_;
+  rhs += all_rhs.head<n_shared>() - all.topRightCorner<n_shared, n_own>() * own_step_;
 }
 
 // By how many variances reflected light would explain the pixels better.
-double TagFit::gained(const MatrixAll& all, const VectorAll& pull) {
+double TagFit::gained(const MatrixAll& all, const VectorAll& rhs) {
   constexpr int n_rest = n_all - n_reflected;
   const auto across = all.bottomLeftCorner<n_reflected, n_rest>();
   const Eigen::LDLT<Eigen::Matrix<double, n_rest, n_rest>> rest(
@@ -201,7 +201,7 @@ double TagFit::gained(const MatrixAll& all, const VectorAll& pull) {
   const Eigen::Matrix<double, n_reflected, n_reflected> left =
       all.bottomRightCorner<n_reflected, n_reflected>() - across * rest.solve(across.transpose());
   const Eigen::Matrix<double, n_reflected, 1> pull_left =
-      pull.tail<n_reflected>() - across * rest.solve(pull.head<n_rest>());
+      rhs.tail<n_reflected>() - across * rest.solve(rhs.head<n_rest>());
   return pull_left.dot(left.ldlt().solve(pull_left));
 }
 

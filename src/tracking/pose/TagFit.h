@@ -30,7 +30,7 @@ class TagFit {
   bool usable() const { return pixels_.size() > 100; }
 
   /// Adds what the pixels say about what tags share, the tag's own unknowns taken out.
-  void add_to(MatrixShared& matrix, VectorShared& pull, const Pose& pose, double bias_px,
+  void add_to(MatrixShared& matrix, VectorShared& rhs, const Pose& pose, double bias_px,
               Round round);
 
   /// The tag's own unknowns follow what tags share.
@@ -52,7 +52,7 @@ class TagFit {
                const std::optional<RowsHeld>& rows);
   void leave_out_covered(const Pose& pose);
   double far_off(double share) const;
-  static double gained(const MatrixAll& all, const VectorAll& pull);
+  static double gained(const MatrixAll& all, const VectorAll& rhs);
 
   TagModel model_;
   const TagObservation& seen_;

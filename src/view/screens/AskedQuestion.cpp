@@ -127,7 +127,7 @@ void AskedQuestion::add_slider(const Rect& room) {
   Control& scale =
       builder.add_button(question.key + "_scale", {room.x, y, room.width, m.target}, "",
                          Slide{builder.entry_key(question.key), leftward, in_trial});
-  scale.slide = Slid{std::nullopt};
+  scale.slide = SliderValue{std::nullopt};
   if (given.empty()) return;
   const int value = std::clamp(std::atoi(given.c_str()), 0, 100);
   scale.slide->fraction = static_cast<float>(leftward ? 100 - value : value) / 100;

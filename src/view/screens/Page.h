@@ -57,7 +57,7 @@ using Effect = std::variant<Touch, SelectCube, TurnPart, Slide, Typed>;
 enum class Look { plain, primary };
 
 /// How far from its left end a slider is set; none: not yet.
-struct Slid {
+struct SliderValue {
   std::optional<float> fraction;
 };
 
@@ -70,9 +70,9 @@ struct Control {
   char key = 0;  ///< the keyboard's equivalent (see WindowView.h); 0: none
   Look look = Look::plain;
   bool enabled = true;
-  bool chosen = false;                ///< drawn as switched on
-  std::optional<Slid> slide = {};     ///< drawn as a slider
-  std::optional<Touch> entered = {};  ///< what was typed, which the session must know first
+  bool chosen = false;                    ///< drawn as switched on
+  std::optional<SliderValue> slide = {};  ///< drawn as a slider
+  std::optional<Touch> entered = {};      ///< what was typed, which the session must know first
 };
 
 enum class Tone { strong, soft };
