@@ -13,6 +13,7 @@
 #include "protocol/Protocol.h"
 #include "protocol/toml/TomlDocument.h"
 #include "psychophysics/ProcedureKinds.h"
+#include "tasks/Comparison.h"
 
 namespace heft {
 
