@@ -43,7 +43,7 @@ class UnhandledEvent(unittest.TestCase):
         self.assertEqual(self.compiled("engine/Engine.cpp", self.lamp("recorded")), (0, ""))
 
     def test_a_field_without_columns_does_not(self):
-        code, messages = self.compiled("record/EventRow.cpp", self.lamp("recorded"))
+        code, messages = self.compiled("record/schema/EventRow.cpp", self.lamp("recorded"))
         self.assertNotEqual(code, 0)
         self.assertIn("event_columns", messages)
 
