@@ -7,6 +7,7 @@
 
 #include "Figures.h"
 #include "MadeUpSessions.h"
+#include "SourceFolder.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "record/writer/SessionLog.h"
@@ -108,7 +109,7 @@ TEST_F(LogFile, SeveralPurposesAreRefused) {
 }
 
 TEST_F(LogFile, IsReadBack) {
-  write_session("P01", Purpose::main, read_text_file(HEFT_SOURCE_DIR "/protocols/sorting.toml"));
+  write_session("P01", Purpose::main, read_text_file(source_folder() + "/protocols/sorting.toml"));
   const Summary summary = analyze({{path()}, {}, false, ""});
   EXPECT_EQ(summary.sessions.size(), 1);
   EXPECT_EQ(summary.data, "human");
@@ -144,7 +145,7 @@ TEST_F(LogFile, PeopleNamedAlikeInTwoLogsAreTwo) {
 
 // A figure of those who count is made of the log read again.
 TEST_F(LogFile, WhoIsLeftOutIsInNoFigure) {
-  const std::string protocol = read_text_file(HEFT_SOURCE_DIR "/protocols/sorting.toml");
+  const std::string protocol = read_text_file(source_folder() + "/protocols/sorting.toml");
   write_session("touched nothing, left out", Purpose::main,
                 protocol + "\n[exclusion]\nimpossible_answers = 0.5\n");
   write_session("touched nothing", Purpose::main, protocol);

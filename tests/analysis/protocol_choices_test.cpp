@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "SourceFolder.h"
 #include "analysis/Folds.h"
 #include "analysis/dataset/ProtocolChoices.h"
 #include "psychophysics/ProcedureKinds.h"
@@ -14,7 +15,7 @@ namespace {
 using ::testing::IsEmpty;
 
 Protocol shipped(const std::string& name) {
-  return load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/" + name);
+  return load_protocol(source_folder() + "/protocols/" + name);
 }
 
 std::string value_of(const std::vector<ProtocolChoice>& choices, const std::string& choice) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "SourceFolder.h"
 #include "protocol/readers/Files.h"
 #include "tracking/camera/Intrinsics.h"
 #include "tracking/pose/MarkerBody.h"
@@ -10,7 +11,7 @@
 namespace heft {
 
 inline const Apparatus& shipped_apparatus() {
-  static const std::string folder = HEFT_SOURCE_DIR "/protocols/apparatus/";
+  static const std::string folder = source_folder() + "/protocols/apparatus/";
   static const Apparatus all{load_intrinsics(folder + "synthetic_camera.yaml"),
                              load_board(folder + "board.toml"),
                              load_effector(folder + "effector.toml")};

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "SourceFolder.h"
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "apparatus/sources/PictureSource.h"
 #include "base/Error.h"
@@ -22,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-const std::string root = HEFT_SOURCE_DIR;
+const std::string root = source_folder();
 
 Protocol quick() {
   return load_protocol(root + "/protocols/quick.toml");

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "SourceFolder.h"
 #include "base/Error.h"
 
 namespace heft {
@@ -91,7 +92,7 @@ inline const std::vector<std::string>& shipped_protocols() {
 }
 
 inline std::string shipped_path(const std::string& name) {
-  return std::string(HEFT_SOURCE_DIR) + "/protocols/" + name + ".toml";
+  return source_folder() + "/protocols/" + name + ".toml";
 }
 
 }  // namespace heft

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "EditedFile.h"
+#include "SourceFolder.h"
 #include "physics/scene/Scene.h"
 #include "protocol/readers/Files.h"
 #include "protocol/study/ExpectedLength.h"
@@ -97,7 +98,7 @@ RC_GTEST_PROP(DamagedFile, IsTakenOrRefusedWithPlaces, ()) {
 }
 
 RC_GTEST_PROP(DamagedFile, OfTagsIsTakenOrRefusedWithPlaces, ()) {
-  const std::string folder = std::string(HEFT_SOURCE_DIR) + "/protocols/apparatus/";
+  const std::string folder = source_folder() + "/protocols/apparatus/";
   const std::string effector = content_of(folder + "effector.toml");
   std::string text = *rc::gen::element(
       content_of(folder + "board.toml"), content_of(folder + "synthetic_camera.toml"), effector,

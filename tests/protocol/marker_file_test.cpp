@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
+#include "SourceFolder.h"
 #include "protocol/readers/Files.h"
 #include "tracking/pose/MarkerBody.h"
 
@@ -217,7 +218,7 @@ TEST(MarkerFile, IsRecognized) {
 }
 
 TEST(Apparatus, ShippedFilesFitEachOther) {
-  const std::string folder = std::string(HEFT_SOURCE_DIR) + "/protocols/apparatus/";
+  const std::string folder = source_folder() + "/protocols/apparatus/";
   const MarkerBody board = load_board(folder + "board.toml");
   const MarkerBody effector = load_effector(folder + "effector.toml");
   EXPECT_EQ(board.tags.size(), 24u);

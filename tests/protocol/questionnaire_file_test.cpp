@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
+#include "SourceFolder.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/Protocol.h"
 #include "protocol/readers/Files.h"
@@ -15,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 std::string file_of(const std::string& name, const std::string& language = "en") {
-  return HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + '.' + language + ".toml";
+  return source_folder() + "/protocols/questionnaires/" + name + '.' + language + ".toml";
 }
 
 const std::string every_kind = R"([questionnaire.q]
@@ -88,7 +89,7 @@ TEST(QuestionnaireFile, ShippedOnesAreTheSameInFrenchAndSayThatTheyAreNotValidat
 }
 
 TEST(QuestionnaireFile, MayStandBelowATextFile) {
-  const std::string texts = content_of(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+  const std::string texts = content_of(source_folder() + "/protocols/texts/en.toml");
   const ScreenTexts both = parse_texts(texts + '\n' + every_kind, "f");
   EXPECT_EQ(both.language, "en");
   const Questionnaire& q = both.questionnaires.at("q");

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "EditedFile.h"
+#include "SourceFolder.h"
 #include "protocol/Protocol.h"
 #include "protocol/readers/Files.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 TEST(Shipped, EveryProtocolIsValid) {
   int n = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(HEFT_SOURCE_DIR "/protocols")) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder() + "/protocols")) {
     if (entry.path().extension() != ".toml") continue;  // folders, README.md
     EXPECT_NO_THROW(load_protocol(entry.path().string())) << entry.path();
     ++n;

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "SourceFolder.h"
 #include "base/Error.h"
 #include "protocol/Protocol.h"
 #include "protocol/readers/Files.h"
@@ -16,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string protocols = std::string(HEFT_SOURCE_DIR) + "/protocols/";
+const std::string protocols = source_folder() + "/protocols/";
 
 // A study of recommended.toml in a folder that does not exist.
 std::string study(const std::string& more, const std::string& protocol = protocols + "paper.toml") {

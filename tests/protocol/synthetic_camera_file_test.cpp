@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "EditedFile.h"
+#include "SourceFolder.h"
 #include "protocol/readers/Files.h"
 #include "tracking/synthetic/SyntheticCamera.h"
 
@@ -55,7 +56,7 @@ TEST(SyntheticCameraFile, SetsEveryImperfection) {
 // The shipped file explains the defaults, so it must be them.
 TEST(SyntheticCameraFile, ShippedIsTheUsualCamera) {
   const std::string shipped =
-      content_of(std::string(HEFT_SOURCE_DIR) + "/protocols/apparatus/synthetic_camera.toml");
+      content_of(source_folder() + "/protocols/apparatus/synthetic_camera.toml");
   EXPECT_EQ(recognized_kind(shipped, "x.toml"), FileKind::synthetic_camera);
   const SyntheticSettings usual;
   for (const std::string& text : {shipped, std::string()}) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
+#include "SourceFolder.h"
 #include "base/Error.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/readers/Files.h"
@@ -13,7 +14,7 @@ namespace heft {
 namespace {
 
 std::string texts_path(const std::string& language) {
-  return std::string(HEFT_SOURCE_DIR) + "/protocols/texts/" + language + ".toml";
+  return source_folder() + "/protocols/texts/" + language + ".toml";
 }
 
 TEST(TextsFile, ShippedLanguagesAreComplete) {

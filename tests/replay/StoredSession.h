@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "SourceFolder.h"
 #include "record/writer/SessionArchive.h"
 #include "session/Session.h"
 
@@ -50,7 +51,7 @@ class StoredSession {
 };
 
 inline Protocol shipped_protocol(const std::string& name) {
-  return load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/" + name + ".toml");
+  return load_protocol(source_folder() + "/protocols/" + name + ".toml");
 }
 
 }  // namespace heft::testing

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "SourceFolder.h"
 #include "apparatus/TrialWorld.h"
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Build.h"
@@ -54,7 +55,7 @@ class LateAnswers final : public Responder {
 class Replay : public ::testing::Test {
  protected:
   void SetUp() override {
-    protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
+    protocol = load_protocol(source_folder() + "/protocols/quick.toml");
     path = std::filesystem::temp_directory_path() /
            ("heft-replay-" + std::to_string(::getpid()) + ".db");
   }

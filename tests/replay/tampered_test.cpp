@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "SourceFolder.h"
 #include "base/Random.h"
 #include "record/integrity/Integrity.h"
 #include "record/temporary_folder.h"
@@ -23,7 +24,7 @@ using ::testing::HasSubstr;
 RecordedSession simulated_session() {
   SessionOptions model;
   model.responder = Plug{"simulated"};
-  const Protocol protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
+  const Protocol protocol = load_protocol(source_folder() + "/protocols/quick.toml");
   RecordedSession session = compute_session({resolve(model, protocol, 5), "1"}, {});
   session.add_info("age", "30");
   return session;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <regex>
 
+#include "SourceFolder.h"
 #include "base/files/TextFile.h"
 
 namespace heft {
@@ -18,8 +19,8 @@ TEST(Sources, hold_none_of_the_papers_results) {
   ASSERT_TRUE(std::regex_search("rate{0.785}", results));
   ASSERT_FALSE(std::regex_search("178.5 0.0785 6.25", results));
   int n_files = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(
-           std::string(HEFT_SOURCE_DIR) + "/src/responders")) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(source_folder() + "/src/responders")) {
     if (!entry.is_regular_file()) continue;
     const std::string text = read_text_file(entry.path().string());
     ++n_files;

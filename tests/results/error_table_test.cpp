@@ -10,6 +10,7 @@
 #include <fstream>
 #include <span>
 
+#include "SourceFolder.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 
@@ -49,9 +50,9 @@ std::string error_table_text(std::string_view hands_csv) {
 }
 
 TEST(ErrorTable, IsThatOfTheCheckedInResults) {
-  const std::string source = HEFT_SOURCE_DIR "/src/physics/auto/ErrorTable.inc";
+  const std::string source = source_folder() + "/src/physics/auto/ErrorTable.inc";
   const std::string text =
-      error_table_text(read_text_file(HEFT_SOURCE_DIR "/results/physics/hands.csv"));
+      error_table_text(read_text_file(source_folder() + "/results/physics/hands.csv"));
   if (std::getenv("HEFT_WRITE_ERROR_TABLE")) std::ofstream(source) << text;
   EXPECT_EQ(read_text_file(source), text) << "HEFT_WRITE_ERROR_TABLE=1 writes it anew";
 }

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 
+#include "SourceFolder.h"
 #include "base/files/TextFile.h"
 #include "physics/scene/Oracles.h"
 #include "physics/scene/Scene.h"
@@ -16,7 +17,7 @@
 namespace heft {
 namespace {
 
-const std::string folder = HEFT_SOURCE_DIR "/tests/scenes/";
+const std::string folder = source_folder() + "/tests/scenes/";
 
 void expect_file(const std::string& name, const std::string& text) {
   if (std::getenv("HEFT_WRITE_SCENES")) std::ofstream(folder + name) << text;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "SourceFolder.h"
 #include "StudyFolder.h"
 #include "base/Random.h"
 #include "protocol/readers/Files.h"
@@ -82,8 +83,7 @@ TEST(EffectorStudy, FilmsWhatIsShipped) {
     EffectorPrint print;
     print.body = body;
     const MarkerBody filmed = bench_apparatus(640, print).effector;
-    const MarkerBody shipped =
-        load_effector(std::string(HEFT_SOURCE_DIR "/protocols/apparatus/") + file);
+    const MarkerBody shipped = load_effector(source_folder() + "/protocols/apparatus/" + file);
     EXPECT_EQ(filmed.size_m, shipped.size_m);
     EXPECT_EQ(filmed.chamfer_m, shipped.chamfer_m);
     ASSERT_EQ(filmed.tags.size(), shipped.tags.size());

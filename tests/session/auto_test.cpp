@@ -5,6 +5,7 @@
 #include <atomic>
 #include <filesystem>
 
+#include "SourceFolder.h"
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "physics/auto/Choice.h"
 #include "replay/Replay.h"
@@ -47,7 +48,7 @@ class AutoSimulator : public ::testing::Test {
     return resolve(again, session.setup, *session.protocol, session.row.header.seed);
   }
 
-  Protocol protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
+  Protocol protocol = load_protocol(source_folder() + "/protocols/quick.toml");
   SessionOptions options;
   const std::string db =
       (std::filesystem::temp_directory_path() / ("heft-auto-" + std::to_string(::getpid()) + ".db"))

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "SourceFolder.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "protocol/readers/Files.h"
@@ -202,7 +203,7 @@ struct BusySession {
   RecordedSession disk{SessionHeader{}};
   BusySink sink{protocol, disk};
   MadeUpConsole console;
-  ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/fr.toml");
+  ScreenTexts texts = load_texts(source_folder() + "/protocols/texts/fr.toml");
   std::size_t n_actions = 0;
 };
 

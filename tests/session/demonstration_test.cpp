@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 
+#include "SourceFolder.h"
 #include "apparatus/ShippedApparatus.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/readers/Files.h"
@@ -26,7 +27,7 @@ using testing::patient;
 using testing::quick_protocol;
 using testing::shared;
 
-const std::string shipped = HEFT_SOURCE_DIR "/protocols/apparatus/";
+const std::string shipped = source_folder() + "/protocols/apparatus/";
 
 double degrees_from(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return a.angularDistance(b) * 180 / M_PI;
@@ -138,7 +139,7 @@ struct Demonstrated {
       if (state.screen == Screen::demonstration) shown.push_back(picture);
       return patient(picture, state);
     });
-    const ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+    const ScreenTexts texts = load_texts(source_folder() + "/protocols/texts/en.toml");
     end = Runner({*protocol, engine, sink, pictures, *hand, screen, clock, has_person,
                   has_person ? &texts : nullptr, filmed},
                  {})

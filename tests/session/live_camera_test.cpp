@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "SourceFolder.h"
 #include "apparatus/ShippedApparatus.h"
 #include "apparatus/sources/FilmedPictures.h"
 #include "experiment/ScreenTexts.h"
@@ -122,7 +123,7 @@ struct LiveSession {
   std::unique_ptr<Responder> hand = responder_named("simulated").make({});
   MadeUpDevice device;
   MadeUpScreen screen;
-  ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+  ScreenTexts texts = load_texts(source_folder() + "/protocols/texts/en.toml");
   bool answers_themselves = true;  // otherwise `hand` answers, before no screen
 };
 

@@ -2,6 +2,7 @@
 // made-up console.
 #include <gmock/gmock.h>
 
+#include "SourceFolder.h"
 #include "base/Error.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/readers/Files.h"
@@ -54,7 +55,7 @@ struct Session {
   std::unique_ptr<Responder> hand = some_hand();
   HandPictures pictures{*hand, protocol->display_rate_hz};
   MadeUpScreen screen;
-  ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/fr.toml");
+  ScreenTexts texts = load_texts(source_folder() + "/protocols/texts/fr.toml");
 };
 
 TEST(Person, goes_through_all_pages_and_trials) {

@@ -2,6 +2,7 @@
 // twice.
 #include <gmock/gmock.h>
 
+#include "SourceFolder.h"
 #include "base/Random.h"
 #include "base/files/TextFile.h"
 #include "protocol/readers/Files.h"
@@ -25,9 +26,10 @@ using testing::TappedScreen;
 using testing::TappedSession;
 
 std::string text_with(const std::vector<std::string>& names) {
-  std::string text = read_text_file(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+  std::string text = read_text_file(source_folder() + "/protocols/texts/en.toml");
   for (const std::string& name : names)
-    text += '\n' + read_text_file(HEFT_SOURCE_DIR "/protocols/questionnaires/" + name + ".en.toml");
+    text +=
+        '\n' + read_text_file(source_folder() + "/protocols/questionnaires/" + name + ".en.toml");
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <optional>
 
+#include "SourceFolder.h"
 #include "analysis/dataset/Dataset.h"
 #include "base/files/TextFile.h"
 #include "experiment/ScreenTexts.h"
@@ -46,7 +47,7 @@ class Resumed : public ::testing::Test {
     SessionOptions person;
     person.tracker = Plug{"hand"};
     person.language = folder.file("texts.toml");
-    const std::string words = read_text_file(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+    const std::string words = read_text_file(source_folder() + "/protocols/texts/en.toml");
     replace_text_file(*person.language, words + asked);
     request.config = resolve(person, protocol, seed);
     SessionHeader header;
@@ -110,7 +111,7 @@ class Resumed : public ::testing::Test {
 
   static constexpr std::uint64_t seed = 3;
   const test::TemporaryFolder folder;
-  const Protocol protocol = load_protocol(std::string(HEFT_SOURCE_DIR) + "/protocols/quick.toml");
+  const Protocol protocol = load_protocol(source_folder() + "/protocols/quick.toml");
   SessionRequest request{resolve(a_model("simulated"), protocol, seed), "1", folder.file("log.db")};
   std::atomic<bool> stop = false;
 };
@@ -140,8 +141,8 @@ TEST_F(Resumed, what_people_read_stays_with_its_questionnaires_whatever_else_cha
   start_as_a_person(questionnaire);
   SessionOptions display, board, words;
   display.display = NamedDisplay{1};
-  board.board_file = HEFT_SOURCE_DIR "/protocols/apparatus/board_letter.toml";
-  words.language = HEFT_SOURCE_DIR "/protocols/texts/fr.toml";
+  board.board_file = source_folder() + "/protocols/apparatus/board_letter.toml";
+  words.language = source_folder() + "/protocols/texts/fr.toml";
   const LoggedSession session = session_to_resume(request.db, std::nullopt);
   for (const SessionOptions& given : {display, board}) {
     const SessionConfig config = resolved(session, given)->config;

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "SourceFolder.h"
 #include "base/Random.h"
 #include "protocol/readers/Files.h"
 #include "session/Protocols.h"
@@ -20,7 +21,7 @@ using testing::TappedSession;
 
 // A consent page of several parts.
 ScreenTexts long_texts() {
-  ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/en.toml");
+  ScreenTexts texts = load_texts(source_folder() + "/protocols/texts/en.toml");
   for (int i = 0; i < 60; ++i) texts.pages["consent"]["text"] += " There is more to read.";
   return texts;
 }

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "SourceFolder.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/readers/Files.h"
 #include "session/Protocols.h"
@@ -159,7 +160,7 @@ class TouchedWindow : public ::testing::Test {
   }
 
   std::shared_ptr<const Protocol> protocol = shared(whole_protocol(30, 4));
-  ScreenTexts texts = load_texts(HEFT_SOURCE_DIR "/protocols/texts/fr.toml");
+  ScreenTexts texts = load_texts(source_folder() + "/protocols/texts/fr.toml");
   Engine engine{protocol, 7};
   RecordedSession sink{SessionHeader{}};
   SessionClock clock = SessionClock::wall_from(0);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "SourceFolder.h"
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Build.h"
 #include "record/schema/SetupJson.h"
@@ -75,7 +76,7 @@ class VetoedLog : public ::testing::Test {
 };
 
 TEST_F(VetoedLog, is_verified_and_holds_no_row_of_what_was_taken_back) {
-  ToldSession session(load_protocol(HEFT_SOURCE_DIR "/protocols/quick.toml"));
+  ToldSession session(load_protocol(source_folder() + "/protocols/quick.toml"));
   int n_vetoed = 0, n_estimates_taken_back = 0;
   bool yes = true;
   for (;;) {

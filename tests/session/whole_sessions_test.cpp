@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "SourceFolder.h"
 #include "base/Random.h"
 #include "protocol/readers/Files.h"
 #include "session/TappedSession.h"
@@ -152,7 +153,7 @@ class Person {
 
 ScreenTexts texts_in(const std::string& language) {
   const char* folder = language == "en" || language == "fr" ? "/protocols/texts/" : "/tests/texts/";
-  return load_texts(HEFT_SOURCE_DIR + std::string(folder) + language + ".toml");
+  return load_texts(source_folder() + std::string(folder) + language + ".toml");
 }
 
 // A trial's answers, from the log alone.

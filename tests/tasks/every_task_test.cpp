@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "SourceFolder.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "record/export/Export.h"
@@ -31,7 +32,7 @@ Protocol protocol_with(std::string_view task) {
   for (const char* file : {"quick", "examples/estimation"})
     if (Protocol found = testing::shipped_protocol(file); has_task(found, task)) return found;
   for (const char* folder : {"/protocols", "/protocols/examples"})
-    for (const auto& entry : fs::directory_iterator(HEFT_SOURCE_DIR + std::string(folder)))
+    for (const auto& entry : fs::directory_iterator(source_folder() + std::string(folder)))
       if (entry.path().extension() == ".toml") try {
           if (Protocol found = load_protocol(entry.path().string()); has_task(found, task))
             return found;

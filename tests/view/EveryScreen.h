@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "SourceFolder.h"
 #include "base/Pose.h"
 #include "experiment/ScreenState.h"
 #include "experiment/ScreenTexts.h"
@@ -29,13 +30,13 @@ struct NamedScreen {
 };
 
 inline ScreenTexts shipped_texts(const std::string& language) {
-  return load_texts(std::string(HEFT_SOURCE_DIR) + "/protocols/texts/" + language + ".toml");
+  return load_texts(source_folder() + "/protocols/texts/" + language + ".toml");
 }
 
 /// Those that are shipped, and those for tests of other scripts.
 inline ScreenTexts texts_in(const std::string& language) {
   if (language == "en" || language == "fr") return shipped_texts(language);
-  return load_texts(std::string(HEFT_SOURCE_DIR) + "/tests/texts/" + language + ".toml");
+  return load_texts(source_folder() + "/tests/texts/" + language + ".toml");
 }
 
 inline ScreenState sorting_state(int n_slots) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "EveryScreen.h"
+#include "SourceFolder.h"
 #include "base/files/TextFile.h"
 #include "view/screens/ScreenPages.h"
 #include "view/screens/TouchScreen.h"
@@ -17,7 +18,7 @@ using ::testing::SizeIs;
 ScreenTexts texts_with_questionnaires(const std::string& language = "en") {
   ScreenTexts texts = texts_in(language);
   for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
-    const std::string file = HEFT_SOURCE_DIR "/protocols/questionnaires/" + name +
+    const std::string file = source_folder() + "/protocols/questionnaires/" + name +
                              (language == "fr" ? ".fr.toml" : ".en.toml");
     const ScreenTexts read = parse_questionnaires(read_text_file(file), file);
     texts.questionnaires.insert(read.questionnaires.begin(), read.questionnaires.end());

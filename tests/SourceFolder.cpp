@@ -1,0 +1,5 @@
+#include "SourceFolder.h"
+
+std::string heft::source_folder() {
+  return HEFT_SOURCE_DIR;
+}
