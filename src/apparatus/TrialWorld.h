@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "experiment/DisplayedFrame.h"
 #include "experiment/Event.h"
+#include "experiment/Stage.h"
 #include "experiment/TrialPlan.h"
 #include "physics/Drive.h"
 #include "protocol/Protocol.h"

@@ -2,8 +2,11 @@
 // visit(column, field) for every column in the log's order; writing, reading, digests, replay's
 // comparison, CSV and the data dictionary are visitors. The field's type says the rest: an optional
 // may be NULL, an enumeration is a closed list.
+// A row's columns as single cells: poses and velocities taken apart, texts that may be empty as
+// such. Who only needs a name and a plain value for each column of the log visits these.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -99,5 +102,90 @@ struct PoseAt {
 };
 template <typename Poses>
 PoseAt(Poses&, std::size_t) -> PoseAt<Poses>;
+
+/// One column of a table.
+struct CellColumn {
+  std::string_view name, suffix, unit, meaning;
+  std::string_view check = {};
+  bool exact = false;  ///< keeps every bit, -0.0 too
+
+  std::string full_name() const { return std::string(name) + std::string(suffix); }
+};
+
+/// Calls visit(CellColumn, value) for every column. The value is a bool, a number, a text, an
+/// enumeration, or an optional of one of these.
+template <typename Visit>
+class EachCell {
+ public:
+  explicit EachCell(Visit& visit) : visit_(visit) {}
+
+  template <typename Field>
+  void operator()(const LogColumn& column, const Field& field) {
+    visit_(of(column), field);
+  }
+  template <typename Value>
+  void operator()(const LogColumn& column, const NullIfEmpty<const Value>& field) {
+    const std::string text = to_text(field.value);
+    visit_(of(column), text.empty() ? std::nullopt : std::optional(text));
+  }
+  template <typename Value>
+  void operator()(const LogColumn& column, const AsText<const Value>& field) {
+    visit_(of(column), to_text(field.value));
+  }
+  void operator()(const PoseColumns& columns, const Exactly<const Pose>& pose) {
+    const auto cells = cells_of(pose.value);
+    for (std::size_t i = 0; i < pose_parts.size(); ++i)
+      visit_(of(columns, pose_parts.at(i), true), cells.at(i));
+  }
+  void operator()(const VelocityColumns& columns, const Exactly<const Velocity>& velocity) {
+    const auto &v = velocity.value.linear_m_s, &w = velocity.value.angular_rad_s;
+    const std::array cells{v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
+    for (std::size_t i = 0; i < velocity_parts.size(); ++i)
+      visit_(of(columns, velocity_parts.at(i), true), cells.at(i));
+  }
+  void operator()(const PoseColumns& columns, const std::optional<Pose>& pose) {
+    visit_pose(columns, pose ? &*pose : nullptr);
+  }
+  void operator()(const PoseColumns& columns, const PoseAt<const std::vector<Pose>>& at) {
+    visit_pose(columns, at.index < at.poses.size() ? &at.poses[at.index] : nullptr);
+  }
+
+ private:
+  struct Part {
+    std::string_view suffix, unit;
+  };
+  static constexpr std::array pose_parts{Part{"_x_m", "m"}, Part{"_y_m", "m"}, Part{"_z_m", "m"},
+                                         Part{"_qw", ""},   Part{"_qx", ""},   Part{"_qy", ""},
+                                         Part{"_qz", ""}};
+  static constexpr std::array velocity_parts{
+      Part{"_vx_m_s", "m/s"},     Part{"_vy_m_s", "m/s"},     Part{"_vz_m_s", "m/s"},
+      Part{"_wx_rad_s", "rad/s"}, Part{"_wy_rad_s", "rad/s"}, Part{"_wz_rad_s", "rad/s"}};
+
+  static CellColumn of(const LogColumn& column) {
+    return {column.name, {}, column.unit, column.meaning, column.check};
+  }
+  template <typename Columns>
+  static CellColumn of(const Columns& columns, const Part& part, bool exact) {
+    return {columns.name, part.suffix, part.unit, columns.meaning, {}, exact};
+  }
+  static std::array<double, 7> cells_of(const Pose& pose) {
+    const auto& p = pose.position_m;
+    const auto& q = pose.orientation;
+    return {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
+  }
+  void visit_pose(const PoseColumns& columns, const Pose* pose) {
+    const auto cells = pose ? cells_of(*pose) : std::array<double, 7>{};
+    for (std::size_t i = 0; i < pose_parts.size(); ++i)
+      visit_(of(columns, pose_parts.at(i), false),
+             pose ? std::optional(cells.at(i)) : std::nullopt);
+  }
+
+  Visit& visit_;
+};
+
+template <typename Row, typename Visit>
+void visit_cells(const Row& row, Visit&& visit) {
+  visit_columns(row, EachCell(visit));
+}
 
 }  // namespace heft

@@ -11,7 +11,6 @@
 #include "base/PoseTypes.h"
 #include "experiment/Column.h"
 #include "experiment/SessionConfig.h"
-#include "experiment/Task.h"
 #include "experiment/TrialPlan.h"
 #include "psychophysics/ProcedureTypes.h"
 

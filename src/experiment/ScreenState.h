@@ -1,6 +1,8 @@
 // What the participant's screen offers at a moment. Emitted by the engine, drawn by a view, read by
 // a responder's mind. Nothing here tells a mass, a level, a condition or whether an answer was
 // right.
+// What a person does to the screen. Answers to the task are Actions; the rest turns pages. Times
+// are those of the operating system's event, on the monotonic clock (base/Clock.h).
 #pragma once
 
 #include <any>
@@ -9,7 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "experiment/Task.h"
+#include "experiment/EventPayloads.h"
+#include "experiment/TrialPlan.h"
 
 namespace heft {
 
@@ -77,6 +80,23 @@ struct ScreenState {
             of_trial ? n_reshuffles : 0,
             form_prefix};
   }
+};
+
+enum class TouchKind {
+  action,          ///< an answer, in Touch::action (its t_s is not set)
+  next,            ///< the page's button: start, continue
+  decline,         ///< "I do not agree" on the consent page
+  entry,           ///< a field of a form was set: key, value
+  put_cubes_back,  ///< the button of that name
+  close            ///< the window was closed
+};
+
+struct Touch {
+  double monotonic_s = 0;
+  TouchKind kind = TouchKind::action;
+  Action action;
+  std::string key, value;  ///< entry only
+  PageId page = {};        ///< that it was on
 };
 
 }  // namespace heft

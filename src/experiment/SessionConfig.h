@@ -13,7 +13,7 @@
 
 #include "base/InputMode.h"
 #include "experiment/Column.h"
-#include "experiment/EventType.h"
+#include "experiment/EventPayloads.h"
 
 namespace heft {
 

@@ -11,8 +11,8 @@
 #include "base/Random.h"
 #include "psychophysics/Interleaving.h"
 #include "psychophysics/ProcedureTypes.h"
-#include "tasks/Answer.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {

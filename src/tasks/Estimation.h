@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "experiment/Questionnaire.h"
-#include "tasks/Answer.h"
+#include "experiment/ScreenTexts.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {

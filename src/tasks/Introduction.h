@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "tasks/Answer.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {

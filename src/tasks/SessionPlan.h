@@ -1,3 +1,5 @@
+// The parts of a session that are no trials, and when trials may begin. Blocks of trials are the
+// tasks' own (src/tasks).
 // What a session consists of: blocks of trials of any task, breaks and demonstrations, as a
 // protocol says. The engine folds over these and needs nothing else of a protocol; a task that is
 // on no list can be brought to it as a block of its own.
@@ -13,11 +15,27 @@
 #include <variant>
 #include <vector>
 
-#include "experiment/Block.h"
-#include "experiment/Questionnaire.h"
+#include "experiment/ScreenTexts.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {
+
+struct DemonstrationBlock {
+  std::string name;
+  double duration_s = 20;
+};
+
+struct BreakBlock {
+  std::string name;
+  double least_duration_s = 60;
+};
+
+/// When a trial may begin and be answered: the second tap of two must meet nothing that it could
+/// answer. The values in effect are recorded in the session's setup.
+struct Onset {
+  double gap_s = 0.6;         ///< from a trial's end to the next one's start
+  double min_answer_s = 0.5;  ///< from a trial's cubes to the first answer that is taken
+};
 
 /// The block of a task: its keys as plain data, `name` among them, and `OfTask`, which has the
 /// task's declaration, its Run and its Trial.

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "tasks/Answer.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {

@@ -1,19 +1,50 @@
+// Which attempt at which trial of the session is meant: what its random streams are keyed by, so
+// that a void attempt redraws its own arrangement and nothing else.
 // What the engine asks of a task: a block of its trials, and one attempt at a trial as its answers
 // make it. Both are folded: a run again from the completed trials, a trial from its actions.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "experiment/Action.h"
+#include "base/Random.h"
+#include "experiment/EventPayloads.h"
 #include "experiment/Rows.h"
 #include "experiment/ScreenState.h"
 #include "experiment/TrialPlan.h"
-#include "tasks/TaskDeclaration.h"
-#include "tasks/TrialKey.h"
+#include "tasks/Task.h"
 
 namespace heft {
+
+struct TrialKey {
+  std::uint64_t seed = 0;
+  int trial_number = 0;
+  int attempt = 1;
+
+  /// For what a repeated attempt draws anew: which cube stands where.
+  RandomStream slots() const {
+    return RandomStream(seed, "slots", static_cast<std::uint64_t>(trial_number),
+                        static_cast<std::uint64_t>(attempt));
+  }
+  /// For what all attempts of a trial share.
+  RandomStream trial(std::string_view purpose) const {
+    return RandomStream(seed, purpose, static_cast<std::uint64_t>(trial_number));
+  }
+
+  TrialPlan plan(const std::string& block, std::string_view task,
+                 const std::string& condition) const {
+    TrialPlan plan;
+    plan.trial_number = trial_number;
+    plan.attempt = attempt;
+    plan.block = block;
+    plan.task = Task(task);
+    plan.condition = condition;
+    return plan;
+  }
+};
 
 class PageBuilder;
 

@@ -10,7 +10,7 @@
 #include "base/Error.h"
 #include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
-#include "record/schema/SetupJson.h"
+#include "record/schema/EventRow.h"
 #include "record/temporary_folder.h"
 #include "view/ArView.h"
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "engine/Engine.h"
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 #include "psychophysics/Bisection.h"
 #include "psychophysics/ProcedureKinds.h"
 #include "tasks/Comparison.h"

@@ -16,7 +16,6 @@
 
 #include "base/Error.h"
 #include "record/child.h"
-#include "record/integrity/Integrity.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"

@@ -13,7 +13,6 @@
 
 #include "base/Random.h"
 #include "record/child.h"
-#include "record/integrity/Integrity.h"
 #include "record/older_log.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"

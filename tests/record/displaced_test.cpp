@@ -7,11 +7,9 @@
 #include <fstream>
 
 #include "record/failure.h"
-#include "record/integrity/Integrity.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
-#include "record/writer/SessionArchive.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft::test {

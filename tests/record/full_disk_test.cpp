@@ -11,12 +11,10 @@
 
 #include "base/Error.h"
 #include "record/failure.h"
-#include "record/integrity/Integrity.h"
 #include "record/older_log.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
-#include "record/writer/SessionArchive.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft::test {

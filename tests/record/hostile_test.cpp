@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/integrity/Integrity.h"
 #include "record/reader/LogReader.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/rows.h"

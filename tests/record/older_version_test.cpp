@@ -9,12 +9,12 @@
 #include <fstream>
 
 #include "base/files/TextFile.h"
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 #include "record/failure.h"
-#include "record/integrity/Integrity.h"
 #include "record/older_log.h"
+#include "record/reader/LogReader.h"
+#include "record/schema/EventRow.h"
 #include "record/schema/Schema.h"
-#include "record/schema/SetupJson.h"
 #include "record/tampered_log.h"
 
 namespace heft::test {

@@ -12,12 +12,10 @@
 #include "base/files/TextFile.h"
 #include "record/child.h"
 #include "record/failure.h"
-#include "record/integrity/Integrity.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/schema/Schema.h"
 #include "record/temporary_folder.h"
-#include "record/writer/SessionArchive.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft::test {

@@ -1,5 +1,3 @@
-#include "record/export/Pseudonyms.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,6 +6,7 @@
 #include <fstream>
 
 #include "base/Error.h"
+#include "record/export/Export.h"
 
 namespace heft {
 namespace {

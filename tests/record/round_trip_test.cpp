@@ -10,7 +10,6 @@
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
-#include "record/writer/SessionArchive.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft::test {

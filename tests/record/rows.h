@@ -9,7 +9,7 @@
 
 #include "record/reader/LogReader.h"
 #include "record/schema/EventRow.h"
-#include "record/stream/RecordedSession.h"
+#include "record/stream/EventSink.h"
 
 namespace heft::test {
 

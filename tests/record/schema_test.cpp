@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/schema/RowSql.h"
 #include "record/temporary_folder.h"

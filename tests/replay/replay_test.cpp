@@ -16,7 +16,7 @@
 #include "base/Build.h"
 #include "base/Pose.h"
 #include "record/older_log.h"
-#include "record/writer/SessionArchive.h"
+#include "record/writer/SessionLog.h"
 #include "replay/WhatIf.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"

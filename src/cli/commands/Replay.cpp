@@ -18,7 +18,7 @@
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"
 #include "protocol/readers/Files.h"
-#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
 #include "replay/ReplayView.h"
 #include "replay/WhatIf.h"
 #include "session/Session.h"

@@ -1,12 +1,15 @@
 // Logs as files for other programs: CSV as this program writes it, or a dataset that follows the
 // standards Psych-DS or BIDS. Columns are the log's, from the rows' descriptions; what is said here
 // is which files there are and how a row finds its session.
+// Names that stand for people's: the same person has the same one in every export with the same
+// key, and without the key nobody can tell whether a name belongs to it.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/Names.h"
@@ -35,7 +38,7 @@ struct ExportRequest {
   std::vector<std::string> logs;
   ExportFormat format = ExportFormat::csv;
   std::string folder;                   ///< new or empty; made if need be
-  std::optional<std::string> key = {};  ///< of the pseudonyms; none: names stay (Pseudonyms.h)
+  std::optional<std::string> key = {};  ///< of the pseudonyms; none: names stay
 };
 
 /// All sessions of the logs together; the column `log` says whose. `person` is the participant; of
@@ -56,5 +59,22 @@ std::vector<ExportedFile> export_logs(const ExportRequest& request,
 
 /// @throws Error (usage) when something is in the folder already, or it is no folder
 void refuse_filled_folder(const std::string& folder);
+
+/// HMAC-SHA-256 (RFC 2104), 64 lowercase hexadecimal digits.
+std::string hmac_sha256(std::string_view key, std::string_view text);
+
+/// "p" and 12 hexadecimal digits: of 10,000 people two are alike once in 5 million times.
+std::string pseudonym(std::string_view key, std::string_view person);
+
+struct PseudonymKey {
+  std::string file, key;
+  bool is_new = false;
+};
+
+/// The key that is in a file; if there is no such file, a new one of 256 random bits in a file that
+/// only its owner can read.
+/// @throws Error when the file can't be read or made, or is no line of 64 lowercase hexadecimal
+///   digits, or one of digits that nobody drew
+PseudonymKey pseudonym_key(const std::string& file);
 
 }  // namespace heft

@@ -10,7 +10,6 @@
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "record/export/Export.h"
-#include "record/export/Pseudonyms.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/writer/Failures.h"
 #include "record/writer/LogFile.h"

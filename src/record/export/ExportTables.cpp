@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 #include "record/schema/EventRow.h"
 #include "record/schema/RowSql.h"
 #include "tasks/Comparison.h"

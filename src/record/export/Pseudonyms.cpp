@@ -1,5 +1,3 @@
-#include "record/export/Pseudonyms.h"
-
 #include <fmt/format.h>
 #include <sys/random.h>
 
@@ -13,6 +11,7 @@
 #include "base/Error.h"
 #include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
+#include "record/export/Export.h"
 
 namespace heft {
 

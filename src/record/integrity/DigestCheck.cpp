@@ -1,5 +1,3 @@
-#include "record/integrity/DigestCheck.h"
-
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
@@ -8,6 +6,7 @@
 
 #include "base/Error.h"
 #include "record/integrity/Digests.h"
+#include "record/reader/LogReader.h"
 #include "record/schema/Cells.h"
 #include "record/schema/EventRow.h"
 #include "record/schema/RowSql.h"

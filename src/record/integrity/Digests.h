@@ -7,6 +7,9 @@
 //
 // This makes an edit visible to anybody who looks. It is no seal: who computes all later digests
 // anew hides it, and rows cut off at the end of a chain leave no trace in it.
+// Whether a session's rows still have the digests that DigestChain gave them. The rows' cells are
+// taken as they are in the file, so that a damaged row is found like a changed one. Private to this
+// room.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +23,13 @@ class Column;
 class Database;
 }  // namespace SQLite
 
+namespace SQLite {
+class Database;
+}  // namespace SQLite
+
 namespace heft {
+
+struct BrokenDigest;
 
 /// Each cell is a letter for its type, then an integer's or a number's 8 bytes (little-endian), or
 /// a text's length and its bytes. The digest is SHA-256 over the cells `table`, `previous digest`
@@ -81,5 +90,12 @@ class DigestChain {
 /// Over what a participant told, the session's rows of participant_info, by key: it may be told
 /// again, so that its rows have no order.
 std::string info_digest(SQLite::Database& database, std::int64_t session_id);
+
+/// The header before everything else, then what the participant reported, then the earliest by
+/// time; last whether rows are missing at the end.
+/// @param file for messages
+/// @throws Error when there is no such session, SQLite::Exception where pages are damaged
+std::optional<BrokenDigest> first_broken_digest(SQLite::Database& database, const std::string& file,
+                                                std::int64_t session_id);
 
 }  // namespace heft

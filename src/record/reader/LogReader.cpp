@@ -1,5 +1,6 @@
 #include "record/reader/LogReader.h"
 
+#include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
@@ -7,7 +8,7 @@
 #include <type_traits>
 
 #include "base/Error.h"
-#include "record/integrity/DigestCheck.h"
+#include "record/integrity/Digests.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/schema/Binding.h"
 #include "record/schema/Cells.h"
@@ -286,6 +287,41 @@ std::vector<std::string> LogReader::foreign_objects() const {
 
 std::optional<BrokenDigest> LogReader::first_broken_digest(std::int64_t session_id) const {
   return impl_->first_broken_digest(session_id);
+}
+
+namespace {
+void add_page_and_rule_faults(SQLite::Database& database, std::vector<std::string>& faults) {
+  SQLite::Statement query(database, "PRAGMA integrity_check");
+  while (query.executeStep()) {
+    const std::string fault = query.getColumn(0).getString();
+    if (fault != "ok") faults.push_back(fault);
+  }
+}
+
+void add_reference_faults(SQLite::Database& database, std::vector<std::string>& faults) {
+  SQLite::Statement query(database, "PRAGMA foreign_key_check");
+  while (query.executeStep())
+    faults.push_back(fmt::format("table {}, row {}: refers to a row of {} that is not there",
+                                 query.getColumn(0).getString(), query.getColumn(1).getString(),
+                                 query.getColumn(2).getString()));
+}
+}  // namespace
+
+std::vector<std::string> check_integrity(const std::string& path) {
+  const auto database = open_for_reading(path);
+  std::vector<std::string> faults;
+  try {
+    holds_log(*database, path);
+    // A connection that only reads leaves out the rules (CHECK), so a temporary copy is checked.
+    SQLite::Database copy("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    distrust(copy);
+    SQLite::Backup(copy, *database).executeStep();
+    add_page_and_rule_faults(copy, faults);
+    add_reference_faults(copy, faults);
+  } catch (const SQLite::Exception& error) {
+    faults.push_back(error.what());
+  }
+  return faults;
 }
 
 }  // namespace heft

@@ -15,7 +15,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 #include "record/integrity/Digests.h"
 
 namespace heft {

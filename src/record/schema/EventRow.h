@@ -1,5 +1,6 @@
 // An event as the log has it: the one place where an event becomes text and back; and as a line of
 // JSON, announced to other programs while a session runs.
+// A setup as the JSON object that its event carries: every column, and the contents of its files.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 
 #include "experiment/Event.h"
 #include "experiment/Rows.h"
+#include "experiment/SessionConfig.h"
 
 namespace heft {
 
@@ -56,5 +58,11 @@ struct AnnouncedEvent {
 /// kind, slot, label and detail as the table `event` has them, without a setup's files; nothing of
 /// masses, levels or conditions. A long detail is cut: at most 2000 bytes in all.
 std::string event_line(const Event& event, const AnnouncedEvent& about);
+
+std::string to_json(const SessionConfig& setup);
+
+/// What the text does not have keeps its default: it came after the text was written.
+/// @throws Error when it is no such object
+SessionConfig setup_from_json(const std::string& text);
 
 }  // namespace heft

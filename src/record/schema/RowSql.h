@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "experiment/EachCell.h"
 #include "experiment/Event.h"
+#include "experiment/Rows.h"
 #include "record/schema/SessionHeader.h"
 #include "tasks/Tasks.h"
 

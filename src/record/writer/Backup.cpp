@@ -15,7 +15,6 @@
 #include "base/Build.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"
-#include "record/integrity/Integrity.h"
 #include "record/reader/LogReader.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/writer/Failures.h"

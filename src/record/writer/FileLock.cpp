@@ -1,5 +1,3 @@
-#include "record/writer/FileLock.h"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -14,6 +12,7 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "record/writer/LogFile.h"
 
 namespace heft {
 

@@ -1,3 +1,5 @@
+// The writer's lock, on the database file itself, so that it holds whatever name the file is opened
+// by. It dies with the process that holds it, so a crash never leaves a stale one.
 // A database file opened for writing: the lock is held, the file is a log or may become one, it
 // lies where it is thought to be, and SQLite is set up so that a commit is on disk when it returns.
 #pragma once
@@ -8,13 +10,37 @@
 #include <stdexcept>
 #include <string>
 
-#include "record/writer/FileLock.h"
-
 namespace SQLite {
 class Database;
 }
 
 namespace heft {
+
+class FileLock {
+ public:
+  /// Makes the file where there is none, for its owner's eyes only. Closing a descriptor of the
+  /// database drops the locks that SQLite holds on it in this process: make the lock before SQLite
+  /// opens the file, and let it go after SQLite has closed it.
+  /// @param path as the user wrote it  @param file the same with links and dots resolved
+  /// @throws Error when another writer has the lock, or the file can't be opened or locked, or has
+  ///   a second name
+  FileLock(const std::string& path, const std::string& file);
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&&) = delete;
+  ~FileLock();
+
+  /// What has happened to the file since: "was moved to /lab/old.db". Empty while it still lies
+  /// under its name, and under no other.
+  std::string displacement() const;
+
+  /// Whether the file still lies somewhere.
+  bool has_name() const;
+
+ private:
+  std::string path_;  ///< as the user wrote it
+  std::string file_;  ///< what that led to at the start, links resolved
+  int descriptor_;
+};
 
 /// The file was moved, replaced, deleted or linked under the program that writes to it. What was
 /// committed has been put together where what() says: in the file, or in a copy of it.

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "record/integrity/Digests.h"
-#include "record/stream/RecordedSession.h"
+#include "record/stream/EventSink.h"
 
 namespace SQLite {
 class Database;

@@ -1,6 +1,8 @@
 // Writing the log: one SQLite file, one writer at a time. append() is the only way in for events
 // and what they change; frames are buffered and written with the next event or at least each
 // second.
+// Storing sessions that are already over: for simulations of many participants, which are computed
+// in worker threads and written by one. The rows are those a SessionLog would have written.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +12,6 @@
 
 #include "record/schema/SessionHeader.h"
 #include "record/stream/EventSink.h"
-#include "record/stream/RecordedSession.h"
 
 namespace heft {
 
@@ -57,6 +58,25 @@ class SessionLog final : public EventSink {
  private:
   class Impl;
   explicit SessionLog(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+class SessionArchive {
+ public:
+  /// Opens or creates the database and holds the writer's lock until it is destroyed.
+  /// @throws Error as SessionLog::start
+  explicit SessionArchive(const std::string& path);
+  SessionArchive(SessionArchive&&) noexcept;
+  SessionArchive& operator=(SessionArchive&&) noexcept;
+  ~SessionArchive();
+
+  /// Writes the whole session in one transaction; it is on disk when this returns.
+  /// @return its session_id
+  /// @throws Error when it could not be saved; nothing of it is then in the file
+  std::int64_t store(const RecordedSession& session);
+
+ private:
+  class Impl;
   std::unique_ptr<Impl> impl_;
 };
 

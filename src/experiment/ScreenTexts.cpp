@@ -1,4 +1,4 @@
-#include "experiment/Questionnaire.h"
+#include "experiment/ScreenTexts.h"
 
 #include <algorithm>
 #include <charconv>

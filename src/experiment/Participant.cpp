@@ -1,4 +1,4 @@
-#include "experiment/ParticipantId.h"
+#include "experiment/Participant.h"
 
 #include <fmt/format.h>
 
