@@ -62,9 +62,9 @@ struct Comparison {
       .about = "Which of two cubes is heavier, or is there no difference",
       .actions = actions,
       .outcomes = outcomes,
+      .texts = "question no_difference",
       .trial_s = 10,
       .detects = true};
-  static constexpr std::string_view texts = "question no_difference";
 
   struct Block {
     using OfTask = Comparison;

@@ -23,13 +23,13 @@ struct Estimation {
   static constexpr std::array actions{ActionSpec{.kind = "estimate", .value = true},
                                       ActionSpec{.kind = "validate"}};
   static constexpr std::array<std::string_view, 2> outcomes{"estimated", "shown"};
-  static constexpr TaskDeclaration task{.name = "estimation",
-                                        .about = "A number for how heavy a cube feels",
-                                        .actions = actions,
-                                        .outcomes = outcomes,
-                                        .trial_s = 12};
-  static constexpr std::string_view texts =
-      "question standard standard_was lightest heaviest validate";
+  static constexpr TaskDeclaration task{
+      .name = "estimation",
+      .about = "A number for how heavy a cube feels",
+      .actions = actions,
+      .outcomes = outcomes,
+      .texts = "question standard standard_was lightest heaviest validate",
+      .trial_s = 12};
 
   /// The standard, and the number that stands for it.
   struct Modulus {

@@ -26,8 +26,8 @@ struct Introduction {
       .about = "Which of two cubes of very different mass is heavier",
       .actions = actions,
       .outcomes = outcomes,
+      .texts = "question try_again",
       .trial_s = 15};
-  static constexpr std::string_view texts = "question try_again";
 
   struct Block {
     using OfTask = Introduction;

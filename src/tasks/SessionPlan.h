@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -77,6 +78,11 @@ class TaskBlock {
   /// The questionnaire that its trials ask a question of; none: they ask none.
   std::optional<std::string> questionnaire() const { return of_task_->questionnaire(); }
   bool lacks_question() const { return of_task_->lacks_question(); }
+  /// What its keys choose, for people: (what, which). Empty for a task that names none.
+  std::vector<std::pair<std::string, std::string>> choices() const { return of_task_->choices(); }
+  /// The mean over simulated participants where its length depends on the answers.
+  double expected_trials() const { return of_task_->expected_trials(); }
+  bool depends_on_answers() const { return of_task_->depends_on_answers(); }
   /// Takes the question from the texts' questionnaires, where it is there.
   void read_question(const std::map<std::string, Questionnaire>& questionnaires) {
     if (auto own = of_task_->with_question(questionnaires)) of_task_ = std::move(own);
@@ -108,6 +114,9 @@ class TaskBlock {
     virtual std::unique_ptr<TaskTrial> trial(const TrialPlan& plan, std::uint64_t seed) const = 0;
     virtual std::optional<std::string> questionnaire() const = 0;
     virtual bool lacks_question() const = 0;
+    virtual std::vector<std::pair<std::string, std::string>> choices() const = 0;
+    virtual double expected_trials() const = 0;
+    virtual bool depends_on_answers() const = 0;
     virtual std::shared_ptr<const OfAny> with_question(
         const std::map<std::string, Questionnaire>& questionnaires) const = 0;
   };
@@ -130,6 +139,18 @@ class TaskBlock {
     }
     bool lacks_question() const override {
       if constexpr (AsksQuestion<Block>) return block.questionnaire() && !block.question;
+      return false;
+    }
+    std::vector<std::pair<std::string, std::string>> choices() const override {
+      if constexpr (requires { block.choices(); }) return block.choices();
+      return {};
+    }
+    double expected_trials() const override {
+      if constexpr (requires { block.expected_trials(); }) return block.expected_trials();
+      return 0;
+    }
+    bool depends_on_answers() const override {
+      if constexpr (requires { block.depends_on_answers(); }) return block.depends_on_answers();
       return false;
     }
     std::shared_ptr<const OfAny> with_question(
@@ -176,6 +197,11 @@ struct SessionPlan {
 
 /// The block of trials of that name.
 /// @throws std::out_of_range where there is none
-const TaskBlock& task_block(const SessionPlan& plan, const std::string& name);
+inline const TaskBlock& task_block(const SessionPlan& plan, const std::string& name) {
+  for (const Block& block : plan.blocks)
+    if (const auto* trials = std::get_if<TaskBlock>(&block); trials && trials->name() == name)
+      return *trials;
+  throw std::out_of_range("there is no block of trials \"" + name + "\"");
+}
 
 }  // namespace heft

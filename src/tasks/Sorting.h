@@ -32,9 +32,8 @@ struct Sorting {
       .actions = actions,
       .labels = labels,
       .outcomes = outcomes,
+      .texts = "question tap_a_cube lightest intermediate heaviest validate dont_know",
       .trial_s = 25};
-  static constexpr std::string_view texts =
-      "question tap_a_cube lightest intermediate heaviest validate dont_know";
 
   struct Block {
     using OfTask = Sorting;

@@ -13,7 +13,7 @@
 
 #include "record/rows.h"
 #include "record/schema/RowSql.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft::test {
 
@@ -78,7 +78,7 @@ template <typename Listed>
 Listed any_of() {
   if constexpr (is_word<Listed>) {  // of one task: a log has the words of those that it has trials
                                     // of
-    const auto words = words_for(closed_list<Listed>, Sorting::task);
+    const auto words = words_for(closed_list<Listed>, task_named("sorting"));
     return words.at(*rc::gen::inRange<std::size_t>(0, words.size()));
   } else {
     const auto n = static_cast<int>(EnumNames<Listed>::names.size());

@@ -12,7 +12,7 @@
 #include "record/schema/RowSql.h"
 #include "record/temporary_folder.h"
 #include "record/writer/SessionLog.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft::test {
 namespace {
@@ -61,7 +61,7 @@ class schema_rules : public testing::Test {
   void expect_exactly_the_names(const std::string& table, const std::string& column) {
     std::vector<std::string_view> names;
     if constexpr (is_word<Listed>)
-      names = words_for(closed_list<Listed>, Sorting::task);
+      names = words_for(closed_list<Listed>, task_named("sorting"));
     else
       names = listed_names<Listed>();
     for (const std::string_view name : names)

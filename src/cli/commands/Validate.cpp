@@ -28,7 +28,7 @@
 #include "protocol/study/StudyPlan.h"
 #include "psychophysics/Interleaving.h"
 #include "session/Session.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 #include "tracking/pose/MarkerBody.h"
 #include "tracking/synthetic/SyntheticCamera.h"
 

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "record/export/ExportFolder.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft {
 

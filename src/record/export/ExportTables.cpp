@@ -13,7 +13,6 @@
 #include "experiment/Rows.h"
 #include "record/schema/EventRow.h"
 #include "record/schema/RowSql.h"
-#include "tasks/Comparison.h"
 
 namespace heft {
 
@@ -222,10 +221,8 @@ ExportTable choice_table() {
                      "WHEN r.chosen_slot = 1 THEN 'left' ELSE 'right' END"});
   return {"choices", "a completed comparison that is no practice",
           of_session("trial") +
-              fmt::format(" WHERE r.task = '{}' AND r.status = 'completed' AND r.outcome IS NOT "
-                          "NULL AND r.reference_g IS NOT NULL AND r.level_g IS NOT NULL AND NOT "
-                          "r.is_practice",
-                          Comparison::task.name),
+              " WHERE r.task = 'comparison' AND r.status = 'completed' AND r.outcome IS NOT NULL "
+              "AND r.reference_g IS NOT NULL AND r.level_g IS NOT NULL AND NOT r.is_practice",
           "r.trial_id", std::move(columns)};
 }
 

@@ -12,7 +12,7 @@
 #include "base/Names.h"
 #include "base/PoseTypes.h"
 #include "experiment/Rows.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace SQLite {
 class Column;

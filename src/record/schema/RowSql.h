@@ -15,7 +15,7 @@
 #include "experiment/Event.h"
 #include "experiment/Rows.h"
 #include "record/schema/SessionHeader.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft {
 

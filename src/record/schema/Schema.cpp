@@ -54,20 +54,19 @@ bool is_ours(SQLite::Database& database, std::string_view list) {
   while (entries.executeStep()) {
     const std::string word = entries.getColumn(0), name = entries.getColumn(1);
     const int edition = entries.getColumn(2);
-    if (place_of(name) == words_of<Task>().size()) return false;
-    const TaskDeclaration& task = task_named(name);
-    const auto words = words_for(list, task);
-    if (edition < 1 || edition > task.edition ||
-        std::ranges::find(words, std::string_view(word)) == words.end())
-      return false;
+    const TaskDeclaration* task = find_task(name);
+    if (!task || edition < 1 || edition > task->edition) return false;
+    const auto words = words_for(list, *task);
+    if (std::ranges::find(words, std::string_view(word)) == words.end()) return false;
     found.insert(word);
   }
   SQLite::Statement tasks(database, "SELECT name, edition FROM list_task");
   while (tasks.executeStep()) {
     const std::string name = tasks.getColumn(0);
-    if (place_of(name) == words_of<Task>().size()) return false;
-    if (tasks.getColumn(1).getInt() != task_named(name).edition) continue;
-    for (const std::string_view word : words_for(list, task_named(name)))
+    const TaskDeclaration* task = find_task(name);
+    if (!task) return false;
+    if (tasks.getColumn(1).getInt() != task->edition) continue;
+    for (const std::string_view word : words_for(list, *task))
       if (!found.contains(std::string(word))) return false;
   }
   return true;

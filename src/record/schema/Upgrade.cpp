@@ -39,7 +39,7 @@ void renew_words(SQLite::Database& database) {
   SQLite::Statement query(database, "SELECT task FROM trial GROUP BY task ORDER BY min(trial_id)");
   while (query.executeStep()) tasks.push_back(query.getColumn(0).getString());
   for (const std::string& task : tasks) {
-    if (place_of(task) == words_of<Task>().size())
+    if (!find_task(task))
       throw Error(fmt::format("the log holds a trial of an unknown task: {}", task),
                   ExitCode::diverged);
     add_words(database, task);
