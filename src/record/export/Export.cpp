@@ -33,8 +33,9 @@ void write_dictionary(const ExportSource& source, const std::vector<ExportTable>
 
 void export_csv(const ExportSource& source, ExportFolder& folder,
                 const std::function<void(double)>& tell) {
+  const std::string script = analysis_script();
   write_dictionary(source, write_tables(source, folder, "", ".csv", tell), folder);
-  folder.write_text("analysis.R", analysis_script);
+  folder.write_text("analysis.R", script);
 }
 
 std::vector<ExportedFile> export_logs(const ExportRequest& request,

@@ -7,7 +7,9 @@
 #include <cstring>
 
 #include "base/Error.h"
+#include "base/Installation.h"
 #include "base/files/Csv.h"
+#include "base/files/TextFile.h"
 
 namespace heft {
 
@@ -118,6 +120,10 @@ std::string readme_of(const std::string& standard) {
       "seconds since a session's start, masses grams. Trials with a status other than `completed` "
       "were presented again; those with `is_practice` 1 count in no figure.\n",
       HEFT_VERSION, standard);
+}
+
+std::string analysis_script() {
+  return read_text_file(installed_file("src/record/export/analysis.R"));
 }
 
 std::vector<ExportTable> write_tables(const ExportSource& source, ExportFolder& folder,

@@ -81,7 +81,8 @@ void export_bids(const ExportSource& source, ExportFolder& folder,
 /// What a person who opens the folder reads first.
 std::string readme_of(const std::string& standard);
 
-/// The script in R that reads an export and prints its figures and models.
-extern const char* const analysis_script;
+/// The R script that reads an export and prints its figures and models; installed with the program.
+/// @throws Error when it is missing
+std::string analysis_script();
 
 }  // namespace heft

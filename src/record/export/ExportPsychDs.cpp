@@ -52,10 +52,11 @@ std::string description(const ExportSource& source, const std::vector<ExportTabl
 
 void export_psych_ds(const ExportSource& source, ExportFolder& folder,
                      const std::function<void(double)>& tell) {
+  const std::string script = analysis_script();
   const auto tables = write_tables(source, folder, "data/description-", "_data.csv", tell);
   folder.write_text("dataset_description.json", description(source, tables));
   folder.write_text("README.md", readme_of("Psych-DS"));
-  folder.write_text("analysis/analysis.R", analysis_script);
+  folder.write_text("analysis/analysis.R", script);
 }
 
 }  // namespace heft
