@@ -141,7 +141,8 @@ void RunningAttempt::touch(const CubeTouch& contact, double t_s) {
     cube.contact_s += *contact.ended_after_s;
     cube.last_contact_s = *contact_since_s_[index] + *contact.ended_after_s;
     // An empty optional is less than any value.
-    cube.deepest_push_m = std::max(cube.deepest_push_m, contact.deepest_push_m);
+    cube.max_push_displacement_m =
+        std::max(cube.max_push_displacement_m, contact.max_push_displacement_m);
     cube.peak_lag_m = std::max(cube.peak_lag_m, contact.peak_lag_m);
     contact_since_s_[index].reset();
     return;

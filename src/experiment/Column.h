@@ -19,7 +19,7 @@
 namespace heft {
 
 /// The version of the log that this program writes, and the oldest that it reads.
-inline constexpr int todays_log_version = 6, oldest_log_version = 5;
+inline constexpr int todays_log_version = 7, oldest_log_version = 5;
 
 struct LogColumn {
   std::string_view name;

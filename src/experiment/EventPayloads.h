@@ -147,7 +147,7 @@ struct CubeTouch {
   std::optional<double> ended_after_s{};  ///< none: it began
   /// Of an ended touch, over its frames: how far the effector went from where it was in the first
   /// of them, and the clone's largest distance from it.
-  std::optional<double> deepest_push_m{}, peak_lag_m{};
+  std::optional<double> max_push_displacement_m{}, peak_lag_m{};
   static void event_columns(auto& touch, auto& row) {
     row.slot(touch.slot)
         .duration(touch.ended_after_s)

@@ -89,9 +89,9 @@ void visit_columns(Row& row, Visit&& visit) {
 /// What a push came to, of one touch or the most of all touches of a cube; see CubeTouch.
 template <typename Row, typename Visit>
 void visit_push_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"deepest_push_m", "m",
+  visit(LogColumn{"max_push_displacement_m", "m",
                   "farthest that the effector went from where it was when the touch began", ">= 0"},
-        row.deepest_push_m);
+        row.max_push_displacement_m);
   visit(LogColumn{"peak_lag_m", "m",
                   "largest distance of the clone from the effector during the touch, as displayed",
                   ">= 0"},
@@ -106,7 +106,7 @@ struct CubeRow {
   double contact_s = 0;
   std::optional<double> first_contact_s, last_contact_s;
   int n_resets = 0;
-  std::optional<double> deepest_push_m{}, peak_lag_m{};
+  std::optional<double> max_push_displacement_m{}, peak_lag_m{};
 };
 template <typename Row, typename Visit>
 requires RowOf<Row, CubeRow>

@@ -76,12 +76,12 @@ struct SessionConfig {
   std::string simulator;
   std::optional<int> simulator_edition;
   std::optional<double> rate_hz, display_rate_hz;
-  std::string simulator_why;
+  std::string simulator_reason;
   std::optional<InputMode> input;
   std::optional<double> predict_s;
   std::optional<double> source_rate_hz;
   std::vector<ProtocolSetting> settings;
-  Side handed = Side::right;
+  Side controls = Side::right;
   std::optional<Side> hand;
   std::optional<WindowState> window;
   std::string display_file;
@@ -143,8 +143,8 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"language", "", "of the participant's texts; empty: nobody reads"}, row.language);
   visit(LogColumn{"heft_version", "", "version of the program"}, row.heft_version);
   visit(LogColumn{"build", "", "compiler and machine that built the program"}, row.build);
-  visit(LogColumn{"simulator_why", "", "why `auto` picked this simulator; empty: it was named"},
-        row.simulator_why);
+  visit(LogColumn{"simulator_reason", "", "why `auto` picked this simulator; empty: it was named"},
+        row.simulator_reason);
   visit(LogColumn{"input", "", "how poses between two pictures are taken: path, hold, extrapolate"},
         AsText{row.input});
   visit(LogColumn{"predict_s", "s", "how far ahead poses are predicted"}, row.predict_s);
@@ -153,8 +153,8 @@ void visit_columns(Row& row, Visit&& visit) {
         row.source_rate_hz);
   visit(LogColumn{"settings", "", "changes to the protocol by --set, one KEY=VALUE a line"},
         AsText{row.settings});
-  visit(LogColumn{"handed", "", "hand that the controls are laid out for: left, right"},
-        AsText{row.handed});
+  visit(LogColumn{"controls", "", "side of the screen that the buttons are on: left, right"},
+        AsText{row.controls});
   visit(LogColumn{"camera_file", "", "the camera's calibration"}, row.camera.path);
   visit(LogColumn{"camera_sha256", "", "hash of its contents"}, row.camera.sha256);
   visit(LogColumn{"board_file", "", "the board"}, row.board.path);

@@ -53,9 +53,10 @@ struct Session {
     engine.apply({++t_s, CubeTouch{slot, std::nullopt}});
     return engine.apply({++t_s, CubeTouch{slot, seconds}});
   }
-  CubeRow pushes(int slot, double deepest_push_m, double peak_lag_m) {
+  CubeRow pushes(int slot, double max_push_displacement_m, double peak_lag_m) {
     engine.apply({++t_s, CubeTouch{slot}});
-    return engine.apply({++t_s, CubeTouch{slot, 1, deepest_push_m, peak_lag_m}}).cubes.at(0);
+    return engine.apply({++t_s, CubeTouch{slot, 1, max_push_displacement_m, peak_lag_m}})
+        .cubes.at(0);
   }
   // Everything before the first sorting trial.
   void reach_sorting() {
@@ -365,7 +366,7 @@ TEST(Engine, keeps_the_deepest_push_and_the_largest_lag_of_each_cube) {
   session.pushes(2, 0.03, 0.001);
   session.pushes(1, 0.05, 0.04);
   const CubeRow cube = session.pushes(2, 0.02, 0.01);
-  EXPECT_EQ(cube.deepest_push_m, 0.03);
+  EXPECT_EQ(cube.max_push_displacement_m, 0.03);
   EXPECT_EQ(cube.peak_lag_m, 0.01);
   EXPECT_EQ(session.touches(2, 0.5).cubes.at(0).peak_lag_m, 0.01) << "a touch without a lag";
 }

@@ -56,7 +56,7 @@ TEST_F(digest, a_row_moved_to_another_session_is_found_in_both) {
 TEST_F(digest, a_row_put_in_is_found) {
   expect_found(
       "INSERT INTO event SELECT 1000, session_id, trial_id, t_s, kind, slot, label, "
-      "detail, value, deepest_push_m, peak_lag_m, digest FROM event WHERE event_id = 4",
+      "detail, value, max_push_displacement_m, peak_lag_m, digest FROM event WHERE event_id = 4",
       "event", 1000);
 }
 

@@ -143,16 +143,16 @@ staircase_results <- function() {
     rows$start_g[i] <- levels[1]
     cut <- rows$censored[i] != "none" || rows$n_reversals[i] < 4 || rows$reason[i] == "trials"
     direction <- rows$censored[i]
-    if (cut && direction %in% c("none", "unsettled")) {
+    if (cut && direction %in% c("none", "indeterminate")) {
       at_ceiling <- rows$n_ceiling[i] > 0
       at_floor <- rows$n_floor[i] > 0
       last <- levels[length(levels)]
       direction <- if (at_ceiling != at_floor) { if (at_ceiling) "above" else "below" }
-                   else if (at_ceiling || last == levels[1]) "unsettled"
+                   else if (at_ceiling || last == levels[1]) "indeterminate"
                    else if (last > levels[1]) "above" else "below"
     }
     rows$direction[i] <- direction
-    rows$shown_g[i] <- if (direction == "unsettled") NA
+    rows$shown_g[i] <- if (direction == "indeterminate") NA
                        else if (!is.na(rows$jnd_g[i])) rows$jnd_g[i]
                        else if (direction == "above") max(levels)
                        else if (direction == "below") min(levels)

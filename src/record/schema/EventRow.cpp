@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <concepts>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -41,7 +42,7 @@ class ToRow {
   ToRow& label(const std::optional<Label>& label) { return set(row_.label, label); }
   ToRow& number(std::optional<double> number) { return set(row_.value, number); }
   ToRow& push(const CubeTouch& touch) {
-    row_.deepest_push_m = touch.deepest_push_m;
+    row_.max_push_displacement_m = touch.max_push_displacement_m;
     row_.peak_lag_m = touch.peak_lag_m;
     return *this;
   }
@@ -94,7 +95,7 @@ class FromRow {
   FromRow& label(std::optional<Label>& label) { return take(label, row_.label, "a label"); }
   FromRow& number(std::optional<double>& number) { return take(number, row_.value, "a number"); }
   FromRow& push(CubeTouch& touch) {
-    touch.deepest_push_m = row_.deepest_push_m;
+    touch.max_push_displacement_m = row_.max_push_displacement_m;
     touch.peak_lag_m = row_.peak_lag_m;
     return *this;
   }
@@ -193,8 +194,8 @@ std::string text_of(const Event& event) {
   text += fmt::format(" at {} s", row.t_s);
   const bool is_number = event.is<Action, ActionRefused>();
   if (row.value) text += fmt::format(", {}{}", *row.value, is_number ? "" : " s");
-  if (row.deepest_push_m && row.peak_lag_m)
-    text += fmt::format(", {} m deep, {} m behind", *row.deepest_push_m, *row.peak_lag_m);
+  if (row.max_push_displacement_m && row.peak_lag_m)
+    text += fmt::format(", {} m deep, {} m behind", *row.max_push_displacement_m, *row.peak_lag_m);
   return text;
 }
 
@@ -219,6 +220,10 @@ std::string event_line(const Event& event, const AnnouncedEvent& about) {
 }
 
 namespace {
+
+// Columns of `setup` that had other names before version 7.
+constexpr std::array renamed_columns{std::pair{"simulator_why", "simulator_reason"},
+                                     std::pair{"handed", "controls"}};
 
 // Columns by their names, contents by theirs; what is not told is left out.
 struct Write {
@@ -287,8 +292,10 @@ std::string to_json(const SessionConfig& setup) {
 }
 
 SessionConfig setup_from_json(const std::string& text) try {
-  const Json json = Json::parse(text);
+  Json json = Json::parse(text);
   if (!json.is_object()) throw Error("a setup can't be read: expected a JSON object");
+  for (const auto& [older, name] : renamed_columns)
+    if (const auto found = json.find(older); found != json.end()) json[name] = *found;
   SessionConfig setup;
   visit_columns(setup, Read{json});
   visit_contents(setup, Read{json});

@@ -21,7 +21,7 @@ struct EventRow {
   std::optional<Label> label;
   std::string detail;
   std::optional<double> value;
-  std::optional<double> deepest_push_m, peak_lag_m;
+  std::optional<double> max_push_displacement_m, peak_lag_m;
 
   bool operator==(const EventRow&) const = default;
 };

@@ -40,7 +40,7 @@ inline constexpr std::string_view closed_list<EventKind> = "list_event";
 template <>
 inline constexpr std::string_view closed_list<SessionState> = "list_state";
 template <>
-inline constexpr std::string_view closed_list<StopReason> = "list_finish";
+inline constexpr std::string_view closed_list<StopReason> = "list_stop_reason";
 template <>
 inline constexpr std::string_view closed_list<Censored> = "list_censored";
 template <>

@@ -123,6 +123,14 @@ std::vector<std::string> foreign_objects(SQLite::Database& database) {
   return foreign;
 }
 
+std::vector<std::string> unknown_objects(SQLite::Database& database,
+                                         const std::set<std::string>& also) {
+  std::vector<std::string> unknown;
+  for (const auto& [name, sql] : objects_in(database))
+    if (!objects_of_a_log().contains(name) && !also.contains(name)) unknown.push_back(name);
+  return unknown;
+}
+
 void add_words(SQLite::Database& database, std::string_view name) {
   const TaskDeclaration& task = task_named(name);
   for (const std::string_view list : word_lists) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,11 @@ void create(SQLite::Database& database);
 /// What the file's schema has that a log of its version has not, lacks, or has otherwise, and
 /// entries of closed lists likewise; one line each. Empty: it is as this program made it.
 std::vector<std::string> foreign_objects(SQLite::Database& database);
+
+/// Names of objects that no log has: "trigger bad".
+/// @param also names that an older log may have
+std::vector<std::string> unknown_objects(SQLite::Database& database,
+                                         const std::set<std::string>& also);
 
 /// Adds what a task brings to the lists of words, unless it is there.
 /// @throws Error (usage) for a task that is none of ours

@@ -105,7 +105,7 @@ SELECT s.session_id, s.participant, s.protocol_name, s.purpose, u.responder, u.s
   (SELECT count(*) FROM answer a WHERE a.trial_id = t.trial_id) AS n_answers,
   (SELECT sum(n_pushes) FROM cube c WHERE c.trial_id = t.trial_id) AS n_pushes,
   (SELECT sum(contact_s) FROM cube c WHERE c.trial_id = t.trial_id) AS contact_s,
-  (SELECT max(deepest_push_m) FROM cube c WHERE c.trial_id = t.trial_id) AS deepest_push_m,
+  (SELECT max(max_push_displacement_m) FROM cube c WHERE c.trial_id = t.trial_id) AS max_push_displacement_m,
   (SELECT max(peak_lag_m) FROM cube c WHERE c.trial_id = t.trial_id) AS peak_lag_m,
   (SELECT max(clone_offset_px) FROM frame f WHERE f.trial_id = t.trial_id)
     * u.display_w_mm / u.display_w_px / u.eye_distance_mm * 57.29577951308232
@@ -142,7 +142,7 @@ SELECT t.session_id, t.participant, t.protocol_name, t.purpose, t.responder,
    WHERE l.trial_id = t.trial_id AND l.label = 'intermediate') AS labeled_intermediate_g,
   (SELECT c.mass_g FROM final_label l JOIN cube c ON c.trial_id = l.trial_id AND c.slot = l.slot
    WHERE l.trial_id = t.trial_id AND l.label = 'heaviest') AS labeled_heaviest_g,
-  t.outcome, t.is_practice, t.n_answers, t.n_pushes, t.contact_s, t.deepest_push_m, t.peak_lag_m,
+  t.outcome, t.is_practice, t.n_answers, t.n_pushes, t.contact_s, t.max_push_displacement_m, t.peak_lag_m,
   t.response_time_s
 FROM v_trial t WHERE t.task = 'sorting' AND t.status = 'completed';
 
