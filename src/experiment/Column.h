@@ -1,9 +1,7 @@
-// What a column of the log is, told once. Each row type has visit_columns(row, visit), which calls
-// visit(column, field) for every column in the log's order; writing, reading, digests, replay's
-// comparison, CSV and the data dictionary are visitors. The field's type says the rest: an optional
+// Columns of the log, declared once. Each row type has visit_columns(row, visit), which calls
+// visit(column, field) for every column in the log's order. Writing, reading, digests, replay's
+// comparison, CSV and the data dictionary are visitors. Types follow from the field: an optional
 // may be NULL, an enumeration is a closed list.
-// A row's columns as single cells: poses and velocities taken apart, texts that may be empty as
-// such. Who only needs a name and a plain value for each column of the log visits these.
 #pragma once
 
 #include <array>
@@ -18,28 +16,28 @@
 
 namespace heft {
 
-/// The version of the log that this program writes, and the oldest that it reads.
+/// Version of the log that this program writes, and the oldest that it reads.
 inline constexpr int todays_log_version = 7, oldest_log_version = 5;
 
 struct LogColumn {
   std::string_view name;
-  std::string_view unit;  ///< "s", "g"; empty: none
-  std::string_view meaning;
-  /// What each value must be, as SQL over the column's name: ">= 0". Empty: anything.
+  std::string_view unit;     ///< "s", "g"; empty: none
+  std::string_view meaning;  ///< for the data dictionary
+  /// Constraint on each value, as SQL after the column's name: ">= 0"; empty: none.
   std::string_view check = {};
 };
 
-/// Seven columns, NAME_x_m ... NAME_qz, of a pose; NULL all seven where there is none.
+/// The seven columns NAME_x_m ... NAME_qz of a pose; all NULL if there is none.
 struct PoseColumns {
   std::string_view name, meaning;
 };
 
-/// Six columns, NAME_vx_m_s ... NAME_wz_rad_s.
+/// The six columns NAME_vx_m_s ... NAME_wz_rad_s of a velocity.
 struct VelocityColumns {
   std::string_view name, meaning;
 };
 
-/// A pose that goes into the log with every bit, -0.0 too: what physics was given.
+/// A pose or velocity that the log keeps bit for bit, including -0.0: input of the physics.
 template <typename Pose>
 struct Exactly {
   Pose& value;
@@ -47,7 +45,7 @@ struct Exactly {
 template <typename Pose>
 Exactly(Pose&) -> Exactly<Pose>;
 
-/// A value that is a text in the log, by the to_text() and from_text() of its type.
+/// A value that is a text in the log, by to_text() and from_text() of its type.
 template <typename Value>
 struct AsText {
   Value& value;
@@ -55,7 +53,7 @@ struct AsText {
 template <typename Value>
 AsText(Value&) -> AsText<Value>;
 
-/// The same, NULL in the log where the text is empty.
+/// The same; an empty text is NULL in the log.
 template <typename Value>
 struct NullIfEmpty {
   Value& value;
@@ -75,7 +73,7 @@ std::string to_text(const std::optional<Value>& value) {
   return value ? to_text(*value) : "";
 }
 
-// What a text does not say stays. @return false: no text of such a value
+// @return false, leaving the value unchanged, if the text is no such value
 
 inline bool from_text(std::string_view text, std::string& value) {
   value = text;
@@ -90,11 +88,13 @@ bool from_text(std::string_view text, Enum& value) {
 }
 template <typename Value>
 bool from_text(std::string_view text, std::optional<Value>& value) {
-  value.reset();
-  return text.empty() || from_text(text, value.emplace());
+  Value parsed{};
+  const bool is_valid = text.empty() || from_text(text, parsed);
+  if (is_valid) value = text.empty() ? std::nullopt : std::optional(std::move(parsed));
+  return is_valid;
 }
 
-/// One of a row's poses by place, where there may be fewer.
+/// One of a row's poses by index; NULL if there are fewer.
 template <typename Poses>
 struct PoseAt {
   Poses& poses;
@@ -103,17 +103,17 @@ struct PoseAt {
 template <typename Poses>
 PoseAt(Poses&, std::size_t) -> PoseAt<Poses>;
 
-/// One column of a table.
+/// A single column of a table: poses and velocities are split into their parts.
 struct CellColumn {
   std::string_view name, suffix, unit, meaning;
   std::string_view check = {};
-  bool exact = false;  ///< keeps every bit, -0.0 too
+  bool exact = false;  ///< kept bit for bit, including -0.0
 
   std::string full_name() const { return std::string(name) + std::string(suffix); }
 };
 
-/// Calls visit(CellColumn, value) for every column. The value is a bool, a number, a text, an
-/// enumeration, or an optional of one of these.
+/// A visitor of columns that calls visit(CellColumn, value) for every single column. The value is a
+/// bool, a number, a text, an enumeration, or an optional of one of these.
 template <typename Visit>
 class EachCell {
  public:

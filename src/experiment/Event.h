@@ -1,6 +1,5 @@
-// The events of a session: the only input of the engine's fold, and the rows of the log's `event`
-// table. Each payload is a type that declares its fields, its name in the log, what the engine does
-// with it and which columns of the event's row it fills.
+// Events of a session: the only input of the engine's fold, and the rows of the log's `event`
+// table.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -19,16 +17,14 @@
 
 namespace heft {
 
-/// Each declares its name and role (event_type), and, unless it is empty, the columns of the
-/// event's row that it fills (event_columns). A new one is added at the end: the log's list keeps
-/// the order.
+/// New payloads are added at the end: EventKind is an index into this list.
 using EventPayload =
     std::variant<TrialStarted, Action, TrialVoided, SessionPaused, SessionContinued, CubesReset,
                  DemonstrationShown, SessionResumed, SessionEnded, SessionConfig, CubesShown,
                  CubeTouch, EffectorLost, EffectorFound, Consent, TextShown, BreakTaken, Note,
                  Deviation, Unblinding, CameraReport, CheckResult, ActionRefused, AnswerVetoed>;
 
-/// A payload's place in EventPayload. It has the name that the payload has in the log.
+/// Index of a payload in EventPayload; its name is that of the payload in the log.
 enum class EventKind : std::size_t {};
 
 template <typename... Payloads>
@@ -52,14 +48,14 @@ struct EnumNames<EventKind> {
   static constexpr auto names = ListedPayloads::names;
 };
 
-/// Why an attempt that a crash cut short is void; it is run again with the same draws.
+/// Reason of an attempt that a crash interrupted; it is repeated with the same draws.
 inline constexpr std::string_view void_interrupted = "interrupted";
 
-/// How the reason of a trial begins whose answer was vetoed.
+/// Start of the reason of a trial whose answer was vetoed.
 inline constexpr std::string_view answer_vetoed = "answer vetoed: ";
 
-/// A time as the log keeps it: to 2^-20 s, about a microsecond. Sums and differences of such times
-/// are exact, so durations come out the same bit for bit wherever in a session they lie.
+/// Rounds a time to the log's resolution, 2^-20 s (about 1 us). Sums and differences of such times
+/// are exact, so a duration has the same bits anywhere in a session.
 inline double log_time(double t_s) {
   return std::round(t_s * 0x1p20) * 0x1p-20;
 }

@@ -1,8 +1,5 @@
-// What every payload of an event declares beside its fields: its name in the log, and what the
-// engine does with it. Event.h lists the payloads.
-// Something a participant does on the touch screen. A task's declaration (src/tasks) says which
-// kinds it has and which of the other columns each fills.
-// One line of the look at the apparatus before a session.
+// Payloads of a session's events. Each declares its name in the log and its role (event_type) and,
+// unless it is empty, the columns of the `event` row that it fills (event_columns).
 #pragma once
 
 #include <array>
@@ -15,12 +12,12 @@
 
 namespace heft {
 
-/// What the engine does with an event, and when it takes it.
+/// When the engine accepts an event, and what it does with it.
 enum class EventRole {
-  course,   ///< decides what comes next; refused when it is not due, and after the session's end
-  attempt,  ///< belongs to the open attempt; refused without one, and while the session is paused
-  setting,  ///< folded, may come at any time
-  recorded  ///< only kept, may come at any time
+  course,   ///< determines what comes next; refused when it is not due or the session has ended
+  attempt,  ///< belongs to the open attempt; refused without one and while the session is paused
+  setting,  ///< folded, accepted at any time
+  recorded  ///< recorded only, accepted at any time
 };
 
 struct EventType {
@@ -31,10 +28,12 @@ struct EventType {
 template <typename Payload>
 concept Recorded = Payload::event_type.role == EventRole::recorded;
 
+/// An answer, or a step of one. A task's declaration (src/tasks) lists its kinds of action and the
+/// columns that each fills.
 struct Action {
   static constexpr EventType event_type{"action", EventRole::attempt};
   ActionKind kind{};
-  std::optional<int> slot{};  ///< the cube that it is about, from 1, leftmost
+  std::optional<int> slot{};  ///< of a cube; 1 is leftmost
   std::optional<Label> label{};
   std::optional<double> value{};
 
@@ -55,11 +54,12 @@ struct EnumNames<CheckVerdict> {
   static constexpr std::array<std::string_view, 3> names{"ok", "warning", "failed"};
 };
 
+/// One check of the apparatus before a session.
 struct CheckResult {
   static constexpr EventType event_type{"check", EventRole::recorded};
   CheckVerdict verdict = CheckVerdict::ok;
   std::string name;     ///< "frame rate", "light"...
-  std::string finding;  ///< the figure, and where it is not good what was expected and what to do
+  std::string finding;  ///< the figure; if not ok, also what was expected and what to do
 
   static void event_columns(auto& check, auto& row) {
     row.json("name", check.name).json("verdict", check.verdict).json("finding", check.finding);
@@ -81,6 +81,15 @@ struct TrialVoided {
   bool operator==(const TrialVoided&) const = default;
 };
 
+/// Voids the trial that was answered last. It is presented again, and its block's procedures are
+/// restored to their state before the answer.
+struct AnswerVetoed {
+  static constexpr EventType event_type{"answer_vetoed", EventRole::course};
+  std::string reason;  ///< not empty
+  static void event_columns(auto& vetoed, auto& row) { row.detail(vetoed.reason); }
+  bool operator==(const AnswerVetoed&) const = default;
+};
+
 struct SessionPaused {
   static constexpr EventType event_type{"paused", EventRole::course};
   std::string reason;
@@ -93,28 +102,10 @@ struct SessionContinued {
   bool operator==(const SessionContinued&) const = default;
 };
 
-struct CubesReset {
-  static constexpr EventType event_type{"cubes_reset", EventRole::attempt};
-  std::optional<int> slot;  ///< of the cube that had left the area; none: all, by the button
-  static void event_columns(auto& reset, auto& row) {
-    row.slot(reset.slot)
-        .detail_is(reset.slot ? "out_of_area" : "button",
-                   "\"button\", or \"out_of_area\" with a cube's slot");
-  }
-  bool operator==(const CubesReset&) const = default;
-};
-
-struct DemonstrationShown {
-  static constexpr EventType event_type{"demonstration_shown", EventRole::course};
-  std::string block;
-  static void event_columns(auto& shown, auto& row) { row.detail(shown.block); }
-  bool operator==(const DemonstrationShown&) const = default;
-};
-
 struct SessionResumed {
   static constexpr EventType event_type{"resumed", EventRole::course};
   std::string utc;
-  double away_s = 0;  ///< since the last event before
+  double away_s = 0;  ///< since the previous event
   static void event_columns(auto& resumed, auto& row) {
     row.detail(resumed.utc).duration(resumed.away_s, /*if_none=*/0.0);
   }
@@ -133,20 +124,49 @@ struct SessionEnded {
   bool operator==(const SessionEnded&) const = default;
 };
 
-// Of an attempt (Action too):
+struct DemonstrationShown {
+  static constexpr EventType event_type{"demonstration_shown", EventRole::course};
+  std::string block;
+  static void event_columns(auto& shown, auto& row) { row.detail(shown.block); }
+  bool operator==(const DemonstrationShown&) const = default;
+};
 
-/// The first presented frame with all cubes on it.
+struct BreakTaken {
+  static constexpr EventType event_type{"break", EventRole::setting};
+  std::string name;
+  double duration_s = 0;
+  static void event_columns(auto& taken, auto& row) {
+    row.detail(taken.name).duration(taken.duration_s);
+  }
+  bool operator==(const BreakTaken&) const = default;
+};
+
+// Events of an attempt, besides Action:
+
+/// The first presented frame that shows all cubes.
 struct CubesShown {
   static constexpr EventType event_type{"cubes_shown", EventRole::attempt};
   bool operator==(const CubesShown&) const = default;
 };
 
+struct CubesReset {
+  static constexpr EventType event_type{"cubes_reset", EventRole::attempt};
+  std::optional<int> slot;  ///< of the cube that left the area; none: all cubes, by the button
+  static void event_columns(auto& reset, auto& row) {
+    row.slot(reset.slot)
+        .detail_is(reset.slot ? "out_of_area" : "button",
+                   "\"button\", or \"out_of_area\" with a cube's slot");
+  }
+  bool operator==(const CubesReset&) const = default;
+};
+
+/// The clone begins or ends to touch a cube.
 struct CubeTouch {
   static constexpr EventType event_type{"cube_contact", EventRole::attempt};
   int slot = 0;
-  std::optional<double> ended_after_s{};  ///< none: it began
-  /// Of an ended touch, over its frames: how far the effector went from where it was in the first
-  /// of them, and the clone's largest distance from it.
+  std::optional<double> ended_after_s{};  ///< none: the touch begins
+  /// Of an ended touch, over its frames: largest displacement of the effector from its position in
+  /// the first frame, and largest distance between clone and effector.
   std::optional<double> max_push_displacement_m{}, peak_lag_m{};
   static void event_columns(auto& touch, auto& row) {
     row.slot(touch.slot)
@@ -156,15 +176,6 @@ struct CubeTouch {
                    "\"began\", or \"ended\" with a duration");
   }
   bool operator==(const CubeTouch&) const = default;
-};
-
-/// The answer to the trial that was answered last does not count: it is presented again, and its
-/// block is as if it had not been answered.
-struct AnswerVetoed {
-  static constexpr EventType event_type{"answer_vetoed", EventRole::course};
-  std::string reason;  ///< not empty
-  static void event_columns(auto& vetoed, auto& row) { row.detail(vetoed.reason); }
-  bool operator==(const AnswerVetoed&) const = default;
 };
 
 struct EffectorLost {
@@ -177,7 +188,7 @@ struct EffectorFound {
   bool operator==(const EffectorFound&) const = default;
 };
 
-// What is only recorded (CheckResult too), and breaks:
+// Recorded only, as CheckResult:
 
 struct Consent {
   static constexpr EventType event_type{"consent", EventRole::recorded};
@@ -198,16 +209,6 @@ struct TextShown {
     row.json("sha256", text.sha256);
   }
   bool operator==(const TextShown&) const = default;
-};
-
-struct BreakTaken {
-  static constexpr EventType event_type{"break", EventRole::setting};
-  std::string name;
-  double duration_s = 0;
-  static void event_columns(auto& taken, auto& row) {
-    row.detail(taken.name).duration(taken.duration_s);
-  }
-  bool operator==(const BreakTaken&) const = default;
 };
 
 struct Note {
@@ -231,7 +232,7 @@ struct Unblinding {
   bool operator==(const Unblinding&) const = default;
 };
 
-/// How an attempt's pictures came along.
+/// Counts of an attempt's camera pictures.
 struct CameraReport {
   static constexpr EventType event_type{"camera", EventRole::recorded};
   int n_shown = 0, n_dropped = 0, n_late = 0;
@@ -242,7 +243,7 @@ struct CameraReport {
   bool operator==(const CameraReport&) const = default;
 };
 
-/// What a participant did that could not be taken: too early, or not offered. It changed nothing.
+/// An action that was refused, because it came too early or was not offered. It has no effect.
 struct ActionRefused {
   static constexpr EventType event_type{"refused", EventRole::recorded};
   Action action;

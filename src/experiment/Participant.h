@@ -1,5 +1,4 @@
-// What may be a participant's id.
-// A named value from a flat parameter file, with its place for messages.
+// A participant's id, and a parameter of a simulated participant.
 #pragma once
 
 #include <optional>
@@ -10,11 +9,11 @@
 
 namespace heft {
 
-/// What is wrong with it, as it follows "the id"; none where nothing is. An id is text that people
-/// can read and tables can hold: UTF-8, one line, not blank, 200 bytes at most. Leading zeros,
-/// blanks inside and any script are kept as they are.
+/// An id is one line of printable UTF-8, not blank, of at most 200 bytes. It is kept unchanged.
+/// @return a message that continues "the id"; none: the id is valid
 std::optional<std::string> wrong_with_id(const std::string& id);
 
+/// A value of a parameter file, with its place for messages.
 struct Parameter {
   std::string name;
   std::variant<double, bool, std::string> value;  ///< integers are read as double

@@ -1,7 +1,6 @@
-// A questionnaire as plain data: what people are asked after a block or at the end, in the words of
-// one language.
-// Every word that a participant reads, by page and key, in one language. The wording sets the
-// criterion that people judge by, so it is data, and each page's text is logged with its hash.
+// Every text that a participant reads, by page and key, in one language: screens and
+// questionnaires. Wording affects the participant's criterion, so each page's text is logged with
+// its hash.
 #pragma once
 
 #include <map>
@@ -16,10 +15,10 @@ namespace heft {
 
 enum class QuestionKind {
   choice,  ///< one of several words
-  likert,  ///< a whole number between two ends that have words
-  slider,  ///< a place between two ends that have words, 0...100
+  likert,  ///< a whole number between two labeled ends
+  slider,  ///< a position between two labeled ends, 0...100
   number,  ///< typed on buttons
-  text     ///< told to the experimenter, who writes it down
+  text     ///< said to the experimenter, who types it
 };
 template <>
 struct EnumNames<QuestionKind> {
@@ -28,7 +27,7 @@ struct EnumNames<QuestionKind> {
 };
 
 struct AnswerChoice {
-  std::string value, text;  ///< what is logged; what people read
+  std::string value, text;  ///< as logged; as displayed
 };
 
 struct FormQuestion {
@@ -36,32 +35,31 @@ struct FormQuestion {
   QuestionKind kind = QuestionKind::choice;
   std::string text;
   std::vector<AnswerChoice> choices;  ///< choice
-  std::string low, high;              ///< likert, slider: the ends' words
+  std::string low, high;              ///< likert, slider: labels of the ends
   int from = 1, to = 7;               ///< likert
   double least = 0, most = 0;         ///< number
 };
 
 struct Questionnaire {
   std::string title;
-  std::string source;  ///< where it comes from; nobody who takes part reads it
+  std::string source;  ///< its reference; not shown to participants
   std::vector<FormQuestion> questions;
 };
 
-/// Whether an answer is one that the question takes; people may be in the middle of typing it.
+/// Whether the question accepts the answer.
 bool takes_answer(const FormQuestion& question, const std::string& value);
 
-/// Of a number, in letters.
+/// Length of a typed number, characters.
 inline constexpr std::size_t longest_number = 9;
 
-/// What a number that is being typed becomes with one more key: 0 before a point alone, and no 0
+/// Appends a key to a number that is being typed. A leading 0 is added before a point and removed
 /// before another digit.
 /// @param key a digit or "."
-/// @return none: it would be no number, or none that could still come to lie in the question's
-/// range
+/// @return none: the result is no number, or could not be completed to one in the question's range
 std::optional<std::string> typed_on(const FormQuestion& question, const std::string& typed,
                                     const std::string& key);
 
-/// The page of texts that a questionnaire is.
+/// Name of a questionnaire's page of texts.
 inline std::string questionnaire_page(const std::string& name) {
   return "questionnaire_" + name;
 }
@@ -72,11 +70,11 @@ struct ScreenTexts {
   std::map<std::string, Questionnaire> questionnaires =
       {};  ///< by name; their words are pages, too
 
-  /// @throws std::out_of_range for a page or key that the file's reader did not demand
+  /// @throws std::out_of_range for a page or key that the reader does not require
   const std::string& at(const std::string& page, const std::string& key) const {
     return pages.at(page).at(key);
   }
-  /// Empty where the file has none: what came to the texts later than files that people keep.
+  /// Empty if the file has none: the key may be newer than the file.
   std::string if_any(const std::string& page, const std::string& key) const {
     const auto found = pages.find(page);
     if (found == pages.end()) return "";
@@ -85,9 +83,8 @@ struct ScreenTexts {
   }
 };
 
-/// The page of texts that a screen shows: its name, with the task's where there is a page for each
-/// ("trial_sorting"). Buttons, places and a trial's hints are on pages of their own, and so is each
-/// questionnaire.
+/// Name of a screen's page of texts: the screen's name, with the task's for instructions and trials
+/// ("trial_sorting").
 inline std::string text_page(Screen screen, const Task& task) {
   const std::string name(name_of(screen));
   const bool by_task = screen == Screen::instructions || screen == Screen::trial;

@@ -1,7 +1,4 @@
-// The words of trials, as protocols and logs write them: tasks and what they bring (labels,
-// actions, outcomes), which src/tasks declares; and what becomes of an attempt.
-// What one attempt at a trial is made of. Drawn by the engine; the runner sets the scene from it.
-// Nothing of it but the number of slots may reach a responder.
+// The words of trials as protocols and logs write them, and the plan of an attempt at a trial.
 #pragma once
 
 #include <optional>
@@ -14,7 +11,7 @@
 
 namespace heft {
 
-/// A word of one of the tasks' lists. Words of different lists are different types.
+/// A word of one of the tasks' lists (src/tasks). Words of different lists are different types.
 template <typename List>
 class Word : public std::string {
  public:
@@ -29,11 +26,11 @@ template <typename List>
 inline constexpr bool is_word<Word<List>> = true;
 
 using Task = Word<struct TaskList>;
-/// What a trial asks to be said of a cube.
+/// A label that the participant gives to a cube.
 using Label = Word<struct LabelList>;
-/// What a participant does.
+/// A kind of action of the participant.
 using ActionKind = Word<struct ActionList>;
-/// What a trial's answer was.
+/// Outcome of a trial.
 using Outcome = Word<struct OutcomeList>;
 
 template <typename List>
@@ -47,20 +44,21 @@ struct EnumNames<TrialStatus> {
   static constexpr std::array<std::string_view, 3> names{"open", "completed", "void"};
 };
 
+/// One attempt at a trial, drawn by the engine. A responder may know its number of slots only.
 struct TrialPlan {
-  int trial_number = 0;  ///< planned trial, from 1; attempts share it
+  int trial_number = 0;  ///< of the planned trial, from 1; shared by its attempts
   int attempt = 1;       ///< from 1; +1 after a veto or a lost camera, unchanged after a crash
   std::string block;
   Task task;
   std::string condition = spring_technique;  ///< name of the technique
-  std::string staircase;                     ///< empty: none (sorting, introduction, catch trials)
+  std::string staircase;                     ///< empty: none (for example catch trials)
   std::optional<double> reference_g;         ///< comparisons only
   std::optional<double> level_g;             ///< comparison - reference, as presented
   bool is_catch = false;
   bool is_practice = false;
   std::vector<double> masses_g;       ///< by slot, leftmost first
   std::optional<int> reference_slot;  ///< comparisons only; slots count from 1
-  int n_reshuffles = 0;               ///< times the cubes were newly shuffled in this attempt
+  int n_reshuffles = 0;               ///< how often the cubes were shuffled again in this attempt
 
   int n_slots() const { return static_cast<int>(masses_g.size()); }
 };

@@ -1,7 +1,5 @@
-// What a task declares about itself as data. Reader, engine, responders, recordings, log and
-// exports take its words and the columns of its answers from here.
-// What a participant has made up their mind to say of a trial, and what a simulated mind has to
-// make it up from. Each task turns the one into the other.
+// A task as data (its declaration), answers, and lookups over the list of all tasks. Readers,
+// engine, responders, recordings, log and exports use these and include no single task.
 #pragma once
 
 #include <algorithm>
@@ -18,74 +16,74 @@ namespace heft {
 class RandomStream;
 struct ScreenState;
 
-/// Something that a participant can do in a trial, and which columns it fills.
+/// An action that a trial offers, and the columns that it fills.
 struct ActionSpec {
   std::string_view kind;
   bool slot = false, label = false, value = false;
-  /// Part of an answer: it never ends a trial, and is taken before every cube was touched.
+  /// A step of an answer: it never ends a trial and needs no contact with the cubes.
   bool is_step = false;
-  /// Taken only once the steps before it are complete (ScreenState::can_validate).
+  /// Accepted only after all steps (ScreenState::can_validate).
   bool after_steps = false;
 };
 
 struct TaskDeclaration {
   std::string_view name;
-  int edition = 1;         ///< counts what changes the meaning of its words
-  std::string_view about;  ///< what is asked, for descriptions of exported data
+  int edition = 1;         ///< increased when the meaning of its words changes
+  std::string_view about;  ///< the question, for descriptions of exported data
   std::span<const ActionSpec> actions = {};
   std::span<const std::string_view> labels = {}, outcomes = {};
-  std::string_view texts = {};  ///< keys of the words on its page, parted by spaces
-  double trial_s = 10;   ///< that a trial takes, for plans; the paper sets no limit, gives no times
-  bool detects = false;  ///< an answer is "none" or says that the cubes differ
+  std::string_view texts = {};  ///< keys of its page of texts, separated by spaces
+  double trial_s = 10;          ///< assumed duration of a trial; the paper reports none
+  bool detects = false;         ///< whether an answer states if the cubes differ
 
-  /// @return null: the task has no such action
+  /// @return null if the task has no such action
   constexpr const ActionSpec* action(std::string_view kind) const {
     const auto found = std::ranges::find(actions, kind, &ActionSpec::kind);
     return found == actions.end() ? nullptr : &*found;
   }
 };
 
-/// The actions of one answer, steps in order of the cubes; empty: no answer.
+/// The actions of an answer, steps in order of the cubes; empty: no answer.
 struct Answer {
   std::vector<Action> actions;
-  bool first_step_corrected = false;  ///< the first label is put wrong and moved
+  bool first_step_corrected = false;  ///< the first label is misplaced, then moved
 
   bool operator==(const Answer&) const = default;
 };
 
-/// What a simulated mind has of a trial when it answers.
+/// What a simulated participant has perceived of a trial when it answers.
 struct Percepts {
-  std::vector<double> remembered_mm;      ///< of the cue, by cube, leftmost first
-  bool differ = false;                    ///< by more than its criterion
-  bool lapse = false;                     ///< what is remembered are any numbers from 0 to 1
-  double guess_probability = 0;           ///< of labels though nothing differs
-  double correction_probability = 0;      ///< of a first label that is put wrong and moved
-  std::span<const int> wrong_slots = {};  ///< chosen wrongly in this trial so far, oldest first
+  std::vector<double> remembered_mm;      ///< remembered cue of each cube, leftmost first
+  bool differ = false;                    ///< whether the cues differ by more than the criterion
+  bool lapse = false;                     ///< remembered_mm are uniform random numbers in [0, 1)
+  double guess_probability = 0;           ///< of labels although no difference was perceived
+  double correction_probability = 0;      ///< of a first label that is misplaced, then moved
+  std::span<const int> wrong_slots = {};  ///< earlier wrong choices in this trial, oldest first
 };
 
-/// What a mind has that does not look: baselines.
+/// What a baseline knows that does not look at the trial.
 struct WithoutPercepts {
   int n_slots = 0;
   bool differ = false;
   std::span<const int> wrong_slots = {};
 };
 
-/// Slot of the largest value among those not ruled out. All but the latest n - 1 wrong choices are
-/// ruled in again: after as many the cubes must have been shuffled.
+/// Slot of the largest value, ignoring the last n - 1 wrong choices; after more than that the cubes
+/// must have been shuffled.
 int heaviest_slot(std::span<const double> values, std::span<const int> wrong_slots);
 
 // Lookups over the list of all tasks (Tasks.h), for code that needs no task's own types.
 
-/// @return null: there is no task of that name
+/// @return null if there is no such task
 const TaskDeclaration* find_task(std::string_view name);
 
-/// @throws Error (usage) naming the nearest task where there is none of that name
+/// @throws Error (usage) naming the most similar task if there is no such task
 const TaskDeclaration& task_named(std::string_view name);
 
-/// The place of a task on the list; its length where the task is not on it.
+/// Index of a task in the list; the length of the list if there is no such task.
 std::size_t task_index(std::string_view name);
 
-/// The words of all tasks, each once, in the list's order.
+/// The words of all tasks, without duplicates, in the order of the list.
 template <typename List>
 std::vector<std::string_view> words_of();
 template <>
@@ -97,21 +95,21 @@ std::vector<std::string_view> words_of<Label>();
 template <>
 std::vector<std::string_view> words_of<Outcome>();
 
-/// An action by its kind, which fills the same columns in every task. @return null: no task has it
+/// An action fills the same columns in every task. @return null if no task has it
 const ActionSpec* action_named(std::string_view kind);
 
-/// A simulated participant's answer to a trial of a task. @param offer the task's Offer
+/// A simulated participant's answer. @param offer the task's Offer; empty: the default one
 Answer simulated_answer(std::string_view task, const std::any& offer, const Percepts& percepts,
                         RandomStream& stream);
 
-/// The same without looking at the trial.
+/// The answer of a baseline that does not look at the trial.
 Answer blind_answer(std::string_view task, const std::any& offer, const WithoutPercepts& unseen,
                     RandomStream& stream);
 
-/// A task's screens with as much on them as they can hold, to check that texts fit.
+/// The task's screens with the most content, to check that texts fit.
 std::vector<ScreenState> fullest_screens(std::string_view task);
 
-/// Orders keys that begin with a task as the list does.
+/// Orders keys that start with a task by the list of tasks.
 struct InTaskOrder {
   bool operator()(const Task& a, const Task& b) const {
     return (*this)(std::tuple(a), std::tuple(b));

@@ -19,9 +19,9 @@ constexpr bool columns_agree() {
           if (!agree(action, same)) return false;
   return true;
 }
-static_assert(columns_agree(), "two tasks give one action different columns");
+static_assert(columns_agree(), "two tasks use one action with different columns");
 
-// Each once, in order.
+// Without duplicates, in order.
 template <typename WordsOf>
 std::vector<std::string_view> all_words(const WordsOf& words_of) {
   std::vector<std::string_view> all;

@@ -1,4 +1,4 @@
-// The list of tasks, closed at compile time: a further one is a line here and files of its own.
+// The list of tasks, closed at compile time. A new task is one entry here and its own files.
 #pragma once
 
 #include <any>
@@ -23,7 +23,7 @@ struct KindsOfTask {
     (visit.template operator()<Kinds>(), ...);
   }
 
-  /// Calls visit.operator()<Kind>() for the task of that name. @return whether there is one
+  /// Calls visit.operator()<Kind>() for the named task. @return whether it exists
   template <typename Visit>
   static bool call(std::string_view name, Visit&& visit) {
     return ((name == Kinds::task.name && (visit.template operator()<Kinds>(), true)) || ...);
@@ -32,7 +32,7 @@ struct KindsOfTask {
 
 using Tasks = KindsOfTask<Introduction, Sorting, Comparison, Estimation>;
 
-/// What a task offers, out of a screen's or a trial's; empty there: that of a trial as such.
+/// The task's offer from ScreenState::offer; empty: its default.
 template <typename Kind>
 typename Kind::Offer offer_of(const std::any& offer) {
   const auto* its = std::any_cast<typename Kind::Offer>(&offer);

@@ -128,7 +128,7 @@ void run(Folded& session, double threshold_g, const auto& happens) {
   RC_ASSERT(session.engine.next().kind == Next::Kind::finish);
 }
 
-RC_GTEST_PROP(MixedProcedures, FoldAgainToTheSameSession, (std::uint64_t seed)) {
+RC_GTEST_PROP(MixedProcedures, FoldAgainToSameSession, (std::uint64_t seed)) {
   auto plan = std::make_shared<SessionPlan>();
   plan->blocks = {any_block()};
   const double threshold_g = *rc::gen::inRange(1, 400);
@@ -148,7 +148,7 @@ RC_GTEST_PROP(MixedProcedures, FoldAgainToTheSameSession, (std::uint64_t seed)) 
             block_as<Comparison::Block>(plan->blocks[0])->staircases.size());
 }
 
-RC_GTEST_PROP(MixedProcedures, ContinueWhereTheyWereInterrupted, (std::uint64_t seed)) {
+RC_GTEST_PROP(MixedProcedures, ContinueAfterInterruption, (std::uint64_t seed)) {
   auto plan = std::make_shared<SessionPlan>();
   plan->blocks = {any_block()};
   const double threshold_g = *rc::gen::inRange(1, 400);
@@ -163,7 +163,7 @@ RC_GTEST_PROP(MixedProcedures, ContinueWhereTheyWereInterrupted, (std::uint64_t 
   RC_ASSERT(resumed.estimates == session.estimates);
 }
 
-TEST(MixedProcedures, AnOwnProceduresIntervalReachesItsRow) {
+TEST(MixedProcedures, OwnProceduresIntervalIsRecorded) {
   auto plan = std::make_shared<SessionPlan>();
   Comparison::Block block;
   block.name = "comparison";

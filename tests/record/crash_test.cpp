@@ -13,7 +13,6 @@
 
 #include "base/Random.h"
 #include "record/child.h"
-#include "record/older_log.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
@@ -76,7 +75,7 @@ void expect_can_go_on(const std::string& file) {
   EXPECT_FALSE(reader.first_broken_digest(log.session_id()));
 }
 
-TEST(crash, kills_at_random_moments_lose_nothing_acknowledged) {
+TEST(Crash, KillsAtRandomTimesLoseNothingAcknowledged) {
   constexpr int n_kills = 60;
   RandomStream random(20261121, "kill");
   int n_while_creating = 0, n_while_running = 0;
@@ -129,7 +128,7 @@ std::optional<bool> kill_traced(int n, const std::function<void(int out)>& work,
 
 // Where a clock would hit by luck only. (All stops, one by one, take a minute and pass too: set the
 // stride to 1. An odd one meets entries and exits alike.)
-TEST(crash, kills_at_system_calls_throughout_a_short_session_lose_nothing_acknowledged) {
+TEST(Crash, KillsAtSystemCallsLoseNothingAcknowledged) {
   constexpr int stride = 7;
   int n = 0;
   for (bool reached = true; reached; n += stride) {
@@ -147,7 +146,7 @@ TEST(crash, kills_at_system_calls_throughout_a_short_session_lose_nothing_acknow
   EXPECT_GT(n, 200) << "the session was over sooner than it can be";
 }
 
-TEST(crash, an_upgrade_killed_at_system_calls_is_completed_at_the_next_opening) {
+TEST(Crash, KilledUpgradeIsCompletedAtNextOpening) {
   constexpr int stride = 7;
   int n = 0;
   for (bool reached = true; reached; n += stride) {

@@ -57,7 +57,7 @@ void write_with_resumes(const RecordedSession& session, const std::string& file)
   }
 }
 
-RC_GTEST_PROP(digest_chain, is_the_same_live_resumed_and_stored, ()) {
+RC_GTEST_PROP(DigestChain, IsSameLiveResumedAndStored, ()) {
   const TemporaryFolder folder;
   const RecordedSession session = any_session();
   write_live(session, folder.file("live.db"));
@@ -75,7 +75,7 @@ RC_GTEST_PROP(digest_chain, is_the_same_live_resumed_and_stored, ()) {
   RC_ASSERT(!LogReader(folder.file("stored.db")).first_broken_digest(stored));
 }
 
-RC_GTEST_PROP(digest_chain, tells_any_two_rows_apart, ()) {
+RC_GTEST_PROP(DigestChain, DistinguishesAnyTwoRows, ()) {
   const TemporaryFolder folder;
   const Event one = any_event();
   Event other = *rc::gen::arbitrary<bool>() ? one : any_event();
@@ -93,7 +93,7 @@ RC_GTEST_PROP(digest_chain, tells_any_two_rows_apart, ()) {
 }
 
 // Nothing of an event that could not be saved may stay in the chain.
-TEST(digest_chain, goes_on_after_a_transaction_that_was_rolled_back) {
+TEST(DigestChain, ContinuesAfterRollback) {
   const TemporaryFolder folder;
   RecordedSession session(header_of("P01")), broken(header_of("P02"));
   for (RecordedSession* each : {&session, &broken}) {
@@ -109,7 +109,7 @@ TEST(digest_chain, goes_on_after_a_transaction_that_was_rolled_back) {
 }
 
 // Also with a late picture of the attempt before.
-TEST(digest_chain, goes_on_where_an_interrupted_attempt_was_cut_off) {
+TEST(DigestChain, ContinuesAfterInterruptedAttempt) {
   const TemporaryFolder folder;
   const std::string file = folder.file("log.db");
   {

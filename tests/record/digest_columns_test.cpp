@@ -9,7 +9,7 @@
 namespace heft::test {
 namespace {
 
-class digest_columns : public TamperedLog {
+class DigestColumns : public TamperedLog {
  protected:
   /// Every value of another kind or size, as SQL, that the column takes.
   std::vector<std::string> changes_of(const std::string& table, const std::string& column,
@@ -59,17 +59,17 @@ class digest_columns : public TamperedLog {
   }
 };
 
-TEST_F(digest_columns, of_an_event_are_found) {
+TEST_F(DigestColumns, ChangedEventIsFound) {
   expect_every_column_found("event", 2, {"session_id"}, {"event_id"});
   expect_every_column_found("event", 3, {"session_id"}, {"event_id"});
 }
 
-TEST_F(digest_columns, of_a_picture_are_found) {
+TEST_F(DigestColumns, ChangedFrameIsFound) {
   expect_every_column_found("frame", 1, {"session_id"}, {"frame_id"});
   expect_every_column_found("frame", 4, {"session_id"}, {"frame_id"});
 }
 
-TEST_F(digest_columns, of_the_header_are_found) {
+TEST_F(DigestColumns, ChangedHeaderIsFound) {
   // Without its id the session is another one; its state is told by its events.
   // What digests what the participant told is found there.
   expect_every_column_found("session", 2, {}, {"session_id", "state", "info_digest"});

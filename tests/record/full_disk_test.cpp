@@ -10,8 +10,6 @@
 #include <fstream>
 
 #include "base/Error.h"
-#include "record/failure.h"
-#include "record/older_log.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
@@ -95,7 +93,7 @@ void expect_saved(const std::string& file, std::size_t n_answers) {
   EXPECT_FALSE(reader.first_broken_digest(1));
 }
 
-TEST(full_disk, a_full_disk_is_told_and_all_acknowledged_answers_are_kept) {
+TEST(FullDisk, IsReportedAndAcknowledgedAnswersAreKept) {
   const SmallDisk disk("size=1m");
   if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
   const std::string file = disk.file("log.db");
@@ -120,7 +118,7 @@ TEST(full_disk, a_full_disk_is_told_and_all_acknowledged_answers_are_kept) {
   expect_saved(file, n_saved);
 }
 
-TEST(full_disk, a_session_goes_on_once_there_is_space_again) {
+TEST(FullDisk, SessionContinuesWithFreeSpace) {
   const SmallDisk disk("size=1m");
   if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
   const std::string file = disk.file("log.db"), ballast = disk.file("ballast");
@@ -137,7 +135,7 @@ TEST(full_disk, a_session_goes_on_once_there_is_space_again) {
   expect_saved(file, n_saved + 1);
 }
 
-TEST(full_disk, a_session_can_not_start_on_a_full_disk) {
+TEST(FullDisk, SessionDoesNotStart) {
   const SmallDisk disk("size=64k");
   if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
   const std::string file = disk.file("log.db");
@@ -150,7 +148,7 @@ int version_of(const std::string& file) {
 }
 
 // Until then it is read as it is: without space for its copy, or for the upgrade beside the copy.
-TEST(full_disk, an_older_log_is_upgraded_once_there_is_space) {
+TEST(FullDisk, OlderLogIsUpgradedWithFreeSpace) {
   for (const bool fits_copy : {false, true}) {
     const SmallDisk disk(fits_copy ? "size=560k" : "size=400k");
     if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
@@ -171,7 +169,7 @@ TEST(full_disk, an_older_log_is_upgraded_once_there_is_space) {
   }
 }
 
-TEST(full_disk, a_read_only_disk_is_told) {
+TEST(FullDisk, ReadOnlyDiskIsReported) {
   const SmallDisk disk("size=1m");
   if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
   const std::string file = disk.file("log.db");
@@ -188,7 +186,7 @@ TEST(full_disk, a_read_only_disk_is_told) {
 }
 
 // The same path without a disk of its own: a file that may not grow.
-TEST(full_disk, a_file_that_can_not_grow_is_told_and_all_acknowledged_answers_are_kept) {
+TEST(FullDisk, FileSizeLimitIsReportedAndAcknowledgedAnswersAreKept) {
   const TemporaryFolder folder;
   const std::string file = folder.file("log.db");
   std::size_t n_saved = 0;
@@ -210,7 +208,7 @@ TEST(full_disk, a_file_that_can_not_grow_is_told_and_all_acknowledged_answers_ar
   expect_saved(file, n_saved);
 }
 
-TEST(full_disk, pictures_that_can_not_be_saved_are_told_too) {
+TEST(FullDisk, UnsavedFramesAreReported) {
   const TemporaryFolder folder;
   SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
   start_trial_seven(log);
@@ -219,7 +217,7 @@ TEST(full_disk, pictures_that_can_not_be_saved_are_told_too) {
   EXPECT_THAT(failure([&] { log.flush(); }), HasSubstr("0 events and 3000 pictures"));
 }
 
-TEST(full_disk, what_nobody_was_told_of_is_told_at_the_end) {
+TEST(FullDisk, UnreportedFailureIsPrintedAtEnd) {
   const TemporaryFolder folder;
   std::optional<SessionLog> log(SessionLog::start(folder.file("log.db"), header_of("P01")));
   start_trial_seven(*log);
@@ -230,7 +228,7 @@ TEST(full_disk, what_nobody_was_told_of_is_told_at_the_end) {
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("0 events and 3000 pictures"));
 }
 
-TEST(full_disk, a_stored_session_is_whole_or_not_there) {
+TEST(FullDisk, StoredSessionIsCompleteOrMissing) {
   const TemporaryFolder folder;
   const std::string file = folder.file("log.db");
   RecordedSession small(header_of("P01")), large(header_of("P02"));

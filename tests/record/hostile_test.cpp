@@ -15,9 +15,9 @@ namespace {
 
 using testing::HasSubstr;
 
-class hostile : public testing::Test {
+class HostileFile : public testing::Test {
  protected:
-  hostile() {
+  HostileFile() {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     log.append(event(1, event_kind<Note>, "here"), {}, Durability::acknowledged);
   }
@@ -36,7 +36,7 @@ class hostile : public testing::Test {
   std::string file_ = folder_.file("log.db");
 };
 
-TEST_F(hostile, its_triggers_do_not_run) {
+TEST_F(HostileFile, TriggersDoNotRun) {
   put_in(
       "CREATE TABLE loot (text TEXT);"
       "CREATE TRIGGER spy AFTER INSERT ON event BEGIN INSERT INTO loot VALUES (new.detail); END");
@@ -49,13 +49,13 @@ TEST_F(hostile, its_triggers_do_not_run) {
   EXPECT_EQ(plain.execAndGet("SELECT count(*) FROM loot").getInt(), 0);
 }
 
-TEST_F(hostile, its_views_are_not_read) {
+TEST_F(HostileFile, ViewsAreNotRead) {
   put_in("DROP VIEW v_trial; CREATE VIEW v_trial AS SELECT 'made up' AS outcome");
   EXPECT_THAT(failure(*open_for_reading(file_), "SELECT * FROM v_trial"), HasSubstr("prohibited"));
   EXPECT_THAT(failure(LogFile(file_).database(), "SELECT * FROM v_trial"), HasSubstr("prohibited"));
 }
 
-TEST_F(hostile, its_schema_can_not_be_written_and_names_nothing_that_acts) {
+TEST_F(HostileFile, SchemaIsProtected) {
   LogFile log(file_);
   SQLite::Database& writer = log.database();
   EXPECT_EQ(writer.execAndGet("PRAGMA trusted_schema").getInt(), 0);

@@ -59,7 +59,7 @@ class EveryTask : public ::testing::TestWithParam<std::string_view> {
   std::string folder_ = log_ + "-export";
 };
 
-TEST_P(EveryTask, is_simulated_replayed_judged_and_exported) {
+TEST_P(EveryTask, IsSimulatedReplayedJudgedAndExported) {
   for (const std::string responder : {"simulated", "coin", "always_yes", "always_no"}) {
     SCOPED_TRACE(responder);
     const StoredSession stored(protocol_, responder, 5);
@@ -89,7 +89,7 @@ TEST_P(EveryTask, is_simulated_replayed_judged_and_exported) {
 }
 
 // The log as it is when the program is killed in a trial of the task, then resumed to its end.
-TEST_P(EveryTask, goes_on_after_the_program_was_killed) {
+TEST_P(EveryTask, ContinuesAfterKill) {
   SessionOptions model;
   model.responder = Plug{"coin"};
   const RecordedSession whole = compute_session({resolve(model, protocol_, 11), "1"}, {});
@@ -120,7 +120,7 @@ TEST_P(EveryTask, goes_on_after_the_program_was_killed) {
 }
 
 // Every answer is taken back once: its trial comes again, and the block takes no more trials.
-TEST_P(EveryTask, is_presented_again_after_each_answer_was_vetoed) {
+TEST_P(EveryTask, IsPresentedAgainAfterVeto) {
   const auto plan = std::make_shared<const Protocol>(protocol_);
   Engine engine(plan, 3);
   double t_s = 0;

@@ -32,9 +32,9 @@ void write_dictionary(const ExportSource& source, const std::vector<ExportTable>
 }  // namespace
 
 void export_csv(const ExportSource& source, ExportFolder& folder,
-                const std::function<void(double)>& tell) {
+                const std::function<void(double)>& progress) {
   const std::string script = analysis_script();
-  write_dictionary(source, write_tables(source, folder, "", ".csv", tell), folder);
+  write_dictionary(source, write_tables(source, folder, "", ".csv", progress), folder);
   folder.write_text("analysis.R", script);
 }
 

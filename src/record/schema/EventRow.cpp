@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
                           row.t_s, expected, row.detail));
 }
 
-// Puts a payload into the row's columns.
+// Writes a payload's columns into a row.
 class ToRow {
  public:
   explicit ToRow(EventRow& row) : row_(row) {}
@@ -57,7 +57,7 @@ class ToRow {
       json_[key] = value;
     return *this;
   }
-  // Bytes that are no text must not keep an event from being saved.
+  // Invalid UTF-8 must not prevent an event from being saved.
   void finish() {
     if (!json_.empty()) row_.detail = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
@@ -73,7 +73,7 @@ class ToRow {
   Json json_;
 };
 
-// Takes it out of them again.
+// Reads a payload's columns from a row.
 class FromRow {
  public:
   explicit FromRow(const EventRow& row) : row_(row) {}
@@ -143,7 +143,7 @@ class FromRow {
   Json json_;
 };
 
-// Both ways. A payload with fields that declares no columns does not compile.
+// Writes or reads. A payload with fields but without event_columns does not compile.
 void convert(auto& payload, auto& row) {
   using Payload = std::remove_const_t<std::remove_reference_t<decltype(payload)>>;
   if constexpr (!std::is_empty_v<Payload>) Payload::event_columns(payload, row);
@@ -156,8 +156,8 @@ EventPayload empty_of(EventKind kind, std::index_sequence<Kinds...>) {
   return what;
 }
 
-// At most so many bytes, and no half letter.
-std::string begun(const std::string& text, std::size_t most) {
+// Truncates to at most `most` bytes, between characters.
+std::string truncated(const std::string& text, std::size_t most) {
   std::string kept;
   for (const std::string_view letter : letters_of(text)) {
     if (kept.size() + letter.size() > most) break;
@@ -195,7 +195,8 @@ std::string text_of(const Event& event) {
   const bool is_number = event.is<Action, ActionRefused>();
   if (row.value) text += fmt::format(", {}{}", *row.value, is_number ? "" : " s");
   if (row.max_push_displacement_m && row.peak_lag_m)
-    text += fmt::format(", {} m deep, {} m behind", *row.max_push_displacement_m, *row.peak_lag_m);
+    text +=
+        fmt::format(", displacement {} m, lag {} m", *row.max_push_displacement_m, *row.peak_lag_m);
   return text;
 }
 
@@ -206,7 +207,7 @@ std::string event_line(const Event& event, const AnnouncedEvent& about) {
   line["t_s"] = event.t_s;
   line["utc"] = about.utc;
   line["session"] = about.session_id;
-  line["participant"] = begun(about.participant, longest_name);
+  line["participant"] = truncated(about.participant, longest_name);
   line["kind"] = name_of(row.kind);
   if (about.plan) {
     line["trial"] = about.plan->trial_number;
@@ -215,7 +216,7 @@ std::string event_line(const Event& event, const AnnouncedEvent& about) {
   if (row.slot) line["slot"] = *row.slot;
   if (row.label) line["label"] = name_of(*row.label);
   if (!row.detail.empty() && row.kind != event_kind<SessionConfig>)
-    line["detail"] = begun(row.detail, longest_detail);
+    line["detail"] = truncated(row.detail, longest_detail);
   return line.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
@@ -225,7 +226,7 @@ namespace {
 constexpr std::array renamed_columns{std::pair{"simulator_why", "simulator_reason"},
                                      std::pair{"handed", "controls"}};
 
-// Columns by their names, contents by theirs; what is not told is left out.
+// Writes columns and contents by name, without empty values.
 struct Write {
   Json& json;
 
@@ -269,7 +270,7 @@ struct Read {
     std::string text = to_text(field.value);
     (*this)(column.name, text);
     if (!from_text(text, field.value))
-      throw Error(fmt::format("a setup can't be read: its {} is \"{}\"", column.name, text));
+      throw Error(fmt::format("invalid setup: its {} is \"{}\"", column.name, text));
   }
   template <typename Value>
   void operator()(std::string_view name, Value& value) const {
@@ -293,7 +294,7 @@ std::string to_json(const SessionConfig& setup) {
 
 SessionConfig setup_from_json(const std::string& text) try {
   Json json = Json::parse(text);
-  if (!json.is_object()) throw Error("a setup can't be read: expected a JSON object");
+  if (!json.is_object()) throw Error("invalid setup: expected a JSON object");
   for (const auto& [older, name] : renamed_columns)
     if (const auto found = json.find(older); found != json.end()) json[name] = *found;
   SessionConfig setup;
@@ -301,7 +302,7 @@ SessionConfig setup_from_json(const std::string& text) try {
   visit_contents(setup, Read{json});
   return setup;
 } catch (const nlohmann::json::exception& error) {
-  throw Error(fmt::format("a setup can't be read: {}", error.what()));
+  throw Error(fmt::format("invalid setup: {}", error.what()));
 }
 
 }  // namespace heft

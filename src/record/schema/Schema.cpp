@@ -26,7 +26,7 @@ void fill(SQLite::Database& database, const ClosedList& list) {
   }
 }
 
-// "table trial" and the text that made it.
+// Objects, such as "table trial", and their CREATE statements.
 std::map<std::string, std::string> objects_in(SQLite::Database& database) {
   std::map<std::string, std::string> objects;
   SQLite::Statement query(database,
@@ -46,8 +46,8 @@ const std::map<std::string, std::string>& objects_of_a_log() {
   return objects;
 }
 
-// Whether a list of words holds what tasks of ours bring, and all of it that the tasks with trials
-// in the log bring today; what an older edition of a task had not may be missing.
+// Whether a list has only words of known tasks, and all words of the tasks with trials in the log.
+// Words that an older edition of a task lacked may be missing.
 bool is_ours(SQLite::Database& database, std::string_view list) {
   std::set<std::string> found;
   SQLite::Statement entries(database, fmt::format("SELECT name, task, edition FROM {}", list));
@@ -115,7 +115,7 @@ std::vector<std::string> foreign_objects(SQLite::Database& database) {
     if (ours == objects_of_a_log().end())
       foreign.push_back(name);
     else if (ours->second != sql)
-      foreign.push_back(name + ", which is not as heft makes it");
+      foreign.push_back(name + ", which differs from that of heft");
   }
   for (const auto& [name, sql] : objects_of_a_log())
     if (!found.contains(name)) foreign.push_back(name + ", which is missing");

@@ -8,7 +8,7 @@ namespace heft::schema {
 
 namespace {
 
-// A table of a row type: its ids, the row's columns, and what holds between rows.
+// A table of a row type: ids, the row's columns, and constraints between rows.
 template <typename Row>
 std::string table(std::string_view name, std::string_view ids, std::string_view rules) {
   return fmt::format("CREATE TABLE {} (\n  {},\n  {}{}\n) STRICT;\n", name, ids,
@@ -85,11 +85,10 @@ std::string tables() {
          "CREATE INDEX frame_by_trial ON frame (trial_id, session_id);\n";
 }
 
-// v_trial: a row an attempt, with what was in force. v_jnd: a row a staircase that ended.
-// v_sorting: a row a completed sorting trial, with the mass of the cube that carries each label at
-// its end (NULL: no cube does). v_frame: how far the clone was seen beside the effector; degrees of
-// visual angle where the display was measured (small angles: the arc is the chord); v_trial has the
-// largest of a trial's frames.
+// v_trial: attempts with their configuration. v_jnd: estimates of stopped staircases. v_sorting:
+// completed sorting trials with the mass of the cube that has each label at the end (NULL: none).
+// v_frame: displayed distance between clone and effector, in degrees of visual angle if the display
+// was measured (small-angle approximation); v_trial has its maximum over a trial's frames.
 const char* const views = R"sql(
 CREATE VIEW v_trial AS
 SELECT s.session_id, s.participant, s.protocol_name, s.purpose, u.responder, u.simulator,

@@ -16,8 +16,8 @@ namespace {
 // first.
 void refuse_foreign(const std::vector<std::string>& foreign) {
   if (!foreign.empty())
-    throw Error(fmt::format("the log differs from what heft makes: {}. Correct that, or continue "
-                            "with a copy made before it was changed",
+    throw Error(fmt::format("the log was changed by another program: {}. Undo the change, or use "
+                            "an older copy",
                             foreign.front()),
                 ExitCode::diverged);
 }
@@ -55,7 +55,7 @@ void renew_words(SQLite::Database& database) {
   while (query.executeStep()) tasks.push_back(query.getColumn(0).getString());
   for (const std::string& task : tasks) {
     if (!find_task(task))
-      throw Error(fmt::format("the log holds a trial of an unknown task: {}", task),
+      throw Error(fmt::format("the log has a trial of an unknown task: {}", task),
                   ExitCode::diverged);
     add_words(database, task);
   }
@@ -105,8 +105,8 @@ void upgrade(SQLite::Database& database) {
     transaction.commit();
   } catch (const SQLite::Exception& error) {
     if ((error.getErrorCode() & 0xff) != SQLITE_CONSTRAINT) throw;
-    throw Error(fmt::format("the log holds a row that heft never wrote: {}. Continue with a copy "
-                            "made before it was changed",
+    throw Error(fmt::format("the log has an invalid row: {}. Use a copy made before it was "
+                            "changed",
                             error.what()),
                 ExitCode::diverged);
   }
