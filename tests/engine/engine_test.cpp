@@ -27,7 +27,7 @@ Event action(double t_s, ActionKind kind, std::optional<int> slot = {},
   return {t_s, Action{kind, slot, label}};
 }
 
-// Drives an engine as the runner does, a second an event.
+// Drives an engine as the runner does, one event per second.
 struct Session {
   explicit Session(SessionPlan session_plan = small_plan(), std::uint64_t seed = 7)
       : engine(shared(std::move(session_plan)), seed) {}
@@ -188,7 +188,7 @@ TEST(Engine, SelectEndsComparisonAndUpdatesStaircase) {
   EXPECT_EQ(done.trial->outcome, "difference");
   EXPECT_EQ(done.trial->choice_correct, false);
   EXPECT_EQ(done.trial->chosen_slot, lighter);
-  // Any choice is a positive answer in the paper's rule: this staircase goes down.
+  // Any choice is positive by the paper's rule, so the staircase moves down.
   for (;;) {
     const TrialPlan next = session.start();
     if (next.staircase == plan.staircase) {
@@ -421,7 +421,7 @@ TEST(Engine, CatchTrialsHaveEqualMassesAndNoStaircase) {
   EXPECT_GT(n_catch, n / 4);
 }
 
-// The trials of one comparison block, answered by coins; some attempts are void.
+// The trials of a comparison block with random answers; some attempts are void.
 std::vector<TrialPlan> plans_of(const SessionPlan& session_plan, std::uint64_t seed) {
   Session session(session_plan, seed);
   session.reach_comparison();
@@ -456,7 +456,7 @@ TEST(Engine, FixedCatchTrialsComeAsPlanned) {
     }
     EXPECT_EQ(caught[15], 4) << seed;
     EXPECT_EQ(caught[200], static_cast<int>(seed) % 7) << seed;
-    // One in each five trials, until the last staircase ends.
+    // One in every five trials, until the last staircase ends.
     std::size_t n = plans.size();
     while (plans[n - 1].is_catch) --n;
     for (std::size_t from = 0; from + 5 <= n && static_cast<int>(from) / 5 < n_caught; from += 5)
@@ -511,7 +511,7 @@ TEST(Engine, ConstantStimuliRunBesideStaircaseWithoutJnd) {
   EXPECT_EQ(session.engine.next().kind, Next::Kind::finish);
 }
 
-// (staircase, level) of every completed trial; vetoes where `vetoed` says so.
+// (staircase, level) of every completed trial; voids attempts as `vetoed` requires.
 std::vector<std::pair<std::string, double>> course(std::uint64_t seed, auto vetoed) {
   Session session(constant_plan(), seed);
   std::vector<std::pair<std::string, double>> course;
@@ -533,7 +533,7 @@ TEST(Engine, VoidTrialsConsumeNoConstantLevel) {
   EXPECT_NE(course(8, [](int) { return false; }), whole);
 }
 
-// Two trials of equal answers: the level of the second tells what the first was taken for.
+// Two trials with equal answers: the second level shows whether the first was positive.
 TEST(Engine, BlocksRuleDefinesPositiveAnswers) {
   for (const PositiveAnswer rule : {PositiveAnswer::any_choice, PositiveAnswer::correct_choice})
     for (const bool choose_reference : {false, true}) {
@@ -601,7 +601,7 @@ TEST(Engine, InvalidEventThrowsAndChangesNothing) {
               HasSubstr("not all blocks are completed"));
 }
 
-// Any event at any time: most are refused, none breaks the engine.
+// Random events at random times: most are refused, none breaks the engine.
 Event random_event(RandomStream& stream, double t_s) {
   const int slot = static_cast<int>(stream.below(5));
   const auto some_slot = stream.coin(0.7) ? std::optional(slot) : std::nullopt;
@@ -630,7 +630,7 @@ Event random_event(RandomStream& stream, double t_s) {
   return {t_s, all[stream.below(all.size())]};
 }
 
-// A likely event, so that random sequences also get somewhere.
+// A likely event, so that random sequences make progress.
 Event likely_event(const Engine& engine, RandomStream& stream, double t_s) {
   switch (engine.next().kind) {
     case Next::Kind::demonstration:

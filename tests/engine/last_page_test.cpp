@@ -1,4 +1,4 @@
-// What the screen shows where no trial is due, and tasks that are on no list.
+// Screens when no trial is due, and tasks that are not listed.
 #include <gmock/gmock.h>
 
 #include "engine/Engine.h"
@@ -7,7 +7,7 @@
 namespace heft {
 namespace {
 
-// A task of somebody else: one tap, so many trials.
+// A library user's task: one tap per trial.
 struct Tapping {
   static constexpr std::array actions{ActionSpec{.kind = "tap"}};
   static constexpr std::array<std::string_view, 1> outcomes{"tapped"};

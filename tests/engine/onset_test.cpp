@@ -1,4 +1,4 @@
-// When a trial may begin, and from when it may be answered, as the setup in force says.
+// When a trial may start and be answered, by the setup.
 #include <gmock/gmock.h>
 
 #include "engine/Engine.h"
@@ -27,7 +27,7 @@ class OnsetRules : public ::testing::Test {
   std::string refusal(double event_s, EventPayload what) const {
     return engine.admit({event_s, std::move(what)}).refusal;
   }
-  // The introduction's trial, from its start to the right answer, its cubes shown at once.
+  // The introduction's trial, from its start to the correct answer.
   double introduce(double start_s, double answer_s) {
     at(start_s, TrialStarted{});
     at(start_s, CubesShown{});

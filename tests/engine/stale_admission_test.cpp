@@ -1,4 +1,4 @@
-// An event that is admitted and applied later, after others: it is admitted once more.
+// An event that is applied after others that followed its admission is checked again.
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -23,7 +23,7 @@ class StaleAdmission : public ::testing::Test {
   }
   void apply(EventPayload what) { engine.apply({++t_s, std::move(what)}); }
   AdmittedEvent answer() const { return *engine.admit({t_s + 100, chosen}).admitted; }
-  // Nothing of a refused event is in the state.
+  // A refused event does not change the state.
   void expect_refusal(const AdmittedEvent& stale, const std::string& why) {
     const int n_events = engine.n_events();
     const double last_s = engine.last_s();
@@ -75,7 +75,7 @@ TEST_F(StaleAdmission, IsValidAfterEndOfContacts) {
   EXPECT_EQ(engine.apply(stale).changes->trial->chosen_slot, 1);
 }
 
-// Applied after any other events, an admitted event does what the same event would do unadmitted.
+// After any other events, applying an admitted event equals applying the event itself.
 RC_GTEST_PROP(StaleAdmissionProperty, EqualsNewAdmission, (std::uint64_t seed)) {
   RandomStream stream(seed, "stale");
   Engine engine(testing::shared(comparing()), seed), plain(testing::shared(comparing()), seed);

@@ -1,5 +1,4 @@
-// An answer that the experimenter takes back: kept, presented again, and for the procedure as if it
-// had not been asked.
+// Vetoed answers: recorded, presented again, and without effect on procedures.
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -117,8 +116,7 @@ TEST(VetoedAnswer, RepeatsNoBreak) {
   }
 }
 
-// With vetoes anywhere, what counts is what a session without them has: levels, reversals,
-// estimates.
+// With random vetoes, levels, reversals and estimates equal those of a session without vetoes.
 RC_GTEST_PROP(VetoedAnswer, RestoresProcedures, ()) {
   Comparing straight, corrected;
   std::map<std::string, std::vector<double>> levels, reversals, expected_levels, expected_reversals;
@@ -127,7 +125,7 @@ RC_GTEST_PROP(VetoedAnswer, RestoresProcedures, ()) {
     const bool yes = *rc::gen::arbitrary<bool>(), slip = *rc::gen::arbitrary<bool>();
     if (slip) {
       corrected.answer(!yes);
-      if (*rc::gen::arbitrary<bool>() && corrected.compares()) {  // the next one has begun
+      if (*rc::gen::arbitrary<bool>() && corrected.compares()) {  // the next block has begun
         corrected.start();
         corrected.apply(TrialVoided{std::string(void_interrupted)});
       }

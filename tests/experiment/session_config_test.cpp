@@ -1,4 +1,4 @@
-// The texts of a configuration's values, as the command line and the log have them.
+// Texts of a configuration's values, for the command line and the log.
 #include <gtest/gtest.h>
 
 #include "experiment/SessionConfig.h"

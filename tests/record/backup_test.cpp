@@ -1,4 +1,4 @@
-// A backup is a whole, sound log of its owner's alone, or there is none.
+// Backups: a complete, verified log readable by its owner only, or none.
 #include "record/writer/Backup.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>

@@ -1,5 +1,5 @@
-// kill -9 at any moment: what was acknowledged is in the file, the file is sound, and a session can
-// be started in it again.
+// kill -9 at any time: acknowledged events are in the file, the file is sound, and a session can be
+// started in it again.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -21,7 +21,7 @@
 namespace heft::test {
 namespace {
 
-// Event n has t_s = n. Every third one starts an attempt, pictures come between all.
+// Event n has t_s = n. Every third one starts an attempt; frames are written between events.
 void append_numbered(SessionLog& log, int number) {
   const int attempt_index = (number + 2) / 3;
   const bool starts = number % 3 == 1;
@@ -32,7 +32,7 @@ void append_numbered(SessionLog& log, int number) {
   log.add_frame(frame(attempt_index, number));
 }
 
-// Says "s" when the session has started, and "e" for each acknowledged event.
+// Writes "s" when the session has started, and "e" for each acknowledged event.
 void write_session(const std::string& file, int out, int n_events) {
   SessionLog log = SessionLog::start(file, header_of("P01"));
   say(out, "s");
@@ -42,7 +42,7 @@ void write_session(const std::string& file, int out, int n_events) {
   }
 }
 
-// What a crash may leave: the acknowledged events and at most one more, each whole.
+// After a crash: the acknowledged events and at most one more, each complete.
 void expect_whole(const std::string& file, const std::string& acknowledged) {
   if (!std::filesystem::exists(file)) {
     EXPECT_EQ(acknowledged, "");
@@ -84,7 +84,7 @@ TEST(Crash, KillsAtRandomTimesLoseNothingAcknowledged) {
     const std::string file = folder.file("log.db");
     Child writer([&](int out) { write_session(file, out, 1'000'000); });
     std::string acknowledged;
-    // Every third one early, where the file is being created.
+    // Every third one early, during the creation of the file.
     if (i % 3 != 0 && writer.read_byte()) acknowledged.push_back('s');
     std::this_thread::sleep_for(std::chrono::microseconds(random.below(40'000)));
     writer.kill();
@@ -98,8 +98,8 @@ TEST(Crash, KillsAtRandomTimesLoseNothingAcknowledged) {
              n_while_creating, n_while_running);
 }
 
-// Lets a child run through n system calls (entries and exits count), then kills it.
-// @return whether it was still running; none where tracing is not allowed here
+// Lets a child run for n stops at system calls (entries and exits), then kills it.
+// @return whether it was still running; none if tracing is not allowed
 std::optional<bool> kill_at_system_call(Child& child, int n) {
   int status = 0;
   ::waitpid(child.process(), &status, 0);
@@ -126,8 +126,8 @@ std::optional<bool> kill_traced(int n, const std::function<void(int out)>& work,
   return still_running;
 }
 
-// Where a clock would hit by luck only. (All stops, one by one, take a minute and pass too: set the
-// stride to 1. An odd one meets entries and exits alike.)
+// Covers times that a clock rarely hits. An odd stride includes entries and exits; a stride of 1
+// takes a minute.
 TEST(Crash, KillsAtSystemCallsLoseNothingAcknowledged) {
   constexpr int stride = 7;
   int n = 0;

@@ -1,4 +1,4 @@
-// A session's digests are the same however it came into its file, and hold for rows of any values.
+// A session has the same digests whether it was written live, resumed or stored, for any values.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -81,7 +81,7 @@ RC_GTEST_PROP(DigestChain, DistinguishesAnyTwoRows, ()) {
   Event other = *rc::gen::arbitrary<bool>() ? one : any_event();
   if (flag()) other.t_s = time_s();
   RecordedSession first(header_of("P01")), second(header_of("P01"));
-  for (RecordedSession* each : {&first, &second})  // whose task's words the log then has
+  for (RecordedSession* each : {&first, &second})  // adds the words of its task
     each->append(event(0, event_kind<TrialStarted>), starting(sorting_trial(1, 1)),
                  Durability::buffered);
   first.append(one, {}, Durability::buffered);
@@ -92,7 +92,7 @@ RC_GTEST_PROP(DigestChain, DistinguishesAnyTwoRows, ()) {
   RC_ASSERT((of_first == of_second) == (one == other));
 }
 
-// Nothing of an event that could not be saved may stay in the chain.
+// An event that could not be saved must not remain in the chain.
 TEST(DigestChain, ContinuesAfterRollback) {
   const TemporaryFolder folder;
   RecordedSession session(header_of("P01")), broken(header_of("P02"));
@@ -108,7 +108,7 @@ TEST(DigestChain, ContinuesAfterRollback) {
   EXPECT_FALSE(LogReader(folder.file("log.db")).first_broken_digest(stored));
 }
 
-// Also with a late picture of the attempt before.
+// Also with a late frame of the previous attempt.
 TEST(DigestChain, ContinuesAfterInterruptedAttempt) {
   const TemporaryFolder folder;
   const std::string file = folder.file("log.db");

@@ -1,4 +1,4 @@
-// Whatever is changed in a session's log is found, with its row.
+// Any change in a session's log is found, with its row.
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
@@ -26,7 +26,7 @@ TEST_F(Digest, HeaderWithRecomputedDigestMatchesNoEvent) {
 TEST_F(Digest, RemovedRowIsFoundAtNext) {
   expect_found("DELETE FROM event WHERE event_id = 2", "event", 3);
   expect_found("DELETE FROM frame WHERE frame_id = 1", "frame", 2);
-  expect_found("DELETE FROM frame WHERE frame_id = 3", "frame", 6);  // those outside of trials
+  expect_found("DELETE FROM frame WHERE frame_id = 3", "frame", 6);  // outside trials
 }
 
 TEST_F(Digest, SwappedRowsAreFound) {
@@ -38,7 +38,7 @@ TEST_F(Digest, SwappedRowsAreFound) {
                  table, 1);
 }
 
-// Merging files gives rows new ids, in the same order.
+// Merging files changes ids but not their order.
 TEST_F(Digest, OrderOfIdsMatters) {
   expect_found("UPDATE event SET event_id = 1000 WHERE event_id = 2", "event", 3);
   expect_found("UPDATE frame SET frame_id = 1000 WHERE frame_id = 1", "frame", 2);

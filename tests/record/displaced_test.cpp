@@ -1,5 +1,5 @@
-// A log that is moved, replaced, deleted or linked while it is written: told before anything more
-// is called saved, and nothing that was saved is lost.
+// A log that is moved, replaced, deleted or linked during writing: reported before anything else is
+// acknowledged, and no saved data are lost.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -117,7 +117,7 @@ TEST_F(DisplacedFile, RedirectedLinkIsReported) {
 }
 
 TEST_F(DisplacedFile, LinkInItsPlaceIsReported) {
-  const LogReader analyst(file_);  // whoever reads keeps the newest rows beside the name
+  const LogReader analyst(file_);  // a reader keeps the -wal file
   fs::rename(file_, other_);
   fs::create_symlink(other_, file_);
   EXPECT_THAT(failure_of_flush(), HasSubstr("moved to " + other_));

@@ -1,4 +1,4 @@
-// A write that fails is told, in words for a person, and leaves the file as it was.
+// A failed write is reported with a clear message and leaves the file unchanged.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// No file of this process may grow beyond a size, until the end of the scope.
+/// Limits the size of files of this process, until the end of the scope.
 class SizeLimit {
  public:
   explicit SizeLimit(std::uintmax_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
@@ -41,7 +41,7 @@ class SizeLimit {
   sighandler_t handler_;
 };
 
-/// A small disk of its own.
+/// A small disk.
 class SmallDisk {
  public:
   explicit SmallDisk(const char* options)
@@ -74,7 +74,7 @@ Changes with_answer(const Event& answer) {
   return changes;
 }
 
-/// Answers until one can't be saved. @return the message; `n_saved` counts the others
+/// Writes answers until one cannot be saved. @return the message; `n_saved` counts the others
 std::string answer_until_it_fails(SessionLog& log, std::size_t& n_saved) {
   for (n_saved = 0; n_saved < 100'000; ++n_saved) try {
       for (int i = 0; i < 5; ++i) log.add_frame(frame(1, 8));
@@ -107,7 +107,7 @@ TEST(FullDisk, IsReportedAndAcknowledgedAnswersAreKept) {
                                 "trial 7"),
                       HasSubstr(file), HasSubstr("the disk is full"), HasSubstr("Free some space"),
                       HasSubstr("heft resume --db " + file)));
-    // Whoever goes on hears it again; nothing may follow a lost answer.
+    // Later calls throw the same error; no answer may follow a lost one.
     EXPECT_EQ(failure([&] { log.append(event(9, event_kind<Note>), {}, Durability::buffered); }),
               message);
     EXPECT_EQ(failure([&] { log.add_frame(frame(1, 9)); }), message);
@@ -147,7 +147,7 @@ int version_of(const std::string& file) {
   return SQLite::Database(file, SQLite::OPEN_READONLY).execAndGet("PRAGMA user_version").getInt();
 }
 
-// Until then it is read as it is: without space for its copy, or for the upgrade beside the copy.
+// Until then it is read in memory: there is no space for the copy, or for the upgrade.
 TEST(FullDisk, OlderLogIsUpgradedWithFreeSpace) {
   for (const bool fits_copy : {false, true}) {
     const SmallDisk disk(fits_copy ? "size=560k" : "size=400k");
@@ -185,7 +185,7 @@ TEST(FullDisk, ReadOnlyDiskIsReported) {
   EXPECT_TRUE(check_integrity(file).empty());
 }
 
-// The same path without a disk of its own: a file that may not grow.
+// The same without mounting a disk: a limit on the file size.
 TEST(FullDisk, FileSizeLimitIsReportedAndAcknowledgedAnswersAreKept) {
   const TemporaryFolder folder;
   const std::string file = folder.file("log.db");
@@ -201,7 +201,7 @@ TEST(FullDisk, FileSizeLimitIsReportedAndAcknowledgedAnswersAreKept) {
                                  HasSubstr("heft resume --db " + file)));
       expect_saved(file, n_saved);
     }
-    // The cause is gone, but this log had a loss: only a resumed one may go on.
+    // The cause is gone, but an event was lost: only a resumed session may continue.
     EXPECT_NE(failure([&] { log.flush(); }), "");
   }
   EXPECT_GT(n_saved, 0u);

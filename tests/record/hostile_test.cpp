@@ -1,4 +1,4 @@
-// A log that somebody has put something into: nothing of it runs, for writers and readers.
+// A log with foreign objects: nothing in it runs, for writers and readers.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST_F(HostileFile, TriggersDoNotRun) {
   try {
     SessionLog log = SessionLog::reopen(file_, 1);
     log.append(event(2, event_kind<Note>, "secret"), {}, Durability::acknowledged);
-  } catch (const std::exception&) {  // to refuse it altogether is as good
+  } catch (const std::exception&) {  // refusing the file is fine as well
   }
   SQLite::Database plain(file_, SQLite::OPEN_READONLY);
   EXPECT_EQ(plain.execAndGet("SELECT count(*) FROM loot").getInt(), 0);

@@ -1,5 +1,4 @@
-// Another program that keeps the log locked: nothing is lost, and what waits is written in its
-// order once the lock is gone.
+// Another program locks the log: no data are lost, and they are written in order after the lock.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Which files are opened, which are refused, and whether the message helps.
+// Which files are opened, which are refused, and with which messages.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -176,7 +176,7 @@ TEST_F(Opening, RefusedWriterKeepsLockOfFirst) {
     ::pause();
   });
   ASSERT_TRUE(owner.read_byte());
-  // Had they closed the file, another program would believe itself alone, and tidy up as it goes.
+  // If they had closed the file, another program would see no lock and checkpoint on closing.
   SQLite::Database(file_, SQLite::OPEN_READWRITE).execAndGet("SELECT count(*) FROM session");
   EXPECT_TRUE(std::filesystem::exists(file_ + "-wal"));
 }

@@ -1,4 +1,4 @@
-// Reading beside a writer, what is seen when, and values that can't be ours.
+// Reading next to a writer, visibility of rows, and invalid values.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -105,7 +105,7 @@ class Damage : public Reading {
     log.add_frame(frame(1, 2));
   }
 
-  /// The message of reading everything after somebody changed the file with all rules off.
+  /// The message of reading everything after a change with all constraints disabled.
   std::string failure_after(const std::string& change) {
     {
       SQLite::Database database(file_, SQLite::OPEN_READWRITE);

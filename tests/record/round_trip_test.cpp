@@ -1,4 +1,4 @@
-// What is written is what is read, bit for bit, whatever the values.
+// Rows are read as they were written, bit for bit, for any values.
 #include <SQLiteCpp/Database.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -142,7 +142,7 @@ RC_GTEST_PROP(SessionArchive, StoredSessionEqualsLiveOne, ()) {
   RC_ASSERT(whole_session(stored, second) == whole_session(live, 1));
 }
 
-// Between the two a session could never go on: its log would not be as it was written.
+// A crash between the two would make the log invalid, and the session could not be resumed.
 TEST(ParticipantInfo, IsWrittenTogetherWithItsDigest) {
   const TemporaryFolder folder;
   const std::string path = folder.file("log.db");

@@ -1,4 +1,4 @@
-// Rows as texts with every bit of every number, and a small session to write.
+// Rows as texts with all bits of numbers, and a small session.
 #pragma once
 
 #include <fmt/format.h>
@@ -109,7 +109,7 @@ inline std::string text(const SessionHeader& h) {
   return all;
 }
 
-/// Everything a log holds of one session.
+/// All rows of a session.
 inline std::string whole_session(const LogReader& reader, std::int64_t session_id) {
   const SessionRow session = reader.session(session_id);
   std::string all = text(session.header) + text(session.state) + '\n';

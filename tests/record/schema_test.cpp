@@ -1,4 +1,4 @@
-// The file itself keeps the rules: types, references, names and ranges, whoever writes to it.
+// The database enforces types, references, names and ranges.
 #include "record/schema/Schema.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -56,7 +56,7 @@ class SchemaRules : public testing::Test {
     }
   }
 
-  // Of the tasks' words those of the one task that the log has a trial of.
+  // Words of the only task with a trial.
   template <typename Listed>
   void expect_exactly_the_names(const std::string& table, const std::string& column) {
     std::vector<std::string_view> names;
@@ -113,8 +113,8 @@ TEST_F(SchemaRules, EnumerationsAcceptExactlyTheirNames) {
   expect_exactly_the_names<Censored>("estimate", "censored");
 }
 
-// The next task needs no new version: its words come with its first trial, and words that no task
-// has, or that a task should have, are told.
+// A new task needs no new version: its words come with its first trial. Unknown and missing words
+// are reported.
 TEST_F(SchemaRules, WordsComeWithFirstTrialAndForeignOnesAreReported) {
   const auto entries = [&](const std::string& condition) {
     return database_->execAndGet("SELECT count(*) FROM list_action WHERE " + condition).getInt();
@@ -185,7 +185,7 @@ TEST_F(SchemaRules, DamagedPageIsFault) {
   const int page =
       database_->execAndGet("SELECT rootpage FROM sqlite_master WHERE name = 'frame'").getInt();
   constexpr int page_size = 4096;
-  database_.reset();  // everything goes into the file itself
+  database_.reset();  // checkpoints the -wal file
   std::fstream(file_, std::ios::in | std::ios::out | std::ios::binary)
           .seekp(static_cast<std::streamoff>(page - 1) * page_size)
       << std::string(page_size, 'x');

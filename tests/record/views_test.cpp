@@ -1,4 +1,4 @@
-// The views that other programs read: what they compute, from rows as a session leaves them.
+// The views for other programs.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace heft::test {
 namespace {
 
-/// A cell as SQLite shows it; "NULL" where there is nothing.
+/// A cell as text; "NULL" for NULL.
 std::string cell(const std::string& file, const std::string& query) {
   SQLite::Database database(file, SQLite::OPEN_READONLY);
   SQLite::Statement statement(database, query);
@@ -75,7 +75,7 @@ TEST_F(Views, ComparisonHasItsMassAndNoThirdCube) {
   EXPECT_EQ(of("SELECT count(*) FROM v_sorting"), "0");
 }
 
-// 40 px of 0.15 mm are 6 mm; seen from 450 mm 0.7639 degrees, of which the arc is 0.76394.
+// 40 px of 0.15 mm are 6 mm, at 450 mm 0.7639 degrees (small-angle approximation: 0.76394).
 TEST_F(Views, FrameHasVisualAngleOfOffset) {
   SessionConfig setup;
   setup.display_w_px = 1000;

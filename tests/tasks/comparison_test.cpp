@@ -1,4 +1,4 @@
-// Comparisons: what an answer tells its procedure, where the reference stands, how a trial ends.
+// Comparison task: responses to procedures, side of the reference, end of a trial.
 #include "tasks/Comparison.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Magnitude estimation: which cubes come in which order, which numbers are taken, the standard.
+// Magnitude estimation: order of cubes, valid numbers, the standard.
 #include "tasks/Estimation.h"
 
 #include <gmock/gmock.h>
@@ -95,7 +95,7 @@ TEST(Estimation, AcceptsNumbersInRange) {
   EXPECT_EQ(trial.result().outcome, "estimated");
   EXPECT_EQ(trial.result().value, 42.5);
   EXPECT_EQ(trial.answer(), "42.5");
-  trial.take(estimate(42.51));  // another number, though it is the same in three digits
+  trial.take(estimate(42.51));  // differs, although equal to three digits
   EXPECT_EQ(trial.answer(), "42.51");
 }
 
@@ -182,7 +182,7 @@ TEST(Estimation, SimulatedAnswerIncreasesWithLagWithinScale) {
   EXPECT_EQ(Estimation::blind(offer, {1}, stream).actions[0].kind, "validate");
 }
 
-// A cube of 100 g lags by 15.7 mm under the paper's spring: friction 0.8, 50 N/m.
+// A cube of 100 g lags by 15.7 mm with the paper's spring: friction 0.8, 50 N/m.
 TEST(Estimation, SimulatedAnswerIsProportionalToModulus) {
   RandomStream stream(1, "test");
   Estimation::Offer offer;

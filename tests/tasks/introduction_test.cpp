@@ -1,4 +1,4 @@
-// The introduction: it asks until the heavier cube is chosen.
+// Introduction: asks until the heavier cube is chosen.
 #include "tasks/Introduction.h"
 
 #include <gmock/gmock.h>

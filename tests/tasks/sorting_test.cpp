@@ -1,5 +1,4 @@
-// Sorting: which actions end a trial, how labels move, and in which order techniques and masses
-// come.
+// Sorting task: end of a trial, labels, and order of techniques and masses.
 #include "tasks/Sorting.h"
 
 #include <gmock/gmock.h>
