@@ -33,8 +33,10 @@ std::string to_text(const ProtocolSetting& setting) {
 
 std::string to_text(const std::vector<ProtocolSetting>& settings) {
   std::string text;
-  for (const ProtocolSetting& setting : settings)
-    text += (text.empty() ? "" : "\n") + to_text(setting);
+  for (const ProtocolSetting& setting : settings) {
+    if (!text.empty()) text += '\n';
+    text += to_text(setting);
+  }
   return text;
 }
 

@@ -184,7 +184,7 @@ class Export(SessionTest):
         self.assertIn("never overwrite files", self.export("lab.db", expect=2).stderr)
         (self.folder / "part").mkdir()
         (self.folder / "part" / "export_unfinished.txt").write_text("")
-        self.assertIn("was interrupted", self.export("lab.db", out="part", expect=2).stderr)
+        self.assertIn("unfinished export", self.export("lab.db", out="part", expect=2).stderr)
         self.assertIn("is a file", self.export("lab.db", out="lab.db", expect=2).stderr)
         self.assertIn("no file", self.export("none.db", out="new", expect=1).stderr)
         self.assertFalse((self.folder / "new").exists())

@@ -145,7 +145,7 @@ TEST(Engine, LabelsAreExclusiveAndCorrectable) {
   session.acts("unlabel", 2);
   EXPECT_EQ(labels_on(session.engine.screen())[1], std::nullopt);
   EXPECT_THAT(session.refusal("unlabel", 2), HasSubstr("no label"));
-  EXPECT_THAT(session.refusal("select", 2), HasSubstr("no \"select\""));
+  EXPECT_THAT(session.refusal("select", 2), HasSubstr("no action \"select\""));
   EXPECT_THAT(session.refusal("label", 4, "lightest"), HasSubstr("no cube 4"));
   EXPECT_THAT(session.refusal("label", 1), HasSubstr("has no label"));
 }

@@ -130,8 +130,11 @@ TEST_P(OlderVersion, WithForeignObjectIsRefusedUnchanged) {
   }
 }
 
-TEST_P(OlderVersion, WithInvalidCellIsRefusedUnchanged) {
-  if (GetParam() != 5) GTEST_SKIP() << "its answers are not copied";
+// Version 6 has the current answers and words, which are not written again.
+class OlderAnswers : public OlderVersion {};
+INSTANTIATE_TEST_SUITE_P(Version5, OlderAnswers, testing::Values(5));
+
+TEST_P(OlderAnswers, WithInvalidCellAreRefusedUnchanged) {
   for (const char* change : {"UPDATE answer SET slot = 9 WHERE answer_id = 2",
                              "UPDATE trial SET task = 'dance' WHERE trial_id = 2"}) {
     copy();

@@ -126,9 +126,8 @@ void ExportSource::each_row(const ExportTable& table, std::size_t log, const std
     take(cells);
   }
 } catch (const SQLite::Exception& error) {
-  const SqliteFailure failure = explained(error, logs_[log].database.get());
-  throw Error(fmt::format("cannot read {} for {}: {}. {}.", logs_[log].name, table.name,
-                          failure.reason, failure.advice));
+  throw sqlite_error(fmt::format("cannot read {} for {}", logs_[log].name, table.name), error,
+                     logs_[log].database.get());
 }
 
 }  // namespace heft

@@ -67,7 +67,7 @@ std::string hmac_sha256(std::string_view key, std::string_view text) {
 
 std::string pseudonym(std::string_view key, std::string_view person) {
   constexpr std::size_t n_digits = 12;
-  return "p" + hmac_sha256(key, person).substr(0, n_digits);
+  return fmt::format("p{}", hmac_sha256(key, person).substr(0, n_digits));
 }
 
 PseudonymKey pseudonym_key(const std::string& file) {

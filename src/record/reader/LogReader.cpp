@@ -133,9 +133,7 @@ class LogReader::Impl {
 
  private:
   [[noreturn]] void refuse_damaged(const std::string& part, const SQLite::Exception& error) const {
-    const SqliteFailure failure = explained(error, database_.get());
-    throw Error(
-        fmt::format("cannot read {} of {}: {}. {}.", part, path_, failure.reason, failure.advice));
+    throw sqlite_error(fmt::format("cannot read {} of {}", part, path_), error, database_.get());
   }
 
   std::string path_;

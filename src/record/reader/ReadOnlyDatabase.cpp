@@ -118,8 +118,7 @@ std::unique_ptr<SQLite::Database> open_for_reading(const std::string& path) {
     return upgraded_log(std::move(database), path, file);
   } catch (const SQLite::Exception& error) {
     if (error.getErrorCode() == SQLITE_NOTADB) refuse_foreign_file(path);
-    const SqliteFailure failure = explained(error, nullptr);
-    throw Error(fmt::format("cannot read {}: {}. {}.", path, failure.reason, failure.advice));
+    throw sqlite_error(fmt::format("cannot read {}", path), error, nullptr);
   }
 }
 

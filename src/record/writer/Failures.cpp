@@ -78,6 +78,12 @@ SqliteFailure explained(const SQLite::Exception& error, const SQLite::Database* 
   return failure;
 }
 
+Error sqlite_error(const std::string& what, const SQLite::Exception& error,
+                   const SQLite::Database* database) {
+  const SqliteFailure failure = explained(error, database);
+  return Error(fmt::format("{}: {}. {}.", what, failure.reason, failure.advice));
+}
+
 bool is_busy(const std::exception& error) {
   const auto* reason = dynamic_cast<const SQLite::Exception*>(&error);
   const int code = reason ? reason->getErrorCode() & 0xff : SQLITE_OK;

@@ -25,6 +25,10 @@ struct SqliteFailure {
 /// @param database the failed connection, for the system's error; may be null
 SqliteFailure explained(const SQLite::Exception& error, const SQLite::Database* database);
 
+/// "WHAT: REASON. ADVICE."
+Error sqlite_error(const std::string& what, const SQLite::Exception& error,
+                   const SQLite::Database* database);
+
 /// Whether another program's lock was the reason.
 bool is_busy(const std::exception& error);
 

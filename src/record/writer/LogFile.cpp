@@ -42,9 +42,7 @@ std::unique_ptr<SQLite::Database> opened(const std::string& path, const std::str
     distrust(*database);
     return database;
   } catch (const SQLite::Exception& error) {
-    const SqliteFailure failure = explained(error, nullptr);
-    throw Error(
-        fmt::format("cannot open {} for writing: {}. {}.", path, failure.reason, failure.advice));
+    throw sqlite_error(fmt::format("cannot open {} for writing", path), error, nullptr);
   }
 }
 
@@ -73,8 +71,7 @@ LogFile::LogFile(const std::string& path)
   } catch (const SQLite::Exception& error) {
     refuse_if_displaced();
     if (error.getErrorCode() == SQLITE_NOTADB) refuse_foreign_file(path_);
-    const SqliteFailure failure = explained(error, database_.get());
-    throw Error(fmt::format("cannot write to {}: {}. {}.", path_, failure.reason, failure.advice));
+    throw sqlite_error(fmt::format("cannot write to {}", path_), error, database_.get());
   }
 }
 
