@@ -7,6 +7,9 @@ install(TARGETS heft_program COMPONENT heft)
 install(TARGETS heft_codecs_module heft_window_module LIBRARY
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/heft COMPONENT heft)
 install(DIRECTORY protocols DESTINATION ${CMAKE_INSTALL_DATADIR}/heft COMPONENT heft)
+# The script that `heft export` adds to its tables.
+install(FILES src/record/export/analysis.R
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/heft/src/record/export COMPONENT heft)
 install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT heft)
 install(TARGETS heft_bench_program COMPONENT bench)
 

@@ -95,8 +95,8 @@ void TrialWorld::note_contacts(const TargetSample& sample, ShownFrame& shown) {
       contact.left_s.reset();
       const bool begins = !contact.since_s;
       if (begins) contact.from_m = effector_m;
-      contact.deepest_push_m =
-          std::max(contact.deepest_push_m, (effector_m - contact.from_m).norm());
+      contact.max_push_displacement_m =
+          std::max(contact.max_push_displacement_m, (effector_m - contact.from_m).norm());
       contact.peak_lag_m = std::max(contact.peak_lag_m, lag_m);
       if (!begins) continue;
       contact.since_s = t_s;
@@ -112,8 +112,9 @@ void TrialWorld::end_contact(std::size_t cube, double end_s, double now_s,
                              std::vector<Event>& events) {
   const Contact& contact = contacts_[cube];
   const double duration_s = log_time(end_s) - log_time(*contact.since_s);
-  events.push_back({log_time(now_s), CubeTouch{slot_of(cube), duration_s, contact.deepest_push_m,
-                                               contact.peak_lag_m}});
+  events.push_back(
+      {log_time(now_s),
+       CubeTouch{slot_of(cube), duration_s, contact.max_push_displacement_m, contact.peak_lag_m}});
   contacts_[cube] = {};
 }
 

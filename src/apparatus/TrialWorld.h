@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "experiment/DisplayedFrame.h"
 #include "experiment/Event.h"
+#include "experiment/Stage.h"
 #include "experiment/TrialPlan.h"
 #include "physics/Drive.h"
 #include "protocol/Protocol.h"
@@ -46,7 +46,7 @@ class TrialWorld {
   struct Contact {
     std::optional<double> since_s, left_s;  // left: first picture without it, if there was one
     Eigen::Vector3d from_m{0, 0, 0};        // the effector's place at since_s
-    double deepest_push_m = 0, peak_lag_m = 0;
+    double max_push_displacement_m = 0, peak_lag_m = 0;
   };
 
   void advance_drive(const TargetSample& sample);

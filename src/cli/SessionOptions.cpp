@@ -160,7 +160,7 @@ void warn_of_simulator(const std::string& name) {
 
 void tell_simulator(const ResolvedConfig& config) {
   const SimulatorChoice& simulator = config->protocol->simulator;
-  if (const std::string& why = config->config.simulator_why; !why.empty())
+  if (const std::string& why = config->config.simulator_reason; !why.empty())
     say("heft: {}\n", heft::described({simulator.name, simulator.rate_hz, why}));
   warn_of_simulator(simulator.name);
   for (const std::string& caution : cautions(*config->protocol)) say("heft: {}\n", caution);

@@ -35,7 +35,7 @@ Admission Engine::admit(Event event) const {
 
 std::optional<std::string> Engine::refusal(const Event& event) const {
   if (!(event.t_s >= last_s_))
-    return fmt::format("time {} s comes before the last event's {} s", event.t_s, last_s_);
+    return fmt::format("its time {} s is before the last event's {} s", event.t_s, last_s_);
   switch (role_of(event.what)) {
     case EventRole::attempt:
       if (!open_) return "no trial is running";
@@ -54,26 +54,26 @@ std::optional<std::string> Engine::refusal(const Event& event) const {
 std::optional<std::string> Engine::course_refusal(const Event& event) const {
   if (event.as<TrialStarted>()) {
     if (next_.kind != Next::Kind::trial) return "no trial is due";
-    if (event.t_s < trial_due_s_) return "the gap after the last trial is not over";
+    if (event.t_s < trial_due_s_) return "the gap after the last trial has not ended";
   }
   if (event.as<DemonstrationShown>() && next_.kind != Next::Kind::demonstration)
     return "no demonstration is due";
   if (const auto* voided = event.as<TrialVoided>()) {
     if (!open_) return "no trial is running";
-    if (voided->reason.empty()) return "it gives no reason";
+    if (voided->reason.empty()) return "it has no reason";
   }
   if (const auto* vetoed = event.as<AnswerVetoed>()) {
-    if (open_) return "the trial that is running must be voided first";
-    if (!vetoable()) return "no trial was answered whose answer could be taken back";
-    if (vetoed->reason.empty()) return "it gives no reason";
+    if (open_) return "the running trial must be voided first";
+    if (!vetoable()) return "there is no answer to veto";
+    if (vetoed->reason.empty()) return "it has no reason";
   }
-  if (event.as<SessionPaused>() && paused_) return "the session is paused already";
+  if (event.as<SessionPaused>() && paused_) return "the session is already paused";
   if (event.as<SessionContinued>() && !paused_) return "the session is not paused";
-  if (event.as<SessionResumed>() && open_) return "the trial that was running must be voided first";
+  if (event.as<SessionResumed>() && open_) return "the interrupted trial must be voided first";
   if (const auto* ended = event.as<SessionEnded>()) {
     if (open_) return "a trial is still running";
     if (ended->how == Ending::finished && next_.kind != Next::Kind::finish)
-      return "not everything is done";
+      return "not all blocks are completed";
   }
   return std::nullopt;
 }
@@ -81,8 +81,8 @@ std::optional<std::string> Engine::course_refusal(const Event& event) const {
 Changes Engine::apply(const Event& event) {
   const Admission admission = admit(event);
   if (!admission.admitted)
-    throw Error(fmt::format("event \"{}\" at {} s can't come now: {}", name_of(event.kind()),
-                            event.t_s, admission.refusal));
+    throw Error(fmt::format("event \"{}\" at {} s is refused: {}", name_of(event.kind()), event.t_s,
+                            admission.refusal));
   return *apply(*admission.admitted).changes;
 }
 
@@ -102,7 +102,7 @@ Applied Engine::apply(const AdmittedEvent& admitted) {
   return {std::move(changes), {}};
 }
 
-// A payload without a case here does not compile, unless it is only recorded.
+// A payload without a handler does not compile, unless it is only recorded.
 void Engine::fold(const Event& event, Changes& changes) {
   const double t_s = event.t_s;
   const auto set_paused = [&](bool paused) {
@@ -118,7 +118,7 @@ void Engine::fold(const Event& event, Changes& changes) {
       [&](const SessionPaused&) { set_paused(true); },
       [&](const SessionContinued&) { set_paused(false); },
       [&](const SessionResumed&) {
-        n_voids_ = 0;  // somebody has looked
+        n_voids_ = 0;
         set_paused(false);
       },
       [&](const SessionEnded& ended) {
@@ -207,9 +207,8 @@ void Engine::keep_answer(const TrialRow& row, const Changes& changes) {
   answered_->last.estimates = changes.estimates;
 }
 
-// What was answered stays in `answer`; the trial has no outcome, so that nobody counts it. The
-// block's procedures are told every answer but this one once more, from the start: nothing of it
-// can be left over.
+// The actions stay in `answer`; the trial loses its outcome and so counts in no result. The block's
+// procedures are folded again from its other trials, so that nothing of the answer remains.
 void Engine::veto_answer(const std::string& reason, double t_s, Changes& changes) {
   TrialRow row = answered_->trials.back();
   answered_->trials.pop_back();
@@ -239,7 +238,7 @@ void Engine::void_trial(const std::string& reason, double t_s, Changes& changes)
   open_->make_void(reason, t_s);
   changes.trial = open_->row();
   open_.reset();
-  if (reason == void_interrupted) return;  // a crash is nobody's doing: the same draws again
+  if (reason == void_interrupted) return;  // repeated with the same draws
   begin_gap(t_s);
   ++attempt_;
   if (++n_voids_ % max_voids == 0) {

@@ -1,6 +1,6 @@
-// The session engine: a pure fold over events, state = fold(plan, seed, events). It says what
-// comes next, refuses what can't be, and projects the rows that the log keeps. No I/O, no clock, no
-// physics, no unseeded draw; resume, replay and simulation all fold with this one class.
+// The session engine: a pure fold over events, state = fold(plan, seed, events). It determines the
+// next step, refuses invalid events and projects the rows of the log. No I/O, clock, physics or
+// unseeded draws. Sessions, resume, replay and simulation all use this class.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +17,26 @@
 
 namespace heft {
 
-/// So many voids of one trial (crashes not counted) in a row, without a resume, pause the session.
+/// Number of consecutive voids of a trial, not counting crashes, that pauses the session.
 inline constexpr int max_voids = 3;
 
-/// What the session waits for.
+/// What the session waits for, and the event that it needs.
 struct Next {
   enum class Kind {
-    demonstration,  ///< show it, then event demonstration_shown
-    trial,          ///< start `plan`, event trial_started
+    demonstration,  ///< show it, then demonstration_shown
+    trial,          ///< start the trial `plan`: trial_started
     act,            ///< the trial `plan` is open: actions
-    paused,         ///< event continued
-    finish,         ///< everything is done: event ended "finished"
-    over            ///< the session has ended
+    paused,         ///< continued
+    finish,         ///< all blocks are completed: ended "finished"
+    over            ///< none; the session has ended
   };
   Kind kind = Kind::over;
   std::optional<TrialPlan> plan;                    ///< trial, act
   std::optional<DemonstrationBlock> demonstration;  ///< demonstration
-  std::optional<BreakBlock> rest;                   ///< a break to take first
+  std::optional<BreakBlock> rest;                   ///< a break before it
 };
 
-/// An event that the engine has admitted after so many events.
+/// An admitted event, with the number of events that preceded its admission.
 class AdmittedEvent {
  public:
   const Event& event() const { return event_; }
@@ -48,13 +48,13 @@ class AdmittedEvent {
   int n_events_;
 };
 
-/// Either the event, or why it can't come now.
+/// Either the event, or why it is refused.
 struct Admission {
   std::optional<AdmittedEvent> admitted;
   std::string refusal;
 };
 
-/// Either every row that an event changes, or why it can't come any more.
+/// Either all rows that an event changes, or why it is refused.
 struct Applied {
   std::optional<Changes> changes;
   std::string refusal;
@@ -70,42 +70,42 @@ class Engine {
 
   Admission admit(Event event) const;
 
-  /// Folds an event. Where others were folded since it was admitted it is admitted once more; a
-  /// refusal leaves the state as it was.
+  /// Folds an event. It is checked again if other events were folded since its admission; a refused
+  /// event changes nothing.
   Applied apply(const AdmittedEvent& admitted);
-  /// @return every row that it changes
-  /// @throws Error with the refusal, leaving the state as it was
+  /// @return all changed rows
+  /// @throws Error with the refusal; the state is unchanged
   Changes apply(const Event& event);
 
-  /// Whether an action that was admitted would end the trial.
+  /// Whether an admitted action would end the trial.
   bool ends_trial(const Action& action) const { return open_ && open_->ends_trial(action); }
 
   ScreenState screen() const;
-  /// The screen of the open trial as it is once its cubes are shown: what is displayed with their
-  /// first frame, before anybody can be told that they were.
+  /// The open trial's screen with its cubes: displayed with their first frame, before the event
+  /// cubes_shown.
   ScreenState screen_with_cubes() const;
 
-  /// When the next trial may start, in session time: once the gap after the last one is over.
+  /// Session time from which the next trial may start, after the gap.
   double trial_due_s() const { return trial_due_s_; }
 
-  /// The trial whose answer can be vetoed; null: there is none, or what came after stands.
+  /// The trial whose answer can be vetoed; null if there is none.
   const TrialRow* vetoable() const {
     return answered_ && !answered_->vetoed ? &answered_->trials.back() : nullptr;
   }
 
-  /// Whether a trial of that block was ever started.
+  /// Whether a trial of the block was started.
   bool has_begun(const std::string& block) const { return begun_.contains(block); }
 
   bool trial_is_open() const { return open_.has_value(); }
-  /// Paused because one trial was voided max_voids times in a row: somebody has to look.
-  bool needs_somebody() const { return paused_ && n_voids_ >= max_voids; }
+  /// Whether the session is paused because a trial was voided max_voids times in a row.
+  bool needs_experimenter() const { return paused_ && n_voids_ >= max_voids; }
   SessionState state() const { return state_; }
   int n_events() const { return n_events_; }
   int n_attempts() const { return n_attempts_; }
   int n_completed() const { return n_completed_; }
   double last_s() const { return last_s_; }
 
-  /// The staircase that runs alone where several were to be interleaved; none before that.
+  /// The last unfinished one of several interleaved staircases; none while more are running.
   std::optional<std::string> survivor() const;
 
  private:
@@ -132,29 +132,29 @@ class Engine {
   std::uint64_t seed_;
   SessionState state_ = SessionState::running;
   int n_setups_ = 0;
-  Onset onset_{0, 0};                         // in force; before anything is told there is none
-  std::map<std::string, double> parameters_;  // of the participant, as told last
+  Onset onset_{0, 0};                         // 0 before the first setup
+  std::map<std::string, double> parameters_;  // of the participant, from the last setup
   int n_events_ = 0, n_attempts_ = 0, n_completed_ = 0;
   double last_s_ = 0, trial_due_s_ = 0;
   bool paused_ = false, over_ = false;
 
   std::size_t block_ = 0;         // of the next or open trial
-  std::unique_ptr<TaskRun> run_;  // of that block; null: it has no trials, or all are done
+  std::unique_ptr<TaskRun> run_;  // of that block; null: no trials left
   std::set<std::string> begun_;
   std::optional<BreakBlock> rest_;
-  std::size_t rested_ = 0;  // breaks before this block are over, whatever is taken back later
+  std::size_t rested_ = 0;  // breaks before this block were taken; a veto does not repeat them
 
-  /// Of the block of trials that was answered last, what is needed to take its last answer back.
+  /// What is needed to veto the last answer.
   struct Answered {
     std::size_t block = 0;
-    std::vector<TrialRow> trials;  // those that count
-    Changes last;                  // reversals and estimates alone
-    bool vetoed = false;           // one is enough: the last but one stands
+    std::vector<TrialRow> trials;  // completed, not vetoed
+    Changes last;                  // its reversals and estimates
+    bool vetoed = false;           // only the last answer can be vetoed
   };
   std::optional<Answered> answered_;
 
   int attempt_ = 1;  // of the next or open trial
-  int n_voids_ = 0;  // of that trial, in a row without a resume
+  int n_voids_ = 0;  // of that trial, consecutive, since the last resume
 
   std::optional<RunningAttempt> open_;
   Next next_;

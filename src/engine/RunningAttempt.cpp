@@ -10,14 +10,14 @@ namespace {
 
 using Refusal = std::optional<std::string>;
 
-// Why an action has not the columns that its kind fills.
+// Whether an action has exactly the columns of its kind.
 Refusal column_refusal(const ActionSpec& spec, const Action& action) {
   if (spec.slot != action.slot.has_value())
-    return action.slot ? "it takes no cube" : "it names no cube";
+    return action.slot ? "it has a cube, expected none" : "it has no cube";
   if (spec.label != action.label.has_value())
-    return action.label ? "it takes no label" : "it names no label";
+    return action.label ? "it has a label, expected none" : "it has no label";
   if (spec.value != action.value.has_value())
-    return action.value ? "it takes no value" : "it gives no value";
+    return action.value ? "it has a value, expected none" : "it has no value";
   return std::nullopt;
 }
 
@@ -80,32 +80,32 @@ Refusal RunningAttempt::refusal(const Event& event) const {
   if (const auto* action = event.as<Action>()) return action_refusal(*action, event.t_s);
   if (const auto* contact = event.as<CubeTouch>()) return contact_refusal(*contact);
   if (const auto* reset = event.as<CubesReset>()) return reset_refusal(*reset);
-  if (event.as<CubesShown>() && cubes_shown_) return "the cubes are shown already";
-  if (event.as<EffectorLost>() && effector_lost_) return "the effector is out of view already";
-  if (event.as<EffectorFound>() && !effector_lost_) return "the effector is in view already";
+  if (event.as<CubesShown>() && cubes_shown_) return "the cubes are already shown";
+  if (event.as<EffectorLost>() && effector_lost_) return "the effector is already out of view";
+  if (event.as<EffectorFound>() && !effector_lost_) return "the effector is already in view";
   return std::nullopt;
 }
 
 Refusal RunningAttempt::action_refusal(const Action& action, double t_s) const {
   const ActionSpec* spec = trial_->declaration().action(action.kind);
-  if (!spec) return fmt::format("a {} trial has no \"{}\"", plan().task, action.kind);
-  if (!cubes_shown_) return "the cubes have not appeared yet";
+  if (!spec) return fmt::format("a {} trial has no action \"{}\"", plan().task, action.kind);
+  if (!cubes_shown_) return "the cubes are not shown yet";
   if (t_s < answers_from_s_)
-    return fmt::format("it comes within {:g} s of the cubes", min_answer_s_);
+    return fmt::format("it is earlier than {:g} s after the cubes' onset", min_answer_s_);
   if (Refusal refusal = column_refusal(*spec, action)) return refusal;
   if (action.slot && !has_cube(*action.slot))
     return fmt::format("there is no cube {}", *action.slot);
   if (Refusal refusal = trial_->refusal(action)) return refusal;
-  if (!spec->is_step && require_contact_ && !all_touched()) return "not every cube was touched yet";
+  if (!spec->is_step && require_contact_ && !all_touched()) return "not every cube was touched";
   return std::nullopt;
 }
 
 Refusal RunningAttempt::contact_refusal(const CubeTouch& contact) const {
-  if (!cubes_shown_) return "the cubes have not appeared yet";
-  if (!has_cube(contact.slot)) return "it names no cube of this trial";
+  if (!cubes_shown_) return "the cubes are not shown yet";
+  if (!has_cube(contact.slot)) return "the trial has no such cube";
   const bool touching = contact_since_s_[static_cast<std::size_t>(contact.slot - 1)].has_value();
   if (!contact.ended_after_s && touching)
-    return fmt::format("cube {} is touched already", contact.slot);
+    return fmt::format("cube {} is already touched", contact.slot);
   if (contact.ended_after_s && !touching)
     return fmt::format("cube {} is not touched", contact.slot);
   if (contact.ended_after_s && !(*contact.ended_after_s >= 0)) return "it has no duration";
@@ -113,7 +113,7 @@ Refusal RunningAttempt::contact_refusal(const CubeTouch& contact) const {
 }
 
 Refusal RunningAttempt::reset_refusal(const CubesReset& reset) const {
-  if (!cubes_shown_) return "the cubes have not appeared yet";
+  if (!cubes_shown_) return "the cubes are not shown yet";
   if (reset.slot && !has_cube(*reset.slot)) return fmt::format("there is no cube {}", *reset.slot);
   return std::nullopt;
 }
@@ -131,7 +131,7 @@ void RunningAttempt::account(double t_s, bool paused) {
 void RunningAttempt::show(double t_s) {
   cubes_shown_ = true;
   if (min_answer_s_ > 0) answers_from_s_ = log_time(t_s + min_answer_s_);
-  if (!row_.shown_s) row_.shown_s = t_s;  // newly shuffled cubes appear a second time
+  if (!row_.shown_s) row_.shown_s = t_s;  // shuffled cubes appear a second time
 }
 
 void RunningAttempt::touch(const CubeTouch& contact, double t_s) {
@@ -141,7 +141,8 @@ void RunningAttempt::touch(const CubeTouch& contact, double t_s) {
     cube.contact_s += *contact.ended_after_s;
     cube.last_contact_s = *contact_since_s_[index] + *contact.ended_after_s;
     // An empty optional is less than any value.
-    cube.deepest_push_m = std::max(cube.deepest_push_m, contact.deepest_push_m);
+    cube.max_push_displacement_m =
+        std::max(cube.max_push_displacement_m, contact.max_push_displacement_m);
     cube.peak_lag_m = std::max(cube.peak_lag_m, contact.peak_lag_m);
     contact_since_s_[index].reset();
     return;

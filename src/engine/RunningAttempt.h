@@ -1,5 +1,5 @@
-// One running attempt at a trial, folded from its events: answers as its task takes them, contacts,
-// and where the time went. Knows nothing of blocks and staircases; that is the engine's.
+// A running attempt at a trial, folded from its events: answers, contacts, and paused and lost
+// time. Blocks and staircases belong to the engine.
 #pragma once
 
 #include <memory>
@@ -14,14 +14,14 @@
 
 namespace heft {
 
-/// The screen of a trial whose cubes are not there yet.
+/// The screen of a trial before its cubes are shown.
 ScreenState screen_of(const TaskTrial& trial);
 
 class RunningAttempt {
  public:
-  /// @param row attempt and setup index and the start's time are taken from it
-  /// @param require_contact refuse final answers until every cube was touched
-  /// @param min_answer_s refuse all answers until the cubes were there for so long
+  /// @param row attempt index, setup index and start time
+  /// @param require_contact refuse final answers before every cube was touched
+  /// @param min_answer_s refuse answers earlier than this after the cubes' onset
   RunningAttempt(const TrialRow& row, std::unique_ptr<TaskTrial> trial, bool require_contact,
                  double min_answer_s = 0);
 
@@ -29,14 +29,13 @@ class RunningAttempt {
   TrialRow row() const;
   const std::vector<CubeRow>& cubes() const { return cubes_; }
   ScreenState screen() const { return screen(cubes_shown_); }
-  /// The same, with its cubes there or not.
   ScreenState screen(bool cubes_shown) const;
 
-  /// Why an event of this attempt can't come now; events of other kinds always can.
+  /// Why an event of an attempt is refused; none: it is accepted.
   std::optional<std::string> refusal(const Event& event) const;
 
-  /// Accounts for the time since the last event, which was spent paused, with the effector lost, or
-  /// at the task. Call before folding each event.
+  /// Adds the time since the last event to paused or lost time, if it was either. Call it before
+  /// folding each event.
   void account(double t_s, bool paused);
 
   void show(double t_s);
@@ -45,12 +44,11 @@ class RunningAttempt {
   void lose_effector() { effector_lost_ = true; }
   void find_effector() { effector_lost_ = false; }
 
-  /// Whether an action that is not refused would end the trial.
+  /// Whether an accepted action would end the trial.
   bool ends_trial(const Action& action) const { return trial_->ends(action); }
 
-  /// Folds an action. Where the task puts new cubes in the slots, their contacts count from here.
+  /// Folds an action. If the task shuffles the cubes, their contact counts start again.
   void act(const Action& action, double t_s);
-  /// An action has ended the trial.
   bool has_ended() const { return trial_->result().outcome.has_value(); }
 
   void complete(double t_s);
@@ -66,12 +64,12 @@ class RunningAttempt {
   void rearrange();
 
   std::unique_ptr<TaskTrial> trial_;
-  TrialRow row_;  // but for the plan and the result
+  TrialRow row_;  // without plan and result
   bool require_contact_;
   double min_answer_s_;
   double accounted_s_;
   bool cubes_shown_ = false;
-  double answers_from_s_ = 0;  // session time, once the cubes are shown
+  double answers_from_s_ = 0;  // session time; set when the cubes are shown
   bool effector_lost_ = false;
   std::vector<CubeRow> cubes_;
   std::vector<std::optional<double>> contact_since_s_;  // by slot

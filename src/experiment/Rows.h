@@ -1,6 +1,6 @@
-// The rows that the engine projects from events, and the displayed frames, column for column as the
-// log keeps them: see Column.h. `attempt index` counts a session's trial_started events from 1,
-// `setup index` its setups; the log gives each its id.
+// Rows that the engine projects from events, and displayed frames, with the log's columns
+// (Column.h). `attempt_index` counts a session's trial_started events from 1, `setup_index` its
+// configurations; the log maps them to ids.
 #pragma once
 
 #include <concepts>
@@ -11,91 +11,93 @@
 #include "base/PoseTypes.h"
 #include "experiment/Column.h"
 #include "experiment/SessionConfig.h"
-#include "experiment/Task.h"
 #include "experiment/TrialPlan.h"
 #include "psychophysics/ProcedureTypes.h"
 
 namespace heft {
 
-/// Whether `Row` is this type, const or not: each visit_columns takes both.
+/// Whether `Row` is this type, const or not.
 template <typename Row, typename Type>
 concept RowOf = std::same_as<std::remove_const_t<Row>, Type>;
 
-/// What the answers to a trial have come to. Tasks fill it; the engine copies all of it.
+/// Result of a trial's answers, filled by its task.
 struct TrialResult {
-  std::optional<Outcome> outcome;  ///< once an action ended the trial
+  std::optional<Outcome> outcome;  ///< set when an action ends the trial
   std::optional<int> chosen_slot;
   std::optional<bool> choice_correct;
-  std::optional<double> value;  ///< what was estimated or adjusted
+  std::optional<double> value;  ///< estimated or adjusted value
 };
 
 struct TrialRow : TrialResult {
   int attempt_index = 0;
-  int setup_index = 0;  ///< that it started under; 0: nothing told
+  int setup_index = 0;  ///< of the configuration it started under; 0: none
   TrialPlan plan;
   TrialStatus status = TrialStatus::open;
   std::optional<std::string> void_reason;
   double started_s = 0;
   std::optional<double> shown_s, first_contact_s, first_choice_s, validated_s, ended_s;
-  double paused_s = 0;  ///< time the trial stood still between shown and validated
-  double lost_s = 0;    ///< time the effector was out of view between shown and validated
+  double paused_s = 0;  ///< paused time between shown and validated
+  double lost_s = 0;    ///< time without effector between shown and validated
 };
 template <typename Row, typename Visit>
 requires RowOf<Row, TrialRow>
 void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"attempt_index", "", "attempts of the session, counted from 1", ">= 1"},
         row.attempt_index);
-  visit(LogColumn{"trial_number", "", "planned trial, from 1; attempts share it", ">= 1"},
+  visit(LogColumn{"trial_number", "", "planned trial, from 1; shared by its attempts", ">= 1"},
         row.plan.trial_number);
-  visit(
-      LogColumn{"attempt", "", "+1 after a veto or a lost camera, unchanged after a crash", ">= 1"},
-      row.plan.attempt);
+  visit(LogColumn{"attempt", "",
+                  "from 1; +1 after a veto or a lost camera, unchanged after a crash", ">= 1"},
+        row.plan.attempt);
   visit(LogColumn{"block", "", "block of the protocol"}, row.plan.block);
-  visit(LogColumn{"task", "", "what was asked"}, row.plan.task);
-  visit(LogColumn{"condition", "", "technique that the clone was rendered with"},
-        row.plan.condition);
-  visit(LogColumn{"staircase", "", "procedure that chose the level; none in catch trials"},
+  visit(LogColumn{"task", "", "task of the trial"}, row.plan.task);
+  visit(LogColumn{"condition", "", "rendering technique of the clone"}, row.plan.condition);
+  visit(LogColumn{"staircase", "", "procedure that set the level; NULL in catch trials"},
         NullIfEmpty{row.plan.staircase});
   visit(LogColumn{"reference_g", "g", "mass of the reference", "> 0"}, row.plan.reference_g);
-  visit(LogColumn{"level_g", "g", "comparison - reference, as presented"}, row.plan.level_g);
-  visit(LogColumn{"is_catch", "", "the difference is 0 on purpose; drives no staircase"},
+  visit(LogColumn{"level_g", "g", "presented comparison mass minus reference mass"},
+        row.plan.level_g);
+  visit(LogColumn{"is_catch", "", "catch trial: the difference is 0 and no procedure is updated"},
         row.plan.is_catch);
-  visit(LogColumn{"is_practice", "", "practice: counts in no figure"}, row.plan.is_practice);
-  visit(LogColumn{"n_reshuffles", "", "times the cubes were newly shuffled in it", ">= 0"},
+  visit(LogColumn{"is_practice", "", "practice trial: excluded from all results"},
+        row.plan.is_practice);
+  visit(LogColumn{"n_reshuffles", "", "number of times the cubes were shuffled again", ">= 0"},
         row.plan.n_reshuffles);
-  visit(LogColumn{"status", "", "what became of the attempt"}, row.status);
-  visit(LogColumn{"void_reason", "", "why it is void"}, row.void_reason);
-  visit(LogColumn{"outcome", "", "what the answer was"}, row.outcome);
-  visit(LogColumn{"chosen_slot", "", "cube that was chosen, 1 leftmost", "BETWEEN 1 AND 6"},
+  visit(LogColumn{"status", "", "status of the attempt"}, row.status);
+  visit(LogColumn{"void_reason", "", "reason why the attempt is void"}, row.void_reason);
+  visit(LogColumn{"outcome", "", "outcome of the trial"}, row.outcome);
+  visit(LogColumn{"chosen_slot", "", "slot of the chosen cube; 1 is leftmost", "BETWEEN 1 AND 6"},
         row.chosen_slot);
-  visit(LogColumn{"reference_slot", "", "where the reference stood", "BETWEEN 1 AND 6"},
+  visit(LogColumn{"reference_slot", "", "slot of the reference; 1 is leftmost", "BETWEEN 1 AND 6"},
         row.plan.reference_slot);
-  visit(LogColumn{"choice_correct", "", "the chosen cube was the heaviest"}, row.choice_correct);
-  visit(LogColumn{"value", "",
-                  "what was estimated or adjusted, in the task's unit (adjustment: g); none: the "
-                  "task asks for neither"},
+  visit(LogColumn{"choice_correct", "", "whether the heaviest cube was chosen"},
+        row.choice_correct);
+  visit(LogColumn{"value", "", "estimated or adjusted value in the task's unit (adjustment: g)"},
         row.value);
-  visit(LogColumn{"started_s", "s", "session time of its start", ">= 0"}, row.started_s);
-  visit(LogColumn{"shown_s", "s", "first frame with all cubes", ">= 0"}, row.shown_s);
-  visit(LogColumn{"first_contact_s", "s", "first touch of a cube", ">= 0"}, row.first_contact_s);
-  visit(LogColumn{"first_choice_s", "s", "first action", ">= 0"}, row.first_choice_s);
-  visit(LogColumn{"validated_s", "s", "the action that ended it", ">= 0"}, row.validated_s);
-  visit(LogColumn{"paused_s", "s", "time it stood still between shown and validated", ">= 0"},
+  visit(LogColumn{"started_s", "s", "session time of the start", ">= 0"}, row.started_s);
+  visit(LogColumn{"shown_s", "s", "session time of the first frame with all cubes", ">= 0"},
+        row.shown_s);
+  visit(LogColumn{"first_contact_s", "s", "session time of the first contact with a cube", ">= 0"},
+        row.first_contact_s);
+  visit(LogColumn{"first_choice_s", "s", "session time of the first action", ">= 0"},
+        row.first_choice_s);
+  visit(LogColumn{"validated_s", "s", "session time of the final answer", ">= 0"}, row.validated_s);
+  visit(LogColumn{"paused_s", "s", "paused time between shown_s and validated_s", ">= 0"},
         row.paused_s);
-  visit(LogColumn{"lost_s", "s", "time without effector between shown and validated", ">= 0"},
+  visit(LogColumn{"lost_s", "s", "time without effector between shown_s and validated_s", ">= 0"},
         row.lost_s);
-  visit(LogColumn{"ended_s", "s", "session time of its end", ">= 0"}, row.ended_s);
+  visit(LogColumn{"ended_s", "s", "session time of the end", ">= 0"}, row.ended_s);
 }
 
-/// What a push came to, of one touch or the most of all touches of a cube; see CubeTouch.
+/// Push measures of one contact, or their maxima over the contacts of a cube; see CubeTouch.
 template <typename Row, typename Visit>
 void visit_push_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"deepest_push_m", "m",
-                  "farthest that the effector went from where it was when the touch began", ">= 0"},
-        row.deepest_push_m);
+  visit(
+      LogColumn{"max_push_displacement_m", "m",
+                "largest displacement of the effector from its position at first contact", ">= 0"},
+      row.max_push_displacement_m);
   visit(LogColumn{"peak_lag_m", "m",
-                  "largest distance of the clone from the effector during the touch, as displayed",
-                  ">= 0"},
+                  "largest displayed distance between clone and effector during contact", ">= 0"},
         row.peak_lag_m);
 }
 
@@ -107,20 +109,21 @@ struct CubeRow {
   double contact_s = 0;
   std::optional<double> first_contact_s, last_contact_s;
   int n_resets = 0;
-  std::optional<double> deepest_push_m{}, peak_lag_m{};
+  std::optional<double> max_push_displacement_m{}, peak_lag_m{};
 };
 template <typename Row, typename Visit>
 requires RowOf<Row, CubeRow>
 void visit_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"slot", "", "place of the cube, 1 leftmost", "BETWEEN 1 AND 6"}, row.slot);
-  visit(LogColumn{"mass_g", "g", "its mass", "> 0"}, row.mass_g);
-  visit(LogColumn{"n_pushes", "", "times the clone came to touch it", ">= 0"}, row.n_pushes);
-  visit(LogColumn{"contact_s", "s", "time that it was touched for", ">= 0"}, row.contact_s);
-  visit(LogColumn{"first_contact_s", "s", "session time of its first touch", ">= 0"},
+  visit(LogColumn{"slot", "", "slot of the cube; 1 is leftmost", "BETWEEN 1 AND 6"}, row.slot);
+  visit(LogColumn{"mass_g", "g", "mass of the cube", "> 0"}, row.mass_g);
+  visit(LogColumn{"n_pushes", "", "number of contacts of the clone with the cube", ">= 0"},
+        row.n_pushes);
+  visit(LogColumn{"contact_s", "s", "total contact time", ">= 0"}, row.contact_s);
+  visit(LogColumn{"first_contact_s", "s", "session time of the first contact", ">= 0"},
         row.first_contact_s);
-  visit(LogColumn{"last_contact_s", "s", "session time of the end of its last touch", ">= 0"},
+  visit(LogColumn{"last_contact_s", "s", "session time of the end of the last contact", ">= 0"},
         row.last_contact_s);
-  visit(LogColumn{"n_resets", "", "times it was put back to its start", ">= 0"}, row.n_resets);
+  visit(LogColumn{"n_resets", "", "number of resets to the start position", ">= 0"}, row.n_resets);
   visit_push_columns(row, visit);
 }
 
@@ -136,10 +139,10 @@ template <typename Row, typename Visit>
 requires RowOf<Row, AnswerRow>
 void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"t_s", "s", "session time", ">= 0"}, row.t_s);
-  visit(LogColumn{"action", "", "what the participant did"}, row.action);
-  visit(LogColumn{"slot", "", "with which cube, 1 leftmost", "BETWEEN 1 AND 6"}, row.slot);
-  visit(LogColumn{"label", "", "label that was given"}, row.label);
-  visit(LogColumn{"value", "", "number that was given, in the task's unit"}, row.value);
+  visit(LogColumn{"action", "", "action of the participant"}, row.action);
+  visit(LogColumn{"slot", "", "slot of the cube; 1 is leftmost", "BETWEEN 1 AND 6"}, row.slot);
+  visit(LogColumn{"label", "", "assigned label"}, row.label);
+  visit(LogColumn{"value", "", "given number in the task's unit"}, row.value);
 }
 
 struct ReversalRow {
@@ -151,11 +154,11 @@ struct ReversalRow {
 template <typename Row, typename Visit>
 requires RowOf<Row, ReversalRow>
 void visit_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"staircase", "", "its procedure"}, row.staircase);
-  visit(LogColumn{"number", "", "counted from 1", ">= 1"}, row.number);
-  visit(LogColumn{"level_g", "g", "level presented on its trial"}, row.level_g);
-  visit(LogColumn{"step_before_g", "g", "step in force before it"}, row.step_before_g);
-  visit(LogColumn{"step_after_g", "g", "step in force after it"}, row.step_after_g);
+  visit(LogColumn{"staircase", "", "name of the procedure"}, row.staircase);
+  visit(LogColumn{"number", "", "number of the reversal, from 1", ">= 1"}, row.number);
+  visit(LogColumn{"level_g", "g", "level of the reversal's trial"}, row.level_g);
+  visit(LogColumn{"step_before_g", "g", "step before the reversal"}, row.step_before_g);
+  visit(LogColumn{"step_after_g", "g", "step after the reversal"}, row.step_after_g);
 }
 
 struct EstimateRow {
@@ -166,52 +169,54 @@ struct EstimateRow {
   StopReason reason = StopReason::reversals;
   std::optional<Censored> censored;
 };
-/// What a procedure that ended so says, as its row.
+/// Row of an estimate of a procedure that has stopped.
 inline EstimateRow row_of(const std::string& staircase, const Estimate& estimate,
-                          StopReason finish) {
+                          StopReason reason) {
   return {
       staircase,         estimate.method,      estimate.value,   estimate.low,       estimate.high,
-      estimate.n_trials, estimate.n_reversals, estimate.n_floor, estimate.n_ceiling, finish,
+      estimate.n_trials, estimate.n_reversals, estimate.n_floor, estimate.n_ceiling, reason,
       estimate.censored};
 }
 template <typename Row, typename Visit>
 requires RowOf<Row, EstimateRow>
 void visit_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"staircase", "", "its procedure"}, row.staircase);
-  visit(LogColumn{"method", "", "how it was estimated: mean_of_reversals..."}, row.method);
-  visit(LogColumn{"jnd_g", "g", "the estimate; none: the data give none"}, row.jnd_g);
-  visit(LogColumn{"low_g", "g", "lower end of its interval"}, row.low_g);
-  visit(LogColumn{"high_g", "g", "upper end of its interval"}, row.high_g);
-  visit(LogColumn{"n_trials", "", "trials that the procedure took", ">= 0"}, row.n_trials);
-  visit(LogColumn{"n_reversals", "", "reversals among them", ">= 0"}, row.n_reversals);
-  visit(LogColumn{"n_floor", "", "moves that the floor cut short", ">= 0"}, row.n_floor);
-  visit(LogColumn{"n_ceiling", "", "moves that the ceiling cut short", ">= 0"}, row.n_ceiling);
+  visit(LogColumn{"staircase", "", "name of the procedure"}, row.staircase);
+  visit(LogColumn{"method", "", "method of estimation: mean_of_reversals..."}, row.method);
+  visit(LogColumn{"jnd_g", "g", "estimate; NULL: not estimable from the data"}, row.jnd_g);
+  visit(LogColumn{"low_g", "g", "lower bound of the interval"}, row.low_g);
+  visit(LogColumn{"high_g", "g", "upper bound of the interval"}, row.high_g);
+  visit(LogColumn{"n_trials", "", "number of trials of the procedure", ">= 0"}, row.n_trials);
+  visit(LogColumn{"n_reversals", "", "number of reversals", ">= 0"}, row.n_reversals);
+  visit(LogColumn{"n_floor", "", "number of moves limited by the floor", ">= 0"}, row.n_floor);
+  visit(LogColumn{"n_ceiling", "", "number of moves limited by the ceiling", ">= 0"},
+        row.n_ceiling);
   visit(
       LogColumn{
           "reason", "",
-          "why the procedure ended: by its reversals, because it had all the trials that it may "
-          "have, as constant stimuli always do, or because its estimate is as precise as asked"},
+          "why the procedure stopped: number of reversals, number of trials (always for constant "
+          "stimuli), or precision of the estimate"},
       row.reason);
   visit(
       LogColumn{
           "censored", "",
-          "whether a bound cut a move that it depends on (before version 6: whether a reversal "
-          "that counts was at a bound), or the limit of trials cut it short"},
+          "whether the floor or ceiling limited a move that the estimate depends on, or the trial "
+          "limit ended the procedure; sessions of log_version 5: whether a counted reversal was "
+          "at a bound"},
       row.censored);
 }
 
-/// A number that a simulated participant was drawn as. A session has it once, unless somebody else
-/// went on with it.
+/// A parameter drawn for a simulated participant; once per session, unless another participant
+/// continued it.
 struct ParticipantParameterRow {
-  int setup_index = 0;  ///< that told it
+  int setup_index = 0;  ///< of the configuration that contains it
   std::string name;
   double value = 0;
 };
 template <typename Row, typename Visit>
 requires RowOf<Row, ParticipantParameterRow>
 void visit_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"name", "", "parameter of the model, as its parameter file names it"}, row.name);
-  visit(LogColumn{"value", "", "what this participant was drawn as, in the parameter's unit"},
+  visit(LogColumn{"name", "", "parameter, as named in the model's parameter file"}, row.name);
+  visit(LogColumn{"value", "", "value drawn for this participant, in the parameter's unit"},
         row.value);
 }
 
@@ -222,23 +227,23 @@ struct EnumNames<SessionState> {
                                                          "aborted"};
 };
 
-/// Everything one event changes in the log; written in the transaction that writes the event.
+/// All changes of one event to the log, written in one transaction with the event.
 struct Changes {
-  int attempt_index = 0;  ///< of the attempt the event belongs to; 0: none
+  int attempt_index = 0;  ///< of the event's attempt; 0: none
   std::optional<SessionConfig> setup;
   std::optional<TrialRow> trial;
   std::vector<CubeRow> cubes;
   std::vector<AnswerRow> answers;
   std::vector<ReversalRow> reversals;
   std::vector<EstimateRow> estimates;
-  /// Rows that go again, with the answer that gave them.
+  /// Rows removed together with a vetoed answer.
   std::vector<ReversalRow> withdrawn_reversals;
   std::vector<EstimateRow> withdrawn_estimates;
   std::vector<ParticipantParameterRow> parameters;
   std::optional<SessionState> state;
 };
 
-/// One displayed frame. The effector columns are exactly what Drive was given.
+/// A displayed frame. The effector columns are the exact input of the physics.
 struct FrameRow {
   static constexpr std::size_t most_cubes = 6;
 
@@ -262,37 +267,42 @@ struct FrameRow {
 template <typename Row, typename Visit>
 requires RowOf<Row, FrameRow>
 void visit_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"after_event", "", "events of the session that came before it", ">= 0"},
+  visit(LogColumn{"after_event", "", "number of earlier events of the session", ">= 0"},
         row.after_event);
-  visit(LogColumn{"t_s", "s", "session time that its world is of", ">= 0"}, row.t_s);
-  visit(LogColumn{"trial_t_s", "s", "the same since the attempt's start: what Drive was given"},
+  visit(LogColumn{"t_s", "s", "session time of the displayed world", ">= 0"}, row.t_s);
+  visit(LogColumn{"trial_t_s", "s", "the same, since the attempt's start; input of the physics"},
         row.trial_t_s);
-  visit(LogColumn{"capture_s", "s", "session time of its picture's exposure"}, row.capture_s);
-  visit(LogColumn{"present_s", "s", "session time at which it was on the screen"}, row.present_s);
-  visit(LogColumn{"tracked", "", "the effector was seen"}, row.tracked);
-  visit(LogColumn{"jump", "", "the effector came back or leapt: the clone was teleported"},
+  visit(LogColumn{"capture_s", "s", "session time of the camera picture's exposure"},
+        row.capture_s);
+  visit(LogColumn{"present_s", "s", "session time of presentation on the screen"}, row.present_s);
+  visit(LogColumn{"tracked", "", "whether the effector was detected"}, row.tracked);
+  visit(LogColumn{"jump", "",
+                  "whether the clone was teleported after a loss or jump of the effector"},
         row.jump);
-  visit(LogColumn{"contact_slot", "", "cube pressed hardest", "BETWEEN 1 AND 6"}, row.contact_slot);
-  visit(LogColumn{"quality", "", "of the effector's pose, 0 to 1"}, row.quality);
-  visit(LogColumn{"state_hash", "", "hash of the world's state"}, row.state_hash);
-  visit(PoseColumns{"effector", "the tracked effector"}, Exactly{row.effector});
-  visit(VelocityColumns{"effector", "its velocity"}, Exactly{row.effector_velocity});
-  visit(PoseColumns{"clone", "the effector's clone as drawn"}, row.clone);
-  visit(PoseColumns{"cube1", "cube of slot 1"}, PoseAt{row.cubes, 0});
-  visit(PoseColumns{"cube2", "cube of slot 2"}, PoseAt{row.cubes, 1});
-  visit(PoseColumns{"cube3", "cube of slot 3"}, PoseAt{row.cubes, 2});
-  visit(LogColumn{"detected_s", "s", "session time at which its poses were known; wall clock"},
+  visit(LogColumn{"contact_slot", "", "slot of the cube with the largest contact force",
+                  "BETWEEN 1 AND 6"},
+        row.contact_slot);
+  visit(LogColumn{"quality", "", "quality of the effector's pose, 0 to 1"}, row.quality);
+  visit(LogColumn{"state_hash", "", "hash of the simulated world's state"}, row.state_hash);
+  visit(PoseColumns{"effector", "pose of the tracked effector"}, Exactly{row.effector});
+  visit(VelocityColumns{"effector", "velocity of the tracked effector"},
+        Exactly{row.effector_velocity});
+  visit(PoseColumns{"clone", "displayed pose of the clone"}, row.clone);
+  visit(PoseColumns{"cube1", "displayed pose of the cube in slot 1"}, PoseAt{row.cubes, 0});
+  visit(PoseColumns{"cube2", "displayed pose of the cube in slot 2"}, PoseAt{row.cubes, 1});
+  visit(PoseColumns{"cube3", "displayed pose of the cube in slot 3"}, PoseAt{row.cubes, 2});
+  visit(LogColumn{"detected_s", "s", "session time at which poses were available (wall clock)"},
         row.detected_s);
-  visit(LogColumn{"simulated_s", "s", "session time at which its world was known; wall clock"},
+  visit(LogColumn{"simulated_s", "s", "session time at which the world was simulated (wall clock)"},
         row.simulated_s);
-  visit(
-      LogColumn{"n_dropped", "", "camera pictures lost since the frame before; wall clock", ">= 0"},
-      row.n_dropped);
-  visit(PoseColumns{"cube4", "cube of slot 4"}, PoseAt{row.cubes, 3});
-  visit(PoseColumns{"cube5", "cube of slot 5"}, PoseAt{row.cubes, 4});
-  visit(PoseColumns{"cube6", "cube of slot 6"}, PoseAt{row.cubes, 5});
+  visit(LogColumn{"n_dropped", "", "camera pictures lost since the previous frame (wall clock)",
+                  ">= 0"},
+        row.n_dropped);
+  visit(PoseColumns{"cube4", "displayed pose of the cube in slot 4"}, PoseAt{row.cubes, 3});
+  visit(PoseColumns{"cube5", "displayed pose of the cube in slot 5"}, PoseAt{row.cubes, 4});
+  visit(PoseColumns{"cube6", "displayed pose of the cube in slot 6"}, PoseAt{row.cubes, 5});
   visit(LogColumn{"clone_offset_px", "px",
-                  "on the display, from the middle of the effector to its clone's; none: no window "
+                  "displayed distance between the centers of effector and clone; NULL: no window "
                   "showed both",
                   ">= 0"},
         row.clone_offset_px);

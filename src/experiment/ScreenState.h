@@ -1,6 +1,5 @@
-// What the participant's screen offers at a moment. Emitted by the engine, drawn by a view, read by
-// a responder's mind. Nothing here tells a mass, a level, a condition or whether an answer was
-// right.
+// What the participant's screen offers, and the touches on it. The engine emits a screen state, a
+// view draws it, a responder reads it. It reveals no mass, level, condition or correctness.
 #pragma once
 
 #include <any>
@@ -9,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "experiment/Task.h"
+#include "experiment/EventPayloads.h"
+#include "experiment/TrialPlan.h"
 
 namespace heft {
 
@@ -24,8 +24,8 @@ enum class Screen {
   paused,
   how_decided,
   thanks,
-  declined,      ///< who does not agree to take part can take that back
-  setting_up,    ///< before anything else, while the apparatus is looked at
+  declined,      ///< consent was declined; the participant can take that back
+  setting_up,    ///< first, while the apparatus is checked
   questionnaire  ///< `form` of the texts
 };
 template <>
@@ -36,36 +36,35 @@ struct EnumNames<Screen> {
       "declined", "setting_up", "questionnaire"};
 };
 
-/// Which page it is: what is touched on one means nothing on another.
+/// Identifies a page, so that a touch on one page is not taken for a touch on another.
 struct PageId {
   Screen screen = Screen::welcome;
   Task task = {};
   int trial_number = 0, attempt = 0, n_reshuffles = 0;
-  std::string form = {};  ///< questionnaire: its name and what it is about
+  std::string form = {};  ///< questionnaire: ScreenState::form_prefix
 
   bool operator==(const PageId&) const = default;
 };
 
 struct ScreenState {
   Screen screen = Screen::welcome;
-  Task task = {};   ///< trial and instructions
-  int n_slots = 0;  ///< trial only
-  /// Trial: which one, so that the page of one is not taken for another's.
-  int trial_number = 0, attempt = 0, n_reshuffles = 0;
-  /// Trial: between two trials, how far what was there has faded, 0...1; the trial is the next one.
+  Task task = {};                                       ///< trial and instructions
+  int n_slots = 0;                                      ///< trial only
+  int trial_number = 0, attempt = 0, n_reshuffles = 0;  ///< trial only
+  /// Between two trials, how far the last trial's scene has faded out, 0...1.
   std::optional<double> faded = {};
-  /// Trial: the Offer of its task; empty: that of a trial without answers.
+  /// Trial: the task's Offer; empty: its default.
   std::any offer = {};
-  bool can_answer = true;  ///< false until the cubes are there, and touched where that is asked for
-  bool touch_first = false;  ///< trial: every cube is to be touched first, and not all of them were
-  /// Trial: earlier answers, in seconds since its start, are refused; none: it takes any.
+  bool can_answer = true;    ///< false before the cubes are shown or while touch_first holds
+  bool touch_first = false;  ///< every cube must be touched first, and one was not yet
+  /// Answers before this time, seconds since the trial's start, are refused; none: no limit.
   std::optional<double> answers_from_s = {};
-  bool can_validate = false;  ///< an answer in several steps (labels of all cubes) is complete
-  bool try_again = false;     ///< the answer given last was wrong, and the task asks again
-  int n_choices = 0;          ///< actions with a cube so far in this trial
-  double wait_s = 0;          ///< pages: the button to go on appears in so many seconds
-  std::map<std::string, std::string> entries = {};  ///< forms: what was answered before
-  /// Questionnaire: its name, and what its entries' keys begin with ("sorting.nasa_tlx.").
+  bool can_validate = false;  ///< an answer of several steps (labels of all cubes) is complete
+  bool try_again = false;     ///< the last answer was wrong, and the task asks again
+  int n_choices = 0;          ///< actions on cubes so far in this trial
+  double wait_s = 0;          ///< pages: time until the button to continue appears
+  std::map<std::string, std::string> entries = {};  ///< forms: earlier answers
+  /// Questionnaire: its name, and the prefix of its entries' keys ("sorting.nasa_tlx.").
   std::string form = {}, form_prefix = {};
 
   PageId page() const {
@@ -77,6 +76,24 @@ struct ScreenState {
             of_trial ? n_reshuffles : 0,
             form_prefix};
   }
+};
+
+enum class TouchKind {
+  action,          ///< an answer, in Touch::action (its t_s is not set)
+  next,            ///< the page's button (start, continue)
+  decline,         ///< "I do not agree" on the consent page
+  entry,           ///< a field of a form was set: key, value
+  put_cubes_back,  ///< the button that resets the cubes
+  close            ///< the window was closed
+};
+
+/// A touch on the screen. Its time is that of the operating system's event (base/Clock.h).
+struct Touch {
+  double monotonic_s = 0;
+  TouchKind kind = TouchKind::action;
+  Action action;
+  std::string key, value;  ///< entry only
+  PageId page = {};        ///< the page that was touched
 };
 
 }  // namespace heft

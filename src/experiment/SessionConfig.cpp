@@ -10,7 +10,7 @@ namespace heft {
 namespace {
 constexpr std::string_view person = "human";
 
-// The two sides of the first such character; none where there is no such character.
+// The parts before and after the first `at`; none if there is none.
 std::optional<std::pair<std::string, std::string>> parted(std::string_view text, char at) {
   const auto place = text.find(at);
   if (place == std::string_view::npos) return std::nullopt;
@@ -33,8 +33,10 @@ std::string to_text(const ProtocolSetting& setting) {
 
 std::string to_text(const std::vector<ProtocolSetting>& settings) {
   std::string text;
-  for (const ProtocolSetting& setting : settings)
-    text += (text.empty() ? "" : "\n") + to_text(setting);
+  for (const ProtocolSetting& setting : settings) {
+    if (!text.empty()) text += '\n';
+    text += to_text(setting);
+  }
   return text;
 }
 

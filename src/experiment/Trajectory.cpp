@@ -17,14 +17,14 @@ namespace {
 constexpr std::array<std::string_view, 8> columns{"t_s", "x_m", "y_m", "z_m",
                                                   "qw",  "qx",  "qy",  "qz"};
 
-// Further away or later lies no experiment, only numbers that physics can't bear.
+// Limits that exceed any experiment and that the physics can still compute with.
 constexpr double furthest_m = 1e6, latest_s = 1e12;
 
 bool is_within(std::size_t column, double value) {
   return std::abs(value) <= (column == 0 ? latest_s : furthest_m);
 }
 
-// Reads one file row by row and keeps every mistake.
+// Reads a file row by row and collects all mistakes.
 class Reader {
  public:
   explicit Reader(const std::string& file) : file_(file) {}
@@ -58,7 +58,7 @@ class Reader {
         usable = false;
       } else if (!is_within(i, *value)) {
         mistake(number, place(i),
-                fmt::format("{} is {}, expected {:g} at most, on either side of 0", columns[i],
+                fmt::format("{} is {}, expected an absolute value of at most {:g}", columns[i],
                             *value, i == 0 ? latest_s : furthest_m));
         usable = false;
       } else {

@@ -1,5 +1,5 @@
-// A recorded or made-up path of the effector's center, and the CSV files that hold one:
-// t_s,x_m,y_m,z_m,qw,qx,qy,qz, one row a sample, times increasing.
+// A path of the effector's center, and the CSV files that hold one:
+// t_s,x_m,y_m,z_m,qw,qx,qy,qz; one row per sample, times strictly increasing.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace heft {
 
 struct TrajectoryRow {
   double t_s = 0;
-  std::optional<Pose> pose;  ///< absent: out of view from the row before until the row after
+  std::optional<Pose> pose;  ///< none: out of view between the neighboring rows
 };
 
 class Trajectory {
@@ -23,8 +23,8 @@ class Trajectory {
   double start_s() const { return rows_.front().t_s; }
   double end_s() const { return rows_.back().t_s; }
 
-  /// Pose at a time: positions linearly, orientations by slerp between rows; the first or last
-  /// row's outside. None where the effector is out of view.
+  /// Interpolates positions linearly and orientations by slerp; before the first and after the last
+  /// row that row's pose. None while the effector is out of view.
   std::optional<Pose> at(double t_s) const;
 
   const std::vector<TrajectoryRow>& rows() const { return rows_; }
@@ -33,10 +33,10 @@ class Trajectory {
   std::vector<TrajectoryRow> rows_;
 };
 
-/// @throws InvalidFile naming every unusable row, its column and what was expected
+/// @throws InvalidFile naming each invalid row, its column and what was expected
 Trajectory parse_trajectory(const std::string& text, const std::string& file);
 
-/// @throws Error when the file can't be read, InvalidFile as parse_trajectory
+/// @throws Error if the file cannot be read; InvalidFile as parse_trajectory
 Trajectory load_trajectory(const std::string& path);
 
 }  // namespace heft

@@ -24,7 +24,7 @@ namespace heft {
 /// A figure, or what it is known to lie above or below.
 struct CensoredValue {
   double value = 0;
-  Censored censored = Censored::none;  ///< none, above or below; `unsettled` is no value at all
+  Censored censored = Censored::none;  ///< none, above or below; `indeterminate` is no value at all
 };
 
 struct CensoredMean {

@@ -53,12 +53,12 @@ struct Update {
 };
 
 /// Whether an estimate is censored. above, below: the ceiling, the floor cut moves that it depends
-/// on, so that the true value may lie beyond; unsettled: both did, or the trials ran out before the
-/// reversals.
-enum class Censored { none, above, below, unsettled };
+/// on, so that the true value may lie beyond; indeterminate: both did, or the trials ran out before
+/// the reversals.
+enum class Censored { none, above, below, indeterminate };
 template <>
 struct EnumNames<Censored> {
-  static constexpr std::array<std::string_view, 4> names{"none", "above", "below", "unsettled"};
+  static constexpr std::array<std::string_view, 4> names{"none", "above", "below", "indeterminate"};
 };
 
 /// What one method makes of a procedure's trials; a procedure may have several.

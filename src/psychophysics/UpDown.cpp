@@ -157,7 +157,7 @@ Censored UpDown::censored() const {
   const bool below = cut_below_ || last == Censored::below;
   const bool above = cut_above_ || last == Censored::above;
   if (below != above) return above ? Censored::above : Censored::below;
-  return above || finish_ == StopReason::trials ? Censored::unsettled : Censored::none;
+  return above || finish_ == StopReason::trials ? Censored::indeterminate : Censored::none;
 }
 
 // The bound that cut the move to `target`, by more than rounding; by the older rule, the one that

@@ -131,10 +131,10 @@ void FrameCheck::take_over_push(Event& came_out, const Event& logged) {
   const auto differs = [](const std::optional<double>& a, const std::optional<double>& b) {
     return a.has_value() != b.has_value() || (a && std::abs(*a - *b) > pose_tolerance_m);
   };
-  if (differs(touch->deepest_push_m, told->deepest_push_m) ||
+  if (differs(touch->max_push_displacement_m, told->max_push_displacement_m) ||
       differs(touch->peak_lag_m, told->peak_lag_m))
     return;
-  touch->deepest_push_m = told->deepest_push_m;
+  touch->max_push_displacement_m = told->max_push_displacement_m;
   touch->peak_lag_m = told->peak_lag_m;
 }
 

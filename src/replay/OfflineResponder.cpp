@@ -9,7 +9,7 @@
 #include "replay/LoggedFrames.h"
 #include "responders/Responder.h"
 #include "tasks/SessionPlan.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft {
 

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 
 namespace heft {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "experiment/DisplayedFrame.h"
+#include "experiment/Stage.h"
 
 namespace heft {
 

@@ -6,7 +6,7 @@
 
 #include "replay/AttemptReplay.h"
 #include "replay/LoggedFrames.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft {
 

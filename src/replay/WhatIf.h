@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apparatus/LoggedSession.h"
-#include "record/stream/RecordedSession.h"
+#include "record/stream/EventSink.h"
 #include "replay/VisibleCues.h"
 
 namespace heft {

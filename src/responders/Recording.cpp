@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "base/files/TextFile.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/Error.h"
-#include "experiment/Action.h"
+#include "experiment/EventPayloads.h"
 #include "experiment/Trajectory.h"
 
 namespace heft {

@@ -16,14 +16,13 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "experiment/Action.h"
-#include "experiment/DisplayedFrame.h"
-#include "experiment/Parameter.h"
-#include "experiment/Questionnaire.h"
+#include "experiment/EventPayloads.h"
+#include "experiment/Participant.h"
 #include "experiment/ScreenState.h"
+#include "experiment/ScreenTexts.h"
 #include "experiment/Stage.h"
-#include "experiment/Task.h"
-#include "tasks/Answer.h"
+#include "experiment/TrialPlan.h"
+#include "tasks/Task.h"
 
 namespace heft {
 

@@ -6,7 +6,7 @@
 
 #include "responders/Recording.h"
 #include "responders/Responder.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft {
 

@@ -156,7 +156,7 @@ bool AttemptRun::wait_for_camera(const Picture& picture) {
   nothing.frame.t_s = picture.sample.t_capture_s;
   nothing.frame.tracked = false;
   screen_.present(nothing, engine().screen());
-  return !engine().needs_somebody();
+  return !engine().needs_experimenter();
 }
 
 void AttemptRun::show(const ShownFrame& shown, const Picture& picture, FrameRow& row) {

@@ -72,7 +72,7 @@ ViewSetup view_setup(const ResolvedConfig& resolved) {
   setup.stage = stage_of(protocol, 3);
   if (resolved->tracker->has_camera) setup.camera = resolved->apparatus.camera;
   setup.texts = resolved->texts;
-  setup.left_handed = config.handed == Side::left;
+  setup.left_handed = config.controls == Side::left;
   setup.takes_keys = config.keys == TakesKeys::yes;
   setup.text_size = protocol.screens.text_size;
   setup.patch = protocol.screens.patch;

@@ -3,9 +3,8 @@
 
 #include <vector>
 
-#include "experiment/Questionnaire.h"
 #include "experiment/ScreenState.h"
-#include "experiment/Touch.h"
+#include "experiment/ScreenTexts.h"
 #include "responders/Responder.h"
 
 namespace heft {

@@ -9,7 +9,7 @@
 #include "base/Build.h"
 #include "base/Error.h"
 #include "base/files/Printable.h"
-#include "record/schema/SetupJson.h"
+#include "record/schema/EventRow.h"
 #include "record/writer/SessionLog.h"
 #include "replay/Replay.h"
 #include "session/Equipment.h"

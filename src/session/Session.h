@@ -8,7 +8,7 @@
 
 #include "apparatus/LoggedSession.h"
 #include "apparatus/configuration/ResolvedConfig.h"
-#include "record/stream/RecordedSession.h"
+#include "record/stream/EventSink.h"
 #include "session/Runner.h"
 
 namespace heft {

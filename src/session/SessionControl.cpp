@@ -103,7 +103,7 @@ void SessionControl::continue_after_database() {
   if (!std::exchange(paused_for_database_, false)) return;
   const Engine& engine = journal_.engine();
   const bool is_paused = engine.state() == SessionState::paused;
-  if (is_paused && !holding_ && !engine.needs_somebody()) journal_.emit_now(SessionContinued{});
+  if (is_paused && !holding_ && !engine.needs_experimenter()) journal_.emit_now(SessionContinued{});
 }
 
 bool SessionControl::gives_up_after(double waited_s) const {

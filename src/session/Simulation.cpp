@@ -14,7 +14,7 @@
 #include "base/Error.h"
 #include "base/Random.h"
 #include "record/reader/LogReader.h"
-#include "record/writer/SessionArchive.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft {
 

@@ -1,6 +1,6 @@
-// What blocks of several tasks have among their keys. A block declares them as base/files/Keys.h
-// says, in a member visit_keys(visit), all but `name`; the reader fills the fields by their types.
-// `check()` says what is wrong with a block's values, from a file or not.
+// Keys that blocks of several tasks share. A block declares its keys, except `name`, in a member
+// visit_keys(visit) (base/files/Keys.h); the reader fills the fields by their types, check()
+// reports invalid values.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace heft {
 
-/// A technique by its name, at `condition` or `technique`.
+/// The name of a technique, at the key `condition` or `technique`.
 template <typename Name>
 struct ByTechnique {
   Name& name;
@@ -20,7 +20,7 @@ struct ByTechnique {
 template <typename Name>
 ByTechnique(Name&) -> ByTechnique<Name>;
 
-/// So many trials are rendered with this technique.
+/// Number of trials that are rendered with a technique.
 struct TechniqueTrials {
   std::string technique;
   int trials = 0;
@@ -36,11 +36,11 @@ struct TrialsOfEachMass {
 template <typename Trials>
 TrialsOfEachMass(Trials&) -> TrialsOfEachMass<Trials>;
 
-/// Beyond any session, and what drawing an order takes.
+/// More than any session needs; bounds the cost of drawing an order.
 inline constexpr int most_trials = 500;
 
-/// What is wrong with masses of cubes of which each is there once.
-/// @param why equal ones are refused
+/// Checks masses that must all differ.
+/// @param why reason why equal masses are refused
 ConfigMistakes mistakes_in_masses(const std::vector<double>& masses_g, std::size_t fewest,
                                   std::size_t most, std::string_view why);
 

@@ -27,7 +27,7 @@ int n_planned(const Comparison::Block& block) {
   return n;
 }
 
-// In rounds: each reference that has some left, once, in random order.
+// Rounds of all references with catch trials left, each round in random order.
 std::vector<double> catch_references(const Comparison::Block& block, std::uint64_t seed) {
   std::vector<double> references_g;
   for (int round = 0; static_cast<int>(references_g.size()) < n_planned(block); ++round) {
@@ -40,11 +40,12 @@ std::vector<double> catch_references(const Comparison::Block& block, std::uint64
   }
   return references_g;
 }
-// Trials that one observer takes; level by level it says yes where the difference, with noise in
-// proportion to the threshold, is beyond the threshold.
+
+// Number of trials with one observer, who answers yes if the difference plus noise in proportion to
+// the threshold exceeds the threshold.
 int simulated_trials(Procedure procedure, double threshold_g, std::uint64_t observer) {
   constexpr double noise_per_threshold = 0.4;
-  constexpr int enough_trials = 1000;  // steps too small for their start never get anywhere
+  constexpr int enough_trials = 1000;  // steps too small for the start may never converge
   RandomStream stream(0, "expected length", observer);
   const RandomStream levels = level_stream(observer, procedure.name());
   while (!procedure.finished() && procedure.n_trials() < enough_trials) {
@@ -67,7 +68,7 @@ double mean_trials(const Procedure& procedure, double largest_threshold_g) {
   return total / n_observers;
 }
 
-// Staircases of one reference that start from above and from below meet the same observers.
+// Staircases of one reference that start above and below use the same observers.
 double largest_start_g(const Comparison::Block& block, double reference_g) {
   double largest_g = 0;
   for (const ReferenceStaircase& other : block.staircases)
@@ -90,7 +91,7 @@ ConfigMistakes Comparison::Block::check() const {
   if (catch_trials.empty() || catch_fraction == 0) return {};
   return {{{"catch_fraction"},
            "catch_fraction together with catch_trials",
-           "one of them: a coin each trial, or a fixed number"}};
+           "only one of them: a random fraction or fixed numbers"}};
 }
 
 std::vector<std::pair<std::string, std::string>> Comparison::Block::choices() const {
@@ -136,7 +137,7 @@ bool Comparison::Run::finished() const {
   return std::ranges::none_of(staircases_, is_unfinished) && n_caught_ >= n_planned(block_);
 }
 
-// Catch trials come one in each block of `catch_every` trials, at a random place in it.
+// One catch trial in each block of `catch_every` trials, at a random position.
 std::optional<double> Comparison::Run::catch_reference_g(std::uint64_t seed) const {
   constexpr int first_without = 3;
   if (n_caught_ >= n_planned(block_)) return std::nullopt;
@@ -150,7 +151,7 @@ std::optional<double> Comparison::Run::catch_reference_g(std::uint64_t seed) con
   return catch_references(block_, seed).at(static_cast<std::size_t>(n_caught_));
 }
 
-// A catch trial is rendered as one of its reference's staircases is.
+// A catch trial uses the technique of one of its reference's staircases.
 std::size_t Comparison::Run::staircase_of(double reference_g, RandomStream& stream) const {
   std::vector<std::size_t> its;
   for (std::size_t i = 0; i < staircases_.size(); ++i)
@@ -158,7 +159,7 @@ std::size_t Comparison::Run::staircase_of(double reference_g, RandomStream& stre
   return its.at(stream.below(its.size()));
 }
 
-// A repeated attempt is drawn freely: its planned side has been seen.
+// A repeated attempt is drawn freely, because its planned side was already seen.
 int Comparison::Run::reference_slot(const TrialKey& key, const TrialPlan& plan,
                                     int n_before) const {
   if (block_.sides == Sides::random || key.attempt > 1) return key.slots().coin(0.5) ? 1 : 2;
@@ -239,7 +240,7 @@ std::string Comparison::Trial::answer() const {
   return result_.chosen_slot == plan_.reference_slot ? "reference" : "comparison";
 }
 
-// A lapse answers one of n cubes or none of them, equally likely.
+// A lapse: one of the n cubes or no difference, equally likely.
 Answer Comparison::simulated(const Offer&, const Percepts& percepts, RandomStream& stream) {
   const bool different =
       percepts.lapse ? stream.below(percepts.remembered_mm.size() + 1) > 0 : percepts.differ;
@@ -247,9 +248,9 @@ Answer Comparison::simulated(const Offer&, const Percepts& percepts, RandomStrea
   return {{{"select", heaviest_slot(percepts.remembered_mm, {})}}};
 }
 
-Answer Comparison::blind(const Offer&, const WithoutPercepts& unseen, RandomStream& stream) {
-  if (!unseen.differ) return {{{"no_difference"}}};
-  const auto n = static_cast<std::uint64_t>(unseen.n_slots);
+Answer Comparison::blind(const Offer&, const WithoutPercepts& known, RandomStream& stream) {
+  if (!known.differ) return {{{"no_difference"}}};
+  const auto n = static_cast<std::uint64_t>(known.n_slots);
   return {{{"select", 1 + static_cast<int>(stream.below(n))}}};
 }
 

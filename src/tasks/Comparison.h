@@ -1,7 +1,7 @@
-// The comparison (paper, 4.2): a reference and a comparison, which is heavier, or no difference.
-// Levels come from interleaved staircases; catch trials, whose difference is 0, from none.
-// Catch trials in a fixed number are drawn in shuffled blocks, so that a person has as many of each
-// reference as planned, spread over the session, whatever the staircases do.
+// Comparison task (paper, 4.2): which of two cubes, a reference and a comparison, is heavier, or no
+// difference. Levels come from interleaved staircases. Catch trials have a difference of 0 and
+// update no staircase; a fixed number of them is drawn in shuffled blocks, so that each participant
+// gets the planned number for each reference, spread over the session.
 #pragma once
 
 #include <optional>
@@ -11,41 +11,41 @@
 #include "base/Random.h"
 #include "psychophysics/Interleaving.h"
 #include "psychophysics/ProcedureTypes.h"
-#include "tasks/Answer.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {
 
-/// What counts as a positive answer of a comparison (moves the staircase down).
+/// Which answers are positive, that is, move the staircase down.
 enum class PositiveAnswer { any_choice, correct_choice };
 template <>
 struct EnumNames<PositiveAnswer> {
   static constexpr std::array<std::string_view, 2> names{"any_choice", "correct_choice"};
 };
 
-/// Where the reference of a comparison stands: a coin a trial, or as often left as right in every
-/// four trials of a staircase (and of the catch trials), in random order.
+/// Side of the reference: random in each trial, or equally often left and right in every four
+/// trials of a staircase (and of the catch trials), in random order.
 enum class Sides { random, balanced };
 template <>
 struct EnumNames<Sides> {
   static constexpr std::array<std::string_view, 2> names{"random", "balanced"};
 };
 
-/// One procedure of a comparison block and the reference it compares with.
+/// A procedure of a comparison block, and its reference.
 struct ReferenceStaircase {
   double reference_g = 0;
-  Procedure staircase;      ///< before its first trial; levels are comparison - reference, g
-  std::string condition{};  ///< its own technique; empty: the block's
+  Procedure staircase;      ///< before its first trial; levels in g: comparison - reference
+  std::string condition{};  ///< technique; empty: the block's
 };
 
-/// So many trials of a comparison block compare a reference with its equal.
+/// Number of catch trials with a reference.
 struct ReferenceCatchTrials {
   double reference_g = 0;
   int trials = 0;
 };
 
-/// The catch trials of a block, by reference or for all of them together, and how they are spread.
+/// The keys of a block's catch trials.
 template <typename Block>
 struct CatchTrials {
   Block& block;
@@ -62,17 +62,16 @@ struct Comparison {
       .about = "Which of two cubes is heavier, or is there no difference",
       .actions = actions,
       .outcomes = outcomes,
+      .texts = "question no_difference",
       .trial_s = 10,
       .detects = true};
-  static constexpr std::string_view texts = "question no_difference";
 
   struct Block {
     using OfTask = Comparison;
     std::string name;
     std::string condition = spring_technique;  ///< name of the technique
-    // Catch trials, of difference 0, drive no staircase: either each trial is one by a coin, or
-    // there are so many, one somewhere in every `catch_every` trials and none among the first
-    // three; those left over come after the last staircase.
+    // Catch trials: either a random fraction of trials, or fixed numbers, one in every
+    // `catch_every` trials and none among the first three; the rest after the last staircase.
     double catch_fraction = 0;
     std::vector<ReferenceCatchTrials> catch_trials;
     int catch_every = 7;
@@ -84,17 +83,17 @@ struct Comparison {
     template <typename Visit>
     void visit_keys(Visit&& visit) {
       visit(ConfigKey{"condition", "technique"}, ByTechnique{condition});
-      visit(ConfigKey{"positive_answer", "what moves a staircase down"}, positive_answer);
+      visit(ConfigKey{"positive_answer", "answers that move a staircase down"}, positive_answer);
       visit(ConfigKey{"sides", "of the reference"}, sides);
       visit(ConfigKey{"interleave", "order of staircases"}, interleaving);
       visit(ConfigKey{"staircase", "a procedure and its reference", true}, staircases);
-      visit(ConfigKey{"catch_fraction", "of trials, by a coin"}, catch_fraction,
+      visit(ConfigKey{"catch_fraction", "random fraction of trials"}, catch_fraction,
             Range{0, 1, false, true});
-      visit(ConfigKey{"catch_trials", "in a fixed number"}, CatchTrials{*this});
+      visit(ConfigKey{"catch_trials", "fixed numbers of trials"}, CatchTrials{*this});
     }
     ConfigMistakes check() const;
     std::vector<std::pair<std::string, std::string>> choices() const;
-    /// Without catch trials. A staircase whose length depends on the answers is simulated.
+    /// Without catch trials. Staircases whose length depends on the answers are simulated.
     double expected_staircase_trials() const;
     double expected_trials() const;
     bool depends_on_answers() const;
@@ -107,7 +106,6 @@ struct Comparison {
     Run(const Block& block, std::uint64_t seed);
     TrialPlan plan(const TrialKey& key) const override;
     bool finished() const override;
-    /// Tells the trial's staircase its answer.
     void complete(const TrialRow& row, Changes& changes) override;
     std::optional<std::string> survivor() const override;
 
@@ -119,7 +117,7 @@ struct Comparison {
 
     Block block_;
     std::vector<Procedure> staircases_;    // in the order of the block's
-    std::optional<std::size_t> previous_;  // of the last completed trial that belonged to one
+    std::optional<std::size_t> previous_;  // of the last completed trial with a staircase
     int n_completed_ = 0, n_caught_ = 0;   // trials, and catch trials among them
   };
 
@@ -131,14 +129,13 @@ struct Comparison {
     std::string answer() const override;
   };
 
-  /// What a completed trial tells its procedure: positive by the block's rule, and what was chosen.
+  /// The response that a completed trial gives to its procedure.
   static Response response_in(const TrialRow& row, PositiveAnswer positive_answer);
 
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream& stream);
-  /// Any cube, or no difference.
-  static Answer blind(const Offer&, const WithoutPercepts& unseen, RandomStream& stream);
+  static Answer blind(const Offer&, const WithoutPercepts& known, RandomStream& stream);
   static std::vector<ScreenState> fullest_screens();
-  /// The participant's (view/screens/ComparisonScreen.cpp).
+  /// Defined in view/screens/ComparisonScreen.cpp.
   static void screen(PageBuilder& builder, const Offer& offer);
 };
 

@@ -10,7 +10,7 @@ namespace heft {
 namespace {
 constexpr double slider_most = 100;
 
-// The name before the point and the key behind it; none: the scale is no question's.
+// Questionnaire and key of a scale "NAME.KEY"; none: the scale names no question.
 std::optional<std::pair<std::string, std::string>> question_in(const std::string& scale) {
   const auto point = scale.find('.');
   if (point == std::string::npos || point == 0 || point + 1 == scale.size()) return std::nullopt;
@@ -32,7 +32,7 @@ bool is_range_known(const Estimation::Block& block) {
   return block.question || !question_in(block.scale);
 }
 
-// The ends of the values that a question takes, and whether they are whole.
+// Range of valid answers, and whether they are whole numbers.
 struct Scale {
   double least = 0, most = slider_most;
   bool whole = true;
@@ -52,7 +52,7 @@ Scale scale_of(const FormQuestion& question) {
   return {};
 }
 
-// The nearest value that the scale takes; numbers to three digits of their range.
+// The nearest valid value; numbers are rounded to three digits of their range.
 Answer answer_near(const Scale& scale, double value) {
   const double width = scale.most - scale.least;
   const double unit =
@@ -72,23 +72,23 @@ int Estimation::Block::n_trials() const {
 }
 
 ConfigMistakes Estimation::Block::check() const {
-  ConfigMistakes mistakes =
-      mistakes_in_masses(masses_g, 1, most_trials, "trials_per_mass says how often each comes");
+  ConfigMistakes mistakes = mistakes_in_masses(masses_g, 1, most_trials,
+                                               "trials_per_mass sets the number of trials of each");
   const auto add = [&](std::string_view key, std::string what, std::string expected) {
     mistakes.push_back({{key}, std::move(what), std::move(expected)});
   };
   if (const int n = n_trials(); n < 1 || n > most_trials)
     mistakes.push_back({{"trials", "trials_per_mass", "masses_g"},
-                        fmt::format("the masses' trials are {} in all", n),
+                        fmt::format("the block has {} trials", n),
                         fmt::format("1 to {}", most_trials)});
   if (scale != "number" && scale != "slider" && !question_in(scale)) {
     add("scale", fmt::format("scale is \"{}\"", scale),
         "\"number\", \"slider\" or a question of a questionnaire file, NAME.KEY");
   } else if (scale == "number") {
     if (!low || !high)
-      add(low ? "high" : "low", "a scale of numbers without its range", "low and high");
+      add(low ? "high" : "low", "a scale of numbers without a range", "low and high");
     else if (*low < 0)
-      add("low", fmt::format("low is {}", *low), "0 or more: no minus can be typed");
+      add("low", fmt::format("low is {}", *low), "0 or more: a minus sign cannot be typed");
     else if (*high <= *low)
       add("high", fmt::format("high is {}", *high), fmt::format("more than low {}", *low));
     else if (modulus && (modulus->value < *low || modulus->value > *high))
@@ -99,8 +99,7 @@ ConfigMistakes Estimation::Block::check() const {
                                      {"high", high.has_value()},
                                      {"modulus", modulus.has_value()}})
       if (there)
-        add(key, fmt::format("{} with scale = \"{}\"", key, scale),
-            "it with scale = \"number\" alone");
+        add(key, fmt::format("{} with scale = \"{}\"", key, scale), "only with scale = \"number\"");
   }
   return mistakes;
 }
@@ -155,9 +154,9 @@ Estimation::Trial::Trial(const Block& block, const TrialPlan& plan, std::uint64_
 std::optional<std::string> Estimation::Trial::refusal(const Action& action) const {
   const bool estimates = action.value.has_value();
   if (estimates == offer_.is_standard)
-    return estimates ? "the standard is shown, not estimated" : "it gives no number";
+    return estimates ? "the standard is shown, not estimated" : "it has no number";
   if (!estimates) return std::nullopt;
-  if (!std::isfinite(*action.value)) return "it is no number";
+  if (!std::isfinite(*action.value)) return "it is not a finite number";
   const Scale scale = scale_of(offer_.question);
   const bool on_scale = *action.value >= scale.least && *action.value <= scale.most &&
                         (!scale.whole || *action.value == std::round(*action.value));
@@ -178,7 +177,7 @@ std::string Estimation::Trial::answer() const {
 
 Answer Estimation::simulated(const Offer& offer, const Percepts& percepts, RandomStream&) {
   constexpr double least_mm = 5, most_mm = 100;
-  // Friction 0.8 times gravity over 50 N/m: the paper's (4.2).
+  // Friction 0.8 times gravity over 50 N/m (paper, 4.2).
   constexpr double mm_per_g = 0.8 * 9.81 / 50;
   if (offer.is_standard) return {{{"validate"}}};
   const Scale scale = scale_of(offer.question);

@@ -1,9 +1,8 @@
-// Magnitude estimation: one cube a trial, and a number for how heavy it feels. The number is typed,
-// set on a slider, or the answer to a question of a questionnaire file.
+// Magnitude estimation: one cube per trial, and a number for its felt weight, typed, set on a
+// slider or given as the answer to a question of a questionnaire file.
 //
-// With a modulus (Stevens 1956, Am. J. Psychol. 69: "the standard and its number") the block begins
-// with one trial that shows the standard's cube and its number and asks for nothing; it counts as
-// practice. The number is named on the screen of every later trial.
+// With a modulus (Stevens 1956, Am. J. Psychol. 69) the block starts with a practice trial that
+// shows the standard and its number without a question; later trials repeat the number.
 #pragma once
 
 #include <map>
@@ -12,9 +11,9 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "experiment/Questionnaire.h"
-#include "tasks/Answer.h"
+#include "experiment/ScreenTexts.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {
@@ -23,15 +22,15 @@ struct Estimation {
   static constexpr std::array actions{ActionSpec{.kind = "estimate", .value = true},
                                       ActionSpec{.kind = "validate"}};
   static constexpr std::array<std::string_view, 2> outcomes{"estimated", "shown"};
-  static constexpr TaskDeclaration task{.name = "estimation",
-                                        .about = "A number for how heavy a cube feels",
-                                        .actions = actions,
-                                        .outcomes = outcomes,
-                                        .trial_s = 12};
-  static constexpr std::string_view texts =
-      "question standard standard_was lightest heaviest validate";
+  static constexpr TaskDeclaration task{
+      .name = "estimation",
+      .about = "How heavy a cube feels, as a number",
+      .actions = actions,
+      .outcomes = outcomes,
+      .texts = "question standard standard_was lightest heaviest validate",
+      .trial_s = 12};
 
-  /// The standard, and the number that stands for it.
+  /// The standard and its number.
   struct Modulus {
     double mass_g = 0;
     double value = 0;
@@ -46,21 +45,20 @@ struct Estimation {
   struct Block {
     using OfTask = Estimation;
     std::string name;
-    std::vector<double> masses_g;                                ///< different, in random order
-    std::vector<TechniqueTrials> trials{{spring_technique, 1}};  ///< of each mass
+    std::vector<double> masses_g;  ///< all different; shown in random order
+    std::vector<TechniqueTrials> trials{{spring_technique, 1}};  ///< per mass
     std::string scale = "number";     ///< "number", "slider" (0 to 100) or QUESTIONNAIRE.QUESTION
-    std::optional<double> low, high;  ///< number: the range that can be typed
+    std::optional<double> low, high;  ///< number: range of valid answers
     std::optional<Modulus> modulus;   ///< number: shown first, with the first technique
-    /// The question that `scale` names, in the words of the session's language; none: not yet
-    /// known.
+    /// The question that `scale` names, in the session's language; none: not read yet.
     std::optional<FormQuestion> question;
 
     template <typename Visit>
     void visit_keys(Visit&& visit) {
-      visit(ConfigKey{"masses_g", "one a trial, in g", true}, masses_g, above_zero);
-      visit(ConfigKey{"trials", "of each mass"}, TrialsOfEachMass{trials});
+      visit(ConfigKey{"masses_g", "one per trial, in g", true}, masses_g, above_zero);
+      visit(ConfigKey{"trials", "per mass"}, TrialsOfEachMass{trials});
       visit(ConfigKey{"scale", "number, slider or NAME.KEY", true}, scale);
-      visit(ConfigKey{"low", "least number"}, low, any_number);
+      visit(ConfigKey{"low", "smallest number"}, low, any_number);
       visit(ConfigKey{"high", "largest number"}, high, any_number);
       visit(ConfigKey{"modulus", "the standard"}, modulus);
     }
@@ -69,16 +67,16 @@ struct Estimation {
     int most_cubes() const { return 1; }
     ConfigMistakes check() const;
     std::vector<std::pair<std::string, std::string>> choices() const;
-    /// The questionnaire that it asks of; none: it asks of none.
+    /// The questionnaire that `scale` names, if any.
     std::optional<std::string> questionnaire() const;
-    /// Takes the question that `scale` names, where it is there and is answered on the screen.
+    /// Copies the question that `scale` names, if present and answered on the screen.
     void read_question(const std::map<std::string, Questionnaire>& questionnaires);
   };
 
   struct Offer {
-    FormQuestion question;  ///< what is asked; without words: those of the trial's page
+    FormQuestion question;  ///< empty texts: use those of the trial's page
     std::optional<Modulus> modulus = {};
-    bool is_standard = false;  ///< the standard is shown, nothing is asked
+    bool is_standard = false;  ///< the standard is shown without a question
   };
 
   class Run : public TaskRun {
@@ -111,15 +109,14 @@ struct Estimation {
     bool is_range_known_;
   };
 
-  /// With a modulus: the mass that the remembered lag is of under the paper's spring and friction
-  /// (4.2), over the modulus' mass, times its value. Without: equal ratios of 5 mm plus the lag are
-  /// equal steps on the scale (Fechner's law), which ends at 100 mm. Noise is that of the percept
-  /// alone; a lapse is any place on the scale.
+  /// With a modulus: its value times the ratio of the mass that causes the remembered lag with the
+  /// paper's spring and friction (4.2) to the modulus' mass. Without: proportional to the logarithm
+  /// of 5 mm plus the lag (Fechner's law), with the end of the scale at 100 mm. The percept is the
+  /// only noise; a lapse is uniform on the scale.
   static Answer simulated(const Offer& offer, const Percepts& percepts, RandomStream&);
-  /// Any place on the scale.
   static Answer blind(const Offer& offer, const WithoutPercepts&, RandomStream& stream);
   static std::vector<ScreenState> fullest_screens();
-  /// The participant's (view/screens/EstimationScreen.cpp).
+  /// Defined in view/screens/EstimationScreen.cpp.
   static void screen(PageBuilder& builder, const Offer& offer);
 };
 

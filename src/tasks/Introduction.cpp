@@ -44,8 +44,8 @@ Answer Introduction::simulated(const Offer&, const Percepts& percepts, RandomStr
   return {{{"select", heaviest_slot(percepts.remembered_mm, percepts.wrong_slots)}}};
 }
 
-Answer Introduction::blind(const Offer&, const WithoutPercepts& unseen, RandomStream&) {
-  return {{{"select", 1 + static_cast<int>(unseen.wrong_slots.size()) % unseen.n_slots}}};
+Answer Introduction::blind(const Offer&, const WithoutPercepts& known, RandomStream&) {
+  return {{{"select", 1 + static_cast<int>(known.wrong_slots.size()) % known.n_slots}}};
 }
 
 std::vector<ScreenState> Introduction::fullest_screens() {

@@ -1,17 +1,17 @@
-// The introduction: two cubes, one trial that ends when the heavier one is chosen (paper, 5.1).
+// Introduction (paper, 5.1): one trial with two cubes, which ends when the heavier one is chosen.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "base/Random.h"
-#include "tasks/Answer.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {
 
-/// After a wrong answer in the introduction: the same cubes again, or newly shuffled ones.
+/// Arrangement of the cubes after a wrong answer.
 enum class WrongAnswer { same_layout, reshuffle };
 template <>
 struct EnumNames<WrongAnswer> {
@@ -26,8 +26,8 @@ struct Introduction {
       .about = "Which of two cubes of very different mass is heavier",
       .actions = actions,
       .outcomes = outcomes,
+      .texts = "question try_again",
       .trial_s = 15};
-  static constexpr std::string_view texts = "question try_again";
 
   struct Block {
     using OfTask = Introduction;
@@ -40,7 +40,7 @@ struct Introduction {
     void visit_keys(Visit&& visit) {
       visit(ConfigKey{"masses_g", "of the two cubes, in g", true}, masses_g, above_zero);
       visit(ConfigKey{"condition", "technique"}, ByTechnique{condition});
-      visit(ConfigKey{"wrong_answer", "what a wrong answer leads to"}, wrong_answer);
+      visit(ConfigKey{"wrong_answer", "cubes after a wrong answer"}, wrong_answer);
     }
     ConfigMistakes check() const {
       return mistakes_in_masses(masses_g, 2, 2, "equal ones have no right answer");
@@ -81,10 +81,10 @@ struct Introduction {
   };
 
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream&);
-  /// Tries one cube after the other, from the left.
-  static Answer blind(const Offer&, const WithoutPercepts& unseen, RandomStream&);
+  /// Chooses the cubes in turn, from the left.
+  static Answer blind(const Offer&, const WithoutPercepts& known, RandomStream&);
   static std::vector<ScreenState> fullest_screens();
-  /// The participant's (view/screens/IntroductionScreen.cpp).
+  /// Defined in view/screens/IntroductionScreen.cpp.
   static void screen(PageBuilder& builder, const Offer& offer);
 };
 

@@ -1,6 +1,6 @@
-// What a session consists of: blocks of trials of any task, breaks and demonstrations, as a
-// protocol says. The engine folds over these and needs nothing else of a protocol; a task that is
-// on no list can be brought to it as a block of its own.
+// The plan of a session: blocks of trials of any task, breaks and demonstrations, as a protocol
+// defines them. The engine needs nothing else of a protocol. A library user can add a task as a
+// block type.
 #pragma once
 
 #include <concepts>
@@ -8,19 +8,35 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "experiment/Block.h"
-#include "experiment/Questionnaire.h"
+#include "experiment/ScreenTexts.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {
 
-/// The block of a task: its keys as plain data, `name` among them, and `OfTask`, which has the
-/// task's declaration, its Run and its Trial.
+struct DemonstrationBlock {
+  std::string name;
+  double duration_s = 20;
+};
+
+struct BreakBlock {
+  std::string name;
+  double least_duration_s = 60;
+};
+
+/// Limits on when a trial may start and be answered, so that a double tap answers nothing.
+struct Onset {
+  double gap_s = 0.6;         ///< from a trial's end to the next start
+  double min_answer_s = 0.5;  ///< from the cubes' onset to the first accepted answer
+};
+
+/// A task's block: its keys as plain data, including `name`, and the type `OfTask` with the task's
+/// declaration, Run and Trial.
 template <typename Block>
 concept BlockOfTask = requires(const Block& block, const TrialPlan& plan) {
   { block.name } -> std::convertible_to<std::string>;
@@ -30,7 +46,7 @@ concept BlockOfTask = requires(const Block& block, const TrialPlan& plan) {
   typename Block::OfTask::Trial;
 };
 
-/// A block whose trials may ask a question of a questionnaire, in the words of a session's texts.
+/// A block whose trials may ask a question of a questionnaire, in the session's language.
 template <typename Block>
 concept AsksQuestion = requires(Block block,
                                 const std::map<std::string, Questionnaire>& questionnaires) {
@@ -39,7 +55,7 @@ concept AsksQuestion = requires(Block block,
   { block.question.has_value() } -> std::convertible_to<bool>;
 };
 
-/// A block of trials of any one task.
+/// A block of trials of any task.
 class TaskBlock {
  public:
   template <BlockOfTask Block>
@@ -47,30 +63,35 @@ class TaskBlock {
 
   const TaskDeclaration& task() const { return of_task_->task(); }
   const std::string& name() const { return of_task_->name(); }
-  /// Cubes that the largest of its trials shows.
+  /// Largest number of cubes in a trial.
   int most_cubes() const { return of_task_->most_cubes(); }
 
   std::unique_ptr<TaskRun> run(std::uint64_t seed) const { return of_task_->run(seed); }
-  /// An attempt at a trial of it, before any answer.
+  /// A new attempt at a trial.
   std::unique_ptr<TaskTrial> trial(const TrialPlan& plan, std::uint64_t seed) const {
     return of_task_->trial(plan, seed);
   }
 
-  /// The questionnaire that its trials ask a question of; none: they ask none.
+  /// The questionnaire whose question its trials ask; none: they ask none.
   std::optional<std::string> questionnaire() const { return of_task_->questionnaire(); }
   bool lacks_question() const { return of_task_->lacks_question(); }
-  /// Takes the question from the texts' questionnaires, where it is there.
+  /// Names and values of its design choices, for reports.
+  std::vector<std::pair<std::string, std::string>> choices() const { return of_task_->choices(); }
+  /// Mean over simulated participants if the number depends on the answers.
+  double expected_trials() const { return of_task_->expected_trials(); }
+  bool depends_on_answers() const { return of_task_->depends_on_answers(); }
+  /// Copies the question from a questionnaire, if present.
   void read_question(const std::map<std::string, Questionnaire>& questionnaires) {
     if (auto own = of_task_->with_question(questionnaires)) of_task_ = std::move(own);
   }
 
-  /// The task's own keys; null: it is another task's.
+  /// The block as its own type; null if it is another task's.
   template <BlockOfTask Block>
   const Block* as() const {
     const auto* of = dynamic_cast<const Of<Block>*>(of_task_.get());
     return of ? &of->block : nullptr;
   }
-  /// The same, to be changed: of this block alone, not of its copies.
+  /// The same for changes, which do not affect copies of this block.
   template <BlockOfTask Block>
   Block* as() {
     const Block* block = std::as_const(*this).as<Block>();
@@ -90,6 +111,9 @@ class TaskBlock {
     virtual std::unique_ptr<TaskTrial> trial(const TrialPlan& plan, std::uint64_t seed) const = 0;
     virtual std::optional<std::string> questionnaire() const = 0;
     virtual bool lacks_question() const = 0;
+    virtual std::vector<std::pair<std::string, std::string>> choices() const = 0;
+    virtual double expected_trials() const = 0;
+    virtual bool depends_on_answers() const = 0;
     virtual std::shared_ptr<const OfAny> with_question(
         const std::map<std::string, Questionnaire>& questionnaires) const = 0;
   };
@@ -112,6 +136,18 @@ class TaskBlock {
     }
     bool lacks_question() const override {
       if constexpr (AsksQuestion<Block>) return block.questionnaire() && !block.question;
+      return false;
+    }
+    std::vector<std::pair<std::string, std::string>> choices() const override {
+      if constexpr (requires { block.choices(); }) return block.choices();
+      return {};
+    }
+    double expected_trials() const override {
+      if constexpr (requires { block.expected_trials(); }) return block.expected_trials();
+      return 0;
+    }
+    bool depends_on_answers() const override {
+      if constexpr (requires { block.depends_on_answers(); }) return block.depends_on_answers();
       return false;
     }
     std::shared_ptr<const OfAny> with_question(
@@ -138,7 +174,7 @@ inline const std::string& block_name(const Block& block) {
   return std::get<BreakBlock>(block).name;
 }
 
-/// The keys of a block of a task's trials; null: it is no such block.
+/// A block as a given task's block type; null if it is another block.
 template <BlockOfTask Of>
 const Of* block_as(const Block& block) {
   const auto* trials = std::get_if<TaskBlock>(&block);
@@ -150,14 +186,19 @@ Of* block_as(Block& block) {
   return trials ? trials->as<Of>() : nullptr;
 }
 
-/// All that decides which trial comes next and which answers are taken.
+/// Determines which trial is next and which answers are accepted.
 struct SessionPlan {
   std::vector<Block> blocks;
   bool require_contact = false;  ///< refuse answers until every cube was touched
 };
 
-/// The block of trials of that name.
-/// @throws std::out_of_range where there is none
-const TaskBlock& task_block(const SessionPlan& plan, const std::string& name);
+/// The block of trials with that name.
+/// @throws std::out_of_range if there is none
+inline const TaskBlock& task_block(const SessionPlan& plan, const std::string& name) {
+  for (const Block& block : plan.blocks)
+    if (const auto* trials = std::get_if<TaskBlock>(&block); trials && trials->name() == name)
+      return *trials;
+  throw std::out_of_range("there is no block of trials \"" + name + "\"");
+}
 
 }  // namespace heft

@@ -9,20 +9,19 @@
 namespace heft {
 
 namespace {
-// How many sequences of techniques can still follow, so that each can be drawn with equal
-// probability.
+// Counts the sequences of techniques that can still follow, so that all are equally likely.
 class SequenceCounter {
  public:
-  /// @param max_run longest run allowed; 0: any
+  /// @param max_run longest run; 0: no limit
   explicit SequenceCounter(int max_run) : max_run_(max_run) {}
 
-  // Length of the run that ends with `next` after `run` trials of `last`; where runs are not
-  // limited their length is not kept, which keeps the table small.
+  // Length of the run that ends with `next` after `run` trials of `last`. Without a limit the
+  // length is always 1, which keeps the table small.
   int run_with(std::size_t next, std::size_t last, int run) const {
     return max_run_ > 0 && next == last ? run + 1 : 1;
   }
 
-  // Ways to place the trials that are left of each technique after a run of `run` trials of `last`.
+  // Number of orders of the remaining trials after `run` trials of `last`.
   double count(const std::vector<int>& left, std::size_t last, int run) {
     if (max_run_ > 0 && run > max_run_) return 0;
     if (std::accumulate(left.begin(), left.end(), 0) == 0) return 1;
@@ -34,7 +33,7 @@ class SequenceCounter {
     return counts_[key] = ways;
   }
 
-  // The same where `next` comes first and makes a run of `run`.
+  // The same, starting with `next`, which makes a run of `run`.
   double ways_with(std::size_t next, std::vector<int> left, int run) {
     if (left[next] == 0) return 0;
     --left[next];
@@ -46,8 +45,8 @@ class SequenceCounter {
   std::map<std::tuple<std::vector<int>, std::size_t, int>, double> counts_;
 };
 
-// The balanced order of masses for the n-th trial of one technique: rounds through all orders, each
-// round shuffled.
+// Balanced order of the masses in the n-th trial of a technique: rounds of all orders, each round
+// shuffled.
 std::vector<double> balanced_order(const Sorting::Block& block, std::uint64_t seed,
                                    const std::string& technique, int nth) {
   std::vector<double> order = block.masses_g;
@@ -63,7 +62,7 @@ std::vector<double> balanced_order(const Sorting::Block& block, std::uint64_t se
   return all[static_cast<std::size_t>(nth % n)];
 }
 
-// One coin after the other: this technique, or one of those after it.
+// Draws an index with probability proportional to its ways, one coin per index.
 std::size_t drawn(const std::vector<double>& ways, RandomStream& stream) {
   for (std::size_t i = 0; i + 1 < ways.size(); ++i) {
     const double after =
@@ -88,9 +87,10 @@ ConfigMistakes Sorting::Block::check() const {
   auto mistakes =
       mistakes_in_masses(masses_g, 2, FrameRow::most_cubes, "equal ones have no right answer");
   if (const int n = n_trials(); n < 1 || n > most_trials)
-    mistakes.push_back(
-        {{"trials"}, fmt::format("trials are {} in all", n), fmt::format("1 to {}", most_trials)});
-  // Runs of one technique are shortest when the others' trials part those of the commonest.
+    mistakes.push_back({{"trials"},
+                        fmt::format("the block has {} trials", n),
+                        fmt::format("1 to {}", most_trials)});
+  // The longest run is shortest when the other trials separate those of the most frequent one.
   int commonest = 0;
   for (const TechniqueTrials& some : trials) commonest = std::max(commonest, some.trials);
   const int others = n_trials() - commonest;
@@ -98,10 +98,10 @@ ConfigMistakes Sorting::Block::check() const {
   if (max_run != 0 && max_run < shortest)
     mistakes.push_back(
         {{"max_run", "trials", "c1_trials"},
-         fmt::format("max_run is {}, but {} trials of one technique and {} of others can't be "
-                     "ordered without a longer run",
-                     max_run, commonest, others),
-         fmt::format("at least {}, or 0 for any", shortest)});
+         fmt::format(
+             "max_run is {}, but {} trials of one technique and {} of others need a longer run",
+             max_run, commonest, others),
+         fmt::format("at least {}, or 0 for no limit", shortest)});
   return mistakes;
 }
 
@@ -150,7 +150,7 @@ Sorting::Run::Run(const Block& block, std::uint64_t seed)
 TrialPlan Sorting::Run::plan(const TrialKey& key) const {
   const std::string& technique = techniques_.at(static_cast<std::size_t>(n_completed_));
   TrialPlan plan = key.plan(block_.name, task.name, technique);
-  // A repeated attempt is drawn freely: its planned order has been seen.
+  // A repeated attempt is drawn freely, because its planned order was already seen.
   if (block_.orders == SortingOrders::balanced && key.attempt == 1) {
     const auto nth = std::count(techniques_.begin(), techniques_.begin() + n_completed_, technique);
     plan.masses_g = balanced_order(block_, key.seed, technique, static_cast<int>(nth));
@@ -165,7 +165,7 @@ bool Sorting::Trial::all_labeled() const {
   return std::ranges::all_of(labels_, [](const auto& label) { return label.has_value(); });
 }
 
-// Labels from the lightest on go with masses from the lightest on.
+// Whether labels and masses have the same order.
 bool Sorting::Trial::labels_are_right() const {
   std::vector<std::size_t> by_mass(labels_.size());
   std::iota(by_mass.begin(), by_mass.end(), 0);
@@ -182,13 +182,13 @@ std::optional<std::string> Sorting::Trial::refusal(const Action& action) const {
     return fmt::format("a trial with {} cubes has no label \"{}\"", offered.size(), *action.label);
   if (action.kind == "unlabel" && !labels_[static_cast<std::size_t>(*action.slot - 1)])
     return fmt::format("cube {} has no label", *action.slot);
-  if (action.kind == "validate" && !all_labeled()) return "not all cubes have a label yet";
+  if (action.kind == "validate" && !all_labeled()) return "not all cubes have a label";
   return std::nullopt;
 }
 
 void Sorting::Trial::take(const Action& action) {
   if (action.slot) {
-    // A label belongs to one cube: giving a used one moves it.
+    // Assigning a used label moves it.
     if (action.label) std::ranges::replace(labels_, action.label, std::optional<Label>());
     labels_[static_cast<std::size_t>(*action.slot - 1)] = action.label;
   } else if (action.kind == "validate") {
@@ -203,7 +203,7 @@ void Sorting::Trial::show(ScreenState& screen) const {
   screen.can_validate = screen.can_answer && all_labeled();
 }
 
-// Somebody who doesn't know says nothing of any cube, whatever labels were tried before.
+// "I don't know" discards the labels that were assigned before.
 std::vector<std::string> Sorting::Trial::labels() const {
   std::vector<std::string> names;
   for (const auto& label : labels_)
@@ -218,10 +218,10 @@ Answer Sorting::simulated(const Offer&, const Percepts& percepts, RandomStream& 
   return answer_of(percepts.remembered_mm, corrected);
 }
 
-Answer Sorting::blind(const Offer&, const WithoutPercepts& unseen, RandomStream& stream) {
-  if (!unseen.differ) return {{{"dont_know"}}};
+Answer Sorting::blind(const Offer&, const WithoutPercepts& known, RandomStream& stream) {
+  if (!known.differ) return {{{"dont_know"}}};
   std::vector<double> values;
-  for (int i = 0; i < unseen.n_slots; ++i) values.push_back(stream.uniform());
+  for (int i = 0; i < known.n_slots; ++i) values.push_back(stream.uniform());
   return answer_of(values, false);
 }
 

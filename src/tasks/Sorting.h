@@ -1,4 +1,4 @@
-// The sorting task (paper, 4.1): two to six cubes, each given its label, then validated.
+// Sorting task (paper, 4.1): two to six cubes, each given a label, then validated.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "tasks/Answer.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {
@@ -28,28 +28,28 @@ struct Sorting {
   static constexpr std::array<std::string_view, 3> outcomes{"correct", "incorrect", "dont_know"};
   static constexpr TaskDeclaration task{
       .name = "sorting",
-      .about = "Cubes are pushed and told from the lightest to the heaviest",
+      .about = "Which cube is lightest, and so on to the heaviest",
       .actions = actions,
       .labels = labels,
       .outcomes = outcomes,
+      .texts = "question tap_a_cube lightest intermediate heaviest validate dont_know",
       .trial_s = 25};
-  static constexpr std::string_view texts =
-      "question tap_a_cube lightest intermediate heaviest validate dont_know";
 
   struct Block {
     using OfTask = Sorting;
     std::string name;
     std::vector<double> masses_g;  ///< two to six
     std::vector<TechniqueTrials> trials{{coupled_technique, 5}, {spring_technique, 5}};
-    int max_run = 0;  ///< longest run of one technique; 0: any
+    int max_run = 0;  ///< longest run of one technique; 0: no limit
     SortingOrders orders = SortingOrders::random;
 
     template <typename Visit>
     void visit_keys(Visit&& visit) {
       visit(ConfigKey{"masses_g", "of a trial's cubes, in g", true}, masses_g, above_zero);
       visit(ConfigKey{"trials", "of each technique"}, trials);
-      visit(ConfigKey{"max_run", "longest run of one technique; 0: any"}, max_run, WholeRange{});
-      visit(ConfigKey{"orders", "how cubes are arranged"}, orders);
+      visit(ConfigKey{"max_run", "longest run of one technique; 0: no limit"}, max_run,
+            WholeRange{});
+      visit(ConfigKey{"orders", "orders of the cubes"}, orders);
     }
     ConfigMistakes check() const;
     std::vector<std::pair<std::string, std::string>> choices() const;
@@ -58,11 +58,10 @@ struct Sorting {
     int most_cubes() const { return static_cast<int>(masses_g.size()); }
   };
   struct Offer {
-    std::vector<std::optional<Label>> labels;  ///< given so far, by slot
+    std::vector<std::optional<Label>> labels;  ///< assigned so far, by slot
   };
 
-  /// The labels of a trial with so many cubes, from the lightest on: with three cubes the words,
-  /// otherwise ranks, 1 the lightest.
+  /// The labels of a trial, lightest first: words for three cubes, otherwise ranks from 1.
   static std::span<const std::string_view> labels_for(int n_cubes);
 
   class Run : public TaskRun {
@@ -96,19 +95,18 @@ struct Sorting {
   };
 
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream& stream);
-  /// Any order, or "I don't know".
-  static Answer blind(const Offer&, const WithoutPercepts& unseen, RandomStream& stream);
+  static Answer blind(const Offer&, const WithoutPercepts& known, RandomStream& stream);
   static std::vector<ScreenState> fullest_screens();
-  /// The participant's (view/screens/SortingScreen.cpp).
+  /// Defined in view/screens/SortingScreen.cpp.
   static void screen(PageBuilder& builder, const Offer& offer);
 };
 
-/// Technique of each trial of a block: each as often as asked for, at random places, no run longer
-/// than max_run (0: any), every such sequence equally likely.
+/// Technique of each trial of a block: uniform over all sequences with the given counts and no run
+/// longer than max_run (0: no limit).
 std::vector<std::string> draw_techniques(const std::vector<TechniqueTrials>& trials, int max_run,
                                          const std::string& block, std::uint64_t seed);
 
-/// Labels by slot that put the values in order.
+/// Labels by slot that sort the values.
 std::vector<Label> labels_in_order(std::span<const double> values);
 
 }  // namespace heft

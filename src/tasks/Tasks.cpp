@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/PlugTable.h"
+
 namespace heft {
 
 namespace {
@@ -17,9 +19,9 @@ constexpr bool columns_agree() {
           if (!agree(action, same)) return false;
   return true;
 }
-static_assert(columns_agree(), "two tasks give one action different columns");
+static_assert(columns_agree(), "two tasks use one action with different columns");
 
-// Each once, in order.
+// Without duplicates, in order.
 template <typename WordsOf>
 std::vector<std::string_view> all_words(const WordsOf& words_of) {
   std::vector<std::string_view> all;
@@ -30,9 +32,14 @@ std::vector<std::string_view> all_words(const WordsOf& words_of) {
 }
 }  // namespace
 
-const TaskDeclaration& task_named(std::string_view name) {
+const TaskDeclaration* find_task(std::string_view name) {
   for (const TaskDeclaration* task : Tasks::declarations)
-    if (task->name == name) return *task;
+    if (task->name == name) return task;
+  return nullptr;
+}
+
+const TaskDeclaration& task_named(std::string_view name) {
+  if (const TaskDeclaration* task = find_task(name)) return *task;
   throw unknown_name("task", name, words_of<Task>());
 }
 
@@ -63,10 +70,33 @@ const ActionSpec* action_named(std::string_view kind) {
   return nullptr;
 }
 
-std::size_t place_of(std::string_view task) {
+std::size_t task_index(std::string_view name) {
   const auto& all = Tasks::declarations;
-  return static_cast<std::size_t>(std::ranges::find(all, task, &TaskDeclaration::name) -
+  return static_cast<std::size_t>(std::ranges::find(all, name, &TaskDeclaration::name) -
                                   all.begin());
+}
+
+Answer simulated_answer(std::string_view task, const std::any& offer, const Percepts& percepts,
+                        RandomStream& stream) {
+  Answer answer;
+  Tasks::call(task, [&]<typename Kind>() {
+    answer = Kind::simulated(offer_of<Kind>(offer), percepts, stream);
+  });
+  return answer;
+}
+
+Answer blind_answer(std::string_view task, const std::any& offer, const WithoutPercepts& unseen,
+                    RandomStream& stream) {
+  Answer answer;
+  Tasks::call(
+      task, [&]<typename Kind>() { answer = Kind::blind(offer_of<Kind>(offer), unseen, stream); });
+  return answer;
+}
+
+std::vector<ScreenState> fullest_screens(std::string_view task) {
+  std::vector<ScreenState> screens;
+  Tasks::call(task, [&]<typename Kind>() { screens = Kind::fullest_screens(); });
+  return screens;
 }
 
 }  // namespace heft

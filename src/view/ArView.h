@@ -11,13 +11,9 @@
 #include <vector>
 
 #include "base/Image.h"
-#include "experiment/DisplayFacts.h"
-#include "experiment/DisplayedFrame.h"
-#include "experiment/DraggedEffector.h"
 #include "experiment/ScreenState.h"
 #include "experiment/ScreenTexts.h"
 #include "experiment/Stage.h"
-#include "experiment/Touch.h"
 #include "tracking/camera/Intrinsics.h"
 
 namespace heft {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "experiment/Check.h"
-#include "experiment/DisplayFacts.h"
+#include "experiment/EventPayloads.h"
 #include "experiment/ScreenTexts.h"
+#include "experiment/Stage.h"
 #include "view/ArView.h"
 
 namespace heft {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "experiment/DraggedEffector.h"
+#include "experiment/Stage.h"
 #include "view/ArView.h"
 #include "view/screens/Page.h"
 

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "base/Image.h"
-#include "experiment/DisplayFacts.h"
+#include "experiment/Stage.h"
 #include "view/screens/Page.h"
 #include "window/WrittenTextures.h"
 

@@ -182,7 +182,7 @@ TEST(Jnd, FewReversalsOrTheTrialLimitCensorTheWayTheStaircaseWent) {
   EXPECT_EQ(results[0].shown_g, 400);
   EXPECT_EQ(results[1].censored, Censored::below);
   EXPECT_EQ(results[1].why, "3 reversals");
-  EXPECT_EQ(results[2].censored, Censored::unsettled);  // it ended where it began
+  EXPECT_EQ(results[2].censored, Censored::indeterminate);  // it ended where it began
   EXPECT_FALSE(results[2].shown_g.has_value());
 }
 

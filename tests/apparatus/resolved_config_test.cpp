@@ -10,7 +10,7 @@
 #include "base/Error.h"
 #include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
-#include "record/schema/SetupJson.h"
+#include "record/schema/EventRow.h"
 #include "record/temporary_folder.h"
 #include "view/ArView.h"
 
@@ -77,7 +77,7 @@ TEST(Resolve, APersonHasAWindowTextsAndTheShippedApparatus) {
   EXPECT_FALSE(config->apparatus.board.tags.empty());
   EXPECT_EQ(config->config.language, "en");
   EXPECT_FALSE(config->texts.pages.empty());
-  EXPECT_EQ(config->config.handed, Side::right);
+  EXPECT_EQ(config->config.controls, Side::right);
   EXPECT_THAT(config->config.participant_parameters, IsEmpty());
   EXPECT_TRUE(config->on_wall_clock);
 }
@@ -114,14 +114,14 @@ TEST(Resolve, WhatIsGivenIsRecordedAsItIs) {
   options.simulator = "bullet-ea";
   const SessionConfig config = resolved(options);
   EXPECT_EQ(config.settings, options.settings);
-  EXPECT_EQ(config.handed, Side::left);
+  EXPECT_EQ(config.controls, Side::left);
   EXPECT_EQ(config.hand, Side::left);
   EXPECT_EQ(config.keys, TakesKeys::yes);
   EXPECT_EQ(config.display, options.display);
   EXPECT_EQ(config.window, WindowState::windowed);
   EXPECT_EQ(config.language, "fr");
   EXPECT_EQ(config.simulator, "bullet-ea");
-  EXPECT_EQ(config.simulator_why, "");
+  EXPECT_EQ(config.simulator_reason, "");
 }
 
 TEST(Resolve, AMeasuredDisplayIsReadWhereThereIsAScreen) {

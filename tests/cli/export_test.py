@@ -181,10 +181,10 @@ class Export(SessionTest):
         self.simulate("lab.db", participants=1)
         (self.folder / "data").mkdir()
         self.export("lab.db")
-        self.assertIn("nothing is overwritten", self.export("lab.db", expect=2).stderr)
+        self.assertIn("never overwrite files", self.export("lab.db", expect=2).stderr)
         (self.folder / "part").mkdir()
         (self.folder / "part" / "export_unfinished.txt").write_text("")
-        self.assertIn("was interrupted", self.export("lab.db", out="part", expect=2).stderr)
+        self.assertIn("unfinished export", self.export("lab.db", out="part", expect=2).stderr)
         self.assertIn("is a file", self.export("lab.db", out="lab.db", expect=2).stderr)
         self.assertIn("no file", self.export("none.db", out="new", expect=1).stderr)
         self.assertFalse((self.folder / "new").exists())
@@ -196,7 +196,7 @@ class Export(SessionTest):
         def small_files_only():
             resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
         done = self.export(db, expect=1, preexec_fn=small_files_only)
-        self.assertIn("can't write", done.stderr)
+        self.assertIn("cannot write", done.stderr)
         self.assertTrue((self.folder / "data" / "export_unfinished.txt").exists())
 
     # The figures of analyse, from the files alone.

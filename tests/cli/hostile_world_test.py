@@ -68,7 +68,7 @@ class UnderARunningSession(SessionTest):
         self.assertIn("Move it back", talk)
         self.assertFalse(self.db.exists(), "another one was made in its place")
         away.rename(self.db)
-        command = talk.strip().split("go on with: heft ")[1]
+        command = talk.strip().split("continue with: heft ")[1]
         self.run_heft(*shlex.split(command))
         self.run_heft("replay", "--db", self.db)
 
@@ -125,7 +125,7 @@ class UnderARunningSession(SessionTest):
     def test_without_a_person_a_lock_is_not_waited_for_forever(self):
         other = self.locked()
         talk = self.ends_with(1, seconds=120)
-        self.assertIn("another program keeps the file locked", talk)
+        self.assertIn("the file is locked by another program", talk)
         other.execute("rollback")
         other.close()
         self.resumes_to_the_same_end(self.db)

@@ -171,7 +171,7 @@ discard_reversals = 0
         path.write_text(path.read_text().replace("-0.13", "0.0"))
         (folder / "actions.csv").write_text("trial_number,t_s,action,slot,label\n1,5.0,select,2,\n")
         done = self.run_recorded(folder, expect=1)
-        self.assertIn("the cubes have not appeared yet", done.stderr)
+        self.assertIn("the cubes are not shown yet", done.stderr)
         self.assertEqual(query(self.folder / "s.db", "select state from session"), [("paused",)])
 
     def test_a_recording_that_ends_early_stops_the_session(self):

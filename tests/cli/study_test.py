@@ -359,7 +359,7 @@ class ListAndShow(StudyTest):
         self.assertIn("there is no file", self.run_heft("list", "--db", self.folder / "no.db",
                                                         expect=1).stderr)
         self.session(self.folder / "a.db")
-        self.assertIn("holds no session 7", self.run_heft("show", "--db", self.folder / "a.db",
+        self.assertIn("has no session 7", self.run_heft("show", "--db", self.folder / "a.db",
                                                           "--session", 7, expect=1).stderr)
 
 

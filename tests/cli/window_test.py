@@ -258,7 +258,7 @@ class Window(unittest.TestCase):
         self.program.communicate(timeout=60)
         setup = query(self.db, "select display like '0 %', display_w_px, display_h_px, "
                                "round(display_w_mm), eye_distance_mm, display_scale, window, hand, "
-                               "handed from setup")
+                               "controls from setup")
         self.assertEqual(setup, [(1, 1024, 600, 154.0, 450.0, 1.0, "window", "left", "left")])
         pages = query(self.db, "select json_extract(detail, '$.page') from event "
                                "where kind = 'text_shown' order by event_id")

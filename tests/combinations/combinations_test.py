@@ -217,6 +217,15 @@ class Combinations(unittest.TestCase):
                 resumed, = query(db, "select simulator from setup order by setup_id desc limit 1")
                 self.assertEqual(resumed[0], simulator or "boxes")
 
+    def test_a_log_of_version_6_is_resumed_with_its_configuration(self):
+        db = shutil.copy(GOLDEN_LOGS / "version_6.db", self.folder / "version_6.db")
+        self.heft("resume", "--db", db, "--tracker", "hand")
+        self.verified(db)
+        setups = query(db, "select controls, simulator, simulator_reason from setup where "
+                           "session_id = 2")
+        self.assertEqual(setups[0], setups[-1])
+        self.assertEqual(setups[0][0], "left")
+
     def test_a_log_that_a_session_was_taken_out_of_says_so(self):
         db = self.folder / "three.db"
         for participant in "123":

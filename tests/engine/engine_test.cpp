@@ -27,7 +27,7 @@ Event action(double t_s, ActionKind kind, std::optional<int> slot = {},
   return {t_s, Action{kind, slot, label}};
 }
 
-// Drives an engine as the runner does, a second an event.
+// Drives an engine as the runner does, one event per second.
 struct Session {
   explicit Session(SessionPlan session_plan = small_plan(), std::uint64_t seed = 7)
       : engine(shared(std::move(session_plan)), seed) {}
@@ -53,9 +53,10 @@ struct Session {
     engine.apply({++t_s, CubeTouch{slot, std::nullopt}});
     return engine.apply({++t_s, CubeTouch{slot, seconds}});
   }
-  CubeRow pushes(int slot, double deepest_push_m, double peak_lag_m) {
+  CubeRow pushes(int slot, double max_push_displacement_m, double peak_lag_m) {
     engine.apply({++t_s, CubeTouch{slot}});
-    return engine.apply({++t_s, CubeTouch{slot, 1, deepest_push_m, peak_lag_m}}).cubes.at(0);
+    return engine.apply({++t_s, CubeTouch{slot, 1, max_push_displacement_m, peak_lag_m}})
+        .cubes.at(0);
   }
   // Everything before the first sorting trial.
   void reach_sorting() {
@@ -75,7 +76,7 @@ struct Session {
   double t_s = 0;
 };
 
-TEST(Engine, goes_through_the_blocks_in_order) {
+TEST(Engine, RunsBlocksInOrder) {
   Session session;
   EXPECT_EQ(session.engine.next().kind, Next::Kind::demonstration);
   session.does(DemonstrationShown{});
@@ -98,7 +99,7 @@ TEST(Engine, goes_through_the_blocks_in_order) {
   EXPECT_FALSE(session.engine.next().rest) << "a break is never inside a trial";
 }
 
-TEST(Engine, ends_the_introduction_on_the_right_answer_only) {
+TEST(Engine, IntroductionEndsWithCorrectAnswer) {
   Session session;
   session.does(DemonstrationShown{});
   session.start();
@@ -113,7 +114,7 @@ TEST(Engine, ends_the_introduction_on_the_right_answer_only) {
   EXPECT_EQ(session.engine.next().plan->task, "sorting");
 }
 
-TEST(Engine, reshuffles_after_a_wrong_introduction_where_the_protocol_says_so) {
+TEST(Engine, ReshufflesAfterWrongIntroduction) {
   SessionPlan session_plan = small_plan();
   block_as<Introduction::Block>(session_plan.blocks[1])->wrong_answer = WrongAnswer::reshuffle;
   int moved = 0;
@@ -123,7 +124,7 @@ TEST(Engine, reshuffles_after_a_wrong_introduction_where_the_protocol_says_so) {
     const TrialPlan before = session.start();
     session.acts("select", session.slot_of(15));
     EXPECT_EQ(session.engine.next().plan->n_reshuffles, 1);
-    EXPECT_THAT(session.refusal("select", 1), HasSubstr("not appeared"));
+    EXPECT_THAT(session.refusal("select", 1), HasSubstr("not shown yet"));
     session.does(CubesShown{});
     if (session.engine.next().plan->masses_g != before.masses_g) ++moved;
   }
@@ -131,7 +132,7 @@ TEST(Engine, reshuffles_after_a_wrong_introduction_where_the_protocol_says_so) {
   EXPECT_LT(moved, 32);
 }
 
-TEST(Engine, labels_are_mutually_exclusive_and_can_be_corrected) {
+TEST(Engine, LabelsAreExclusiveAndCorrectable) {
   Session session;
   session.reach_sorting();
   session.start();
@@ -144,12 +145,12 @@ TEST(Engine, labels_are_mutually_exclusive_and_can_be_corrected) {
   session.acts("unlabel", 2);
   EXPECT_EQ(labels_on(session.engine.screen())[1], std::nullopt);
   EXPECT_THAT(session.refusal("unlabel", 2), HasSubstr("no label"));
-  EXPECT_THAT(session.refusal("select", 2), HasSubstr("no \"select\""));
+  EXPECT_THAT(session.refusal("select", 2), HasSubstr("no action \"select\""));
   EXPECT_THAT(session.refusal("label", 4, "lightest"), HasSubstr("no cube 4"));
-  EXPECT_THAT(session.refusal("label", 1), HasSubstr("names no label"));
+  EXPECT_THAT(session.refusal("label", 1), HasSubstr("has no label"));
 }
 
-TEST(Engine, refuses_validate_until_all_three_labels_are_set) {
+TEST(Engine, RefusesValidateWithoutAllLabels) {
   Session session;
   session.reach_sorting();
   session.start();
@@ -165,7 +166,7 @@ TEST(Engine, refuses_validate_until_all_three_labels_are_set) {
   EXPECT_EQ(done.trial->validated_s, session.t_s);
 }
 
-TEST(Engine, marks_a_swapped_pair_incorrect_and_dont_know_as_itself) {
+TEST(Engine, SwappedPairIsIncorrectAndDontKnowIsKept) {
   Session session;
   session.reach_sorting();
   session.start();
@@ -177,7 +178,7 @@ TEST(Engine, marks_a_swapped_pair_incorrect_and_dont_know_as_itself) {
   EXPECT_EQ(session.acts("dont_know").trial->outcome, "dont_know");
 }
 
-TEST(Engine, a_select_ends_a_comparison_at_once_and_drives_its_staircase) {
+TEST(Engine, SelectEndsComparisonAndUpdatesStaircase) {
   Session session;
   session.reach_comparison();
   const TrialPlan plan = session.start();
@@ -187,7 +188,7 @@ TEST(Engine, a_select_ends_a_comparison_at_once_and_drives_its_staircase) {
   EXPECT_EQ(done.trial->outcome, "difference");
   EXPECT_EQ(done.trial->choice_correct, false);
   EXPECT_EQ(done.trial->chosen_slot, lighter);
-  // Any choice is a positive answer in the paper's rule: this staircase goes down.
+  // Any choice is positive by the paper's rule, so the staircase moves down.
   for (;;) {
     const TrialPlan next = session.start();
     if (next.staircase == plan.staircase) {
@@ -198,7 +199,7 @@ TEST(Engine, a_select_ends_a_comparison_at_once_and_drives_its_staircase) {
   }
 }
 
-TEST(Engine, runs_both_staircases_to_their_estimates_and_finishes) {
+TEST(Engine, RunsBothStaircasesToEstimates) {
   Session session;
   session.reach_comparison();
   std::vector<EstimateRow> estimates;
@@ -224,7 +225,7 @@ TEST(Engine, runs_both_staircases_to_their_estimates_and_finishes) {
   EXPECT_EQ(session.engine.next().kind, Next::Kind::over);
 }
 
-TEST(Engine, a_veto_repeats_the_trial_with_a_new_order_and_leaves_the_staircase) {
+TEST(Engine, VoidRepeatsTrialAndKeepsStaircase) {
   int moved = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Session session(small_plan(), seed);
@@ -245,7 +246,7 @@ TEST(Engine, a_veto_repeats_the_trial_with_a_new_order_and_leaves_the_staircase)
   EXPECT_LT(moved, 32);
 }
 
-TEST(Engine, a_crash_repeats_the_attempt_with_the_same_draws) {
+TEST(Engine, CrashRepeatsAttemptWithSameDraws) {
   Session session;
   session.reach_sorting();
   const TrialPlan before = session.start();
@@ -259,7 +260,7 @@ TEST(Engine, a_crash_repeats_the_attempt_with_the_same_draws) {
   EXPECT_EQ(labels_on(session.engine.screen())[0], std::nullopt) << "labels start anew";
 }
 
-TEST(Engine, three_voids_of_one_trial_pause_the_session_but_crashes_do_not_count) {
+TEST(Engine, ThreeVoidsWithoutCrashesPauseSession) {
   Session session;
   session.reach_sorting();
   for (int crash = 0; crash < 5; ++crash) {
@@ -273,16 +274,16 @@ TEST(Engine, three_voids_of_one_trial_pause_the_session_but_crashes_do_not_count
     EXPECT_EQ(voided.state.has_value(), i + 1 == max_voids);
   }
   EXPECT_EQ(session.engine.next().kind, Next::Kind::paused);
-  EXPECT_TRUE(session.engine.needs_somebody());
+  EXPECT_TRUE(session.engine.needs_experimenter());
   session.does(SessionContinued{});
   EXPECT_EQ(session.engine.next().plan->attempt, 4);
 }
 
-TEST(Engine, refuses_answers_while_paused_and_before_the_cubes_appear) {
+TEST(Engine, RefusesAnswersWhilePausedAndBeforeCubes) {
   Session session;
   session.reach_sorting();
   session.does(TrialStarted{});
-  EXPECT_THAT(session.refusal("dont_know"), HasSubstr("not appeared"));
+  EXPECT_THAT(session.refusal("dont_know"), HasSubstr("not shown yet"));
   session.does(CubesShown{});
   session.does(SessionPaused{"camera_lost"});
   EXPECT_EQ(session.engine.screen().screen, Screen::paused);
@@ -291,7 +292,7 @@ TEST(Engine, refuses_answers_while_paused_and_before_the_cubes_appear) {
   EXPECT_EQ(session.refusal("dont_know"), "");
 }
 
-TEST(Engine, keeps_account_of_time_and_contacts) {
+TEST(Engine, AccountsForTimeAndContacts) {
   Session session;
   session.reach_sorting();
   session.start();  // shown at t
@@ -311,7 +312,7 @@ TEST(Engine, keeps_account_of_time_and_contacts) {
   EXPECT_EQ(row.paused_s, 1);
 }
 
-TEST(Engine, counts_no_pause_before_the_cubes_appear) {
+TEST(Engine, IgnoresPausesBeforeCubes) {
   Session session;
   session.reach_sorting();
   session.does(TrialStarted{});
@@ -325,7 +326,7 @@ TEST(Engine, counts_no_pause_before_the_cubes_appear) {
   EXPECT_EQ(done.trial->lost_s, 0);
 }
 
-TEST(Engine, counts_resets_of_the_cube_that_left_or_of_all) {
+TEST(Engine, CountsResetsOfOneOrAllCubes) {
   SessionPlan session_plan = small_plan();
   block_as<Introduction::Block>(session_plan.blocks[1])->wrong_answer = WrongAnswer::reshuffle;
   Session session(session_plan);
@@ -345,7 +346,7 @@ TEST(Engine, counts_resets_of_the_cube_that_left_or_of_all) {
       << "an answer that moves no cube reports none";
 }
 
-TEST(Engine, counts_pushes_per_cube) {
+TEST(Engine, CountsPushesPerCube) {
   Session session;
   session.reach_sorting();
   session.start();
@@ -358,19 +359,19 @@ TEST(Engine, counts_pushes_per_cube) {
   EXPECT_EQ(cube.last_contact_s, began_s + 0.5);
 }
 
-TEST(Engine, keeps_the_deepest_push_and_the_largest_lag_of_each_cube) {
+TEST(Engine, KeepsMaximumPushAndLagOfEachCube) {
   Session session;
   session.reach_sorting();
   session.start();
   session.pushes(2, 0.03, 0.001);
   session.pushes(1, 0.05, 0.04);
   const CubeRow cube = session.pushes(2, 0.02, 0.01);
-  EXPECT_EQ(cube.deepest_push_m, 0.03);
+  EXPECT_EQ(cube.max_push_displacement_m, 0.03);
   EXPECT_EQ(cube.peak_lag_m, 0.01);
   EXPECT_EQ(session.touches(2, 0.5).cubes.at(0).peak_lag_m, 0.01) << "a touch without a lag";
 }
 
-TEST(Engine, tells_what_a_participant_was_drawn_as_once) {
+TEST(Engine, RecordsDrawnParametersOnce) {
   Session session;
   SessionConfig setup;
   const auto told = [&] { return session.engine.apply({++session.t_s, setup}).parameters; };
@@ -386,7 +387,7 @@ TEST(Engine, tells_what_a_participant_was_drawn_as_once) {
   EXPECT_EQ(told().size(), 2u);
 }
 
-TEST(Engine, requires_contact_with_every_cube_where_the_protocol_says_so) {
+TEST(Engine, RequiresContactWithEveryCube) {
   SessionPlan session_plan = small_plan();
   session_plan.require_contact = true;
   Session session(session_plan);
@@ -400,7 +401,7 @@ TEST(Engine, requires_contact_with_every_cube_where_the_protocol_says_so) {
   EXPECT_EQ(session.refusal("select", 1), "");
 }
 
-TEST(Engine, catch_trials_show_equal_masses_and_drive_no_staircase) {
+TEST(Engine, CatchTrialsHaveEqualMassesAndNoStaircase) {
   SessionPlan session_plan = small_plan();
   block_as<Comparison::Block>(session_plan.blocks[4])->catch_fraction = 0.5;
   Session session(session_plan);
@@ -420,7 +421,7 @@ TEST(Engine, catch_trials_show_equal_masses_and_drive_no_staircase) {
   EXPECT_GT(n_catch, n / 4);
 }
 
-// The trials of one comparison block, answered by coins; some attempts are void.
+// The trials of a comparison block with random answers; some attempts are void.
 std::vector<TrialPlan> plans_of(const SessionPlan& session_plan, std::uint64_t seed) {
   Session session(session_plan, seed);
   session.reach_comparison();
@@ -433,7 +434,7 @@ std::vector<TrialPlan> plans_of(const SessionPlan& session_plan, std::uint64_t s
   return plans;
 }
 
-TEST(Engine, catch_trials_in_a_fixed_number_come_as_planned_whatever_is_answered) {
+TEST(Engine, FixedCatchTrialsComeAsPlanned) {
   SessionPlan session_plan = small_plan();
   auto& block = *block_as<Comparison::Block>(session_plan.blocks[4]);
   block.catch_every = 5;
@@ -455,7 +456,7 @@ TEST(Engine, catch_trials_in_a_fixed_number_come_as_planned_whatever_is_answered
     }
     EXPECT_EQ(caught[15], 4) << seed;
     EXPECT_EQ(caught[200], static_cast<int>(seed) % 7) << seed;
-    // One in each five trials, until the last staircase ends.
+    // One in every five trials, until the last staircase ends.
     std::size_t n = plans.size();
     while (plans[n - 1].is_catch) --n;
     for (std::size_t from = 0; from + 5 <= n && static_cast<int>(from) / 5 < n_caught; from += 5)
@@ -485,7 +486,7 @@ SessionPlan constant_plan() {
   return session_plan;
 }
 
-TEST(Engine, constant_stimuli_run_beside_a_staircase_and_end_without_a_jnd) {
+TEST(Engine, ConstantStimuliRunBesideStaircaseWithoutJnd) {
   Session session(constant_plan());
   std::map<double, int> counts;
   std::vector<EstimateRow> estimates;
@@ -510,7 +511,7 @@ TEST(Engine, constant_stimuli_run_beside_a_staircase_and_end_without_a_jnd) {
   EXPECT_EQ(session.engine.next().kind, Next::Kind::finish);
 }
 
-// (staircase, level) of every completed trial; vetoes where `vetoed` says so.
+// (staircase, level) of every completed trial; voids attempts as `vetoed` requires.
 std::vector<std::pair<std::string, double>> course(std::uint64_t seed, auto vetoed) {
   Session session(constant_plan(), seed);
   std::vector<std::pair<std::string, double>> course;
@@ -526,14 +527,14 @@ std::vector<std::pair<std::string, double>> course(std::uint64_t seed, auto veto
   return course;
 }
 
-TEST(Engine, void_trials_consume_no_constant_level) {
+TEST(Engine, VoidTrialsConsumeNoConstantLevel) {
   const auto whole = course(7, [](int) { return false; });
   EXPECT_EQ(course(7, [](int n) { return n % 3 == 0; }), whole);
   EXPECT_NE(course(8, [](int) { return false; }), whole);
 }
 
-// Two trials of equal answers: the level of the second tells what the first was taken for.
-TEST(Engine, an_answer_is_positive_by_the_blocks_rule) {
+// Two trials with equal answers: the second level shows whether the first was positive.
+TEST(Engine, BlocksRuleDefinesPositiveAnswers) {
   for (const PositiveAnswer rule : {PositiveAnswer::any_choice, PositiveAnswer::correct_choice})
     for (const bool choose_reference : {false, true}) {
       SessionPlan session_plan = small_plan();
@@ -551,7 +552,7 @@ TEST(Engine, an_answer_is_positive_by_the_blocks_rule) {
     }
 }
 
-TEST(Engine, sorting_blocks_hold_the_planned_conditions_and_runs) {
+TEST(Engine, SortingBlocksHavePlannedConditionsAndRuns) {
   SessionPlan session_plan = small_plan();
   auto& block = *block_as<Sorting::Block>(session_plan.blocks[2]);
   block.trials = {{"C1", 5}, {"C2", 5}};
@@ -573,7 +574,7 @@ TEST(Engine, sorting_blocks_hold_the_planned_conditions_and_runs) {
   }
 }
 
-TEST(Engine, balanced_orders_use_each_order_once_before_any_twice) {
+TEST(Engine, BalancedOrdersUseEachOrderOncePerRound) {
   SessionPlan session_plan = small_plan();
   auto& block = *block_as<Sorting::Block>(session_plan.blocks[2]);
   block.trials = {{"C1", 6}, {"C2", 6}};
@@ -590,17 +591,17 @@ TEST(Engine, balanced_orders_use_each_order_once_before_any_twice) {
   EXPECT_EQ(orders["C2"].size(), 6u);
 }
 
-TEST(Engine, an_impossible_event_throws_and_changes_nothing) {
+TEST(Engine, InvalidEventThrowsAndChangesNothing) {
   Session session;
   EXPECT_THROW(session.engine.apply(Event{1, TrialStarted{}}), Error);
   EXPECT_EQ(session.engine.n_events(), 0);
   session.does(DemonstrationShown{});
-  EXPECT_THAT(session.engine.admit(Event{0.5, TrialStarted{}}).refusal, HasSubstr("comes before"));
+  EXPECT_THAT(session.engine.admit(Event{0.5, TrialStarted{}}).refusal, HasSubstr("is before"));
   EXPECT_THAT(session.engine.admit(Event{5, SessionEnded{}}).refusal,
-              HasSubstr("not everything is done"));
+              HasSubstr("not all blocks are completed"));
 }
 
-// Any event at any time: most are refused, none breaks the engine.
+// Random events at random times: most are refused, none breaks the engine.
 Event random_event(RandomStream& stream, double t_s) {
   const int slot = static_cast<int>(stream.below(5));
   const auto some_slot = stream.coin(0.7) ? std::optional(slot) : std::nullopt;
@@ -629,7 +630,7 @@ Event random_event(RandomStream& stream, double t_s) {
   return {t_s, all[stream.below(all.size())]};
 }
 
-// A likely event, so that random sequences also get somewhere.
+// A likely event, so that random sequences make progress.
 Event likely_event(const Engine& engine, RandomStream& stream, double t_s) {
   switch (engine.next().kind) {
     case Next::Kind::demonstration:
@@ -648,7 +649,7 @@ Event likely_event(const Engine& engine, RandomStream& stream, double t_s) {
   }
 }
 
-RC_GTEST_PROP(EngineProperty, random_events_keep_every_promise, (std::uint64_t seed)) {
+RC_GTEST_PROP(EngineProperty, RandomEventsKeepInvariants, (std::uint64_t seed)) {
   RandomStream stream(seed, "events");
   Engine engine(shared(small_plan()), seed);
   std::vector<Event> folded;

@@ -1,4 +1,4 @@
-// What the screen shows where no trial is due, and tasks that are on no list.
+// Screens when no trial is due, and tasks that are not listed.
 #include <gmock/gmock.h>
 
 #include "engine/Engine.h"
@@ -7,7 +7,7 @@
 namespace heft {
 namespace {
 
-// A task of somebody else: one tap, so many trials.
+// A library user's task: one tap per trial.
 struct Tapping {
   static constexpr std::array actions{ActionSpec{.kind = "tap"}};
   static constexpr std::array<std::string_view, 1> outcomes{"tapped"};
@@ -45,7 +45,7 @@ struct Tapped {
   double t_s = 0;
 };
 
-TEST(Engine, runs_a_task_that_is_on_no_list) {
+TEST(OwnTask, RunsWithoutBeingListed) {
   SessionPlan plan;
   plan.blocks = {Tapping::Block{"taps", 2}};
   Tapped session{Engine(std::make_shared<const SessionPlan>(plan), 7)};
@@ -53,13 +53,13 @@ TEST(Engine, runs_a_task_that_is_on_no_list) {
     session.tell(TrialStarted{});
     session.tell(CubesShown{});
     EXPECT_THAT(session.engine.admit({session.t_s, Action{"select", 1}}).refusal,
-                ::testing::HasSubstr("a tapping trial has no \"select\""));
+                ::testing::HasSubstr("a tapping trial has no action \"select\""));
     EXPECT_EQ(session.tell(Action{"tap"}).trial->outcome, "tapped");
   }
   EXPECT_EQ(session.engine.next().kind, Next::Kind::finish);
 }
 
-TEST(Engine, thanks_once_everything_is_done_and_when_the_session_has_ended) {
+TEST(LastPage, IsThanksAfterLastBlockAndAfterEnd) {
   SessionPlan plan;
   plan.blocks = {Tapping::Block{"taps", 1}};
   Tapped session{Engine(std::make_shared<const SessionPlan>(plan), 7)};

@@ -1,13 +1,13 @@
-// Comparison blocks of any kinds of procedures together, also one that no file can name: random
-// blocks, answered, voided and vetoed at random; whatever happens, folding again gives the same
-// session, and each procedure ends as it would have alone.
+// Comparison blocks that mix all kinds of procedures and a library user's one. Answers, voids and
+// vetoes are random; folding again gives the same session, and each procedure ends as it does
+// alone.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <map>
 
 #include "engine/Engine.h"
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 #include "psychophysics/Bisection.h"
 #include "psychophysics/ProcedureKinds.h"
 #include "tasks/Comparison.h"
@@ -71,11 +71,11 @@ Comparison::Block any_block() {
   return block;
 }
 
-/// A session and what it came to, as text.
+/// A session and its results as text.
 struct Folded {
   Folded(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed) : engine(plan, seed) {}
 
-  /// Whether the event could come.
+  /// Whether the event is accepted.
   bool does(const Event& event) {
     const Admission admission = engine.admit(event);
     if (!admission.admitted) return false;
@@ -104,14 +104,14 @@ struct Folded {
   std::map<std::string, std::string> estimates;  ///< by staircase
 };
 
-// Sees what is above the threshold.
+// Answers positively above the threshold.
 Action answer(const TrialPlan& plan, double threshold_g) {
   if (plan.is_catch || *plan.level_g <= threshold_g) return {"no_difference", {}, {}};
   return {"select", plan.reference_slot == 1 ? 2 : 1, {}};
 }
 
-/// To the end; after each answer `happens()` says what else comes: 1 a void before it, 2 a veto of
-/// it, otherwise nothing.
+/// Runs to the end. For each answer `happens()` chooses 1: a void before it, 2: a veto after it,
+/// otherwise nothing.
 void run(Folded& session, double threshold_g, const auto& happens) {
   double t_s = session.engine.last_s();
   while (session.engine.next().kind == Next::Kind::trial) {
@@ -128,7 +128,7 @@ void run(Folded& session, double threshold_g, const auto& happens) {
   RC_ASSERT(session.engine.next().kind == Next::Kind::finish);
 }
 
-RC_GTEST_PROP(MixedProcedures, FoldAgainToTheSameSession, (std::uint64_t seed)) {
+RC_GTEST_PROP(MixedProcedures, FoldAgainToSameSession, (std::uint64_t seed)) {
   auto plan = std::make_shared<SessionPlan>();
   plan->blocks = {any_block()};
   const double threshold_g = *rc::gen::inRange(1, 400);
@@ -140,7 +140,7 @@ RC_GTEST_PROP(MixedProcedures, FoldAgainToTheSameSession, (std::uint64_t seed)) 
   for (const Event& event : session.events) RC_ASSERT(again.does(event));
   RC_ASSERT(again.trace == session.trace);
 
-  // Voids and vetoes leave no trace in what procedures come to.
+  // Voids and vetoes do not change the results of procedures.
   Folded quiet(plan, seed);
   run(quiet, threshold_g, [] { return 0; });
   RC_ASSERT(quiet.estimates == session.estimates);
@@ -148,7 +148,7 @@ RC_GTEST_PROP(MixedProcedures, FoldAgainToTheSameSession, (std::uint64_t seed)) 
             block_as<Comparison::Block>(plan->blocks[0])->staircases.size());
 }
 
-RC_GTEST_PROP(MixedProcedures, ContinueWhereTheyWereInterrupted, (std::uint64_t seed)) {
+RC_GTEST_PROP(MixedProcedures, ContinueAfterInterruption, (std::uint64_t seed)) {
   auto plan = std::make_shared<SessionPlan>();
   plan->blocks = {any_block()};
   const double threshold_g = *rc::gen::inRange(1, 400);
@@ -163,7 +163,7 @@ RC_GTEST_PROP(MixedProcedures, ContinueWhereTheyWereInterrupted, (std::uint64_t 
   RC_ASSERT(resumed.estimates == session.estimates);
 }
 
-TEST(MixedProcedures, AnOwnProceduresIntervalReachesItsRow) {
+TEST(MixedProcedures, OwnProceduresIntervalIsRecorded) {
   auto plan = std::make_shared<SessionPlan>();
   Comparison::Block block;
   block.name = "comparison";

@@ -1,4 +1,4 @@
-// When a trial may begin, and from when it may be answered, as the setup in force says.
+// When a trial may start and be answered, by the setup.
 #include <gmock/gmock.h>
 
 #include "engine/Engine.h"
@@ -27,7 +27,7 @@ class OnsetRules : public ::testing::Test {
   std::string refusal(double event_s, EventPayload what) const {
     return engine.admit({event_s, std::move(what)}).refusal;
   }
-  // The introduction's trial, from its start to the right answer, its cubes shown at once.
+  // The introduction's trial, from its start to the correct answer.
   double introduce(double start_s, double answer_s) {
     at(start_s, TrialStarted{});
     at(start_s, CubesShown{});
@@ -47,7 +47,7 @@ class OnsetRules : public ::testing::Test {
 
 const Action dont_know{"dont_know"};
 
-TEST_F(OnsetRules, a_trial_starts_once_the_gap_after_the_last_one_is_over) {
+TEST_F(OnsetRules, TrialStartsAfterGap) {
   EXPECT_EQ(engine.trial_due_s(), 0) << "none before the first";
   const double ended_s = introduce(1, 4);
   EXPECT_THAT(refusal(ended_s + gap_s - 0.001, TrialStarted{}), HasSubstr("gap"));
@@ -55,18 +55,18 @@ TEST_F(OnsetRules, a_trial_starts_once_the_gap_after_the_last_one_is_over) {
   EXPECT_EQ(refusal(engine.trial_due_s(), TrialStarted{}), "");
 }
 
-TEST_F(OnsetRules, a_voided_trial_is_followed_by_a_gap_too) {
+TEST_F(OnsetRules, VoidedTrialIsFollowedByGap) {
   at(1, TrialStarted{});
   at(2, TrialVoided{"veto: door"});
   EXPECT_THAT(refusal(2.5, TrialStarted{}), HasSubstr("gap"));
 }
 
-TEST_F(OnsetRules, no_answer_is_taken_before_the_cubes_were_there_for_long_enough) {
+TEST_F(OnsetRules, EarlyAnswerIsRefused) {
   at(1, TrialStarted{});
   EXPECT_FALSE(engine.screen().answers_from_s) << "no cubes are there yet";
   const double shown_s = t_s + 2;
   at(shown_s, CubesShown{});
-  EXPECT_THAT(refusal(shown_s + 0.499, Action{"select", 1}), HasSubstr("within 0.5 s"));
+  EXPECT_THAT(refusal(shown_s + 0.499, Action{"select", 1}), HasSubstr("earlier than 0.5 s"));
   EXPECT_EQ(refusal(shown_s + 0.501, Action{"select", 1}), "");
   const ScreenState screen = engine.screen();
   EXPECT_TRUE(screen.can_answer) << "the buttons are live with the cubes";
@@ -74,16 +74,16 @@ TEST_F(OnsetRules, no_answer_is_taken_before_the_cubes_were_there_for_long_enoug
   EXPECT_EQ(refusal(1 + *screen.answers_from_s, Action{"select", 1}), "");
 }
 
-TEST_F(OnsetRules, labels_wait_like_choices) {
+TEST_F(OnsetRules, EarlyLabelIsRefused) {
   introduce(1, 4);
   at(5, TrialStarted{});
   at(5, CubesShown{});
-  EXPECT_THAT(refusal(5.4, Action{"label", 1, "lightest"}), HasSubstr("within"));
-  EXPECT_THAT(refusal(5.4, dont_know), HasSubstr("within"));
+  EXPECT_THAT(refusal(5.4, Action{"label", 1, "lightest"}), HasSubstr("earlier than"));
+  EXPECT_THAT(refusal(5.4, dont_know), HasSubstr("earlier than"));
   EXPECT_EQ(refusal(5.6, dont_know), "");
 }
 
-TEST_F(OnsetRules, a_refused_answer_that_is_told_changes_nothing) {
+TEST_F(OnsetRules, RecordedRefusalChangesNothing) {
   at(1, TrialStarted{});
   at(1, CubesShown{});
   const ScreenState before = engine.screen();
@@ -94,14 +94,14 @@ TEST_F(OnsetRules, a_refused_answer_that_is_told_changes_nothing) {
   EXPECT_EQ(engine.screen().n_choices, before.n_choices);
 }
 
-TEST_F(OnsetRules, a_setup_without_gap_and_least_time_demands_none) {
+TEST_F(OnsetRules, SetupWithoutLimitsHasNone) {
   told(std::nullopt, std::nullopt);
   const double ended_s = introduce(1, 1);
   EXPECT_EQ(refusal(ended_s, TrialStarted{}), "");
   EXPECT_FALSE(engine.screen().answers_from_s);
 }
 
-TEST_F(OnsetRules, between_two_trials_the_screen_is_the_next_ones_without_cubes) {
+TEST_F(OnsetRules, ScreenBetweenTrialsIsNextTrialWithoutCubes) {
   introduce(1, 4);
   const ScreenState screen = engine.screen();
   EXPECT_EQ(screen.screen, Screen::trial);
@@ -114,7 +114,7 @@ TEST_F(OnsetRules, between_two_trials_the_screen_is_the_next_ones_without_cubes)
   EXPECT_FALSE(engine.screen().can_answer);
 }
 
-TEST_F(OnsetRules, a_break_that_was_taken_is_not_due_again) {
+TEST_F(OnsetRules, TakenBreakIsNotRepeated) {
   introduce(1, 4);
   while (engine.next().plan->task == "sorting") {
     at(std::max(t_s, engine.trial_due_s()), TrialStarted{});

@@ -1,4 +1,4 @@
-// An event that is admitted and applied later, after others: it is admitted once more.
+// An event that is applied after others that followed its admission is checked again.
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -23,7 +23,7 @@ class StaleAdmission : public ::testing::Test {
   }
   void apply(EventPayload what) { engine.apply({++t_s, std::move(what)}); }
   AdmittedEvent answer() const { return *engine.admit({t_s + 100, chosen}).admitted; }
-  // Nothing of a refused event is in the state.
+  // A refused event does not change the state.
   void expect_refusal(const AdmittedEvent& stale, const std::string& why) {
     const int n_events = engine.n_events();
     const double last_s = engine.last_s();
@@ -39,7 +39,7 @@ class StaleAdmission : public ::testing::Test {
   double t_s = 0;
 };
 
-TEST_F(StaleAdmission, of_an_answer_is_refused_after_a_pause) {
+TEST_F(StaleAdmission, OfAnswerIsRefusedAfterPause) {
   const AdmittedEvent stale = answer();
   apply(SessionPaused{"database locked"});
   expect_refusal(stale, "paused");
@@ -47,36 +47,36 @@ TEST_F(StaleAdmission, of_an_answer_is_refused_after_a_pause) {
   EXPECT_TRUE(engine.apply(stale).changes) << "it can come again";
 }
 
-TEST_F(StaleAdmission, of_an_answer_is_refused_after_a_veto) {
+TEST_F(StaleAdmission, OfAnswerIsRefusedAfterVeto) {
   const AdmittedEvent stale = answer();
   apply(TrialVoided{"veto: disturbance"});
   expect_refusal(stale, "no trial is running");
   apply(TrialStarted{});
-  expect_refusal(stale, "not appeared");
+  expect_refusal(stale, "not shown yet");
 }
 
-TEST_F(StaleAdmission, of_an_answer_is_refused_after_another_answer) {
+TEST_F(StaleAdmission, OfAnswerIsRefusedAfterAnotherAnswer) {
   const AdmittedEvent first = answer(), second = answer();
   EXPECT_TRUE(engine.apply(first).changes);
   expect_refusal(second, "no trial is running");
 }
 
-TEST_F(StaleAdmission, is_refused_after_a_later_event) {
+TEST_F(StaleAdmission, IsRefusedAfterLaterEvent) {
   const AdmittedEvent stale = answer();
   t_s += 200;
   apply(Note{"the phone rang"});
   expect_refusal(stale, "before the last event");
 }
 
-TEST_F(StaleAdmission, holds_where_only_contacts_end_in_between) {
+TEST_F(StaleAdmission, IsValidAfterEndOfContacts) {
   apply(CubeTouch{1});
   const AdmittedEvent stale = answer();
   apply(CubeTouch{1, 0.5});
   EXPECT_EQ(engine.apply(stale).changes->trial->chosen_slot, 1);
 }
 
-// Applied after any other events, an admitted event does what the same event would do unadmitted.
-RC_GTEST_PROP(StaleAdmissionProperty, is_as_good_as_none, (std::uint64_t seed)) {
+// After any other events, applying an admitted event equals applying the event itself.
+RC_GTEST_PROP(StaleAdmissionProperty, EqualsNewAdmission, (std::uint64_t seed)) {
   RandomStream stream(seed, "stale");
   Engine engine(testing::shared(comparing()), seed), plain(testing::shared(comparing()), seed);
   const std::vector<EventPayload> all{TrialStarted{},       CubesShown{},       Action{"select", 1},

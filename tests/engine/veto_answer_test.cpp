@@ -1,5 +1,4 @@
-// An answer that the experimenter takes back: kept, presented again, and for the procedure as if it
-// had not been asked.
+// Vetoed answers: recorded, presented again, and without effect on procedures.
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -41,7 +40,7 @@ struct Comparing {
 
 const AnswerVetoed by_mistake{"tapped by mistake"};
 
-TEST(VetoedAnswer, is_kept_as_void_and_its_trial_is_presented_again) {
+TEST(VetoedAnswer, IsVoidAndTrialIsPresentedAgain) {
   Comparing session;
   session.answer(true);
   const TrialRow answered = *session.answer(true).trial;
@@ -60,9 +59,9 @@ TEST(VetoedAnswer, is_kept_as_void_and_its_trial_is_presented_again) {
   EXPECT_EQ(again.level_g, answered.plan.level_g);
 }
 
-TEST(VetoedAnswer, can_be_taken_back_once_and_only_while_no_trial_runs) {
+TEST(VetoedAnswer, IsAcceptedOnceBetweenTrials) {
   Comparing session;
-  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no trial was answered"));
+  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no answer to veto"));
   session.answer(true);
   session.answer(false);
   session.start();
@@ -70,10 +69,10 @@ TEST(VetoedAnswer, can_be_taken_back_once_and_only_while_no_trial_runs) {
   session.apply(TrialVoided{std::string(void_interrupted)});
   EXPECT_THAT(session.refusal(AnswerVetoed{}), HasSubstr("reason"));
   session.apply(by_mistake);
-  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no trial was answered"));
+  EXPECT_THAT(session.refusal(by_mistake), HasSubstr("no answer to veto"));
 }
 
-TEST(VetoedAnswer, of_sorting_is_presented_again) {
+TEST(VetoedAnswer, OfSortingIsPresentedAgain) {
   Comparing session;
   while (session.compares()) session.answer(true);
   const TrialPlan answered = session.start();
@@ -87,7 +86,7 @@ TEST(VetoedAnswer, of_sorting_is_presented_again) {
   EXPECT_EQ(again.condition, answered.condition);
 }
 
-TEST(VetoedAnswer, takes_its_reversal_and_its_estimates_back) {
+TEST(VetoedAnswer, WithdrawsReversalAndEstimates) {
   Comparing session;
   Changes last;
   bool yes = true;
@@ -101,7 +100,7 @@ TEST(VetoedAnswer, takes_its_reversal_and_its_estimates_back) {
   EXPECT_FALSE(session.engine.next().rest) << "the break comes when the block is done";
 }
 
-TEST(VetoedAnswer, brings_no_break_again_that_is_over) {
+TEST(VetoedAnswer, RepeatsNoBreak) {
   for (const bool told : {true, false}) {
     Comparing session;
     while (session.compares()) session.answer(true);
@@ -117,9 +116,8 @@ TEST(VetoedAnswer, brings_no_break_again_that_is_over) {
   }
 }
 
-// With vetoes anywhere, what counts is what a session without them has: levels, reversals,
-// estimates.
-RC_GTEST_PROP(VetoedAnswer, leaves_the_procedures_as_if_it_had_not_been, ()) {
+// With random vetoes, levels, reversals and estimates equal those of a session without vetoes.
+RC_GTEST_PROP(VetoedAnswer, RestoresProcedures, ()) {
   Comparing straight, corrected;
   std::map<std::string, std::vector<double>> levels, reversals, expected_levels, expected_reversals;
   int n_estimates = 0, n_expected = 0;
@@ -127,7 +125,7 @@ RC_GTEST_PROP(VetoedAnswer, leaves_the_procedures_as_if_it_had_not_been, ()) {
     const bool yes = *rc::gen::arbitrary<bool>(), slip = *rc::gen::arbitrary<bool>();
     if (slip) {
       corrected.answer(!yes);
-      if (*rc::gen::arbitrary<bool>() && corrected.compares()) {  // the next one has begun
+      if (*rc::gen::arbitrary<bool>() && corrected.compares()) {  // the next block has begun
         corrected.start();
         corrected.apply(TrialVoided{std::string(void_interrupted)});
       }

@@ -1,4 +1,4 @@
-// The texts of a configuration's values, as the command line and the log have them.
+// Texts of a configuration's values, for the command line and the log.
 #include <gtest/gtest.h>
 
 #include "experiment/SessionConfig.h"
@@ -14,7 +14,7 @@ void expect_both_ways(const char* text, const Value& value) {
   EXPECT_EQ(to_text(value), text);
 }
 
-TEST(SessionConfig, ValuesHaveTheirTexts) {
+TEST(SessionConfig, ValuesConvertToTextAndBack) {
   expect_both_ways("hand", Plug{"hand"});
   expect_both_ways("video:/a/b:c.avi", Plug{"video", "/a/b:c.avi"});
   expect_both_ways("human", WhoAnswers(Person{}));
@@ -30,7 +30,7 @@ TEST(SessionConfig, ValuesHaveTheirTexts) {
   expect_both_ways("", std::vector<ProtocolSetting>());
 }
 
-TEST(SessionConfig, ATextThatIsNoneIsRefused) {
+TEST(SessionConfig, InvalidTextIsRefused) {
   std::optional<NamedDisplay> display;
   for (const char* text : {"left", "-1", "1x", "999"}) EXPECT_FALSE(from_text(text, display));
   std::optional<TakesKeys> keys;
@@ -41,7 +41,7 @@ TEST(SessionConfig, ATextThatIsNoneIsRefused) {
   EXPECT_FALSE(from_text("a=1\nnonsense", settings));
 }
 
-TEST(SessionConfig, APlugKeepsTheContentsOfItsFile) {
+TEST(SessionConfig, PlugKeepsContentsOfItsFile) {
   WhoAnswers responder = Plug{"coin", "/p.toml", "p = 0.5"};
   EXPECT_TRUE(from_text("coin:/p.toml", responder));
   EXPECT_EQ(std::get<Plug>(responder).text, "p = 0.5");

@@ -24,7 +24,7 @@ std::string mistakes_of(const std::string& text) {
   return "";
 }
 
-TEST(Trajectory, is_linear_and_slerped_between_rows_and_held_outside) {
+TEST(Trajectory, IsInterpolatedBetweenRowsAndConstantOutside) {
   const Trajectory hand =
       parse_trajectory(header + "1,0,0,0,1,0,0,0\n3,0.2,0,0.4,0,0,0,1\n", "hand.csv");
   EXPECT_EQ(hand.start_s(), 1);
@@ -37,7 +37,7 @@ TEST(Trajectory, is_linear_and_slerped_between_rows_and_held_outside) {
   EXPECT_EQ(hand.at(9)->position_m, Eigen::Vector3d(0.2, 0, 0.4));
 }
 
-TEST(Trajectory, blank_poses_are_out_of_view) {
+TEST(Trajectory, BlankPosesAreOutOfView) {
   const Trajectory hand =
       parse_trajectory(header + "0,0,0,0,1,0,0,0\n1,,,,,,,\n2,0,0,0,1,0,0,0\n", "hand.csv");
   EXPECT_TRUE(hand.at(0));
@@ -46,7 +46,7 @@ TEST(Trajectory, blank_poses_are_out_of_view) {
   EXPECT_TRUE(hand.at(2));
 }
 
-TEST(Trajectory, every_mistake_is_named_at_its_place) {
+TEST(Trajectory, EveryMistakeIsReportedAtItsPlace) {
   const std::string said = mistakes_of(header + "0,0,0,0,1,0,0,0\n" +  //
                                        "1,0,oops,0,1,0,0,0\n" +        // column 5
                                        "2,0,0\n" +                     // too few
@@ -63,7 +63,7 @@ TEST(Trajectory, every_mistake_is_named_at_its_place) {
   EXPECT_THAT(mistakes_of(""), HasSubstr("hand.csv:1:1"));
 }
 
-TEST(Trajectory, damaged_files_are_refused_or_read_but_never_crash) {
+TEST(Trajectory, DamagedFilesNeverCrash) {
   const std::string good = header + "0,0,0,0,1,0,0,0\n0.5,0.1,0.2,0.3,0.6,0,0.8,0\n";
   RandomStream stream(1, "damage");
   int n_refused = 0;
@@ -83,7 +83,7 @@ TEST(Trajectory, damaged_files_are_refused_or_read_but_never_crash) {
   EXPECT_LT(n_refused, 20000);
 }
 
-TEST(Trajectory, numbers_that_physics_can_not_bear_are_refused_where_they_stand) {
+TEST(Trajectory, OutOfRangeNumbersAreRefused) {
   const auto refused = [](const std::string& row) { return mistakes_of(header + row + "\n"); };
   EXPECT_EQ(refused("0,-1e6,1e6,0,1,0,0,0"), "");
   for (const std::string far : {"1e308", "-1e308", "1000001"})
@@ -91,7 +91,7 @@ TEST(Trajectory, numbers_that_physics_can_not_bear_are_refused_where_they_stand)
   EXPECT_EQ(refused("1e308,0,0,0,1,0,0,0").find("hand.csv:2:1: t_s is "), 0u);
 }
 
-TEST(LogTime, durations_are_the_same_wherever_in_a_session_they_lie) {
+TEST(LogTime, DurationsDoNotDependOnTime) {
   RandomStream stream(2, "times");
   for (int i = 0; i < 1000; ++i) {
     const double start_s = log_time(1e4 * stream.uniform()), span_s = log_time(stream.uniform());

@@ -54,6 +54,8 @@ class Programs(Installed):
         self.must(heft, "simulate", protocols / "jnd.toml", "--participants", 1, "--seed", 1,
                   "--db", db, env=BARE)
         self.must(heft, "replay", "--db", db, env=BARE)
+        self.must(heft, "export", "--db", db, "--out", self.folder / "data", env=BARE)
+        self.assertIn("read_table", (self.folder / "data/analysis.R").read_text())
         # Texts that only the installed tree has.
         shutil.copy(protocols / "texts/en.toml", protocols / "texts/own.toml")
         self.must(heft, "run", protocols / "quick.toml", "--participant", "1", "--db", db,

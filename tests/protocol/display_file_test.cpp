@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
-#include "experiment/DisplayFacts.h"
+#include "experiment/Stage.h"
 #include "protocol/readers/Files.h"
 
 namespace heft {

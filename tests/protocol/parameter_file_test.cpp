@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
-#include "experiment/Parameter.h"
+#include "experiment/Participant.h"
 #include "protocol/readers/Files.h"
 
 namespace heft {

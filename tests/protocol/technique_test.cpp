@@ -91,7 +91,7 @@ TEST(Techniques, ThatAreNotThereAreNamedWithTheirPlace) {
   EXPECT_THAT(what_is_wrong_in(declared_with("name = \"tied\"", "name = \"soft\"")),
               HasSubstr("already a"));
   EXPECT_THAT(what_is_wrong_in(declared_with("{ soft = 2, C1 = 1, tied = 3 }", "{ soft = 0 }")),
-              HasSubstr("trials are 0 in all"));
+              HasSubstr("the block has 0 trials"));
 }
 
 TEST(Techniques, OfAScene) {

@@ -98,7 +98,7 @@ TEST(Censoring, IsToTheSideWhereABoundCutAMoveToAReversalThatCounts) {
   const UpDownConfig both{.start = 0, .step = 10, .floor = 0, .ceiling = 15, .stop_reversals = 4};
   EXPECT_EQ(censored(both, "--+--+-"), Censored::above);  // 15 was to be 20, twice
   EXPECT_EQ(censored(both, "-+-++-"), Censored::below);   // 0 was to be -10
-  EXPECT_EQ(censored(both, "-+--+++-"), Censored::unsettled);
+  EXPECT_EQ(censored(both, "-+--+++-"), Censored::indeterminate);
 }
 
 TEST(Censoring, IsNoneWhereOnlyDiscardedReversalsWereCut) {
@@ -139,7 +139,7 @@ TEST(Censoring, ByTheOlderRuleIsToTheSideWhereReversalsStandAtABound) {
             Censored::above);
   EXPECT_EQ(
       older({.start = 0, .step = 10, .floor = 0, .ceiling = 10, .stop_reversals = 4}, "-+-+-+-+"),
-      Censored::unsettled);
+      Censored::indeterminate);
   EXPECT_EQ(older(test::paper_15g(), "+++-+-+-+-+-+-+-"), Censored::none);
 }
 
@@ -152,9 +152,9 @@ TEST(Censoring, IsToTheSideWhereSomebodyAlwaysAnswersAlike) {
 TEST(Censoring, IsUnsettledWhereTheTrialsRanOutFirst) {
   // At the floor, but not yet cut there.
   EXPECT_EQ(censored({.start = 2, .step = 1, .floor = 0, .stop_trials = 3}, "+++"),
-            Censored::unsettled);
-  EXPECT_EQ(censored({.start = 5, .step = 1, .stop_trials = 5}, "+++++"), Censored::unsettled);
-  EXPECT_EQ(censored({.start = 5, .step = 1, .stop_trials = 6}, "+-+-+-"), Censored::unsettled);
+            Censored::indeterminate);
+  EXPECT_EQ(censored({.start = 5, .step = 1, .stop_trials = 5}, "+++++"), Censored::indeterminate);
+  EXPECT_EQ(censored({.start = 5, .step = 1, .stop_trials = 6}, "+-+-+-"), Censored::indeterminate);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A backup is a whole, sound log of its owner's alone, or there is none.
+// Backups: a complete, verified log readable by its owner only, or none.
 #include "record/writer/Backup.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -16,7 +16,6 @@
 
 #include "base/Error.h"
 #include "record/child.h"
-#include "record/integrity/Integrity.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
@@ -64,14 +63,14 @@ TEST_F(Backup, HasEverySessionOfTheLog) {
   EXPECT_TRUE(check_integrity(copy).empty());
 }
 
-TEST_F(Backup, CanBeWrittenToAsALog) {
+TEST_F(Backup, CanBeWrittenAsALog) {
   const std::string copy = back_up(db, folder, 1);
   SessionLog log = SessionLog::reopen(copy, 1);
   log.append(event(99, event_kind<Note>, "more"), {}, Durability::acknowledged);
   EXPECT_EQ(LogReader(copy).events(1).size(), LogReader(db).events(1).size() + 1);
 }
 
-TEST_F(Backup, IsNamedAfterWhoWhatAndWhen) {
+TEST_F(Backup, IsNamedAfterParticipantSessionAndTime) {
   EXPECT_EQ(backup_name("P/01 ä", 7, "2026-11-22T09:30:00.123Z"),
             "P_01____session7_20261122T093000Z");
   EXPECT_EQ(backup_name("../../etc", 1, "2026-11-22T09:30:00Z"),
@@ -80,7 +79,7 @@ TEST_F(Backup, IsNamedAfterWhoWhatAndWhen) {
   EXPECT_EQ(files_in(folder).size(), 1u);
 }
 
-TEST_F(Backup, IsForItsOwnersEyes) {
+TEST_F(Backup, IsReadableByOwnerOnly) {
   struct stat there {};
   ASSERT_EQ(stat(back_up(db, folder, 1).c_str(), &there), 0);
   EXPECT_EQ(there.st_mode & 0777, 0600u);
@@ -88,25 +87,25 @@ TEST_F(Backup, IsForItsOwnersEyes) {
   EXPECT_EQ(there.st_mode & 0777, 0700u);
 }
 
-TEST_F(Backup, NeverTakesTheNameOfAnother) {
+TEST_F(Backup, NeverReplacesAFile) {
   std::set<std::string> copies;
   for (int i = 0; i < 5; ++i) copies.insert(back_up(db, folder, 1));
   EXPECT_EQ(copies.size(), 5u);
   EXPECT_EQ(files_in(folder).size(), 5u);
 }
 
-TEST_F(Backup, OfALogThatWasChangedIsNotCalledOne) {
+TEST_F(Backup, OfChangedLogIsRefused) {
   { SQLite::Database(db, SQLite::OPEN_READWRITE).exec("UPDATE event SET detail = 'forged'"); }
   try {
     back_up(db, folder, 1);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("is not as it was written"));
+    EXPECT_THAT(error.what(), HasSubstr("differs from what was written"));
   }
   EXPECT_TRUE(files_in(folder).empty());
 }
 
-TEST_F(Backup, WhereNobodyMayWriteIsToldAndLeavesTheLogAsItIs) {
+TEST_F(Backup, InReadOnlyFolderIsRefusedAndLogIsUnchanged) {
   fs::create_directory(folder);
   fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
   fs::permissions(home.path(), fs::perms::others_all | fs::perms::owner_all);
@@ -116,12 +115,12 @@ TEST_F(Backup, WhereNobodyMayWriteIsToldAndLeavesTheLogAsItIs) {
   EXPECT_TRUE(check_integrity(db).empty());
 }
 
-TEST_F(Backup, InAFileInsteadOfAFolderIsTold) {
+TEST_F(Backup, InFileInsteadOfFolderIsRefused) {
   std::ofstream(folder) << "mine";
   EXPECT_THROW(back_up(db, folder, 1), Error);
 }
 
-TEST_F(Backup, OnAFullDiskIsToldAndLeavesNothing) {
+TEST_F(Backup, OnFullDiskIsRefusedAndLeavesNothing) {
   write_session("long", 2000);
   Child child([&](int out) {
     signal(SIGXFSZ, SIG_IGN);
@@ -134,11 +133,11 @@ TEST_F(Backup, OnAFullDiskIsToldAndLeavesNothing) {
       say(out, error.what());
     }
   });
-  EXPECT_THAT(child.read_all(), HasSubstr("can't be made"));
+  EXPECT_THAT(child.read_all(), HasSubstr("cannot make the backup"));
   EXPECT_TRUE(files_in(folder).empty());
 }
 
-TEST_F(Backup, KilledOnTheWayLeavesNoHalfOneUnderItsName) {
+TEST_F(Backup, KilledHalfwayLeavesOnlyPartFile) {
   write_session("long", 3000);
   for (int i = 0; i < 30; ++i) {
     {

@@ -1,4 +1,4 @@
-// Work in a process of its own: to be killed, or to have no more rights than an ordinary user.
+// Runs a function in a child process, to kill it or to run it without root's rights.
 #pragma once
 
 #include <signal.h>
@@ -15,7 +15,7 @@ namespace heft::test {
 
 class Child {
  public:
-  /// Runs work(fd) in a child; what it writes to fd is read here.
+  /// Runs work(fd) in a child; its output to fd can be read here.
   template <typename Work>
   explicit Child(Work&& work) {
     int ends[2];
@@ -50,7 +50,7 @@ class Child {
     return ::read(from_child_, &byte, 1) == 1;
   }
 
-  /// Everything until the child closes its end.
+  /// Everything until the child closes the pipe.
   std::string read_all() {
     std::string all;
     char bytes[4096];
@@ -69,8 +69,7 @@ inline void say(int descriptor, const std::string& text) {
   [[maybe_unused]] const ssize_t n = ::write(descriptor, text.data(), text.size());
 }
 
-/// The message of what work() throws as a user who is not root (who may write anywhere); "" when it
-/// throws nothing.
+/// The message of the exception that work() throws as a user without root's rights; "" if none.
 template <typename Work>
 std::string failure_as_ordinary_user(Work&& work) {
   constexpr uid_t nobody = 65534;

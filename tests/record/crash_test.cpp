@@ -1,5 +1,5 @@
-// kill -9 at any moment: what was acknowledged is in the file, the file is sound, and a session can
-// be started in it again.
+// kill -9 at any time: acknowledged events are in the file, the file is sound, and a session can be
+// started in it again.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -13,8 +13,6 @@
 
 #include "base/Random.h"
 #include "record/child.h"
-#include "record/integrity/Integrity.h"
-#include "record/older_log.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
@@ -23,7 +21,7 @@
 namespace heft::test {
 namespace {
 
-// Event n has t_s = n. Every third one starts an attempt, pictures come between all.
+// Event n has t_s = n. Every third one starts an attempt; frames are written between events.
 void append_numbered(SessionLog& log, int number) {
   const int attempt_index = (number + 2) / 3;
   const bool starts = number % 3 == 1;
@@ -34,7 +32,7 @@ void append_numbered(SessionLog& log, int number) {
   log.add_frame(frame(attempt_index, number));
 }
 
-// Says "s" when the session has started, and "e" for each acknowledged event.
+// Writes "s" when the session has started, and "e" for each acknowledged event.
 void write_session(const std::string& file, int out, int n_events) {
   SessionLog log = SessionLog::start(file, header_of("P01"));
   say(out, "s");
@@ -44,7 +42,7 @@ void write_session(const std::string& file, int out, int n_events) {
   }
 }
 
-// What a crash may leave: the acknowledged events and at most one more, each whole.
+// After a crash: the acknowledged events and at most one more, each complete.
 void expect_whole(const std::string& file, const std::string& acknowledged) {
   if (!std::filesystem::exists(file)) {
     EXPECT_EQ(acknowledged, "");
@@ -77,7 +75,7 @@ void expect_can_go_on(const std::string& file) {
   EXPECT_FALSE(reader.first_broken_digest(log.session_id()));
 }
 
-TEST(crash, kills_at_random_moments_lose_nothing_acknowledged) {
+TEST(Crash, KillsAtRandomTimesLoseNothingAcknowledged) {
   constexpr int n_kills = 60;
   RandomStream random(20261121, "kill");
   int n_while_creating = 0, n_while_running = 0;
@@ -86,7 +84,7 @@ TEST(crash, kills_at_random_moments_lose_nothing_acknowledged) {
     const std::string file = folder.file("log.db");
     Child writer([&](int out) { write_session(file, out, 1'000'000); });
     std::string acknowledged;
-    // Every third one early, where the file is being created.
+    // Every third one early, during the creation of the file.
     if (i % 3 != 0 && writer.read_byte()) acknowledged.push_back('s');
     std::this_thread::sleep_for(std::chrono::microseconds(random.below(40'000)));
     writer.kill();
@@ -100,8 +98,8 @@ TEST(crash, kills_at_random_moments_lose_nothing_acknowledged) {
              n_while_creating, n_while_running);
 }
 
-// Lets a child run through n system calls (entries and exits count), then kills it.
-// @return whether it was still running; none where tracing is not allowed here
+// Lets a child run for n stops at system calls (entries and exits), then kills it.
+// @return whether it was still running; none if tracing is not allowed
 std::optional<bool> kill_at_system_call(Child& child, int n) {
   int status = 0;
   ::waitpid(child.process(), &status, 0);
@@ -128,9 +126,9 @@ std::optional<bool> kill_traced(int n, const std::function<void(int out)>& work,
   return still_running;
 }
 
-// Where a clock would hit by luck only. (All stops, one by one, take a minute and pass too: set the
-// stride to 1. An odd one meets entries and exits alike.)
-TEST(crash, kills_at_system_calls_throughout_a_short_session_lose_nothing_acknowledged) {
+// Covers times that a clock rarely hits. An odd stride includes entries and exits; a stride of 1
+// takes a minute.
+TEST(Crash, KillsAtSystemCallsLoseNothingAcknowledged) {
   constexpr int stride = 7;
   int n = 0;
   for (bool reached = true; reached; n += stride) {
@@ -148,7 +146,7 @@ TEST(crash, kills_at_system_calls_throughout_a_short_session_lose_nothing_acknow
   EXPECT_GT(n, 200) << "the session was over sooner than it can be";
 }
 
-TEST(crash, an_upgrade_killed_at_system_calls_is_completed_at_the_next_opening) {
+TEST(Crash, KilledUpgradeIsCompletedAtNextOpening) {
   constexpr int stride = 7;
   int n = 0;
   for (bool reached = true; reached; n += stride) {

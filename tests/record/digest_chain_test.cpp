@@ -1,4 +1,4 @@
-// A session's digests are the same however it came into its file, and hold for rows of any values.
+// A session has the same digests whether it was written live, resumed or stored, for any values.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,7 +8,6 @@
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
-#include "record/writer/SessionArchive.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft::test {
@@ -58,7 +57,7 @@ void write_with_resumes(const RecordedSession& session, const std::string& file)
   }
 }
 
-RC_GTEST_PROP(digest_chain, is_the_same_live_resumed_and_stored, ()) {
+RC_GTEST_PROP(DigestChain, IsSameLiveResumedAndStored, ()) {
   const TemporaryFolder folder;
   const RecordedSession session = any_session();
   write_live(session, folder.file("live.db"));
@@ -76,13 +75,13 @@ RC_GTEST_PROP(digest_chain, is_the_same_live_resumed_and_stored, ()) {
   RC_ASSERT(!LogReader(folder.file("stored.db")).first_broken_digest(stored));
 }
 
-RC_GTEST_PROP(digest_chain, tells_any_two_rows_apart, ()) {
+RC_GTEST_PROP(DigestChain, DistinguishesAnyTwoRows, ()) {
   const TemporaryFolder folder;
   const Event one = any_event();
   Event other = *rc::gen::arbitrary<bool>() ? one : any_event();
   if (flag()) other.t_s = time_s();
   RecordedSession first(header_of("P01")), second(header_of("P01"));
-  for (RecordedSession* each : {&first, &second})  // whose task's words the log then has
+  for (RecordedSession* each : {&first, &second})  // adds the words of its task
     each->append(event(0, event_kind<TrialStarted>), starting(sorting_trial(1, 1)),
                  Durability::buffered);
   first.append(one, {}, Durability::buffered);
@@ -93,8 +92,8 @@ RC_GTEST_PROP(digest_chain, tells_any_two_rows_apart, ()) {
   RC_ASSERT((of_first == of_second) == (one == other));
 }
 
-// Nothing of an event that could not be saved may stay in the chain.
-TEST(digest_chain, goes_on_after_a_transaction_that_was_rolled_back) {
+// An event that could not be saved must not remain in the chain.
+TEST(DigestChain, ContinuesAfterRollback) {
   const TemporaryFolder folder;
   RecordedSession session(header_of("P01")), broken(header_of("P02"));
   for (RecordedSession* each : {&session, &broken}) {
@@ -109,8 +108,8 @@ TEST(digest_chain, goes_on_after_a_transaction_that_was_rolled_back) {
   EXPECT_FALSE(LogReader(folder.file("log.db")).first_broken_digest(stored));
 }
 
-// Also with a late picture of the attempt before.
-TEST(digest_chain, goes_on_where_an_interrupted_attempt_was_cut_off) {
+// Also with a late frame of the previous attempt.
+TEST(DigestChain, ContinuesAfterInterruptedAttempt) {
   const TemporaryFolder folder;
   const std::string file = folder.file("log.db");
   {

@@ -1,5 +1,4 @@
-// Every column of an event, a picture and a session's header, with every kind of value that it
-// takes.
+// Every column of an event, a frame and a session's header, with every type of value.
 #include <gmock/gmock.h>
 
 #include <vector>
@@ -9,9 +8,9 @@
 namespace heft::test {
 namespace {
 
-class digest_columns : public TamperedLog {
+class DigestColumns : public TamperedLog {
  protected:
-  /// Every value of another kind or size, as SQL, that the column takes.
+  /// Values of other types and sizes, as SQL.
   std::vector<std::string> changes_of(const std::string& table, const std::string& column,
                                       const std::string& key, int row_id) {
     SQLite::Database database(original_, SQLite::OPEN_READONLY);
@@ -37,7 +36,7 @@ class digest_columns : public TamperedLog {
     return columns;
   }
 
-  /// @param elsewhere columns that take the row out of its place: the next row's digest tells
+  /// @param elsewhere columns that move the row; the next row's digest differs
   void expect_every_column_found(const std::string& table, int row_id,
                                  const std::vector<std::string>& elsewhere,
                                  const std::vector<std::string>& left_out = {}) {
@@ -50,7 +49,7 @@ class digest_columns : public TamperedLog {
       for (const std::string& change : changes_of(table, column, key, row_id)) try {
           expect_found(change, table, moves ? row_id + 1 : row_id);
           ++n_taken;
-        } catch (const SQLite::Exception&) {  // a STRICT table does not take it
+        } catch (const SQLite::Exception&) {  // refused by a STRICT table
         }
       EXPECT_GT(n_taken, 0) << column;
       n_changes += n_taken;
@@ -59,19 +58,19 @@ class digest_columns : public TamperedLog {
   }
 };
 
-TEST_F(digest_columns, of_an_event_are_found) {
+TEST_F(DigestColumns, ChangedEventIsFound) {
   expect_every_column_found("event", 2, {"session_id"}, {"event_id"});
   expect_every_column_found("event", 3, {"session_id"}, {"event_id"});
 }
 
-TEST_F(digest_columns, of_a_picture_are_found) {
+TEST_F(DigestColumns, ChangedFrameIsFound) {
   expect_every_column_found("frame", 1, {"session_id"}, {"frame_id"});
   expect_every_column_found("frame", 4, {"session_id"}, {"frame_id"});
 }
 
-TEST_F(digest_columns, of_the_header_are_found) {
-  // Without its id the session is another one; its state is told by its events.
-  // What digests what the participant told is found there.
+TEST_F(DigestColumns, ChangedHeaderIsFound) {
+  // Another id is another session; the state follows from the events.
+  // A changed digest of the answers about the participant is found there.
   expect_every_column_found("session", 2, {}, {"session_id", "state", "info_digest"});
   expect_found("UPDATE session SET info_digest = 'x' WHERE session_id = 2", "participant_info", 2);
   EXPECT_FALSE(found_after("UPDATE session SET state = 'aborted'"));

@@ -1,4 +1,4 @@
-// Whatever is changed in a session's log is found, with its row.
+// Any change in a session's log is found, with its row.
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
@@ -9,27 +9,27 @@ namespace {
 
 using testing::HasSubstr;
 
-class digest : public TamperedLog {};
+class Digest : public TamperedLog {};
 
-TEST_F(digest, an_unchanged_log_has_all_its_digests) {
+TEST_F(Digest, UnchangedLogIsValid) {
   for (std::int64_t session_id : {1, 2, 3}) EXPECT_FALSE(found_after("VACUUM", session_id));
   EXPECT_THROW(found_after("VACUUM", 4), Error);
 }
 
-TEST_F(digest, a_header_with_a_digest_to_match_fits_no_event) {
+TEST_F(Digest, HeaderWithRecomputedDigestMatchesNoEvent) {
   expect_found(
       "UPDATE session SET (participant, digest) = (SELECT participant, digest FROM session "
       "WHERE session_id = 3) WHERE session_id = 2",
       "event", 1);
 }
 
-TEST_F(digest, a_row_taken_out_is_found_at_the_next) {
+TEST_F(Digest, RemovedRowIsFoundAtNext) {
   expect_found("DELETE FROM event WHERE event_id = 2", "event", 3);
   expect_found("DELETE FROM frame WHERE frame_id = 1", "frame", 2);
-  expect_found("DELETE FROM frame WHERE frame_id = 3", "frame", 6);  // those outside of trials
+  expect_found("DELETE FROM frame WHERE frame_id = 3", "frame", 6);  // outside trials
 }
 
-TEST_F(digest, swapped_rows_are_found) {
+TEST_F(Digest, SwappedRowsAreFound) {
   for (const std::string table : {"event", "frame"})
     expect_found(fmt::format("UPDATE {0} SET {0}_id = 1000 WHERE {0}_id = 1;"
                              "UPDATE {0} SET {0}_id = 1 WHERE {0}_id = 2;"
@@ -38,8 +38,8 @@ TEST_F(digest, swapped_rows_are_found) {
                  table, 1);
 }
 
-// Merging files gives rows new ids, in the same order.
-TEST_F(digest, an_id_counts_by_its_place_among_the_others) {
+// Merging files changes ids but not their order.
+TEST_F(Digest, OrderOfIdsMatters) {
   expect_found("UPDATE event SET event_id = 1000 WHERE event_id = 2", "event", 3);
   expect_found("UPDATE frame SET frame_id = 1000 WHERE frame_id = 1", "frame", 2);
   EXPECT_FALSE(
@@ -47,20 +47,20 @@ TEST_F(digest, an_id_counts_by_its_place_among_the_others) {
                   "UPDATE frame SET frame_id = frame_id - 100"));
 }
 
-TEST_F(digest, a_row_moved_to_another_session_is_found_in_both) {
+TEST_F(Digest, RowMovedToAnotherSessionIsFoundInBoth) {
   const std::string move = "UPDATE event SET session_id = 3 WHERE event_id = 2";
   expect_found(move, "event", 3);
   EXPECT_TRUE(found_after(move, 3));
 }
 
-TEST_F(digest, a_row_put_in_is_found) {
+TEST_F(Digest, InsertedRowIsFound) {
   expect_found(
       "INSERT INTO event SELECT 1000, session_id, trial_id, t_s, kind, slot, label, "
-      "detail, value, deepest_push_m, peak_lag_m, digest FROM event WHERE event_id = 4",
+      "detail, value, max_push_displacement_m, peak_lag_m, digest FROM event WHERE event_id = 4",
       "event", 1000);
 }
 
-TEST_F(digest, the_sign_of_a_zero_that_physics_was_given_is_found) {
+TEST_F(Digest, SignOfZeroInPhysicsInputIsFound) {
   std::string zeros = folder_.file("zeros.db");
   std::swap(original_, zeros);
   SessionLog::start(original_, header_of("P01"));
@@ -74,7 +74,7 @@ TEST_F(digest, the_sign_of_a_zero_that_physics_was_given_is_found) {
   EXPECT_TRUE(found_after("UPDATE frame SET effector_vx_m_s = 0.0"));
 }
 
-TEST_F(digest, the_earliest_is_named_for_a_person) {
+TEST_F(Digest, EarliestRowIsDescribed) {
   const auto broken = found_after(
       "UPDATE event SET detail = 'x' WHERE event_id = 3; UPDATE frame SET quality = 1 WHERE "
       "frame_id IN (2, 5); UPDATE event SET slot = 1 WHERE event_id = 4");
@@ -91,7 +91,7 @@ TEST_F(digest, the_earliest_is_named_for_a_person) {
   EXPECT_EQ(answer->row, "the answer \"label cube 1 heaviest\" of attempt 1 at 1.250 s");
 }
 
-TEST_F(digest, a_damaged_row_is_found_and_its_damage_named) {
+TEST_F(Digest, InvalidRowIsFoundAndDescribed) {
   const auto damage_after = [&](const std::string& change) {
     const auto broken = found_after(change);
     return broken ? broken->damage : "nothing found";

@@ -1,17 +1,14 @@
-// A log that is moved, replaced, deleted or linked while it is written: told before anything more
-// is called saved, and nothing that was saved is lost.
+// A log that is moved, replaced, deleted or linked during writing: reported before anything else is
+// acknowledged, and no saved data are lost.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "record/failure.h"
-#include "record/integrity/Integrity.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
-#include "record/writer/SessionArchive.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft::test {
@@ -21,9 +18,9 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class displaced : public testing::Test {
+class DisplacedFile : public testing::Test {
  protected:
-  displaced() { note(1); }
+  DisplacedFile() { note(1); }
 
   void note(double t_s) {
     log_->append(event(t_s, event_kind<Note>, "kept"), {}, Durability::acknowledged);
@@ -50,22 +47,22 @@ class displaced : public testing::Test {
   std::optional<SessionLog> log_{SessionLog::start(file_, header_of("P01"))};
 };
 
-TEST_F(displaced, a_moved_log_is_noticed_at_the_next_event) {
+TEST_F(DisplacedFile, MoveIsReportedAtNextEvent) {
   fs::rename(file_, other_);
   EXPECT_THAT(failure_of_note(),
               AllOf(HasSubstr("the event \"note\""), HasSubstr("was moved to " + other_),
-                    HasSubstr("All that was saved is in that file"), HasSubstr("Move it back"),
+                    HasSubstr("All saved data are in that file"), HasSubstr("Move it back"),
                     HasSubstr("heft resume --db '" + file_ + "' --session 1")));
   EXPECT_NE(failure_of_flush(), "");
   expect_whole(other_);
 }
 
-TEST_F(displaced, a_moved_log_is_noticed_before_it_is_called_saved) {
+TEST_F(DisplacedFile, MoveIsReportedBeforeAcknowledgement) {
   fs::rename(file_, other_);
   EXPECT_THAT(failure_of_flush(), AllOf(HasSubstr("the session"), HasSubstr("was moved to")));
 }
 
-TEST_F(displaced, a_log_in_a_moved_folder_is_noticed) {
+TEST_F(DisplacedFile, MovedFolderIsReported) {
   const std::string away = folder_.path() + "-away";
   fs::rename(folder_.path(), away);
   EXPECT_THAT(failure_of_note(), HasSubstr("was moved to " + away));
@@ -73,7 +70,7 @@ TEST_F(displaced, a_log_in_a_moved_folder_is_noticed) {
   fs::rename(away, folder_.path());
 }
 
-TEST_F(displaced, a_deleted_log_is_rescued) {
+TEST_F(DisplacedFile, DeletedLogIsRescued) {
   fs::remove(file_);
   EXPECT_THAT(failure_of_note(), AllOf(HasSubstr("was deleted"), HasSubstr(file_ + ".rescued"),
                                        HasSubstr("Put that copy in its place")));
@@ -82,13 +79,13 @@ TEST_F(displaced, a_deleted_log_is_rescued) {
             fs::perms::owner_read | fs::perms::owner_write);
 }
 
-TEST_F(displaced, a_log_that_is_deleted_with_what_lies_beside_it_is_rescued) {
+TEST_F(DisplacedFile, LogDeletedWithWalIsRescued) {
   for (const char* end : {"", "-wal", "-shm"}) fs::remove(file_ + end);
   EXPECT_THAT(failure_of_flush(), HasSubstr(file_ + ".rescued"));
   expect_whole(file_ + ".rescued");
 }
 
-TEST_F(displaced, a_replaced_log_is_rescued) {
+TEST_F(DisplacedFile, ReplacedLogIsRescued) {
   std::ofstream(other_) << "something else";
   fs::rename(other_, file_);
   EXPECT_THAT(failure_of_note(), AllOf(HasSubstr("was replaced"), HasSubstr(".rescued")));
@@ -96,19 +93,19 @@ TEST_F(displaced, a_replaced_log_is_rescued) {
   EXPECT_EQ(fs::file_size(file_), 14u);
 }
 
-TEST_F(displaced, a_second_name_is_noticed) {
+TEST_F(DisplacedFile, SecondNameIsReported) {
   fs::create_hard_link(file_, other_);
   EXPECT_THAT(failure_of_note(), AllOf(HasSubstr("a hard link"), HasSubstr("Remove the other")));
   expect_whole(file_);
 }
 
-TEST_F(displaced, newest_rows_that_were_deleted_are_noticed) {
+TEST_F(DisplacedFile, DeletedWalIsReported) {
   fs::remove(file_ + "-wal");
   EXPECT_THAT(failure_of_note(), HasSubstr("-wal"));
   expect_whole(file_);
 }
 
-TEST_F(displaced, a_link_that_leads_elsewhere_is_noticed) {
+TEST_F(DisplacedFile, RedirectedLinkIsReported) {
   const std::string link = folder_.file("link.db");
   log_.reset();
   fs::create_symlink(file_, link);
@@ -119,14 +116,14 @@ TEST_F(displaced, a_link_that_leads_elsewhere_is_noticed) {
   EXPECT_THAT(failure_of_note(), AllOf(HasSubstr("moved to " + file_)));
 }
 
-TEST_F(displaced, a_link_left_in_its_place_is_noticed) {
-  const LogReader analyst(file_);  // whoever reads keeps the newest rows beside the name
+TEST_F(DisplacedFile, LinkInItsPlaceIsReported) {
+  const LogReader analyst(file_);  // a reader keeps the -wal file
   fs::rename(file_, other_);
   fs::create_symlink(other_, file_);
   EXPECT_THAT(failure_of_flush(), HasSubstr("moved to " + other_));
 }
 
-TEST_F(displaced, one_that_was_moved_back_can_be_resumed) {
+TEST_F(DisplacedFile, RestoredFileCanBeResumed) {
   fs::rename(file_, other_);
   ASSERT_NE(failure_of_note(), "");
   fs::rename(other_, file_);
@@ -137,7 +134,7 @@ TEST_F(displaced, one_that_was_moved_back_can_be_resumed) {
   EXPECT_EQ(LogReader(file_).events(1).size(), 2u);
 }
 
-TEST_F(displaced, a_simulation_that_lost_its_file_says_so) {
+TEST_F(DisplacedFile, SimulationReportsLostFile) {
   log_.reset();
   SessionArchive archive(file_);
   fs::rename(file_, other_);
@@ -145,7 +142,7 @@ TEST_F(displaced, a_simulation_that_lost_its_file_says_so) {
   EXPECT_THAT(failure([&] { archive.store(session); }), HasSubstr("was moved to " + other_));
 }
 
-TEST_F(displaced, what_nobody_was_told_of_is_told_at_the_end) {
+TEST_F(DisplacedFile, UnreportedFailureIsPrintedAtEnd) {
   fs::rename(file_, other_);
   testing::internal::CaptureStderr();
   log_.reset();

@@ -1,4 +1,4 @@
-// A write that fails is told, in words for a person, and leaves the file as it was.
+// A failed write is reported with a clear message and leaves the file unchanged.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,13 +10,9 @@
 #include <fstream>
 
 #include "base/Error.h"
-#include "record/failure.h"
-#include "record/integrity/Integrity.h"
-#include "record/older_log.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
-#include "record/writer/SessionArchive.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft::test {
@@ -25,7 +21,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// No file of this process may grow beyond a size, until the end of the scope.
+/// Limits the size of files of this process, until the end of the scope.
 class SizeLimit {
  public:
   explicit SizeLimit(std::uintmax_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
@@ -45,7 +41,7 @@ class SizeLimit {
   sighandler_t handler_;
 };
 
-/// A small disk of its own.
+/// A small disk.
 class SmallDisk {
  public:
   explicit SmallDisk(const char* options)
@@ -78,7 +74,7 @@ Changes with_answer(const Event& answer) {
   return changes;
 }
 
-/// Answers until one can't be saved. @return the message; `n_saved` counts the others
+/// Writes answers until one cannot be saved. @return the message; `n_saved` counts the others
 std::string answer_until_it_fails(SessionLog& log, std::size_t& n_saved) {
   for (n_saved = 0; n_saved < 100'000; ++n_saved) try {
       for (int i = 0; i < 5; ++i) log.add_frame(frame(1, 8));
@@ -97,7 +93,7 @@ void expect_saved(const std::string& file, std::size_t n_answers) {
   EXPECT_FALSE(reader.first_broken_digest(1));
 }
 
-TEST(full_disk, a_full_disk_is_told_and_all_acknowledged_answers_are_kept) {
+TEST(FullDisk, IsReportedAndAcknowledgedAnswersAreKept) {
   const SmallDisk disk("size=1m");
   if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
   const std::string file = disk.file("log.db");
@@ -111,7 +107,7 @@ TEST(full_disk, a_full_disk_is_told_and_all_acknowledged_answers_are_kept) {
                                 "trial 7"),
                       HasSubstr(file), HasSubstr("the disk is full"), HasSubstr("Free some space"),
                       HasSubstr("heft resume --db " + file)));
-    // Whoever goes on hears it again; nothing may follow a lost answer.
+    // Later calls throw the same error; no answer may follow a lost one.
     EXPECT_EQ(failure([&] { log.append(event(9, event_kind<Note>), {}, Durability::buffered); }),
               message);
     EXPECT_EQ(failure([&] { log.add_frame(frame(1, 9)); }), message);
@@ -122,7 +118,7 @@ TEST(full_disk, a_full_disk_is_told_and_all_acknowledged_answers_are_kept) {
   expect_saved(file, n_saved);
 }
 
-TEST(full_disk, a_session_goes_on_once_there_is_space_again) {
+TEST(FullDisk, SessionContinuesWithFreeSpace) {
   const SmallDisk disk("size=1m");
   if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
   const std::string file = disk.file("log.db"), ballast = disk.file("ballast");
@@ -139,7 +135,7 @@ TEST(full_disk, a_session_goes_on_once_there_is_space_again) {
   expect_saved(file, n_saved + 1);
 }
 
-TEST(full_disk, a_session_can_not_start_on_a_full_disk) {
+TEST(FullDisk, SessionDoesNotStart) {
   const SmallDisk disk("size=64k");
   if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
   const std::string file = disk.file("log.db");
@@ -151,8 +147,8 @@ int version_of(const std::string& file) {
   return SQLite::Database(file, SQLite::OPEN_READONLY).execAndGet("PRAGMA user_version").getInt();
 }
 
-// Until then it is read as it is: without space for its copy, or for the upgrade beside the copy.
-TEST(full_disk, an_older_log_is_upgraded_once_there_is_space) {
+// Until then it is read in memory: there is no space for the copy, or for the upgrade.
+TEST(FullDisk, OlderLogIsUpgradedWithFreeSpace) {
   for (const bool fits_copy : {false, true}) {
     const SmallDisk disk(fits_copy ? "size=560k" : "size=400k");
     if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
@@ -166,14 +162,14 @@ TEST(full_disk, an_older_log_is_upgraded_once_there_is_space) {
     const std::string folder = std::filesystem::path(file).parent_path();
     ASSERT_EQ(::mount("tmpfs", folder.c_str(), "tmpfs", MS_REMOUNT, "size=2m"), 0);
     EXPECT_EQ(LogReader(file).sessions().size(), 3u);
-    EXPECT_EQ(version_of(file), 6);
+    EXPECT_EQ(version_of(file), todays_log_version);
     EXPECT_EQ(version_of(file + ".v5"), 5);
     EXPECT_FALSE(std::filesystem::exists(file + ".v5.part"));
     EXPECT_TRUE(check_integrity(file).empty());
   }
 }
 
-TEST(full_disk, a_read_only_disk_is_told) {
+TEST(FullDisk, ReadOnlyDiskIsReported) {
   const SmallDisk disk("size=1m");
   if (!disk.mounted()) GTEST_SKIP() << "a small disk can be mounted by root only";
   const std::string file = disk.file("log.db");
@@ -189,8 +185,8 @@ TEST(full_disk, a_read_only_disk_is_told) {
   EXPECT_TRUE(check_integrity(file).empty());
 }
 
-// The same path without a disk of its own: a file that may not grow.
-TEST(full_disk, a_file_that_can_not_grow_is_told_and_all_acknowledged_answers_are_kept) {
+// The same without mounting a disk: a limit on the file size.
+TEST(FullDisk, FileSizeLimitIsReportedAndAcknowledgedAnswersAreKept) {
   const TemporaryFolder folder;
   const std::string file = folder.file("log.db");
   std::size_t n_saved = 0;
@@ -205,14 +201,14 @@ TEST(full_disk, a_file_that_can_not_grow_is_told_and_all_acknowledged_answers_ar
                                  HasSubstr("heft resume --db " + file)));
       expect_saved(file, n_saved);
     }
-    // The cause is gone, but this log had a loss: only a resumed one may go on.
+    // The cause is gone, but an event was lost: only a resumed session may continue.
     EXPECT_NE(failure([&] { log.flush(); }), "");
   }
   EXPECT_GT(n_saved, 0u);
   expect_saved(file, n_saved);
 }
 
-TEST(full_disk, pictures_that_can_not_be_saved_are_told_too) {
+TEST(FullDisk, UnsavedFramesAreReported) {
   const TemporaryFolder folder;
   SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
   start_trial_seven(log);
@@ -221,7 +217,7 @@ TEST(full_disk, pictures_that_can_not_be_saved_are_told_too) {
   EXPECT_THAT(failure([&] { log.flush(); }), HasSubstr("0 events and 3000 pictures"));
 }
 
-TEST(full_disk, what_nobody_was_told_of_is_told_at_the_end) {
+TEST(FullDisk, UnreportedFailureIsPrintedAtEnd) {
   const TemporaryFolder folder;
   std::optional<SessionLog> log(SessionLog::start(folder.file("log.db"), header_of("P01")));
   start_trial_seven(*log);
@@ -232,7 +228,7 @@ TEST(full_disk, what_nobody_was_told_of_is_told_at_the_end) {
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("0 events and 3000 pictures"));
 }
 
-TEST(full_disk, a_stored_session_is_whole_or_not_there) {
+TEST(FullDisk, StoredSessionIsCompleteOrMissing) {
   const TemporaryFolder folder;
   const std::string file = folder.file("log.db");
   RecordedSession small(header_of("P01")), large(header_of("P02"));

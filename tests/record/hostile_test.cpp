@@ -1,9 +1,8 @@
-// A log that somebody has put something into: nothing of it runs, for writers and readers.
+// A log with foreign objects: nothing in it runs, for writers and readers.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/integrity/Integrity.h"
 #include "record/reader/LogReader.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/rows.h"
@@ -16,9 +15,9 @@ namespace {
 
 using testing::HasSubstr;
 
-class hostile : public testing::Test {
+class HostileFile : public testing::Test {
  protected:
-  hostile() {
+  HostileFile() {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     log.append(event(1, event_kind<Note>, "here"), {}, Durability::acknowledged);
   }
@@ -37,26 +36,26 @@ class hostile : public testing::Test {
   std::string file_ = folder_.file("log.db");
 };
 
-TEST_F(hostile, its_triggers_do_not_run) {
+TEST_F(HostileFile, TriggersDoNotRun) {
   put_in(
       "CREATE TABLE loot (text TEXT);"
       "CREATE TRIGGER spy AFTER INSERT ON event BEGIN INSERT INTO loot VALUES (new.detail); END");
   try {
     SessionLog log = SessionLog::reopen(file_, 1);
     log.append(event(2, event_kind<Note>, "secret"), {}, Durability::acknowledged);
-  } catch (const std::exception&) {  // to refuse it altogether is as good
+  } catch (const std::exception&) {  // refusing the file is fine as well
   }
   SQLite::Database plain(file_, SQLite::OPEN_READONLY);
   EXPECT_EQ(plain.execAndGet("SELECT count(*) FROM loot").getInt(), 0);
 }
 
-TEST_F(hostile, its_views_are_not_read) {
+TEST_F(HostileFile, ViewsAreNotRead) {
   put_in("DROP VIEW v_trial; CREATE VIEW v_trial AS SELECT 'made up' AS outcome");
   EXPECT_THAT(failure(*open_for_reading(file_), "SELECT * FROM v_trial"), HasSubstr("prohibited"));
   EXPECT_THAT(failure(LogFile(file_).database(), "SELECT * FROM v_trial"), HasSubstr("prohibited"));
 }
 
-TEST_F(hostile, its_schema_can_not_be_written_and_names_nothing_that_acts) {
+TEST_F(HostileFile, SchemaIsProtected) {
   LogFile log(file_);
   SQLite::Database& writer = log.database();
   EXPECT_EQ(writer.execAndGet("PRAGMA trusted_schema").getInt(), 0);

@@ -1,5 +1,4 @@
-// Another program that keeps the log locked: nothing is lost, and what waits is written in its
-// order once the lock is gone.
+// Another program locks the log: no data are lost, and they are written in order after the lock.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,9 +16,9 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-class locked : public testing::Test {
+class LockedLog : public testing::Test {
  protected:
-  locked() { other_.exec("BEGIN IMMEDIATE"); }
+  LockedLog() { other_.exec("BEGIN IMMEDIATE"); }
 
   void note(const std::string& text, Durability durability = Durability::acknowledged) {
     log_.append(event(++t_s_, event_kind<Note>, text), {}, durability);
@@ -38,12 +37,12 @@ class locked : public testing::Test {
   double t_s_ = 0;
 };
 
-TEST_F(locked, an_event_is_kept_until_it_can_be_written) {
+TEST_F(LockedLog, KeepsEventUntilItCanBeWritten) {
   try {
     note("first");
     FAIL();
   } catch (const LogBusy& busy) {
-    EXPECT_THAT(busy.what(), AllOf(HasSubstr("the event \"note\""), HasSubstr("keeps the file "
+    EXPECT_THAT(busy.what(), AllOf(HasSubstr("the event \"note\""), HasSubstr("the file is "
                                                                               "locked")));
   }
   EXPECT_THROW(note("second"), LogBusy);
@@ -60,7 +59,7 @@ TEST_F(locked, an_event_is_kept_until_it_can_be_written) {
   EXPECT_EQ(notes().size(), 4u);
 }
 
-TEST_F(locked, only_the_first_try_waits) {
+TEST_F(LockedLog, WaitsOnFirstCallOnly) {
   const auto seconds_of_flush = [&] {
     const auto before = std::chrono::steady_clock::now();
     EXPECT_THROW(log_.flush(), LogBusy);
@@ -76,7 +75,7 @@ TEST_F(locked, only_the_first_try_waits) {
   EXPECT_GT(seconds_of_flush(), 0.5) << "a short lock is waited for as before";
 }
 
-TEST_F(locked, what_a_participant_told_is_kept_too) {
+TEST_F(LockedLog, KeepsAnswersAboutParticipant) {
   EXPECT_THROW(log_.add_info("age", "30"), LogBusy);
   EXPECT_THROW(log_.add_info("age", "31"), LogBusy);
   EXPECT_TRUE(LogReader(file_).session(1).header.participant_info.empty());

@@ -1,4 +1,4 @@
-// Which files are opened, which are refused, and whether the message helps.
+// Which files are opened, which are refused, and with which messages.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,13 +11,10 @@
 
 #include "base/files/TextFile.h"
 #include "record/child.h"
-#include "record/failure.h"
-#include "record/integrity/Integrity.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/schema/Schema.h"
 #include "record/temporary_folder.h"
-#include "record/writer/SessionArchive.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft::test {
@@ -30,7 +27,7 @@ std::string failure_to_start(const std::string& file) {
   return failure([&] { SessionLog::start(file, header_of("P01")); });
 }
 
-class opening : public testing::Test {
+class Opening : public testing::Test {
  protected:
   void write_log() {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
@@ -41,7 +38,7 @@ class opening : public testing::Test {
   std::string file_ = folder_.file("log.db");
 };
 
-TEST_F(opening, an_empty_file_becomes_a_log) {
+TEST_F(Opening, EmptyFileBecomesLog) {
   std::ofstream(file_).close();
   EXPECT_TRUE(LogReader(file_).sessions().empty());
   EXPECT_TRUE(check_integrity(file_).empty());
@@ -49,7 +46,7 @@ TEST_F(opening, an_empty_file_becomes_a_log) {
   EXPECT_EQ(LogReader(file_).sessions().size(), 1u);
 }
 
-TEST_F(opening, a_file_name_is_never_an_instruction_to_sqlite) {
+TEST_F(Opening, FileNameIsNoSqliteUri) {
   for (const char* name : {":memory:", "file:x?mode=memory", "50%?#.db"}) {
     const std::string file = folder_.file(name);
     SessionLog::start(file, header_of("P01"));
@@ -59,7 +56,7 @@ TEST_F(opening, a_file_name_is_never_an_instruction_to_sqlite) {
   EXPECT_THAT(failure_to_start(""), HasSubstr("--db FILE"));
 }
 
-TEST_F(opening, other_files_are_refused_and_left_as_they_are) {
+TEST_F(Opening, OtherFilesAreRefusedUnchanged) {
   const std::string text = "participant,answer\nP01,heavier\n" + std::string(5000, '.');
   std::ofstream(file_) << text;
   EXPECT_THAT(failure_to_start(file_), AllOf(HasSubstr(file_), HasSubstr("no heft log")));
@@ -68,14 +65,14 @@ TEST_F(opening, other_files_are_refused_and_left_as_they_are) {
   EXPECT_EQ(read_text_file(file_), text);
 }
 
-TEST_F(opening, another_programs_database_is_refused) {
+TEST_F(Opening, OtherDatabaseIsRefused) {
   SQLite::Database(file_, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
       .exec("CREATE TABLE address (name TEXT)");
   EXPECT_THAT(failure_to_start(file_), HasSubstr("belongs to another program"));
   EXPECT_THAT(failure([&] { LogReader reader(file_); }), HasSubstr("belongs to another program"));
 }
 
-TEST_F(opening, a_newer_log_is_refused) {
+TEST_F(Opening, NewerLogIsRefused) {
   write_log();
   SQLite::Database(file_, SQLite::OPEN_READWRITE)
       .exec(fmt::format("PRAGMA user_version = {}", schema::current_version + 1));
@@ -84,7 +81,7 @@ TEST_F(opening, a_newer_log_is_refused) {
   EXPECT_THAT(failure([&] { LogReader reader(file_); }), HasSubstr("newer heft"));
 }
 
-TEST_F(opening, folders_and_missing_places_are_named) {
+TEST_F(Opening, FolderAndMissingFileAreReported) {
   EXPECT_THAT(failure_to_start(folder_.path()), HasSubstr("is a folder"));
   EXPECT_THAT(failure_to_start(folder_.file("no/such/log.db")),
               HasSubstr("No such file or directory"));
@@ -92,13 +89,13 @@ TEST_F(opening, folders_and_missing_places_are_named) {
   EXPECT_FALSE(std::filesystem::exists(file_)) << "reading made a file";
 }
 
-TEST_F(opening, a_session_that_is_not_there_is_named) {
+TEST_F(Opening, MissingSessionIsReported) {
   write_log();
   EXPECT_THAT(failure([&] { SessionLog::reopen(file_, 7); }), HasSubstr("no session 7"));
   EXPECT_THAT(failure([&] { LogReader(file_).session(7); }), HasSubstr("no session 7"));
 }
 
-TEST_F(opening, a_reopened_session_goes_on) {
+TEST_F(Opening, ReopenedSessionContinues) {
   write_log();
   {
     SessionLog log = SessionLog::reopen(file_, 1);
@@ -114,7 +111,7 @@ TEST_F(opening, a_reopened_session_goes_on) {
   EXPECT_EQ(events[2].attempt_index, 1);
 }
 
-TEST_F(opening, what_resume_looks_for_is_found) {
+TEST_F(Opening, UnfinishedSessionsAreFound) {
   const auto add = [&](const char* participant, std::optional<SessionState> state) {
     SessionLog log = SessionLog::start(file_, header_of(participant));
     Changes changes;
@@ -135,7 +132,7 @@ TEST_F(opening, what_resume_looks_for_is_found) {
   EXPECT_EQ(reader.newest_unfinished_session()->header.participant, "P02");
 }
 
-TEST_F(opening, a_second_writer_is_refused_while_the_first_lives) {
+TEST_F(Opening, SecondWriterIsRefused) {
   {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     EXPECT_THAT(failure_to_start(file_),
@@ -153,7 +150,7 @@ TEST_F(opening, a_second_writer_is_refused_while_the_first_lives) {
   EXPECT_EQ(failure_to_start(file_), "");
 }
 
-TEST_F(opening, the_lock_dies_with_its_owner) {
+TEST_F(Opening, LockEndsWithItsProcess) {
   Child owner([&](int out) {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     say(out, "!");
@@ -171,7 +168,7 @@ TEST_F(opening, the_lock_dies_with_its_owner) {
   EXPECT_EQ(failure_to_start(file_), "");
 }
 
-TEST_F(opening, who_is_refused_takes_nobodys_lock_away) {
+TEST_F(Opening, RefusedWriterKeepsLockOfFirst) {
   Child owner([&](int out) {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     for (int i = 0; i < 3; ++i) failure_to_start(file_);
@@ -179,12 +176,12 @@ TEST_F(opening, who_is_refused_takes_nobodys_lock_away) {
     ::pause();
   });
   ASSERT_TRUE(owner.read_byte());
-  // Had they closed the file, another program would believe itself alone, and tidy up as it goes.
+  // If they had closed the file, another program would see no lock and checkpoint on closing.
   SQLite::Database(file_, SQLite::OPEN_READWRITE).execAndGet("SELECT count(*) FROM session");
   EXPECT_TRUE(std::filesystem::exists(file_ + "-wal"));
 }
 
-TEST_F(opening, a_log_is_for_its_owners_eyes_only) {
+TEST_F(Opening, LogIsReadableByOwnerOnly) {
   const mode_t before = ::umask(0);
   SessionLog log = SessionLog::start(file_, header_of("P01"));
   ::umask(before);
@@ -196,7 +193,7 @@ TEST_F(opening, a_log_is_for_its_owners_eyes_only) {
   EXPECT_FALSE(std::filesystem::exists(file_ + "-lock"));
 }
 
-TEST_F(opening, a_log_with_two_names_is_not_written_to) {
+TEST_F(Opening, LogWithTwoNamesIsRefused) {
   write_log();
   std::filesystem::create_hard_link(file_, folder_.file("twin.db"));
   EXPECT_THAT(failure_to_start(file_), AllOf(HasSubstr(file_), HasSubstr("a hard link")));
@@ -205,7 +202,7 @@ TEST_F(opening, a_log_with_two_names_is_not_written_to) {
   EXPECT_EQ(failure_to_start(file_), "");
 }
 
-TEST_F(opening, a_read_only_file_is_refused_before_the_session_starts) {
+TEST_F(Opening, ReadOnlyFileIsRefusedBeforeStart) {
   write_log();
   ::chmod(folder_.path().c_str(), 0777);
   ::chmod(file_.c_str(), 0444);
@@ -214,13 +211,13 @@ TEST_F(opening, a_read_only_file_is_refused_before_the_session_starts) {
   EXPECT_EQ(LogReader(file_).sessions().size(), 1u);
 }
 
-TEST_F(opening, a_read_only_folder_is_refused_before_the_session_starts) {
+TEST_F(Opening, ReadOnlyFolderIsRefusedBeforeStart) {
   ::chmod(folder_.path().c_str(), 0555);
   EXPECT_THAT(failure_as_ordinary_user([&] { SessionLog::start(file_, header_of("P02")); }),
               AllOf(HasSubstr(file_), HasSubstr("Permission denied"), HasSubstr("--db FILE")));
 }
 
-TEST_F(opening, a_finished_log_is_read_where_nothing_can_be_written) {
+TEST_F(Opening, LogIsReadFromReadOnlyFolder) {
   write_log();
   ::chmod(file_.c_str(), 0444);
   ::chmod(folder_.path().c_str(), 0555);
@@ -232,7 +229,7 @@ TEST_F(opening, a_finished_log_is_read_where_nothing_can_be_written) {
             "");
 }
 
-TEST_F(opening, a_log_whose_end_lies_beside_it_is_not_read_without_it) {
+TEST_F(Opening, LogWithUnreadableWalIsRefused) {
   Child owner([&](int out) {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     log.append(event(1, event_kind<Note>), {}, Durability::acknowledged);

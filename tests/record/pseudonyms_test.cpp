@@ -1,5 +1,3 @@
-#include "record/export/Pseudonyms.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,12 +6,13 @@
 #include <fstream>
 
 #include "base/Error.h"
+#include "record/export/Export.h"
 
 namespace heft {
 namespace {
 namespace fs = std::filesystem;
 
-TEST(Pseudonyms, HmacIsThatOfRfc4231) {
+TEST(Pseudonyms, HmacMatchesRfc4231) {
   EXPECT_EQ(hmac_sha256("Jefe", "what do ya want for nothing?"),
             "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
   EXPECT_EQ(hmac_sha256(std::string(131, '\xaa'),
@@ -21,14 +20,14 @@ TEST(Pseudonyms, HmacIsThatOfRfc4231) {
             "60e431591ee0b67f0d8a26aacbf5b77f8e0bc6213728c5140546040f0ee37f54");
 }
 
-TEST(Pseudonyms, BelongToAKey) {
+TEST(Pseudonyms, DependOnKey) {
   EXPECT_EQ(pseudonym("key", "01"), pseudonym("key", "01"));
   EXPECT_NE(pseudonym("key", "01"), pseudonym("key", "02"));
   EXPECT_NE(pseudonym("key", "01"), pseudonym("other", "01"));
   EXPECT_THAT(pseudonym("key", "01"), testing::MatchesRegex("p[0-9a-f]{12}"));
 }
 
-TEST(Pseudonyms, AKeyIsMadeForItsOwnerAndFoundAgain) {
+TEST(Pseudonyms, KeyIsCreatedForOwnerAndReadAgain) {
   const fs::path file = fs::path(testing::TempDir()) / "heft_pseudonyms.key";
   fs::remove(file);
   const PseudonymKey made = pseudonym_key(file);
@@ -57,7 +56,7 @@ std::string why_refused(const std::string& text) {
   return why;
 }
 
-TEST(Pseudonyms, WhatNobodyDrewIsNoKey) {
+TEST(Pseudonyms, NonRandomKeyIsRefused) {
   const std::string drawn = "6c1f0b94d2e87a35f01b9c64de27538a4f6e1d0b92c8a7356be40f18d2937c5a";
   EXPECT_EQ(why_refused(drawn), "");
   EXPECT_EQ(why_refused(drawn + "\n"), "");

@@ -1,4 +1,4 @@
-// Rows of any values that a log can hold, and what is written beside what is read.
+// Random rows of valid values, and comparison of written and read rows.
 #pragma once
 
 #include <rapidcheck.h>
@@ -13,7 +13,7 @@
 
 #include "record/rows.h"
 #include "record/schema/RowSql.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft::test {
 
@@ -30,11 +30,11 @@ inline rc::Gen<double> any_number() {
       [](double value) { return !std::isnan(value); });
 }
 
-// -0.0 as 0.0: SQLite's REAL columns don't tell them apart.
+// -0.0 becomes 0.0, as in SQLite's REAL columns.
 inline double number() {
   return *any_number() + 0.0;
 }
-/// What a setup may hold: it is told as JSON, which has no infinity.
+/// A number of a setup, which is JSON and has no infinity.
 inline double finite_number() {
   return *rc::gen::suchThat(any_number(), [](double value) { return std::isfinite(value); }) + 0.0;
 }
@@ -54,7 +54,7 @@ inline std::string words() {
                                                        "NULL", std::string("a\0b", 3)));
 }
 
-/// Texts as JSON keeps them.
+/// Texts that JSON preserves.
 inline std::string plain() {
   return *rc::gen::element<std::string>("", "naïve – 質量 🧊", "a'b\"c;--\n", "\\ {}");
 }
@@ -76,9 +76,8 @@ inline bool flag() {
 
 template <typename Listed>
 Listed any_of() {
-  if constexpr (is_word<Listed>) {  // of one task: a log has the words of those that it has trials
-                                    // of
-    const auto words = words_for(closed_list<Listed>, Sorting::task);
+  if constexpr (is_word<Listed>) {  // of one task: a log has words of tasks with trials only
+    const auto words = words_for(closed_list<Listed>, task_named("sorting"));
     return words.at(*rc::gen::inRange<std::size_t>(0, words.size()));
   } else {
     const auto n = static_cast<int>(EnumNames<Listed>::names.size());
@@ -86,7 +85,7 @@ Listed any_of() {
   }
 }
 
-// With every sign of zero, as physics may be given it.
+// With both signs of zero.
 inline Eigen::Vector3d exact_vector() {
   const double x = *any_number(), y = *any_number(), z = *any_number();
   return {x, y, z};
@@ -242,7 +241,7 @@ inline SessionHeader any_header() {
   return header;
 }
 
-// What is written by hand beside what is read.
+// Compares written and read rows.
 struct Written {
   std::vector<LoggedEvent> events;
   std::vector<TrialRow> trials;

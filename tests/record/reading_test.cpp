@@ -1,4 +1,4 @@
-// Reading beside a writer, what is seen when, and values that can't be ours.
+// Reading next to a writer, visibility of rows, and invalid values.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-class reading : public testing::Test {
+class Reading : public testing::Test {
  protected:
   std::size_t n_events() const { return LogReader(file_).events(1).size(); }
   std::size_t n_frames() const { return LogReader(file_).frames(1, 1).size(); }
@@ -28,7 +28,7 @@ class reading : public testing::Test {
   std::string file_ = folder_.file("log.db");
 };
 
-TEST_F(reading, acknowledged_events_are_seen_at_once_with_all_buffered_before_them) {
+TEST_F(Reading, AcknowledgedEventsAreVisibleWithAllBufferedBefore) {
   SessionLog log = SessionLog::start(file_, header_of("P01"));
   log.append(event(1, event_kind<TrialStarted>), starting(sorting_trial(1, 1)),
              Durability::acknowledged);
@@ -43,7 +43,7 @@ TEST_F(reading, acknowledged_events_are_seen_at_once_with_all_buffered_before_th
   EXPECT_EQ(LogReader(file_).events(1)[1].event.kind(), event_kind<CubesShown>);
 }
 
-TEST_F(reading, buffered_rows_are_seen_after_a_flush_and_at_the_end) {
+TEST_F(Reading, BufferedRowsAreVisibleAfterFlushAndAtEnd) {
   {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     log.append(event(1, event_kind<Note>), {}, Durability::buffered);
@@ -55,7 +55,7 @@ TEST_F(reading, buffered_rows_are_seen_after_a_flush_and_at_the_end) {
   EXPECT_EQ(n_events(), 2u);
 }
 
-TEST_F(reading, buffered_rows_are_written_once_a_second_has_passed) {
+TEST_F(Reading, BufferedRowsAreWrittenWithinSecond) {
   SessionLog log = SessionLog::start(file_, header_of("P01"));
   log.append(event(1, event_kind<Note>), {}, Durability::buffered);
   std::this_thread::sleep_for(std::chrono::milliseconds(1010));
@@ -63,7 +63,7 @@ TEST_F(reading, buffered_rows_are_written_once_a_second_has_passed) {
   EXPECT_EQ(n_events(), 2u);
 }
 
-TEST_F(reading, a_reader_stays_with_the_moment_it_was_opened) {
+TEST_F(Reading, ReaderSeesSnapshot) {
   SessionLog log = SessionLog::start(file_, header_of("P01"));
   log.append(event(1, event_kind<Note>), {}, Durability::acknowledged);
   const LogReader before(file_);
@@ -72,7 +72,7 @@ TEST_F(reading, a_reader_stays_with_the_moment_it_was_opened) {
   EXPECT_EQ(n_events(), 2u);
 }
 
-TEST_F(reading, a_reader_in_another_process_never_meets_half_an_event) {
+TEST_F(Reading, OtherProcessNeverSeesPartialEvent) {
   Child writer([&](int out) {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
     for (int n = 1; n <= 300; ++n) {
@@ -94,7 +94,7 @@ TEST_F(reading, a_reader_in_another_process_never_meets_half_an_event) {
   EXPECT_EQ(n, 300u);
 }
 
-class damage : public reading {
+class Damage : public Reading {
  protected:
   void SetUp() override {
     SessionLog log = SessionLog::start(file_, header_of("P01"));
@@ -105,7 +105,7 @@ class damage : public reading {
     log.add_frame(frame(1, 2));
   }
 
-  /// The message of reading everything after somebody changed the file with all rules off.
+  /// The message of reading everything after a change with all constraints disabled.
   std::string failure_after(const std::string& change) {
     {
       SQLite::Database database(file_, SQLite::OPEN_READWRITE);
@@ -121,39 +121,39 @@ class damage : public reading {
   }
 };
 
-TEST_F(damage, an_unchanged_log_is_read) {
+TEST_F(Damage, UnchangedLogIsRead) {
   EXPECT_EQ(failure_after("SELECT 1"), "");
 }
 
-TEST_F(damage, an_unknown_name_is_refused_with_its_place) {
+TEST_F(Damage, UnknownNameIsRefusedWithPlace) {
   EXPECT_THAT(failure_after("UPDATE event SET kind = 'foo'"),
               AllOf(HasSubstr(file_), HasSubstr("table event, row 1, column kind"),
                     HasSubstr("found \"foo\""), HasSubstr("\"trial_started\"")));
 }
 
-TEST_F(damage, values_that_can_not_be_ours_are_refused_with_their_place) {
+TEST_F(Damage, InvalidValuesAreRefusedWithPlace) {
   EXPECT_THAT(failure_after("UPDATE answer SET label = 'heavy'"),
               HasSubstr("table answer, row 1, column label"));
   EXPECT_THAT(failure_after("UPDATE answer SET label = NULL; UPDATE trial SET is_catch = 7"),
               HasSubstr("table trial, row 1, column is_catch"));
 }
 
-TEST_F(damage, a_number_too_large_for_us_is_refused) {
+TEST_F(Damage, TooLargeNumberIsRefused) {
   EXPECT_THAT(failure_after("UPDATE trial SET attempt = 5000000000"),
               AllOf(HasSubstr("column attempt"), HasSubstr("5000000000")));
 }
 
-TEST_F(damage, half_a_pose_is_refused) {
+TEST_F(Damage, PartialPoseIsRefused) {
   EXPECT_THAT(failure_after("UPDATE frame SET clone_qx = NULL"),
               AllOf(HasSubstr("table frame, row 1, column clone_qx"), HasSubstr("nothing")));
 }
 
-TEST_F(damage, a_pose_without_its_beginning_is_refused) {
+TEST_F(Damage, PoseWithoutFirstColumnIsRefused) {
   EXPECT_THAT(failure_after("UPDATE frame SET clone_x_m = NULL"),
               HasSubstr("table frame, row 1, column clone_y_m"));
 }
 
-TEST_F(damage, a_row_of_no_trial_is_refused) {
+TEST_F(Damage, RowOfMissingTrialIsRefused) {
   EXPECT_THAT(failure_after("UPDATE event SET trial_id = 99"),
               AllOf(HasSubstr("table event, row 1, column trial_id"), HasSubstr("trial 99")));
 }

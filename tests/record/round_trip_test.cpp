@@ -1,4 +1,4 @@
-// What is written is what is read, bit for bit, whatever the values.
+// Rows are read as they were written, bit for bit, for any values.
 #include <SQLiteCpp/Database.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,13 +10,12 @@
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
-#include "record/writer/SessionArchive.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft::test {
 namespace {
 
-RC_GTEST_PROP(round_trip, every_row_is_read_as_it_was_written, ()) {
+RC_GTEST_PROP(RoundTrip, EveryRowIsReadAsWritten, ()) {
   const TemporaryFolder folder;
   const SessionHeader header = any_header();
   const auto state = any_of<SessionState>();
@@ -56,7 +55,7 @@ RC_GTEST_PROP(round_trip, every_row_is_read_as_it_was_written, ()) {
   RC_ASSERT(text(reader.frames(session_id, 0)) == text(frames_outside));
 }
 
-TEST(round_trip, a_drawn_participant_is_read_with_the_setup_that_told_it) {
+TEST(RoundTrip, DrawnParticipantIsReadWithItsSetup) {
   const TemporaryFolder folder;
   SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
   SessionConfig setup;
@@ -74,7 +73,7 @@ TEST(round_trip, a_drawn_participant_is_read_with_the_setup_that_told_it) {
   EXPECT_EQ(parameters[0].value, 0.1 + 0.2);
 }
 
-TEST(round_trip, a_changed_trial_and_its_cubes_take_the_place_of_the_old_rows) {
+TEST(RoundTrip, ChangedTrialAndCubesReplaceRows) {
   const TemporaryFolder folder;
   SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
   TrialRow trial = sorting_trial(1, 2.5);
@@ -93,7 +92,7 @@ TEST(round_trip, a_changed_trial_and_its_cubes_take_the_place_of_the_old_rows) {
   EXPECT_EQ(text(reader.cubes(1)), text(expected));
 }
 
-TEST(round_trip, a_later_session_in_the_same_file_has_its_own_attempts) {
+TEST(RoundTrip, LaterSessionHasItsOwnAttempts) {
   const TemporaryFolder folder;
   for (const char* participant : {"P01", "P02"}) {
     SessionLog log = SessionLog::start(folder.file("log.db"), header_of(participant));
@@ -108,7 +107,7 @@ TEST(round_trip, a_later_session_in_the_same_file_has_its_own_attempts) {
   EXPECT_EQ(reader.events(2).at(0).attempt_index, 1);
 }
 
-TEST(round_trip, a_value_that_is_no_number_is_refused_instead_of_lost) {
+TEST(RoundTrip, NanIsRefused) {
   const TemporaryFolder folder;
   SessionLog log = SessionLog::start(folder.file("log.db"), header_of("P01"));
   const Event broken{1, BreakTaken{"break", std::nan("")}};
@@ -116,7 +115,7 @@ TEST(round_trip, a_value_that_is_no_number_is_refused_instead_of_lost) {
   EXPECT_TRUE(LogReader(folder.file("log.db")).events(1).empty());
 }
 
-RC_GTEST_PROP(archive, a_stored_session_has_the_rows_of_a_live_one, ()) {
+RC_GTEST_PROP(SessionArchive, StoredSessionEqualsLiveOne, ()) {
   const TemporaryFolder folder;
   const SessionHeader header = any_header();
   RecordedSession recorded(header);
@@ -143,8 +142,8 @@ RC_GTEST_PROP(archive, a_stored_session_has_the_rows_of_a_live_one, ()) {
   RC_ASSERT(whole_session(stored, second) == whole_session(live, 1));
 }
 
-// Between the two a session could never go on: its log would not be as it was written.
-TEST(participant_info, is_there_with_its_digest_or_not_at_all) {
+// A crash between the two would make the log invalid, and the session could not be resumed.
+TEST(ParticipantInfo, IsWrittenTogetherWithItsDigest) {
   const TemporaryFolder folder;
   const std::string path = folder.file("log.db");
   SessionLog log = SessionLog::start(path, header_of("P01"));

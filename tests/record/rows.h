@@ -1,4 +1,4 @@
-// Rows as texts with every bit of every number, and a small session to write.
+// Rows as texts with all bits of numbers, and a small session.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 #include "record/reader/LogReader.h"
 #include "record/schema/EventRow.h"
-#include "record/stream/RecordedSession.h"
+#include "record/stream/EventSink.h"
 
 namespace heft::test {
 
@@ -67,8 +67,8 @@ std::string joined(const Values&... values) {
 
 inline std::string text(const Event& e) {
   const EventRow row = row_of(e);
-  return joined(row.t_s, row.kind, row.slot, row.label, row.detail, row.value, row.deepest_push_m,
-                row.peak_lag_m);
+  return joined(row.t_s, row.kind, row.slot, row.label, row.detail, row.value,
+                row.max_push_displacement_m, row.peak_lag_m);
 }
 inline std::string text(const LoggedEvent& e) {
   return joined(e.attempt_index, e.event);
@@ -83,7 +83,7 @@ inline std::string text(const TrialRow& t) {
 }
 inline std::string text(const CubeRow& c) {
   return joined(c.attempt_index, c.slot, c.mass_g, c.n_pushes, c.contact_s, c.first_contact_s,
-                c.last_contact_s, c.n_resets, c.deepest_push_m, c.peak_lag_m);
+                c.last_contact_s, c.n_resets, c.max_push_displacement_m, c.peak_lag_m);
 }
 inline std::string text(const AnswerRow& a) {
   return joined(a.attempt_index, a.t_s, a.action, a.slot, a.label, a.value);
@@ -109,7 +109,7 @@ inline std::string text(const SessionHeader& h) {
   return all;
 }
 
-/// Everything a log holds of one session.
+/// All rows of a session.
 inline std::string whole_session(const LogReader& reader, std::int64_t session_id) {
   const SessionRow session = reader.session(session_id);
   std::string all = text(session.header) + text(session.state) + '\n';

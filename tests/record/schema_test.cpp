@@ -1,4 +1,4 @@
-// The file itself keeps the rules: types, references, names and ranges, whoever writes to it.
+// The database enforces types, references, names and ranges.
 #include "record/schema/Schema.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -7,17 +7,17 @@
 #include <filesystem>
 #include <fstream>
 
-#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/schema/RowSql.h"
 #include "record/temporary_folder.h"
 #include "record/writer/SessionLog.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft::test {
 namespace {
 
-class schema_rules : public testing::Test {
+class SchemaRules : public testing::Test {
  protected:
   void SetUp() override {
     {
@@ -56,12 +56,12 @@ class schema_rules : public testing::Test {
     }
   }
 
-  // Of the tasks' words those of the one task that the log has a trial of.
+  // Words of the only task with a trial.
   template <typename Listed>
   void expect_exactly_the_names(const std::string& table, const std::string& column) {
     std::vector<std::string_view> names;
     if constexpr (is_word<Listed>)
-      names = words_for(closed_list<Listed>, Sorting::task);
+      names = words_for(closed_list<Listed>, task_named("sorting"));
     else
       names = listed_names<Listed>();
     for (const std::string_view name : names)
@@ -76,13 +76,13 @@ class schema_rules : public testing::Test {
   std::unique_ptr<SQLite::Database> database_;
 };
 
-TEST_F(schema_rules, the_file_is_marked_as_ours) {
+TEST_F(SchemaRules, FileHasApplicationId) {
   EXPECT_EQ(database_->execAndGet("PRAGMA application_id").getInt(), 0x48656674);
   EXPECT_EQ(database_->execAndGet("PRAGMA user_version").getInt(), todays_log_version);
   EXPECT_EQ(database_->execAndGet("PRAGMA journal_mode").getString(), "wal");
 }
 
-TEST_F(schema_rules, every_table_is_strict) {
+TEST_F(SchemaRules, EveryTableIsStrict) {
   EXPECT_EQ(database_
                 ->execAndGet("SELECT count(*) FROM pragma_table_list WHERE schema = 'main' AND "
                              "type = 'table' AND name NOT LIKE 'sqlite_%' AND NOT strict")
@@ -99,7 +99,7 @@ TEST_F(schema_rules, every_table_is_strict) {
   EXPECT_FALSE(accepts("UPDATE frame SET effector_x_m = NULL"));
 }
 
-TEST_F(schema_rules, enumerations_take_every_name_of_ours_and_no_other) {
+TEST_F(SchemaRules, EnumerationsAcceptExactlyTheirNames) {
   expect_exactly_the_names<SessionState>("session", "state");
   expect_exactly_the_names<EventKind>("event", "kind");
   expect_exactly_the_names<Label>("event", "label");
@@ -113,9 +113,9 @@ TEST_F(schema_rules, enumerations_take_every_name_of_ours_and_no_other) {
   expect_exactly_the_names<Censored>("estimate", "censored");
 }
 
-// The next task needs no new version: its words come with its first trial, and words that no task
-// has, or that a task should have, are told.
-TEST_F(schema_rules, words_come_with_a_tasks_first_trial_and_foreign_ones_are_told) {
+// A new task needs no new version: its words come with its first trial. Unknown and missing words
+// are reported.
+TEST_F(SchemaRules, WordsComeWithFirstTrialAndForeignOnesAreReported) {
   const auto entries = [&](const std::string& condition) {
     return database_->execAndGet("SELECT count(*) FROM list_action WHERE " + condition).getInt();
   };
@@ -136,7 +136,7 @@ TEST_F(schema_rules, words_come_with_a_tasks_first_trial_and_foreign_ones_are_to
   }
 }
 
-TEST_F(schema_rules, impossible_numbers_are_refused) {
+TEST_F(SchemaRules, InvalidNumbersAreRefused) {
   for (const char* assignment :
        {"event SET t_s = -1",           "event SET slot = 0",          "event SET slot = 7",
         "cube SET mass_g = 0",          "cube SET n_pushes = -1",      "cube SET contact_s = -0.5",
@@ -148,7 +148,7 @@ TEST_F(schema_rules, impossible_numbers_are_refused) {
     EXPECT_FALSE(accepts(fmt::format("UPDATE {}", assignment))) << assignment;
 }
 
-TEST_F(schema_rules, references_must_lead_somewhere) {
+TEST_F(SchemaRules, ReferencesMustExist) {
   for (const char* statement :
        {"UPDATE event SET trial_id = 99", "UPDATE event SET session_id = 99",
         "UPDATE answer SET trial_id = 99", "UPDATE cube SET trial_id = 99 WHERE slot = 1",
@@ -158,22 +158,22 @@ TEST_F(schema_rules, references_must_lead_somewhere) {
     EXPECT_FALSE(accepts(statement)) << statement;
 }
 
-TEST_F(schema_rules, a_row_is_there_once) {
+TEST_F(SchemaRules, KeysAreUnique) {
   EXPECT_FALSE(accepts("INSERT INTO reversal SELECT * FROM reversal"));
   EXPECT_FALSE(accepts("INSERT INTO estimate SELECT * FROM estimate"));
   EXPECT_FALSE(accepts("INSERT INTO cube SELECT * FROM cube"));
 }
 
-TEST_F(schema_rules, a_sound_file_has_no_faults_and_a_broken_reference_is_one) {
+TEST_F(SchemaRules, BrokenReferenceIsTheOnlyFault) {
   EXPECT_TRUE(check_integrity(file_).empty());
   database_->exec("PRAGMA foreign_keys = OFF");
   database_->exec("UPDATE answer SET trial_id = 99");
   const auto faults = check_integrity(file_);
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults.front(), "table answer, row 1: refers to a row of trial that is not there");
+  EXPECT_EQ(faults.front(), "table answer, row 1: refers to a missing row of trial");
 }
 
-TEST_F(schema_rules, a_value_put_in_with_the_rules_off_is_a_fault) {
+TEST_F(SchemaRules, ValueThatViolatesConstraintIsFault) {
   database_->exec("PRAGMA ignore_check_constraints = ON; PRAGMA foreign_keys = OFF");
   database_->exec("UPDATE event SET slot = 9 WHERE event_id = 2");
   const auto faults = check_integrity(file_);
@@ -181,18 +181,18 @@ TEST_F(schema_rules, a_value_put_in_with_the_rules_off_is_a_fault) {
   EXPECT_NE(faults.front().find("event"), std::string::npos) << faults.front();
 }
 
-TEST_F(schema_rules, a_damaged_page_is_a_fault) {
+TEST_F(SchemaRules, DamagedPageIsFault) {
   const int page =
       database_->execAndGet("SELECT rootpage FROM sqlite_master WHERE name = 'frame'").getInt();
   constexpr int page_size = 4096;
-  database_.reset();  // everything goes into the file itself
+  database_.reset();  // checkpoints the -wal file
   std::fstream(file_, std::ios::in | std::ios::out | std::ios::binary)
           .seekp(static_cast<std::streamoff>(page - 1) * page_size)
       << std::string(page_size, 'x');
   EXPECT_FALSE(check_integrity(file_).empty());
 }
 
-TEST_F(schema_rules, readers_find_their_rows_by_index) {
+TEST_F(SchemaRules, QueriesUseIndexes) {
   for (const char* query :
        {"SELECT * FROM event WHERE session_id = 1", "SELECT * FROM answer WHERE trial_id = 1",
         "SELECT * FROM frame WHERE trial_id = 1", "SELECT * FROM cube WHERE trial_id = 1",

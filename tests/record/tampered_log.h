@@ -1,4 +1,4 @@
-// A log whose copies are changed by somebody, and what is found in them.
+// A log whose copies are changed, to test what is found.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -18,8 +18,7 @@ namespace heft::test {
 
 class TamperedLog : public testing::Test {
  protected:
-  // Session 2 has the events 1 to 4 and the pictures 1 to 6, of which 3 and 6 are outside of
-  // trials.
+  // Session 2 has events 1 to 4 and frames 1 to 6, of which 3 and 6 are outside trials.
   void SetUp() override {
     SessionLog::start(original_, header_of("P01"));
     write_session("P02");
@@ -44,7 +43,7 @@ class TamperedLog : public testing::Test {
     return made;
   }
 
-  /// What is found in the session of P02 after somebody changed a copy with all rules off.
+  /// The broken digest in a session after changing a copy with all constraints disabled.
   std::optional<BrokenDigest> found_after(const std::string& change, std::int64_t session_id = 2) {
     std::filesystem::copy_file(original_, copy_, std::filesystem::copy_options::overwrite_existing);
     {

@@ -1,6 +1,7 @@
-// A folder of a test's own, removed with everything in it.
+// A temporary folder, logs of earlier versions to copy into it, and the message of a failing call.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -8,9 +9,14 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "SourceFolder.h"
+#include "base/Error.h"
 
 namespace heft::test {
 
+/// Removed with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_(::testing::TempDir() + "heft-record-XXXXXX") {
@@ -29,5 +35,24 @@ class TemporaryFolder {
  private:
   std::string path_;
 };
+
+/// Copies the log of an earlier version (tests/golden/logs) to a writable file.
+inline void copy_older_log(const std::string& file, int version = 5) {
+  namespace fs = std::filesystem;
+  fs::copy_file(fs::path(source_folder()) / fmt::format("tests/golden/logs/version_{}.db", version),
+                file, fs::copy_options::overwrite_existing);
+  fs::permissions(file, fs::perms::owner_write, fs::perm_options::add);
+}
+
+/// @return the message of the Error that `work` throws; empty if it throws none
+template <typename Work>
+std::string failure(Work&& work) {
+  try {
+    std::forward<Work>(work)();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
 
 }  // namespace heft::test

@@ -1,4 +1,4 @@
-// The views that other programs read: what they compute, from rows as a session leaves them.
+// The views for other programs.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace heft::test {
 namespace {
 
-/// A cell as SQLite shows it; "NULL" where there is nothing.
+/// A cell as text; "NULL" for NULL.
 std::string cell(const std::string& file, const std::string& query) {
   SQLite::Database database(file, SQLite::OPEN_READONLY);
   SQLite::Statement statement(database, query);
@@ -17,7 +17,7 @@ std::string cell(const std::string& file, const std::string& query) {
   return statement.getColumn(0).isNull() ? "NULL" : statement.getColumn(0).getString();
 }
 
-class views : public testing::Test {
+class Views : public testing::Test {
  protected:
   std::string of(const std::string& query) const { return cell(file_, query); }
 
@@ -44,13 +44,13 @@ class views : public testing::Test {
   SessionLog log_ = SessionLog::start(file_, header_of("P07"));
 };
 
-TEST_F(views, response_time_leaves_out_pauses_and_losses) {
+TEST_F(Views, ResponseTimeExcludesPausesAndLosses) {
   complete_sorting(1, {});
   EXPECT_EQ(of("SELECT response_time_s FROM v_trial"), "16.25");
   EXPECT_EQ(of("SELECT response_time_s FROM v_sorting"), "16.25");
 }
 
-TEST_F(views, a_trial_row_has_its_masses_participant_and_pushes) {
+TEST_F(Views, TrialHasMassesParticipantAndPushes) {
   TrialRow trial = sorting_trial(1, 10);
   Changes changes = starting(trial);
   changes.cubes = {{1, 1, 800, 2, 1.5, {}, {}}, {1, 3, 200, 3, 0.25, {}, {}}};
@@ -62,7 +62,7 @@ TEST_F(views, a_trial_row_has_its_masses_participant_and_pushes) {
   EXPECT_EQ(of("SELECT response_time_s FROM v_trial"), "NULL");
 }
 
-TEST_F(views, a_comparison_has_its_comparison_mass_and_no_third_cube) {
+TEST_F(Views, ComparisonHasItsMassAndNoThirdCube) {
   TrialRow trial = sorting_trial(1, 10);
   trial.plan.task = "comparison";
   trial.plan.staircase = "200g";
@@ -75,8 +75,8 @@ TEST_F(views, a_comparison_has_its_comparison_mass_and_no_third_cube) {
   EXPECT_EQ(of("SELECT count(*) FROM v_sorting"), "0");
 }
 
-// 40 px of 0.15 mm are 6 mm; seen from 450 mm 0.7639 degrees, of which the arc is 0.76394.
-TEST_F(views, a_frame_tells_the_clones_offset_as_it_was_seen) {
+// 40 px of 0.15 mm are 6 mm, at 450 mm 0.7639 degrees (small-angle approximation: 0.76394).
+TEST_F(Views, FrameHasVisualAngleOfOffset) {
   SessionConfig setup;
   setup.display_w_px = 1000;
   setup.display_w_mm = 150;
@@ -100,7 +100,7 @@ TEST_F(views, a_frame_tells_the_clones_offset_as_it_was_seen) {
   EXPECT_EQ(of("SELECT round(peak_clone_offset_deg, 4) FROM v_trial"), "0.7639");
 }
 
-TEST_F(views, jnd_names_the_reference_of_its_staircase) {
+TEST_F(Views, JndHasReferenceOfItsStaircase) {
   TrialRow trial = sorting_trial(1, 10);
   trial.plan.task = "comparison";
   trial.plan.staircase = "fine";
@@ -114,7 +114,7 @@ TEST_F(views, jnd_names_the_reference_of_its_staircase) {
             "P07 fine 800.0 101.5 32 reversals");
 }
 
-TEST_F(views, sorting_shows_which_mass_ended_with_each_label) {
+TEST_F(Views, SortingHasMassOfEachFinalLabel) {
   complete_sorting(1, {action(12, "label", 1, "heaviest"), action(13, "label", 2, "lightest"),
                        action(14, "label", 3, "intermediate")});
   EXPECT_EQ(of("SELECT labeled_lightest_g || ' ' || labeled_intermediate_g || ' ' || "
@@ -122,7 +122,7 @@ TEST_F(views, sorting_shows_which_mass_ended_with_each_label) {
             "15.0 200.0 800.0");
 }
 
-TEST_F(views, sorting_follows_labels_that_are_moved_replaced_and_taken_away) {
+TEST_F(Views, SortingFollowsMovedReplacedAndRemovedLabels) {
   complete_sorting(
       1,
       {action(12, "label", 1, "lightest"), action(13, "label", 2, "lightest"),      // moves it
@@ -133,7 +133,7 @@ TEST_F(views, sorting_follows_labels_that_are_moved_replaced_and_taken_away) {
   EXPECT_EQ(of("SELECT labeled_heaviest_g FROM v_sorting"), "NULL");
 }
 
-TEST_F(views, void_attempts_are_no_sorting_results) {
+TEST_F(Views, VoidAttemptsAreNoSortingResults) {
   TrialRow trial = sorting_trial(1, 10);
   trial.status = TrialStatus::voided;
   trial.void_reason = "camera";

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "SourceFolder.h"
-#include "record/writer/SessionArchive.h"
+#include "record/writer/SessionLog.h"
 #include "session/Session.h"
 
 namespace heft::testing {

@@ -16,10 +16,10 @@ struct Pushes {
 Pushes told(const std::vector<CubeRow>& cubes, int attempt_index) {
   Pushes most;
   for (const CubeRow& cube : cubes) {
-    EXPECT_EQ(cube.n_pushes > 0, cube.peak_lag_m && cube.deepest_push_m);
+    EXPECT_EQ(cube.n_pushes > 0, cube.peak_lag_m && cube.max_push_displacement_m);
     if (cube.attempt_index != attempt_index) continue;
     most.peak_lag_m = std::max(most.peak_lag_m, cube.peak_lag_m.value_or(0));
-    most.deepest_m = std::max(most.deepest_m, cube.deepest_push_m.value_or(0));
+    most.deepest_m = std::max(most.deepest_m, cube.max_push_displacement_m.value_or(0));
   }
   return most;
 }

@@ -15,8 +15,8 @@
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Build.h"
 #include "base/Pose.h"
-#include "record/older_log.h"
-#include "record/writer/SessionArchive.h"
+#include "record/temporary_folder.h"
+#include "record/writer/SessionLog.h"
 #include "replay/WhatIf.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"
@@ -103,18 +103,20 @@ class Replay : public ::testing::Test {
   std::vector<FrameRow> frames;
 };
 
-TEST_F(Replay, a_log_of_the_version_before_is_verified) {
-  test::copy_older_log(path);
-  const LogReader reader(path.string());
-  for (const SessionRow& session : reader.sessions()) {
-    const Verification found = verify_session(reader, session.session_id, [](double) {});
-    EXPECT_FALSE(found.first) << "session " << session.session_id << ": " << found.first->what
-                              << ", logged " << found.first->logged << ", came out "
-                              << found.first->came_out;
-    // What is only measured is nothing that was demanded.
-    EXPECT_LE(found.largest_difference_m, 1e-6) << "session " << session.session_id;
-    if (found.n_other_edition == 0) {
-      EXPECT_EQ(found.largest_of_other_edition_m, 0);
+TEST_F(Replay, LogsOfOlderVersionsAreVerified) {
+  for (const int version : {5, 6}) {
+    test::copy_older_log(path, version);
+    const LogReader reader(path.string());
+    for (const SessionRow& session : reader.sessions()) {
+      const Verification found = verify_session(reader, session.session_id, [](double) {});
+      EXPECT_FALSE(found.first) << "session " << session.session_id << ": " << found.first->what
+                                << ", logged " << found.first->logged << ", came out "
+                                << found.first->came_out;
+      // Differences that are only measured are not demanded.
+      EXPECT_LE(found.largest_difference_m, 1e-6) << "session " << session.session_id;
+      if (found.n_other_edition == 0) {
+        EXPECT_EQ(found.largest_of_other_edition_m, 0);
+      }
     }
   }
 }

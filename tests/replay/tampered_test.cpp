@@ -9,9 +9,9 @@
 
 #include "SourceFolder.h"
 #include "base/Random.h"
-#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
 #include "record/temporary_folder.h"
-#include "record/writer/SessionArchive.h"
+#include "record/writer/SessionLog.h"
 #include "replay/Replay.h"
 #include "session/Recorded.h"
 #include "session/Session.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "FakeWorld.h"
-#include "experiment/Action.h"
+#include "experiment/EventPayloads.h"
 #include "experiment/ScreenState.h"
 #include "responders/Responder.h"
 #include "tasks/Offers.h"

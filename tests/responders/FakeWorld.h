@@ -6,9 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "experiment/DisplayedFrame.h"
 #include "experiment/Stage.h"
-#include "experiment/Task.h"
+#include "experiment/TrialPlan.h"
 
 namespace heft::fake {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "record/stream/RecordedSession.h"
+#include "record/stream/EventSink.h"
 
 namespace heft::testing {
 

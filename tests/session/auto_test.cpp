@@ -77,7 +77,7 @@ TEST_F(AutoSimulator, is_logged_with_its_reason_and_replayed) {
   const LoggedSession session = logged();
   EXPECT_EQ(session.setup.simulator, pick.simulator);
   EXPECT_EQ(session.setup.rate_hz, pick.rate_hz);
-  EXPECT_THAT(session.setup.simulator_why, HasSubstr("models everything"));
+  EXPECT_THAT(session.setup.simulator_reason, HasSubstr("models everything"));
   EXPECT_EQ(session.protocol->simulator.name, pick.simulator);
   EXPECT_EQ(session.protocol->simulator.rate_hz, pick.rate_hz);
   EXPECT_EQ(divergence(), "");
@@ -87,7 +87,7 @@ TEST_F(AutoSimulator, stays_as_the_log_says_when_the_session_goes_on_and_the_tab
   SessionConfig earlier = resolved()->config;
   earlier.simulator = "bullet-lx";  // as if the table had picked it at the start
   earlier.rate_hz = 120;
-  earlier.simulator_why = "was the best then";
+  earlier.simulator_reason = "was the best then";
   ASSERT_EQ(run_until(2, resolve({}, earlier, protocol, 3)).end, RunEnd::stopped);
   const LoggedSession session = session_to_resume(db, std::nullopt);
   // What it was started with may be said again.
@@ -96,7 +96,7 @@ TEST_F(AutoSimulator, stays_as_the_log_says_when_the_session_goes_on_and_the_tab
   EXPECT_EQ(config->protocol->simulator.rate_hz, 120);
   EXPECT_EQ(config->config, session.setups.back().setup);
   EXPECT_EQ(resume_session(session, config, {}).end, RunEnd::finished);
-  EXPECT_EQ(logged().setup.simulator_why, "was the best then");
+  EXPECT_EQ(logged().setup.simulator_reason, "was the best then");
   EXPECT_EQ(logged().setups.size(), 1U);
   EXPECT_EQ(divergence(), "");
 }
@@ -106,7 +106,7 @@ TEST_F(AutoSimulator, gives_way_to_one_that_is_named_when_the_session_goes_on) {
   const LoggedSession session = session_to_resume(db, std::nullopt);
   const ResolvedConfig config = resumed(session, "bullet-ea");
   EXPECT_EQ(config->config.simulator, "bullet-ea");
-  EXPECT_EQ(config->config.simulator_why, "");
+  EXPECT_EQ(config->config.simulator_reason, "");
   EXPECT_EQ(config->protocol->simulator.name, "bullet-ea");
   EXPECT_EQ(resume_session(session, config, {}).end, RunEnd::finished);
   EXPECT_EQ(logged().setups.size(), 2U);
@@ -122,7 +122,7 @@ TEST_F(AutoSimulator, may_be_asked_for_in_the_protocol) {
 TEST_F(AutoSimulator, leaves_no_trace_where_nobody_asked_for_it) {
   options.simulator = "bullet";
   const ResolvedConfig config = resolved();
-  EXPECT_EQ(config->config.simulator_why, "");
+  EXPECT_EQ(config->config.simulator_reason, "");
   EXPECT_EQ(config->config.rate_hz, protocol.simulator.rate_hz);
   EXPECT_EQ(config->protocol->simulator.name, "bullet");
 }

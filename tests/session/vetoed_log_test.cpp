@@ -7,8 +7,8 @@
 #include "SourceFolder.h"
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Build.h"
-#include "record/schema/SetupJson.h"
-#include "record/writer/SessionArchive.h"
+#include "record/schema/EventRow.h"
+#include "record/writer/SessionLog.h"
 #include "replay/Replay.h"
 #include "session/Session.h"
 

@@ -1,4 +1,4 @@
-// What screens offer and answers say, as tests look at it.
+// Offers of screens and contents of answers, for tests.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace heft {
 
 using GivenLabels = std::vector<std::optional<Label>>;
 
-/// The labels of a sorting screen, by slot, to be looked at or set.
+/// The labels of a sorting screen, by slot.
 inline GivenLabels& labels_on(ScreenState& screen) {
   if (!screen.offer.has_value()) screen.offer = Sorting::Offer{};
   return std::any_cast<Sorting::Offer&>(screen.offer).labels;
@@ -21,11 +21,11 @@ inline GivenLabels labels_on(const ScreenState& screen) {
   return offer ? offer->labels : GivenLabels{};
 }
 
-/// The cube that an answer chooses; none: it chooses none.
+/// The cube that an answer chooses, if any.
 inline std::optional<int> chosen_slot(const Answer& answer) {
   return answer.actions.at(0).kind == "select" ? answer.actions[0].slot : std::nullopt;
 }
-/// The labels that an answer gives, by slot; empty: none.
+/// The labels that an answer gives, by slot.
 inline std::vector<Label> given_labels(const Answer& answer) {
   std::vector<Label> labels;
   for (const Action& action : answer.actions)

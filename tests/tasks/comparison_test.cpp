@@ -1,4 +1,4 @@
-// Comparisons: what an answer tells its procedure, where the reference stands, how a trial ends.
+// Comparison task: responses to procedures, side of the reference, end of a trial.
 #include "tasks/Comparison.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ TrialRow row_of(const char* outcome, std::optional<int> chosen, std::optional<bo
   return row;
 }
 
-TEST(ComparisonAnswer, tells_its_procedure_which_was_chosen_and_whether_that_is_positive) {
+TEST(ComparisonAnswer, GivesChoiceAndSignToProcedure) {
   struct Expected {
     TrialRow row;
     Choice choice;
@@ -42,7 +42,7 @@ TEST(ComparisonAnswer, tells_its_procedure_which_was_chosen_and_whether_that_is_
   }
 }
 
-TEST(ComparisonTrial, ends_with_any_answer) {
+TEST(ComparisonTrial, EndsWithAnyAnswer) {
   TrialPlan plan;
   plan.masses_g = {15, 115};
   plan.reference_slot = 1;
@@ -90,7 +90,7 @@ std::vector<TrialPlan> all_plans(const Comparison::Block& block, std::uint64_t s
   return plans;
 }
 
-TEST(ComparisonRun, balanced_sides_are_as_often_left_as_right_in_every_four_of_each_staircase) {
+TEST(ComparisonRun, BalancedSidesAreEqualInEveryFourTrials) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     std::map<std::string, std::vector<int>> sides;  // of each staircase, and "" of catch trials
     for (const TrialPlan& plan : all_plans(block_of(Sides::balanced), seed))
@@ -105,7 +105,7 @@ TEST(ComparisonRun, balanced_sides_are_as_often_left_as_right_in_every_four_of_e
   }
 }
 
-TEST(ComparisonRun, a_repeated_attempt_and_random_sides_are_drawn_freely) {
+TEST(ComparisonRun, RepeatedAttemptsAndRandomSidesAreDrawnFreely) {
   int n_unbalanced = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
     for (const int attempt : {1, 2}) {
@@ -118,7 +118,7 @@ TEST(ComparisonRun, a_repeated_attempt_and_random_sides_are_drawn_freely) {
   EXPECT_GT(n_unbalanced, 10) << "of 40, 25 expected";
 }
 
-TEST(ComparisonRun, presents_the_reference_where_it_says_and_the_comparison_beside_it) {
+TEST(ComparisonRun, PresentsReferenceAtItsSlot) {
   int n_catch = 0;
   for (const TrialPlan& plan : all_plans(block_of(Sides::random), 7)) {
     const std::size_t reference = plan.reference_slot == 1 ? 0 : 1;
@@ -131,7 +131,7 @@ TEST(ComparisonRun, presents_the_reference_where_it_says_and_the_comparison_besi
   EXPECT_EQ(n_catch, 8);
 }
 
-TEST(ComparisonRun, names_the_staircase_that_runs_alone) {
+TEST(ComparisonRun, ReportsLastUnfinishedStaircase) {
   const Comparison::Block block = block_of(Sides::random);
   Comparison::Run run(block, 3);
   EXPECT_FALSE(run.survivor());
@@ -146,7 +146,7 @@ TEST(ComparisonRun, names_the_staircase_that_runs_alone) {
   EXPECT_EQ(run.survivor(), "one") << "it has more trials";
 }
 
-TEST(ComparisonKeys, has_catch_trials_in_a_number_or_by_a_coin) {
+TEST(ComparisonKeys, CatchTrialsAreFixedOrRandom) {
   Comparison::Block block = block_of(Sides::random);
   EXPECT_TRUE(block.check().empty());
   EXPECT_EQ(block.expected_staircase_trials(), 24);
@@ -156,7 +156,7 @@ TEST(ComparisonKeys, has_catch_trials_in_a_number_or_by_a_coin) {
   EXPECT_EQ(block.check()[0].keys.front(), "catch_fraction");
 }
 
-TEST(ComparisonKeys, expects_of_each_reference_what_it_takes_alone) {
+TEST(ComparisonKeys, ExpectedTrialsAddOverReferences) {
   const auto block_of = [](std::vector<double> starts_g) {
     Comparison::Block block;
     for (const double start_g : starts_g)
@@ -172,7 +172,7 @@ TEST(ComparisonKeys, expects_of_each_reference_what_it_takes_alone) {
   EXPECT_TRUE(block_of({200}).depends_on_answers());
 }
 
-TEST(ComparisonAnswer, a_lapse_is_a_difference_in_two_of_three) {
+TEST(ComparisonAnswer, LapseIsDifferenceInTwoOfThree) {
   RandomStream stream(1, "test");
   int n_different = 0;
   for (int i = 0; i < 3000; ++i) {

@@ -1,4 +1,4 @@
-// Magnitude estimation: which cubes come in which order, which numbers are taken, the standard.
+// Magnitude estimation: order of cubes, valid numbers, the standard.
 #include "tasks/Estimation.h"
 
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ std::vector<TrialPlan> plans(const Estimation::Block& block, std::uint64_t seed)
   return plans;
 }
 
-TEST(Estimation, each_mass_comes_as_often_with_each_technique_in_an_order_of_the_seed) {
+TEST(Estimation, TrialsAreBalancedInSeededOrder) {
   std::map<std::pair<double, std::string>, int> counts;
   for (const TrialPlan& plan : plans(block_of_numbers(), 7)) {
     ASSERT_EQ(plan.masses_g.size(), 1u) << "one cube a trial";
@@ -58,7 +58,7 @@ TEST(Estimation, each_mass_comes_as_often_with_each_technique_in_an_order_of_the
   EXPECT_NE(masses(7), masses(8));
 }
 
-TEST(Estimation, the_standard_comes_first_counts_as_practice_and_asks_nothing) {
+TEST(Estimation, StandardComesFirstAsPractice) {
   Estimation::Block block = block_of_numbers();
   block.modulus = {200, 10};
   const std::vector<TrialPlan> all = plans(block, 7);
@@ -81,7 +81,7 @@ TEST(Estimation, the_standard_comes_first_counts_as_practice_and_asks_nothing) {
   EXPECT_EQ(offer.modulus->value, 10) << "every later screen names it";
 }
 
-TEST(Estimation, takes_numbers_of_its_range_alone) {
+TEST(Estimation, AcceptsNumbersInRange) {
   const Estimation::Block block = block_of_numbers();
   Estimation::Trial trial(block, plans(block, 7)[0], 7);
   EXPECT_FALSE(trial.refusal(estimate(1)));
@@ -95,11 +95,11 @@ TEST(Estimation, takes_numbers_of_its_range_alone) {
   EXPECT_EQ(trial.result().outcome, "estimated");
   EXPECT_EQ(trial.result().value, 42.5);
   EXPECT_EQ(trial.answer(), "42.5");
-  trial.take(estimate(42.51));  // another number, though it is the same in three digits
+  trial.take(estimate(42.51));  // differs, although equal to three digits
   EXPECT_EQ(trial.answer(), "42.51");
 }
 
-TEST(Estimation, a_slider_and_points_of_a_question_take_whole_numbers) {
+TEST(Estimation, SliderAndQuestionAcceptWholeNumbers) {
   Estimation::Block block = block_of_numbers();
   block.low = block.high = std::nullopt;
   block.scale = "slider";
@@ -131,7 +131,7 @@ TEST(Estimation, a_slider_and_points_of_a_question_take_whole_numbers) {
   }
 }
 
-TEST(Estimation, checks_its_keys) {
+TEST(Estimation, KeysAreChecked) {
   const auto keys = [](const Estimation::Block& block) {
     std::vector<std::string> wrong;
     for (const ConfigMistake& mistake : block.check()) wrong.emplace_back(mistake.keys.front());
@@ -161,7 +161,7 @@ TEST(Estimation, checks_its_keys) {
   EXPECT_THAT(keys(block), Contains("scale"));
 }
 
-TEST(Estimation, a_mind_says_more_of_what_lags_more_and_stays_on_the_scale) {
+TEST(Estimation, SimulatedAnswerIncreasesWithLagWithinScale) {
   RandomStream stream(1, "test");
   Estimation::Offer offer;
   offer.question.kind = QuestionKind::number;
@@ -182,8 +182,8 @@ TEST(Estimation, a_mind_says_more_of_what_lags_more_and_stays_on_the_scale) {
   EXPECT_EQ(Estimation::blind(offer, {1}, stream).actions[0].kind, "validate");
 }
 
-// A cube of 100 g lags by 15.7 mm under the paper's spring: friction 0.8, 50 N/m.
-TEST(Estimation, a_mind_answers_in_proportion_to_the_modulus) {
+// A cube of 100 g lags by 15.7 mm with the paper's spring: friction 0.8, 50 N/m.
+TEST(Estimation, SimulatedAnswerIsProportionalToModulus) {
   RandomStream stream(1, "test");
   Estimation::Offer offer;
   offer.question.kind = QuestionKind::number;
@@ -208,7 +208,7 @@ TEST(Estimation, a_mind_answers_in_proportion_to_the_modulus) {
             "validate");
 }
 
-TEST(Estimation, shows_the_standard_among_its_fullest_screens) {
+TEST(Estimation, FullestScreensIncludeStandard) {
   int n_standard = 0;
   for (const ScreenState& screen : Estimation::fullest_screens())
     n_standard += std::any_cast<const Estimation::Offer&>(screen.offer).is_standard;

@@ -1,6 +1,5 @@
-// Every task of the list through every path it can take: simulated, interrupted and resumed,
-// vetoed, replayed, judged, exported. Its screens are in tests/view. Each needs a protocol that is
-// shipped.
+// Every task of the list on every path: simulated, interrupted and resumed, vetoed, replayed,
+// judged, exported. Each needs a shipped protocol. Screens are tested in tests/view.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -27,7 +26,7 @@ bool has_task(const Protocol& protocol, std::string_view task) {
   });
 }
 
-// The shortest file that is shipped with the task.
+// The shortest shipped protocol with the task.
 Protocol protocol_with(std::string_view task) {
   for (const char* file : {"quick", "examples/estimation"})
     if (Protocol found = testing::shipped_protocol(file); has_task(found, task)) return found;
@@ -36,7 +35,7 @@ Protocol protocol_with(std::string_view task) {
       if (entry.path().extension() == ".toml") try {
           if (Protocol found = load_protocol(entry.path().string()); has_task(found, task))
             return found;
-        } catch (const Error&) {  // no protocol
+        } catch (const Error&) {  // not a protocol
         }
   throw Error("no protocol in protocols/ or protocols/examples/ shows this task");
 }
@@ -59,7 +58,7 @@ class EveryTask : public ::testing::TestWithParam<std::string_view> {
   std::string folder_ = log_ + "-export";
 };
 
-TEST_P(EveryTask, is_simulated_replayed_judged_and_exported) {
+TEST_P(EveryTask, IsSimulatedReplayedJudgedAndExported) {
   for (const std::string responder : {"simulated", "coin", "always_yes", "always_no"}) {
     SCOPED_TRACE(responder);
     const StoredSession stored(protocol_, responder, 5);
@@ -88,8 +87,8 @@ TEST_P(EveryTask, is_simulated_replayed_judged_and_exported) {
   }
 }
 
-// The log as it is when the program is killed in a trial of the task, then resumed to its end.
-TEST_P(EveryTask, goes_on_after_the_program_was_killed) {
+// The program is killed in a trial of the task; the log is resumed to its end.
+TEST_P(EveryTask, ContinuesAfterKill) {
   SessionOptions model;
   model.responder = Plug{"coin"};
   const RecordedSession whole = compute_session({resolve(model, protocol_, 11), "1"}, {});
@@ -119,8 +118,8 @@ TEST_P(EveryTask, goes_on_after_the_program_was_killed) {
   expect_verified(reader, id);
 }
 
-// Every answer is taken back once: its trial comes again, and the block takes no more trials.
-TEST_P(EveryTask, is_presented_again_after_each_answer_was_vetoed) {
+// Every answer is vetoed once: its trial comes again, and the block has no further trials.
+TEST_P(EveryTask, IsPresentedAgainAfterVeto) {
   const auto plan = std::make_shared<const Protocol>(protocol_);
   Engine engine(plan, 3);
   double t_s = 0;
@@ -133,7 +132,7 @@ TEST_P(EveryTask, is_presented_again_after_each_answer_was_vetoed) {
       tell(CubeTouch{slot});
     Changes last;
     for (int wrong = 0; engine.trial_is_open();
-         ++wrong) {  // the introduction asks until it is right
+         ++wrong) {  // the introduction asks until the answer is correct
       if (!engine.screen().can_answer) tell(CubesShown{});
       RandomStream stream(3, "answer", static_cast<std::uint64_t>(trial.trial_number),
                           static_cast<std::uint64_t>(wrong));

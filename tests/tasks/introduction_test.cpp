@@ -1,4 +1,4 @@
-// The introduction: it asks until the heavier cube is chosen.
+// Introduction: asks until the heavier cube is chosen.
 #include "tasks/Introduction.h"
 
 #include <gmock/gmock.h>
@@ -6,7 +6,7 @@
 namespace heft {
 namespace {
 
-TEST(IntroductionTrial, asks_again_until_the_heavier_cube_is_chosen) {
+TEST(IntroductionTrial, AsksAgainUntilHeavierCubeIsChosen) {
   for (const WrongAnswer rule : {WrongAnswer::same_layout, WrongAnswer::reshuffle}) {
     Introduction::Block block;
     block.masses_g = {15, 800};
@@ -32,7 +32,7 @@ TEST(IntroductionTrial, asks_again_until_the_heavier_cube_is_chosen) {
   }
 }
 
-TEST(IntroductionRun, is_one_trial) {
+TEST(IntroductionRun, IsOneTrial) {
   Introduction::Block block;
   block.masses_g = {15, 800};
   Introduction::Run run(block, 7);
@@ -43,7 +43,7 @@ TEST(IntroductionRun, is_one_trial) {
   EXPECT_TRUE(run.finished());
 }
 
-TEST(HeaviestSlot, leaves_the_latest_wrong_ones_out) {
+TEST(HeaviestSlot, IgnoresLastWrongChoices) {
   const std::vector<double> values{1, 3, 2};
   const std::vector<int> wrong{2}, all{1, 2, 3};
   EXPECT_EQ(heaviest_slot(values, {}), 2);

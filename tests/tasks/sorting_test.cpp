@@ -1,5 +1,4 @@
-// Sorting: which actions end a trial, how labels move, and in which order techniques and masses
-// come.
+// Sorting task: end of a trial, labels, and order of techniques and masses.
 #include "tasks/Sorting.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +23,7 @@ Sorting::Trial trial_of(std::vector<double> masses_g) {
   return {{}, plan_of(std::move(masses_g)), 0};
 }
 
-TEST(SortingTrial, ends_with_validate_or_not_knowing_and_not_with_a_label) {
+TEST(SortingTrial, EndsWithValidateOrDontKnow) {
   const Sorting::Trial trial = trial_of({15, 200, 800});
   EXPECT_FALSE(trial.ends({"label", 1, "lightest"}));
   EXPECT_FALSE(trial.ends({"unlabel", 1}));
@@ -32,7 +31,7 @@ TEST(SortingTrial, ends_with_validate_or_not_knowing_and_not_with_a_label) {
   EXPECT_TRUE(trial.ends({"dont_know"}));
 }
 
-TEST(SortingTrial, is_correct_where_labels_go_with_masses) {
+TEST(SortingTrial, IsCorrectIfLabelsMatchMasses) {
   for (const bool swapped : {false, true}) {
     Sorting::Trial trial = trial_of({200, 15, 800});
     trial.take({"label", 1, swapped ? "heaviest" : "intermediate"});
@@ -46,7 +45,7 @@ TEST(SortingTrial, is_correct_where_labels_go_with_masses) {
   }
 }
 
-TEST(SortingTrial, a_used_label_moves_and_can_be_taken_back) {
+TEST(SortingTrial, UsedLabelMovesAndCanBeRemoved) {
   Sorting::Trial trial = trial_of({1, 2, 3});
   trial.take({"label", 1, "heaviest"});
   trial.take({"label", 2, "heaviest"});
@@ -61,7 +60,7 @@ TEST(SortingTrial, a_used_label_moves_and_can_be_taken_back) {
   EXPECT_THAT(*trial.refusal({"label", 1, "1"}), HasSubstr("has no label \"1\""));
 }
 
-TEST(SortingTrial, who_does_not_know_has_labeled_nothing) {
+TEST(SortingTrial, DontKnowDiscardsLabels) {
   Sorting::Trial trial = trial_of({1, 2});
   trial.take({"label", 1, "1"});
   EXPECT_THAT(trial.labels(), ::testing::ElementsAre("1", "none"));
@@ -70,7 +69,7 @@ TEST(SortingTrial, who_does_not_know_has_labeled_nothing) {
   EXPECT_THAT(trial.labels(), ::testing::ElementsAre("none", "none"));
 }
 
-TEST(SortingTrial, can_be_validated_once_all_have_labels_and_answers_are_taken) {
+TEST(SortingTrial, CanBeValidatedWithAllLabels) {
   Sorting::Trial trial = trial_of({1, 2});
   ScreenState screen;
   screen.can_answer = true;
@@ -85,8 +84,7 @@ TEST(SortingTrial, can_be_validated_once_all_have_labels_and_answers_are_taken) 
   EXPECT_FALSE(screen.can_validate);
 }
 
-RC_GTEST_PROP(SortingRun, has_each_technique_as_often_as_asked_in_runs_as_short_as_asked,
-              (std::uint64_t seed)) {
+RC_GTEST_PROP(SortingRun, HasPlannedTechniquesAndRuns, (std::uint64_t seed)) {
   Sorting::Block block;
   block.name = "s";
   block.masses_g = {1, 2};
@@ -112,7 +110,7 @@ RC_GTEST_PROP(SortingRun, has_each_technique_as_often_as_asked_in_runs_as_short_
   RC_ASSERT(block.max_run == 0 || block.check().size() == 1u);
 }
 
-TEST(SortingRun, balanced_orders_come_each_once_in_every_round_and_again_freely_after_a_void) {
+TEST(SortingRun, BalancedOrdersComeOncePerRound) {
   Sorting::Block block;
   block.name = "s";
   block.masses_g = {1, 2, 3};
@@ -133,7 +131,7 @@ TEST(SortingRun, balanced_orders_come_each_once_in_every_round_and_again_freely_
   EXPECT_TRUE(run.finished());
 }
 
-TEST(SortingKeys, checks_its_values) {
+TEST(SortingKeys, AreChecked) {
   Sorting::Block block;
   block.masses_g = {1, 2, 2};
   ASSERT_EQ(block.check().size(), 1u);

@@ -10,7 +10,7 @@
 #include "experiment/ScreenTexts.h"
 #include "protocol/readers/Files.h"
 #include "tasks/Offers.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 #include "view/ArView.h"
 #include "view/screens/Page.h"
 
@@ -118,17 +118,16 @@ inline std::vector<NamedScreen> trial_screens() {
 /// the cubes are there, and with them.
 inline std::vector<NamedScreen> task_screens(const ScreenTexts& texts) {
   std::vector<NamedScreen> all;
-  Tasks::each([&]<typename Kind>() {
-    const Task task(Kind::task.name);
-    if (!texts.pages.contains(text_page(Screen::trial, task))) return;
+  for (const Task task : words_of<Task>()) {
+    if (!texts.pages.contains(text_page(Screen::trial, task))) continue;
     all.push_back({"instructions_" + task, page_state(Screen::instructions, task)});
-    for (ScreenState state : Kind::fullest_screens()) {
+    for (ScreenState state : fullest_screens(task)) {
       state.screen = Screen::trial;
       state.task = task;
       all.push_back({task + " of the task", state});
       all.push_back({task + " of the task without cubes", state, false});
     }
-  });
+  }
   return all;
 }
 

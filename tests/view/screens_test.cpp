@@ -11,7 +11,7 @@
 
 #include "EveryScreen.h"
 #include "base/Error.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 #include "view/text/Places.h"
 #include "view/text/TextFit.h"
 

@@ -62,19 +62,19 @@ std::map<std::string, Course> courses_of(const SessionData& data) {
 Censored direction_of(const EstimateRow& row, const Course& course) {
   if ((row.n_ceiling > 0) != (row.n_floor > 0))
     return row.n_ceiling > 0 ? Censored::above : Censored::below;
-  if (row.n_ceiling > 0 || course.levels_g.empty()) return Censored::unsettled;
+  if (row.n_ceiling > 0 || course.levels_g.empty()) return Censored::indeterminate;
   const double first_g = course.levels_g.front(), last_g = course.levels_g.back();
-  if (first_g == last_g) return Censored::unsettled;
+  if (first_g == last_g) return Censored::indeterminate;
   return last_g > first_g ? Censored::above : Censored::below;
 }
 
 std::string why_censored(const EstimateRow& row, Censored censored) {
   if (censored == Censored::above) return "at the ceiling";
   if (censored == Censored::below) return "at the floor";
-  if (row.method != jnd_method) return censored == Censored::unsettled ? "indeterminate" : "";
+  if (row.method != jnd_method) return censored == Censored::indeterminate ? "indeterminate" : "";
   if (row.n_reversals < least_reversals) return fmt::format("{} reversals", row.n_reversals);
   if (row.reason == StopReason::trials) return "trial limit";
-  return censored == Censored::unsettled ? "at both bounds" : "";
+  return censored == Censored::indeterminate ? "at both bounds" : "";
 }
 
 void judge(StaircaseResult& result, const EstimateRow& row, const Course& course) {
@@ -85,9 +85,9 @@ void judge(StaircaseResult& result, const EstimateRow& row, const Course& course
     result.shown_g = result.jnd_g;
     return;
   }
-  if (result.censored == Censored::none || result.censored == Censored::unsettled)
+  if (result.censored == Censored::none || result.censored == Censored::indeterminate)
     result.censored = direction_of(row, course);
-  if (result.censored == Censored::unsettled) return;
+  if (result.censored == Censored::indeterminate) return;
   const bool above = result.censored == Censored::above;
   if (result.jnd_g || !course.levels_g.empty())
     result.shown_g = result.jnd_g.value_or(above ? course.highest() : course.lowest());

@@ -40,7 +40,7 @@ struct StaircaseResult {
   int n_trials = 0, n_reversals = 0;
   int n_floor = 0, n_ceiling = 0;  ///< moves that a bound cut short
   StopReason reason = StopReason::reversals;
-  /// above, below: the JND is known to lie beyond `shown_g` only. unsettled: not even that.
+  /// above, below: the JND is known to lie beyond `shown_g` only. indeterminate: not even that.
   Censored censored = Censored::none;
   std::string why{};  ///< "at the ceiling", "trial limit", "3 reversals"...; empty: it settled
   /// The JND; where that is censored, what it lies beyond; none where nothing is known.

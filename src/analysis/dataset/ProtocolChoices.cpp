@@ -8,7 +8,7 @@
 
 #include "base/Error.h"
 #include "protocol/study/StudyPlan.h"
-#include "tasks/Tasks.h"
+#include "tasks/SessionPlan.h"
 
 namespace heft {
 
@@ -48,11 +48,7 @@ class Collector {
 
   void operator()(const DemonstrationBlock&) {}
   void operator()(const TaskBlock& block) {
-    Tasks::call(block.task().name, [&]<typename Kind>() {
-      const auto& keys = *block.as<typename Kind::Block>();
-      if constexpr (requires { keys.choices(); })
-        for (auto& [choice, value] : keys.choices()) add(choice, value);
-    });
+    for (const auto& [choice, value] : block.choices()) add(choice, value);
   }
   void operator()(const BreakBlock& block) {
     add(block.name, fmt::format("a break of at least {:g} s", block.least_duration_s));

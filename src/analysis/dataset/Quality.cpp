@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "experiment/Block.h"
+#include "tasks/SessionPlan.h"
 
 namespace heft {
 

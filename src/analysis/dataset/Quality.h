@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "analysis/dataset/Dataset.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft {
 

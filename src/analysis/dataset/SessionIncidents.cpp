@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 
 namespace heft {
 

@@ -8,7 +8,7 @@
 
 #include "base/Names.h"
 #include "experiment/Rows.h"
-#include "experiment/Task.h"
+#include "experiment/TrialPlan.h"
 
 namespace heft {
 

@@ -35,7 +35,7 @@ const StudyEstimate* find_estimate(const Estimates& estimates, std::string_view 
 }
 
 std::string_view beyond_sign(Censored censored) {
-  if (censored == Censored::none || censored == Censored::unsettled) return "";
+  if (censored == Censored::none || censored == Censored::indeterminate) return "";
   return censored == Censored::above ? "> " : "< ";
 }
 

@@ -24,9 +24,9 @@ class LagSection final : public Section {
         // Five bands a decade, called by their middle.
         const double mass_g = std::pow(10, std::round(5 * std::log10(cube.mass_g)) / 5);
         values_mm_[{condition, condition}][mass_g].push_back(1e3 * *cube.peak_lag_m);
-        if (cube.deepest_push_m)
+        if (cube.max_push_displacement_m)
           values_mm_[{condition, condition + ", the hand's way"}][mass_g].push_back(
-              1e3 * *cube.deepest_push_m);
+              1e3 * *cube.max_push_displacement_m);
       }
     }
   }

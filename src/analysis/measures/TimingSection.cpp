@@ -6,7 +6,7 @@
 #include <set>
 
 #include "analysis/measures/Section.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft {
 

@@ -21,7 +21,7 @@ Cell coordinate_cell(const StudyEstimate& estimate, std::string_view name) {
 Cell shown(const std::optional<double>& value, const EstimateColumn& column, Censored censored) {
   Cell cell = number(value, column.decimals);
   if (value && column.decimals == 0) cell.is_whole = true;
-  if (column.field == Field::value && value && censored != Censored::unsettled)
+  if (column.field == Field::value && value && censored != Censored::indeterminate)
     cell.text = std::string(beyond_sign(censored)) + cell.text;
   return cell;
 }

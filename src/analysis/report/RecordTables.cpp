@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 
 namespace heft {
 

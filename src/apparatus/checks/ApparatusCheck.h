@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/Check.h"
+#include "experiment/EventPayloads.h"
 #include "tracking/Tracker.h"
 #include "tracking/camera/Camera.h"
 #include "view/scene/SceneDrawing.h"

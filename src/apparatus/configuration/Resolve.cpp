@@ -216,7 +216,7 @@ class Resolver {
     if (config_.simulator.empty() || !config_.rate_hz) return false;
     if (!given_.simulator) return true;
     // What `auto` was at the start it stays, whatever the error table says now.
-    if (given_.simulator == automatic && !config_.simulator_why.empty()) return true;
+    if (given_.simulator == automatic && !config_.simulator_reason.empty()) return true;
     return simulator_named(*given_.simulator).make == simulator_named(config_.simulator).make;
   }
 
@@ -227,7 +227,7 @@ class Resolver {
       const SimulatorPick pick = simulator_for(given_.simulator.value_or(held), protocol_);
       config_.simulator = pick.simulator;
       config_.rate_hz = pick.rate_hz;
-      config_.simulator_why = pick.why;
+      config_.simulator_reason = pick.why;
     }
     config_.simulator_edition = simulator_named(config_.simulator).edition;
     config_.input = protocol_.simulator.input.mode;
@@ -239,7 +239,7 @@ class Resolver {
     config_.display_rate_hz = protocol_.display_rate_hz;
     config_.gap_s = protocol_.onset.gap_s;
     config_.min_answer_s = protocol_.onset.min_answer_s;
-    if (given_.controls) config_.handed = *given_.controls;
+    if (given_.controls) config_.controls = *given_.controls;
     if (given_.hand) config_.hand = given_.hand;
     if (given_.keys) config_.keys = given_.keys;
     if (!given_.backup.empty()) config_.backup = absolute_path(given_.backup);

@@ -11,7 +11,7 @@
 #include "base/DefaultTechniques.h"
 #include "base/Error.h"
 #include "base/Random.h"
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"
 #include "protocol/readers/Files.h"

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "experiment/DisplayFacts.h"
 #include "experiment/ScreenTexts.h"
 #include "experiment/SessionConfig.h"
+#include "experiment/Stage.h"
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
 #include "tracking/pose/MarkerBody.h"

@@ -8,7 +8,7 @@
 
 #include "apparatus/sources/PictureRecording.h"
 #include "apparatus/sources/PictureSource.h"
-#include "experiment/DraggedEffector.h"
+#include "experiment/Stage.h"
 #include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {

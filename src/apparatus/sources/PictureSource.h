@@ -13,7 +13,7 @@
 #include "apparatus/SessionClock.h"
 #include "apparatus/checks/ApparatusCheck.h"
 #include "base/Image.h"
-#include "experiment/DraggedEffector.h"
+#include "experiment/Stage.h"
 #include "physics/Drive.h"
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"

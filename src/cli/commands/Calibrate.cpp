@@ -16,7 +16,7 @@
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
-#include "experiment/DisplayFacts.h"
+#include "experiment/Stage.h"
 #include "protocol/readers/Files.h"
 #include "tracking/Tracker.h"
 #include "tracking/calibration/EffectorCalibration.h"

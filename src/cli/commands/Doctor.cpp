@@ -25,7 +25,7 @@
 #include "cli/console/Terminal.h"
 #include "physics/DecouplingSimulator.h"
 #include "protocol/readers/Files.h"
-#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
 #include "responders/Responder.h"
 #include "session/Session.h"
 #include "tracking/calibration/ShutterCalibration.h"

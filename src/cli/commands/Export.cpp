@@ -13,7 +13,6 @@
 #include "base/files/Printable.h"
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"
-#include "record/export/Pseudonyms.h"
 #include "session/Session.h"
 
 namespace heft::cli {

@@ -18,7 +18,7 @@
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"
 #include "protocol/readers/Files.h"
-#include "record/integrity/Integrity.h"
+#include "record/reader/LogReader.h"
 #include "replay/ReplayView.h"
 #include "replay/WhatIf.h"
 #include "session/Session.h"
@@ -253,7 +253,7 @@ Supposed supposed(const LoggedSession& session, const ReplayOptions& options) {
     const SimulatorPick pick = simulator_for(simulator, protocol);
     config.simulator = pick.simulator;
     config.rate_hz = pick.rate_hz;
-    config.simulator_why = pick.why;
+    config.simulator_reason = pick.why;
   }
   config.input = protocol.simulator.input.mode;
   config.predict_s = protocol.simulator.input.predict_s;
@@ -334,7 +334,7 @@ void show(const LogReader& reader, const ReplayOptions& options) {
   ViewSetup setup;
   setup.stage = stage_of(*session.protocol, 3);
   if (entry.has_screen) setup.texts = texts_of(session.setup);
-  setup.left_handed = session.setup.handed == Side::left;
+  setup.left_handed = session.setup.controls == Side::left;
   setup.text_size = session.protocol->screens.text_size;
   setup.file = file;
   setup.rate_hz = session.protocol->display_rate_hz;

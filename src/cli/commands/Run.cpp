@@ -13,7 +13,7 @@
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
-#include "experiment/ParticipantId.h"
+#include "experiment/Participant.h"
 #include "protocol/readers/Files.h"
 #include "session/Session.h"
 

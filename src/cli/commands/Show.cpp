@@ -17,7 +17,6 @@
 #include "cli/console/Terminal.h"
 #include "cli/reports/SessionFacts.h"
 #include "record/schema/EventRow.h"
-#include "record/schema/SetupJson.h"
 #include "session/Session.h"
 
 namespace heft::cli {

@@ -19,8 +19,8 @@
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
 #include "cli/reports/TextChecks.h"
-#include "experiment/DisplayFacts.h"
 #include "experiment/ScreenTexts.h"
+#include "experiment/Stage.h"
 #include "physics/auto/Choice.h"
 #include "physics/scene/Scene.h"
 #include "protocol/readers/Files.h"
@@ -28,7 +28,7 @@
 #include "protocol/study/StudyPlan.h"
 #include "psychophysics/Interleaving.h"
 #include "session/Session.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 #include "tracking/pose/MarkerBody.h"
 #include "tracking/synthetic/SyntheticCamera.h"
 

@@ -7,7 +7,7 @@
 
 #include "cli/console/Terminal.h"
 #include "inference/Statistics.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft::cli {
 

@@ -1,7 +1,7 @@
 // The file that heft calibrate display writes: a display's size and the eyes' distance from it.
 #include <fmt/format.h>
 
-#include "experiment/DisplayFacts.h"
+#include "experiment/Stage.h"
 #include "protocol/readers/Files.h"
 #include "protocol/toml/TableReader.h"
 

@@ -12,7 +12,7 @@
 
 #include "base/files/Printable.h"
 #include "base/files/TextFile.h"
-#include "experiment/Parameter.h"
+#include "experiment/Participant.h"
 #include "protocol/readers/ProcedureReader.h"
 #include "protocol/toml/TableReader.h"
 #include "protocol/toml/TomlDocument.h"

@@ -11,7 +11,6 @@
 #include "protocol/readers/Files.h"
 #include "protocol/toml/TableReader.h"
 #include "tasks/SessionPlan.h"
-#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -52,12 +51,8 @@ struct TaskPage {
 
 // A task's two pages. They may be missing, or lack keys: a session with the task refuses them.
 std::vector<TaskPage> pages_of(std::string_view task) {
-  std::vector<TaskPage> pages;
-  Tasks::call(task, [&]<typename Kind>() {
-    pages = {{text_page(Screen::instructions, Kind::task.name), "title text"},
-             {text_page(Screen::trial, Kind::task.name), Kind::texts}};
-  });
-  return pages;
+  return {{text_page(Screen::instructions, task), "title text"},
+          {text_page(Screen::trial, task), task_named(task).texts}};
 }
 
 std::string trimmed(const std::string& text) {

@@ -2,26 +2,15 @@
 
 #include <algorithm>
 
-#include "tasks/Tasks.h"
+#include "tasks/SessionPlan.h"
 
 namespace heft {
 
-namespace {
-// Calls visit with the keys of each block of trials.
-template <typename Visit>
-void each_block_of_trials(const Protocol& protocol, const Visit& visit) {
-  for (const Block& block : protocol.blocks)
-    if (const auto* trials = std::get_if<TaskBlock>(&block))
-      Tasks::call(trials->task().name,
-                  [&]<typename Kind>() { visit(*trials->as<typename Kind::Block>()); });
-}
-}  // namespace
-
 TrialsByTask expected_trials(const Protocol& protocol) {
   TrialsByTask trials;
-  each_block_of_trials(protocol, [&]<typename Keys>(const Keys& keys) {
-    trials[std::string(Keys::OfTask::task.name)] += keys.expected_trials();
-  });
+  for (const Block& block : protocol.blocks)
+    if (const auto* of_task = std::get_if<TaskBlock>(&block))
+      trials[std::string(of_task->task().name)] += of_task->expected_trials();
   return trials;
 }
 
@@ -32,11 +21,10 @@ double total_of(const TrialsByTask& trials) {
 }
 
 bool depends_on_answers(const Protocol& protocol) {
-  bool depends = false;
-  each_block_of_trials(protocol, [&](const auto& keys) {
-    if constexpr (requires { keys.depends_on_answers(); }) depends |= keys.depends_on_answers();
+  return std::ranges::any_of(protocol.blocks, [](const Block& block) {
+    const auto* of_task = std::get_if<TaskBlock>(&block);
+    return of_task && of_task->depends_on_answers();
   });
-  return depends;
 }
 
 double expected_minutes(const Protocol& protocol, const TrialsByTask& trials) {

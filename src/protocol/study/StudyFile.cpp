@@ -8,7 +8,7 @@
 #include "base/files/Printable.h"
 #include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
-#include "experiment/ParticipantId.h"
+#include "experiment/Participant.h"
 #include "protocol/Protocol.h"
 #include "protocol/study/StudyPlan.h"
 #include "protocol/toml/TableReader.h"

@@ -32,9 +32,10 @@ void write_dictionary(const ExportSource& source, const std::vector<ExportTable>
 }  // namespace
 
 void export_csv(const ExportSource& source, ExportFolder& folder,
-                const std::function<void(double)>& tell) {
-  write_dictionary(source, write_tables(source, folder, "", ".csv", tell), folder);
-  folder.write_text("analysis.R", analysis_script);
+                const std::function<void(double)>& progress) {
+  const std::string script = analysis_script();
+  write_dictionary(source, write_tables(source, folder, "", ".csv", progress), folder);
+  folder.write_text("analysis.R", script);
 }
 
 std::vector<ExportedFile> export_logs(const ExportRequest& request,

@@ -1,6 +1,6 @@
-// BIDS, behavioral experiments (bids-specification.readthedocs.io): participants.tsv, and a session
-// and task a table of trials and one of events, whose columns are explained once for all in
-// task-..._beh.json and task-..._events.json at the top (the inheritance principle).
+// BIDS, behavioral experiments (bids-specification.readthedocs.io): participants.tsv, and for each
+// session and task a table of trials and one of events. Their columns are described once, in
+// task-..._beh.json and task-..._events.json at the top (inheritance principle).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 #include <set>
 
 #include "record/export/ExportFolder.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft {
 
 namespace {
 using nlohmann::ordered_json;
 
-// One session's tasks, and its place among its person's sessions.
+// A session with its tasks and its label among the person's sessions.
 struct BidsSession {
   std::size_t log = 0;
   std::string session_id, label;
@@ -29,7 +29,7 @@ struct BidsPerson {
   std::vector<BidsSession> sessions;
 };
 
-// Letters and digits only; two people are told apart on disks that know no capitals too.
+// ASCII letters and digits, unique also without regard to case.
 std::string label_of(const std::string& name, std::set<std::string>& taken) {
   std::string label;
   for (const char c : name)
@@ -97,12 +97,12 @@ ordered_json sidecar_of(const ExportTable& table, ordered_json json) {
 class BidsExport {
  public:
   BidsExport(const ExportSource& source, ExportFolder& folder,
-             const std::function<void(double)>& tell)
+             const std::function<void(double)>& progress)
       : source_(source),
         folder_(folder),
         trials_(source.shown(behavior_table())),
         events_(source.shown(event_table())),
-        progress_(source.count(trials_) + source.count(events_), tell) {}
+        progress_(source.count(trials_) + source.count(events_), progress) {}
 
   void write() {
     const std::vector<BidsPerson> people = people_of(source_);
@@ -136,25 +136,25 @@ class BidsExport {
   }
 
   static ExportColumn participant_id() {
-    return {"participant_id", "", "who took part, as in the names of files", "", ""};
+    return {"participant_id", "", "participant's label, as in file names", "", ""};
   }
 
-  // What somebody told in their first session.
+  // Answers about each person are those of the first session.
   void write_people(const std::vector<BidsPerson>& people) {
-    ExportTable told = source_.table("participants");
-    std::erase_if(told.columns, [](const ExportColumn& column) {
+    ExportTable answers = source_.table("participants");
+    std::erase_if(answers.columns, [](const ExportColumn& column) {
       return !column.name.starts_with("info_") && !column.name.starts_with("parameter_");
     });
-    std::vector<ExportColumn> header{participant_id(),
-                                     {"n_sessions", "", "sessions of this person", "", ""}};
-    header.insert(header.end(), told.columns.begin(), told.columns.end());
+    std::vector<ExportColumn> header{
+        participant_id(), {"n_sessions", "", "number of sessions of the person", "", ""}};
+    header.insert(header.end(), answers.columns.begin(), answers.columns.end());
     RowFile file(folder_.place("participants.tsv"), RowFile::Kind::tsv);
     file.header(header);
     for (const BidsPerson& person : people) {
       ExportCells row{text("sub-" + person.label), text(std::to_string(person.sessions.size()))};
       const BidsSession& first = person.sessions.front();
-      if (!told.columns.empty())
-        source_.each_row(told, first.log, where_session(first), [&](const ExportCells& cells) {
+      if (!answers.columns.empty())
+        source_.each_row(answers, first.log, where_session(first), [&](const ExportCells& cells) {
           row.insert(row.end(), cells.begin() + 1, cells.end());
         });
       file.row(row);
@@ -172,7 +172,7 @@ class BidsExport {
              column.name.starts_with("info_") || column.name.starts_with("parameter_");
     });
     ExportTable described{
-        "sessions", "", "", "", {{"session_id", "", "as in the names of files", "", ""}}};
+        "sessions", "", "", "", {{"session_id", "", "session's label, as in file names", "", ""}}};
     for (const ExportColumn& column : source_.columns(table)) described.columns.push_back(column);
     const std::string name = fmt::format("sub-{0}/sub-{0}_sessions", person.label);
     RowFile file(folder_.place(name + ".tsv"), RowFile::Kind::tsv);
@@ -214,24 +214,25 @@ class BidsExport {
   }
 
   void write_sidecars(const std::string& task) {
-    const ordered_json told{{"TaskName", task}, {"TaskDescription", task_named(task).about}};
+    const ordered_json about{{"TaskName", task}, {"TaskDescription", task_named(task).about}};
     const std::string stem = "task-" + task_label(task);
-    write_json(folder_, stem + "_beh.json", sidecar_of(trials_, told));
+    write_json(folder_, stem + "_beh.json", sidecar_of(trials_, about));
     write_json(folder_, stem + "_events.json", sidecar_of(events_, ordered_json::object()));
   }
 
-  // What staircases estimated was made of the answers: a derivative.
+  // Estimates are derived from the answers, hence a derivative dataset.
   void write_estimates(const std::vector<BidsPerson>& people) {
     ExportTable table = source_.table("estimates");
     if (source_.count(table) == 0) return;
     std::erase_if(table.columns, [](const ExportColumn& column) {
       return column.name == "session_id" || column.name == "participant";
     });
-    ExportTable described{"estimates",
-                          "",
-                          "",
-                          "",
-                          {participant_id(), {"session_id", "", "session of the person", "", ""}}};
+    ExportTable described{
+        "estimates",
+        "",
+        "",
+        "",
+        {participant_id(), {"session_id", "", "session's label, as in file names", "", ""}}};
     for (const ExportColumn& column : table.columns) described.columns.push_back(column);
     RowFile file(folder_.place("derivatives/heft/estimates.tsv"), RowFile::Kind::tsv);
     file.header(described.columns);
@@ -249,7 +250,7 @@ class BidsExport {
     write_json(folder_, "derivatives/heft/estimates.json",
                sidecar_of(described, ordered_json::object()));
     write_json(folder_, "derivatives/heft/dataset_description.json",
-               description("Perceived mass: what staircases estimated", "derivative"));
+               description("Perceived mass: estimates of staircases", "derivative"));
   }
 
   static ExportCell text(const std::string& value) { return {ExportCell::Kind::text, value}; }
@@ -265,8 +266,8 @@ class BidsExport {
 }  // namespace
 
 void export_bids(const ExportSource& source, ExportFolder& folder,
-                 const std::function<void(double)>& tell) {
-  BidsExport(source, folder, tell).write();
+                 const std::function<void(double)>& progress) {
+  BidsExport(source, folder, progress).write();
 }
 
 }  // namespace heft

@@ -7,7 +7,9 @@
 #include <cstring>
 
 #include "base/Error.h"
+#include "base/Installation.h"
 #include "base/files/Csv.h"
+#include "base/files/TextFile.h"
 
 namespace heft {
 
@@ -17,13 +19,11 @@ namespace fs = std::filesystem;
 constexpr auto unfinished = "export_unfinished.txt";
 
 [[noreturn]] void refuse_writing(const fs::path& path) {
-  throw Error(
-      fmt::format("can't write {}: {}. The logs are untouched; export again to another "
-                  "folder.",
-                  path.string(), std::strerror(errno)));
+  throw Error(fmt::format("cannot write {}: {}. Export to another folder.", path.string(),
+                          std::strerror(errno)));
 }
 
-// BIDS knows no quotes: what parts cells and lines is a space.
+// BIDS has no quotes, so separators become spaces.
 std::string tsv_cell(std::string text) {
   for (char& c : text)
     if (c == '\t' || c == '\n' || c == '\r') c = ' ';
@@ -34,7 +34,7 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   if (!folder.empty()) fs::create_directories(folder, error);
   if (error)
-    throw Error(fmt::format("can't make the folder {}: {}", folder.string(), error.message()));
+    throw Error(fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
 }
 }  // namespace
 
@@ -78,9 +78,10 @@ std::string RowFile::shown(const ExportCell& cell) const {
 ExportFolder::ExportFolder(const std::string& folder) : folder_(folder) {
   refuse_filled_folder(folder);
   make_folder(folder_);
-  write_text(unfinished,
-             "heft export is writing into this folder, or was interrupted: what is here is not "
-             "whole. Delete the folder and export again; the logs are untouched.\n");
+  write_text(
+      unfinished,
+      "heft export is writing to this folder or was interrupted; the files are incomplete. If "
+      "no export is running, delete the folder and export again.\n");
 }
 
 fs::path ExportFolder::place(const std::string& name) {
@@ -105,31 +106,35 @@ std::vector<ExportedFile> ExportFolder::finished() {
 }
 
 void ExportProgress::row() {
-  constexpr std::int64_t now_and_then = 1000;
-  if (++n_done_ % now_and_then == 0)
-    tell_(std::min(1.0, static_cast<double>(n_done_) / static_cast<double>(n_all_)));
+  constexpr std::int64_t rows_per_report = 1000;
+  if (++n_done_ % rows_per_report == 0)
+    report_(std::min(1.0, static_cast<double>(n_done_) / static_cast<double>(n_all_)));
 }
 
 std::string readme_of(const std::string& standard) {
   return fmt::format(
-      "# Sessions of perceived mass\n\nExported by heft {} as {}. Participants pushed virtual "
-      "cubes "
-      "of different mass with an effector in their hand and said which is heavier. Times are "
-      "seconds since a session's start, masses grams. Trials with a status other than `completed` "
-      "were presented again; those with `is_practice` 1 count in no figure.\n",
+      "# Perceived mass of virtual cubes\n\nExported by heft {} as {}. Participants pushed virtual "
+      "cubes with a hand-held effector and judged their masses. Times are in seconds since the "
+      "start of the session, masses in grams. Trials whose status is not `completed` were "
+      "presented "
+      "again. Trials with `is_practice` 1 are practice and excluded from results.\n",
       HEFT_VERSION, standard);
+}
+
+std::string analysis_script() {
+  return read_text_file(installed_file("src/record/export/analysis.R"));
 }
 
 std::vector<ExportTable> write_tables(const ExportSource& source, ExportFolder& folder,
                                       const std::string& begin, const std::string& end,
-                                      const std::function<void(double)>& tell) {
+                                      const std::function<void(double)>& progress) {
   std::vector<ExportTable> tables = source.tables();
   std::erase_if(tables, [&](const ExportTable& table) {
     return table.name == "frames" && source.count(table) == 0;
   });
   std::int64_t n_rows = 0;
   for (const ExportTable& table : tables) n_rows += source.count(table);
-  ExportProgress progress(n_rows, tell);
+  ExportProgress count(n_rows, progress);
   for (const ExportTable& table : tables) {
     const std::string name = begin + table.name + end;
     RowFile file(folder.place(name), RowFile::Kind::csv);
@@ -137,7 +142,7 @@ std::vector<ExportTable> write_tables(const ExportSource& source, ExportFolder& 
     std::int64_t n = 0;
     source.each_row(table, [&](const ExportCells& cells) {
       file.row(cells);
-      progress.row();
+      count.row();
       ++n;
     });
     file.close();
@@ -147,18 +152,18 @@ std::vector<ExportTable> write_tables(const ExportSource& source, ExportFolder& 
 }
 
 void refuse_filled_folder(const std::string& folder) {
-  std::error_code unknown;  // what can't be looked at is explained when it is written to
+  std::error_code unknown;  // reported by the first write
   if (!fs::exists(folder, unknown)) return;
   if (!fs::is_directory(folder, unknown))
     throw Error(fmt::format("--out {}: it is a file, expected a folder", folder), ExitCode::usage);
   if (fs::exists(fs::path(folder) / unfinished, unknown))
-    throw Error(fmt::format("--out {}: an export is being written there, or was interrupted, and "
-                            "nothing is overwritten. Delete the folder, or name a new one.",
+    throw Error(fmt::format("--out {}: the folder holds an unfinished export, and exports never "
+                            "overwrite files. Delete it or choose a new folder.",
                             folder),
                 ExitCode::usage);
   if (!fs::is_empty(folder, unknown))
-    throw Error(fmt::format("--out {}: the folder holds files already, and nothing is overwritten. "
-                            "Name a new or empty folder.",
+    throw Error(fmt::format("--out {}: the folder is not empty, and exports never overwrite files. "
+                            "Choose a new or empty folder.",
                             folder),
                 ExitCode::usage);
 }

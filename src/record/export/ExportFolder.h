@@ -1,5 +1,4 @@
-// The folder that an export is written into: files that are whole or told as broken. Private to
-// this room.
+// The folder of an export and its files. An incomplete export is marked. Private to record.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +13,7 @@
 
 namespace heft {
 
-/// A file of rows; cells are quoted as its kind has it.
+/// A CSV or TSV file.
 class RowFile {
  public:
   enum class Kind { csv, tsv };
@@ -22,7 +21,7 @@ class RowFile {
 
   void header(const std::vector<ExportColumn>& columns);
   void row(std::span<const ExportCell> cells);
-  /// @throws Error when something could not be written
+  /// @throws Error if writing failed
   void close();
 
  private:
@@ -36,15 +35,15 @@ class RowFile {
 
 class ExportFolder {
  public:
-  /// Makes it, with a file that says that it isn't whole yet.
+  /// Creates the folder, with a file that marks it as incomplete.
   explicit ExportFolder(const std::string& folder);
 
-  /// Where a file is to be written; its folders are made.
+  /// Path of a new file; creates its parent folders.
   std::filesystem::path place(const std::string& name);
   void write_text(const std::string& name, const std::string& text);
   void wrote(const std::string& name, std::int64_t n_rows) { files_.push_back({name, n_rows}); }
 
-  /// It is whole now.
+  /// Removes the mark.
   std::vector<ExportedFile> finished();
 
  private:
@@ -52,20 +51,20 @@ class ExportFolder {
   std::vector<ExportedFile> files_;
 };
 
-/// Counts rows and tells how far it is.
+/// Counts rows and reports progress.
 class ExportProgress {
  public:
-  ExportProgress(std::int64_t n_all, const std::function<void(double)>& tell)
-      : n_all_(n_all), tell_(tell) {}
+  ExportProgress(std::int64_t n_all, const std::function<void(double)>& report)
+      : n_all_(n_all), report_(report) {}
   void row();
 
  private:
   std::int64_t n_all_, n_done_ = 0;
-  const std::function<void(double)>& tell_;
+  const std::function<void(double)>& report_;
 };
 
-/// Writes every table as CSV, without frames where none were kept.
-/// @param begin,end of the files' names, around the table's
+/// Writes every table as CSV; frames only if there are any.
+/// @param begin,end parts of the files' names around the table's name
 /// @return the tables that were written
 std::vector<ExportTable> write_tables(const ExportSource& source, ExportFolder& folder,
                                       const std::string& begin, const std::string& end,
@@ -78,10 +77,11 @@ void export_psych_ds(const ExportSource& source, ExportFolder& folder,
 void export_bids(const ExportSource& source, ExportFolder& folder,
                  const std::function<void(double)>& progress);
 
-/// What a person who opens the folder reads first.
+/// The README of a dataset.
 std::string readme_of(const std::string& standard);
 
-/// The script in R that reads an export and prints its figures and models.
-extern const char* const analysis_script;
+/// The R script that reads an export and prints its figures and models; installed with the program.
+/// @throws Error when it is missing
+std::string analysis_script();
 
 }  // namespace heft

@@ -1,5 +1,5 @@
-// Psych-DS (psych-ds.github.io): CSV files named by keywords in data/, and JSON-LD that names every
-// variable in them.
+// Psych-DS (psych-ds.github.io): CSV files in data/ with keywords in their names, and JSON-LD that
+// describes every variable.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace heft {
 namespace {
 using nlohmann::ordered_json;
 
-// A variable has one entry, whatever tables it is in; it takes the first one's words.
+// Variables of several tables share one entry; differing descriptions are appended.
 void add_variable(ordered_json& variables, const ExportColumn& column, const std::string& table) {
   for (ordered_json& variable : variables)
     if (variable["name"] == column.name) {
@@ -34,7 +34,7 @@ void add_variable(ordered_json& variables, const ExportColumn& column, const std
 std::string description(const ExportSource& source, const std::vector<ExportTable>& tables) {
   ordered_json variables = ordered_json::array();
   std::string what =
-      "Sessions of perceived mass, exported by heft " HEFT_VERSION ". A row of each table: ";
+      "Perceived mass of virtual cubes, exported by heft " HEFT_VERSION ". Rows of each table: ";
   for (const ExportTable& table : tables) {
     what +=
         fmt::format("{}{} - {}", &table == tables.data() ? "" : "; ", table.name, table.meaning);
@@ -51,11 +51,12 @@ std::string description(const ExportSource& source, const std::vector<ExportTabl
 }  // namespace
 
 void export_psych_ds(const ExportSource& source, ExportFolder& folder,
-                     const std::function<void(double)>& tell) {
-  const auto tables = write_tables(source, folder, "data/description-", "_data.csv", tell);
+                     const std::function<void(double)>& progress) {
+  const std::string script = analysis_script();
+  const auto tables = write_tables(source, folder, "data/description-", "_data.csv", progress);
   folder.write_text("dataset_description.json", description(source, tables));
   folder.write_text("README.md", readme_of("Psych-DS"));
-  folder.write_text("analysis/analysis.R", analysis_script);
+  folder.write_text("analysis/analysis.R", script);
 }
 
 }  // namespace heft

@@ -10,7 +10,6 @@
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "record/export/Export.h"
-#include "record/export/Pseudonyms.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/writer/Failures.h"
 #include "record/writer/LogFile.h"
@@ -38,7 +37,7 @@ ExportCell cell_of(const SQLite::Column& cell) {
   }
 }
 
-// "simulated:MODEL.toml" is simulated.
+// "simulated:MODEL.toml" becomes "simulated".
 std::string kind_of(const std::string& text) {
   const std::string kind = text.substr(0, text.find(':'));
   return kind.find('/') == std::string::npos ? kind : "file";
@@ -62,7 +61,7 @@ ExportSource::ExportSource(const std::vector<std::string>& logs, std::optional<s
       throw Error(fmt::format("{} is given twice", name), ExitCode::usage);
     OpenLog log{name, open_for_reading(name)};
     if (!holds_log(*log.database, name)) continue;
-    log.database->exec("BEGIN");  // one moment for all of its rows
+    log.database->exec("BEGIN");  // all reads see one snapshot
     participants.add(*log.database);
     if (key_) log.name = fmt::format("log{}", logs_.size() + 1);
     logs_.push_back(std::move(log));
@@ -127,9 +126,8 @@ void ExportSource::each_row(const ExportTable& table, std::size_t log, const std
     take(cells);
   }
 } catch (const SQLite::Exception& error) {
-  const SqliteFailure failure = explained(error, logs_[log].database.get());
-  throw Error(fmt::format("can't read {} for {}: {}. {}.", logs_[log].name, table.name,
-                          failure.reason, failure.advice));
+  throw sqlite_error(fmt::format("cannot read {} for {}", logs_[log].name, table.name), error,
+                     logs_[log].database.get());
 }
 
 }  // namespace heft

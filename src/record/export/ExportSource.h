@@ -1,5 +1,5 @@
-// The logs of an export, read row by row: never more than one row is in memory. What tells who
-// somebody is leaves this room by its pseudonym, where there are any. Private to this room.
+// The logs of an export, read row by row. Identifying data are replaced here if pseudonyms are
+// requested. Private to record.
 #pragma once
 
 #include <functional>
@@ -12,17 +12,17 @@
 
 namespace heft {
 
-/// A cell as an export has it: what it says, and whether it is a text.
+/// A cell of an export.
 struct ExportCell {
   enum class Kind { none, number, text } kind = Kind::none;
-  std::string text;  ///< a number with all its digits; a text as it is
+  std::string text;  ///< a number with all digits, or a text
 };
 using ExportCells = std::vector<ExportCell>;
 
 class ExportSource {
  public:
-  /// @param key of the pseudonyms; none: names stay
-  /// @throws Error when a log can't be read or is given twice
+  /// @param key of the pseudonyms; none: no pseudonyms
+  /// @throws Error if a log cannot be read or is given twice
   ExportSource(const std::vector<std::string>& logs, std::optional<std::string> key);
   ~ExportSource();
   ExportSource(const ExportSource&) = delete;
@@ -30,22 +30,22 @@ class ExportSource {
 
   std::size_t n_logs() const;
 
-  /// All tables, without what pseudonyms leave out.
+  /// All tables, without the columns that pseudonyms exclude.
   const std::vector<ExportTable>& tables() const { return tables_; }
   const ExportTable& table(const std::string& name) const;
-  /// A table without what pseudonyms leave out.
+  /// A table without the columns that pseudonyms exclude.
   ExportTable shown(ExportTable table) const;
 
   std::int64_t count(const ExportTable& table) const;
 
-  /// `log` and the table's columns.
+  /// The column `log`, then the table's columns.
   std::vector<ExportColumn> columns(const ExportTable& table) const;
 
-  /// The rows of all logs in order, each with its cell of `log` in front.
+  /// Visits the rows of all logs in order, each starting with the cell `log`.
   void each_row(const ExportTable& table,
                 const std::function<void(const ExportCells&)>& take) const;
 
-  /// The same of one log, where a condition in SQL over r and s holds.
+  /// The same for one log. @param condition SQL after FROM, over r and s
   void each_row(const ExportTable& table, std::size_t log, const std::string& condition,
                 const std::function<void(const ExportCells&)>& take) const;
 

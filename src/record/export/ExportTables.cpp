@@ -10,16 +10,15 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 #include "record/schema/EventRow.h"
 #include "record/schema/RowSql.h"
-#include "tasks/Comparison.h"
 
 namespace heft {
 
 namespace {
 
-// Long texts, for which the log is the place.
+// Long texts, which are not exported.
 constexpr std::array left_out{"protocol_text", "run_options"};
 
 template <typename Value>
@@ -40,7 +39,7 @@ std::string levels() {
     return std::is_same_v<Inner, bool> ? "0|1" : "";
 }
 
-// What tells of a person, a place or a moment, or was typed by somebody.
+// Columns that identify a person, place or time, or were typed.
 Privacy privacy_of(const std::string& name) {
   static const std::map<std::string, Privacy> by_name{
       {"participant", Privacy::person},    {"void_reason", Privacy::free_text},
@@ -66,7 +65,7 @@ std::vector<ExportColumn> columns_of_rows() {
   return columns;
 }
 
-// A column as its row describes it, where another table has it too.
+// A column of a row type.
 template <typename Row>
 ExportColumn described(const std::string& name) {
   const auto columns = columns_of_rows<Row>();
@@ -80,26 +79,26 @@ void add_described(std::vector<ExportColumn>& columns, std::initializer_list<con
   for (const char* name : names) columns.push_back(described<Row>(name));
 }
 
-// The ids that tie the files together.
+// Ids that relate the files.
 ExportColumn id(const std::string& name, const std::string& meaning) {
   return {name, "", meaning, "", "r." + name};
 }
 ExportColumn session_id() {
-  return {"session_id", "", "number of the session in its log", "", "s.session_id"};
+  return {"session_id", "", "id of the session in its log", "", "s.session_id"};
 }
 ExportColumn participant() {
-  return {"participant", "", "who took part", "", "s.participant", Privacy::person};
+  return {"participant", "", "participant's id", "", "s.participant", Privacy::person};
 }
 ExportColumn person() {
   return {"person",
           "",
-          "who took part, unique among several logs: then the log's name and participant",
+          "participant's id; with several logs preceded by the log's name",
           "",
           "s.participant",
           Privacy::person};
 }
 ExportColumn trial_id() {
-  return id("trial_id", "number of the attempt at a trial in its log");
+  return id("trial_id", "id of the attempt in its log");
 }
 
 template <typename Row>
@@ -121,7 +120,7 @@ std::string of_trial(const std::string& table) {
       table);
 }
 
-// Who knows a plan knows by the place who it is. Groups and orders are the plan's own words.
+// A place in the plan identifies the person to anyone who knows the plan; groups and orders do not.
 Privacy privacy_of_info(const std::string& key) {
   static const std::set<std::string> open{"study_group", "study_order", "study_sha256"};
   if (open.contains(key)) return Privacy::open;
@@ -130,21 +129,22 @@ Privacy privacy_of_info(const std::string& key) {
 
 std::vector<ExportColumn> about_participants(const ParticipantColumns& participants) {
   std::vector<ExportColumn> columns{
-      {"state", "", "how far the session came", levels<SessionState>(), "r.state"}};
+      {"state", "", "state of the session", levels<SessionState>(), "r.state"}};
   for (const std::string& key : participants.infos) {
     const bool is_planned = key.starts_with("study");
-    columns.push_back({"info_" + key, "",
-                       is_planned ? "what the study's plan gave" : "what the participant told", "",
-                       fmt::format("(SELECT value FROM participant_info i WHERE i.session_id = "
-                                   "r.session_id AND i.key = {})",
-                                   sql_text(key)),
-                       privacy_of_info(key)});
+    columns.push_back(
+        {"info_" + key, "",
+         is_planned ? "assignment by the study's plan" : "answer about the participant", "",
+         fmt::format("(SELECT value FROM participant_info i WHERE i.session_id = "
+                     "r.session_id AND i.key = {})",
+                     sql_text(key)),
+         privacy_of_info(key)});
   }
   for (const std::string& name : participants.parameters)
     columns.push_back(
         {"parameter_" + name, "",
-         "what a simulated participant was drawn as (unit: heft doctor --responder NAME); of "
-         "several who went on with the session, the last",
+         "parameter drawn for a simulated participant (unit: heft doctor --responder NAME); "
+         "the last one if the session was continued by another model",
          "",
          fmt::format("(SELECT value FROM participant_parameter p WHERE p.session_id = r.session_id "
                      "AND p.name = {} ORDER BY setup_id DESC LIMIT 1)",
@@ -153,79 +153,77 @@ std::vector<ExportColumn> about_participants(const ParticipantColumns& participa
 }
 
 constexpr auto response_time_meaning =
-    "from all cubes shown to the answer that ended it, without pauses and losses of the effector";
+    "from the cubes' onset to the final answer, without pauses and losses of the effector";
 constexpr auto response_time_sql = "r.validated_s - r.shown_s - r.paused_s - r.lost_s";
 
 void add_cube_masses(std::vector<ExportColumn>& columns) {
   for (std::size_t slot = 1; slot <= FrameRow::most_cubes; ++slot)
     columns.push_back({fmt::format("cube{}_mass_g", slot), "g",
-                       fmt::format("mass of the cube of slot {}, 1 leftmost", slot), "",
+                       fmt::format("mass of the cube in slot {}; 1 is leftmost", slot), "",
                        fmt::format("(SELECT c.mass_g FROM cube c WHERE c.trial_id = r.trial_id AND "
                                    "c.slot = {})",
                                    slot)});
 }
 
-// A row a trial, as PsychoPy writes it: counts from 0, answers with .rt and .corr.
+// One row per trial with PsychoPy's names: counts from 0, answers with .rt and .corr.
 ExportTable wide_table() {
   std::vector<ExportColumn> columns{
       participant(),
       person(),
-      {"session", "", "number of the session in its log", "", "s.session_id"},
-      {"date", "", "when the session started, ISO 8601", "", "s.started_utc", Privacy::year},
-      {"expName", "", "name of the protocol's file", "", "s.protocol_name"},
-      {"frameRate", "Hz", "frames displayed a second", "",
+      {"session", "", "id of the session in its log", "", "s.session_id"},
+      {"date", "", "start time of the session, ISO 8601", "", "s.started_utc", Privacy::year},
+      {"expName", "", "file name of the protocol", "", "s.protocol_name"},
+      {"frameRate", "Hz", "displayed frames per second", "",
        "(SELECT u.display_rate_hz FROM setup u WHERE u.setup_id = r.setup_id)"},
-      {"trials.thisN", "", "completed trials of the session before this one", "",
+      {"trials.thisN", "", "number of earlier completed trials of the session", "",
        "row_number() OVER (PARTITION BY r.session_id ORDER BY r.trial_id) - 1"},
-      {"trials.thisTrialN", "", "completed trials of its block before this one", "",
+      {"trials.thisTrialN", "", "number of earlier completed trials of the block", "",
        "row_number() OVER (PARTITION BY r.session_id, r.block ORDER BY r.trial_id) - 1"},
-      {"trial", "", "planned trial of the session, from 1", "", "r.trial_number"}};
+      {"trial", "", "number of the planned trial, from 1", "", "r.trial_number"}};
   add_described<TrialRow>(columns, {"block", "task", "condition", "staircase", "reference_g",
                                     "level_g", "is_catch", "is_practice"});
   add_cube_masses(columns);
   add_described<TrialRow>(columns, {"reference_slot", "outcome"});
-  columns.push_back({"response.keys", "",
-                     "the slot that was chosen; where none was, the answer in a word", "",
+  columns.push_back({"response.keys", "", "chosen slot, otherwise the outcome", "",
                      "coalesce(r.chosen_slot, r.outcome)"});
-  columns.push_back({"response.corr", "",
-                     "1 right, 0 wrong; empty: don't know, no difference, or neither", "0|1",
+  columns.push_back({"response.corr", "", "1 correct, 0 incorrect; empty: neither, or no choice",
+                     "0|1",
                      "CASE r.outcome WHEN 'correct' THEN 1 WHEN 'incorrect' THEN 0 WHEN "
                      "'difference' THEN r.choice_correct END"});
   columns.push_back({"response.rt", "s", response_time_meaning, "", response_time_sql});
-  columns.push_back({"first_choice.rt", "s", "from all cubes shown to the first action", "",
+  columns.push_back({"first_choice.rt", "s", "from the cubes' onset to the first action", "",
                      "r.first_choice_s - r.shown_s"});
-  columns.push_back({"trial.started", "s", "session time of its start", "", "r.started_s"});
-  columns.push_back({"trial.stopped", "s", "session time of its end", "", "r.ended_s"});
-  return {"wide", "a completed trial, named as PsychoPy names things",
+  columns.push_back({"trial.started", "s", "session time of the start", "", "r.started_s"});
+  columns.push_back({"trial.stopped", "s", "session time of the end", "", "r.ended_s"});
+  return {"wide", "a completed trial, with PsychoPy's names",
           of_session("trial") + " WHERE r.status = 'completed'", "r.trial_id", std::move(columns)};
 }
 
-// The choices that fits are made of: `heft fit choices.csv --model indecision --by compared`.
+// Input of `heft fit choices.csv --model indecision --by compared`.
 ExportTable choice_table() {
   const std::string on_right = "r.reference_slot IS NULL OR r.reference_slot = 1";
   std::vector<ExportColumn> columns{session_id(),
                                     participant(),
                                     person(),
                                     trial_id(),
-                                    {"compared", "", "what is one fit: technique and reference", "",
-                                     "r.condition || printf(' %.6g g', r.reference_g)"}};
+                                    {"compared", "", "technique and reference, the unit of a fit",
+                                     "", "r.condition || printf(' %.6g g', r.reference_g)"}};
   add_described<TrialRow>(columns,
                           {"condition", "reference_g", "staircase", "is_catch", "level_g"});
-  columns.push_back({"answer", "", "which was called heavier", "comparison|reference|none",
+  columns.push_back({"answer", "", "cube that was judged heavier", "comparison|reference|none",
                      "CASE WHEN r.outcome <> 'difference' OR r.chosen_slot IS NULL THEN 'none' "
                      "WHEN r.chosen_slot = coalesce(r.reference_slot, 1) THEN 'reference' ELSE "
                      "'comparison' END"});
-  columns.push_back({"right_minus_left_g", "g", "mass of the right cube minus that of the left", "",
+  columns.push_back({"right_minus_left_g", "g",
+                     "mass of the right cube minus mass of the left cube", "",
                      "CASE WHEN " + on_right + " THEN r.level_g ELSE -r.level_g END"});
-  columns.push_back({"side", "", "which side was called heavier", "left|right|none",
+  columns.push_back({"side", "", "side that was judged heavier", "left|right|none",
                      "CASE WHEN r.outcome <> 'difference' OR r.chosen_slot IS NULL THEN 'none' "
                      "WHEN r.chosen_slot = 1 THEN 'left' ELSE 'right' END"});
-  return {"choices", "a completed comparison that is no practice",
+  return {"choices", "a completed comparison, without practice",
           of_session("trial") +
-              fmt::format(" WHERE r.task = '{}' AND r.status = 'completed' AND r.outcome IS NOT "
-                          "NULL AND r.reference_g IS NOT NULL AND r.level_g IS NOT NULL AND NOT "
-                          "r.is_practice",
-                          Comparison::task.name),
+              " WHERE r.task = 'comparison' AND r.status = 'completed' AND r.outcome IS NOT NULL "
+              "AND r.reference_g IS NOT NULL AND r.level_g IS NOT NULL AND NOT r.is_practice",
           "r.trial_id", std::move(columns)};
 }
 
@@ -244,7 +242,7 @@ void ParticipantColumns::add(SQLite::Database& database) {
 }
 
 ExportColumn log_column() {
-  return {"log", "", "file of the log, as it was given", "", ""};
+  return {"log", "", "file name of the log, as given", "", ""};
 }
 
 std::vector<ExportTable> export_tables(const ParticipantColumns& participants) {
@@ -253,16 +251,16 @@ std::vector<ExportTable> export_tables(const ParticipantColumns& participants) {
   return {
       table<TrialRow>("trials", "an attempt at a planned trial", of_session("trial"), "r.trial_id",
                       {session_id(), participant(), person(), trial_id(),
-                       id("setup_id", "what was in force; in setups.csv")},
+                       id("setup_id", "configuration; see setups.csv")},
                       {response_time}),
       wide_table(),
       choice_table(),
-      table<AnswerRow>(
-          "answers", "an action of the participant", of_trial("answer"), "r.answer_id",
-          {session_id(), participant(), person(), trial_id(), id("answer_id", "counts in order")}),
+      table<AnswerRow>("answers", "an action of the participant", of_trial("answer"), "r.answer_id",
+                       {session_id(), participant(), person(), trial_id(),
+                        id("answer_id", "id in order of writing")}),
       table<ReversalRow>("reversals", "a reversal of a staircase", of_session("reversal"),
                          "r.rowid", {session_id(), participant(), person(), trial_id()}),
-      table<EstimateRow>("estimates", "what one method makes of a staircase",
+      table<EstimateRow>("estimates", "an estimate of a staircase by one method",
                          of_session("estimate"), "r.rowid",
                          {session_id(), participant(), person()}),
       table<CubeRow>("cubes", "a cube of an attempt at a trial", of_trial("cube"),
@@ -271,13 +269,14 @@ std::vector<ExportTable> export_tables(const ParticipantColumns& participants) {
                            "session r JOIN session s USING (session_id)", "r.session_id",
                            {session_id(), person()}, about_participants(participants)),
       table<SessionConfig>(
-          "setups", "what was in force from an event on", of_session("setup"), "r.setup_id",
-          {session_id(), participant(), person(), id("setup_id", "number of the setup in its log"),
-           id("setup_index", "counts a session's setups from 1"),
-           id("from_event_id", "event from which on it was in force; none: the start")}),
-      table<FrameRow>(
-          "frames", "a displayed frame", of_session("frame"), "r.frame_id",
-          {session_id(), participant(), person(), trial_id(), id("frame_id", "counts in order")}),
+          "setups", "a configuration", of_session("setup"), "r.setup_id",
+          {session_id(), participant(), person(),
+           id("setup_id", "id of the configuration in its log"),
+           id("setup_index", "number of the configuration in its session, from 1"),
+           id("from_event_id", "event that put it into effect; empty: start of the session")}),
+      table<FrameRow>("frames", "a displayed frame", of_session("frame"), "r.frame_id",
+                      {session_id(), participant(), person(), trial_id(),
+                       id("frame_id", "id in order of writing")}),
   };
 }
 
@@ -293,14 +292,14 @@ ExportTable behavior_table() {
 ExportTable event_table() {
   std::vector<ExportColumn> columns{
       {"onset", "s", "session time of the event", "", "r.t_s"},
-      {"duration", "s", "0: events are moments", "", "0"},
-      {"trial_type", "", "what happened", "", "r.kind"},
-      {"trial_number", "", "planned trial, from 1", "", "t.trial_number"},
-      {"action", "", "what the participant did, where that is what happened", levels<ActionKind>(),
+      {"duration", "s", "0: events have no duration", "", "0"},
+      {"trial_type", "", "kind of event", "", "r.kind"},
+      {"trial_number", "", "number of the planned trial, from 1", "", "t.trial_number"},
+      {"action", "", "action of the participant, if the event is one", levels<ActionKind>(),
        "(SELECT a.action FROM answer a WHERE r.kind = 'action' AND a.trial_id = r.trial_id AND "
        "a.t_s = r.t_s ORDER BY a.answer_id LIMIT 1)"}};
   add_described<EventRow>(columns, {"slot", "label"});
-  return {"events", "something that happened in a trial",
+  return {"events", "an event of a trial",
           "event r JOIN trial t ON t.trial_id = r.trial_id JOIN session s ON s.session_id = "
           "r.session_id",
           "r.event_id", std::move(columns)};

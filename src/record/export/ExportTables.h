@@ -1,4 +1,4 @@
-// Which tables an export has, and the columns of each. Private to this room.
+// The tables of an export and their columns. Private to record.
 #pragma once
 
 #include <string>
@@ -10,36 +10,36 @@ class Database;
 
 namespace heft {
 
-/// What of a column is left where people are to be told by pseudonyms.
+/// What remains of a column if pseudonyms are requested.
 enum class Privacy {
-  open,       ///< all of it
+  open,       ///< everything
   person,     ///< the person's pseudonym
-  kind,       ///< what stands before the first ':', without a file's name
-  number,     ///< what is a number
-  year,       ///< of a time, its first four digits
-  free_text,  ///< nothing: the column is left out
+  kind,       ///< the part before the first ':', without file names
+  number,     ///< numbers only
+  year,       ///< the year of a time
+  free_text,  ///< nothing: the column is excluded
 };
 
-/// A column as dictionary.csv explains it.
+/// A column and its entry in dictionary.csv.
 struct ExportColumn {
   std::string name, unit, meaning;
-  std::string levels;  ///< the words of a closed list, "a|b|c"; empty: any value
-  std::string sql;     ///< what stands in it; r is the table's row, s its session
+  std::string levels;  ///< words of a closed list, "a|b|c"; empty: any value
+  std::string sql;     ///< its value; r is the table's row, s its session
   Privacy privacy = Privacy::open;
 };
 
-/// The words of its closed list; none: any value.
+/// The words of its closed list; empty: any value.
 std::vector<std::string> levels_of(const ExportColumn& column);
 
 struct ExportTable {
   std::string name;                   ///< "trials"
-  std::string meaning;                ///< what a row is
-  std::string rows;                   ///< SQL: FROM ... that names the row r and its session s
-  std::string order;                  ///< by which columns
-  std::vector<ExportColumn> columns;  ///< but for the first, `log`
+  std::string meaning;                ///< of a row
+  std::string rows;                   ///< SQL after FROM, with the row r and its session s
+  std::string order;                  ///< SQL after ORDER BY
+  std::vector<ExportColumn> columns;  ///< without the first, `log`
 };
 
-/// What the participants of all logs were asked and drawn as: a column each, by name.
+/// Names of the answers and parameters of the participants of all logs.
 struct ParticipantColumns {
   std::vector<std::string> infos, parameters;
 
@@ -48,13 +48,13 @@ struct ParticipantColumns {
 
 std::vector<ExportTable> export_tables(const ParticipantColumns& participants);
 
-/// What BIDS calls behavior: all attempts, each with its cubes.
+/// BIDS behavior: all attempts with their cubes.
 ExportTable behavior_table();
 
-/// What BIDS calls events: those of trials, without their texts.
+/// BIDS events: those of trials, without texts.
 ExportTable event_table();
 
-/// A text in SQL, whatever is in it.
+/// A text as an SQL literal.
 std::string sql_text(const std::string& text);
 
 /// The first column of every file.

@@ -1,5 +1,3 @@
-#include "record/export/Pseudonyms.h"
-
 #include <fmt/format.h>
 #include <sys/random.h>
 
@@ -13,6 +11,7 @@
 #include "base/Error.h"
 #include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
+#include "record/export/Export.h"
 
 namespace heft {
 
@@ -32,19 +31,19 @@ std::string exclusive_or(std::string text, char with) {
 std::string random_key() {
   std::array<unsigned char, 32> bytes{};
   if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw Error(fmt::format("can't draw a key: {}", std::strerror(errno)));
+    throw Error(fmt::format("cannot create a key: {}", std::strerror(errno)));
   return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
-// Digits that were drawn repeat themselves, but not so: fewer than nine different ones come once in
-// 10^14 keys.
+// Refuses keys that were not drawn at random: a random key has fewer than nine different digits
+// with a probability of 1e-14.
 std::string key_in(const std::string& file) {
   constexpr std::size_t n_digits = 64, least_different = 9;
   std::string key = read_text_file(file);
   if (key.ends_with('\n')) key.pop_back();
   const std::string format = fmt::format(
-      "expected one line of {} hexadecimal digits (0-9, a-f) that nobody chose: openssl rand -hex "
-      "32, or name a file that is not there yet, and the key is made",
+      "expected one line of {} random hexadecimal digits (0-9, a-f), as of openssl rand -hex 32; a "
+      "missing file is created",
       n_digits);
   const auto refuse = [&](std::string_view what) {
     throw Error(fmt::format("{}: {}, {}.", file, what, format), ExitCode::invalid_file);
@@ -68,7 +67,7 @@ std::string hmac_sha256(std::string_view key, std::string_view text) {
 
 std::string pseudonym(std::string_view key, std::string_view person) {
   constexpr std::size_t n_digits = 12;
-  return "p" + hmac_sha256(key, person).substr(0, n_digits);
+  return fmt::format("p{}", hmac_sha256(key, person).substr(0, n_digits));
 }
 
 PseudonymKey pseudonym_key(const std::string& file) {
@@ -79,7 +78,7 @@ PseudonymKey pseudonym_key(const std::string& file) {
   out.close();
   if (!out) {
     std::filesystem::remove(file);
-    throw Error(fmt::format("can't write the key {}: {}", file, std::strerror(errno)));
+    throw Error(fmt::format("cannot write the key {}: {}", file, std::strerror(errno)));
   }
   return {file, key, true};
 }

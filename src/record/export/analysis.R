@@ -1,8 +1,8 @@
-# Reads an export of heft and prints its main figures and models, for every task and condition that
-# it holds; the text is also written to analysis.txt, the figures to figures.csv.
+# Reads an export of heft and prints the main results and models for every task and condition. Writes
+# the text to analysis.txt and the results to figures.csv.
 # Run it in its folder: Rscript analysis.R
 # Mixed models need lme4 and ordinal (Debian: r-cran-lme4, r-cran-ordinal); the rest is base R.
-# All participants are included: rules of the protocol's [exclusion] are not applied here.
+# All participants are included; the protocol's [exclusion] rules are not applied.
 
 # The tables ---------------------------------------------------------------------------------------
 
@@ -24,7 +24,7 @@ estimates <- read_table("estimates")
 cubes <- read_table("cubes")
 setups <- read_table("setups")
 
-# A model of another kind that answers under the same name is another participant.
+# Different models under the same name are different participants.
 key <- function(table) paste(table$log, table$session_id)
 answered <- setups[paste(key(setups), setups$setup_id) %in% paste(key(trials), trials$setup_id), ]
 models <- answered[answered$responder != "human", ]
@@ -48,8 +48,8 @@ heading <- function(text) cat("\n", text, "\n", strrep("-", nchar(text)), "\n", 
 
 # Outcomes -----------------------------------------------------------------------------------------
 
-# Of one task and condition: the share of trials with an outcome among those with one of `of`, in
-# percent, mean and SD over participants.
+# Percentage of trials with an outcome among those with an outcome in `of`; mean and SD over
+# participants.
 share <- function(rows, task, condition, name, outcome, of) {
   rows <- rows[rows$outcome %in% of, ]
   if (nrow(rows) == 0) return(invisible())
@@ -91,8 +91,7 @@ correctness_model <- function(task) {
                                  control = lme4::glmerControl(optimizer = "bobyqa")))
   model <- tryCatch(fit(correct ~ condition + (1 + condition | person)), error = identity)
   if (inherits(model, "error") || lme4::isSingular(model)) {
-    cat("The data do not separate people's differences between conditions from their levels: the\n",
-        "model has their levels only.\n", sep = "")
+    cat("Random slopes are not identifiable; the model has random intercepts only.\n", sep = "")
     model <- tryCatch(fit(correct ~ condition + (1 | person)), error = identity)
   }
   if (inherits(model, "error")) return(cat("No model:", conditionMessage(model), "\n"))
@@ -105,7 +104,7 @@ correctness_model <- function(task) {
 
 # Numbers given to single cubes --------------------------------------------------------------------
 
-# Means over participants of each one's mean; geometric over numbers above 0.
+# Means over participants of their means; geometric means exclude values of 0.
 numbers <- function(rows, task) {
   n_cubes <- table(paste(cubes$log, cubes$trial_id))
   trial <- paste(rows$log, rows$trial_id)
@@ -128,8 +127,8 @@ numbers <- function(rows, task) {
 
 # The paper's JND: reversals of staircases ---------------------------------------------------------
 
-# As heft has it: an estimate that a bound, the trial limit or fewer than four reversals censored is
-# a limit from above or below, or unknown.
+# As in heft: an estimate that is censored by a bound, the trial limit or fewer than four reversals is
+# an upper or lower limit, or unknown.
 staircase_results <- function() {
   rows <- estimates[estimates$method == "mean_of_reversals", ]
   rows$censored[is.na(rows$censored)] <- "none"
@@ -143,16 +142,16 @@ staircase_results <- function() {
     rows$start_g[i] <- levels[1]
     cut <- rows$censored[i] != "none" || rows$n_reversals[i] < 4 || rows$reason[i] == "trials"
     direction <- rows$censored[i]
-    if (cut && direction %in% c("none", "unsettled")) {
+    if (cut && direction %in% c("none", "indeterminate")) {
       at_ceiling <- rows$n_ceiling[i] > 0
       at_floor <- rows$n_floor[i] > 0
       last <- levels[length(levels)]
       direction <- if (at_ceiling != at_floor) { if (at_ceiling) "above" else "below" }
-                   else if (at_ceiling || last == levels[1]) "unsettled"
+                   else if (at_ceiling || last == levels[1]) "indeterminate"
                    else if (last > levels[1]) "above" else "below"
     }
     rows$direction[i] <- direction
-    rows$shown_g[i] <- if (direction == "unsettled") NA
+    rows$shown_g[i] <- if (direction == "indeterminate") NA
                        else if (!is.na(rows$jnd_g[i])) rows$jnd_g[i]
                        else if (direction == "above") max(levels)
                        else if (direction == "below") min(levels)
@@ -161,7 +160,7 @@ staircase_results <- function() {
   rows
 }
 
-# The mean of estimates; with an NA or opposite directions among them: unknown.
+# Mean of estimates; unknown if one is NA or censoring directions are opposite.
 mean_estimate <- function(values, directions) {
   censored <- unique(directions[directions != "none"])
   if (length(values) == 0 || anyNA(values) || length(censored) > 1)
@@ -169,8 +168,8 @@ mean_estimate <- function(values, directions) {
   list(value = mean(values), direction = if (length(censored) == 1) censored else "none")
 }
 
-# The plain mean where no value is censored; otherwise by maximum likelihood, where more than half
-# are exact (Tobit).
+# Arithmetic mean without censored values, otherwise maximum likelihood (Tobit) if more than half are
+# exact.
 censored_mean <- function(values, directions, n_missing) {
   exact <- values[directions == "none"]
   if (2 * length(exact) <= length(values) + n_missing) return(NA)
@@ -232,7 +231,7 @@ report_jnds <- function(people, figure, staircases, condition, reference) {
   record(paste0(figure, ".n_missing"), condition, reference, n_missing)
 }
 
-# Of sessions whose staircases began at several levels: those that began on one side of the middle.
+# Staircases that started on one side of the middle, in sessions with several start levels.
 by_start <- function(here, results, side) {
   lapply(split(here, here$person), function(theirs) {
     own <- do.call(rbind, lapply(split(theirs, key(theirs)), function(session) {
@@ -247,8 +246,8 @@ by_start <- function(here, results, side) {
 
 # Sensitivity: comparison, none or reference -------------------------------------------------------
 
-# D = s x + b + N(0, 1): comparison where D > t, reference where D < -t. All trials together, as
-# `heft fit choices.csv --model indecision --by compared` has it; intervals need the mixed model.
+# D = s x + b + N(0, 1): comparison if D > t, reference if D < -t. Pools all trials, as
+# `heft fit choices.csv --model indecision --by compared`; intervals need the mixed model.
 indecision_fits <- function() {
   if (!requireNamespace("ordinal", quietly = TRUE)) return(cat("ordinal is not installed: no fit.\n"))
   for (compared in unique(choices$compared)) {
@@ -282,7 +281,7 @@ indecision_fits <- function() {
   }
 }
 
-# Each person's own sensitivity.
+# Random sensitivities of participants.
 mixed_fit <- function(here, compared, unit) {
   here$person <- factor(here$person)
   if (nlevels(here$person) < 5 || nlevels(here$person) > 100) return(invisible())

@@ -1,5 +1,3 @@
-#include "record/integrity/DigestCheck.h"
-
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
@@ -8,6 +6,7 @@
 
 #include "base/Error.h"
 #include "record/integrity/Digests.h"
+#include "record/reader/LogReader.h"
 #include "record/schema/Cells.h"
 #include "record/schema/EventRow.h"
 #include "record/schema/RowSql.h"
@@ -16,7 +15,7 @@
 namespace heft {
 
 namespace {
-// The row's id comes before it, the row's own cells and the digest after them.
+// Column of the attempt index: after the row's id, before its cells and the digest.
 constexpr int attempt_cell = 1;
 
 template <typename Row>
@@ -69,16 +68,16 @@ class DigestCheck {
   std::optional<BrokenDigest> broken_event();
   std::optional<BrokenDigest> broken_frame();
 
-  /// Into the digest: the query's cells that it was taken over.
+  /// Adds cells of the query to the digest.
   void add_cells(SQLite::Statement& query, int first, int n);
-  /// Where the row's digest is not the next of the chain; else puts the chain forward to it.
+  /// Compares the row's digest with the next of the chain, and advances the chain.
   std::optional<BrokenDigest> broken_link(SQLite::Statement& query, const std::string& table,
                                           int n_cells, std::string& chain);
 
   SQLite::Database& database_;
   std::string file_;
   std::int64_t session_id_;
-  std::string start_;  ///< the header's digest, from which all chains start
+  std::string start_;  ///< start of all chains
   RowDigest digest_;
 };
 
@@ -101,7 +100,7 @@ std::optional<BrokenDigest> DigestCheck::broken_header() {
       fmt::format("SELECT session_id, {}, state, digest FROM session WHERE session_id = ?1",
                   columns_of<SessionHeader>()));
   query.bind(1, session_id_);
-  if (!query.executeStep()) throw Error(fmt::format("{} holds no session {}", file_, session_id_));
+  if (!query.executeStep()) throw Error(fmt::format("{} has no session {}", file_, session_id_));
   constexpr int first_header_cell = 1;
   static const int n_cells = n_columns<SessionHeader>();
   digest_.begin("session", "");
@@ -126,12 +125,12 @@ std::optional<BrokenDigest> DigestCheck::broken_info() {
   query.executeStep();
   BrokenDigest broken{"participant_info", session_id_, 0, 0, query.getColumn(0), {}, {}, {}};
   broken.recomputed = info_digest(database_, session_id_);
-  broken.row = "what the participant told";
+  broken.row = "the answers about the participant";
   if (broken.recomputed == broken.logged) return std::nullopt;
   return broken;
 }
 
-// A chain does not miss what was cut off at its end.
+// A chain does not show that rows were removed from its end.
 std::optional<BrokenDigest> DigestCheck::broken_counts() {
   SQLite::Statement query(
       database_,
@@ -140,13 +139,13 @@ std::optional<BrokenDigest> DigestCheck::broken_counts() {
       "session_id = ?1) FROM session WHERE session_id = ?1");
   query.bind(1, session_id_);
   query.executeStep();
-  const auto told = [&](int first) {
+  const auto counts = [&](int first) {
     return fmt::format("{} events and {} frames", query.getColumn(first).getInt64(),
                        query.getColumn(first + 1).getInt64());
   };
-  if (told(0) == told(2)) return std::nullopt;
-  BrokenDigest broken{"session", session_id_, 0, query.getColumn(4), told(0), told(2), {}, {}};
-  broken.row = "how many rows the session has";
+  if (counts(0) == counts(2)) return std::nullopt;
+  BrokenDigest broken{"session", session_id_, 0, query.getColumn(4), counts(0), counts(2), {}, {}};
+  broken.row = "the session's number of rows";
   return broken;
 }
 
@@ -165,9 +164,8 @@ std::optional<BrokenDigest> DigestCheck::broken_frame() {
   SQLite::Statement query(database_, frames_in_session(columns_of<FrameRow>() + ", digest"));
   query.bind(1, session_id_);
   static const int n_cells = n_columns<FrameRow>();
-  // By the attempt's cell. Frames of a trial that is not there have a chain too, which no frame
-  // fits.
-  std::map<std::string, std::optional<std::string>> chains;  // none: broken already
+  // By attempt; frames of a missing trial form a chain that matches no frame.
+  std::map<std::string, std::optional<std::string>> chains;  // none: already broken
   std::optional<BrokenDigest> first;
   while (query.executeStep()) {
     auto& chain =

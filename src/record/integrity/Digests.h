@@ -1,12 +1,12 @@
-// Digests of rows: what each is taken over, and the chains that they make. Private to this room.
+// Digests of rows and their check. Private to record.
 //
-// A session's header has a digest of its own; the chain of its events and one chain of frames for
-// each attempt (and for those outside of attempts) start from who took part in what with which
-// seed, and each row's digest takes in the one before. Ids and the date are left out: a session
-// keeps its digests in whatever file it is, and equal simulations have equal ones.
+// The header of a session has a digest. Its events form a chain of digests, and so do the frames of
+// each attempt and those outside attempts. A chain starts from participant, protocol and seed, and
+// each row's digest includes the previous one. Ids and dates are excluded: a session keeps its
+// digests in another file, and equal simulations have equal digests.
 //
-// This makes an edit visible to anybody who looks. It is no seal: who computes all later digests
-// anew hides it, and rows cut off at the end of a chain leave no trace in it.
+// Digests make an edit visible. They do not protect against someone who recomputes all later
+// digests. Rows removed from the end of a chain are found by the session's counts of rows.
 #pragma once
 
 #include <cstdint>
@@ -20,21 +20,27 @@ class Column;
 class Database;
 }  // namespace SQLite
 
+namespace SQLite {
+class Database;
+}  // namespace SQLite
+
 namespace heft {
 
-/// Each cell is a letter for its type, then an integer's or a number's 8 bytes (little-endian), or
-/// a text's length and its bytes. The digest is SHA-256 over the cells `table`, `previous digest`
-/// and the row's own. One value serves all rows of a table: its buffer is used again.
+struct BrokenDigest;
+
+/// SHA-256 over the cells `table`, `previous digest` and the row's own. A cell is a letter for its
+/// type, then the 8 bytes of a number (little-endian), or the length and bytes of a text. Can be
+/// reused for many rows.
 class RowDigest {
  public:
-  /// Begins a row. @param previous the digest of the row before it, or what its chain starts from
+  /// Starts a row. @param previous the digest of the previous row, or the start of the chain
   void begin(std::string_view table, std::string_view previous);
 
   void null();
   void integer(std::int64_t value);
-  void real(double value);  ///< bit for bit, as the column keeps it: see Binding
+  void real(double value);  ///< bit for bit, as stored: see Binding
   void text(std::string_view value);
-  /// A cell as it is in the file, whatever its type.
+  /// A cell of the file, of any type.
   void cell(const SQLite::Column& cell);
 
   /// 64 hexadecimal digits.
@@ -47,20 +53,20 @@ class RowDigest {
   std::string bytes_;
 };
 
-/// The last digests, from memory or, where another row was written last, from the file.
+/// The last digest of each chain, from memory or from the file.
 class DigestChain {
  public:
   explicit DigestChain(SQLite::Database& database) : database_(database) {}
 
   const std::string& before_event(std::int64_t session_id);
-  /// @param trial_id none: outside of attempts
+  /// @param trial_id none: outside attempts
   const std::string& before_frame(std::int64_t session_id, std::optional<std::int64_t> trial_id);
 
-  /// The row after the one that was asked for last is written.
+  /// The digest of the new row, after before_event() or before_frame().
   void event_written(std::string digest) { event_->digest = std::move(digest); }
   void frame_written(std::string digest) { frame_->digest = std::move(digest); }
 
-  /// After a rollback: rows may be gone.
+  /// Call it after a rollback.
   void forget();
 
  private:
@@ -78,8 +84,15 @@ class DigestChain {
   std::optional<Link> event_, frame_;
 };
 
-/// Over what a participant told, the session's rows of participant_info, by key: it may be told
-/// again, so that its rows have no order.
+/// Digest of a session's rows of participant_info, ordered by key, because they may be replaced.
 std::string info_digest(SQLite::Database& database, std::int64_t session_id);
+
+/// Checks the header, the answers about the participant, events and frames (the earlier row by
+/// time), and the counts of rows. Cells are read as stored, so that invalid values are found as
+/// well.
+/// @param file for messages
+/// @throws Error if there is no such session, SQLite::Exception if pages are damaged
+std::optional<BrokenDigest> first_broken_digest(SQLite::Database& database, const std::string& file,
+                                                std::int64_t session_id);
 
 }  // namespace heft

@@ -1,5 +1,6 @@
 #include "record/reader/LogReader.h"
 
+#include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
@@ -7,7 +8,7 @@
 #include <type_traits>
 
 #include "base/Error.h"
-#include "record/integrity/DigestCheck.h"
+#include "record/integrity/Digests.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/schema/Binding.h"
 #include "record/schema/Cells.h"
@@ -33,7 +34,7 @@ std::pair<std::string, std::string> info_from(Cells& cells) {
   return {std::move(key), cells.text()};
 }
 
-// A row that says what was in force: the setup's index is the first cell after the row's id.
+// A row with a configuration, whose index follows the row's id.
 template <typename Row>
 Row setup_row_from(Cells& cells) {
   const int setup_index = cells.integer();
@@ -56,12 +57,12 @@ class LogReader::Impl {
   explicit Impl(const std::string& path) : path_(path), database_(open_for_reading(path)) {
     has_tables_ = holds_log(*database_, path_);
     if (!has_tables_) return;
-    // One moment for all reads: a transaction that the first of them opens.
+    // All reads see one snapshot: a transaction that the first read starts.
     database_->exec("BEGIN");
     database_->execAndGet("SELECT count(*) FROM session");
   }
 
-  /// Every row of a query, made into a value by `make`. The query's first column is the row's id.
+  /// Converts every row of a query with `make`. The first column is the row's id.
   template <typename Make, typename... Values>
   auto rows(const Make& make, std::string_view table, const std::string& sql,
             const Values&... values) const try {
@@ -93,7 +94,7 @@ class LogReader::Impl {
     return with_participant_info(rows(session_from, "session", session_sql(condition)));
   }
 
-  /// Those of a session that fulfill a condition, as SQL over the columns of `event`.
+  /// A session's events that satisfy an SQL condition.
   std::vector<LoggedEvent> events(std::int64_t session_id, std::string_view condition) const {
     std::vector<LoggedEvent> events;
     for (const EventRow& row :
@@ -103,13 +104,13 @@ class LogReader::Impl {
     return events;
   }
 
-  /// Sessions as their rows have them, once each is of a version that is read.
+  /// Adds participant_info. @throws Error for a session of a version that is not supported
   std::vector<SessionRow> with_participant_info(std::vector<SessionRow> sessions) const {
     for (SessionRow& session : sessions) {
       if (session.header.log_version < oldest_log_version)
         throw Error(fmt::format(
             "{}: session {} was recorded in version {} of the log; heft {} reads versions {} to "
-            "{}. Read it with the heft that recorded it.",
+            "{}. Use the version of heft that recorded it.",
             path_, session.session_id, session.header.log_version, HEFT_VERSION, oldest_log_version,
             todays_log_version));
       for (const auto& [key, value] :
@@ -127,14 +128,12 @@ class LogReader::Impl {
   }
 
   [[noreturn]] void refuse_unknown(std::int64_t session_id) const {
-    throw Error(fmt::format("{} holds no session {}", path_, session_id));
+    throw Error(fmt::format("{} has no session {}", path_, session_id));
   }
 
  private:
   [[noreturn]] void refuse_damaged(const std::string& part, const SQLite::Exception& error) const {
-    const SqliteFailure failure = explained(error, database_.get());
-    throw Error(
-        fmt::format("can't read {} of {}: {}. {}.", part, path_, failure.reason, failure.advice));
+    throw sqlite_error(fmt::format("cannot read {} of {}", part, path_), error, database_.get());
   }
 
   std::string path_;
@@ -189,7 +188,7 @@ std::vector<LoggedEvent> LogReader::events(std::int64_t session_id,
 }
 
 std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
-  // Their files' contents are in the events.
+  // The contents of files are in the events.
   std::deque<SessionConfig> logged_events;
   for (const LoggedEvent& logged : impl_->events(session(session_id).session_id, "kind = 'setup'"))
     if (const auto* setup = logged.event.as<SessionConfig>()) logged_events.push_back(*setup);
@@ -286,6 +285,41 @@ std::vector<std::string> LogReader::foreign_objects() const {
 
 std::optional<BrokenDigest> LogReader::first_broken_digest(std::int64_t session_id) const {
   return impl_->first_broken_digest(session_id);
+}
+
+namespace {
+void add_page_and_rule_faults(SQLite::Database& database, std::vector<std::string>& faults) {
+  SQLite::Statement query(database, "PRAGMA integrity_check");
+  while (query.executeStep()) {
+    const std::string fault = query.getColumn(0).getString();
+    if (fault != "ok") faults.push_back(fault);
+  }
+}
+
+void add_reference_faults(SQLite::Database& database, std::vector<std::string>& faults) {
+  SQLite::Statement query(database, "PRAGMA foreign_key_check");
+  while (query.executeStep())
+    faults.push_back(fmt::format("table {}, row {}: refers to a missing row of {}",
+                                 query.getColumn(0).getString(), query.getColumn(1).getString(),
+                                 query.getColumn(2).getString()));
+}
+}  // namespace
+
+std::vector<std::string> check_integrity(const std::string& path) {
+  const auto database = open_for_reading(path);
+  std::vector<std::string> faults;
+  try {
+    holds_log(*database, path);
+    // A read-only connection does not check constraints, so a temporary copy is checked.
+    SQLite::Database copy("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    distrust(copy);
+    SQLite::Backup(copy, *database).executeStep();
+    add_page_and_rule_faults(copy, faults);
+    add_reference_faults(copy, faults);
+  } catch (const SQLite::Exception& error) {
+    faults.push_back(error.what());
+  }
+  return faults;
 }
 
 }  // namespace heft

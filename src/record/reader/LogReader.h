@@ -1,4 +1,5 @@
-// Reading a log back, row for row as it was written. Readers never block the writer.
+// Reading a log and checking its integrity. Rows are returned as they were written; readers never
+// block the writer.
 #pragma once
 
 #include <cstdint>
@@ -20,96 +21,98 @@ struct SessionRow {
   SessionState state = SessionState::running;
 };
 
-/// Whether `heft resume` can go on with a session in this state.
+/// Whether a session in this state can be resumed.
 inline bool is_unfinished(SessionState state) {
   return state == SessionState::running || state == SessionState::paused;
 }
 
-/// A logged event with the attempt it belongs to (0: none).
+/// A logged event and its attempt (0: none).
 struct LoggedEvent {
   Event event;
   int attempt_index = 0;
 };
 
-/// The configuration in effect from an event on.
+/// A configuration and the event from which it is in effect.
 struct LoggedSetup {
   int setup_index = 0;  ///< from 1
-  int from_event = 0;   ///< the session's event that logged it, from 1
+  int from_event = 0;   ///< number of its event in the session, from 1
   SessionConfig setup;
 };
 
-/// How well the effector was tracked.
+/// Counts of frames in trials.
 struct FrameCounts {
   int n_frames = 0, n_tracked = 0, n_jumps = 0;
-  std::optional<double> mean_quality;  ///< of the poses that tell theirs
+  std::optional<double> mean_quality;  ///< of poses with a quality
 };
 
-/// The first row of a chain of digests whose own does not fit: it was changed, or rows directly
-/// before it were changed together with their digests, taken out, put in or swapped.
+/// The first row whose digest does not match: the row was changed, or rows directly before it were
+/// changed together with their digests, removed, inserted or swapped.
 struct BrokenDigest {
   std::string table;  ///< session (its header), event or frame
   std::int64_t row_id = 0;
-  int attempt_index = 0;  ///< 0: outside of attempts, or of a trial that the session does not have
-  double t_s = 0;         ///< the row's, as the file has it now; 0 for a session
+  int attempt_index = 0;  ///< 0: outside attempts, or of an unknown trial
+  double t_s = 0;         ///< the row's current value; 0 for a session
   std::string logged, recomputed;
-  std::string row;     ///< for a person: `the event "note" of attempt 2 at 12.500 s`
-  std::string damage;  ///< where the row can't be one of ours at all: why; else empty
+  std::string row;     ///< for messages: `the event "note" of attempt 2 at 12.500 s`
+  std::string damage;  ///< why the row is invalid; empty if it is valid
 };
 
-/// The log as it was when it was opened; what a writer adds later is not seen. An empty file, as a
-/// crash while it is created leaves it, is a log without sessions. Every method throws Error naming
-/// table, row and column where a value can't be one of ours, and Error where the file is damaged.
-/// Numbers have the bits that were written, but -0.0 comes back as 0.0 except in a frame's
-/// effector.
+/// A snapshot of the log at the time of opening. An empty file, as a crash during creation leaves
+/// it, is a log without sessions. All methods throw Error naming table, row and column of an
+/// invalid value, and Error if the file is damaged. Numbers keep their bits, except that -0.0 is
+/// read as 0.0 outside a frame's effector columns.
 class LogReader {
  public:
-  /// @throws Error when the file can't be read, is no heft log or newer than this program
+  /// @throws Error if the file cannot be read, is no heft log or is of a newer version
   explicit LogReader(const std::string& path);
   LogReader(LogReader&&) noexcept;
   LogReader& operator=(LogReader&&) noexcept;
   ~LogReader();
 
-  /// Oldest first, as all lists here: in the order of writing.
+  /// In the order of writing, as all lists of this class.
   std::vector<SessionRow> sessions() const;
-  /// For those that would not be in memory all at once.
+  /// For logs whose sessions do not fit into memory together.
   std::vector<std::int64_t> session_ids() const;
-  /// @throws Error when there is none of that id
+  /// @throws Error if there is no such session
   SessionRow session(std::int64_t session_id) const;
   std::vector<SessionRow> sessions_of(const std::string& participant,
                                       const std::string& protocol_name) const;
   std::optional<SessionRow> newest_unfinished_session() const;
 
   std::vector<LoggedEvent> events(std::int64_t session_id) const;
-  /// Those of some kinds: a session's thousands of pushes and actions need not be built for a note.
+  /// Events of some kinds only, which is faster.
   std::vector<LoggedEvent> events(std::int64_t session_id, std::span<const EventKind> kinds) const;
-  /// With the contents of their files.
+  /// With the contents of files.
   std::vector<LoggedSetup> setups(std::int64_t session_id) const;
-  std::vector<TrialRow> trials(std::int64_t session_id) const;  ///< masses from their cube rows
+  std::vector<TrialRow> trials(std::int64_t session_id) const;  ///< masses are those of their cubes
   std::vector<CubeRow> cubes(std::int64_t session_id) const;
   std::vector<AnswerRow> answers(std::int64_t session_id) const;
   std::vector<ReversalRow> reversals(std::int64_t session_id) const;
   std::vector<EstimateRow> estimates(std::int64_t session_id) const;
   std::vector<ParticipantParameterRow> participant_parameters(std::int64_t session_id) const;
-  /// @param attempt_index 0: the frames outside of trials
+  /// @param attempt_index 0: frames outside trials
   std::vector<FrameRow> frames(std::int64_t session_id, int attempt_index) const;
 
-  /// Of the frames of its trials, counted where they lie.
   FrameCounts frame_counts(std::int64_t session_id) const;
 
-  /// What the file holds that a log does not; see schema::foreign_objects.
+  /// Differences of the file from a log; see schema::foreign_objects.
   std::vector<std::string> foreign_objects() const;
 
-  /// Whether the session's header, events and frames are as they were written: no column changed,
-  /// no row taken out, put in or swapped. The header comes first, then the earliest row by t_s. A
-  /// row that can't be one of ours is found, not thrown. Not seen: the
-  /// session's state and the other tables, which the events tell, and a forger who computes all
-  /// later digests anew.
-  /// @throws Error when there is no such session, or pages of the file are damaged
+  /// Checks the digests of the session's header, participant's answers, events and frames, in that
+  /// order, events and frames by time. Changed, removed, inserted, swapped and invalid rows are
+  /// found. Not found: changes of the session's state and of the other tables, which follow from
+  /// the events, and edits with all later digests recomputed.
+  /// @throws Error if there is no such session or pages of the file are damaged
   std::optional<BrokenDigest> first_broken_digest(std::int64_t session_id) const;
 
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Checks pages, types, constraints and references of the whole file with SQLite.
+/// @return a message for each fault
+/// @throws Error if the file cannot be read or is no heft log
+std::vector<std::string> check_integrity(const std::string& path);
 
 }  // namespace heft

@@ -27,12 +27,12 @@ void distrust(SQLite::Database& database) {
     int now = -1;
     if (sqlite3_db_config(database.getHandle(), setting, wanted, &now) != SQLITE_OK ||
         now != wanted)
-      throw Error("this SQLite can't open files from elsewhere safely; heft needs 3.31 or newer");
+      throw Error("this version of SQLite cannot open untrusted files safely; use 3.31 or newer");
   }
 }
 
 namespace {
-// Opening does not read yet, so a first look is part of it.
+// Opening does not read the file, so read the schema.
 std::unique_ptr<SQLite::Database> opened(const std::string& name, int flags) {
   auto database = std::make_unique<SQLite::Database>(name, flags, lock_timeout_ms);
   distrust(*database);
@@ -58,14 +58,15 @@ std::string immutable_uri(const std::string& path) {
   return uri + "?immutable=1";
 }
 
-// A folder that can't be written has no place for SQLite's -shm file. Without a -wal file nobody is
-// writing and everything is in the database itself, which may then be read as it lies there.
-std::unique_ptr<SQLite::Database> opened_where_nothing_can_be_written(const std::string& path) {
+// A read-only folder has no place for SQLite's -shm file. Without a -wal file there is no writer
+// and the database is complete, so it can be opened as immutable.
+std::unique_ptr<SQLite::Database> opened_in_read_only_folder(const std::string& path) {
   if (has_bytes(path + "-wal") || has_bytes(path + "-journal"))
-    throw Error(fmt::format(
-        "can't read {}: its last rows are still in the file beside it (-wal or -journal), and the "
-        "folder is read-only. Copy the files together to a folder that you may write to.",
-        path));
+    throw Error(
+        fmt::format("cannot read {}: its last rows are in the file beside it (-wal or -journal), "
+                    "and the folder "
+                    "is read-only. Copy the files together to a writable folder.",
+                    path));
   return opened(immutable_uri(path), SQLite::OPEN_READONLY | SQLite::OPEN_URI);
 }
 
@@ -74,29 +75,27 @@ bool wants_to_write(const SQLite::Exception& error) {
   return code == SQLITE_CANTOPEN || code == SQLITE_READONLY;
 }
 
-std::unique_ptr<SQLite::Database> opened_somehow(const std::string& path) {
+std::unique_ptr<SQLite::Database> opened_with_fallbacks(const std::string& path) {
   try {
     return opened(path, SQLite::OPEN_READONLY);
   } catch (const SQLite::Exception& error) {
     if (!wants_to_write(error)) throw;
   }
   try {
-    // After a crash while the file was created SQLite must undo something first.
+    // After a crash during its creation SQLite must roll the file back first.
     return opened(path, SQLite::OPEN_READWRITE);
   } catch (const SQLite::Exception& error) {
     if (!wants_to_write(error)) throw;
   }
-  return opened_where_nothing_can_be_written(path);
+  return opened_in_read_only_folder(path);
 }
 
-// An older log is brought up to date where it lies, or, where that can't be (a medium or folder
-// that can't be written, a writer of the older program), in memory for whoever looks.
-std::unique_ptr<SQLite::Database> brought_up_to_date(std::unique_ptr<SQLite::Database> older,
-                                                     const std::string& path,
-                                                     const std::string& file) {
+// Upgrades an older log in place or, if that is not possible (read-only, in use), in memory.
+std::unique_ptr<SQLite::Database> upgraded_log(std::unique_ptr<SQLite::Database> older,
+                                               const std::string& path, const std::string& file) {
   try {
     LogFile upgraded(path);
-    return opened_somehow(file);
+    return opened_with_fallbacks(file);
   } catch (const Error& error) {
     if (error.exit_code() == ExitCode::diverged) throw;
   }
@@ -112,15 +111,14 @@ std::unique_ptr<SQLite::Database> brought_up_to_date(std::unique_ptr<SQLite::Dat
 std::unique_ptr<SQLite::Database> open_for_reading(const std::string& path) {
   const std::string file = resolved_path(path);
   if (!std::filesystem::exists(file))
-    throw Error(fmt::format("there is no file {}. Name the log with --db FILE.", path));
+    throw Error(fmt::format("there is no file {}. Specify the log with --db FILE.", path));
   try {
-    auto database = opened_somehow(file);
+    auto database = opened_with_fallbacks(file);
     if (schema::kind_of(*database) != schema::FileKind::older_log) return database;
-    return brought_up_to_date(std::move(database), path, file);
+    return upgraded_log(std::move(database), path, file);
   } catch (const SQLite::Exception& error) {
     if (error.getErrorCode() == SQLITE_NOTADB) refuse_foreign_file(path);
-    const SqliteFailure failure = explained(error, nullptr);
-    throw Error(fmt::format("can't read {}: {}. {}.", path, failure.reason, failure.advice));
+    throw sqlite_error(fmt::format("cannot read {}", path), error, nullptr);
   }
 }
 

@@ -1,6 +1,5 @@
-// Opening a database file that may come from anybody, so that nothing that it holds may run; and
-// opening a log for reading, wherever it lies: beside a running writer, after a crash, or on a
-// medium that can't be written.
+// Opening a log for reading: next to a running writer, after a crash, or on a read-only medium. The
+// file may come from anyone, so nothing in it may be executed. Private to record.
 #pragma once
 
 #include <memory>
@@ -12,16 +11,15 @@ class Database;
 
 namespace heft {
 
-/// For how long a statement waits for another program's lock.
+/// How long a statement waits for another program's lock.
 inline constexpr int lock_timeout_ms = 5000;
 
-/// Triggers, views, functions named by the schema and writes to the schema's own tables are off for
-/// this connection, and a word in double quotes is a name or a mistake. To be called before the
-/// first statement; tables, their rules and references work as ever.
-/// @throws Error when this SQLite can't
+/// Disables triggers, views, functions in the schema, writes to the schema's tables and texts in
+/// double quotes for this connection. Call it before the first statement.
+/// @throws Error if this SQLite does not support it
 void distrust(SQLite::Database& database);
 
-/// @throws Error when there is no such file, or it can't be read
+/// @throws Error if the file is missing or cannot be read
 std::unique_ptr<SQLite::Database> open_for_reading(const std::string& path);
 
 }  // namespace heft

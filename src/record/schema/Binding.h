@@ -1,5 +1,5 @@
-// Values into a prepared statement's places, in order, bit for bit, and into the row's digest where
-// it has one. Private to this room.
+// Binds values to a prepared statement, in order and bit for bit, and adds them to the row's
+// digest. Private to record.
 #pragma once
 
 #include <SQLiteCpp/Statement.h>
@@ -15,7 +15,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
-#include "experiment/EachCell.h"
+#include "experiment/Rows.h"
 #include "record/integrity/Digests.h"
 
 namespace heft {
@@ -27,10 +27,10 @@ class Binding {
     ((*this << values), ...);
   }
   Binding(const Binding&) = delete;
-  /// Ready for the next row, whatever became of this one.
+  /// Resets the statement for the next row, also after a failure.
   ~Binding() { statement_.tryReset(); }
 
-  /// From here on every value enters this digest too.
+  /// Adds all following values to the digest.
   Binding& also_into(RowDigest& digest) {
     digest_ = &digest;
     return *this;
@@ -43,11 +43,11 @@ class Binding {
     if (digest_) digest_->integer(written);
     return *this;
   }
-  /// Into a REAL column, which keeps -0.0 as 0.0.
+  /// For a REAL column, which stores -0.0 as 0.0.
   Binding& operator<<(double value) { return exactly(value + 0.0); }
-  /// Into an ANY column, which keeps every bit.
+  /// For an ANY column, which keeps every bit.
   Binding& exactly(double value) {
-    // SQLite would turn it into NULL without a word.
+    // SQLite would silently store NULL.
     if (std::isnan(value)) throw Error("a value of its row is not a number (NaN)");
     statement_.bind(++place_, value);
     if (digest_) digest_->real(value);
@@ -74,14 +74,14 @@ class Binding {
   }
 
   void run() { statement_.exec(); }
-  /// With what went also_into() the digest as the last value. @return the digest
+  /// Binds the digest as the last value and runs the statement. @return the digest
   std::string run_with_digest() {
     std::string digest = std::exchange(digest_, nullptr)->value();
     *this << digest;
     run();
     return digest;
   }
-  /// True when there is a row.
+  /// @return whether there is a row
   bool step() { return statement_.executeStep(); }
 
  private:
@@ -90,13 +90,13 @@ class Binding {
   RowDigest* digest_ = nullptr;
 };
 
-/// Executes a statement that gives no rows, with these values in its places.
+/// Executes a statement without result rows, with bound values.
 template <typename... Values>
 void run(SQLite::Statement& statement, const Values&... values) {
   Binding(statement, values...).run();
 }
 
-/// Writes a row's fields into a statement's places.
+/// Binds a row's fields.
 template <typename Row>
 void bind_row(Binding& places, const Row& row) {
   visit_cells(row, [&](const CellColumn& column, const auto& value) {

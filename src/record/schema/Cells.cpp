@@ -29,7 +29,7 @@ std::int64_t Cells::long_integer() {
 int Cells::integer() {
   const std::int64_t value = long_integer();
   if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
-    refuse(std::to_string(value), "a whole number of ordinary size");
+    refuse(std::to_string(value), "a 32-bit whole number");
   return static_cast<int>(value);
 }
 
@@ -81,7 +81,7 @@ std::optional<Pose> Cells::pose_or_none() {
   for (int i = 0; i < pose_columns; ++i)
     if (!skip_null()) {
       ++column_;
-      refuse(shown(query_.getColumn(column_)), "nothing, as in the pose's first column");
+      refuse(shown(query_.getColumn(column_)), "nothing (NULL), as in the pose's first column");
     }
   return std::nullopt;
 }
@@ -89,7 +89,7 @@ std::optional<Pose> Cells::pose_or_none() {
 void Cells::refuse(const std::string& found, std::string_view expected) const {
   throw Error(fmt::format(
       "{}, table {}, row {}, column {}: expected {}, found {}. The file is damaged or was changed "
-      "by another program; heft doctor checks it, and a backup helps.",
+      "by another program. Check it with heft doctor, or use a backup.",
       file_, table_, id_, query_.getColumnName(column_), expected, found));
 }
 

@@ -1,5 +1,5 @@
-// The cells of a row that was read, in order, checked: a value that can't be one of ours is an
-// Error naming table, row and column. Private to this room.
+// The cells of a row that is read, in order. An invalid value is an Error naming table, row and
+// column. Private to record.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include "base/Names.h"
 #include "base/PoseTypes.h"
 #include "experiment/Rows.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace SQLite {
 class Column;
@@ -23,7 +23,7 @@ namespace heft {
 
 class Cells {
  public:
-  /// @param query stands on a row whose first column is its id
+  /// @param query is at a row whose first column is its id
   Cells(SQLite::Statement& query, std::string_view file, std::string_view table);
 
   std::int64_t id() const { return id_; }
@@ -60,10 +60,10 @@ class Cells {
     if (!skip_null()) read(value.emplace());
   }
 
-  /// A value from the text of the cell that was read last.
+  /// Converts the text of the last cell.
   template <typename Value>
   void read_as(Value& value, const std::string& text) {
-    if (!from_text(text, value)) refuse_name(text, "what heft writes");
+    if (!from_text(text, value)) refuse_name(text, "a valid text");
   }
 
   template <typename Enum>
@@ -82,11 +82,11 @@ class Cells {
 
   SQLite::Statement& query_;
   std::string_view file_, table_;
-  int column_ = 0;  ///< the one read last
+  int column_ = 0;  ///< index of the last cell
   std::int64_t id_ = 0;
 };
 
-/// Fills a row's fields from cells.
+/// A visitor that fills a row's fields from cells.
 class FillRow {
  public:
   explicit FillRow(Cells& cells) : cells_(cells) {}
@@ -124,7 +124,7 @@ Row row_from(Cells& cells) {
   return row;
 }
 
-/// A row of an attempt, whose index is the first cell after the row's id.
+/// A row of an attempt; the attempt index follows the row's id.
 template <typename Row>
 Row attempt_row_from(Cells& cells) {
   const int attempt_index = cells.integer();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <concepts>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -9,7 +10,6 @@
 #include "base/Error.h"
 #include "base/files/Printable.h"
 #include "record/schema/RowSql.h"
-#include "record/schema/SetupJson.h"
 
 namespace heft {
 
@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
                           row.t_s, expected, row.detail));
 }
 
-// Puts a payload into the row's columns.
+// Writes a payload's columns into a row.
 class ToRow {
  public:
   explicit ToRow(EventRow& row) : row_(row) {}
@@ -42,7 +42,7 @@ class ToRow {
   ToRow& label(const std::optional<Label>& label) { return set(row_.label, label); }
   ToRow& number(std::optional<double> number) { return set(row_.value, number); }
   ToRow& push(const CubeTouch& touch) {
-    row_.deepest_push_m = touch.deepest_push_m;
+    row_.max_push_displacement_m = touch.max_push_displacement_m;
     row_.peak_lag_m = touch.peak_lag_m;
     return *this;
   }
@@ -57,7 +57,7 @@ class ToRow {
       json_[key] = value;
     return *this;
   }
-  // Bytes that are no text must not keep an event from being saved.
+  // Invalid UTF-8 must not prevent an event from being saved.
   void finish() {
     if (!json_.empty()) row_.detail = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
@@ -73,7 +73,7 @@ class ToRow {
   Json json_;
 };
 
-// Takes it out of them again.
+// Reads a payload's columns from a row.
 class FromRow {
  public:
   explicit FromRow(const EventRow& row) : row_(row) {}
@@ -95,7 +95,7 @@ class FromRow {
   FromRow& label(std::optional<Label>& label) { return take(label, row_.label, "a label"); }
   FromRow& number(std::optional<double>& number) { return take(number, row_.value, "a number"); }
   FromRow& push(CubeTouch& touch) {
-    touch.deepest_push_m = row_.deepest_push_m;
+    touch.max_push_displacement_m = row_.max_push_displacement_m;
     touch.peak_lag_m = row_.peak_lag_m;
     return *this;
   }
@@ -143,7 +143,7 @@ class FromRow {
   Json json_;
 };
 
-// Both ways. A payload with fields that declares no columns does not compile.
+// Writes or reads. A payload with fields but without event_columns does not compile.
 void convert(auto& payload, auto& row) {
   using Payload = std::remove_const_t<std::remove_reference_t<decltype(payload)>>;
   if constexpr (!std::is_empty_v<Payload>) Payload::event_columns(payload, row);
@@ -156,8 +156,8 @@ EventPayload empty_of(EventKind kind, std::index_sequence<Kinds...>) {
   return what;
 }
 
-// At most so many bytes, and no half letter.
-std::string begun(const std::string& text, std::size_t most) {
+// Truncates to at most `most` bytes, between characters.
+std::string truncated(const std::string& text, std::size_t most) {
   std::string kept;
   for (const std::string_view letter : letters_of(text)) {
     if (kept.size() + letter.size() > most) break;
@@ -194,8 +194,9 @@ std::string text_of(const Event& event) {
   text += fmt::format(" at {} s", row.t_s);
   const bool is_number = event.is<Action, ActionRefused>();
   if (row.value) text += fmt::format(", {}{}", *row.value, is_number ? "" : " s");
-  if (row.deepest_push_m && row.peak_lag_m)
-    text += fmt::format(", {} m deep, {} m behind", *row.deepest_push_m, *row.peak_lag_m);
+  if (row.max_push_displacement_m && row.peak_lag_m)
+    text +=
+        fmt::format(", displacement {} m, lag {} m", *row.max_push_displacement_m, *row.peak_lag_m);
   return text;
 }
 
@@ -206,7 +207,7 @@ std::string event_line(const Event& event, const AnnouncedEvent& about) {
   line["t_s"] = event.t_s;
   line["utc"] = about.utc;
   line["session"] = about.session_id;
-  line["participant"] = begun(about.participant, longest_name);
+  line["participant"] = truncated(about.participant, longest_name);
   line["kind"] = name_of(row.kind);
   if (about.plan) {
     line["trial"] = about.plan->trial_number;
@@ -215,8 +216,93 @@ std::string event_line(const Event& event, const AnnouncedEvent& about) {
   if (row.slot) line["slot"] = *row.slot;
   if (row.label) line["label"] = name_of(*row.label);
   if (!row.detail.empty() && row.kind != event_kind<SessionConfig>)
-    line["detail"] = begun(row.detail, longest_detail);
+    line["detail"] = truncated(row.detail, longest_detail);
   return line.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+namespace {
+
+// Columns of `setup` that had other names before version 7.
+constexpr std::array renamed_columns{std::pair{"simulator_why", "simulator_reason"},
+                                     std::pair{"handed", "controls"}};
+
+// Writes columns and contents by name, without empty values.
+struct Write {
+  Json& json;
+
+  template <typename Value>
+  void operator()(const LogColumn& column, const Value& value) const {
+    (*this)(column.name, value);
+  }
+  template <typename Value>
+  void operator()(const LogColumn& column, const NullIfEmpty<const Value>& field) const {
+    (*this)(column.name, to_text(field.value));
+  }
+  template <typename Value>
+  void operator()(const LogColumn& column, const AsText<const Value>& field) const {
+    (*this)(column.name, to_text(field.value));
+  }
+  void operator()(std::string_view name, const std::string& text) const {
+    if (!text.empty()) json[std::string(name)] = text;
+  }
+  template <typename Value>
+  void operator()(std::string_view name, const std::optional<Value>& value) const {
+    if (value) json[std::string(name)] = *value;
+  }
+  void operator()(std::string_view name, const std::map<std::string, double>& values) const {
+    if (!values.empty()) json[std::string(name)] = values;
+  }
+};
+
+struct Read {
+  const Json& json;
+
+  template <typename Value>
+  void operator()(const LogColumn& column, Value& value) const {
+    (*this)(column.name, value);
+  }
+  template <typename Value>
+  void operator()(const LogColumn& column, const NullIfEmpty<Value>& field) const {
+    (*this)(column, AsText{field.value});
+  }
+  template <typename Value>
+  void operator()(const LogColumn& column, const AsText<Value>& field) const {
+    std::string text = to_text(field.value);
+    (*this)(column.name, text);
+    if (!from_text(text, field.value))
+      throw Error(fmt::format("invalid setup: its {} is \"{}\"", column.name, text));
+  }
+  template <typename Value>
+  void operator()(std::string_view name, Value& value) const {
+    const auto found = json.find(std::string(name));
+    if (found == json.end()) return;
+    if constexpr (requires { value.has_value(); })
+      value = found->template get<typename Value::value_type>();
+    else
+      value = found->template get<Value>();
+  }
+};
+
+}  // namespace
+
+std::string to_json(const SessionConfig& setup) {
+  Json json = Json::object();
+  visit_columns(setup, Write{json});
+  visit_contents(setup, Write{json});
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+SessionConfig setup_from_json(const std::string& text) try {
+  Json json = Json::parse(text);
+  if (!json.is_object()) throw Error("invalid setup: expected a JSON object");
+  for (const auto& [older, name] : renamed_columns)
+    if (const auto found = json.find(older); found != json.end()) json[name] = *found;
+  SessionConfig setup;
+  visit_columns(setup, Read{json});
+  visit_contents(setup, Read{json});
+  return setup;
+} catch (const nlohmann::json::exception& error) {
+  throw Error(fmt::format("invalid setup: {}", error.what()));
 }
 
 }  // namespace heft

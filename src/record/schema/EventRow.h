@@ -1,5 +1,5 @@
-// An event as the log has it: the one place where an event becomes text and back; and as a line of
-// JSON, announced to other programs while a session runs.
+// An event as a row of the log, a configuration as the JSON of its event, and an event as a line of
+// JSON for other programs while a session runs.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "experiment/Event.h"
 #include "experiment/Rows.h"
+#include "experiment/SessionConfig.h"
 
 namespace heft {
 
@@ -19,7 +20,7 @@ struct EventRow {
   std::optional<Label> label;
   std::string detail;
   std::optional<double> value;
-  std::optional<double> deepest_push_m, peak_lag_m;
+  std::optional<double> max_push_displacement_m, peak_lag_m;
 
   bool operator==(const EventRow&) const = default;
 };
@@ -27,34 +28,41 @@ template <typename Row, typename Visit>
 requires RowOf<Row, EventRow>
 void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"t_s", "s", "session time", ">= 0"}, row.t_s);
-  visit(LogColumn{"kind", "", "what happened"}, row.kind);
-  visit(LogColumn{"slot", "", "to which cube, 1 leftmost", "BETWEEN 1 AND 6"}, row.slot);
-  visit(LogColumn{"label", "", "with which label"}, row.label);
-  visit(LogColumn{"detail", "", "the action, the reason, a text, or JSON, by kind"}, row.detail);
-  visit(LogColumn{"value", "", "a duration in seconds or the number that was given, by kind"},
+  visit(LogColumn{"kind", "", "kind of event"}, row.kind);
+  visit(LogColumn{"slot", "", "slot of the cube; 1 is leftmost", "BETWEEN 1 AND 6"}, row.slot);
+  visit(LogColumn{"label", "", "label of the action"}, row.label);
+  visit(LogColumn{"detail", "", "depends on the kind: action, reason, text or JSON"}, row.detail);
+  visit(LogColumn{"value", "", "depends on the kind: duration in seconds or given number"},
         row.value);
   visit_push_columns(row, visit);
 }
 
 EventRow row_of(const Event& event);
 
-/// @throws Error when the row can't be an event of its kind: what was expected, what was found
+/// @throws Error if the row is no event of its kind: what was expected and found
 Event event_of(const EventRow& row);
 
-/// An event in a line, for people.
+/// An event as a line of text for people.
 std::string text_of(const Event& event);
 
-/// What an event's line for other programs says besides the event.
+/// What event_line() adds to the event.
 struct AnnouncedEvent {
   std::int64_t session_id = 0;
   std::string participant;
   std::string utc;                ///< of the event
-  std::optional<TrialPlan> plan;  ///< of the trial that it belongs to
+  std::optional<TrialPlan> plan;  ///< of the event's trial
 };
 
 /// {"t_s":12.5,"utc":"...","session":1,"participant":"P07","kind":"cubes_shown","trial":3,...}:
-/// kind, slot, label and detail as the table `event` has them, without a setup's files; nothing of
-/// masses, levels or conditions. A long detail is cut: at most 2000 bytes in all.
+/// kind, slot, label and detail as in the table `event`, without the files of a setup, masses,
+/// levels and conditions. Long details are truncated: at most 2000 bytes in total.
 std::string event_line(const Event& event, const AnnouncedEvent& about);
+
+/// JSON object with all columns and the contents of files.
+std::string to_json(const SessionConfig& setup);
+
+/// Missing keys keep their defaults: they are newer than the text.
+/// @throws Error if the text is no such object
+SessionConfig setup_from_json(const std::string& text);
 
 }  // namespace heft

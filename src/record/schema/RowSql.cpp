@@ -53,7 +53,7 @@ std::string in_session(std::string_view table, std::string_view id, std::string_
 }
 
 std::string frames_in_session(std::string_view columns) {
-  // The inner query reads an index alone.
+  // The inner query reads only an index.
   return fmt::format(
       "SELECT frame_id, {}, {} FROM frame WHERE frame_id IN (SELECT frame_id FROM frame WHERE "
       "session_id = ?1) ORDER BY frame_id",
@@ -77,7 +77,7 @@ std::string upsert_sql(std::string_view table, std::string_view columns, std::st
   const auto keys = columns_in(key);
   std::string changes;
   for (std::string_view column : columns_in(columns))
-    // Assigning a key even its own value makes SQLite search for rows that refer to the old one.
+    // Assigning a key its own value would make SQLite search for rows that refer to it.
     if (std::find(keys.begin(), keys.end(), column) == keys.end())
       changes += fmt::format("{}{} = excluded.{}", changes.empty() ? "" : ", ", column, column);
   return fmt::format("{} ON CONFLICT ({}) DO UPDATE SET {}", insert_sql(table, columns), key,

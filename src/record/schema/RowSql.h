@@ -1,6 +1,5 @@
-// What the rows' descriptions give as SQL: their columns' names, how a table declares them, the
-// closed lists that columns refer to, and the queries and inserts that take all columns. Private to
-// this room.
+// SQL from the rows' descriptions: names and declarations of columns, closed lists, queries and
+// inserts. Private to record.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,17 +11,14 @@
 #include <string_view>
 #include <vector>
 
-#include "experiment/EachCell.h"
 #include "experiment/Event.h"
+#include "experiment/Rows.h"
 #include "record/schema/SessionHeader.h"
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 
 namespace heft {
 
-// The closed lists: each enumeration's names stand in a table, which the columns that use it refer
-// to.
-
-/// The table of an enumeration's names.
+/// The table with the names of an enumeration, which columns refer to.
 template <typename Enum>
 inline constexpr std::string_view closed_list = "";
 template <>
@@ -40,7 +36,7 @@ inline constexpr std::string_view closed_list<EventKind> = "list_event";
 template <>
 inline constexpr std::string_view closed_list<SessionState> = "list_state";
 template <>
-inline constexpr std::string_view closed_list<StopReason> = "list_finish";
+inline constexpr std::string_view closed_list<StopReason> = "list_stop_reason";
 template <>
 inline constexpr std::string_view closed_list<Censored> = "list_censored";
 template <>
@@ -51,7 +47,7 @@ struct ClosedList {
   std::vector<std::string_view> names;
 };
 
-/// Whether a value is one of a closed list's names.
+/// Whether a type's values are names of a closed list.
 template <typename Value>
 inline constexpr bool is_listed = std::is_enum_v<Value> || is_word<Value>;
 
@@ -63,18 +59,18 @@ std::vector<std::string_view> listed_names() {
     return {EnumNames<Listed>::names.begin(), EnumNames<Listed>::names.end()};
 }
 
-/// Those that the program closes, filled when a log is made.
+/// The lists of enumerations, filled when a log is created.
 std::span<const ClosedList> closed_lists();
 
-/// The lists of the tasks' words. A task's words are added, with its name and edition, when its
-/// first trial starts: so a further task needs no further version of the log.
+/// The lists of the tasks' words. A task's words are added with its name and edition when its first
+/// trial starts, so a new task needs no new version of the log.
 inline constexpr std::array<std::string_view, 4> word_lists{
     closed_list<Task>, closed_list<Label>, closed_list<ActionKind>, closed_list<Outcome>};
 
-/// What a task adds to the list of that table.
+/// A task's words for a list.
 std::vector<std::string_view> words_for(std::string_view table, const TaskDeclaration& task);
 
-/// Each column's name and declaration.
+/// A visitor that collects names and declarations of columns.
 class ColumnSql {
  public:
   template <typename Value>
@@ -88,7 +84,7 @@ class ColumnSql {
  private:
   template <typename Value>
   static std::string declared(const CellColumn& column) {
-    // A REAL column forgets the sign of -0.0, and physics makes other bits of it.
+    // A REAL column loses the sign of -0.0, which would change the bits of the physics.
     if (column.exact)
       return fmt::format("ANY NOT NULL CHECK (typeof({}) IN ('real', 'integer'))",
                          column.full_name());
@@ -130,27 +126,28 @@ std::string columns_of() {
   return fmt::format("{}", fmt::join(sql_of<Row>().names, ", "));
 }
 
-/// What a session's chains of digests start from. Parameter: the session's id.
+/// Start of a session's chains of digests. Parameter: the session's id.
 inline constexpr auto chain_start_sql =
     "SELECT participant || '/' || protocol_sha256 || '/' || seed FROM session WHERE session_id = ?";
 
-// First column the row's id, then the attempt (0 where the row names no trial; a text, which Cells
-// refuses, where its session has no such trial), then `columns`; ordered by id. ?1 is the session.
+// The following queries select the row's id, the attempt index (0 without a trial; a text, which
+// Cells refuses, if the session has no such trial), then `columns`; ordered by id. ?1 is the
+// session.
 
-/// Rows that carry the session's id themselves. @param condition that they fulfill, as SQL
+/// Rows with a column session_id. @param condition SQL expression
 std::string in_session(std::string_view table, std::string_view id, std::string_view columns,
                        std::string_view condition = "true");
 
-/// The same for frames of all attempts, which are many: without a look at other sessions'.
+/// The same for frames, using the index of sessions.
 std::string frames_in_session(std::string_view columns);
 
-/// Rows that belong to a session through their trial.
+/// Rows that belong to a session by their trial.
 std::string in_trials(std::string_view table, std::string_view id, std::string_view columns);
 
 /// INSERT INTO table(columns) VALUES (?, ?, ...)
 std::string insert_sql(std::string_view table, std::string_view columns);
 
-/// insert_sql, but a row with the same key columns takes over the new values.
+/// insert_sql that updates an existing row with the same key columns.
 std::string upsert_sql(std::string_view table, std::string_view columns, std::string_view key);
 
 }  // namespace heft

@@ -26,7 +26,7 @@ void fill(SQLite::Database& database, const ClosedList& list) {
   }
 }
 
-// "table trial" and the text that made it.
+// Objects, such as "table trial", and their CREATE statements.
 std::map<std::string, std::string> objects_in(SQLite::Database& database) {
   std::map<std::string, std::string> objects;
   SQLite::Statement query(database,
@@ -46,28 +46,27 @@ const std::map<std::string, std::string>& objects_of_a_log() {
   return objects;
 }
 
-// Whether a list of words holds what tasks of ours bring, and all of it that the tasks with trials
-// in the log bring today; what an older edition of a task had not may be missing.
+// Whether a list has only words of known tasks, and all words of the tasks with trials in the log.
+// Words that an older edition of a task lacked may be missing.
 bool is_ours(SQLite::Database& database, std::string_view list) {
   std::set<std::string> found;
   SQLite::Statement entries(database, fmt::format("SELECT name, task, edition FROM {}", list));
   while (entries.executeStep()) {
     const std::string word = entries.getColumn(0), name = entries.getColumn(1);
     const int edition = entries.getColumn(2);
-    if (place_of(name) == words_of<Task>().size()) return false;
-    const TaskDeclaration& task = task_named(name);
-    const auto words = words_for(list, task);
-    if (edition < 1 || edition > task.edition ||
-        std::ranges::find(words, std::string_view(word)) == words.end())
-      return false;
+    const TaskDeclaration* task = find_task(name);
+    if (!task || edition < 1 || edition > task->edition) return false;
+    const auto words = words_for(list, *task);
+    if (std::ranges::find(words, std::string_view(word)) == words.end()) return false;
     found.insert(word);
   }
   SQLite::Statement tasks(database, "SELECT name, edition FROM list_task");
   while (tasks.executeStep()) {
     const std::string name = tasks.getColumn(0);
-    if (place_of(name) == words_of<Task>().size()) return false;
-    if (tasks.getColumn(1).getInt() != task_named(name).edition) continue;
-    for (const std::string_view word : words_for(list, task_named(name)))
+    const TaskDeclaration* task = find_task(name);
+    if (!task) return false;
+    if (tasks.getColumn(1).getInt() != task->edition) continue;
+    for (const std::string_view word : words_for(list, *task))
       if (!found.contains(std::string(word))) return false;
   }
   return true;
@@ -116,12 +115,20 @@ std::vector<std::string> foreign_objects(SQLite::Database& database) {
     if (ours == objects_of_a_log().end())
       foreign.push_back(name);
     else if (ours->second != sql)
-      foreign.push_back(name + ", which is not as heft makes it");
+      foreign.push_back(name + ", which differs from that of heft");
   }
   for (const auto& [name, sql] : objects_of_a_log())
     if (!found.contains(name)) foreign.push_back(name + ", which is missing");
   if (foreign.empty()) foreign = changed_lists(database);
   return foreign;
+}
+
+std::vector<std::string> unknown_objects(SQLite::Database& database,
+                                         const std::set<std::string>& also) {
+  std::vector<std::string> unknown;
+  for (const auto& [name, sql] : objects_in(database))
+    if (!objects_of_a_log().contains(name) && !also.contains(name)) unknown.push_back(name);
+  return unknown;
 }
 
 void add_words(SQLite::Database& database, std::string_view name) {

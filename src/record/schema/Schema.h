@@ -1,8 +1,9 @@
-// The log's tables and views. Their columns come from the rows' descriptions (experiment/Rows.h);
-// what is said here is how tables hang together. DESIGN.md, "The log", is the contract for names.
+// The log's tables and views. Columns come from the rows' descriptions (experiment/Rows.h); keys
+// and references are defined here. Names of tables and columns are an interface to other programs.
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,36 +15,40 @@ class Database;
 
 namespace heft::schema {
 
-/// "Heft" in ASCII: marks the file as ours for `file` and for SQLite.
+/// "Heft" in ASCII: identifies a log for `file` and SQLite.
 inline constexpr std::int64_t application_id = 0x48656674;
 
-/// The version that this program writes; the file's is its user_version.
+/// The version that this program writes; a file's version is its user_version.
 inline constexpr int current_version = todays_log_version;
 
-/// What a database file holds. An `older_log` is upgraded, an `outdated_log` is no longer read.
+/// Contents of a database file. An `older_log` is upgraded, an `outdated_log` refused.
 enum class FileKind { empty, log, older_log, outdated_log, newer_log, foreign };
 FileKind kind_of(SQLite::Database& database);
 
-/// Creates tables and views in an empty file; nothing where they are there. Call it in a
-/// transaction.
+/// Creates tables and views in an empty file. Call it in a transaction.
 void create(SQLite::Database& database);
 
-/// What the file's schema has that a log of its version has not, lacks, or has otherwise, and
-/// entries of closed lists likewise; one line each. Empty: it is as this program made it.
+/// Differences of the file's schema and closed lists from those that this program creates, one line
+/// each.
 std::vector<std::string> foreign_objects(SQLite::Database& database);
 
-/// Adds what a task brings to the lists of words, unless it is there.
-/// @throws Error (usage) for a task that is none of ours
+/// Objects that no log has: "trigger bad".
+/// @param also objects that an older log may have
+std::vector<std::string> unknown_objects(SQLite::Database& database,
+                                         const std::set<std::string>& also);
+
+/// Adds a task's words to the lists of words, unless present.
+/// @throws Error (usage) for an unknown task
 void add_words(SQLite::Database& database, std::string_view task);
 
-/// The statement that makes a table or index of today's log: "table answer".
+/// The statement that creates an object of the current log. @param object "table answer"
 const std::string& made_by(const std::string& object);
 
-/// Upgrades an older log to the current version, in one transaction; digests stay as they were.
-/// @throws Error (diverged) naming what is foreign in it; SQLite::Exception
+/// Upgrades an older log to the current version, in one transaction. Digests do not change.
+/// @throws Error (diverged) naming an unknown object; SQLite::Exception
 void upgrade(SQLite::Database& database);
 
-/// CREATE statements of all tables and indexes, from the rows' descriptions; of the views.
+/// CREATE statements of all tables and indexes, and of the views.
 std::string tables();
 extern const char* const views;
 

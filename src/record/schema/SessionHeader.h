@@ -1,5 +1,5 @@
-// What is known about a session as it starts: its row of the `session` table and what the
-// participant told.
+// The data of a session that are known at its start: its row in the `session` table and the answers
+// about the participant.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,13 @@
 
 namespace heft {
 
-/// Why a session is run; analysis never mixes them unasked.
+/// Purpose of a session. Analyses do not mix purposes by default.
 enum class Purpose { main, pilot, test, simulated };
 template <>
 struct EnumNames<Purpose> {
   static constexpr std::array<std::string_view, 4> names{"main", "pilot", "test", "simulated"};
 };
 
-/// The `session` table's row as a session starts.
 struct SessionHeader {
   std::string participant;
   std::string protocol_name, protocol_text, protocol_sha256;
@@ -33,18 +32,19 @@ struct SessionHeader {
 template <typename Row, typename Visit>
 requires RowOf<Row, SessionHeader>
 void visit_columns(Row& row, Visit&& visit) {
-  visit(LogColumn{"participant", "", "who took part"}, row.participant);
-  visit(LogColumn{"protocol_name", "", "name of the protocol's file"}, row.protocol_name);
-  visit(LogColumn{"protocol_text", "", "the protocol as it was read"}, row.protocol_text);
-  visit(LogColumn{"protocol_sha256", "", "hash of that text"}, row.protocol_sha256);
-  visit(LogColumn{"seed", "", "that every draw of the session comes from", ">= 0"}, row.seed);
-  visit(LogColumn{"heft_version", "", "version of the program that started it"}, row.heft_version);
-  visit(LogColumn{"build", "", "compiler and machine that built that program"}, row.build);
-  visit(LogColumn{"run_options", "", "the setup it was started with, as JSON"}, row.run_options);
-  visit(LogColumn{"started_utc", "", "when it started, ISO 8601"}, row.started_utc);
-  visit(LogColumn{"purpose", "", "why it was run"}, row.purpose);
-  visit(LogColumn{"responder", "", "who answered when it started; see setup"}, row.responder);
-  visit(LogColumn{"log_version", "", "version of the log that it was started in", ">= 1"},
+  visit(LogColumn{"participant", "", "participant's id"}, row.participant);
+  visit(LogColumn{"protocol_name", "", "file name of the protocol"}, row.protocol_name);
+  visit(LogColumn{"protocol_text", "", "contents of the protocol"}, row.protocol_text);
+  visit(LogColumn{"protocol_sha256", "", "SHA-256 of protocol_text"}, row.protocol_sha256);
+  visit(LogColumn{"seed", "", "seed of all random draws of the session", ">= 0"}, row.seed);
+  visit(LogColumn{"heft_version", "", "version of the program that started the session"},
+        row.heft_version);
+  visit(LogColumn{"build", "", "compiler and machine of that program's build"}, row.build);
+  visit(LogColumn{"run_options", "", "initial configuration, as JSON"}, row.run_options);
+  visit(LogColumn{"started_utc", "", "start time in UTC, ISO 8601"}, row.started_utc);
+  visit(LogColumn{"purpose", "", "purpose of the session"}, row.purpose);
+  visit(LogColumn{"responder", "", "initial responder; see setup"}, row.responder);
+  visit(LogColumn{"log_version", "", "version of the log in which the session was started", ">= 1"},
         row.log_version);
 }
 

@@ -8,7 +8,7 @@ namespace heft::schema {
 
 namespace {
 
-// A table of a row type: its ids, the row's columns, and what holds between rows.
+// A table of a row type: ids, the row's columns, and constraints between rows.
 template <typename Row>
 std::string table(std::string_view name, std::string_view ids, std::string_view rules) {
   return fmt::format("CREATE TABLE {} (\n  {},\n  {}{}\n) STRICT;\n", name, ids,
@@ -85,11 +85,10 @@ std::string tables() {
          "CREATE INDEX frame_by_trial ON frame (trial_id, session_id);\n";
 }
 
-// v_trial: a row an attempt, with what was in force. v_jnd: a row a staircase that ended.
-// v_sorting: a row a completed sorting trial, with the mass of the cube that carries each label at
-// its end (NULL: no cube does). v_frame: how far the clone was seen beside the effector; degrees of
-// visual angle where the display was measured (small angles: the arc is the chord); v_trial has the
-// largest of a trial's frames.
+// v_trial: attempts with their configuration. v_jnd: estimates of stopped staircases. v_sorting:
+// completed sorting trials with the mass of the cube that has each label at the end (NULL: none).
+// v_frame: displayed distance between clone and effector, in degrees of visual angle if the display
+// was measured (small-angle approximation); v_trial has its maximum over a trial's frames.
 const char* const views = R"sql(
 CREATE VIEW v_trial AS
 SELECT s.session_id, s.participant, s.protocol_name, s.purpose, u.responder, u.simulator,
@@ -105,7 +104,7 @@ SELECT s.session_id, s.participant, s.protocol_name, s.purpose, u.responder, u.s
   (SELECT count(*) FROM answer a WHERE a.trial_id = t.trial_id) AS n_answers,
   (SELECT sum(n_pushes) FROM cube c WHERE c.trial_id = t.trial_id) AS n_pushes,
   (SELECT sum(contact_s) FROM cube c WHERE c.trial_id = t.trial_id) AS contact_s,
-  (SELECT max(deepest_push_m) FROM cube c WHERE c.trial_id = t.trial_id) AS deepest_push_m,
+  (SELECT max(max_push_displacement_m) FROM cube c WHERE c.trial_id = t.trial_id) AS max_push_displacement_m,
   (SELECT max(peak_lag_m) FROM cube c WHERE c.trial_id = t.trial_id) AS peak_lag_m,
   (SELECT max(clone_offset_px) FROM frame f WHERE f.trial_id = t.trial_id)
     * u.display_w_mm / u.display_w_px / u.eye_distance_mm * 57.29577951308232
@@ -142,7 +141,7 @@ SELECT t.session_id, t.participant, t.protocol_name, t.purpose, t.responder,
    WHERE l.trial_id = t.trial_id AND l.label = 'intermediate') AS labeled_intermediate_g,
   (SELECT c.mass_g FROM final_label l JOIN cube c ON c.trial_id = l.trial_id AND c.slot = l.slot
    WHERE l.trial_id = t.trial_id AND l.label = 'heaviest') AS labeled_heaviest_g,
-  t.outcome, t.is_practice, t.n_answers, t.n_pushes, t.contact_s, t.deepest_push_m, t.peak_lag_m,
+  t.outcome, t.is_practice, t.n_answers, t.n_pushes, t.contact_s, t.max_push_displacement_m, t.peak_lag_m,
   t.response_time_s
 FROM v_trial t WHERE t.task = 'sorting' AND t.status = 'completed';
 

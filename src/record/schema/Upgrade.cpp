@@ -1,5 +1,5 @@
-// Logs of version 5: their views, answers and lists of the tasks' words are made again, and the
-// closed lists get the names added since. All other tables are as this program makes them.
+// Upgrades logs of versions 5 and 6. Digests are taken over values, not over names of columns, so
+// they stay valid.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -12,24 +12,39 @@ namespace heft::schema {
 
 namespace {
 
-void extend_closed_lists(SQLite::Database& database) {
-  for (const ClosedList& list : closed_lists())
-    for (const std::string_view name : list.names)
-      database.exec(fmt::format("INSERT OR IGNORE INTO {} VALUES ('{}')", list.table, name));
+// Rebuilding a table would drop a trigger or index on it unnoticed, so unknown objects are refused
+// first.
+void refuse_foreign(const std::vector<std::string>& foreign) {
+  if (!foreign.empty())
+    throw Error(fmt::format("the log was changed by another program: {}. Undo the change, or use "
+                            "an older copy",
+                            foreign.front()),
+                ExitCode::diverged);
+}
+
+void drop_views(SQLite::Database& database) {
+  for (const char* view : {"v_frame", "v_sorting", "v_trial", "v_jnd"})
+    database.exec(fmt::format("DROP VIEW IF EXISTS {}", view));
+}
+
+// Copies a table's rows into a new table of today's declaration. @param values of a row, as SQL
+void rebuild_table(SQLite::Database& database, const std::string& table,
+                   const std::string& values = "*") {
+  database.exec(fmt::format("CREATE TEMP TABLE older AS SELECT * FROM main.{}", table));
+  database.exec(fmt::format("DROP TABLE main.{}", table));
+  database.exec(made_by("table " + table));
+  database.exec(fmt::format("INSERT INTO {} SELECT {} FROM older ORDER BY rowid", table, values));
+  database.exec("DROP TABLE older");
 }
 
 // Version 6 added the last column, `value`.
-void renew_answers(SQLite::Database& database) {
-  database.exec("CREATE TEMP TABLE older_answer AS SELECT * FROM main.answer");
-  database.exec("DROP TABLE main.answer");
-  database.exec(made_by("table answer"));
+void add_answer_values(SQLite::Database& database) {
+  rebuild_table(database, "answer", "*, NULL");
   database.exec(made_by("index answer_by_trial"));
-  database.exec("INSERT INTO answer SELECT *, NULL FROM older_answer ORDER BY answer_id");
-  database.exec("DROP TABLE older_answer");
 }
 
 // Version 5 had the words of every task, version 6 those of the tasks that the log has trials of,
-// in the order of their first ones.
+// in the order of their first trials.
 void renew_words(SQLite::Database& database) {
   for (const std::string_view list : word_lists) {
     database.exec(fmt::format("DROP TABLE {}", list));
@@ -39,30 +54,45 @@ void renew_words(SQLite::Database& database) {
   SQLite::Statement query(database, "SELECT task FROM trial GROUP BY task ORDER BY min(trial_id)");
   while (query.executeStep()) tasks.push_back(query.getColumn(0).getString());
   for (const std::string& task : tasks) {
-    if (place_of(task) == words_of<Task>().size())
-      throw Error(fmt::format("the log holds a trial of an unknown task: {}", task),
+    if (!find_task(task))
+      throw Error(fmt::format("the log has a trial of an unknown task: {}", task),
                   ExitCode::diverged);
     add_words(database, task);
   }
 }
 
-void renew_views(SQLite::Database& database) {
-  for (const char* view : {"v_frame", "v_sorting", "v_trial", "v_jnd"})
-    database.exec(fmt::format("DROP VIEW IF EXISTS {}", view));
-  database.exec(views);
+// Version 7 renamed columns, the list of reasons to stop and one of its words.
+void rename_to_version_7(SQLite::Database& database) {
+  for (const char* rename :
+       {"cube RENAME deepest_push_m TO max_push_displacement_m",
+        "event RENAME deepest_push_m TO max_push_displacement_m",
+        "setup RENAME simulator_why TO simulator_reason", "setup RENAME handed TO controls"})
+    database.exec(fmt::format("ALTER TABLE {}", rename));
+  database.exec(made_by("table list_stop_reason"));
+  database.exec("UPDATE estimate SET censored = 'indeterminate' WHERE censored = 'unsettled'");
+  rebuild_table(database, "estimate");
+  database.exec("DROP TABLE list_finish");
+  database.exec("DELETE FROM list_censored WHERE name = 'unsettled'");
+}
+
+void extend_closed_lists(SQLite::Database& database) {
+  for (const ClosedList& list : closed_lists())
+    for (const std::string_view name : list.names)
+      database.exec(fmt::format("INSERT OR IGNORE INTO {} VALUES ('{}')", list.table, name));
 }
 
 void rebuild(SQLite::Database& database) {
+  refuse_foreign(unknown_objects(database, {"table list_finish"}));
+  drop_views(database);
+  if (database.execAndGet("PRAGMA user_version").getInt() == 5) {
+    add_answer_values(database);
+    renew_words(database);
+  }
+  rename_to_version_7(database);
   extend_closed_lists(database);
-  renew_answers(database);
-  renew_words(database);
-  renew_views(database);
+  database.exec(views);
   database.exec(fmt::format("PRAGMA user_version = {}", current_version));
-  if (const auto foreign = foreign_objects(database); !foreign.empty())
-    throw Error(fmt::format("the log differs from what heft makes: {}. Correct that, or continue "
-                            "with a copy made before it was changed",
-                            foreign.front()),
-                ExitCode::diverged);
+  refuse_foreign(foreign_objects(database));
 }
 
 }  // namespace
@@ -75,8 +105,8 @@ void upgrade(SQLite::Database& database) {
     transaction.commit();
   } catch (const SQLite::Exception& error) {
     if ((error.getErrorCode() & 0xff) != SQLITE_CONSTRAINT) throw;
-    throw Error(fmt::format("the log holds a row that heft never wrote: {}. Continue with a copy "
-                            "made before it was changed",
+    throw Error(fmt::format("the log has an invalid row: {}. Use a copy made before it was "
+                            "changed",
                             error.what()),
                 ExitCode::diverged);
   }

@@ -15,7 +15,6 @@
 #include "base/Build.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"
-#include "record/integrity/Integrity.h"
 #include "record/reader/LogReader.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/writer/Failures.h"
@@ -26,24 +25,24 @@ namespace fs = std::filesystem;
 
 namespace {
 [[noreturn]] void fail(const std::string& path, const std::string& why) {
-  throw Error(fmt::format("the backup {} can't be made: {}", path, why));
+  throw Error(fmt::format("cannot make the backup {}: {}", path, why));
 }
 
 std::string system_reason() {
   return std::strerror(errno);
 }
 
-// Of the owner's eyes alone, from its first byte on.
+// For its owner only.
 void make_backup_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::create_directories(folder, error)) {
     if (error) fail(folder.string(), error.message());
     return;
   }
-  fs::permissions(folder, fs::perms::owner_all, error);  // where the disk has permissions
+  fs::permissions(folder, fs::perms::owner_all, error);  // ignored on disks without permissions
 }
 
-// An empty file under the first name that is free, for the copy that will be called NAME.db.
+// Creates NAME.db.part for the first free name. @return the path of NAME.db
 std::string make_part(const fs::path& folder, const std::string& name) {
   for (int i = 1;; ++i) {
     const std::string free = i == 1 ? name : fmt::format("{}-{}", name, i);
@@ -54,7 +53,7 @@ std::string make_part(const fs::path& folder, const std::string& name) {
 
 void copy_into(const std::string& db, const std::string& part) {
   const auto source = open_for_reading(db);
-  source->exec("PRAGMA query_only = OFF");  // what it was opened with forbids any other file too
+  source->exec("PRAGMA query_only = OFF");  // it also forbids VACUUM INTO
   SQLite::Statement vacuum(*source, "VACUUM INTO ?");
   vacuum.bind(1, part);
   vacuum.exec();
@@ -67,25 +66,25 @@ void sync(const std::string& path) {
   const int reason = errno;
   close(file);
   errno = reason;
-  if (!is_saved && errno != EINVAL) fail(path, system_reason());  // EINVAL: nothing to be done here
+  if (!is_saved && errno != EINVAL) fail(path, system_reason());  // EINVAL: not supported here
 }
 
 void check_copy(const std::string& part, std::int64_t session_id) {
   if (const auto faults = check_integrity(part); !faults.empty())
-    fail(part, "the copy is not sound: " + faults.front());
+    fail(part, "the copy is damaged: " + faults.front());
   if (const auto broken = LogReader(part).first_broken_digest(session_id))
-    fail(part, fmt::format("in the copy {} is not as it was written", broken->row));
+    fail(part, fmt::format("in the copy {} differs from what was written", broken->row));
 }
 
-// Takes the name only where it is free. Disks without links (FAT) can't do both at once.
+// Renames without replacing a file. FAT disks cannot do this atomically.
 void give_name(const std::string& part, const std::string& path) {
   if (renameat2(AT_FDCWD, part.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0) return;
   if (errno != EINVAL && errno != ENOSYS) fail(path, system_reason());
-  if (fs::exists(fs::symlink_status(path))) fail(path, "a file of that name was made meanwhile");
+  if (fs::exists(fs::symlink_status(path))) fail(path, "a file of that name exists");
   if (std::rename(part.c_str(), path.c_str()) != 0) fail(path, system_reason());
 }
 
-// A copy that is no good is not left lying about.
+// Removes an incomplete copy.
 class Part {
  public:
   explicit Part(std::string path) : path_(std::move(path)) {}
@@ -117,11 +116,11 @@ std::string backup_name(const std::string& participant, std::int64_t session_id,
 
 void require_backup_folder(const std::string& folder) try {
   make_backup_folder(folder);
-  const std::string path = make_part(folder, "written-to-try") + ".part";
+  const std::string path = make_part(folder, "write-test") + ".part";
   const Part part(path);
   std::ofstream file(path);
   file << "heft\n" << std::flush;
-  if (!file) fail(folder, "nothing can be written there: " + system_reason());
+  if (!file) fail(folder, "the folder is not writable: " + system_reason());
   sync(path);
 } catch (const fs::filesystem_error& error) {
   fail(folder, error.code().message());

@@ -19,11 +19,10 @@ SqliteFailure input_output_failure(int extended_code, int system_error) {
             : system_error == EFBIG ? "the file has reached the largest size allowed"
                                     : "the disk is full",
             "Free some space"};
-  return {"the disk could not be read or written", "Check the disk and its cable"};
+  return {"the disk could not be read or written", "Check the disk"};
 }
 
-// The system's reason. SQLite passes it on for some failures only; the write-ahead log's file has
-// the others.
+// The system's error. SQLite returns it for some failures; the -wal file has the others.
 int system_error_of(sqlite3* connection) {
   if (const int error = sqlite3_system_errno(connection); error != 0) return error;
   sqlite3_file* log = nullptr;
@@ -34,7 +33,7 @@ int system_error_of(sqlite3* connection) {
   return error;
 }
 
-SqliteFailure in_plain_words(int code, int extended_code, int system_error) {
+SqliteFailure described_failure(int code, int extended_code, int system_error) {
   switch (code) {
     case SQLITE_FULL:
       return {"the disk is full", "Free some space"};
@@ -45,17 +44,17 @@ SqliteFailure in_plain_words(int code, int extended_code, int system_error) {
       return {"the file or its folder is read-only", "Make both writable"};
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return {"another program keeps the file locked", "Close the other program"};
+      return {"the file is locked by another program", "Close the other program"};
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
-      return {"the file is damaged", "Copy it away, then go on with a backup"};
+      return {"the file is damaged", "Keep a copy of it and continue with a backup"};
     case SQLITE_CANTOPEN:
-      return {"the file or its -wal or -shm file can't be opened",
-              "Check that the folder is there and that you may write to it"};
+      return {"the file or its -wal or -shm file cannot be opened",
+              "Check that the folder exists and is writable"};
     case SQLITE_CONSTRAINT:
-      return {"it breaks a rule of the log", "This is a mistake in heft: please report it"};
+      return {"it violates a constraint of the log", "This is a bug in heft: please report it"};
     default:
-      return {"the database could not do it", "Check the disk and the file"};
+      return {"the database failed", "Check the disk and the file"};
   }
 }
 
@@ -72,11 +71,17 @@ SqliteFailure explained(const SQLite::Exception& error, const SQLite::Database* 
   const bool from_system = code == SQLITE_IOERR || code == SQLITE_CANTOPEN;
   const int system_error =
       from_system && database != nullptr ? system_error_of(database->getHandle()) : 0;
-  SqliteFailure failure = in_plain_words(code, error.getExtendedErrorCode(), system_error);
+  SqliteFailure failure = described_failure(code, error.getExtendedErrorCode(), system_error);
   failure.reason += fmt::format(" (SQLite: {}", error.what());
   if (system_error != 0) failure.reason += fmt::format("; {}", std::strerror(system_error));
   failure.reason += ')';
   return failure;
+}
+
+Error sqlite_error(const std::string& what, const SQLite::Exception& error,
+                   const SQLite::Database* database) {
+  const SqliteFailure failure = explained(error, database);
+  return Error(fmt::format("{}: {}. {}.", what, failure.reason, failure.advice));
 }
 
 bool is_busy(const std::exception& error) {
@@ -95,15 +100,14 @@ std::string description(const Event& event, std::optional<int> trial_number) {
 Error write_error(const std::string& what, const LogFile& file, const std::exception& reason,
                   const std::string& next) {
   if (const auto* displaced = dynamic_cast<const DisplacedLog*>(&reason))
-    return Error(fmt::format("{} is not safe in {}: {}. {}, then {}", what, file.path(),
+    return Error(fmt::format("{} is not saved in {}: {}. {}, then {}", what, file.path(),
                              displaced->what(), displaced->remedy(), next));
-  SqliteFailure failure{reason.what(), "This is a mistake in heft: please report it"};
+  SqliteFailure failure{reason.what(), "This is a bug in heft: please report it"};
   if (const auto* error = dynamic_cast<const SQLite::Exception*>(&reason))
     failure = explained(*error, &file.database());
-  return Error(
-      fmt::format("could not save {} in {}: {}. Nothing of it is in the file; all that was "
-                  "acknowledged before it is. {}, then {}",
-                  what, file.path(), failure.reason, failure.advice, next));
+  return Error(fmt::format(
+      "could not save {} in {}: {}. Everything acknowledged before is saved. {}, then {}", what,
+      file.path(), failure.reason, failure.advice, next));
 }
 
 }  // namespace heft

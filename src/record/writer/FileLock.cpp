@@ -1,5 +1,3 @@
-#include "record/writer/FileLock.h"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -14,6 +12,7 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "record/writer/LogFile.h"
 
 namespace heft {
 
@@ -24,8 +23,8 @@ Inode inode_of(const struct stat& file) {
   return {file.st_dev, file.st_ino};
 }
 
-// What this process has locked: to open such a file once more, only to be refused, would drop
-// SQLite's locks on it when it is closed again.
+// Files that this process has locked. They must not be opened again: closing that descriptor would
+// drop SQLite's locks.
 class Locked {
  public:
   bool holds(const std::string& file) {
@@ -56,26 +55,25 @@ Locked& locked_here() {
 
 [[noreturn]] void refuse_second_writer(const std::string& path) {
   throw Error(
-      fmt::format("{} is in use: another heft is writing to it, perhaps under another name. Wait "
-                  "until it has ended, or choose another file with --db FILE.",
+      fmt::format("{} is in use by another heft, perhaps under another name. Wait until it has "
+                  "ended, or choose another file with --db FILE.",
                   path));
 }
 
 [[noreturn]] void refuse_unopened(const std::string& path, const std::string& file, int reason) {
   if (std::error_code unknown; reason == EACCES && std::filesystem::exists(file, unknown))
     throw Error(fmt::format(
-        "can't write to {}: the file is read-only ({}). Make it writable (chmod u+w), copy it to a "
-        "folder of yours, or choose another file with --db FILE.",
+        "cannot write to {}: the file is read-only ({}). Make it writable (chmod u+w), or choose "
+        "another file with --db FILE.",
         path, std::strerror(reason)));
   throw Error(fmt::format(
-      "can't write to {}: {}. Choose a file in a folder that exists and that you may write to, on "
-      "a disk that is not full and not write-protected (--db FILE).",
-      path, std::strerror(reason)));
+      "cannot write to {}: {}. Choose a file in an existing writable folder (--db FILE).", path,
+      std::strerror(reason)));
 }
 
 int opened_and_locked(const std::string& path, const std::string& file) {
   if (locked_here().holds(file)) refuse_second_writer(path);
-  // Closed on exec: a program started from here must not keep the lock alive.
+  // Closed on exec, so that a child process does not keep the lock.
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0600);
   if (descriptor < 0) refuse_unopened(path, file, errno);
   if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
@@ -83,11 +81,11 @@ int opened_and_locked(const std::string& path, const std::string& file) {
   ::close(descriptor);
   if (reason == EWOULDBLOCK) refuse_second_writer(path);
   throw Error(fmt::format(
-      "can't lock {} ({}). Keep the log on a local disk (--db FILE) and copy it afterwards.", path,
+      "cannot lock {} ({}). Keep the log on a local disk (--db FILE) and copy it afterwards.", path,
       std::strerror(reason)));
 }
 
-// The name that the kernel knows an open file by now; empty where it does not tell.
+// The current name of an open file; empty if unknown.
 std::string name_now(int descriptor) {
   std::error_code unknown;
   return std::filesystem::read_symlink(fmt::format("/proc/self/fd/{}", descriptor), unknown)
@@ -120,8 +118,8 @@ std::string FileLock::displacement() const {
   struct stat mine {
   }, there{}, named{};
   if (::fstat(descriptor_, &mine) != 0)
-    return fmt::format("can't be looked at any more ({})", std::strerror(errno));
-  // A link left in the file's place leads to it, but SQLite's newest rows stay beside the link.
+    return fmt::format("cannot be examined any more ({})", std::strerror(errno));
+  // A symbolic link in its place leads to the file, but the -wal file stays beside the link.
   const bool is_there = ::lstat(file_.c_str(), &there) == 0;
   const bool is_mine = is_there && inode_of(there) == inode_of(mine) &&
                        ::stat(path_.c_str(), &named) == 0 && inode_of(named) == inode_of(mine);
@@ -130,7 +128,7 @@ std::string FileLock::displacement() const {
     return fmt::format("was {}moved to {}", is_there ? "replaced by another file, and " : "",
                        name_now(descriptor_));
   if (mine.st_nlink > 1)
-    return "was given a second name (a hard link), under which SQLite would not find its newest "
+    return "was given a second name (a hard link), under which SQLite does not find its newest "
            "rows";
   return "";
 }

@@ -30,7 +30,7 @@ namespace {
 
 [[noreturn]] void refuse_outdated_log(const std::string& path, int version) {
   throw Error(
-      fmt::format("{} is a log of version {}; heft {} reads versions {} to {}. Read it with the "
+      fmt::format("{} is a log of version {}; heft {} reads versions {} to {}. Use the version of "
                   "heft that wrote it, or choose another file with --db FILE.",
                   path, version, HEFT_VERSION, oldest_log_version, todays_log_version));
 }
@@ -42,9 +42,7 @@ std::unique_ptr<SQLite::Database> opened(const std::string& path, const std::str
     distrust(*database);
     return database;
   } catch (const SQLite::Exception& error) {
-    const SqliteFailure failure = explained(error, nullptr);
-    throw Error(
-        fmt::format("can't open {} for writing: {}. {}.", path, failure.reason, failure.advice));
+    throw sqlite_error(fmt::format("cannot open {} for writing", path), error, nullptr);
   }
 }
 
@@ -69,12 +67,11 @@ LogFile::LogFile(const std::string& path)
     refuse_if_displaced();
     holds_log(*database_, path_);
     prepare();
-    if (schema::kind_of(*database_) == schema::FileKind::older_log) bring_up_to_date();
+    if (schema::kind_of(*database_) == schema::FileKind::older_log) upgrade();
   } catch (const SQLite::Exception& error) {
     refuse_if_displaced();
     if (error.getErrorCode() == SQLITE_NOTADB) refuse_foreign_file(path_);
-    const SqliteFailure failure = explained(error, database_.get());
-    throw Error(fmt::format("can't write to {}: {}. {}.", path_, failure.reason, failure.advice));
+    throw sqlite_error(fmt::format("cannot write to {}", path_), error, database_.get());
   }
 }
 
@@ -85,8 +82,8 @@ void LogFile::refuse_if_displaced() const {
   const std::string why = displacement();
   if (why.empty()) return;
   throw Error(
-      fmt::format("can't write to {}: it {}. Put it in its place and give it no other name, or "
-                  "choose another file with --db FILE.",
+      fmt::format("cannot write to {}: it {}. Restore its name, or choose another file with --db "
+                  "FILE.",
                   path_, why));
 }
 
@@ -94,18 +91,18 @@ void LogFile::prepare() {
   const std::string mode = database_->execAndGet("PRAGMA journal_mode = WAL").getString();
   if (mode != "wal")
     throw Error(fmt::format(
-        "can't write to {}: this disk does not support a write-ahead log (SQLite uses \"{}\" "
-        "there). Keep the log on a local disk (--db FILE) and copy it afterwards.",
+        "cannot write to {}: this disk does not support a write-ahead log (SQLite uses \"{}\"). "
+        "Keep the log on a local disk (--db FILE) and copy it afterwards.",
         path_, mode));
   database_->exec("PRAGMA synchronous = FULL");
   database_->exec("PRAGMA foreign_keys = ON");
-  database_->execAndGet("SELECT count(*) FROM sqlite_master");  // from here on there is a -wal file
+  database_->execAndGet("SELECT count(*) FROM sqlite_master");  // creates the -wal file
   wal_inode_ = inode_of(file_ + "-wal");
 }
 
-// The older file stays beside the new one: what was measured can be looked at as it was. It gets
-// its name when it is whole, and once, however often an upgrade is cut short.
-void LogFile::bring_up_to_date() {
+// Keeps a copy of the older file. The copy gets its name when it is complete, and only one is kept
+// if the upgrade is interrupted and repeated.
+void LogFile::upgrade() {
   const int version = database_->execAndGet("PRAGMA user_version").getInt();
   const std::string stem = fmt::format("{}.v{}", file_, version), part = stem + ".part";
   std::filesystem::remove(part);
@@ -128,7 +125,7 @@ std::string LogFile::displacement() const {
   sqlite3_file_control(database_->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
   if (has_moved != 0) return "was replaced by another file";
   if (wal_inode_ != 0 && inode_of(file_ + "-wal") != wal_inode_)
-    return "lost its newest rows' file (-wal), which was deleted or replaced";
+    return "lost the file with its newest rows (-wal), which was deleted or replaced";
   return "";
 }
 
@@ -137,35 +134,33 @@ void LogFile::check_in_place() {
   const std::string happened = displacement();
   if (happened.empty()) return;
   const bool is_linked = happened.starts_with("was given");
-  std::string saved = "All that was saved is in that file";
+  std::string saved = "All saved data are in that file";
   std::string remedy = is_linked                      ? "Remove the other name"
-                       : happened.starts_with("lost") ? "Leave the files beside it alone"
+                       : happened.starts_with("lost") ? "Do not touch the files beside it"
                                                       : "Move it back";
-  if (!is_gathered()) {
-    const std::string copy = rescued();
-    saved = copy.empty() ? "What was saved could not be rescued"
-                         : fmt::format("All that was saved is in the copy {}", copy);
+  if (!checkpoint()) {
+    const std::string copy = rescue();
+    saved = copy.empty() ? "The saved data could not be rescued"
+                         : fmt::format("All saved data are in the copy {}", copy);
     remedy = "Put that copy in its place";
   }
-  displaced_.emplace(fmt::format("while it was written to, the file {}. {}", happened, saved),
-                     remedy);
+  displaced_.emplace(fmt::format("during writing, the file {}. {}", happened, saved), remedy);
   throw DisplacedLog(*displaced_);
 }
 
-// Whether the file has a name, and all committed rows are in it and no longer beside it: SQLite
-// would look for them under another name.
-bool LogFile::is_gathered() {
+// Moves all committed rows from the -wal file into the database. @return whether it succeeded and
+// the file has a name
+bool LogFile::checkpoint() {
   try {
-    SQLite::Statement checkpoint(*database_, "PRAGMA wal_checkpoint(TRUNCATE)");
-    return checkpoint.executeStep() && checkpoint.getColumn(0).getInt() == 0 && lock_.has_name();
+    SQLite::Statement run(*database_, "PRAGMA wal_checkpoint(TRUNCATE)");
+    return run.executeStep() && run.getColumn(0).getInt() == 0 && lock_.has_name();
   } catch (const SQLite::Exception&) {
     return false;
   }
 }
 
-// A copy of a file that has no name any more, under the first name that is free; empty: none could
-// be made.
-std::string LogFile::rescued() const {
+// Copies a file without a name to the first free name. @return empty if it failed
+std::string LogFile::rescue() const {
   try {
     std::string name = file_ + ".rescued";
     for (int i = 2; !create_file(name, 0600); ++i) name = fmt::format("{}.rescued{}", file_, i);
@@ -178,22 +173,22 @@ std::string LogFile::rescued() const {
 }
 
 std::string resolved_path(const std::string& path) {
-  if (path.empty()) throw Error("the log's file name is empty. Give one with --db FILE.");
+  if (path.empty()) throw Error("the log's file name is empty. Specify one with --db FILE.");
   std::error_code error;
   const auto resolved = std::filesystem::weakly_canonical(path, error);
-  if (error) throw Error(fmt::format("can't open {}: {}", path, error.message()));
+  if (error) throw Error(fmt::format("cannot open {}: {}", path, error.message()));
   if (std::filesystem::is_directory(resolved, error))
-    throw Error(fmt::format("{} is a folder, expected a log file. Name a file in it: --db {}", path,
+    throw Error(fmt::format("{} is a folder, expected a log file. Specify a file in it: --db {}",
+                            path,
                             shell_quoted((std::filesystem::path(path) / "heft.db").string())));
   return std::filesystem::absolute(resolved).string();
 }
 
 void refuse_foreign_file(const std::string& path) {
-  throw Error(
-      fmt::format("{} is no heft log: it belongs to another program or is damaged, and was left as "
-                  "it is. Choose "
-                  "another file with --db FILE.",
-                  path));
+  throw Error(fmt::format(
+      "{} is no heft log: it belongs to another program or is damaged, and was not changed. "
+      "Choose another file with --db FILE.",
+      path));
 }
 
 bool holds_log(SQLite::Database& database, const std::string& path) {

@@ -1,5 +1,4 @@
-// A database file opened for writing: the lock is held, the file is a log or may become one, it
-// lies where it is thought to be, and SQLite is set up so that a commit is on disk when it returns.
+// A log's database file opened for writing, with the writer's lock. Private to record.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +7,42 @@
 #include <stdexcept>
 #include <string>
 
-#include "record/writer/FileLock.h"
-
 namespace SQLite {
 class Database;
 }
 
 namespace heft {
 
-/// The file was moved, replaced, deleted or linked under the program that writes to it. What was
-/// committed has been put together where what() says: in the file, or in a copy of it.
+/// The writer's lock on the database file itself, under whatever name it is opened. The kernel
+/// releases it when the process ends.
+class FileLock {
+ public:
+  /// Creates the file, readable by its owner only, if it is missing. Closing any descriptor of the
+  /// file drops SQLite's locks on it in this process: create the lock before SQLite opens the file,
+  /// and destroy it after SQLite has closed it.
+  /// @param path as given by the user  @param file the same with links and dots resolved
+  /// @throws Error if another writer has the lock, the file cannot be opened or locked, or it has a
+  ///   second name
+  FileLock(const std::string& path, const std::string& file);
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&&) = delete;
+  ~FileLock();
+
+  /// What happened to the file: "was moved to /lab/old.db". Empty if it still has its name and no
+  /// other.
+  std::string displacement() const;
+
+  /// Whether the file still has a name.
+  bool has_name() const;
+
+ private:
+  std::string path_;  ///< as given by the user
+  std::string file_;  ///< initially, links resolved
+  int descriptor_;
+};
+
+/// The file was moved, replaced, deleted or linked during writing. what() names the file, or the
+/// copy of it, that has all committed data.
 class DisplacedLog : public std::runtime_error {
  public:
   DisplacedLog(const std::string& happened, std::string remedy)
@@ -30,47 +55,47 @@ class DisplacedLog : public std::runtime_error {
 
 class LogFile {
  public:
-  /// @throws Error when another writer has the file, or it is no heft log, newer or much older than
-  ///   this program, has a second name, or can't be written. An empty file has no tables yet
-  ///   afterwards; an older log is brought up to date, with the older file kept beside it as
-  ///   FILE.vN.
+  /// An empty file remains without tables. An older log is upgraded, and the older file is kept as
+  /// FILE.vN.
+  /// @throws Error if another writer has the file, it is no heft log or of an unsupported version,
+  ///   has a second name or cannot be written
   explicit LogFile(const std::string& path);
   LogFile(LogFile&&) noexcept;
   ~LogFile();
 
   SQLite::Database& database() const { return *database_; }
-  /// As the user wrote it.
+  /// As given by the user.
   const std::string& path() const { return path_; }
 
-  /// To be asked before and after each commit, so that nothing is called saved that nobody finds.
+  /// Call it before and after each commit.
   /// @throws DisplacedLog
   void check_in_place();
 
  private:
   void refuse_if_displaced() const;
   void prepare();
-  void bring_up_to_date();
+  void upgrade();
   std::string displacement() const;
-  bool is_gathered();
-  std::string rescued() const;
+  bool checkpoint();
+  std::string rescue() const;
 
   std::string path_;
-  FileLock lock_;  ///< made before the connection and let go after it
+  FileLock lock_;  ///< outlives the connection
   std::string file_;
   std::unique_ptr<SQLite::Database> database_;
   std::uint64_t wal_inode_ = 0;
   std::optional<DisplacedLog> displaced_;
 };
 
-/// The file with symbolic links and dots resolved, so that every name of a file is one file.
+/// The path with symbolic links and dots resolved.
 /// @throws Error for an empty name or a folder
 std::string resolved_path(const std::string& path);
 
-/// Whether the file holds a log that this program can use; false: nothing yet.
-/// @throws Error for another program's file, or a log of a version that this program cannot read
+/// Whether the file is a log; false: it is empty.
+/// @throws Error for another program's file or an unsupported version
 bool holds_log(SQLite::Database& database, const std::string& path);
 
-/// Refuses a file that is no log.
+/// @throws Error: the file is no log
 [[noreturn]] void refuse_foreign_file(const std::string& path);
 
 }  // namespace heft

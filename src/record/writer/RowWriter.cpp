@@ -182,7 +182,6 @@ void RowWriter::write_event_row(std::int64_t session_id, int attempt_index, cons
   ++n_new_events_;
 }
 
-/// A setup with the number after that of the session's last one.
 void RowWriter::write_setup(std::int64_t session_id, std::int64_t event_id,
                             const SessionConfig& setup) {
   static const std::string sql =
@@ -200,7 +199,7 @@ void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {
   write_masses(session_id, trial);
 }
 
-// The plan's masses live in the cubes' rows, untouched until a CubeRow says more.
+// The plan's masses are stored in the cubes' rows; other columns change only with a CubeRow.
 void RowWriter::write_masses(std::int64_t session_id, const TrialRow& trial) {
   static const std::string sql = keyed_insert<CubeRow>("cube", "trial_id") +
                                  " ON CONFLICT (trial_id, slot) DO UPDATE SET mass_g = "
@@ -221,7 +220,7 @@ void RowWriter::write_cube(std::int64_t session_id, const CubeRow& cube) {
 
 void RowWriter::write_frame(std::int64_t session_id, const FrameRow& frame) {
   if (frame.cubes.size() > FrameRow::most_cubes)
-    throw Error(fmt::format("it has {} cubes, the log keeps at most {}", frame.cubes.size(),
+    throw Error(fmt::format("it has {} cubes, expected at most {}", frame.cubes.size(),
                             FrameRow::most_cubes));
   static const std::string sql = digested_insert<FrameRow>("frame", "session_id, trial_id");
   const auto trial_id = trial_id_or_none(session_id, frame.attempt_index);

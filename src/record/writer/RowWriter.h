@@ -1,4 +1,5 @@
-// Rows into tables, inside the transaction that the caller holds. Statements are prepared once.
+// Writes rows into tables, within the caller's transaction. Statements are prepared once. Private
+// to record.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 #include <string>
 
 #include "record/integrity/Digests.h"
-#include "record/stream/RecordedSession.h"
+#include "record/stream/EventSink.h"
 
 namespace SQLite {
 class Database;
@@ -18,11 +19,11 @@ class Statement;
 
 namespace heft {
 
-/// Throws SQLite::Exception where the database refuses, Error where a row can't be kept as it is
-/// (not a number, too many cubes, an unknown attempt).
+/// Throws SQLite::Exception if the database fails, Error for an invalid row (NaN, too many cubes,
+/// an unknown attempt).
 class RowWriter {
  public:
-  /// @param database must have its tables when the first row is written
+  /// @param database must have its tables before the first row is written
   explicit RowWriter(SQLite::Database& database);
   RowWriter(RowWriter&&) noexcept;
   ~RowWriter();
@@ -32,17 +33,16 @@ class RowWriter {
 
   void write(std::int64_t session_id, const RecordedEntry& entry);
 
-  /// What the participant told; told again, it takes the place of what was there.
+  /// Writes or replaces an answer about the participant.
   void write_info(std::int64_t session_id, const std::string& key, const std::string& value);
 
-  /// How many events and frames the session has now: call it before each commit, so that rows cut
-  /// off at the end are missed.
+  /// Updates the session's numbers of events and frames. Call it before each commit.
   void write_counts(std::int64_t session_id);
 
-  /// The attempt's planned trial, if it is in the log.
+  /// The attempt's trial number, if the attempt is in the log.
   std::optional<int> trial_number(std::int64_t session_id, int attempt_index);
 
-  /// After a rollback: what was looked up may be gone.
+  /// Clears cached ids. Call it after a rollback.
   void forget();
 
  private:
@@ -76,10 +76,10 @@ class RowWriter {
   SQLite::Database& database_;
   std::map<std::string, std::unique_ptr<SQLite::Statement>> statements_;
   std::optional<Attempt> last_attempt_;
-  std::set<std::string> tasks_;              ///< whose words are in the log
-  int n_new_events_ = 0, n_new_frames_ = 0;  ///< not yet counted
+  std::set<std::string> tasks_;              ///< with words in the log
+  int n_new_events_ = 0, n_new_frames_ = 0;  ///< since the last write_counts()
   DigestChain chain_;
-  RowDigest digest_;  ///< of the row being written
+  RowDigest digest_;  ///< of the current row
 };
 
 }  // namespace heft

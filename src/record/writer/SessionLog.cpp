@@ -18,7 +18,7 @@ namespace heft {
 
 namespace {
 constexpr auto longest_wait = std::chrono::seconds(1);
-constexpr int busy_timeout_ms = 1000;  ///< so long may a session stand still unannounced
+constexpr int busy_timeout_ms = 1000;  ///< longest unannounced wait for a lock
 
 std::string counted(const std::vector<RecordedEntry>& entries) {
   if (entries.empty()) return "the session";
@@ -49,7 +49,7 @@ class SessionLog::Impl {
   void check_session(std::int64_t session_id);
   void refuse_after_failure() const;
   [[noreturn]] void fail(const std::string& what, const std::exception& reason);
-  Error told(const std::string& what, const std::exception& reason);
+  Error described(const std::string& what, const std::exception& reason);
   void forget_lock();
   void wait_with(RecordedEntry entry);
   void commit_waiting();
@@ -60,11 +60,11 @@ class SessionLog::Impl {
   LogFile file_;
   RowWriter writer_;
   std::int64_t session_id_ = 0;
-  std::vector<RecordedEntry> waiting_;  ///< taken, in order, not yet written
-  std::vector<std::pair<std::string, std::string>> waiting_info_;  ///< what the participant told
+  std::vector<RecordedEntry> waiting_;                             ///< not yet written, in order
+  std::vector<std::pair<std::string, std::string>> waiting_info_;  ///< not yet written
   std::chrono::steady_clock::time_point waiting_since_;
-  std::string failure_;     ///< once a call has thrown
-  bool is_locked_ = false;  ///< by another program, as the last call has thrown
+  std::string failure_;     ///< of the first call that failed
+  bool is_locked_ = false;  ///< by another program, reported by LogBusy
 };
 
 void SessionLog::Impl::start(const SessionHeader& header,
@@ -85,14 +85,14 @@ void SessionLog::Impl::start(const SessionHeader& header,
 
 void SessionLog::Impl::reopen(std::int64_t session_id) {
   if (schema::kind_of(file_.database()) == schema::FileKind::empty)
-    throw Error(fmt::format("{} holds no session yet. Start one with heft run.", file_.path()));
+    throw Error(fmt::format("{} has no session. Start one with heft run.", file_.path()));
   try {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
     schema::create(file_.database());
     check_session(session_id);
     transaction.commit();
   } catch (const SQLite::Exception& error) {
-    throw write_error("the return to the session", file_, error, "try again");
+    throw write_error("the reopened session", file_, error, "try again");
   }
   session_id_ = session_id;
 }
@@ -102,8 +102,8 @@ void SessionLog::Impl::check_session(std::int64_t session_id) {
   query.bind(1, session_id);
   if (!query.executeStep())
     throw Error(
-        fmt::format("{} holds no session {}. heft resume --db {} without --session takes "
-                    "the newest unfinished one.",
+        fmt::format("{} has no session {}. heft resume --db {} without --session resumes "
+                    "the latest unfinished one.",
                     file_.path(), session_id, shell_quoted(file_.path())));
 }
 
@@ -115,7 +115,7 @@ void SessionLog::Impl::append(const Event& event, const Changes& changes, Durabi
     commit_waiting();
   } catch (const std::exception& error) {
     const std::string what = described(event, changes);
-    // What came before it may still be saved at the end; what comes after it must not.
+    // Earlier entries may still be saved on destruction, later ones must not.
     if (!is_busy(error) && !waiting_.empty()) waiting_.pop_back();
     fail(what, error);
   }
@@ -133,7 +133,7 @@ void SessionLog::Impl::add_info(const std::string& key, const std::string& value
     commit_waiting();
   } catch (const std::exception& error) {
     if (!is_busy(error) && !waiting_info_.empty()) waiting_info_.pop_back();
-    fail(fmt::format("what the participant told ({})", key), error);
+    fail(fmt::format("the answer about the participant ({})", key), error);
   }
 }
 
@@ -146,9 +146,9 @@ void SessionLog::Impl::refuse_after_failure() const {
   if (!failure_.empty()) throw Error(failure_);
 }
 
-// Another program's lock is no failure: what waits is tried again.
+// A lock of another program is no failure: the data are kept and written later.
 void SessionLog::Impl::fail(const std::string& what, const std::exception& reason) {
-  const Error error = told(what, reason);
+  const Error error = described(what, reason);
   if (is_busy(reason)) {
     is_locked_ = true;
     file_.database().setBusyTimeout(0);
@@ -158,9 +158,9 @@ void SessionLog::Impl::fail(const std::string& what, const std::exception& reaso
   throw error;
 }
 
-Error SessionLog::Impl::told(const std::string& what, const std::exception& reason) {
+Error SessionLog::Impl::described(const std::string& what, const std::exception& reason) {
   return write_error(what, file_, reason,
-                     fmt::format("go on with: heft resume --db {} --session {}",
+                     fmt::format("continue with: heft resume --db {} --session {}",
                                  shell_quoted(file_.path()), session_id_));
 }
 
@@ -202,13 +202,13 @@ void SessionLog::Impl::commit_waiting() {
   file_.check_in_place();
 }
 
-// What a call has told already is not told again.
+// Failures that a call has reported are not reported again.
 void SessionLog::Impl::write_last() noexcept {
   try {
     commit_waiting();
   } catch (const std::exception& error) {
     if (!failure_.empty() || is_locked_) return;
-    std::fprintf(stderr, "heft: %s\n", escaped(told(counted(waiting_), error).what()).c_str());
+    std::fprintf(stderr, "heft: %s\n", escaped(described(counted(waiting_), error).what()).c_str());
   }
 }
 
@@ -257,6 +257,48 @@ void SessionLog::add_info(const std::string& key, const std::string& value) {
 
 void SessionLog::flush() {
   impl_->flush();
+}
+
+class SessionArchive::Impl {
+ public:
+  explicit Impl(const std::string& path) : file_(path), writer_(file_.database()) {
+    constexpr int archive_timeout_ms = 30'000;  // the simulation may have taken hours
+    file_.database().setBusyTimeout(archive_timeout_ms);
+  }
+
+  std::int64_t store(const RecordedSession& session) {
+    SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
+    schema::create(file_.database());
+    const std::int64_t session_id = writer_.write_session(session.header());
+    for (const RecordedEntry& entry : session.entries()) writer_.write(session_id, entry);
+    writer_.write_counts(session_id);
+    transaction.commit();
+    file_.check_in_place();
+    return session_id;
+  }
+
+  std::int64_t store_or_explain(const RecordedSession& session) {
+    try {
+      return store(session);
+    } catch (const std::exception& error) {
+      writer_.forget();
+      throw write_error(fmt::format("the session of {}", session.header().participant), file_,
+                        error, "start again");
+    }
+  }
+
+ private:
+  LogFile file_;
+  RowWriter writer_;
+};
+
+SessionArchive::SessionArchive(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+SessionArchive::SessionArchive(SessionArchive&&) noexcept = default;
+SessionArchive& SessionArchive::operator=(SessionArchive&&) noexcept = default;
+SessionArchive::~SessionArchive() = default;
+
+std::int64_t SessionArchive::store(const RecordedSession& session) {
+  return impl_->store_or_explain(session);
 }
 
 }  // namespace heft

@@ -1,6 +1,5 @@
-// Writing the log: one SQLite file, one writer at a time. append() is the only way in for events
-// and what they change; frames are buffered and written with the next event or at least each
-// second.
+// Writing a log: SessionLog writes a session while it runs, SessionArchive stores complete
+// sessions. A log is an SQLite file with one writer at a time.
 #pragma once
 
 #include <cstdint>
@@ -10,53 +9,72 @@
 
 #include "record/schema/SessionHeader.h"
 #include "record/stream/EventSink.h"
-#include "record/stream/RecordedSession.h"
 
 namespace heft {
 
+/// Frames are buffered and written with the next event, or at least once per second.
 class SessionLog final : public EventSink {
  public:
-  /// Opens or creates the database at `path` and starts a new session in it: the schema, the
-  /// session's row and its first event, the setup, are committed together, so that no session is
-  /// in a log that does not say what it is run with. A missing or empty file becomes a log.
-  /// @throws Error when another writer has the file, or it is no heft log, newer than this program,
+  /// Opens or creates the log at `path` and starts a session: schema, session row and first event,
+  /// the setup, are committed together. A missing or empty file becomes a log.
+  /// @throws Error if another writer has the file, it is no heft log, of a newer version or
   ///   read-only, or the disk is full
   static SessionLog start(const std::string& path, const SessionHeader& header,
                           const std::optional<RecordedEvent>& first = {});
 
-  /// Opens the database to go on with a session.
-  /// @throws Error as start(), and when there is no such session
+  /// Opens the log to continue a session.
+  /// @throws Error as start(), and if there is no such session
   static SessionLog reopen(const std::string& path, std::int64_t session_id);
 
   SessionLog(SessionLog&&) noexcept;
   SessionLog& operator=(SessionLog&&) noexcept;
-  /// Writes what is buffered, where it still can; what can't be saved and was not reported by a
-  /// call before is reported on stderr.
+  /// Writes what is buffered; a failure that no call has reported is printed to stderr.
   ~SessionLog() override;
 
   std::int64_t session_id() const;
 
-  /// Writes an event and all it changes in one transaction, with everything buffered before it. A
-  /// trial's first row brings its cubes along: they are written from the plan's masses.
-  /// @throws Error when it could not be saved: what, why (disk full, ...), what to do. The log is
-  ///   then closed: nothing of the event is in it, and every later call throws the same error, so
-  ///   that no later event can follow a lost one. LogBusy when another process has locked the
-  ///   database for a second: the event is kept, and the next call tries again without waiting.
+  /// Writes an event, its changes and everything buffered in one transaction. A trial's first row
+  /// also creates its cubes, with the plan's masses.
+  /// @throws Error if it could not be saved: what, why (disk full, ...), what to do. Nothing of the
+  ///   event is in the log then, and every later call throws the same error, so that no event can
+  ///   follow a lost one. LogBusy if another process has locked the database for a second: the
+  ///   event is kept, and the next call tries again without waiting.
   void append(const Event& event, const Changes& changes, Durability durability) override;
 
-  /// @throws Error as append() when the buffer was due and could not be saved
+  /// @throws Error as append() if the buffer was due and could not be saved
   void add_frame(const FrameRow& frame) override;
 
   void add_info(const std::string& key, const std::string& value) override;
 
-  /// Writes everything buffered. While nothing happens nothing is written: call it when the session
-  /// stands still.
+  /// Writes everything buffered; nothing is written between calls, so call it when the session
+  /// idles.
   /// @throws Error as append()
   void flush() override;
 
  private:
   class Impl;
   explicit SessionLog(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Stores complete sessions, as a SessionLog would have written them: for simulations in worker
+/// threads with one writer.
+class SessionArchive {
+ public:
+  /// Opens or creates the log and holds the writer's lock.
+  /// @throws Error as SessionLog::start
+  explicit SessionArchive(const std::string& path);
+  SessionArchive(SessionArchive&&) noexcept;
+  SessionArchive& operator=(SessionArchive&&) noexcept;
+  ~SessionArchive();
+
+  /// Writes a session in one transaction; it is on disk on return.
+  /// @return its session_id
+  /// @throws Error if it could not be saved; nothing of it is in the file then
+  std::int64_t store(const RecordedSession& session);
+
+ private:
+  class Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "experiment/Action.h"
-#include "experiment/DisplayedFrame.h"
+#include "experiment/EventPayloads.h"
 #include "experiment/ScreenState.h"
+#include "experiment/Stage.h"
 #include "responders/Responder.h"
 
 namespace heft {

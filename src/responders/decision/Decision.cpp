@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "responders/Responder.h"
-#include "tasks/Tasks.h"
 
 namespace heft {
 
@@ -25,11 +24,7 @@ Answer Decision::decide(std::span<const double> percepts_mm, std::span<const int
   if (percepts.lapse)
     for (double& value : percepts.remembered_mm) value = stream_.uniform();
   percepts.differ = differ(percepts.remembered_mm);
-  Answer answer;
-  Tasks::call(task_, [&]<typename Kind>() {
-    answer = Kind::simulated(offer_of<Kind>(offer_), percepts, stream_);
-  });
-  return answer;
+  return simulated_answer(task_, offer_, percepts, stream_);
 }
 
 // Noise in proportion to the percept, and some that is there even when nothing was seen.
@@ -50,11 +45,7 @@ bool Decision::differ(std::span<const double> remembered_mm) const {
 }
 
 Answer blind_answer(const TrialView& trial, const WithoutPercepts& unseen, RandomStream& stream) {
-  Answer answer;
-  Tasks::call(trial.task, [&]<typename Kind>() {
-    answer = Kind::blind(offer_of<Kind>(trial.offer), unseen, stream);
-  });
-  return answer;
+  return blind_answer(trial.task, trial.offer, unseen, stream);
 }
 
 }  // namespace heft

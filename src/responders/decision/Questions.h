@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "experiment/Questionnaire.h"
+#include "experiment/ScreenTexts.h"
 
 namespace heft {
 

@@ -11,7 +11,7 @@
 
 #include "base/PoseTypes.h"
 #include "base/Random.h"
-#include "experiment/DisplayedFrame.h"
+#include "experiment/Stage.h"
 #include "responders/ResponderParameters.h"
 
 namespace heft {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "experiment/DisplayedFrame.h"
+#include "experiment/Stage.h"
 #include "responders/ResponderParameters.h"
 
 namespace heft {

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "experiment/Touch.h"
+#include "experiment/ScreenState.h"
 
 namespace heft {
 

@@ -7,7 +7,6 @@
 
 #include "experiment/ScreenState.h"
 #include "experiment/ScreenTexts.h"
-#include "experiment/Touch.h"
 #include "view/screens/Page.h"
 #include "view/screens/ScreenPages.h"
 #include "view/text/Typeface.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tasks/Tasks.h"
+#include "tasks/Task.h"
 #include "view/screens/Screens.h"
 #include "view/text/Places.h"
 
@@ -21,18 +21,17 @@ std::vector<ScreenState> states(const ScreenTexts& texts) {
                                                     screen != Screen::instructions &&
                                                     screen != Screen::questionnaire)
       all.push_back({.screen = screen});
-  Tasks::each([&]<typename Kind>() {
-    const Task task(Kind::task.name);
-    if (!texts.pages.contains(text_page(Screen::trial, task))) return;  // not of every task
+  for (const Task task : words_of<Task>()) {
+    if (!texts.pages.contains(text_page(Screen::trial, task))) continue;  // not of every task
     all.push_back({.screen = Screen::instructions, .task = task});
-    for (ScreenState trial : Kind::fullest_screens()) {
+    for (ScreenState trial : fullest_screens(task)) {
       trial.screen = Screen::trial;
       trial.task = task;
       all.push_back(trial);
       trial.touch_first = true;
       all.push_back(trial);
     }
-  });
+  }
   all.push_back({.screen = Screen::rest, .wait_s = 599});
   for (const auto& [name, questionnaire] : texts.questionnaires)
     all.push_back({.screen = Screen::questionnaire, .form = name, .form_prefix = name});

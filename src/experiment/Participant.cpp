@@ -1,4 +1,4 @@
-#include "experiment/ParticipantId.h"
+#include "experiment/Participant.h"
 
 #include <fmt/format.h>
 
@@ -22,15 +22,14 @@ std::optional<std::string> wrong_with_id(const std::string& id) {
   bool blank = true;
   for (std::string_view rest = id; !rest.empty();) {
     const auto [code, n] = first_letter(rest);
-    if (n == 0) return "is not valid UTF-8; is the terminal set to another encoding?";
+    if (n == 0) return "is not valid UTF-8; check the encoding of the terminal";
     if (is_control(code) || code == line_separator || code == paragraph_separator)
-      return fmt::format(
-          "holds the control character U+{:04X}; give it on one line, without tabs or line ends",
-          static_cast<unsigned>(code));
+      return fmt::format("contains the control character U+{:04X}; use one line without tabs",
+                         static_cast<unsigned>(code));
     blank = blank && is_blank(code);
     rest.remove_prefix(n);
   }
-  if (blank) return "is empty or blank; give one that names the participant, such as 07";
+  if (blank) return "is empty or blank; use an id such as 07";
   return std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-#include "experiment/Questionnaire.h"
+#include "experiment/ScreenTexts.h"
 
 #include <algorithm>
 #include <charconv>
@@ -15,8 +15,8 @@ bool takes_answer(const FormQuestion& question, const std::string& value) {
 }
 
 namespace {
-// Whether more digits could bring it into the range. What is typed stands for all numbers that
-// begin so: those from low up to low + width, ten times as many with each digit before the point.
+// Whether more digits can bring the number into the range. With further digits before the point,
+// the typed text is the start of all numbers in [low, low + width), each ten times the previous.
 bool can_become_answer(const FormQuestion& question, const std::string& typed) {
   if (typed.size() >= longest_number) return takes_answer(question, typed);
   double low = 0;
