@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/DefaultTechniques.h"
+#include "base/SimulationChoices.h"
 #include "experiment/Task.h"
 
 namespace heft {

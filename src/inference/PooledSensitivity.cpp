@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "base/Random.h"
-#include "base/math/Quantile.h"
+#include "base/math/Statistics.h"
 #include "inference/CriteriaFit.h"
 #include "inference/MaximumLikelihood.h"
 #include "inference/SensitivitySpread.h"

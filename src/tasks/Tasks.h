@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "tasks/Comparison.h"
 #include "tasks/Estimation.h"
 #include "tasks/Introduction.h"

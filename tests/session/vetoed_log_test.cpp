@@ -6,7 +6,7 @@
 
 #include "SourceFolder.h"
 #include "apparatus/configuration/ResolvedConfig.h"
-#include "base/Build.h"
+#include "base/Program.h"
 #include "record/schema/SetupJson.h"
 #include "record/writer/SessionArchive.h"
 #include "replay/Replay.h"

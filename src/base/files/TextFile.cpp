@@ -2,8 +2,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sha2.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -142,6 +144,12 @@ std::optional<double> number_in(std::string_view cell) {
   if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
     return std::nullopt;
   return value;
+}
+
+std::string sha256(std::string_view text) {
+  std::array<char, SHA256_DIGEST_STRING_LENGTH> digest{};
+  SHA256Data(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), digest.data());
+  return digest.data();
 }
 
 }  // namespace heft

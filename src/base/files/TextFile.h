@@ -1,4 +1,4 @@
-// Whole text files, read and replaced, and their comma-separated cells.
+// Whole text files, read and replaced, their comma-separated cells and digests.
 #pragma once
 
 #include <optional>
@@ -40,5 +40,8 @@ std::vector<std::string_view> cells_of(std::string_view line);
 
 /// A whole cell as a finite number, whatever the locale.
 std::optional<double> number_in(std::string_view cell);
+
+/// SHA-256 (libmd) as 64 lowercase hexadecimal digits.
+std::string sha256(std::string_view text);
 
 }  // namespace heft

@@ -11,7 +11,6 @@
 #include <set>
 
 #include "base/Error.h"
-#include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
 
 namespace heft {

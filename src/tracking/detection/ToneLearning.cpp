@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/math/Shrinkage.h"
+#include "base/math/Statistics.h"
 
 namespace heft {
 

@@ -1,11 +1,15 @@
-#include "base/Installation.h"
+#include "base/Program.h"
 
+#include <dlfcn.h>
+#include <elf.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <link.h>
 #include <sys/auxv.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 #include <vector>
@@ -13,6 +17,51 @@
 #include "base/Error.h"
 
 namespace heft {
+
+namespace {
+
+std::string hexadecimal(const unsigned char* bytes, std::size_t n) {
+  std::string text;
+  for (std::size_t i = 0; i < n; ++i) text += fmt::format("{:02x}", bytes[i]);
+  return text;
+}
+
+// Looks through the notes of one ELF segment for the GNU build id.
+std::string build_id_in(const char* notes, std::size_t size) {
+  const auto padded = [](std::size_t n) { return (n + 3) & ~std::size_t{3}; };
+  std::size_t at = 0;
+  while (at + sizeof(ElfW(Nhdr)) <= size) {
+    ElfW(Nhdr) header;
+    std::memcpy(&header, notes + at, sizeof(header));
+    const char* name = notes + at + sizeof(header);
+    const char* content = name + padded(header.n_namesz);
+    if (header.n_type == NT_GNU_BUILD_ID && header.n_namesz == 4 && !std::memcmp(name, "GNU", 4))
+      return hexadecimal(reinterpret_cast<const unsigned char*>(content), header.n_descsz);
+    at += sizeof(header) + padded(header.n_namesz) + padded(header.n_descsz);
+  }
+  return {};
+}
+
+// dl_iterate_phdr visits the program itself first; the libraries after it are not looked at.
+int visit(dl_phdr_info* info, std::size_t, void* id) {
+  for (int i = 0; i < info->dlpi_phnum; ++i) {
+    const ElfW(Phdr)& segment = info->dlpi_phdr[i];
+    if (segment.p_type != PT_NOTE) continue;
+    const auto* notes = reinterpret_cast<const char*>(info->dlpi_addr + segment.p_vaddr);
+    const std::string found = build_id_in(notes, segment.p_memsz);
+    if (!found.empty()) *static_cast<std::string*>(id) = found;
+  }
+  return 1;
+}
+
+}  // namespace
+
+std::string build_name() {
+  std::string id;
+  dl_iterate_phdr(visit, &id);
+  return fmt::format("gcc {} {} build {}", __VERSION__, sizeof(void*) == 8 ? "64-bit" : "32-bit",
+                     id.empty() ? "unknown" : id);
+}
 
 namespace {
 
@@ -74,6 +123,15 @@ std::string bench_program() {
   for (const std::filesystem::path& folder : folders)
     if (access((folder / "heft-bench").c_str(), X_OK) == 0) return (folder / "heft-bench").string();
   return "";
+}
+
+const void* from_module(const char* module, const char* name, std::string_view what) {
+  if (void* loaded = dlopen(module, RTLD_NOW | RTLD_LOCAL))
+    if (const void* found = dlsym(loaded, name)) return found;
+  throw Error(
+      fmt::format("the part of heft that {} can't be loaded ({}); install or build heft "
+                  "anew, so that {} fits the program",
+                  what, dlerror(), module));
 }
 
 }  // namespace heft

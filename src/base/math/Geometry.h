@@ -1,5 +1,4 @@
-// Convex polygons of few corners and the one way of clipping them. What a corner is, the user says:
-// a point in space, a place on a face, a pixel with its darkness.
+// Overlap of oriented boxes, and convex polygons of few corners with the one way of clipping them.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +6,14 @@
 #include <cstddef>
 #include <span>
 
+#include "base/PoseTypes.h"
+
 namespace heft {
+
+/// Separating-axis test of two boxes given by the poses of their centers and their full sizes.
+/// Touching counts as overlapping.
+bool boxes_overlap(const Pose& a, const Eigen::Vector3d& size_a_m, const Pose& b,
+                   const Eigen::Vector3d& size_b_m);
 
 /// Corners in order, without a heap. What is added beyond `most` is left out.
 template <typename Corner, std::size_t most>

@@ -1,5 +1,5 @@
-// How poses between two pictures are taken: what a protocol chooses, a session's configuration
-// records and physics/Drive does.
+// Choices of a protocol that both the session's configuration and physics name: the default
+// techniques and how poses between two pictures are taken.
 #pragma once
 
 #include <array>
@@ -8,6 +8,15 @@
 #include "base/Names.h"
 
 namespace heft {
+
+// The techniques that a protocol need not declare (paper, 4.1).
+inline constexpr const char* coupled_technique = "C1";  ///< the clone stays on the effector
+inline constexpr const char* spring_technique = "C2";   ///< a spring of the [coupling] table
+
+/// The one of a coupling that is decoupled or not.
+constexpr const char* default_technique(bool decoupled) {
+  return decoupled ? spring_technique : coupled_technique;
+}
 
 /// Where the target is between two samples' poses.
 enum class InputMode {
