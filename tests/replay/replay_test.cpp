@@ -14,7 +14,7 @@
 #include "apparatus/TrialWorld.h"
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Clock.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "base/Program.h"
 #include "record/older_log.h"
 #include "record/writer/SessionArchive.h"
