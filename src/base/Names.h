@@ -1,5 +1,5 @@
-// Names in files, logs and on the command line: of enumerations, of the entries of a table, and of
-// a closed list of types; and the nearest valid name to a mistyped one.
+// Names in files, logs and on the command line: of enumerators, of the entries of a table and of
+// the types in a closed list; suggestions for mistyped names.
 #pragma once
 
 #include <array>
@@ -32,19 +32,19 @@ constexpr std::optional<Enum> named(std::string_view name) {
   return std::nullopt;
 }
 
-/// The candidate with the smallest edit distance to `wanted`, if it is near enough to be meant.
+/// The candidate with the smallest edit distance to `wanted`; none when every distance exceeds both
+/// 2 and half the length of `wanted`.
 std::optional<std::string> nearest_name(std::string_view wanted,
                                         std::span<const std::string_view> candidates);
 
 /// "a", "b" or "c"
 std::string quoted_list(std::span<const std::string_view> names);
 
-/// "there is no simulator "bulet", did you mean "bullet"?; expected "bullet", "bullet-ea"..."
-/// @return an error of usage
+/// A usage error: there is no simulator "bulet", did you mean "bullet"?; expected "bullet", ...
 Error unknown_name(std::string_view kind, std::string_view name,
                    std::span<const std::string_view> known);
 
-/// The names of a table, in its order.
+/// The names of a table's entries, in order.
 template <typename Entry>
 std::vector<std::string_view> names_in(std::span<const Entry> table) {
   std::vector<std::string_view> names;
@@ -53,8 +53,8 @@ std::vector<std::string_view> names_in(std::span<const Entry> table) {
 }
 
 /// The entry of that name.
-/// @param kind what the table holds, for the message
-/// @throws Error (usage) naming the nearest and all names when there is none
+/// @param kind of the entries, for the message: "simulator"
+/// @throws Error (usage) with the nearest name and all names when the name is unknown
 template <typename Entry>
 const Entry& entry_named(std::string_view kind, std::string_view name,
                          std::span<const Entry> table) {
@@ -69,14 +69,14 @@ struct NamedKinds {
   using Any = std::variant<Kind...>;
   static constexpr std::array<std::string_view, sizeof...(Kind)> names{Kind::kind...};
 
-  /// The defaults of the kind of that name, one of `names`.
+  /// The default value of the kind of that name, which must be one of `names`.
   static Any defaults(std::string_view name) {
     Any any;
     ((name == Kind::kind ? void(any = Kind{}) : void()), ...);
     return any;
   }
 
-  /// Calls visit with the defaults of every kind.
+  /// Calls visit with the default value of every kind.
   template <typename Visit>
   static void for_each(Visit&& visit) {
     (visit(Kind{}), ...);

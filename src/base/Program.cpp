@@ -26,7 +26,7 @@ std::string hexadecimal(const unsigned char* bytes, std::size_t n) {
   return text;
 }
 
-// Looks through the notes of one ELF segment for the GNU build id.
+// The GNU build id among the notes of one ELF segment.
 std::string build_id_in(const char* notes, std::size_t size) {
   const auto padded = [](std::size_t n) { return (n + 3) & ~std::size_t{3}; };
   std::size_t at = 0;
@@ -42,7 +42,7 @@ std::string build_id_in(const char* notes, std::size_t size) {
   return {};
 }
 
-// dl_iterate_phdr visits the program itself first; the libraries after it are not looked at.
+// dl_iterate_phdr visits the program first; returning 1 skips the libraries.
 int visit(dl_phdr_info* info, std::size_t, void* id) {
   for (int i = 0; i < info->dlpi_phnum; ++i) {
     const ElfW(Phdr)& segment = info->dlpi_phdr[i];
@@ -68,23 +68,23 @@ namespace {
 std::filesystem::path program_folder() {
   std::error_code none;
   std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
-  if (none)  // a root without /proc: as the program was called
+  if (none)  // /proc is not mounted
     program = std::filesystem::canonical(reinterpret_cast<const char*>(getauxval(AT_EXECFN)));
   return program.parent_path();
 }
 
-// The parts of a list with colons, such as PATH holds.
-std::vector<std::filesystem::path> listed(const char* variable, const char* without_it) {
+// The entries of a colon-separated variable such as PATH.
+std::vector<std::filesystem::path> listed(const char* variable, const char* fallback) {
   const char* value = std::getenv(variable);
-  std::istringstream list(value && *value ? value : without_it);
+  std::istringstream list(value && *value ? value : fallback);
   std::vector<std::filesystem::path> paths;
   for (std::string path; std::getline(list, path, ':');)
     if (!path.empty()) paths.emplace_back(path);
   return paths;
 }
 
-// A build folder lies in the checkout. The checkout's own place serves programs that were copied
-// out of it on the machine that built them.
+// The first folder is the checkout when the program runs from its build folder. The last one serves
+// programs that were copied elsewhere on the machine that built them.
 std::vector<std::filesystem::path> data_folders() {
   const std::filesystem::path here = program_folder();
   std::vector<std::filesystem::path> folders{
@@ -111,8 +111,8 @@ std::string installed_file(const std::string& name) {
   std::vector<std::string> tried;
   for (const std::filesystem::path& folder : data_folders()) tried.push_back(folder.string());
   throw Error(
-      fmt::format("{} is missing; it comes with heft, but is in none of {}. Put share/heft "
-                  "of an installed heft beside the program",
+      fmt::format("{} is missing; searched {}. Copy share/heft of an installed heft beside the "
+                  "program",
                   name, fmt::join(tried, ", ")));
 }
 
@@ -125,13 +125,13 @@ std::string bench_program() {
   return "";
 }
 
-const void* from_module(const char* module, const char* name, std::string_view what) {
+const void* from_module(const char* module, const char* name, std::string_view purpose) {
   if (void* loaded = dlopen(module, RTLD_NOW | RTLD_LOCAL))
     if (const void* found = dlsym(loaded, name)) return found;
   throw Error(
-      fmt::format("the part of heft that {} can't be loaded ({}); install or build heft "
-                  "anew, so that {} fits the program",
-                  what, dlerror(), module));
+      fmt::format("the module that {} can't be loaded ({}); install or build heft again, so that "
+                  "{} matches the program",
+                  purpose, dlerror(), module));
 }
 
 }  // namespace heft

@@ -1,5 +1,5 @@
-// Choices of a protocol that both the session's configuration and physics name: the default
-// techniques and how poses between two pictures are taken.
+// Choices of a protocol that the session's configuration records and physics carries out: default
+// techniques and the motion of the effector between two pictures.
 #pragma once
 
 #include <array>
@@ -9,23 +9,22 @@
 
 namespace heft {
 
-// The techniques that a protocol need not declare (paper, 4.1).
+// Techniques that a protocol can use without declaring them (paper, 4.1).
 inline constexpr const char* coupled_technique = "C1";  ///< the clone stays on the effector
 inline constexpr const char* spring_technique = "C2";   ///< a spring of the [coupling] table
 
-/// The one of a coupling that is decoupled or not.
 constexpr const char* default_technique(bool decoupled) {
   return decoupled ? spring_technique : coupled_technique;
 }
 
-/// Where the target is between two samples' poses.
+/// Pose of the effector between two samples.
 enum class InputMode {
-  path,         ///< on the way from the last pose to this one: for what is shown over video
-  hold,         ///< at the last pose until this one is there: for see-through displays
-  extrapolate,  ///< on along the line through the last two poses: for see-through displays
-  /// As path, but on the cubic that has the measured velocities at its ends (Hermite's): poses far
-  /// apart then bend as the hand did. Straight where no velocity is measured, and as noisy as they
-  /// are.
+  path,         ///< linear from the last pose to this one: for video see-through displays
+  hold,         ///< the last pose until this one arrives: for optical see-through displays
+  extrapolate,  ///< beyond the last two poses on their line: for optical see-through displays
+  /// As path, on the cubic Hermite curve with the measured velocities at its ends, so that samples
+  /// far apart follow a curved movement. Linear where no velocity is measured. Noise of the
+  /// velocities enters the path.
   smooth
 };
 
