@@ -13,7 +13,7 @@
 #include "inference/CriteriaFit.h"
 #include "inference/MaximumLikelihood.h"
 #include "inference/SensitivitySpread.h"
-#include "psychophysics/Normal.h"
+#include "psychophysics/ObserverModels.h"
 
 namespace heft {
 
