@@ -10,7 +10,7 @@
 
 #include "analysis/charts/Gnuplot.h"
 #include "base/Error.h"
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "base/files/Csv.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/pipeline/Chain.h"

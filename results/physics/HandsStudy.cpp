@@ -3,7 +3,7 @@
 #include <map>
 
 #include "analysis/charts/Gnuplot.h"
-#include "base/math/Quantile.h"
+#include "base/math/Statistics.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/physics/scenes/RandomScenes.h"
 #include "results/physics/scenes/SceneRun.h"

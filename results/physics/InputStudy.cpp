@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "analysis/charts/Gnuplot.h"
-#include "base/DefaultTechniques.h"
 #include "base/Pose.h"
 #include "base/Random.h"
+#include "base/SimulationChoices.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/physics/scenes/RandomScenes.h"
 #include "results/physics/scenes/SceneRun.h"

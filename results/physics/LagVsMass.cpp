@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "analysis/charts/Gnuplot.h"
-#include "base/DefaultTechniques.h"
 #include "base/Error.h"
+#include "base/SimulationChoices.h"
 #include "physics/scene/Oracles.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/physics/scenes/RandomScenes.h"

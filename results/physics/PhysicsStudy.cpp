@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "base/DefaultTechniques.h"
+#include "base/SimulationChoices.h"
 #include "results/physics/Stability.h"
 #include "results/physics/scenes/Measurements.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/math/Boxes.h"
+#include "base/math/Geometry.h"
 #include "results/physics/scenes/RandomScenes.h"
 
 namespace heft {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <numeric>
 
-#include "base/math/Quantile.h"
+#include "base/math/Statistics.h"
 #include "results/Study.h"
 #include "results/pipeline/Chain.h"
 #include "results/tracking/TrackingStudy.h"

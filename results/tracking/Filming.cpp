@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/Pose.h"
-#include "base/math/Quantile.h"
+#include "base/math/Statistics.h"
 #include "results/Study.h"
 #include "results/tracking/TrackingStudy.h"
 #include "tracking/pose/MarkerBody.h"

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "analysis/charts/Gnuplot.h"
-#include "base/math/Quantile.h"
+#include "base/math/Statistics.h"
 #include "results/tracking/TrackingStudy.h"
 
 namespace heft {

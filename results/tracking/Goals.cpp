@@ -3,7 +3,7 @@
 #include <iterator>
 #include <limits>
 
-#include "base/math/Quantile.h"
+#include "base/math/Statistics.h"
 #include "physics/Drive.h"
 #include "results/tracking/faults/FaultStudy.h"
 #include "tracking/calibration/CameraCalibration.h"

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "results/tracking/Filming.h"
 #include "results/tracking/comparison/ComparisonTracker.h"
 

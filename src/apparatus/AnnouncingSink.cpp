@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "base/Build.h"
+#include "base/Clock.h"
 #include "record/schema/EventRow.h"
 
 namespace heft {

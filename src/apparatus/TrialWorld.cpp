@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/math/Boxes.h"
+#include "base/math/Geometry.h"
 
 namespace heft {
 

@@ -1,14 +1,23 @@
-// The machine's monotonic clock: the one that V4L2 stamps pictures with and that the session's wall
-// clock is anchored to. Only cameras, windows and the session's runner look at it.
+// The monotonic clock of the machine and UTC times as text.
 #pragma once
 
 #include <chrono>
+#include <string>
 
 namespace heft {
 
-/// Seconds of the monotonic clock (CLOCK_MONOTONIC); where it starts means nothing.
+/// Seconds of CLOCK_MONOTONIC, which also stamps the pictures of V4L2 cameras. The zero is
+/// arbitrary.
 inline double monotonic_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+/// ISO 8601 with milliseconds, e.g. 2026-11-21T05:54:45.123Z
+std::string utc_of(std::chrono::system_clock::time_point time);
+std::string utc_now();
+
+/// Seconds from a time in the format of utc_now() until now; negative for a time in the future.
+/// @throws Error when the text has another format
+double seconds_since(const std::string& utc);
 
 }  // namespace heft

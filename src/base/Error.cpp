@@ -18,7 +18,7 @@ std::string listed(const std::vector<Mistake>& mistakes) {
 }  // namespace
 
 std::string to_string(const SourcePlace& place) {
-  const std::string file = escaped_line(place.file);  // a line of its own, whatever the name
+  const std::string file = escaped_line(place.file);  // file names may hold line ends
   if (place.line == 0) return file;
   if (place.column == 0) return fmt::format("{}:{}", file, place.line);
   return fmt::format("{}:{}:{}", file, place.line, place.column);

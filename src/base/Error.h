@@ -1,5 +1,4 @@
-// Errors for people: what went wrong, where, why and what to do. Thrown as exceptions; the command
-// line turns them into a message on stderr and an exit code.
+// Errors with messages for users. The command line prints them on stderr and returns the exit code.
 #pragma once
 
 #include <stdexcept>
@@ -13,9 +12,9 @@ enum class ExitCode {
   ok = 0,
   failed = 1,
   usage = 2,
-  invalid_file = 3,    ///< a protocol, procedure, scene or board file has mistakes
-  device_missing = 4,  ///< a camera, display or other device is not there
-  diverged = 5,        ///< a replayed log differs from what was logged
+  invalid_file = 3,    ///< a protocol, procedure, scene or board file is invalid
+  device_missing = 4,  ///< a camera, display or other device is missing
+  diverged = 5,        ///< a replay differs from the log
   interrupted = 130
 };
 
@@ -36,16 +35,16 @@ struct SourcePlace {
   int column = 0;
 };
 
-/// "file:line:column", as editors and terminals understand it.
+/// "file:line:column", the format that editors and terminals make links of.
 std::string to_string(const SourcePlace& place);
 
-/// One mistake in a file: where it is, and what is wrong, was expected and can be done.
+/// One mistake in a file. The message says what is wrong and what is expected.
 struct Mistake {
   SourcePlace place;
   std::string message;
 };
 
-/// All mistakes found in a file, one line each in what().
+/// All mistakes found in a file; what() has one line each.
 class InvalidFile : public Error {
  public:
   explicit InvalidFile(std::vector<Mistake> mistakes);

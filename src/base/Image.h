@@ -1,4 +1,4 @@
-// An 8-bit picture as rooms pass it to each other; no library's type.
+// An 8-bit picture. Interfaces between folders use it instead of a library's type.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace heft {
 
-/// Rows from the top, channels interleaved: 1 channel is gray, 3 are blue, green, red.
+/// Rows from the top, channels interleaved: 1 (gray) or 3 (blue, green, red).
 struct Image {
   int width = 0, height = 0, channels = 3;
   std::vector<std::uint8_t> pixels;

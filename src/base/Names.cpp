@@ -1,5 +1,7 @@
 #include "base/Names.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -45,6 +47,15 @@ std::string quoted_list(std::span<const std::string_view> names) {
     text += '"' + std::string(names[i]) + '"';
   }
   return text;
+}
+
+Error unknown_name(std::string_view kind, std::string_view name,
+                   std::span<const std::string_view> known) {
+  const auto nearest = nearest_name(name, known);
+  return Error(fmt::format("there is no {} \"{}\"{}; expected {}", kind, name,
+                           nearest ? fmt::format(", did you mean \"{}\"?", *nearest) : "",
+                           quoted_list(known)),
+               ExitCode::usage);
 }
 
 }  // namespace heft

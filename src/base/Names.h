@@ -1,5 +1,5 @@
-// Enumerations that have names in files, logs and on the command line, and the nearest valid name
-// to a mistyped one.
+// Names in files, logs and on the command line: of enumerators, of the entries of a table and of
+// the types in a closed list; suggestions for mistyped names.
 #pragma once
 
 #include <array>
@@ -7,6 +7,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/Error.h"
 
 namespace heft {
 
@@ -28,11 +32,55 @@ constexpr std::optional<Enum> named(std::string_view name) {
   return std::nullopt;
 }
 
-/// The candidate with the smallest edit distance to `wanted`, if it is near enough to be meant.
+/// The candidate with the smallest edit distance to `wanted`; none when every distance exceeds both
+/// 2 and half the length of `wanted`.
 std::optional<std::string> nearest_name(std::string_view wanted,
                                         std::span<const std::string_view> candidates);
 
 /// "a", "b" or "c"
 std::string quoted_list(std::span<const std::string_view> names);
+
+/// A usage error: there is no simulator "bulet", did you mean "bullet"?; expected "bullet", ...
+Error unknown_name(std::string_view kind, std::string_view name,
+                   std::span<const std::string_view> known);
+
+/// The names of a table's entries, in order.
+template <typename Entry>
+std::vector<std::string_view> names_in(std::span<const Entry> table) {
+  std::vector<std::string_view> names;
+  for (const Entry& entry : table) names.push_back(entry.name);
+  return names;
+}
+
+/// The entry of that name.
+/// @param kind of the entries, for the message: "simulator"
+/// @throws Error (usage) with the nearest name and all names when the name is unknown
+template <typename Entry>
+const Entry& entry_named(std::string_view kind, std::string_view name,
+                         std::span<const Entry> table) {
+  for (const Entry& entry : table)
+    if (entry.name == name) return entry;
+  throw unknown_name(kind, name, names_in(table));
+}
+
+/// A closed list of types: each has `static constexpr std::string_view kind` and defaults.
+template <typename... Kind>
+struct NamedKinds {
+  using Any = std::variant<Kind...>;
+  static constexpr std::array<std::string_view, sizeof...(Kind)> names{Kind::kind...};
+
+  /// The default value of the kind of that name, which must be one of `names`.
+  static Any defaults(std::string_view name) {
+    Any any;
+    ((name == Kind::kind ? void(any = Kind{}) : void()), ...);
+    return any;
+  }
+
+  /// Calls visit with the default value of every kind.
+  template <typename Visit>
+  static void for_each(Visit&& visit) {
+    (visit(Kind{}), ...);
+  }
+};
 
 }  // namespace heft

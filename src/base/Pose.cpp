@@ -10,7 +10,7 @@ Pose interpolate(const Pose& from, const Pose& to, double s) {
 }
 
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) {
-  const double sign = rotation.w() < 0 ? -1 : 1;  // q and -q turn alike; take the shorter way
+  const double sign = rotation.w() < 0 ? -1 : 1;  // q and -q are one rotation; take the shorter
   const Eigen::Vector3d v = sign * rotation.vec();
   const double sine = v.norm();
   if (sine < 1e-12) return 2 * v;
@@ -28,14 +28,10 @@ Eigen::Quaterniond rotation_from_vector(const Eigen::Vector3d& vector_rad) {
 
 Velocity mean_velocity(const Pose& from, const Pose& to, double dt_s) {
   const Eigen::Vector3d linear_m_s = (to.position_m - from.position_m) / dt_s;
-  // Most steps turn nothing, and finding that out by its angle costs more than all the rest.
+  // Most steps do not rotate; the angle would cost more than the rest of the function.
   if (from.orientation.coeffs() == to.orientation.coeffs())
     return {linear_m_s, Eigen::Vector3d::Zero()};
   return {linear_m_s, rotation_vector(to.orientation * from.orientation.conjugate()) / dt_s};
-}
-
-Pose upright_pose(const Eigen::Vector3d& position_m, double yaw_rad) {
-  return {position_m, Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()))};
 }
 
 }  // namespace heft

@@ -1,15 +1,15 @@
-// What is computed with poses and velocities. Headers that only hold some include PoseTypes.h.
+// Interpolation, rotation vectors and velocities of poses.
 #pragma once
 
 #include "base/PoseTypes.h"
 
 namespace heft {
 
-/// The pose a fraction s (0...1) of the way: positions linearly, orientations by the shorter slerp.
+/// The pose at fraction s (0...1) between two: linear in position, shorter slerp in orientation.
 Pose interpolate(const Pose& from, const Pose& to, double s);
 
-/// Rotation vector (axis times angle, radians, |angle| <= pi) of a unit quaternion. Uses atan2, so
-/// it is exact for tiny angles too.
+/// Rotation vector (axis times angle, radians, |angle| <= pi) of a unit quaternion. Uses atan2,
+/// which is accurate for tiny angles.
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation);
 
 /// Inverse of rotation_vector.
@@ -24,8 +24,5 @@ inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
 
 /// Mean velocity that takes `from` to `to` in dt_s seconds.
 Velocity mean_velocity(const Pose& from, const Pose& to, double dt_s);
-
-/// A pose standing on the table plane, turned by yaw_rad about z.
-Pose upright_pose(const Eigen::Vector3d& position_m, double yaw_rad);
 
 }  // namespace heft

@@ -1,6 +1,6 @@
-// A rigid pose and the velocities that go with it. Reads as target_from_source: a Pose of the clone
-// in the world takes clone coordinates to world coordinates. World frame: table top is z = 0, z up,
-// x to the participant's right, y away from the participant, origin at the board's center.
+// Rigid pose and velocity. A pose is named target_from_source: world_from_clone takes clone
+// coordinates to world coordinates. World frame: origin at the board's center, table top at z = 0,
+// z up, x to the participant's right, y away from the participant.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,16 +14,21 @@ struct Pose {
   Eigen::Vector3d operator*(const Eigen::Vector3d& point_m) const {
     return position_m + orientation * point_m;
   }
-  /// a_from_c of a_from_b and b_from_c.
+  /// a_from_c = a_from_b * b_from_c
   Pose operator*(const Pose& then) const {
     return {*this * then.position_m, orientation * then.orientation};
   }
-  /// source_from_target.
+  /// source_from_target
   Pose inverse() const {
     const Eigen::Quaterniond back = orientation.conjugate();
     return {-(back * position_m), back};
   }
 };
+
+/// A pose at that position, turned by yaw_rad about the vertical axis.
+inline Pose upright_pose(const Eigen::Vector3d& position_m, double yaw_rad) {
+  return {position_m, Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()))};
+}
 
 /// Linear and angular velocity in the world frame.
 struct Velocity {

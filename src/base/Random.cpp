@@ -13,7 +13,7 @@
 namespace heft {
 
 namespace {
-// FNV-1a: a stable 64-bit name for a purpose.
+// FNV-1a: equal on all platforms.
 std::uint64_t hash_of(std::string_view text) {
   std::uint64_t hash = 14695981039346656037ULL;
   for (char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;

@@ -1,8 +1,7 @@
-// Counter-based random streams: the n-th draw of a stream is a pure function of its key (seed,
-// purpose, trial number, attempt) and n, so a draw added in one place moves nothing elsewhere and a
-// crashed trial can be run again with the same draws. Philox4x64-10 (Salmon et al., SC 2011) from
-// Random123. Bounded, shuffled and normal draws are our own: those of std:: differ between
-// libraries.
+// Counter-based random streams (Philox4x64-10: Salmon et al., SC 2011; from Random123). Draw n of a
+// stream is a pure function of its key (seed, purpose, trial number, attempt) and n. A new draw in
+// one place therefore changes no draw elsewhere, and an interrupted trial repeats with equal draws.
+// Distributions are written out here, because those of std:: differ between libraries.
 #pragma once
 
 #include <array>
@@ -15,20 +14,20 @@ namespace heft {
 
 class RandomStream {
  public:
-  /// @param purpose what the draws are for, e.g. "slots"; equal names give equal streams
+  /// @param purpose of the draws, e.g. "slots"; equal purposes give equal streams
   RandomStream(std::uint64_t seed, std::string_view purpose, std::uint64_t trial_number = 0,
                std::uint64_t attempt = 0);
 
   std::uint64_t bits();
-  /// Uniform in [0, 1), 53 bits.
+  /// Uniform in [0, 1), with 53 random bits.
   double uniform();
-  /// Uniform in 0...bound-1 without modulo bias. bound > 0.
+  /// Uniform in 0...bound-1, without modulo bias. bound > 0.
   std::uint64_t below(std::uint64_t bound);
   bool coin(double probability) { return uniform() < probability; }
   /// Standard normal (Box-Muller).
   double normal();
 
-  /// Fisher-Yates: every order equally likely.
+  /// Fisher-Yates shuffle: all orders are equally likely.
   template <typename T>
   void shuffle(std::span<T> items) {
     for (std::size_t i = items.size(); i > 1; --i) {

@@ -1,3 +1,5 @@
+#include "base/Program.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,7 +13,6 @@
 #include <system_error>
 
 #include "base/Error.h"
-#include "base/Installation.h"
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"
 #include "physics/DecouplingSimulator.h"

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "base/DefaultTechniques.h"
 #include "base/Error.h"
-#include "base/PlugTable.h"
+#include "base/Names.h"
+#include "base/SimulationChoices.h"
 #include "cli/console/Terminal.h"
 #include "cli/console/TerminalConsole.h"
 #include "physics/DecouplingSimulator.h"

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/InputMode.h"
+#include "base/SimulationChoices.h"
 #include "experiment/Column.h"
 #include "experiment/EventPayloads.h"
 

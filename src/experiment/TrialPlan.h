@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/DefaultTechniques.h"
 #include "base/Names.h"
+#include "base/SimulationChoices.h"
 
 namespace heft {
 

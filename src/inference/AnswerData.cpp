@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "base/files/Csv.h"
 #include "base/files/Printable.h"
 #include "base/files/TextFile.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "psychophysics/Normal.h"
+#include "psychophysics/ObserverModels.h"
 
 namespace heft {
 

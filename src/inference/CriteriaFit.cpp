@@ -6,7 +6,7 @@
 #include <span>
 
 #include "inference/PooledSensitivity.h"
-#include "psychophysics/Normal.h"
+#include "psychophysics/ObserverModels.h"
 
 namespace heft {
 

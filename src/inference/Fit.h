@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "psychophysics/PsychometricFunction.h"
+#include "psychophysics/ObserverModels.h"
 
 namespace heft {
 

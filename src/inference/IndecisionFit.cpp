@@ -8,7 +8,7 @@
 
 #include "inference/Fit.h"
 #include "inference/MaximumLikelihood.h"
-#include "psychophysics/Normal.h"
+#include "psychophysics/ObserverModels.h"
 
 namespace heft {
 

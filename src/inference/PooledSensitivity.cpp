@@ -9,11 +9,11 @@
 #include <numeric>
 
 #include "base/Random.h"
-#include "base/math/Quantile.h"
+#include "base/math/Statistics.h"
 #include "inference/CriteriaFit.h"
 #include "inference/MaximumLikelihood.h"
 #include "inference/SensitivitySpread.h"
-#include "psychophysics/Normal.h"
+#include "psychophysics/ObserverModels.h"
 
 namespace heft {
 

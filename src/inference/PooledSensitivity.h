@@ -1,7 +1,7 @@
 // What the three-way choices of several people say of how well they tell two masses apart, whatever
 // their criteria.
 //
-// Each person follows the indecision model (psychophysics/PsychometricFunction.h) with a lapse rate
+// Each person follows the indecision model (psychophysics/ObserverModels.h) with a lapse rate
 // of .02 and an indecision and a side bias of their own, which are random effects: log indecision
 // and bias are normal over people, with spreads that the answers tell (EM), and integrated out
 // (Laplace). To maximize them out instead makes the sensitivity of 20 to 50 trials a person 8 to 50

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "physics/auto/Choice.h"
 #include "physics/boxes/BoxesSimulator.h"
 #include "physics/bullet/BulletSimulator.h"

@@ -7,7 +7,7 @@
 
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "base/math/Boxes.h"
+#include "base/math/Geometry.h"
 #include "physics/techniques/DisplacedSimulator.h"
 
 namespace heft {

@@ -1,7 +1,7 @@
 // How measured poses become the target's path: what a protocol chooses of physics/Drive.h.
 #pragma once
 
-#include "base/InputMode.h"
+#include "base/SimulationChoices.h"
 
 namespace heft {
 

@@ -8,9 +8,8 @@
 #include <filesystem>
 #include <set>
 
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "base/files/Printable.h"
-#include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
 #include "physics/DecouplingSimulator.h"
 #include "protocol/toml/ProtocolTables.h"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "base/NamedKinds.h"
+#include "base/Names.h"
 #include "psychophysics/Constant.h"
 #include "psychophysics/Procedure.h"
 #include "psychophysics/UpDown.h"

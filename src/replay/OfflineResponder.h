@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apparatus/LoggedSession.h"
-#include "psychophysics/Detection.h"
+#include "psychophysics/ObserverModels.h"
 
 namespace heft {
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "apparatus/sources/PictureSource.h"
-#include "base/Build.h"
 #include "base/Error.h"
-#include "base/files/Sha256.h"
+#include "base/Program.h"
+#include "base/files/TextFile.h"
 #include "physics/DecouplingSimulator.h"
 #include "record/schema/EventRow.h"
 #include "replay/FrameCheck.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "responders/ResponderParameters.h"
 
 namespace heft {

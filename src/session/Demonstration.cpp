@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/DefaultTechniques.h"
 #include "base/Random.h"
+#include "base/SimulationChoices.h"
 #include "tasks/Sorting.h"
 #include "view/scene/Viewpoint.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/files/Sha256.h"
+#include "base/files/TextFile.h"
 #include "protocol/readers/Files.h"
 #include "session/Demonstration.h"
 #include "session/QuestionnaireResponder.h"

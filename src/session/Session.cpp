@@ -6,8 +6,9 @@
 #include <random>
 
 #include "apparatus/AnnouncingSink.h"
-#include "base/Build.h"
+#include "base/Clock.h"
 #include "base/Error.h"
+#include "base/Program.h"
 #include "base/files/Printable.h"
 #include "record/schema/EventRow.h"
 #include "record/writer/SessionLog.h"

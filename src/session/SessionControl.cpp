@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/Clock.h"
-#include "base/files/Sha256.h"
+#include "base/files/TextFile.h"
 #include "protocol/readers/Files.h"
 
 namespace heft {

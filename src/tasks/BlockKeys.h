@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/DefaultTechniques.h"
+#include "base/SimulationChoices.h"
 #include "base/files/Keys.h"
 
 namespace heft {

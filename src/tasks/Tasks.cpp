@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/PlugTable.h"
+#include "base/Names.h"
 
 namespace heft {
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "base/Names.h"
 #include "tasks/Comparison.h"
 #include "tasks/Estimation.h"
 #include "tasks/Introduction.h"

@@ -8,7 +8,7 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "base/math/Shrinkage.h"
+#include "base/math/Statistics.h"
 #include "tracking/calibration/Response.h"
 #include "tracking/camera/ImageConversion.h"
 #include "tracking/camera/RollingShutter.h"
@@ -45,7 +45,7 @@ constexpr double sure_quality = 0.5;
 BiasPrior bias_of_effector(const BodyFit& board) {
   if (board.n_tags < tags_that_tell_bias) return unknown_bias;
   const double sd_px = std::hypot(board.bias_sd_px, least_bias_sd_px);
-  const double mean_px = board.bias_px * believed_fraction(board.bias_px / sd_px);
+  const double mean_px = board.bias_px * shrinkage_factor(board.bias_px / sd_px);
   return {mean_px, bias_differs_px + bias_differs_relative * std::abs(mean_px)};
 }
 

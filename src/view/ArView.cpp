@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/Error.h"
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "base/files/TextFile.h"
 #include "tracking/codecs/Codecs.h"
 #include "view/Window.h"

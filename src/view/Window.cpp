@@ -1,6 +1,6 @@
 #include "view/Window.h"
 
-#include "base/Module.h"
+#include "base/Program.h"
 
 namespace heft {
 

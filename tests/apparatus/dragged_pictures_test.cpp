@@ -7,7 +7,7 @@
 #include "apparatus/ShippedApparatus.h"
 #include "apparatus/sources/DraggedPictures.h"
 #include "base/Error.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "protocol/readers/Files.h"
 
 namespace heft {

@@ -8,7 +8,6 @@
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "apparatus/sources/PictureSource.h"
 #include "base/Error.h"
-#include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
 #include "record/schema/EventRow.h"
 #include "record/temporary_folder.h"

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/Build.h"
+#include "base/Clock.h"
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/Pose.h"
+#include "base/Program.h"
 #include "base/Random.h"
-#include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
-#include "base/math/Boxes.h"
+#include "base/math/Geometry.h"
 
 namespace heft {
 namespace {

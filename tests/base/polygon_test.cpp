@@ -1,6 +1,4 @@
 // Clipping: what is kept and what is cut off make up the whole.
-#include "base/math/Polygon.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "base/Random.h"
+#include "base/math/Geometry.h"
 
 namespace heft {
 namespace {

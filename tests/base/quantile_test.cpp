@@ -1,6 +1,6 @@
-#include "base/math/Quantile.h"
-
 #include <gtest/gtest.h>
+
+#include "base/math/Statistics.h"
 
 namespace heft {
 namespace {

@@ -1,5 +1,5 @@
 // Points and areas: what a polygon covers of a grid, by either way of asking.
-#include "base/files/Scan.h"
+#include "base/math/Scan.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -4,7 +4,7 @@
 #include <functional>
 #include <numbers>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "physics/Pushes.h"
 
 namespace heft {

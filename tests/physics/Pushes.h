@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "physics/DecouplingSimulator.h"
 
 namespace heft {

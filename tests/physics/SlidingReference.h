@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "physics/scene/Scene.h"
 
 namespace heft {

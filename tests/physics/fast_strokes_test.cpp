@@ -2,7 +2,7 @@
 // all within a few steps. `push` has the closed forms of all of it.
 #include <gtest/gtest.h>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "physics/Pushes.h"
 
 namespace heft {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "EditedFile.h"
-#include "base/files/Sha256.h"
+#include "base/files/TextFile.h"
 #include "psychophysics/ProcedureKinds.h"
 #include "tasks/Tasks.h"
 

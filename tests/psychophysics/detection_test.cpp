@@ -1,12 +1,10 @@
 // Sensitivity and criterion against another program's figures and against draws.
-#include "psychophysics/Detection.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "base/Random.h"
-#include "psychophysics/Normal.h"
+#include "psychophysics/ObserverModels.h"
 
 namespace heft {
 namespace {

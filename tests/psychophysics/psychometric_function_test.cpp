@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-#include "psychophysics/Normal.h"
-#include "psychophysics/PsychometricFunction.h"
+#include "psychophysics/ObserverModels.h"
 
 namespace heft {
 namespace {

@@ -1,7 +1,7 @@
 // Lags of pushes and paths of cubes, from frames made by hand and from a replayed session.
 #include <gmock/gmock.h>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "replay/StoredSession.h"
 #include "replay/VisibleCues.h"
 #include "replay/WhatIf.h"

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "FakeTrial.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "responders/hand/Hand.h"
 
 namespace heft {

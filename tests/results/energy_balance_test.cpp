@@ -1,7 +1,7 @@
 // The energy balance where each of its terms has a closed form.
 #include <gtest/gtest.h>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "physics/scene/Oracles.h"
 #include "results/physics/scenes/Measurements.h"
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "base/Error.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 

@@ -6,7 +6,7 @@
 
 #include "SourceFolder.h"
 #include "apparatus/configuration/ResolvedConfig.h"
-#include "base/Build.h"
+#include "base/Program.h"
 #include "record/schema/EventRow.h"
 #include "record/writer/SessionLog.h"
 #include "replay/Replay.h"

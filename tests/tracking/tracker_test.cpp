@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "base/Error.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/Scenes.h"
 
 namespace heft {

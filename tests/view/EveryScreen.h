@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "SourceFolder.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "experiment/ScreenState.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/readers/Files.h"

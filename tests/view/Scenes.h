@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "view/scene/SceneDrawing.h"
 
 namespace heft::test {

@@ -5,7 +5,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "view/Scenes.h"
 
 namespace heft {

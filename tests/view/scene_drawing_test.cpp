@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/Error.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "base/Random.h"
 #include "view/Scenes.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "view/EveryScreen.h"
 #include "window/EffectorDrag.h"
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "base/Random.h"
 #include "results/physics/scenes/RandomScenes.h"
 

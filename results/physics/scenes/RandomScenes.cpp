@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "base/Random.h"
 
 namespace heft {

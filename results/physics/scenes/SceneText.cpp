@@ -4,8 +4,8 @@
 
 #include <sstream>
 
-#include "base/DefaultTechniques.h"
 #include "base/Pose.h"
+#include "base/SimulationChoices.h"
 #include "results/physics/scenes/Scenes.h"
 
 namespace heft {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "physics/bullet/RigidBox.h"
 
 namespace heft {

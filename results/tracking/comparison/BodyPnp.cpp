@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/camera/ImageConversion.h"
 #include "tracking/pose/MarkerBody.h"
 

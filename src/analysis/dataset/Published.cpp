@@ -1,6 +1,6 @@
 #include "analysis/dataset/Published.h"
 
-#include "base/DefaultTechniques.h"
+#include "base/SimulationChoices.h"
 
 namespace heft::published {
 

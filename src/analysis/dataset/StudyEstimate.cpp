@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/math/Quantile.h"
+#include "base/math/Statistics.h"
 
 namespace heft {
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "apparatus/sources/PictureSource.h"
-#include "base/DefaultTechniques.h"
 #include "base/Error.h"
 #include "base/Random.h"
+#include "base/SimulationChoices.h"
 #include "experiment/Rows.h"
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"

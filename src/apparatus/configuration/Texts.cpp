@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "base/Error.h"
-#include "base/Installation.h"
-#include "base/PlugTable.h"
-#include "base/files/Sha256.h"
+#include "base/Names.h"
+#include "base/Program.h"
 #include "base/files/TextFile.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/Protocol.h"

@@ -8,7 +8,7 @@
 #include "apparatus/sources/DraggedPictures.h"
 #include "apparatus/sources/FilmedPictures.h"
 #include "apparatus/sources/PacedPictures.h"
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "base/Pose.h"
 
 namespace heft {

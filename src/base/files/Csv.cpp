@@ -38,8 +38,7 @@ CsvCell CsvReader::cell() {
 std::string CsvReader::quoted(const CsvCell& begin) {
   std::string cell;
   for (++at_;; ++at_) {
-    if (at_ == text_.size())
-      throw InvalidFile({mistake(begin, "nothing closes the quote that begins here")});
+    if (at_ == text_.size()) throw InvalidFile({mistake(begin, "this quote is not closed")});
     const char c = text_[at_];
     if (c == '"' && !text_.substr(at_ + 1).starts_with('"')) break;
     if (c == '"') ++at_;
@@ -53,14 +52,14 @@ std::string CsvReader::quoted(const CsvCell& begin) {
   if (at_ < text_.size() && text_[at_] != ',' && !at_line_end())
     throw InvalidFile(
         {mistake({"", line_, column()},
-                 "expected a comma or the line's end after the closing quote; a quote "
-                 "within quotes is written twice")});
+                 "expected a comma or the line's end after the closing quote; write a quote "
+                 "within quotes twice")});
   return cell;
 }
 
 std::string CsvReader::plain() {
   const std::size_t begin = at_;
-  std::size_t end = at_;  // of the last character that is no space
+  std::size_t end = at_;  // after the last character that is not a space
   for (; at_ < text_.size() && text_[at_] != ',' && !at_line_end(); ++at_)
     if (text_[at_] != ' ' && text_[at_] != '\t') end = at_ + 1;
   return std::string(text_.substr(begin, end - begin));

@@ -1,5 +1,5 @@
-// Comma-separated text as spreadsheets write it (RFC 4180): quoted cells that may hold commas, line
-// ends and doubled quotes; LF or CRLF; a byte order mark. Spaces around a cell don't belong to it.
+// Comma-separated values (RFC 4180): quoted cells with commas, line ends and doubled quotes; LF or
+// CRLF; an optional byte-order mark. Spaces around a cell are ignored.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace heft {
 
 struct CsvCell {
   std::string text;
-  int line = 0, column = 0;  ///< where it begins, with its quote; bytes of the line, from 1
+  int line = 0, column = 0;  ///< of its first byte or opening quote; columns are bytes, from 1
 };
 
 class CsvReader {
@@ -20,11 +20,11 @@ class CsvReader {
   /// @param text must outlive the reader
   CsvReader(std::string_view text, std::string file);
 
-  /// The next row that is not blank; no cells: the end.
-  /// @throws InvalidFile for a quote that nothing closes, or text after a closing one
+  /// The next row that is not blank; empty at the end of the text.
+  /// @throws InvalidFile for an unclosed quote or text after a closing quote
   std::vector<CsvCell> next();
 
-  /// A mistake in this cell, for InvalidFile.
+  /// A mistake at this cell, for InvalidFile.
   Mistake mistake(const CsvCell& cell, std::string message) const;
 
  private:
@@ -42,11 +42,11 @@ class CsvReader {
   int line_ = 1;
 };
 
-/// RFC 4180: in quotes where it needs them.
+/// A cell as RFC 4180 writes it, quoted where necessary.
 std::string csv_cell(std::string_view text);
 
-/// A text that a spreadsheet would take for a formula or a command (it begins with = + - @ or a
-/// control character) with a ' before it; one that begins with ' too, so that it can be undone.
+/// Prefixes ' to texts that a spreadsheet would evaluate (first character = + - @ or a control
+/// character) and to texts that begin with ', so that readers can remove the prefix.
 std::string without_formula(std::string_view text);
 
 }  // namespace heft

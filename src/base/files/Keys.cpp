@@ -31,11 +31,11 @@ std::string ConfigMistake::text() const {
   return fmt::format("{}, expected {}", what, expected);
 }
 
-InvalidConfig::InvalidConfig(std::string_view what_it_is, ConfigMistakes mistakes)
+InvalidConfig::InvalidConfig(std::string_view kind, ConfigMistakes mistakes)
     : Error([&] {
         std::string text;
         for (const ConfigMistake& mistake : mistakes)
-          text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", what_it_is, mistake.text());
+          text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", kind, mistake.text());
         return text;
       }()),
       mistakes_(std::move(mistakes)) {}
@@ -78,13 +78,12 @@ std::string KeysReport::text_of(const std::vector<double>& values) {
   return fmt::format("{:g}", fmt::join(values, ", "));
 }
 
-// Nothing has no unit.
 void KeysReport::add(const ConfigKey& key, const std::string& value) {
   const auto place = key.report.find("{}");
   if (!text.empty()) text += ", ";
   text += key.report.substr(0, place);
   text += value;
-  if (value != "none") text += key.report.substr(place + 2);
+  if (value != "none") text += key.report.substr(place + 2);  // the unit
 }
 
 }  // namespace heft

@@ -1,7 +1,7 @@
-// What a table of settings holds, declared once: each config has visit_keys(config, visit), which
-// calls visit(key, field) or visit(key, field, range) for every key in the order of its file.
-// Readers of files, checks, reports and help are visitors. The field's type says the rest: an
-// optional may be missing, an enumeration is a list of names.
+// Declaration of configuration tables. Each config type has visit_keys(config, visit), which calls
+// visit(key, field) or visit(key, field, range) for every key in the order of its file. File
+// readers, checks, reports and help are visitors. An optional field may be missing; an enumeration
+// field takes the names of its enumerators.
 #pragma once
 
 #include <concepts>
@@ -19,23 +19,23 @@
 
 namespace heft {
 
-/// Beyond this much of any unit lies no experiment, only overflow.
+/// Largest magnitude of a setting in any unit; larger ones could overflow.
 inline constexpr double furthest = 1e12;
-/// Below this much of what must be above zero lies only underflow.
+/// Smallest value of a positive setting; smaller ones could underflow.
 inline constexpr double least = 1e-9;
 
-/// The numbers a key takes.
+/// Range of a real-valued key.
 struct Range {
   double low = -furthest, high = furthest;
   bool low_open = false, high_open = false;
   bool holds(double value) const;
-  std::string text() const;  ///< what it adds to "a number", e.g. ", at least 0"
+  std::string text() const;  ///< suffix of "a number", e.g. ", at least 0"
 };
 inline constexpr Range any_number{};
 inline constexpr Range above_zero{least, furthest};
 inline constexpr Range zero_or_more{0};
 
-/// Whole numbers that a key takes.
+/// Range of an integer key.
 struct WholeRange {
   std::int64_t low = 0;
   std::int64_t high = std::numeric_limits<int>::max();
@@ -45,39 +45,39 @@ struct WholeRange {
 struct ConfigKey {
   std::string_view name, meaning;
   bool is_required = false;
-  std::string_view report = {};  ///< how a report names its value: "floor {} g"; empty: not at all
+  std::string_view report = {};  ///< format in reports: "floor {} g"; empty: not reported
 };
 
-/// `Config` is `Type` or `const Type`: what visit_keys takes.
+/// `Config` is `Type` or `const Type`, the parameter types of visit_keys.
 template <typename Config, typename Type>
 concept ConfigOf = std::same_as<std::remove_const_t<Config>, Type>;
 
-/// A mistake in a config: a value, or values that don't fit together.
+/// A mistake in a config: an invalid value or an invalid combination.
 struct ConfigMistake {
-  /// That it is about. A reader puts it at the first that its file has, and leaves it out where the
-  /// file has another mistake at one of them.
+  /// Keys concerned. A reader reports the mistake at the first of them in the file, unless the file
+  /// has another mistake at one of them.
   std::vector<std::string_view> keys;
   std::string what;                    ///< "floor is 3", `lacks "floor"`
   std::string expected;                ///< "below the ceiling 2"
-  std::optional<std::size_t> index{};  ///< of the value in a list
+  std::optional<std::size_t> index{};  ///< of the value, if the key is a list
 
   /// "floor is 3, expected below the ceiling 2"
   std::string text() const;
 };
 using ConfigMistakes = std::vector<ConfigMistake>;
 
-/// All mistakes of a config, one line each in what().
+/// All mistakes of a config; what() has one line each.
 class InvalidConfig : public Error {
  public:
-  /// @param what_it_is of the config, e.g. "up_down"
-  InvalidConfig(std::string_view what_it_is, ConfigMistakes mistakes);
+  /// @param kind of the config, e.g. "up_down"
+  InvalidConfig(std::string_view kind, ConfigMistakes mistakes);
   const ConfigMistakes& mistakes() const { return mistakes_; }
 
  private:
   ConfigMistakes mistakes_;
 };
 
-/// The config, where its check() finds nothing. @throws InvalidConfig
+/// Returns the config if its check() finds no mistake. @throws InvalidConfig otherwise
 template <typename Config>
 Config valid_config(Config config) {
   if (ConfigMistakes mistakes = config.check(); !mistakes.empty())
@@ -85,10 +85,7 @@ Config valid_config(Config config) {
   return config;
 }
 
-// Visitors
-// -----------------------------------------------------------------------------------------
-
-/// Notes every value that is outside its range.
+/// Visitor that collects the values outside their range.
 class RangeCheck {
  public:
   void operator()(const ConfigKey& key, double value, const Range& range);
@@ -98,12 +95,12 @@ class RangeCheck {
   void operator()(const ConfigKey& key, const std::vector<double>& values, const Range& range);
   void operator()(const ConfigKey& key, int value, const WholeRange& range);
   template <typename Value>
-  void operator()(const ConfigKey&, const Value&) {}  // every value of its type
+  void operator()(const ConfigKey&, const Value&) {}  // no range
 
   ConfigMistakes mistakes;
 };
 
-/// The values outside their keys' ranges.
+/// The values of a config outside their keys' ranges.
 template <typename Config>
 ConfigMistakes out_of_range(const Config& config) {
   RangeCheck check;
@@ -111,7 +108,7 @@ ConfigMistakes out_of_range(const Config& config) {
   return std::move(check.mistakes);
 }
 
-/// Joins what reports say of each key: "floor 0 g, ceiling none".
+/// Visitor that joins the values of reported keys: "floor 0 g, ceiling none".
 class KeysReport {
  public:
   template <typename Value, typename... Ranges>
@@ -134,7 +131,7 @@ class KeysReport {
   void add(const ConfigKey& key, const std::string& value);
 };
 
-/// What a report says was chosen.
+/// The settings of a config as a report prints them.
 template <typename Config>
 std::string keys_report(const Config& config) {
   KeysReport report;

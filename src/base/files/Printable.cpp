@@ -38,12 +38,12 @@ bool is_control(char32_t code) {
 }
 
 namespace {
-bool turns_direction(char32_t code) {
+bool changes_direction(char32_t code) {
   return (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) ||
          code == 0x200E || code == 0x200F || code == 0x061C;
 }
 
-std::string escaped_but(std::string_view text, std::string_view kept) {
+std::string escaped_except(std::string_view text, std::string_view kept) {
   std::string shown;
   while (!text.empty()) {
     const auto [code, n] = first_letter(text);
@@ -51,7 +51,7 @@ std::string escaped_but(std::string_view text, std::string_view kept) {
       shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
     else if (is_control(code) && !(n == 1 && kept.find(text[0]) != std::string_view::npos))
       shown += fmt::format("\\x{:02x}", static_cast<std::uint32_t>(code));
-    else if (turns_direction(code) || code == 0x2028 || code == 0x2029)
+    else if (changes_direction(code) || code == 0x2028 || code == 0x2029)
       shown += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(code));
     else
       shown += text.substr(0, n);
@@ -62,11 +62,11 @@ std::string escaped_but(std::string_view text, std::string_view kept) {
 }  // namespace
 
 std::string escaped(std::string_view text) {
-  return escaped_but(text, "\n\t");
+  return escaped_except(text, "\n\t");
 }
 
 std::string escaped_line(std::string_view text) {
-  return escaped_but(text, "");
+  return escaped_except(text, "");
 }
 
 std::string printable(std::string text) {
@@ -87,7 +87,7 @@ std::string shell_quoted(const std::string& word) {
     for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return quoted + "'";
   }
-  std::string quoted = "$'";  // bash and its kin read escapes in these
+  std::string quoted = "$'";  // ANSI-C quoting (bash, zsh)
   for (const char c : word) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == '\'' || c == '\\')

@@ -1,4 +1,5 @@
-// Texts from elsewhere (file names, cells, ids, notes) as a terminal and a shell may have them.
+// Safe display of untrusted texts (file names, cells, ids, notes) in terminals, messages and
+// shells.
 #pragma once
 
 #include <string>
@@ -7,32 +8,31 @@
 
 namespace heft {
 
-/// A character, and how many bytes of UTF-8 it takes; 0: there is none.
+/// A Unicode character and its number of UTF-8 bytes; 0 bytes for invalid UTF-8.
 struct Letter {
   char32_t code = 0;
   std::size_t n_bytes = 0;
 };
 
-/// The one that a text begins with, which must not be empty.
+/// The first character of a text that is not empty.
 Letter first_letter(std::string_view text);
 
-/// The bytes of each; of what is no UTF-8 each byte stands for itself.
+/// The bytes of each character; invalid UTF-8 is split into single bytes.
 std::vector<std::string_view> letters_of(std::string_view text);
 
 bool is_control(char32_t code);
 
-/// What a terminal would obey instead of showing it stands there as \x1b or \u202e: control
-/// characters but line ends and tabs, bytes that are no UTF-8, and marks that turn the direction of
-/// writing.
+/// Escapes as \x1b or \u202e what a terminal would interpret: control characters except line ends
+/// and tabs, invalid UTF-8, line separators and marks that change the direction of writing.
 std::string escaped(std::string_view text);
 
-/// As escaped(), on one line.
+/// As escaped(), also escaping line ends and tabs.
 std::string escaped_line(std::string_view text);
 
-/// As a message quotes a value: short, on one line, without control characters.
+/// A value for quoting in a message: at most 200 bytes, on one line, without control characters.
 std::string printable(std::string text);
 
-/// A word as a shell takes it, to be put into a command that people copy.
+/// Quotes a word for a shell command.
 std::string shell_quoted(const std::string& word);
 
 }  // namespace heft

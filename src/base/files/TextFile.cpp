@@ -2,8 +2,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sha2.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -30,14 +32,15 @@ std::string_view trimmed(std::string_view text) {
   throw Error(fmt::format("can't write {}: {}", path, why));
 }
 
-// A copy under the first name that is free; an earlier one is never written over.
+// Copies the file to the first free name.
 std::string keep_beside(const std::string& path) {
   for (int i = 1;; ++i) {
     const std::string kept = path + ".before" + (i > 1 ? std::to_string(i) : "");
     std::error_code error;
     if (fs::copy_file(path, kept, error)) return kept;
     if (error != std::errc::file_exists)
-      refuse_writing(kept, error.message() + "; it would hold the file that is there now");
+      refuse_writing(kept,
+                     error.message() + "; the existing file is copied there before it is replaced");
   }
 }
 
@@ -61,7 +64,7 @@ void write_whole(const std::string& path, const std::string& text) {
 }  // namespace
 
 std::string read_text_file(const std::string& path) {
-  std::error_code unknown;  // what can't be looked at is explained when it is opened
+  std::error_code unknown;  // opening the file reports the reason
   const fs::file_status there = fs::status(path, unknown);
   if (fs::is_directory(there))
     throw Error(fmt::format("can't read {}: it is a folder, expected a file", path));
@@ -89,24 +92,24 @@ void require_writable(const std::string& path) {
     refuse_writing(path, "it is a device or a pipe, expected a file");
   const fs::path folder = fs::path(path).parent_path();
   if (access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
-    refuse_writing(
-        path, fmt::format("{}; does its folder exist, may you write there?", std::strerror(errno)));
+    refuse_writing(path, fmt::format("{}; check that its folder exists and is writable",
+                                     std::strerror(errno)));
 }
 
 std::string replace_text_file(const std::string& path, const std::string& text) {
   require_writable(path);
-  // Through a symbolic link the file that it stands for.
+  // Replace the target of a symbolic link, not the link.
   const std::string target = fs::exists(path) ? fs::canonical(path).string() : path;
   const std::string kept = fs::exists(target) ? keep_beside(target) : "";
-  const std::string half_done = target + ".new";
-  write_whole(half_done, text);
-  if (std::rename(half_done.c_str(), target.c_str()) != 0)
+  const std::string temporary = target + ".new";
+  write_whole(temporary, text);
+  if (std::rename(temporary.c_str(), target.c_str()) != 0)
     refuse_writing(target, std::strerror(errno));
   return kept;
 }
 
 std::string_view without_byte_order_mark(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as spreadsheets put it in front
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   return text;
 }
@@ -142,6 +145,12 @@ std::optional<double> number_in(std::string_view cell) {
   if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
     return std::nullopt;
   return value;
+}
+
+std::string sha256(std::string_view text) {
+  std::array<char, SHA256_DIGEST_STRING_LENGTH> digest{};
+  SHA256Data(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), digest.data());
+  return digest.data();
 }
 
 }  // namespace heft

@@ -1,11 +1,11 @@
-// The unknowns with the smallest cost near a start (Levenberg 1944; Marquardt, "An algorithm for
-// least-squares estimation of nonlinear parameters", J. SIAM 11, 1963). With residuals r_i of
-// variance v_i, their derivatives J_i by a step of the unknowns and robust weights w_i, a step is
+// Robust nonlinear least squares (Levenberg 1944; Marquardt, "An algorithm for least-squares
+// estimation of nonlinear parameters", J. SIAM 11, 1963). With residuals r_i of variance v_i, their
+// Jacobians J_i and robust weights w_i, each iteration solves
 //
 //   (A + damping diag(A)) step = -sum w_i / v_i J_i^T r_i,   A = sum w_i / v_i J_i^T J_i
 //
-// It is taken if the cost does not grow; then damping falls tenfold, towards Gauss and Newton's
-// step, and otherwise rises tenfold, towards a short one straight down.
+// A step that does not increase the cost is accepted and damping falls tenfold (towards the
+// Gauss-Newton step); otherwise damping rises tenfold (towards a short step of steepest descent).
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -15,26 +15,27 @@
 
 namespace heft {
 
-/// What a residual of so many standard deviations weighs and costs: squares up to 2.5 of them, from
-/// there on lines (Huber, "Robust estimation of a location parameter", 1964).
+/// Weight and cost of a residual in standard deviations: quadratic up to 2.5, linear beyond (Huber,
+/// "Robust estimation of a location parameter", 1964).
 struct RobustResidual {
   double weight, cost;
 };
 
 inline RobustResidual huber(double deviations) {
-  constexpr double bend = 2.5;
-  if (deviations > bend) return {bend / deviations, bend * (2 * deviations - bend)};
+  constexpr double limit = 2.5;
+  if (deviations > limit) return {limit / deviations, limit * (2 * deviations - limit)};
   return {1, deviations * deviations};
 }
 
-/// The law's matrix and right side, and the cost, at one place. @tparam size or Eigen::Dynamic
+/// A, the right-hand side and the cost at one point.
+/// @tparam size number of unknowns, or Eigen::Dynamic
 template <int size>
 struct NormalEquations {
   Eigen::Matrix<double, size, size> matrix;
   Eigen::Matrix<double, size, 1> rhs;
-  double cost = 0;         ///< in variances
-  double sum_squares = 0;  ///< of residuals, in their own unit
-  int n = 0;               ///< residuals
+  double cost = 0;         ///< dimensionless, in variances
+  double sum_squares = 0;  ///< of the residuals, in their unit squared
+  int n = 0;               ///< number of residuals
 
   explicit NormalEquations(Eigen::Index n_unknowns = size)
       : matrix(decltype(matrix)::Zero(n_unknowns, n_unknowns)),
@@ -42,7 +43,7 @@ struct NormalEquations {
 
   double rms() const { return std::sqrt(sum_squares / std::max(1, n)); }
 
-  /// What was known of an unknown before: it is off by so much. No residual, costs only.
+  /// Adds a normal prior of one unknown, `off` from its mean. Counts in the cost, not in rms().
   void add_prior(Eigen::Index unknown, double off, double sd) {
     const double deviations = off / sd;
     matrix(unknown, unknown) += 1 / (sd * sd);
@@ -51,31 +52,32 @@ struct NormalEquations {
   }
 };
 
-/// Moves the unknowns until a step gains no more than settled * (1 + cost), no step gains anything,
-/// or most_steps were tried.
-/// @param equations_at (unknowns): NormalEquations; an infinite cost where there are none
-/// @param moved (unknowns, step): where the step leads
-/// @return the equations where it ended
+/// Minimizes the cost until a step gains at most tolerance * (1 + cost), damping exceeds its limit,
+/// or max_steps were tried.
+/// @param at the start, replaced by the minimum
+/// @param equations_at (unknowns): NormalEquations, with infinite cost outside the domain
+/// @param moved (unknowns, step): the unknowns after the step
+/// @return the equations at the minimum
 template <typename Unknowns, typename EquationsAt, typename Moved>
-auto levenberg_marquardt(Unknowns& at, int most_steps, double settled,
+auto levenberg_marquardt(Unknowns& at, int max_steps, double tolerance,
                          const EquationsAt& equations_at, const Moved& moved) {
-  constexpr double first_damping = 1e-4, least_damping = 1e-9, most_damping = 1e8;
+  constexpr double first_damping = 1e-4, min_damping = 1e-9, max_damping = 1e8;
   auto equations = equations_at(at);
   double damping = first_damping;
-  for (int i = 0; i < most_steps && damping < most_damping; ++i) {
+  for (int i = 0; i < max_steps && damping < max_damping; ++i) {
     auto damped = equations.matrix;
     damped.diagonal() *= 1 + damping;
-    Unknowns there = moved(at, damped.ldlt().solve(equations.rhs).eval());
-    auto next = equations_at(there);
+    Unknowns next_at = moved(at, damped.ldlt().solve(equations.rhs).eval());
+    auto next = equations_at(next_at);
     if (!(next.cost <= equations.cost)) {
       damping *= 10;
       continue;
     }
     const double gained = equations.cost - next.cost;
-    at = std::move(there);
+    at = std::move(next_at);
     equations = std::move(next);
-    damping = std::max(damping / 10, least_damping);
-    if (gained <= settled * (1 + equations.cost)) break;
+    damping = std::max(damping / 10, min_damping);
+    if (gained <= tolerance * (1 + equations.cost)) break;
   }
   return equations;
 }

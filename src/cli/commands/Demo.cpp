@@ -9,7 +9,7 @@
 #include "analysis/report/Notes.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"
-#include "base/Installation.h"
+#include "base/Program.h"
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"

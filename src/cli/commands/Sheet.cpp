@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"
 #include "protocol/readers/Files.h"

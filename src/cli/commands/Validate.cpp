@@ -13,7 +13,7 @@
 
 #include "apparatus/configuration/Texts.h"
 #include "base/Error.h"
-#include "base/PlugTable.h"
+#include "base/Names.h"
 #include "base/files/TextFile.h"
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/Pose.h"
-#include "base/math/Boxes.h"
+#include "base/math/Geometry.h"
 
 namespace heft {
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/PoseTypes.h"
-#include "base/math/Polygon.h"
+#include "base/math/Geometry.h"
 
 namespace heft {
 

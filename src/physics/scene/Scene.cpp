@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "base/DefaultTechniques.h"
+#include "base/SimulationChoices.h"
 
 namespace heft {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/Pose.h"
-#include "base/math/Boxes.h"
+#include "base/math/Geometry.h"
 
 namespace heft {
 

@@ -3,7 +3,7 @@
 // visit_keys, after() and return_s, which DisplacedSimulator.h explains, and described().
 #pragma once
 
-#include "base/NamedKinds.h"
+#include "base/Names.h"
 #include "physics/techniques/Gain.h"
 #include "physics/techniques/SpeedLimit.h"
 

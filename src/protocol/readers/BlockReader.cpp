@@ -4,8 +4,8 @@
 #include <span>
 #include <variant>
 
-#include "base/DefaultTechniques.h"
-#include "base/PlugTable.h"
+#include "base/Names.h"
+#include "base/SimulationChoices.h"
 #include "experiment/Rows.h"
 #include "protocol/readers/ProcedureReader.h"
 #include "protocol/toml/ProtocolTables.h"

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "base/DefaultTechniques.h"
 #include "base/Pose.h"
+#include "base/SimulationChoices.h"
 #include "base/files/TextFile.h"
-#include "base/math/Boxes.h"
+#include "base/math/Geometry.h"
 #include "physics/scene/Scene.h"
 #include "protocol/readers/Files.h"
 #include "protocol/toml/ProtocolTables.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/DefaultTechniques.h"
+#include "base/SimulationChoices.h"
 #include "base/files/Printable.h"
 #include "protocol/readers/ProcedureReader.h"
 #include "protocol/toml/ProtocolTables.h"

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "base/files/Printable.h"
-#include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
 #include "experiment/Participant.h"
 #include "protocol/Protocol.h"

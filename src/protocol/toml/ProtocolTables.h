@@ -20,7 +20,7 @@ void read_effector(TableReader& reader, Eigen::Vector3d& size_m);
 Coupling read_coupling(TableReader& table, Coupling coupling = {});
 
 /// Techniques as protocols and scenes declare them, [[technique]] each; those of
-/// base/DefaultTechniques.h need no declaration.
+/// base/SimulationChoices.h need no declaration.
 /// @param defaults of what a spring does not say: the [coupling] table
 std::vector<Technique> read_techniques(TableReader& reader, const Coupling& defaults);
 

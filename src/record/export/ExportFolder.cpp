@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "base/Error.h"
-#include "base/Installation.h"
+#include "base/Program.h"
 #include "base/files/Csv.h"
 #include "base/files/TextFile.h"
 

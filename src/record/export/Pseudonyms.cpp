@@ -9,7 +9,6 @@
 #include <set>
 
 #include "base/Error.h"
-#include "base/files/Sha256.h"
 #include "base/files/TextFile.h"
 #include "record/export/Export.h"
 

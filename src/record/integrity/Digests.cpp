@@ -6,7 +6,7 @@
 #include <array>
 #include <bit>
 
-#include "base/files/Sha256.h"
+#include "base/files/TextFile.h"
 #include "record/schema/Binding.h"
 #include "record/schema/RowSql.h"
 

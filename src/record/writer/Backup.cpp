@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/Build.h"
+#include "base/Clock.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "record/reader/LogReader.h"

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "base/Error.h"
-#include "base/PlugTable.h"
+#include "base/Names.h"
 
 namespace heft {
 

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "base/Image.h"
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 
 namespace heft {
 

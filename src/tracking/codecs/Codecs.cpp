@@ -1,6 +1,6 @@
 #include "tracking/codecs/Codecs.h"
 
-#include "base/Module.h"
+#include "base/Program.h"
 
 namespace heft {
 

@@ -16,7 +16,7 @@
 #include <array>
 #include <span>
 
-#include "base/PlugTable.h"
+#include "base/Names.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/math/Shrinkage.h"
+#include "base/math/Statistics.h"
 
 namespace heft {
 
@@ -46,7 +46,7 @@ bool ToneLearner::learn(const PictureTone& seen, double bias_px, double bias_sd_
   bend_ = (at + change).cwiseMax(-most_bend).cwiseMin(most_bend);
   // Most cameras' curve is sRGB, and what then seems bent is what the model of edges, the print and
   // rounding to levels do to them.
-  curve_ = ToneCurve(believed_fraction(outward.dot(bend_) / least_bias_sd_px) * bend_);
+  curve_ = ToneCurve(shrinkage_factor(outward.dot(bend_) / least_bias_sd_px) * bend_);
   return std::abs(outward.dot(curve_.bend() - at)) > worth_measuring_px;
 }
 

@@ -2,7 +2,7 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/camera/ImageConversion.h"
 
 namespace heft {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/Pose.h"
+#include "base/PoseTypes.h"
 #include "tracking/detection/NormalTable.h"
 
 namespace heft {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "base/files/Scan.h"
+#include "base/math/Scan.h"
 
 namespace heft {
 

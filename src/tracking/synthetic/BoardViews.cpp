@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/math/Quantile.h"
+#include "base/math/Statistics.h"
 
 namespace heft {
 

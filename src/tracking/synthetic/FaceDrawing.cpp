@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "base/math/Polygon.h"
+#include "base/math/Geometry.h"
 
 namespace heft {
 

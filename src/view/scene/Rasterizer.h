@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/Image.h"
-#include "base/files/Scan.h"
+#include "base/math/Scan.h"
 
 namespace heft {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/math/Polygon.h"
+#include "base/math/Geometry.h"
 #include "view/scene/Shapes.h"
 
 namespace heft {

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "base/PoseTypes.h"
-#include "base/math/Polygon.h"
+#include "base/math/Geometry.h"
 #include "tracking/camera/Intrinsics.h"
 #include "view/scene/Rasterizer.h"
 

@@ -1,4 +1,4 @@
-#include "base/math/Boxes.h"
+#include "base/math/Geometry.h"
 
 #include <cmath>
 

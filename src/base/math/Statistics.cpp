@@ -1,4 +1,4 @@
-#include "base/math/Quantile.h"
+#include "base/math/Statistics.h"
 
 #include <algorithm>
 #include <cmath>

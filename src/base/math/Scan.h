@@ -1,5 +1,5 @@
-// The one scan converter: which points of a grid a triangle covers, and how much of its squares a
-// polygon does. Both walk the same edges down the rows. Knows no colors, depths or cameras.
+// Scan conversion: the grid points that a triangle covers, and the area that a polygon covers of
+// each grid square.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,13 +10,13 @@
 
 namespace heft {
 
-/// Columns begin <= x < end of a row.
+/// Columns begin <= x < end of one row.
 struct Span {
   int begin = 0, end = 0;
 
   int width() const { return end - begin; }
   bool empty() const { return end <= begin; }
-  /// The shortest that holds both.
+  /// The shortest span that holds both.
   Span around(const Span& other) const {
     if (empty()) return other;
     if (other.empty()) return *this;
@@ -27,16 +27,16 @@ struct Span {
 namespace scanning {
 using Eigen::Vector2d;
 
-/// The first of the lines 0, 1... n at or after a place; n where there is none. For places far
-/// outside and for what is not a number, too.
+/// The smallest of 0, 1... n that is at least `place`; n when all are smaller. Safe for any finite
+/// place and for NaN.
 inline int first_line(double place, int n) {
   const double within = std::min(std::max(0.0, place), static_cast<double>(n));
   const int before = static_cast<int>(within);
   return before + (within > before ? 1 : 0);
 }
 
-/// A side of a polygon on its way down the rows. Where it crosses a line depends on its ends alone,
-/// so that what lies on either side of it parts every row at the same place.
+/// A side of a polygon. Its crossing of a row depends on its end points only, so that polygons on
+/// both sides split every row at the same place.
 class Edge {
  public:
   Edge(const Vector2d& top, const Vector2d& bottom)
@@ -48,14 +48,14 @@ class Edge {
   double slope_;
 };
 
-/// The piece of an edge within one row, from x0 to x1: each square that it crosses is covered to
-/// the right of it, each square after it wholly.
+/// The part of an edge within one row, from x0 to x1, covers the squares to its right: those it
+/// crosses in part, the others fully.
 template <typename Step>
 void cover_right_of(double x0, double x1, double height, int n_columns, const Step& step) {
   if (x0 > x1) std::swap(x0, x1);
   const double width = n_columns, length = x1 - x0;
   if (x0 >= width) return;
-  if (x0 < 0) {  // what enters left of the grid covers its row from the first square on
+  if (x0 < 0) {  // the part left of the grid covers the whole row
     step(0, height * (x1 <= 0 ? 1 : -x0 / length));
     if (x1 <= 0) return;
   }
@@ -73,8 +73,8 @@ void cover_right_of(double x0, double x1, double height, int n_columns, const St
 }
 }  // namespace scanning
 
-/// Calls row(y, begin, end) for every row of which a triangle, of either winding, covers the points
-/// begin to before end. Triangles with an edge in common share no point and leave none out.
+/// Calls row(y, begin, end) for every row in which a triangle of either winding covers the points
+/// begin <= x < end. Triangles with a common edge neither share points nor leave gaps.
 template <typename Row>
 void scan_points(std::array<Eigen::Vector2d, 3> corners, int n_columns, int n_rows,
                  const Row& row) {
@@ -95,7 +95,7 @@ void scan_points(std::array<Eigen::Vector2d, 3> corners, int n_columns, int n_ro
     int y = first_line(from.y(), n_rows);
     const int end_row = first_line(to.y(), n_rows);
     for (Span span = span_at(y); y < end_row; ++y) {
-      const Span next = span_at(y + 1);  // worked out while this row is drawn
+      const Span next = span_at(y + 1);  // computed while the caller draws this row
       if (!span.empty()) row(y, span.begin, span.end);
       span = next;
     }
@@ -104,9 +104,9 @@ void scan_points(std::array<Eigen::Vector2d, 3> corners, int n_columns, int n_ro
   between(middle, bottom);
 }
 
-/// How much of each square (x to x + 1, y to y + 1) of a grid a simple polygon covers, exactly and
-/// without samples: calls step(y, x, change) so that the sum of a row's changes up to x is the
-/// covered fraction; column n_columns takes what begins beyond it. Clockwise (y down) counts
+/// Exact area coverage of the squares (x to x + 1, y to y + 1) of a grid by a simple polygon. Calls
+/// step(y, x, change); the covered fraction of a square is the sum of its row's changes up to x.
+/// Column n_columns collects changes beyond the last square. Clockwise polygons (y down) count
 /// positive.
 /// @param grid the corner of square (0, 0), in the polygon's coordinates
 template <typename Step>
@@ -114,7 +114,7 @@ void scan_areas(std::span<const Eigen::Vector2d> polygon, const Eigen::Vector2d&
                 int n_columns, int n_rows, const Step& step) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d from = polygon[i] - grid, to = polygon[(i + 1) % polygon.size()] - grid;
-    // An edge up opens the polygon: everything to its right is inside; one down closes it.
+    // To the right of a rising edge is the inside of the polygon, of a falling edge the outside.
     const bool opens = from.y() > to.y();
     const Eigen::Vector2d &top = opens ? to : from, &bottom = opens ? from : to;
     const double begin = std::max(top.y(), 0.0);

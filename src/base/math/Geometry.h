@@ -1,5 +1,4 @@
-// Convex polygons of few corners and the one way of clipping them. What a corner is, the user says:
-// a point in space, a place on a face, a pixel with its darkness.
+// Overlap of oriented boxes; convex polygons of few corners and their clipping.
 #pragma once
 
 #include <algorithm>
@@ -7,9 +6,17 @@
 #include <cstddef>
 #include <span>
 
+#include "base/PoseTypes.h"
+
 namespace heft {
 
-/// Corners in order, without a heap. What is added beyond `most` is left out.
+/// Separating-axis test of two boxes given by the poses of their centers and their full sizes.
+/// Boxes that touch overlap.
+bool boxes_overlap(const Pose& a, const Eigen::Vector3d& size_a_m, const Pose& b,
+                   const Eigen::Vector3d& size_b_m);
+
+/// Up to `most` corners in order, without heap memory. Further corners are dropped. A corner may be
+/// a point, or a point with further values.
 template <typename Corner, std::size_t most>
 class Polygon {
  public:
@@ -37,10 +44,11 @@ class Polygon {
   std::size_t n_ = 0;
 };
 
-/// The part of a polygon where height(corner) >= 0: one plane of Sutherland and Hodgman's clipper
-/// ("Reentrant polygon clipping", CACM 17, 1974). A convex polygon gains at most one corner.
+/// Clips a polygon to the half-space height(corner) >= 0: one plane of Sutherland and Hodgman's
+/// algorithm ("Reentrant polygon clipping", CACM 17, 1974). A convex polygon gains at most one
+/// corner.
 /// @param height of a corner above the plane; linear over the polygon, in any unit
-/// @param between (from, to, s): the corner a fraction s of the way from one to the other
+/// @param between (from, to, s): the corner at fraction s from one corner to the other
 template <typename Corner, std::size_t most, typename Height, typename Between>
 Polygon<Corner, most> clipped(const Polygon<Corner, most>& polygon, const Height& height,
                               const Between& between) {

@@ -1,8 +1,9 @@
-// How answers depend on the level, as formulas: psychometric functions of a positive answer, and
-// the three-way choice with indecision. Estimators and adaptive procedures stand on these.
+// Formulas of how answers depend on the level: psychometric functions, the indecision model, signal
+// detection, and the standard normal distribution that they use.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "base/Names.h"
@@ -69,5 +70,29 @@ struct IndecisionShares {
   double reference = 0, none = 0, comparison = 0;
 };
 IndecisionShares indecision_shares(const IndecisionParameters& parameters, double level);
+
+/// Trials with a difference (signal) and without (noise), and in how many a difference was told.
+struct DetectionCounts {
+  int n_signal = 0, n_hits = 0;
+  int n_noise = 0, n_false_alarms = 0;
+};
+
+/// Standard errors: Gourevitch & Galanter (1967), from the corrected rates.
+struct Detection {
+  double d_prime = 0, d_prime_se = 0;
+  double criterion = 0, criterion_se = 0;  ///< positive: inclined to say "no difference"
+};
+
+/// With log-linear rates, (x + 1/2) / (n + 1), which are never 0 or 1 (Hautus 1995).
+/// @return none where there is no trial of either kind
+std::optional<Detection> detection(const DetectionCounts& counts);
+
+double normal_density(double z);
+
+/// Its tails stay exact.
+double normal_cdf(double z);
+
+/// @param p in (0, 1)
+double normal_quantile(double p);
 
 }  // namespace heft
