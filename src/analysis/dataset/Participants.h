@@ -18,7 +18,7 @@ struct ParticipantRow {
   std::string participant;
   int n_sessions = 0, n_finished = 0;
   int n_completed = 0;  ///< trials
-  int n_impossible = 0, n_lost = 0, n_catch = 0, n_false_alarms = 0;
+  int n_anticipatory = 0, n_lost = 0, n_catch = 0, n_false_alarms = 0;
   std::string excluded_because;  ///< empty: counts
 
   bool excluded() const { return !excluded_because.empty(); }

@@ -64,10 +64,11 @@ LossKey key_of(const TrialPlan& plan) {
 
 void count_loss(LossRow& row, const SessionData& data, const Attempt& attempt) {
   row.n_attempts += 1;
+  row.n_completed += attempt.completed() ? 1 : 0;
   row.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
   row.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
   row.lost_s += attempt.trial.lost_s;
-  row.n_impossible += attempt.completed() && is_impossible(data, attempt) ? 1 : 0;
+  row.n_anticipatory += attempt.completed() && is_impossible(data, attempt) ? 1 : 0;
 }
 
 void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attempt) {

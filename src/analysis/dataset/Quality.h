@@ -30,9 +30,10 @@ struct LossRow {
   Task task;
   std::string condition;
   std::string difference;  ///< comparisons: "0 g", "1-100 g"...; otherwise empty
-  int n_attempts = 0, n_void = 0, n_lost = 0;  ///< n_lost: the effector was out of view
-  double lost_s = 0;                           ///< in all
-  int n_impossible = 0;  ///< answers too early (as the setup has it), too fast or without contact
+  int n_attempts = 0, n_completed = 0, n_void = 0;
+  int n_lost = 0;          ///< attempts with the effector out of view
+  double lost_s = 0;       ///< in all
+  int n_anticipatory = 0;  ///< answers too early (as the setup has it), too fast or without contact
 };
 
 struct ResetRow {

@@ -197,6 +197,22 @@ class ChoiceSection final : public Section {
     }
   }
 
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::vector<std::string> parts;
+    const auto add = [&](const Measure& measure, std::string_view of) {
+      const StudyEstimate* one = find_estimate(summary.estimates, measure.name, {{"over", "all"}});
+      if (!one || one->n_trials == 0) return;
+      parts.push_back(fmt::format("{} of {} {}", one->n_hits, one->n_trials, of));
+      if (one->value && one->low)
+        parts.back() +=
+            fmt::format(", {:.0f} % [{:.0f}, {:.0f}]", *one->value, *one->low, *one->high);
+    };
+    add(wrong_cube, "choices took the lighter cube");
+    add(false_alarm, "catch trials were false alarms");
+    if (parts.empty()) return {};
+    return {fmt::format("Comparisons: {}.", fmt::join(parts, "; "))};
+  }
+
   std::vector<EstimateTable> tables() const override {
     return {choices_table(), references_json(), all_choices_json(), level_table()};
   }

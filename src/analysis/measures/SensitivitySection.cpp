@@ -8,6 +8,7 @@
 
 #include "analysis/dataset/Sensitivity.h"
 #include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
 
 namespace heft {
 
@@ -152,7 +153,7 @@ EstimateTable sensitivity_table() {
        json_column(sensitivity, Field::high, "sensitivity_high_per_g"),
        json_column(threshold, Field::n_trials, "n_trials"),
        json_column(threshold, Field::identifiable, "identifiable"),
-       column(threshold, Field::why, "why", "no threshold, because")},
+       column(threshold, Field::why, "why", "no threshold: why")},
       "indecision model (left, none, right; lapse rate .02) with criteria and side bias of each "
       "participant's own; the median participant's threshold of a forced choice, free of the "
       "criterion. Interval: bootstrap over participants. Criterion half-width: half the width "
@@ -188,7 +189,7 @@ EstimateTable threshold_table() {
     table.columns.push_back(of);
   }
   table.columns.push_back(
-      column(threshold, Field::why_in_short, "why", "no threshold, because", 1, "-"));
+      column(threshold, Field::why_in_short, "why", "no threshold: why", 1, "-"));
   table.columns.push_back(json_column(threshold, Field::why, "why"));
   table.columns.push_back(json_column(threshold, Field::identifiable, "identifiable"));
   table.participants = true;
@@ -229,26 +230,22 @@ class SensitivitySection final : public Section {
     return all;
   }
 
-  std::string sentence(const Summary& summary) const override {
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::map<std::string, std::vector<std::string>> by_condition;
     const auto thresholds = estimates_of(summary.estimates, threshold.name);
-    if (thresholds.empty()) return "";
-    std::string known, unknown;
-    for (const StudyEstimate* one : thresholds) {
-      const std::string where = fmt::format("{:g} g in {}", *one->reference_g, one->condition);
+    for (const StudyEstimate* one : thresholds)
       if (one->value)
-        known += fmt::format("{}{:.0f} g [{:.0f}, {:.0f}] at {}", known.empty() ? "" : ", ",
-                             *one->value, *one->low, *one->high, where);
-      else
-        unknown += fmt::format("{}{}", unknown.empty() ? "" : ", ", where);
-    }
-    std::string text = "Comparisons: ";
-    if (!known.empty())
-      text +=
-          fmt::format("75 %-correct discrimination threshold of the median participant: {}", known);
-    if (!unknown.empty())
-      text +=
-          fmt::format("{}no threshold is identifiable at {}", known.empty() ? "" : "; ", unknown);
-    return text + ".";
+        by_condition[one->condition].push_back(fmt::format("{:.0f} g [{:.0f}, {:.0f}] at {:g} g",
+                                                           *one->value, *one->low, *one->high,
+                                                           *one->reference_g));
+    std::vector<std::string> found;
+    for (const auto& [condition, values] : by_condition)
+      found.push_back(fmt::format("75 %-correct discrimination threshold {}: {}.",
+                                  in_condition(summary, condition), some_of(values, 6)));
+    if (!thresholds.empty() && found.empty())
+      found.emplace_back(
+          "75 %-correct discrimination threshold: not identifiable from these trials.");
+    return found;
   }
 
   std::vector<EstimateTable> tables() const override {

@@ -1,9 +1,12 @@
 // The paper's JND: by reference and condition, from above and from below, of each participant; and
 // how the staircases went.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
 #include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
 
 namespace heft {
 
@@ -312,6 +315,27 @@ class StaircaseSection final : public Section {
       put_participants(all, estimate_at(jnd_overall, row), row.overall);
     }
     return all;
+  }
+
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::map<std::pair<std::string, std::string>, std::vector<std::string>> by_method;
+    for (const StudyEstimate* one : estimates_of(summary.estimates, jnd.name)) {
+      const std::string staircases = one->text_at("staircases");
+      if (staircases == "above - below") continue;
+      std::string text =
+          one->value ? fmt::format("{}{:.0f} g", beyond_sign(one->censored), *one->value) : "none";
+      if (one->low) text += fmt::format(" [{:.0f}, {:.0f}]", *one->low, *one->high);
+      text += fmt::format(" at {:g} g", *one->reference_g);
+      if (staircases != "all") text += " " + staircases;
+      by_method[{one->text_at("method"), one->condition}].push_back(std::move(text));
+    }
+    std::vector<std::string> found;
+    for (const auto& [of, values] : by_method)
+      found.push_back(fmt::format(
+          "{} {}: {}.",
+          of.first == jnd_method ? "The paper's JND" : fmt::format("JND ({})", of.first),
+          in_condition(summary, of.second), some_of(values, 6)));
+    return found;
   }
 
   std::vector<EstimateTable> tables() const override {

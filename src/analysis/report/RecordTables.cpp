@@ -28,7 +28,7 @@ Table participant_table(const Summary& summary) {
                {"n_sessions", "sessions"},
                {"n_finished", "finished"},
                {"n_completed", "trials"},
-               {"n_impossible", "anticipatory"},
+               {"n_anticipatory", "anticipatory"},
                {"n_lost", "out of view"},
                {"n_catch", "catch trials"},
                {"n_false_alarms", "false alarms"},
@@ -40,7 +40,7 @@ Table participant_table(const Summary& summary) {
               "participants[]"};
   for (const ParticipantRow& row : summary.participants)
     table.rows.push_back({word(row.participant), count(row.n_sessions), count(row.n_finished),
-                          count(row.n_completed), count(row.n_impossible), count(row.n_lost),
+                          count(row.n_completed), count(row.n_anticipatory), count(row.n_lost),
                           count(row.n_catch), count(row.n_false_alarms),
                           word(row.excluded_because)});
   return table;
@@ -72,7 +72,7 @@ Table losses_table(const Summary& summary) {
        {"n_void", "void"},
        {"n_lost", "out of view"},
        {"lost_s", "for s"},
-       {"n_impossible", "anticipatory"}},
+       {"n_anticipatory", "anticipatory"}},
       {},
       "losses that depend on the level are bias: compare the rows. out of view: attempts in "
       "which the effector was, and for how long in all",
@@ -81,7 +81,7 @@ Table losses_table(const Summary& summary) {
   for (const LossRow& row : summary.quality.losses)
     table.rows.push_back({named_cell(row.task), word(row.condition), word(row.difference),
                           count(row.n_attempts), count(row.n_void), count(row.n_lost),
-                          number(row.lost_s), count(row.n_impossible)});
+                          number(row.lost_s), count(row.n_anticipatory)});
   return table;
 }
 
