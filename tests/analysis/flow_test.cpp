@@ -69,7 +69,7 @@ TEST(TrackingQuality, AddsUpAParticipantsSessions) {
 
 TEST(TrackingQuality, WithoutFramesTellsOfTheTimeAlone) {
   const Summary summary = summarized({session(1, "a")});
-  EXPECT_EQ(figure(summary, "times_lost").value, 0);
+  EXPECT_EQ(figure(summary, "tracking_losses").value, 0);
   EXPECT_FALSE(figure(summary, "tracked").value.has_value());
   EXPECT_FALSE(figure(summary, "in_view").value.has_value());
 }
@@ -104,12 +104,12 @@ TEST(EarlyAnswers, AreThoseThatTheSetupForbade) {
   attempt.trial.shown_s = 0;
   attempt.trial.validated_s = 1;
   attempt.trial.first_contact_s = 0.5;
-  EXPECT_TRUE(is_impossible(data, data.attempts[0]));
+  EXPECT_TRUE(is_anticipatory(data, data.attempts[0]));
   const Quality quality = quality_of(std::vector{data});
   EXPECT_EQ(quality.counted.at(0).what, "answers earlier than 1.5 s");
   EXPECT_EQ(quality.counted[0].n, 1);
   data.setups[0].setup.min_answer_s = 0.5;
-  EXPECT_FALSE(is_impossible(data, data.attempts[0]));
+  EXPECT_FALSE(is_anticipatory(data, data.attempts[0]));
 }
 
 }  // namespace

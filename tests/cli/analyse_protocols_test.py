@@ -65,7 +65,7 @@ PROTOCOLS = {
     "no sorting": introduction("C2") + comparison(staircase("C2")),
 }
 # Charts and tables that name the conditions of a task, where there is something to show.
-OF_SORTING = {"sorting", "sorting_by_participant", "labels_by_mass", "sorting_chance", "swapped"}
+OF_SORTING = {"sorting", "sorting_by_participant", "sorting_confusion", "sorting_chance", "swapped"}
 OF_COMPARISONS = {"choice_curves", "choices", "choices_by_level", "hits_and_false_alarms",
                   "sensitivity", "times_by_level", "thresholds_by_participant"}
 OF_STAIRCASES = {"jnd", "staircase_health", "staircases", "jnd_against_start", "staircase_trials"}

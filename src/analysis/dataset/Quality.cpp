@@ -9,7 +9,7 @@
 namespace heft {
 
 namespace {
-struct Impossible {
+struct Anticipation {
   bool early = false, fast = false, untouched = false;
   bool any() const { return early || fast || untouched; }
 };
@@ -27,8 +27,8 @@ double least_answer_s(const SessionData& data, const Attempt& attempt) {
   return setup ? setup->min_answer_s.value_or(Onset{}.min_answer_s) : Onset{}.min_answer_s;
 }
 
-Impossible impossible_in(const SessionData& data, const Attempt& attempt) {
-  Impossible found;
+Anticipation anticipation_in(const SessionData& data, const Attempt& attempt) {
+  Anticipation found;
   if (const auto time = response_time_s(attempt.trial)) {
     found.early = *time < least_answer_s(data, attempt);
     found.fast = *time < fastest_answer_s;
@@ -68,7 +68,7 @@ void count_loss(LossRow& row, const SessionData& data, const Attempt& attempt) {
   row.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
   row.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
   row.lost_s += attempt.trial.lost_s;
-  row.n_anticipatory += attempt.completed() && is_impossible(data, attempt) ? 1 : 0;
+  row.n_anticipatory += attempt.completed() && is_anticipatory(data, attempt) ? 1 : 0;
 }
 
 void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attempt) {
@@ -84,7 +84,7 @@ void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attemp
 using Sums = QualityFold::Sums;
 
 void count_completed(Sums& sums, const SessionData& data, const Attempt& attempt) {
-  const Impossible found = impossible_in(data, attempt);
+  const Anticipation found = anticipation_in(data, attempt);
   sums.least_answers_s.insert(least_answer_s(data, attempt));
   sums.n_completed += 1;
   sums.n_early += found.early ? 1 : 0;
@@ -136,8 +136,8 @@ std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losse
 }
 }  // namespace
 
-bool is_impossible(const SessionData& data, const Attempt& attempt) {
-  return impossible_in(data, attempt).any();
+bool is_anticipatory(const SessionData& data, const Attempt& attempt) {
+  return anticipation_in(data, attempt).any();
 }
 
 void QualityFold::add(const SessionData& data) {

@@ -50,7 +50,7 @@ struct Quality {
 
 /// Whether a completed trial's answer can't be one: earlier than its setup takes any, faster than
 /// anybody, or without contact.
-bool is_impossible(const SessionData& data, const Attempt& attempt);
+bool is_anticipatory(const SessionData& data, const Attempt& attempt);
 
 class QualityFold {
  public:

@@ -113,7 +113,7 @@ EstimateTable curves_table() {
       "",
       TablePlace::csv};
   for (const auto& [measure, name] :
-       {std::pair(&right, "right"), {&wrong, "wrong"}, {&none, "none"}}) {
+       {std::pair(&right, "heavier"), {&wrong, "lighter"}, {&none, "none"}}) {
     table.columns.push_back(column(*measure, Field::value, std::string(name) + "_percent",
                                    std::string(measure->heading) + " %"));
     table.columns.push_back(

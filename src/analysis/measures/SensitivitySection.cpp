@@ -26,11 +26,12 @@ constexpr Measure ratio{"threshold_ratio", "", "ratio of thresholds",
 constexpr Measure ratio_of_several{"threshold_ratio_of_several", "", "ratio of thresholds",
                                    "the same with an interval for all ratios of the condition "
                                    "together (Bonferroni)"};
-constexpr Measure started_jnd{"started_jnd", "g", "JND",
-                              "a participant's JND of the staircases that began on one side"};
+constexpr Measure jnd_by_start{"jnd_by_start", "g", "JND",
+                               "a participant's JND of the staircases that began on one side"};
 constexpr Measure start{"staircase_start", "g", "start",
                         "mean first level of a participant's staircases that began on one side"};
-constexpr Measure own_jnd{"own_jnd", "g", "JND", "a participant's JND beside their threshold"};
+constexpr Measure participant_jnd{"participant_jnd", "g", "JND",
+                                  "a participant's JND beside their threshold"};
 
 StudyEstimate estimate_at(const Measure& measure, const Compared& compared) {
   return {&measure, "comparison", compared.condition, compared.reference_g};
@@ -121,7 +122,7 @@ void put_started(Estimates& all, StudyEstimate of, const char* staircases, const
   of.by = {{"staircases", staircases}};
   put_value(all, of, start, *mean(starts_g));
   if (const auto jnd = mean_figure(jnds))
-    put_value(all, of, started_jnd, jnd->value, jnd->censored);
+    put_value(all, of, jnd_by_start, jnd->value, jnd->censored);
 }
 
 // Of the staircases that began high and low; of a single start all are from above.
@@ -173,8 +174,8 @@ EstimateTable threshold_table() {
        column(threshold, Field::value, "threshold_75_g", "threshold g"),
        column(threshold, Field::low, "low_g", "95 % low"),
        column(threshold, Field::high, "high_g", "high"),
-       column(own_jnd, Field::value, "jnd_g", "", 1, "-"),
-       column(own_jnd, Field::censored, "censored", "", 1, "-")},
+       column(participant_jnd, Field::value, "jnd_g", "", 1, "-"),
+       column(participant_jnd, Field::censored, "censored", "", 1, "-")},
       "the 75 %-correct threshold by this person's trials alone; the paper's JND of "
       "the staircases that began high and low beside, each with its start",
       TablePlace::report,
@@ -183,7 +184,7 @@ EstimateTable threshold_table() {
     EstimateColumn began = column(start, Field::value, fmt::format("start_{}_g", name),
                                   fmt::format("start {} g", name), 1, "-");
     EstimateColumn of =
-        column(started_jnd, Field::value, fmt::format("jnd_{}_g", name), "its JND", 1, "-");
+        column(jnd_by_start, Field::value, fmt::format("jnd_{}_g", name), "its JND", 1, "-");
     began.only = of.only = {"staircases", side};
     table.columns.push_back(began);
     table.columns.push_back(of);
@@ -223,7 +224,7 @@ class SensitivitySection final : public Section {
         own.n_trials = static_cast<int>(trials_in(answers));
         own.why = why;
         if (const auto jnd = jnds.find(key); jnd != jnds.end())
-          put_value(all, of, own_jnd, jnd->second.jnd_g, jnd->second.censored);
+          put_value(all, of, participant_jnd, jnd->second.jnd_g, jnd->second.censored);
         if (const auto found = results.find(key); found != results.end())
           put_starts(all, of, found->second);
       }
@@ -279,8 +280,8 @@ class SensitivitySection final : public Section {
          .shape = ChartShape::people,
          .importance = 30,
          .series = {{&threshold, "threshold"},
-                    {&started_jnd, "JND from above", {"staircases", "from above"}},
-                    {&started_jnd, "JND from below", {"staircases", "from below"}},
+                    {&jnd_by_start, "JND from above", {"staircases", "from above"}},
+                    {&jnd_by_start, "JND from below", {"staircases", "from below"}},
                     {&start, "start"}},
          .panels = {"reference_g", "condition"},
          .x_label = "participant, ordered by threshold",
@@ -295,7 +296,7 @@ class SensitivitySection final : public Section {
          .csv = "thresholds_by_participant.csv",
          .shape = ChartShape::scatter,
          .importance = 40,
-         .series = {{&start}, {&started_jnd}},
+         .series = {{&start}, {&jnd_by_start}},
          .split = {"reference_g", "condition"},
          .diagonal = true,
          .x_label = "start (g)",

@@ -29,7 +29,7 @@ constexpr Measure n_incorrect{"sorting_n_incorrect", "", "incorrect",
                               "number of trials sorted incorrectly"};
 constexpr Measure swapped{"sorting_swapped", "", "exchanged",
                           "number of incorrect trials of three cubes by what was exchanged"};
-constexpr Measure labels{"sorting_labels", "", "labels",
+constexpr Measure labels{"sorting_confusion_count", "", "labels",
                          "how often each cube got each label, in answered trials"};
 
 // Number of cubes -> labels given [cube][label], both from the lightest on.
@@ -218,7 +218,7 @@ EstimateTable swaps_table() {
 }
 
 EstimateTable label_table() {
-  EstimateTable table{"labels_by_mass",
+  EstimateTable table{"sorting_confusion",
                       "Confusion matrix: which label which cube was given",
                       {key_column("condition", "condition"), key_column("n_cubes", "of"),
                        key_column("cube", "cube")},
@@ -374,13 +374,13 @@ class SortingSection final : public Section {
          .reference = &chance,
          .y_label = "% of trials sorted correctly",
          .axes = "set yrange [-3:103]\n"},
-        {.name = "labels_by_mass",
+        {.name = "sorting_confusion",
          .title = "Confusion matrix: which label which cube was given",
          .caption =
              "Sorted trials, all participants together, without \"I don't know\": how often "
              "each cube got each label, and in how many percent of its labels. Right ones on "
              "the diagonal.",
-         .csv = "labels_by_mass.csv",
+         .csv = "sorting_confusion.csv",
          .shape = ChartShape::matrix,
          .importance = 50,
          .series = {{&labels}},

@@ -8,9 +8,9 @@ constexpr Measure in_view{
     "in_view", "%", "in view",
     "share of the time from all cubes shown to the answer with the effector in "
     "view"};
-constexpr Measure n_lost{"times_lost", "", "times out of sight",
+constexpr Measure n_lost{"tracking_losses", "", "times out of sight",
                          "how often the effector went out of sight in a trial"};
-constexpr Measure lost{"lost_time", "s", "out of sight", "for how long in all"};
+constexpr Measure lost{"tracking_loss_time", "s", "out of sight", "for how long in all"};
 constexpr Measure n_frames{"frames", "", "frames", "displayed frames, where they were kept"};
 constexpr Measure tracked{"tracked", "%", "tracked", "share of frames with the effector tracked"};
 constexpr Measure n_jumps{

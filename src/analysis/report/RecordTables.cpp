@@ -47,13 +47,13 @@ Table participant_table(const Summary& summary) {
 }
 
 Table counted_table(const Summary& summary) {
-  Table table{"counted_first",
+  Table table{"data_quality",
               "Data quality",
               {{"what", "what"}, {"n", "n"}, {"of", "of"}, {"meaning", "meaning"}},
               {},
               "no participant and no trial is excluded for any of it",
               {},
-              "quality.counted_first[]"};
+              "quality.summary[]"};
   if (summary.sessions.empty()) return table;
   for (const CountedRow& row : summary.quality.counted)
     table.rows.push_back(
@@ -122,13 +122,13 @@ Table incident_table(const Summary& summary) {
 
 Table published_table(const Summary& summary) {
   Table table{"beside_published",
-              "Found beside published",
+              "Observed and published figures",
               {{"figure", "figure"},
                {"unit", "unit"},
-               {"found", "found"},
-               {"found_sd", "SD"},
-               {"found_low", "95 % low"},
-               {"found_high", "high"},
+               {"observed", "observed"},
+               {"observed_sd", "SD"},
+               {"observed_low", "95 % low"},
+               {"observed_high", "high"},
                {"n_participants", "n"},
                {"published", "published"},
                {"published_sd", "SD"},
@@ -329,7 +329,7 @@ Table track_table(const SessionTracks& session) {
                {"trial", "trial"},
                {"level_g", "difference g"},
                {"chosen", "chosen"},
-               {"wrong", "wrong"},
+               {"incorrect", "incorrect"},
                {"reversal", "reversal"}},
               {},
               ""};
