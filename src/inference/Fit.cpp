@@ -42,7 +42,7 @@ std::string too_little(const AnswersByLevel& answers) {
   if (std::ranges::count(totals(answers), 0.0) == 2)
     return "all answers are the same: they don't say where others begin";
   if (answers.size() == 1)
-    return fmt::format("there is one level, {:g}: how answers change with the level can't be told",
+    return fmt::format("there is one level, {:g}: a slope needs two levels or more",
                        answers.begin()->first);
   if (n < least_trials_to_fit)
     return fmt::format("{:g} trials are too few, expected {:g} at least", n, least_trials_to_fit);

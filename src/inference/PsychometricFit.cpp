@@ -177,7 +177,7 @@ LikelihoodFit maximize(const Levels& levels, PsychometricShape shape,
       bounds, from);
 }
 
-// Of very many levels, the hills are told apart on fewer, which takes as long for each start as
+// With very many levels, the maxima are separated on fewer, which takes as long for each start as
 // there are levels. So many answers make one hill of it.
 LikelihoodFit maximize(const Levels& levels, PsychometricShape shape,
                        const std::vector<ParameterBounds>& bounds) {
@@ -191,7 +191,7 @@ LikelihoodFit maximize(const Levels& levels, PsychometricShape shape,
   return maximize(levels, shape, bounds, {{from}});
 }
 
-// Whether answers that can't be were given: at 0, which nobody sees.
+// Whether there are answers of probability 0: positive ones at level 0 without guessing.
 bool impossible(const AnswersByLevel& answers, const FitOptions& options) {
   const auto zero = answers.find(0);
   return options.function.takes_logarithm() && options.guess == 0.0 && zero != answers.end() &&

@@ -1,11 +1,10 @@
 // The summary on one terminal screen: its size, and that it names what deserves attention.
-#include "analysis/report/FirstScreen.h"
-
 #include <gmock/gmock.h>
 
 #include <sstream>
 
 #include "MadeUpSessions.h"
+#include "analysis/report/FirstScreen.h"
 
 namespace heft {
 namespace {
@@ -71,12 +70,12 @@ TEST(FirstScreen, ShowsWhatDeservesAttention) {
   data.estimates.back().censored = Censored::above;
   data.estimates.back().n_ceiling = 3;
   const std::vector<std::string> found = attention_sentences(summarize({"x.db", {data}}, ""));
-  for (const char* part :
-       {"With one participant", "Not finished: session 1 (a, aborted)",
-        "1 of 3 attempts were void and presented again: camera stalled (1).",
-        "Tracking was lost in 1 of 3 attempts, for 2.5 s in all.",
-        "2 of 2 responses were anticipatory", "deviation (1)",
-        "1 of 1 finished staircases have a censored JND", "The threshold at 15 g in"})
+  for (const char* part : {"One participant: intervals", "Not finished: session 1 (a, aborted)",
+                           "1 of 3 attempts were void and presented again: camera stalled (1).",
+                           "Tracking was lost in 1 of 3 attempts, for 2.5 s in all.",
+                           "2 of 2 responses were anticipatory", "deviation (1)",
+                           "1 of 1 finished staircases have a censored JND",
+                           "The threshold is not identifiable at 15 g in"})
     EXPECT_THAT(found, Contains(HasSubstr(part)));
 }
 
@@ -99,15 +98,14 @@ TEST(FirstScreen, WithoutCompletedTrialsHasNoResults) {
   SessionData data = session(1, "a");
   add_sorting(data, "C1", "correct").trial.status = TrialStatus::voided;
   const std::string text = unwrapped(screen_of({data}));
-  EXPECT_THAT(text, HasSubstr("0 trials completed."));
   EXPECT_THAT(text, HasSubstr("No trial was completed"));
 }
 
 TEST(FirstScreen, FitsATerminalHoweverMuchThereIs) {
   std::vector<SessionData> sessions;
   for (int i = 0; i < 40; ++i) {
-    SessionData data = session(i + 1, "participant with a name that takes much space \n\x1b[2J" +
-                                          std::to_string(i));
+    SessionData data = session(
+        i + 1, "participant with a name that takes much space \n\x1b[2J" + std::to_string(i));
     data.session.state = SessionState::aborted;
     data.session.header.protocol_sha256 = std::to_string(i);
     for (int k = 0; k < 30; ++k) {

@@ -163,7 +163,7 @@ class Protocols(SessionTest):
                     shown = [expected[task] in screen for task in tasks]
                     self.assertTrue(all(shown) or "more: see the tables" in screen, screen)
                     for part in ("Results, with 95 % intervals", "Attention", "Next",
-                                 "A model answered", f"heft analyse --db {db} --tables"):
+                                 "nothing here is about people", f"heft analyse --db {db} --tables"):
                         self.assertIn(part, screen)
                     self.assertNotIn("decoupling (soft)", screen)
 

@@ -113,7 +113,7 @@ class Running(SessionTest):
         results = " ".join(done.stdout.split())
         self.assertRegex(results, r"Sorting: with decoupling \(C2\) (all 5|\d of 5) were correct, ")
         self.assertRegex(results, r"; without decoupling \(C1\) ")
-        self.assertIn("A model answered: nothing here is about people", results)
+        self.assertIn("One simulated participant: nothing here is about people", results)
         self.assertIn("Report: heft-demo/report/report.html", results)
         self.run_heft("replay", "--db", self.folder / "heft-demo/demo.db")
 

@@ -1,5 +1,4 @@
-// Who took part, from the first question to the figures: where participants were lost on the way,
-// and whom a rule of the protocol excludes. How many were planned is not in a log.
+// Participant flow, from consent to the analyzed sample, and exclusion by the protocol's rules.
 #pragma once
 
 #include <map>
@@ -62,7 +61,7 @@ struct ParticipantFlow {
       unfinished;  ///< started but finished none, by the last session's state
 };
 
-/// "impossible answers: 12 of 40, the protocol allows 5 %" is "impossible answers".
+/// "anticipatory responses: 12 of 40, the protocol allows 5 %" is "anticipatory responses".
 std::string in_short(const std::string& why);
 
 class FlowFold {

@@ -1,5 +1,5 @@
-// What was chosen in comparisons, whatever the staircases made of it: how often the chosen cube was
-// the lighter one, and how often a difference was seen where there was none.
+// Choices in comparisons: incorrect choices (the lighter cube) and false alarms (a choice between
+// equal masses), by reference, condition and level.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,8 +15,7 @@ constexpr Measure difference{
     "share of comparisons, without catch trials, in which a cube was chosen"};
 constexpr Measure incorrect_choice{
     "incorrect_choice", "%", "incorrect choices",
-    "share of choices between cubes that differ in which the lighter one was "
-    "chosen"};
+    "share of choices between different masses in which the lighter cube was chosen"};
 constexpr Measure false_alarm{"false_alarm", "%", "false alarms",
                               "share of catch trials in which a cube was chosen"};
 constexpr Measure at_zero{"choice_at_zero", "%", "chosen at 0 g",

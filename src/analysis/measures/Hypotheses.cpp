@@ -111,8 +111,7 @@ Judgment judge_blind(const StudyEstimate& answered_correct, double chance, doubl
     return {HypothesisVerdict::supported, figures + ": equivalent to chance"};
   if (high < blind.low || low > blind.high)
     return {HypothesisVerdict::not_supported, figures + ": not chance"};
-  return {HypothesisVerdict::inconclusive,
-          figures + ": too wide to say that it is chance, or that it is not"};
+  return {HypothesisVerdict::inconclusive, figures + ": inconclusive, the interval is too wide"};
 }
 
 Judgment judge_above_chance(const StudyEstimate& correct, double chance) {
@@ -126,7 +125,8 @@ Judgment judge_above_chance(const StudyEstimate& correct, double chance) {
   if (*correct.low > chance) return {HypothesisVerdict::supported, figures};
   if (*correct.high <= chance + usual_margin_percent)
     return {HypothesisVerdict::not_supported, figures};
-  return {HypothesisVerdict::inconclusive, figures + ": the interval holds chance and much more"};
+  return {HypothesisVerdict::inconclusive,
+          figures + ": the interval contains chance and much more"};
 }
 
 Judgment judge_first_try(const StudyEstimate& first_try) {
@@ -160,7 +160,7 @@ std::string why_not_comparable(const std::vector<const StudyEstimate*>& threshol
       why += fmt::format("{}at {:g} g there is no threshold ({})", why.empty() ? "" : "; ",
                          *one->reference_g, one->why);
   if (why.empty() && thresholds.front()->n < least_people)
-    why = "there are too few participants to tell how people differ";
+    why = "there are too few participants to estimate how people differ";
   return why;
 }
 
@@ -183,8 +183,7 @@ Judgment judge_rising(const Summary& summary) {
   if (std::ranges::any_of(papers(summary, "threshold_ratio_of_several"),
                           [](const StudyEstimate* ratio) { return *ratio->high < 1; }))
     return {HypothesisVerdict::not_supported, figures + ": one is smaller than the one before"};
-  return {HypothesisVerdict::inconclusive,
-          figures + ": their intervals don't tell which is larger"};
+  return {HypothesisVerdict::inconclusive, figures + ": their intervals do not separate them"};
 }
 
 // Proportional: from each reference to the next the threshold grows as the reference does, within
@@ -207,7 +206,7 @@ Judgment judge_proportional(const Summary& summary) {
             return *ratio->low > expected(*ratio) || *ratio->high < expected(*ratio);
           }))
     return {HypothesisVerdict::not_supported, figures + ": not in proportion to the reference"};
-  return {HypothesisVerdict::inconclusive, figures + ": too uncertain to say"};
+  return {HypothesisVerdict::inconclusive, figures + ": the intervals are too wide"};
 }
 
 Judgment not_run(std::string_view what) {
@@ -242,7 +241,7 @@ struct PaperSorting {
     return estimate("sorting_answers", trials, answer);
   }
   std::string none_figure() const {
-    return share_figure(condition + " \"I don't know\", an outcome of its own",
+    return share_figure(condition + " \"I don't know\", a separate outcome",
                         share("all", "I don't know"));
   }
 

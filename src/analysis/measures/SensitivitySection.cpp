@@ -16,22 +16,24 @@ namespace {
 constexpr Measure threshold{"threshold_75", "g", "threshold",
                             "75 %-correct discrimination threshold of the median participant in a "
                             "forced choice, free of the criterion (indecision model)"};
-constexpr Measure sensitivity{"sensitivity", "1/g", "sensitivity",
-                              "per gram, of the median participant"};
+constexpr Measure sensitivity{
+    "sensitivity", "1/g", "sensitivity",
+    "sensitivity of the median participant: d' per gram (indecision model)"};
 constexpr Measure indecision{"indecision", "SD", "criterion half-width",
                              "half the width between the median participant's criteria, in SDs of "
-                             "what is felt"};
+                             "the internal noise"};
 constexpr Measure ratio{"threshold_ratio", "", "ratio of thresholds",
-                        "of a reference's threshold to that of the next lighter one"};
+                        "threshold at a reference over the threshold at the next lighter one"};
 constexpr Measure ratio_of_several{"threshold_ratio_of_several", "", "ratio of thresholds",
-                                   "the same with an interval for all ratios of the condition "
-                                   "together (Bonferroni)"};
-constexpr Measure jnd_by_start{"jnd_by_start", "g", "JND",
-                               "a participant's JND of the staircases that began on one side"};
+                                   "ratio of thresholds with a simultaneous interval over the "
+                                   "condition's ratios (Bonferroni)"};
+constexpr Measure jnd_by_start{
+    "jnd_by_start", "g", "JND",
+    "a participant's JND by whether the staircases started above or below"};
 constexpr Measure start{"staircase_start", "g", "start",
-                        "mean first level of a participant's staircases that began on one side"};
+                        "mean first level of a participant's staircases from above or from below"};
 constexpr Measure participant_jnd{"participant_jnd", "g", "JND",
-                                  "a participant's JND beside their threshold"};
+                                  "a participant's JND, all staircases of a reference together"};
 
 StudyEstimate estimate_at(const Measure& measure, const Compared& compared) {
   return {&measure, "comparison", compared.condition, compared.reference_g};
@@ -158,7 +160,8 @@ EstimateTable sensitivity_table() {
       "indecision model (left, none, right; lapse rate .02) with criteria and side bias of each "
       "participant's own; the median participant's threshold of a forced choice, free of the "
       "criterion. Interval: bootstrap over participants. Criterion half-width: half the width "
-      "between the median participant's criteria in SDs of what is felt. Thresholds that are not "
+      "between the median participant's criteria in SDs of the internal noise. Thresholds that are "
+      "not "
       "identifiable are not printed.",
       TablePlace::results,
       "sensitivity[]"};
@@ -241,8 +244,8 @@ class SensitivitySection final : public Section {
                                                            *one->reference_g));
     std::vector<std::string> found;
     for (const auto& [condition, values] : by_condition)
-      found.push_back(fmt::format("75 %-correct discrimination threshold {}: {}.",
-                                  in_condition(summary, condition), some_of(values, 6)));
+      found.push_back(fmt::format("75 %-correct discrimination threshold in {}: {}.", condition,
+                                  some_of(values, 6)));
     if (!thresholds.empty() && found.empty())
       found.emplace_back(
           "75 %-correct discrimination threshold: not identifiable from these trials.");

@@ -15,22 +15,24 @@ namespace heft {
 namespace {
 constexpr Measure answers{
     "sorting_answers", "%", "answers",
-    "share of the completed sorting trials with an answer (of all, or of those "
-    "that were answered): mean over participants of each one's percentage"};
+    "share of completed (or of answered) sorting trials with this answer: mean over "
+    "participants of each one's percentage"};
 constexpr Measure chance{"sorting_chance", "%", "correct by chance",
                          "share of the same trials that a random order gets right, one of the n! "
                          "orders of n cubes"};
-constexpr Measure chance_by_cubes{"sorting_chance_by_cubes", "%", "correct by chance",
-                                  "the same of the trials with so many cubes"};
+constexpr Measure chance_by_cubes{
+    "sorting_chance_by_cubes", "%", "correct by chance",
+    "share of trials with this number of cubes that a random order gets right"};
 constexpr Measure equivalence{"sorting_equivalence", "%", "correct, of answered",
                               "share of answered trials sorted correctly, with its 90 % interval, "
                               "for the test of equivalence to chance"};
 constexpr Measure n_incorrect{"sorting_n_incorrect", "", "incorrect",
                               "number of trials sorted incorrectly"};
-constexpr Measure swapped{"sorting_swapped", "", "exchanged",
-                          "number of incorrect trials of three cubes by what was exchanged"};
+constexpr Measure swapped{
+    "sorting_swapped", "", "exchanged",
+    "number of incorrect trials of three cubes by the pair that was exchanged"};
 constexpr Measure labels{"sorting_confusion_count", "", "labels",
-                         "how often each cube got each label, in answered trials"};
+                         "confusion matrix: number of answered trials in which a cube got a label"};
 
 // Number of cubes -> labels given [cube][label], both from the lightest on.
 using LabelMatrices = std::map<int, std::vector<std::vector<int>>>;
@@ -352,7 +354,7 @@ class SortingSection final : public Section {
          .title = "Sorting: answers per condition, 95 % intervals",
          .caption = "Percentage of completed trials, mean over participants with 95 % intervals "
                     "over participants, side by side for each condition; diamonds: the paper's "
-                    "means. \"I don't know\" is an outcome of its own. Dashed: what a random order "
+                    "means. \"I don't know\" is a separate outcome. Dashed: what a random order "
                     "gets right.",
          .csv = "sorting.csv",
          .importance = 10,

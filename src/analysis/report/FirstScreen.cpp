@@ -14,7 +14,7 @@ namespace heft {
 
 namespace {
 constexpr std::size_t screen_width = 80;
-constexpr std::size_t max_attention_lines = 7;
+constexpr std::size_t min_attention_lines = 5;  // where the results leave no more
 constexpr std::size_t max_item_lines = 4;
 
 using Lines = std::vector<std::string>;
@@ -26,7 +26,8 @@ Lines item_lines(const std::string& sentence) {
     lines.resize(max_item_lines);
     lines.back() = wrapped(lines.back(), screen_width - 6).front() + " ...";
   }
-  for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = (i == 0 ? "- " : "  ") + lines[i];
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    lines[i] = fmt::format("{}{}", i == 0 ? "- " : "  ", lines[i]);
   return lines;
 }
 
@@ -70,27 +71,24 @@ std::string trials_in_words(const Summary& summary, const std::string& done) {
       by_task[row.task] += row.n_completed;
       n_completed += row.n_completed;
     }
-  std::string text = fmt::format("{} trial{} completed", n_completed, n_completed == 1 ? "" : "s");
-  const char* separator = ": ";
-  for (const auto& [task, n] : by_task)
-    text += fmt::format("{}{} {}", std::exchange(separator, ", "), n, name_of(task));
+  if (n_completed == 0) return "No trial was completed.";
+  std::vector<std::string> counts;
+  for (const auto& [task, n] : by_task) counts.push_back(fmt::format("{} {}", n, name_of(task)));
+  const std::string text = fmt::format("{} trial{} completed: {}", n_completed,
+                                       n_completed == 1 ? "" : "s", fmt::join(counts, ", "));
   return text + (done.empty() ? "." : "; " + done);
 }
 
 // Who answered, where the reader could take the results for more than they are.
 std::string generality_sentence(const Summary& summary) {
   if (summary.sessions.empty()) return "";
-  std::string text;
-  if (summary.data == "simulated") text = "A model answered: nothing here is about people";
+  const bool is_one = summary.n_participants == 1;
   if (summary.data == "human and simulated")
-    text = "Participants and models are mixed: nothing here is about people alone";
-  if (summary.n_participants == 1)
-    text += fmt::format(
-        "{}with one participant, intervals cover the trials of that one and say "
-        "nothing about others",
-        text.empty() ? "" : "; ");
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(text[0]));
-  return text.empty() ? "" : text + ".";
+    return "Participants and models are mixed: nothing here is about people alone.";
+  if (summary.data == "simulated")
+    return is_one ? "One simulated participant: nothing here is about people."
+                  : "A model answered: nothing here is about people.";
+  return is_one ? "One participant: intervals are over trials and say nothing about others." : "";
 }
 
 std::string void_sentence(const Summary& summary) {
@@ -156,8 +154,8 @@ std::string staircase_sentence(const Summary& summary) {
   return text;
 }
 
-// A sentence for each reason.
-std::vector<std::string> threshold_sentences(const Summary& summary) {
+// By reason: "The threshold is not identifiable at 200 g in C2 (complete separation)."
+std::string threshold_sentence(const Summary& summary) {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_reason;
   for (const StudyEstimate* one : estimates_of(summary.estimates, "threshold_75")) {
     if (one->value) continue;
@@ -166,11 +164,11 @@ std::vector<std::string> threshold_sentences(const Summary& summary) {
     if (found == by_reason.end()) found = by_reason.insert(found, {why, {}});
     found->second.push_back(fmt::format("{:g} g in {}", *one->reference_g, one->condition));
   }
-  std::vector<std::string> sentences;
+  std::vector<std::string> parts;
   for (const auto& [why, places] : by_reason)
-    sentences.push_back(
-        fmt::format("The threshold at {} is not identifiable: {}.", some_of(places, 4), why));
-  return sentences;
+    parts.push_back(fmt::format("{} ({})", some_of(places, 3), why));
+  if (parts.empty()) return "";
+  return fmt::format("The threshold is not identifiable at {}.", some_of(parts, 4));
 }
 
 std::string incident_sentence(const Summary& summary) {
@@ -191,10 +189,8 @@ std::vector<std::string> attention_sentences(const Summary& summary) {
   for (const auto sentence :
        {void_sentence, tracking_sentence, anticipatory_sentence, incident_sentence})
     sentences.push_back(sentence(summary));
-  for (std::string& sentence : threshold_sentences(summary))
-    sentences.push_back(std::move(sentence));
-  sentences.push_back(staircase_sentence(summary));
-  sentences.push_back(inconclusive_sentence(summary));
+  for (const auto sentence : {threshold_sentence, staircase_sentence, inconclusive_sentence})
+    sentences.push_back(sentence(summary));
   std::erase(sentences, "");
   return sentences;
 }
@@ -209,7 +205,6 @@ std::string first_screen(const Summary& summary, const FirstScreenOptions& optio
   std::vector<std::string> attention = options.attention;
   for (std::string& sentence : attention_sentences(summary))
     attention.push_back(std::move(sentence));
-  const Lines remarks = list_lines(attention, max_attention_lines);
 
   Lines steps;
   std::size_t label_width = 0;
@@ -217,16 +212,24 @@ std::string first_screen(const Summary& summary, const FirstScreenOptions& optio
   for (const NextStep& step : options.next)
     for (std::string& line : step_lines(step, label_width)) steps.push_back(std::move(line));
 
+  // Attention has what the results leave, but a few lines at least.
+  const std::vector<std::string> findings = findings_of(summary);
+  const std::size_t headings = 2 * (std::size_t{!findings.empty()} +
+                                    std::size_t{!attention.empty()} + std::size_t{!steps.empty()});
+  const std::size_t taken = lines.size() + steps.size() + headings;
+  const std::size_t available = options.max_lines > taken ? options.max_lines - taken : 2;
+  const std::size_t wanted = list_lines(findings, available).size();
+  const Lines remarks =
+      list_lines(attention, std::max(available - std::min(wanted, available),
+                                     std::min(min_attention_lines, available / 2)));
   const auto append = [&](const std::string& heading, const Lines& more) {
     if (more.empty()) return;
     lines.push_back("");
     lines.push_back(heading);
     lines.insert(lines.end(), more.begin(), more.end());
   };
-  const auto with_heading = [](const Lines& more) { return more.empty() ? 0 : more.size() + 2; };
-  const std::size_t taken = lines.size() + with_heading(remarks) + with_heading(steps) + 2;
-  const std::size_t left = options.max_lines > taken ? options.max_lines - taken : 1;
-  append("Results, with 95 % intervals in brackets", list_lines(findings_of(summary), left));
+  append("Results, with 95 % intervals in brackets",
+         list_lines(findings, available - remarks.size()));
   append("Attention", remarks);
   append("Next", steps);
   return fmt::format("{}\n", fmt::join(lines, "\n"));

@@ -41,7 +41,9 @@ std::string command_of(const AnalyseOptions& options) {
 // The first screen; the report is already written if there is one.
 std::string screen_of(const Summary& summary, const AnalyseOptions& options,
                       const std::optional<ReportResult>& report) {
-  const std::string command = command_of(options);
+  AnalyseOptions without_report = options;
+  without_report.out.clear();
+  const std::string command = command_of(without_report);
   FirstScreenOptions screen;
   if (report)
     screen.next.push_back({"Report", fmt::format("{}/report.html ({} files in its folder)",

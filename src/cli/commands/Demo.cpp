@@ -61,14 +61,13 @@ void demo(const DemoOptions& options) {
   const std::string log = "--db " + shell_quoted(request.db);
   FirstScreenOptions screen;
   screen.max_lines = 24;  // the line above is the first
-  screen.done = fmt::format("{:.0f} minutes of session in {:.0f} s.", result.duration_s / 60,
-                            elapsed.count());
+  screen.done = fmt::format("{:.0f} min in {:.0f} s.", result.duration_s / 60, elapsed.count());
   if (!files.charts_drawn) screen.attention.emplace_back(missing_charts);
   screen.next = {
       {"Report", report + "/report.html"},
-      {"All tables", fmt::format("heft analyse {} --tables", log)},
-      {"Verify the log", "heft replay " + log},
-      {"Try it yourself", "heft run protocols/quick.toml --participant 01 --responder simulated"}};
+      {"Tables", fmt::format("heft analyse {} --tables", log)},
+      {"Verify", "heft replay " + log},
+      {"Try it", "heft run protocols/quick.toml --participant 01 --responder simulated"}};
   print("{}", options.tables ? readable(summary) : first_screen(summary, screen));
   flush_output();
 }
