@@ -54,7 +54,7 @@ Lines step_lines(const NextStep& step, std::size_t label_width) {
     const auto option = rest.find(" --");
     const std::string part = rest.substr(0, option);
     rest = option == std::string::npos ? "" : rest.substr(option + 1);
-    if (lines.back().size() + part.size() + 3 > screen_width) {
+    if (lines.back().size() + part.size() + (rest.empty() ? 0 : 2) > screen_width) {
       lines.back() += "\\";
       lines.push_back("    ");
     }

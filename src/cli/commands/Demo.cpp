@@ -43,8 +43,7 @@ void demo(const DemoOptions& options) {
   std::filesystem::create_directories(options.out);
   const SessionRequest request = demo_session(options);
   const auto started = std::chrono::steady_clock::now();
-  say("A simulated participant does the paper's session before a rendered camera; seed {}.\n",
-      request.config->seed);
+  say("Simulating the paper\'s session before a rendered camera, seed {}.\n", request.config->seed);
   const SessionResult result =
       run_session({request.config, request.db},
                   [&](const RunnerOptions& runner) { return start_session(request, runner); });
