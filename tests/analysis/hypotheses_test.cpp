@@ -53,9 +53,9 @@ TEST(HypothesisOfC1, IsNotSupportedWhereMostAreRight) {
 }
 
 TEST(HypothesisOfC1, CountsDontKnowApart) {
-  const Hypothesis nobody_answered = e1_h1(c1_study({0, 0, 0}, 0, 5));
-  EXPECT_EQ(nobody_answered.verdict, HypothesisVerdict::inconclusive);
-  EXPECT_THAT(nobody_answered.why, HasSubstr("answered a C1 trial"));
+  const Hypothesis none_answered = e1_h1(c1_study({0, 0, 0}, 0, 5));
+  EXPECT_EQ(none_answered.verdict, HypothesisVerdict::inconclusive);
+  EXPECT_THAT(none_answered.why, HasSubstr("answered a C1 trial"));
 }
 
 TEST(HypothesesOfE2, AreNotJudgedByTheJnd) {

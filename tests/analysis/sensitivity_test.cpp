@@ -201,7 +201,7 @@ TEST(CoverageOf, ThresholdRatios) {
     }
 }
 
-// Who is missing at one reference is drawn at the other, and nobody stands for another.
+// A participant missing at one reference is still drawn at the other; no one replaces another.
 TEST(Sensitivity, ARatioIsOfTheSamePeopleWhoeverIsMissing) {
   RandomStream stream(41, "missing");
   std::vector<SessionData> all, missing, strangers;
