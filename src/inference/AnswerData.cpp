@@ -15,7 +15,7 @@ namespace heft {
 namespace {
 using Row = std::vector<CsvCell>;
 
-constexpr std::size_t most_mistakes = 50;  // to be told at once
+constexpr std::size_t most_mistakes = 50;  // reported together
 constexpr double most_trials = 1e9;        // in a row
 constexpr std::array<std::string_view, 3> answer_names{"reference", "none", "comparison"};
 

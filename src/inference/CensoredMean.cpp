@@ -21,8 +21,7 @@ double log_normal_cdf(double z) {
 // Where a function with one hill is highest.
 template <typename Function>
 double highest(Function function, double low, double high) {
-  constexpr int bits =
-      std::numeric_limits<double>::digits / 2;  // more, rounding doesn't tell apart
+  constexpr int bits = std::numeric_limits<double>::digits / 2;  // beyond, rounding dominates
   const auto below = [&](double at) { return -function(at); };
   return boost::math::tools::brent_find_minima(below, low, high, bits).first;
 }

@@ -1,5 +1,5 @@
-// The mean of figures of which some are only known to lie above or below a value, as a staircase
-// that leaned on its ceiling or floor leaves them.
+// The mean of figures of which some are only known to lie above or below a value, as for a
+// staircase at its ceiling or floor.
 //
 // Tobit model (Tobin 1958; both sides: Rosett & Nelson 1975): the figures are normal with mean mu
 // and SD sigma, an exact one counts with its density, a censored one with the probability of lying
@@ -24,7 +24,7 @@ namespace heft {
 /// A figure, or what it is known to lie above or below.
 struct CensoredValue {
   double value = 0;
-  Censored censored = Censored::none;  ///< none, above or below; `indeterminate` is no value at all
+  Censored censored = Censored::none;  ///< none, above or below; otherwise not a value
 };
 
 struct CensoredMean {

@@ -103,7 +103,7 @@ LikelyCriteria likely_criteria(PersonAnswers& person, double sensitivity, const 
   likely.variance = best.information[1] / det;
   likely.bias_square = person.criteria.bias * person.criteria.bias + best.information[0] / det;
   const double variance_between = spread.sd_log_indecision * spread.sd_log_indecision;
-  likely.told = person.told = std::max(1 - likely.variance / variance_between, 0.0);
+  likely.information = person.information = std::max(1 - likely.variance / variance_between, 0.0);
   return likely;
 }
 
@@ -112,16 +112,17 @@ void SpreadSums::add(const LikelyCriteria& person, double weight) {
   sum_ += weight * person.log_indecision;
   square_ += weight * (person.log_indecision * person.log_indecision + person.variance);
   bias_square_ += weight * person.bias_square;
-  told_ += weight * person.told;
+  information_ += weight * person.information;
 }
 
 Spread SpreadSums::after(const Spread& last) const {
   if (!(n_ > 0)) return last;
-  constexpr double least_told = 0.05;
+  constexpr double min_information = 0.05;
   Spread next = last;
-  // Each person's was drawn towards the last mean, and all of it by what is told: undone, so that
-  // the mean gets there in a step or two where EM's own would take dozens.
-  const double moved = (sum_ / n_ - last.mean_log_indecision) / std::max(told_ / n_, least_told);
+  // Each person's was drawn towards the last mean, and all of it by its information: undone, so
+  // that the mean gets there in a step or two where EM's own would take dozens.
+  const double moved =
+      (sum_ / n_ - last.mean_log_indecision) / std::max(information_ / n_, min_information);
   next.mean_log_indecision =
       std::clamp(last.mean_log_indecision + std::clamp(moved, -1.0, 1.0), -3.0, 6.0);
   const double variance = square_ / n_ - sum_ / n_ * sum_ / n_;

@@ -26,8 +26,8 @@ struct Spread {
 struct PersonAnswers {
   std::vector<SidedAnswers> answers;
   Criteria criteria;
-  /// How much of the log indecision these answers tell, where the rest comes from the spread.
-  double told = 0;
+  /// Information in these answers: the share of the log indecision not shrunk to the mean.
+  double information = 0;
 };
 
 /// People's criteria and their spread for a sensitivity, by the EM algorithm. @return each one's
@@ -39,7 +39,7 @@ std::vector<double> fit_criteria(std::vector<PersonAnswers>& people, double sens
 struct LikelyCriteria {
   double log_likelihood = 0;  ///< with the criteria integrated out (Laplace's method)
   double log_indecision = 0, variance = 0, bias_square = 0;
-  double told = 0;  ///< as PersonAnswers has it
+  double information = 0;  ///< see PersonAnswers
 };
 
 /// Where the spread is known. @param person their criteria are where to begin, then the likeliest
@@ -52,7 +52,7 @@ class SpreadSums {
   Spread after(const Spread& last) const;
 
  private:
-  double n_ = 0, sum_ = 0, square_ = 0, bias_square_ = 0, told_ = 0;
+  double n_ = 0, sum_ = 0, square_ = 0, bias_square_ = 0, information_ = 0;
 };
 
 /// A start for a sensitivity that is so much larger.

@@ -42,7 +42,7 @@ std::string too_little(const AnswersByLevel& answers) {
   if (std::ranges::count(totals(answers), 0.0) == 2)
     return "all answers are the same: they don't say where others begin";
   if (answers.size() == 1)
-    return fmt::format("there is one level, {:g}: how answers change with the level can't be told",
+    return fmt::format("there is one level, {:g}: a slope needs two levels or more",
                        answers.begin()->first);
   if (n < least_trials_to_fit)
     return fmt::format("{:g} trials are too few, expected {:g} at least", n, least_trials_to_fit);
@@ -106,16 +106,13 @@ LogShare log_share(double n, double p) {
 std::string why_no_threshold(const SensitivityRange& range, const LevelReach& reach) {
   const auto& [low, high, separated] = range;
   if (range.flat())
-    return "the likelihood is flat: nearly all answers are the same, so that no sensitivity is "
-           "ruled "
-           "out; a criterion lies beyond all levels shown";
+    return "flat likelihood: nearly all answers are the same, so that any sensitivity fits; a "
+           "criterion lies beyond all levels shown";
   if (separated)
-    return "there is separation: the levels part the answers with hardly any overlap, so that any "
-           "sensitivity that is large enough fits within 95 %; levels between are missing";
-  if (high && *high < 0) return "the answers go against the level: sensitivity is negative";
-  if (!low || *low <= 0)
-    return "no sensitivity: its 95 % interval holds 0, so the answers don't surely follow the "
-           "level";
+    return "complete separation: the answers change between neighboring levels, so that any large "
+           "sensitivity fits within 95 %; show levels in between";
+  if (high && *high < 0) return "negative sensitivity: larger levels were answered as smaller";
+  if (!low || *low <= 0) return "no reliable sensitivity: its 95 % interval contains 0";
   if (z_75 / *low > 2 * reach.level_g)
     return fmt::format(
         "the threshold's 95 % interval reaches to {:.4g} g, beyond twice the {} shown", z_75 / *low,

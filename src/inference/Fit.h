@@ -1,5 +1,5 @@
 // What answers at several levels say of the person who gave them: a psychometric function, or the
-// three-way choice with indecision, by maximum likelihood. A figure that the answers can't bear is
+// three-way choice with indecision, by maximum likelihood. An estimate that is not identifiable is
 // not given, and `why` says what is missing.
 #pragma once
 
@@ -31,7 +31,7 @@ struct FitOptions {
 
 struct FittedParameter {
   std::string name;
-  /// None: the answers can't tell. An interval's end is none where it lies at infinity.
+  /// None: not identifiable. An interval's end is none where it is infinite.
   std::optional<double> value{};
   std::optional<double> se{};  ///< also none where the value is fixed or at a bound
   std::optional<double> low{}, high{};
@@ -62,7 +62,7 @@ Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options);
 /// others stay where they exist.
 Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options);
 
-/// Fewer trials than this bear nothing: chi-square intervals don't hold for so few.
+/// Minimum number of trials: chi-square intervals do not hold for fewer.
 inline constexpr double least_trials_to_fit = 10;
 
 // What the two have in common.

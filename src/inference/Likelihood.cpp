@@ -68,7 +68,7 @@ Parameters Likelihood::step_against(const Parameters& slope, const Parameters& a
 
 bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held) {
   best.log_likelihood = function_(best.at, &derivatives_);
-  // What is still to be gained, and where there are very many trials, what its digits can tell.
+  // Remaining gain in log likelihood, and with very many trials the rounding error of the sum.
   const double of_digits = std::abs(best.log_likelihood) * std::numeric_limits<double>::epsilon();
   const double good_enough = std::max(held < 0 ? 1e-13 : 1e-10, of_digits);
   for (int i = 0; i < 100; ++i) {
@@ -188,7 +188,7 @@ Parameters Likelihood::standard_errors(const Parameters& at) {
   const Eigen::SelfAdjointEigenSolver<Curvature> solver(scale.asDiagonal() * information *
                                                         scale.asDiagonal());
   const Parameters& values = solver.eigenvalues();
-  // What the answers leave open, such as where a criterion lies that nobody answered on either side
+  // What the answers leave open, such as a criterion without answers on one side
   // of, leaves those alone open that move with it.
   const Eigen::ArrayXd open = (values.array() <= singular * values[n - 1]).cast<double>();
   const auto shares = solver.eigenvectors().array().square().matrix();

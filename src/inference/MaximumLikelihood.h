@@ -61,7 +61,7 @@ struct LikelihoodFit {
 };
 
 /// By Newton's method within the bounds; where the likelihood is not finite, by NLopt's SLSQP.
-/// @param starts within the bounds, in groups; the search goes on from the likeliest of each. A
+/// @param starts within the bounds, in groups; the search continues from the likeliest of each. A
 ///   single group says that there is one maximum
 LikelihoodFit maximize_likelihood(const LogLikelihood& log_likelihood,
                                   const std::vector<ParameterBounds>& bounds,

@@ -28,14 +28,14 @@ struct Profiles {
 // the spread goes back, for all by the same factor.
 void put_log_indecisions(std::vector<OnGrid>& all, std::size_t place,
                          const std::vector<PersonAnswers>& people) {
-  double sum = 0, told = 0;
+  double sum = 0, information = 0;
   for (const PersonAnswers& person : people) {
     sum += person.criteria.log_indecision;
-    told += person.told;
+    information += person.information;
   }
   const double n = static_cast<double>(people.size());
-  constexpr double least_told = 0.02;
-  const double factor = 1 / std::max(told / n, least_told);
+  constexpr double min_information = 0.02;
+  const double factor = 1 / std::max(information / n, min_information);
   for (std::size_t i = 0; i < people.size(); ++i)
     all[i][place] = sum / n + factor * (people[i].criteria.log_indecision - sum / n);
 }
@@ -169,7 +169,7 @@ void put_own_interval(PooledSensitivity& found, const AnswersByLevel& answers) {
 }
 
 // The median of people who differ, and samples of it: of these the spread of sensitivities and that
-// of criteria aren't told apart anew, which would take minutes, but their center is put where it
+// of criteria are not refitted, which would take minutes, but their center is put where it
 // is.
 std::vector<double> put_median(PooledSensitivity& found, std::span<const OnGrid> in_common,
                                const std::vector<PersonAnswers>& people, const Samples& samples) {
@@ -290,9 +290,9 @@ PooledSensitivity pooled_sensitivity(std::map<std::string, AnswersByLevel> all,
   else if (found.n >= least_people)
     put_pooled(found, by_person.log_likelihood, people, samples, largest_g);
   else
-    found.why =
-        fmt::format("{} participants are too few to tell how people differ, expected {} or more",
-                    found.n, least_people);
+    found.why = fmt::format(
+        "{} participants are too few to estimate how people differ, expected {} or more", found.n,
+        least_people);
   return found;
 }
 

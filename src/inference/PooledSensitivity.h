@@ -1,9 +1,9 @@
-// What the three-way choices of several people say of how well they tell two masses apart, whatever
+// Sensitivity to a mass difference from the three-way choices of several people, whatever
 // their criteria.
 //
 // Each person follows the indecision model (psychophysics/ObserverModels.h) with a lapse rate
 // of .02 and an indecision and a side bias of their own, which are random effects: log indecision
-// and bias are normal over people, with spreads that the answers tell (EM), and integrated out
+// and bias are normal over people, with spreads estimated from the answers (EM), and integrated out
 // (Laplace). To maximize them out instead makes the sensitivity of 20 to 50 trials a person 8 to 50
 // % too large. What remains is each person's likelihood of a sensitivity, on a grid.
 //
@@ -19,7 +19,7 @@
 //
 // Levels are signed by side: mass on the right minus mass on the left, and the answers are left,
 // none, right. A person can prefer a side but not the reference, which nothing marks; and as sides
-// are drawn anew, what earlier answers did to a staircase's level can't pass for sensitivity.
+// are redrawn, what earlier answers did to a staircase's level can't pass for sensitivity.
 #pragma once
 
 #include <map>

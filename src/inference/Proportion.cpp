@@ -41,7 +41,7 @@ using Moves = std::vector<double>;
 
 // Where few participants make most of the spread, its estimate is worth less than n - 1 differences
 // (Satterthwaite 1946, by the unbiased excess kurtosis; Joanes & Gill 1998). Fewer than ten can't
-// tell their kurtosis, and their intervals are wide enough.
+// estimate their kurtosis, and their intervals are wide enough.
 double degrees_of_freedom(const Moves& moves) {
   const double n = static_cast<double>(moves.size());
   if (n < 10) return n - 1;

@@ -177,7 +177,7 @@ LikelihoodFit maximize(const Levels& levels, PsychometricShape shape,
       bounds, from);
 }
 
-// Of very many levels, the hills are told apart on fewer, which takes as long for each start as
+// With very many levels, the maxima are separated on fewer, which takes as long for each start as
 // there are levels. So many answers make one hill of it.
 LikelihoodFit maximize(const Levels& levels, PsychometricShape shape,
                        const std::vector<ParameterBounds>& bounds) {
@@ -191,7 +191,7 @@ LikelihoodFit maximize(const Levels& levels, PsychometricShape shape,
   return maximize(levels, shape, bounds, {{from}});
 }
 
-// Whether answers that can't be were given: at 0, which nobody sees.
+// Whether there are answers of probability 0: positive ones at level 0 without guessing.
 bool impossible(const AnswersByLevel& answers, const FitOptions& options) {
   const auto zero = answers.find(0);
   return options.function.takes_logarithm() && options.guess == 0.0 && zero != answers.end() &&
@@ -203,22 +203,20 @@ std::string no_slope(double gained, const std::vector<ParameterBounds>& bounds) 
   const auto n_free = std::ranges::count(bounds, false, &ParameterBounds::fixed);
   const boost::math::chi_squared chance(static_cast<double>(n_free - 1));
   if (2 * gained > quantile(chance, 0.95)) return "";
-  return "there is no slope: positive answers don't surely become more with the level; a flat line "
-         "fits "
-         "within 95 %";
+  return "no reliable slope: a constant response rate fits within 95 %";
 }
 
 std::string no_end(const LikelihoodFit& fit, double step) {
   const LikelihoodParameter& at = fit.parameters[place];
   if (step > fit.log_likelihood - same_log_likelihood)
-    return "there is separation: a step between two levels, or at one, fits as well as any slope; "
+    return "complete separation: a step at or between levels fits as well as any slope; show "
            "levels "
-           "between them are missing";
-  if (std::abs(at.value) > reach) return "the threshold would lie far outside the levels shown";
+           "in between";
+  if (std::abs(at.value) > reach) return "the threshold is far outside the levels shown";
   if (!at.low || !at.high || *at.low < -reach || *at.high > reach)
     return "the threshold's 95 % interval reaches beyond the levels shown by more than their range";
   if (!at.se || *at.se > *at.high - *at.low)  // usual is a quarter
-    return "the likelihood is flat: many pairs of threshold and slope fit equally well";
+    return "flat likelihood: many pairs of threshold and slope fit equally well";
   return "";
 }
 

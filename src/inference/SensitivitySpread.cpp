@@ -119,7 +119,7 @@ std::vector<std::vector<double>> PositiveSensitivities::posteriors(const Spectru
 }
 
 Spectrum PositiveSensitivities::fit(Spectrum from, int n_steps) const {
-  constexpr double least_sd = 0.1, most_sd = 1.5;  // finer than the grid tells nothing
+  constexpr double least_sd = 0.1, most_sd = 1.5;  // finer than the grid
   for (int step = 0; step < n_steps; ++step) {
     double n = 0, sum = 0, square = 0;
     for (const std::vector<double>& weights : posteriors(from))

@@ -20,10 +20,10 @@ inline double sensitivity_at(double place) {
   return 0.5 * std::sinh(place_step * (place - static_cast<double>(no_sensitivity)));
 }
 
-/// A figure at each place, mostly a log likelihood.
+/// A value, usually a log likelihood, at each grid point.
 using OnGrid = std::array<double, n_grid>;
 
-/// Each person as often as `times` says.
+/// Sum over people, each weighted by `times`.
 OnGrid sum_of(std::span<const OnGrid> people, std::span<const double> times);
 
 /// The place where a sum is highest, by the parabola through the three highest.

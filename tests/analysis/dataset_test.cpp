@@ -147,7 +147,7 @@ TEST_F(LogFile, PeopleNamedAlikeInTwoLogsAreTwo) {
 TEST_F(LogFile, WhoIsLeftOutIsInNoFigure) {
   const std::string protocol = read_text_file(source_folder() + "/protocols/sorting.toml");
   write_session("touched nothing, left out", Purpose::main,
-                protocol + "\n[exclusion]\nimpossible_answers = 0.5\n");
+                protocol + "\n[exclusion]\nanticipatory_responses = 0.5\n");
   write_session("touched nothing", Purpose::main, protocol);
   const Summary summary = analyze({{path()}, {}, false, ""});
   EXPECT_EQ(summary.sessions.size(), 2);

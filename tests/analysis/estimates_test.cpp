@@ -50,7 +50,7 @@ TEST_P(AnyTechniques, StandInJsonTablesAndCharts) {
   const Summary summary = study_of(GetParam(), {15, 200, 800});
   const json found = json::parse(as_json(summary));
   const auto tables = filled(tables_at(summary, all_csv_places));
-  std::vector<std::string> charts{"sorting",   "sorting_by_participant", "labels_by_mass",
+  std::vector<std::string> charts{"sorting",   "sorting_by_participant", "sorting_confusion",
                                   "jnd",       "choice_curves",          "hits_and_false_alarms",
                                   "staircases"};
   for (const std::string& condition : GetParam()) {

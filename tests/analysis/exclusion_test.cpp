@@ -39,7 +39,7 @@ TEST(Exclusion, FollowsTheProtocolAndSaysSo) {
   ASSERT_EQ(summary.participants.size(), 2);
   EXPECT_THAT(summary.participants[1].excluded_because,
               HasSubstr("false alarms: 4 of 4, the protocol allows 50 %"));
-  EXPECT_THAT(summary.notes.at(0), HasSubstr("Left out of every figure"));
+  EXPECT_THAT(summary.notes.at(0), HasSubstr("Excluded from all figures"));
 }
 
 TEST(Exclusion, OfUnfinishedSessions) {

@@ -25,7 +25,7 @@ TEST(ParticipantFlow, CountsWhoWentHowFarAndWhyNot) {
   add_introduction(paused, 1);
   paused.session.state = SessionState::paused;
   SessionData left_out = session(4, "left out");
-  left_out.exclusion.impossible_answers = 0;
+  left_out.exclusion.anticipatory_responses = 0;
   add_introduction(left_out, 1).trial.validated_s = 0.1;
   left_out.attempts[0].trial.shown_s = 0;
   const std::vector<SessionData> sessions{declined, finished, paused, left_out};
@@ -35,7 +35,7 @@ TEST(ParticipantFlow, CountsWhoWentHowFarAndWhyNot) {
   EXPECT_EQ(flow.n_started, 3);
   EXPECT_EQ(flow.n_finished, 2);
   EXPECT_EQ(flow.n_analyzed, 2);
-  EXPECT_THAT(flow.excluded, ElementsAre(Pair("impossible answers", 1)));
+  EXPECT_THAT(flow.excluded, ElementsAre(Pair("anticipatory responses", 1)));
   EXPECT_THAT(flow.unfinished, ElementsAre(Pair("paused", 1)));
 }
 
@@ -69,7 +69,7 @@ TEST(TrackingQuality, AddsUpAParticipantsSessions) {
 
 TEST(TrackingQuality, WithoutFramesTellsOfTheTimeAlone) {
   const Summary summary = summarized({session(1, "a")});
-  EXPECT_EQ(figure(summary, "times_lost").value, 0);
+  EXPECT_EQ(figure(summary, "tracking_losses").value, 0);
   EXPECT_FALSE(figure(summary, "tracked").value.has_value());
   EXPECT_FALSE(figure(summary, "in_view").value.has_value());
 }
@@ -92,7 +92,7 @@ TEST(PersonThresholds, AreGivenWhereTheTrialsIdentifyThem) {
   EXPECT_GT(*sees.high, 100);
   const StudyEstimate blind = of("threshold_75", "sees nothing");
   EXPECT_FALSE(blind.value.has_value());
-  EXPECT_THAT(blind.why, HasSubstr("holds 0"));
+  EXPECT_THAT(blind.why, HasSubstr("contains 0"));
   EXPECT_EQ(of("staircase_start", "sees nothing", "from above").value, 600);
   EXPECT_EQ(of("staircase_start", "sees nothing", "from below").value, 20);
 }
@@ -104,12 +104,12 @@ TEST(EarlyAnswers, AreThoseThatTheSetupForbade) {
   attempt.trial.shown_s = 0;
   attempt.trial.validated_s = 1;
   attempt.trial.first_contact_s = 0.5;
-  EXPECT_TRUE(is_impossible(data, data.attempts[0]));
+  EXPECT_TRUE(is_anticipatory(data, data.attempts[0]));
   const Quality quality = quality_of(std::vector{data});
   EXPECT_EQ(quality.counted.at(0).what, "answers earlier than 1.5 s");
   EXPECT_EQ(quality.counted[0].n, 1);
   data.setups[0].setup.min_answer_s = 0.5;
-  EXPECT_FALSE(is_impossible(data, data.attempts[0]));
+  EXPECT_FALSE(is_anticipatory(data, data.attempts[0]));
 }
 
 }  // namespace

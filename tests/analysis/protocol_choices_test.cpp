@@ -70,7 +70,7 @@ TEST(ProtocolChoices, are_told_once_a_protocol_and_versions_are_told_apart) {
   changed.text += "\n# changed\n";
   changed.sha256 = "0123456789abcdef";
   const auto once = protocol_choices({session_of(quick), session_of(quick)});
-  EXPECT_EQ(once.size(), choices_in(quick).size() + 4);  // and what was in force
+  EXPECT_EQ(once.size(), choices_in(quick).size() + 4);  // and the configuration in effect
   EXPECT_EQ(once.front().protocol, "quick");
   const auto both = protocol_choices({session_of(quick), session_of(changed)});
   EXPECT_EQ(both.size(), 2 * once.size());

@@ -146,7 +146,7 @@ TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
   const Interval one = threshold_ratio_interval(light, heavy);
   const Interval of_two = threshold_ratio_interval(light, heavy, 0.975);
   ASSERT_LT(one.high, of_two.high);
-  EXPECT_EQ(verdict((one.high + of_two.high) / 2), HypothesisVerdict::not_judged);
+  EXPECT_EQ(verdict((one.high + of_two.high) / 2), HypothesisVerdict::inconclusive);
   EXPECT_EQ(verdict(1.1 * of_two.high), HypothesisVerdict::not_supported);
 }
 
@@ -201,7 +201,7 @@ TEST(CoverageOf, ThresholdRatios) {
     }
 }
 
-// Who is missing at one reference is drawn at the other, and nobody stands for another.
+// A participant missing at one reference is still drawn at the other; no one replaces another.
 TEST(Sensitivity, ARatioIsOfTheSamePeopleWhoeverIsMissing) {
   RandomStream stream(41, "missing");
   std::vector<SessionData> all, missing, strangers;

@@ -160,7 +160,7 @@ TEST(Sorting, EveryLabelIsCountedWhateverTheNumberOfCubes) {
   attempt.answers = {label(1, "1"), label(2, "2")};
   const Summary summary = summarized({data});
   std::vector<double> counts;  // of the lighter cube, then of the heavier one
-  for (const StudyEstimate* one : estimates_of(summary.estimates, "sorting_labels"))
+  for (const StudyEstimate* one : estimates_of(summary.estimates, "sorting_confusion_count"))
     counts.push_back(*one->value);
   EXPECT_THAT(counts, ElementsAre(0, 1, 1, 0));
 }

@@ -4,6 +4,8 @@ table and chart names every condition of its task.
 Run: python3 tests/cli/analyse_protocols_test.py PATH_TO_HEFT
 """
 import json
+import os
+from pathlib import Path
 
 from session_harness import SessionTest, main, query
 
@@ -63,7 +65,7 @@ PROTOCOLS = {
     "no sorting": introduction("C2") + comparison(staircase("C2")),
 }
 # Charts and tables that name the conditions of a task, where there is something to show.
-OF_SORTING = {"sorting", "sorting_by_participant", "labels_by_mass", "sorting_chance", "swapped"}
+OF_SORTING = {"sorting", "sorting_by_participant", "sorting_confusion", "sorting_chance", "swapped"}
 OF_COMPARISONS = {"choice_curves", "choices", "choices_by_level", "hits_and_false_alarms",
                   "sensitivity", "times_by_level", "thresholds_by_participant"}
 OF_STAIRCASES = {"jnd", "staircase_health", "staircases", "jnd_against_start", "staircase_trials"}
@@ -83,6 +85,22 @@ class Protocols(SessionTest):
         trials = query(db, "select task, condition, staircase, count(*) from trial where "
                            "status = 'completed' group by task, condition, staircase")
         return found, out, trials
+
+    def screen(self, *words):
+        """What heft analyse prints by default, checked for its size and its parts."""
+        done = self.run_heft("analyse", *words)
+        lines = (done.stdout + done.stderr).splitlines()
+        self.assertLessEqual(len(lines), 25, done.stdout)
+        self.assertLessEqual(max(map(len, lines)), 80, done.stdout)
+        self.assertNotIn("nan", done.stdout)
+        return " ".join(done.stdout.split())
+
+    def simulated(self, name, protocol, participants=1, seed=5):
+        path, db = Path(f"{name}.toml"), f"{name}.db"
+        (self.folder / path).write_text(f'title = "{name}"\n' + protocol)
+        self.run_heft("simulate", path, "--participants", participants, "--seed", seed, "--db", db,
+                      cwd=self.folder)
+        return db
 
     def assert_counted(self, found, trials):
         def completed(task, condition=None):
@@ -126,6 +144,57 @@ class Protocols(SessionTest):
                 self.assertNotIn("nan", (out / "estimates.csv").read_text().lower())
                 for path in out.glob("*.svg"):
                     self.assertIn("</svg>", path.read_text(encoding="utf-8"), path.name)
+
+    def test_the_first_screen_covers_each_task(self):
+        expected = {"sorting": "Sorting: ", "comparison": "Comparisons: ",
+                    "introduction": "Introduction: ", "estimation": "Magnitude estimation: "}
+        os.chdir(self.folder)
+        for name, protocol in PROTOCOLS.items():
+            for participants in (1, 6):
+                with self.subTest(protocol=name, participants=participants):
+                    key = f"{name.replace(' ', '_')}_{participants}"
+                    db = self.simulated(key, protocol, participants)
+                    screen = self.screen("--db", db)
+                    tasks = {task for [task] in query(self.folder / db, "select task from trial")}
+                    for task in tasks:
+                        n = query(self.folder / db, "select count(*) from trial where status = "
+                                                    f"'completed' and task = '{task}'")[0][0]
+                        self.assertIn(f"{n} {task}", screen)
+                    shown = [expected[task] in screen for task in tasks]
+                    self.assertTrue(all(shown) or "more: see the tables" in screen, screen)
+                    for part in ("Results, with 95 % intervals", "Attention", "Next",
+                                 "nothing here is about people", f"heft analyse --db {db} --tables"):
+                        self.assertIn(part, screen)
+                    self.assertNotIn("decoupling (soft)", screen)
+
+    def test_the_first_screen_of_a_report_names_it(self):
+        os.chdir(self.folder)
+        db = self.simulated("report", PROTOCOLS["three techniques"], 3)
+        self.assertIn("Report: out/report.html", self.screen("--db", db, "--out", "out"))
+
+    def test_the_first_screen_of_several_logs_and_of_none(self):
+        os.chdir(self.folder)
+        logs = [self.simulated(f"lab{i}", PROTOCOLS["two cubes"], seed=i) for i in range(1, 4)]
+        screen = self.screen(*(word for db in logs for word in ("--db", db)))
+        self.assertIn("3 sessions of 3 participants", screen)
+        self.assertIn("were correct", screen)
+
+    def test_the_first_screen_is_the_same_size_for_many_conditions(self):
+        os.chdir(self.folder)
+        names = [f"stiffness{i}" for i in range(12)]
+        techniques = "".join(f'[[technique]]\nname = "{name}"\nkind = "spring"\n'
+                             f"stiffness_n_per_m = {20 + i}\n" for i, name in enumerate(names))
+        db = self.simulated("many", techniques + sorting([100, 400], **dict.fromkeys(names, 1))
+                            + comparison(*(staircase(name) for name in names)))
+        screen = self.screen("--db", db)
+        self.assertIn("8 more conditions in the tables", screen)
+
+    def test_the_first_screen_without_decoupling_says_so(self):
+        os.chdir(self.folder)
+        db = self.simulated("other_law", PROTOCOLS["another law called C2"])
+        screen = self.screen("--db", db)
+        self.assertIn("without decoupling (C1)", screen)
+        self.assertNotIn("decoupling (C2)", screen, "its law is not the paper's")
 
     def test_the_papers_figures_stand_beside_its_techniques_alone(self):
         for name, conditions in [("another law called C2", {"C1"}),

@@ -246,7 +246,7 @@ class Output(CommandLine):
         db = self.folder / "s.db"
         self.session(db)
         said = self.run_heft("analyse", "--db", db, "--out", self.folder / "report",
-                             env={"PATH": str(self.folder)}).stderr
+                             env={"PATH": str(self.folder)}).stdout
         self.assertIn("gnuplot is not installed", said)
 
 

@@ -110,7 +110,7 @@ class ConstantStimuli(SessionTest):
         self.protocol.write_text(PROTOCOL[:PROTOCOL.rindex("[[block.staircase]]")])
         self.run_heft(*self.words(self.db))
         self.assert_whole(self.db)
-        done = self.run_heft("analyse", "--db", self.db, "--out", self.folder / "report")
+        done = self.run_heft("analyse", "--db", self.db, "--tables")
         self.assertIn("JND: no staircases that estimate one.", done.stdout)
         self.assertEqual(self.analysed(self.db)["jnd"], [])
 

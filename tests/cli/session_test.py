@@ -106,13 +106,15 @@ class Running(SessionTest):
 
     def test_a_demo_leaves_a_log_and_a_report(self):
         done = self.run_heft("demo", cwd=self.folder, timeout=3000)
-        self.assertIn("published", done.stdout)
         self.assertTrue((self.folder / "heft-demo/report/report.html").exists())
-        *sentences, report = done.stderr.splitlines()[-4:]
-        for sentence, begin in zip(sentences, ("Sorting: ", "Comparisons: ", "What they can't say: ")):
-            self.assertTrue(sentence.startswith(begin) and sentence.endswith("."), sentence)
-        self.assertIn("a model answered, so nothing of this is about people", sentences[2])
-        self.assertTrue(report.endswith("heft-demo/report/report.html"), report)
+        lines = (done.stderr + done.stdout).splitlines()
+        self.assertLessEqual(len(lines), 25, done.stdout)
+        self.assertLessEqual(max(map(len, lines)), 80, done.stdout)
+        results = " ".join(done.stdout.split())
+        self.assertRegex(results, r"Sorting: with decoupling \(C2\) (all 5|\d of 5) were correct, ")
+        self.assertRegex(results, r"; without decoupling \(C1\) ")
+        self.assertIn("One simulated participant: nothing here is about people", results)
+        self.assertIn("Report: heft-demo/report/report.html", results)
         self.run_heft("replay", "--db", self.folder / "heft-demo/demo.db")
 
 

@@ -252,7 +252,7 @@ class Plans(StudyTest):
     def test_analyse_takes_orders_for_one_protocol(self):
         self.next()
         self.next()
-        said = self.run_heft("analyse", "--db", self.db).stdout
+        said = self.run_heft("analyse", "--db", self.db, "--tables").stdout
         self.assertNotIn("with --set", said)
 
 

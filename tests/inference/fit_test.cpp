@@ -149,8 +149,10 @@ TEST(PsychometricFit, SaysWhyThereIsNoThreshold) {
   EXPECT_THAT(why_not({{1, {20, 0, 0}}, {2, {20, 0, 0}}}), HasSubstr("all answers are the same"));
   EXPECT_THAT(why_not({{3, {10, 10, 0}}}), HasSubstr("one level, 3"));
   EXPECT_THAT(why_not({{1, {2, 1, 0}}, {2, {1, 2, 0}}}), HasSubstr("too few"));
-  EXPECT_THAT(why_not({{1, {10, 10, 0}}, {2, {11, 9, 0}}, {3, {9, 11, 0}}}), HasSubstr("no slope"));
-  EXPECT_THAT(why_not({{1, {2, 18, 0}}, {2, {10, 10, 0}}, {3, {18, 2, 0}}}), HasSubstr("no slope"));
+  EXPECT_THAT(why_not({{1, {10, 10, 0}}, {2, {11, 9, 0}}, {3, {9, 11, 0}}}),
+              HasSubstr("no reliable slope"));
+  EXPECT_THAT(why_not({{1, {2, 18, 0}}, {2, {10, 10, 0}}, {3, {18, 2, 0}}}),
+              HasSubstr("no reliable slope"));
   EXPECT_THAT(why_not({{1, {20, 0, 0}}, {2, {20, 0, 0}}, {3, {0, 20, 0}}}),
               HasSubstr("separation"));
   EXPECT_THAT(why_not({{1, {20, 0, 0}}, {2, {8, 12, 0}}, {3, {0, 20, 0}}}),
@@ -197,7 +199,7 @@ TEST(IndecisionFit, SaysWhyThereIsNoThreshold) {
   EXPECT_THAT(why_no_choice({{50, {5, 5, 5}}}), HasSubstr("one level"));
   EXPECT_THAT(why_no_choice({{-50, {10, 0, 0}}, {0, {0, 9, 0}}, {50, {0, 0, 10}}}),
               HasSubstr("separation"));
-  EXPECT_THAT(why_no_choice({{50, {8, 5, 8}}, {100, {8, 5, 7}}}), HasSubstr("holds 0"));
+  EXPECT_THAT(why_no_choice({{50, {8, 5, 8}}, {100, {8, 5, 7}}}), HasSubstr("contains 0"));
   EXPECT_THAT(why_no_choice({{50, {5, 9, 5}}, {500, {25, 5, 1}}}), HasSubstr("negative"));
   EXPECT_THAT(why_no_choice({{0, {40, 40, 40}}, {100, {25, 40, 55}}}), HasSubstr("beyond twice"));
 }
@@ -245,7 +247,7 @@ TEST(IndecisionFit, AnEndIsFoundWhereTheOthersTurnBack) {
 }
 
 TEST(IndecisionFit, WhatDoesNotExistIsNotGivenWhileSensitivityIs) {
-  // Nobody ever chose the reference: where its criterion lies can't be told.
+  // The reference was never chosen, so its criterion is not identifiable.
   const Fit fit = fit_indecision({{50, {0, 30, 10}}, {100, {0, 20, 20}}, {200, {0, 5, 35}}}, {});
   EXPECT_TRUE(fit.identifiable()) << fit.why;
   EXPECT_EQ(fit.parameter("indecision").value, std::nullopt);
@@ -411,7 +413,7 @@ TEST(IndecisionFit, TheLastDigitsOfTheLevelsDoNotMoveTheEnds) {
 
 // Whatever the answers are: the figures are finite, in order, and there or not as `why` says.
 // R's ordinal::clm has the same standard error, and none that means anything for the two
-// thresholds: nobody answered near one of them.
+// thresholds: there are no answers near one of them.
 TEST(IndecisionFit, WhatIsLeftOpenTakesNoStandardErrorFromTheSensitivity) {
   const Fit fit = fit_indecision(
       {{-222, {29, 0, 0}}, {-137.2, {46, 1, 0}}, {-69.6, {15, 26, 0}}, {284.4, {0, 0, 33}}}, {});

@@ -109,17 +109,17 @@ TEST(NoThreshold, WhereTheLikelihoodIsFlat) {
       for (int i = 0; i < 2; ++i)
         people["P1" + std::to_string(i)][levels_g[stream.below(12)]] = {1.0 * i, 2, 1.0 - i};
       const PooledSensitivity found = pooled(people);
-      EXPECT_THAT(found.why, StartsWith("the likelihood is flat")) << n_people;
+      EXPECT_THAT(found.why, StartsWith("flat likelihood")) << n_people;
       EXPECT_FALSE(found.sensitivity || found.sensitivity_interval || found.indecision);
       for (const OwnThreshold& own : own_of(people)) EXPECT_NE(own.why, "");
     }
   AnswersByLevel one;
   for (const double level_g : levels_g) one[level_g][1] = one[-level_g][1] = 2;
   one[100] = {0, 1, 1};
-  EXPECT_THAT(own_threshold(one, nullptr).why, StartsWith("the likelihood is flat"));
-  EXPECT_THAT(pooled({{"P1", one}}).why, StartsWith("the likelihood is flat"));
+  EXPECT_THAT(own_threshold(one, nullptr).why, StartsWith("flat likelihood"));
+  EXPECT_THAT(pooled({{"P1", one}}).why, StartsWith("flat likelihood"));
   const OwnSensitivity no_end{0.001};
-  EXPECT_THAT(own_threshold(one, &no_end).why, StartsWith("the likelihood is flat"));
+  EXPECT_THAT(own_threshold(one, &no_end).why, StartsWith("flat likelihood"));
 }
 
 TEST(NoThreshold, WhereTheLevelsPartTheAnswers) {
@@ -129,24 +129,25 @@ TEST(NoThreshold, WhereTheLevelsPartTheAnswers) {
       people["P" + std::to_string(i)][level_g][level_g > 320 ? 2 : 1] = 5;
       people["P" + std::to_string(i)][-level_g][level_g > 320 ? 0 : 1] = 5;
     }
-  EXPECT_THAT(pooled(people).why, StartsWith("there is separation"));
+  EXPECT_THAT(pooled(people).why, StartsWith("complete separation"));
   for (const OwnThreshold& own : own_of(people))
-    EXPECT_THAT(own.why, StartsWith("there is separation"));
+    EXPECT_THAT(own.why, StartsWith("complete separation"));
   people.erase(std::next(people.begin()), people.end());
-  EXPECT_THAT(pooled(people).why, StartsWith("there is separation"));
-  EXPECT_THAT(own_of(people).at(0).why, StartsWith("there is separation"));
+  EXPECT_THAT(pooled(people).why, StartsWith("complete separation"));
+  EXPECT_THAT(own_of(people).at(0).why, StartsWith("complete separation"));
 }
 
 TEST(NoThreshold, WhereAnswersGoAgainstTheLevel) {
-  expect_no_threshold({-150}, "sensitivity is negative");
+  expect_no_threshold({-150}, "negative sensitivity");
 }
 
 TEST(NoThreshold, WhereTheIntervalHoldsNone) {
   for (const int n_people : {1, 6})
-    EXPECT_THAT(pooled(people_like({0, 0.6}, n_people, 10)).why, StartsWith("no sensitivity"));
+    EXPECT_THAT(pooled(people_like({0, 0.6}, n_people, 10)).why,
+                StartsWith("no reliable sensitivity"));
   int n = 0;
   for (const OwnThreshold& own : own_of(people_like({0, 0.6}, 6, 10)))
-    n += own.why.starts_with("no sensitivity") ? 1 : 0;
+    n += own.why.starts_with("no reliable sensitivity") ? 1 : 0;
   EXPECT_GE(n, 5);  // one in twenty intervals does not hold the truth
 }
 

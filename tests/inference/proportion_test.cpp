@@ -36,16 +36,16 @@ TEST(Proportion, DifferingParticipantsAreTheUnitOfTheInterval) {
 }
 
 TEST(Proportion, WhereAllAreTheSameTheIntervalIsExactOverPeople) {
-  Tallies nobody, everybody;
+  Tallies none, all;
   for (char name = 'a'; name < 'a' + 13; ++name) {
-    nobody[{name}] = {0, 5};
-    everybody[{name}] = {5, 5};
+    none[{name}] = {0, 5};
+    all[{name}] = {5, 5};
   }
   const double bound = 100 * (1 - std::pow(0.025, 1.0 / 13));  // not 65 trials
-  EXPECT_EQ(proportion_of(nobody).method, IntervalMethod::exact);
-  EXPECT_NEAR(proportion_of(nobody).interval_percent->high, bound, 1e-9);
-  EXPECT_NEAR(proportion_of(everybody).interval_percent->low, 100 - bound, 1e-9);
-  EXPECT_EQ(proportion_of(everybody).sd_percent, 0);
+  EXPECT_EQ(proportion_of(none).method, IntervalMethod::exact);
+  EXPECT_NEAR(proportion_of(none).interval_percent->high, bound, 1e-9);
+  EXPECT_NEAR(proportion_of(all).interval_percent->low, 100 - bound, 1e-9);
+  EXPECT_EQ(proportion_of(all).sd_percent, 0);
 }
 
 TEST(Proportion, OneParticipantHasNoSpreadAndAnExactInterval) {

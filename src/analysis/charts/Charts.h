@@ -18,11 +18,10 @@ struct Chart {
   std::string csv{};      ///< the report's file with its figures
 };
 
-/// In the order of the report, what a reviewer looks for first; those there is something to draw
-/// for.
+/// In the order of the report; charts without data are left out.
 std::vector<Chart> charts_of(const Summary& summary);
 
-/// The color that the paper's figures have in every chart.
+/// Color of the paper's figures in every chart.
 inline constexpr std::string_view published_color = "#c0561f";
 
 /// "Made by: heft analyse --db heft.db --out report (heft 0.1.0)"

@@ -34,19 +34,19 @@ struct Attempt {
 /// validated - shown - paused - lost, in seconds; none where the trial was not shown or validated.
 std::optional<double> response_time_s(const TrialRow& trial);
 
-/// What became of the camera's pictures, over a session of a person.
+/// Camera pictures of a session with a participant.
 struct PictureCounts {
   int shown = 0, dropped = 0, late = 0;
 };
 
 /// How well the effector of a session was tracked.
 struct TrackingCounts {
-  int n_lost = 0;                      ///< times it went out of sight in a trial
+  int n_lost = 0;                      ///< tracking losses in trials
   double lost_s = 0, answering_s = 0;  ///< out of sight; of what time from shown to validated
   FrameCounts frames;                  ///< none where frames were not kept
 };
 
-/// What was noted of a session beside its trials.
+/// Incidents of a session.
 struct EventCounts {
   int notes = 0, deviations = 0, checks_failed = 0, checks_warned = 0, unblindings = 0;
   int effector_lost = 0;
@@ -80,7 +80,7 @@ struct SessionData {
   bool simulated() const { return model().has_value(); }
   /// That model.
   std::optional<std::string> model() const;
-  /// Who is counted as one. Simulated responders of one name but different models are not.
+  /// Identity for counting; simulated responders with one name but different models are distinct.
   std::string participant() const;
   /// A trial's configuration; null: the log has none.
   const SessionConfig* setup_of(const Attempt& attempt) const;

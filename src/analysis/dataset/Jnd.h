@@ -20,8 +20,8 @@ namespace heft {
 /// The paper's JND: mean level of a staircase's reversals but the first ones.
 inline constexpr std::string_view jnd_method = "mean_of_reversals";
 
-/// What a staircase compared with, how the clone was coupled, and how the JND is estimated: the
-/// first of its procedure's methods. Ordered by reference.
+/// Reference, condition and JND method (the first of the procedure's) of a staircase. Ordered by
+/// reference.
 struct Compared {
   double reference_g = 0;
   std::string condition;
@@ -40,9 +40,9 @@ struct StaircaseResult {
   int n_trials = 0, n_reversals = 0;
   int n_floor = 0, n_ceiling = 0;  ///< moves that a bound cut short
   StopReason reason = StopReason::reversals;
-  /// above, below: the JND is known to lie beyond `shown_g` only. indeterminate: not even that.
+  /// above, below: the JND is only known to be beyond `shown_g`; otherwise indeterminate.
   Censored censored = Censored::none;
-  std::string why{};  ///< "at the ceiling", "trial limit", "3 reversals"...; empty: it settled
+  std::string why{};  ///< "at the ceiling", "trial limit", "3 reversals"...; empty: not censored
   /// The JND; where that is censored, what it lies beyond; none where nothing is known.
   std::optional<double> shown_g{};
   double start_g = 0;  ///< the first level presented
@@ -75,9 +75,8 @@ struct Jnds : FigureSummary {
   int n_censored(Censored direction) const;
 };
 
-/// What staircases that began high and low say of one reference. Their difference is how far a JND
-/// follows from where its staircase began. A participant without both kinds in a session is
-/// missing.
+/// JNDs of staircases from above and from below at one reference. Their difference measures the
+/// effect of the start. A participant without both in one session is missing.
 struct StartEffect {
   Jnds from_above_g, from_below_g, difference_g;
 };
@@ -108,7 +107,7 @@ struct ReferenceJnd {
 /// protocol.
 std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 
-/// What the sessions' staircases come to.
+/// Collects the sessions' staircases.
 class StaircaseFold {
  public:
   void add(const SessionData& data);

@@ -11,7 +11,7 @@ void count_attempt(ParticipantRow& row, const SessionData& data, const Attempt& 
   row.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
   if (!attempt.completed()) return;
   row.n_completed += 1;
-  row.n_impossible += is_impossible(data, attempt) ? 1 : 0;
+  row.n_anticipatory += is_anticipatory(data, attempt) ? 1 : 0;
   if (!attempt.trial.plan.is_catch) return;
   row.n_catch += 1;
   row.n_false_alarms += attempt.trial.outcome == "difference" ? 1 : 0;
@@ -25,7 +25,8 @@ std::string beyond(int n, int of, const std::optional<double>& largest, std::str
 std::string why_excluded(const ParticipantRow& row, int n_attempts, const ExclusionRules& rules) {
   if (rules.unfinished && row.n_finished == 0) return "no finished session";
   for (const std::string& why :
-       {beyond(row.n_impossible, row.n_completed, rules.impossible_answers, "impossible answers"),
+       {beyond(row.n_anticipatory, row.n_completed, rules.anticipatory_responses,
+               "anticipatory responses"),
         beyond(row.n_false_alarms, row.n_catch, rules.false_alarms, "false alarms"),
         beyond(row.n_lost, n_attempts, rules.out_of_view, "effector out of view")})
     if (!why.empty()) return why;

@@ -1,5 +1,4 @@
-// Who took part, from the first question to the figures: where participants were lost on the way,
-// and whom a rule of the protocol excludes. How many were planned is not in a log.
+// Participant flow, from consent to the analyzed sample, and exclusion by the protocol's rules.
 #pragma once
 
 #include <map>
@@ -18,7 +17,7 @@ struct ParticipantRow {
   std::string participant;
   int n_sessions = 0, n_finished = 0;
   int n_completed = 0;  ///< trials
-  int n_impossible = 0, n_lost = 0, n_catch = 0, n_false_alarms = 0;
+  int n_anticipatory = 0, n_lost = 0, n_catch = 0, n_false_alarms = 0;
   std::string excluded_because;  ///< empty: counts
 
   bool excluded() const { return !excluded_because.empty(); }
@@ -62,7 +61,7 @@ struct ParticipantFlow {
       unfinished;  ///< started but finished none, by the last session's state
 };
 
-/// "impossible answers: 12 of 40, the protocol allows 5 %" is "impossible answers".
+/// "anticipatory responses: 12 of 40, the protocol allows 5 %" is "anticipatory responses".
 std::string in_short(const std::string& why);
 
 class FlowFold {

@@ -68,7 +68,7 @@ class Collector {
   std::string name_;
 };
 
-// Participants of a study have one protocol, each in an order of its own.
+// Participants of a study have one protocol, each in a different order.
 bool is_order(const ProtocolSetting& setting) {
   return setting.key == order_key;
 }

@@ -1,4 +1,4 @@
-// What a protocol chose where the paper leaves it open, so that a report says what was run.
+// Protocol settings that the paper does not specify, listed in the report.
 #pragma once
 
 #include <map>

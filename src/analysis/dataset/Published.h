@@ -29,6 +29,10 @@ enum class Condition { coupled, decoupled };
 /// Which of them a technique is, whatever its name; none: the paper did not measure it.
 std::optional<Condition> condition_of(const Technique& technique);
 
+constexpr std::string_view in_words(Condition condition) {
+  return condition == Condition::coupled ? "without decoupling" : "with decoupling";
+}
+
 /// The names in a protocol that are one of the paper's conditions.
 std::map<std::string, Condition> conditions_in(const Protocol& protocol);
 

@@ -9,7 +9,7 @@
 namespace heft {
 
 namespace {
-struct Impossible {
+struct Anticipation {
   bool early = false, fast = false, untouched = false;
   bool any() const { return early || fast || untouched; }
 };
@@ -27,8 +27,8 @@ double least_answer_s(const SessionData& data, const Attempt& attempt) {
   return setup ? setup->min_answer_s.value_or(Onset{}.min_answer_s) : Onset{}.min_answer_s;
 }
 
-Impossible impossible_in(const SessionData& data, const Attempt& attempt) {
-  Impossible found;
+Anticipation anticipation_in(const SessionData& data, const Attempt& attempt) {
+  Anticipation found;
   if (const auto time = response_time_s(attempt.trial)) {
     found.early = *time < least_answer_s(data, attempt);
     found.fast = *time < fastest_answer_s;
@@ -37,7 +37,7 @@ Impossible impossible_in(const SessionData& data, const Attempt& attempt) {
   return found;
 }
 
-// Bands rather than levels: staircases show a level of their own in almost every trial.
+// Bands rather than levels: staircases show a different level in almost every trial.
 template <std::size_t n>
 std::size_t band_of(double value_g, const std::array<double, n>& tops_g) {
   std::size_t band = 0;
@@ -64,10 +64,11 @@ LossKey key_of(const TrialPlan& plan) {
 
 void count_loss(LossRow& row, const SessionData& data, const Attempt& attempt) {
   row.n_attempts += 1;
+  row.n_completed += attempt.completed() ? 1 : 0;
   row.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
   row.n_lost += attempt.trial.lost_s > 0 ? 1 : 0;
   row.lost_s += attempt.trial.lost_s;
-  row.n_impossible += attempt.completed() && is_impossible(data, attempt) ? 1 : 0;
+  row.n_anticipatory += attempt.completed() && is_anticipatory(data, attempt) ? 1 : 0;
 }
 
 void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attempt) {
@@ -83,7 +84,7 @@ void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attemp
 using Sums = QualityFold::Sums;
 
 void count_completed(Sums& sums, const SessionData& data, const Attempt& attempt) {
-  const Impossible found = impossible_in(data, attempt);
+  const Anticipation found = anticipation_in(data, attempt);
   sums.least_answers_s.insert(least_answer_s(data, attempt));
   sums.n_completed += 1;
   sums.n_early += found.early ? 1 : 0;
@@ -114,29 +115,29 @@ std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losse
     all.n_void += row.n_void;
     all.n_lost += row.n_lost;
   }
-  return {
-      {too_early(sums.least_answers_s), sums.n_early, sums.n_completed,
-       "after all cubes were shown; as the session's setup has it"},
-      {"answers faster than 0.3 s", sums.n_fast, sums.n_completed,
-       "faster than a person can see and press; among those above"},
-      {"answers without contact", sums.n_untouched, sums.n_completed, "no cube was touched before"},
-      {"void attempts", all.n_void, all.n_attempts, "each was presented again"},
-      {"attempts with the effector out of view", all.n_lost, all.n_attempts,
-       "they count; the time is taken off the response time"},
-      {"notes", sums.events.notes, std::nullopt, "of the experimenter or the program, in the log"},
-      {"deviations from the protocol", sums.events.deviations, std::nullopt, "in the log"},
-      {"checks that failed", sums.events.checks_failed, std::nullopt,
-       "of the apparatus, before a session"},
-      {"checks that warned", sums.events.checks_warned, std::nullopt, "as above"},
-      {"unblindings", sums.events.unblindings, std::nullopt,
-       "the experimenter was shown what is hidden"},
-      {"unfinished sessions", sums.n_unfinished, sums.n_sessions,
-       "their completed trials and finished staircases count"}};
+  return {{too_early(sums.least_answers_s), sums.n_early, sums.n_completed,
+           "time since all cubes were shown; the limit is in the session's configuration"},
+          {"answers faster than 0.3 s", sums.n_fast, sums.n_completed,
+           "faster than people can react; a subset of the row above"},
+          {"answers without contact", sums.n_untouched, sums.n_completed,
+           "no cube was touched before the answer"},
+          {"void attempts", all.n_void, all.n_attempts, "each was presented again"},
+          {"attempts with tracking lost", all.n_lost, all.n_attempts,
+           "they count; the time is subtracted from the response time"},
+          {"notes", sums.events.notes, std::nullopt, "logged by the experimenter or the program"},
+          {"deviations from the protocol", sums.events.deviations, std::nullopt, "logged"},
+          {"checks that failed", sums.events.checks_failed, std::nullopt,
+           "apparatus checks before a session"},
+          {"checks that warned", sums.events.checks_warned, std::nullopt, "as above"},
+          {"unblindings", sums.events.unblindings, std::nullopt,
+           "hidden conditions were shown to the experimenter"},
+          {"unfinished sessions", sums.n_unfinished, sums.n_sessions,
+           "their completed trials and finished staircases count"}};
 }
 }  // namespace
 
-bool is_impossible(const SessionData& data, const Attempt& attempt) {
-  return impossible_in(data, attempt).any();
+bool is_anticipatory(const SessionData& data, const Attempt& attempt) {
+  return anticipation_in(data, attempt).any();
 }
 
 void QualityFold::add(const SessionData& data) {

@@ -1,5 +1,5 @@
-// What must be seen before any figure: answers that can't be answers, what went wrong and was
-// noted, and whether what was lost goes with what was shown.
+// The data-quality summary: anticipatory responses, void attempts, lost tracking, logged incidents,
+// and whether losses depend on the level shown.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@
 
 namespace heft {
 
-/// No one sees, judges and presses in less.
+/// Faster answers are anticipatory, whatever the session allows.
 inline constexpr double fastest_answer_s = 0.3;
 
 struct CountedRow {
@@ -25,14 +25,15 @@ struct CountedRow {
   std::string meaning;
 };
 
-/// What can go with level and condition, and must not.
+/// Losses by task, condition and level; losses that depend on them bias the results.
 struct LossRow {
   Task task;
   std::string condition;
   std::string difference;  ///< comparisons: "0 g", "1-100 g"...; otherwise empty
-  int n_attempts = 0, n_void = 0, n_lost = 0;  ///< n_lost: the effector was out of view
-  double lost_s = 0;                           ///< in all
-  int n_impossible = 0;  ///< answers too early (as the setup has it), too fast or without contact
+  int n_attempts = 0, n_completed = 0, n_void = 0;
+  int n_lost = 0;          ///< attempts with the effector out of view
+  double lost_s = 0;       ///< in all
+  int n_anticipatory = 0;  ///< answers too early (as the setup has it), too fast or without contact
 };
 
 struct ResetRow {
@@ -47,9 +48,9 @@ struct Quality {
   std::vector<ResetRow> resets;
 };
 
-/// Whether a completed trial's answer can't be one: earlier than its setup takes any, faster than
-/// anybody, or without contact.
-bool is_impossible(const SessionData& data, const Attempt& attempt);
+/// Whether a completed trial's answer is anticipatory: earlier than its configuration allows,
+/// faster than fastest_answer_s, or without contact.
+bool is_anticipatory(const SessionData& data, const Attempt& attempt);
 
 class QualityFold {
  public:

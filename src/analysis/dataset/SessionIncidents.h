@@ -1,5 +1,4 @@
-// What a reviewer asks of sessions beside their figures: the configurations they ran with, and what
-// was noted.
+// Configurations of the sessions, and incidents: notes, deviations, unblindings, failed checks.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// What a sorting's answers come to: the labels that the cubes got, and what was exchanged.
+// Scoring of a sorting trial: the final labels of the cubes and the pair that was exchanged.
 #pragma once
 
 #include <array>
@@ -12,8 +12,7 @@
 
 namespace heft {
 
-/// What is wrong in an incorrect sorting of three cubes: one pair exchanged, or all three moved on
-/// in a cycle.
+/// Error of an incorrect sorting of three cubes: one pair exchanged, or all three in a cycle.
 enum class Swap { light_intermediate, intermediate_heavy, light_heavy, all_three };
 template <>
 struct EnumNames<Swap> {

@@ -38,6 +38,7 @@ struct EverybodyFold {
   SetupsFold setups;
   IncidentsFold incidents;
   std::vector<SessionSummary> sessions;
+  std::map<std::string, published::Comparable> comparable;
   std::size_t n_simulated = 0;
 
   void add(const SessionData& data) {
@@ -50,6 +51,10 @@ struct EverybodyFold {
     setups.add(data);
     incidents.add(data);
     sessions.push_back(summary_of(data));
+    for (const Attempt& attempt : data.attempts) {
+      const std::string& condition = attempt.trial.plan.condition;
+      comparable[condition].add(data.published_condition(condition), true);
+    }
     n_simulated += data.simulated() ? 1 : 0;
   }
 
@@ -120,6 +125,7 @@ Summary summarize(const std::string& database, const EachSession& each,
   summary.setups = everybody.setups.result();
   summary.incidents = everybody.incidents.result();
   summary.sessions = std::move(everybody.sessions);
+  summary.comparable = std::move(everybody.comparable);
   counted_of(std::move(all), each, summary.participants).put(summary);
   summary.hypotheses = hypotheses_of(summary);
   summary.notes = everybody.notes.result(summary);

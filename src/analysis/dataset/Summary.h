@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,7 +36,7 @@ struct SessionSummary {
   int n_completed = 0, n_void = 0, n_open = 0;  ///< attempts
 };
 
-enum class HypothesisVerdict { supported, not_supported, not_judged };
+enum class HypothesisVerdict { supported, not_supported, inconclusive };
 template <>
 struct EnumNames<HypothesisVerdict> {
   static constexpr std::array<std::string_view, 3> names{"supported", "not supported",
@@ -48,7 +49,7 @@ struct Hypothesis {
   std::string name;  ///< "E1-H1"
   std::string statement;
   bool declared = false;  ///< by the protocols of all sessions; otherwise it is exploratory
-  HypothesisVerdict verdict = HypothesisVerdict::not_judged;
+  HypothesisVerdict verdict = HypothesisVerdict::inconclusive;
   std::string why;
   std::vector<std::string> figures;  ///< a sentence each
   std::string condition{};           ///< of this log that is the paper's; empty: none is
@@ -78,6 +79,8 @@ struct Summary {
   ParticipantFlow flow;
   std::vector<SessionTracks> all_tracks;
   std::vector<Hypothesis> hypotheses;
+  /// Which conditions are the paper's, by technique; masses may differ.
+  std::map<std::string, published::Comparable> comparable;
   std::vector<ProtocolChoice> choices;
   std::vector<SetupValue> setups;
   std::vector<Incident> incidents;

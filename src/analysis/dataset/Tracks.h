@@ -1,4 +1,4 @@
-// The courses of one session's staircases, for looking at.
+// Trial-by-trial levels of a session's staircases, for charts.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What was chosen in comparisons, whatever the staircases made of it: how often the chosen cube was
-// the lighter one, and how often a difference was seen where there was none.
+// Choices in comparisons: incorrect choices (the lighter cube) and false alarms (a choice between
+// equal masses), by reference, condition and level.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,10 +13,9 @@ constexpr Measure trials{"comparisons", "", "trials", "completed comparisons"};
 constexpr Measure difference{
     "choice", "%", "a cube was chosen",
     "share of comparisons, without catch trials, in which a cube was chosen"};
-constexpr Measure wrong_cube{
+constexpr Measure incorrect_choice{
     "incorrect_choice", "%", "incorrect choices",
-    "share of choices between cubes that differ in which the lighter one was "
-    "chosen"};
+    "share of choices between different masses in which the lighter cube was chosen"};
 constexpr Measure false_alarm{"false_alarm", "%", "false alarms",
                               "share of catch trials in which a cube was chosen"};
 constexpr Measure at_zero{"choice_at_zero", "%", "chosen at 0 g",
@@ -24,7 +23,7 @@ constexpr Measure at_zero{"choice_at_zero", "%", "chosen at 0 g",
                           "chosen"};
 struct Counts {
   int n_trials = 0;
-  Tallies difference, wrong_cube, false_alarm, at_zero;
+  Tallies difference, incorrect_choice, false_alarm, at_zero;
 
   void add(const std::string& participant, const ComparedTrial& trial) {
     const bool equal = trial.level_g == 0;
@@ -32,7 +31,8 @@ struct Counts {
     if (trial.is_catch) false_alarm[participant].add(trial.difference);
     if (!trial.is_catch) difference[participant].add(trial.difference);
     if (!trial.is_catch && equal) at_zero[participant].add(trial.difference);
-    if (trial.difference && !equal && trial.correct) wrong_cube[participant].add(!*trial.correct);
+    if (trial.difference && !equal && trial.correct)
+      incorrect_choice[participant].add(!*trial.correct);
   }
 };
 
@@ -50,7 +50,7 @@ void put_choices(Estimates& all, const StudyEstimate& at, const Counts& counts,
   number.value = number.n_trials = counts.n_trials;
   put(std::move(number));
   put(rate_estimate(difference, rate_of(counts.difference)));
-  put(rate_estimate(wrong_cube, rate_of(counts.wrong_cube)));
+  put(rate_estimate(incorrect_choice, rate_of(counts.incorrect_choice)));
   if (!of_catches) return;
   put(rate_estimate(false_alarm, rate_of(counts.false_alarm)));
   put(rate_estimate(at_zero, rate_of(counts.at_zero)));
@@ -91,12 +91,14 @@ std::vector<EstimateColumn> only(std::string_view name, std::string text,
 }
 
 std::vector<EstimateColumn> choice_columns() {
-  std::vector<EstimateColumn> columns{
-      key_column("reference_g", "reference g"), key_column("condition", "condition"),
-      column(trials, Field::value, "n_trials", "trials", 0),
-      column(wrong_cube, Field::n_trials, "n_choices", "choices", 0, "wrong_cube.n_trials"),
-      column(wrong_cube, Field::n_hits, "n_wrong_cube", "incorrect", 0, "wrong_cube.n_hits")};
-  add_rate(columns, wrong_cube, "wrong_cube", "wrong_cube", true);
+  std::vector<EstimateColumn> columns{key_column("reference_g", "reference g"),
+                                      key_column("condition", "condition"),
+                                      column(trials, Field::value, "n_trials", "trials", 0),
+                                      column(incorrect_choice, Field::n_trials, "n_choices",
+                                             "choices", 0, "incorrect_choice.n_trials"),
+                                      column(incorrect_choice, Field::n_hits, "n_incorrect_choice",
+                                             "incorrect", 0, "incorrect_choice.n_hits")};
+  add_rate(columns, incorrect_choice, "incorrect_choice", "incorrect_choice", true);
   columns.push_back(
       column(false_alarm, Field::n_trials, "n_catch", "catch", 0, "false_alarm.n_trials"));
   columns.push_back(
@@ -136,7 +138,7 @@ EstimateTable references_json() {
 
 EstimateTable all_choices_json() {
   std::vector<EstimateColumn> columns;
-  for (const auto& [measure, name] : {std::pair(&wrong_cube, "wrong_cube"),
+  for (const auto& [measure, name] : {std::pair(&incorrect_choice, "incorrect_choice"),
                                       {&false_alarm, "false_alarm"},
                                       {&at_zero, "at_zero"}}) {
     columns.push_back(json_column(*measure, Field::n_trials, std::string(name) + ".n_trials"));
@@ -154,12 +156,13 @@ EstimateTable level_table() {
       key_column("level_g", "difference g"),
       column(trials, Field::value, "n_trials", "trials", 0),
       column(difference, Field::n_hits, "n_chosen", "chosen", 0, "difference.n_hits"),
-      column(wrong_cube, Field::n_trials, "n_choices", "choices between different cubes", 0,
-             "wrong_cube.n_trials"),
-      column(wrong_cube, Field::n_hits, "n_wrong_cube", "incorrect", 0, "wrong_cube.n_hits"),
+      column(incorrect_choice, Field::n_trials, "n_choices", "choices between different cubes", 0,
+             "incorrect_choice.n_trials"),
+      column(incorrect_choice, Field::n_hits, "n_incorrect_choice", "incorrect", 0,
+             "incorrect_choice.n_hits"),
       json_column(difference, Field::n_trials, "difference.n_trials")};
   add_rate(columns, difference, "difference", "", false);
-  add_rate(columns, wrong_cube, "wrong_cube", "", false);
+  add_rate(columns, incorrect_choice, "incorrect_choice", "", false);
   return {"choices_by_level",
           "Choices in comparisons by difference, without catch trials",
           only("over", "level", std::move(columns)),
@@ -195,6 +198,22 @@ class ChoiceSection final : public Section {
       put_at(compared);
       put_levels(summary.estimates, place, pointers_to(theirs), of);
     }
+  }
+
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::vector<std::string> parts;
+    const auto add = [&](const Measure& measure, std::string_view of) {
+      const StudyEstimate* one = find_estimate(summary.estimates, measure.name, {{"over", "all"}});
+      if (!one || one->n_trials == 0) return;
+      parts.push_back(fmt::format("{} of {} {}", one->n_hits, one->n_trials, of));
+      if (one->value && one->low)
+        parts.back() +=
+            fmt::format(", {:.0f} % [{:.0f}, {:.0f}]", *one->value, *one->low, *one->high);
+    };
+    add(incorrect_choice, "choices took the lighter cube");
+    add(false_alarm, "catch trials were false alarms");
+    if (parts.empty()) return {};
+    return {fmt::format("Comparisons: {}.", fmt::join(parts, "; "))};
   }
 
   std::vector<EstimateTable> tables() const override {

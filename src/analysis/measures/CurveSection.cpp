@@ -14,20 +14,21 @@ namespace heft {
 namespace {
 constexpr Measure right{
     "chosen_heavier", "%", "the heavier cube",
-    "share of comparisons of about one difference in which the heavier cube was "
-    "chosen"};
-constexpr Measure wrong{"chosen_lighter", "%", "the lighter cube",
-                        "share of them in which the lighter cube was chosen"};
+    "share of comparisons in a bin of differences in which the heavier cube was chosen"};
+constexpr Measure wrong{
+    "chosen_lighter", "%", "the lighter cube",
+    "share of comparisons in a bin of differences in which the lighter cube was chosen"};
 constexpr Measure none{"chosen_none", "%", "no difference",
-                       "share of them in which no difference was seen"};
+                       "share of comparisons in a bin of differences answered \"no difference\""};
 constexpr Measure time_by_level{"response_time_by_level", "s", "response time",
-                                "median response time of comparisons of about one difference, "
+                                "median response time of comparisons in a bin of differences, "
                                 "quartiles as low and high"};
-constexpr Measure hits{"hits", "%", "hits",
-                       "a participant's share of comparisons with a difference in which a cube was "
-                       "chosen"};
-constexpr Measure alarms{"alarms", "%", "false alarms",
-                         "the same of comparisons without a difference"};
+constexpr Measure hits{
+    "hits", "%", "hits",
+    "a participant's share of comparisons of different masses in which a cube was chosen"};
+constexpr Measure alarms{
+    "alarms", "%", "false alarms",
+    "a participant's share of comparisons of equal masses in which a cube was chosen"};
 
 StudyEstimate at_compared(StudyEstimate estimate, const Compared& compared) {
   estimate.task = "comparison";
@@ -113,7 +114,7 @@ EstimateTable curves_table() {
       "",
       TablePlace::csv};
   for (const auto& [measure, name] :
-       {std::pair(&right, "right"), {&wrong, "wrong"}, {&none, "none"}}) {
+       {std::pair(&right, "heavier"), {&wrong, "lighter"}, {&none, "none"}}) {
     table.columns.push_back(column(*measure, Field::value, std::string(name) + "_percent",
                                    std::string(measure->heading) + " %"));
     table.columns.push_back(

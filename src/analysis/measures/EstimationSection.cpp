@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
 
 namespace heft {
 
@@ -150,17 +151,23 @@ class EstimationSection final : public Section {
                                                                        : mean_over_people(people));
   }
 
-  std::string sentence(const Summary& summary) const override {
-    std::string text;
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::vector<std::string> parts;
     for (const StudyEstimate* one : estimates_of(summary.estimates, exponent.name)) {
-      text += fmt::format("{}{} in {}", text.empty() ? "" : ", ",
-                          one->value ? fmt::format("{:.2f}", *one->value) : "none", one->condition);
-      if (one->low) text += fmt::format(" [{:.2f}, {:.2f}]", *one->low, *one->high);
+      const std::string where = in_condition(summary, one->condition);
+      if (!one->value)
+        parts.push_back("none " + where);
+      else if (!one->low)
+        parts.push_back(fmt::format("{:.2f} {}", *one->value, where));
+      else
+        parts.push_back(
+            fmt::format("{:.2f} [{:.2f}, {:.2f}] {}", *one->value, *one->low, *one->high, where));
     }
-    if (text.empty()) return "";
-    return fmt::format(
-        "Magnitude estimation: exponent of the numbers over the masses {}; 1 is proportional.",
-        text);
+    if (parts.empty()) return {};
+    return {
+        fmt::format("Magnitude estimation: the exponent of the power law is {} (1: numbers "
+                    "proportional to mass).",
+                    some_of(parts, 4))};
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -180,7 +187,7 @@ class EstimationSection final : public Section {
         TablePlace::results,
         "estimation[]"};
     add_interval(by_mass.columns, geometric_mean, "low", "high", 2);
-    by_mass.columns.push_back(column(geometric_mean, Field::why, "why", "no geometric mean"));
+    by_mass.columns.push_back(column(geometric_mean, Field::why, "why", "no geometric mean: why"));
     EstimateTable exponents{
         "estimation_exponent",
         "Magnitude estimation: exponent of the power law",
@@ -198,7 +205,7 @@ class EstimationSection final : public Section {
         {key_column("condition", "condition"), key_column("participant", "participant"),
          column(exponent, Field::value, "exponent", "exponent", 3),
          column(exponent, Field::n_trials, "n_trials", "trials"),
-         column(exponent, Field::why, "why", "no exponent, because")},
+         column(exponent, Field::why, "why", "no exponent: why")},
         "",
         TablePlace::csv};
     people.participants = true;

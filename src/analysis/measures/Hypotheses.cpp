@@ -89,7 +89,7 @@ std::vector<std::string> ratio_figures(const Summary& summary) {
 }
 
 struct Judgment {
-  HypothesisVerdict verdict = HypothesisVerdict::not_judged;
+  HypothesisVerdict verdict = HypothesisVerdict::inconclusive;
   std::string why;
 };
 
@@ -99,7 +99,7 @@ constexpr double usual_margin_percent = 10;  // beside chance: what counts as no
 Judgment judge_blind(const StudyEstimate& answered_correct, double chance, double margin_percent) {
   if (answered_correct.n < 2)
     return {
-        HypothesisVerdict::not_judged,
+        HypothesisVerdict::inconclusive,
         fmt::format("fewer than two participants answered a {} trial", answered_correct.condition)};
   const double low = *answered_correct.low, high = *answered_correct.high;
   const Interval blind{chance - margin_percent, chance + margin_percent};
@@ -111,13 +111,12 @@ Judgment judge_blind(const StudyEstimate& answered_correct, double chance, doubl
     return {HypothesisVerdict::supported, figures + ": equivalent to chance"};
   if (high < blind.low || low > blind.high)
     return {HypothesisVerdict::not_supported, figures + ": not chance"};
-  return {HypothesisVerdict::not_judged,
-          figures + ": too wide to say that it is chance, or that it is not"};
+  return {HypothesisVerdict::inconclusive, figures + ": inconclusive, the interval is too wide"};
 }
 
 Judgment judge_above_chance(const StudyEstimate& correct, double chance) {
   if (correct.n < 2)
-    return {HypothesisVerdict::not_judged,
+    return {HypothesisVerdict::inconclusive,
             fmt::format("fewer than two participants completed a {} trial", correct.condition)};
   const std::string figures = fmt::format(
       "{:.1f} % of the trials were right, 95 % interval [{:.1f}, {:.1f}]; chance is "
@@ -126,12 +125,13 @@ Judgment judge_above_chance(const StudyEstimate& correct, double chance) {
   if (*correct.low > chance) return {HypothesisVerdict::supported, figures};
   if (*correct.high <= chance + usual_margin_percent)
     return {HypothesisVerdict::not_supported, figures};
-  return {HypothesisVerdict::not_judged, figures + ": the interval holds chance and much more"};
+  return {HypothesisVerdict::inconclusive,
+          figures + ": the interval contains chance and much more"};
 }
 
 Judgment judge_first_try(const StudyEstimate& first_try) {
   if (first_try.n < 2)
-    return {HypothesisVerdict::not_judged,
+    return {HypothesisVerdict::inconclusive,
             "fewer than two participants completed the introduction"};
   const std::string figures = fmt::format(
       "{} of {} participants were right on the first try, 95 % interval [{:.1f}, {:.1f}] %; "
@@ -139,7 +139,7 @@ Judgment judge_first_try(const StudyEstimate& first_try) {
       first_try.n_hits, first_try.n_trials, *first_try.low, *first_try.high);
   if (*first_try.low > 50) return {HypothesisVerdict::supported, figures};
   if (*first_try.high < 50) return {HypothesisVerdict::not_supported, figures};
-  return {HypothesisVerdict::not_judged, figures};
+  return {HypothesisVerdict::inconclusive, figures};
 }
 
 // In the paper's technique and at its references.
@@ -157,10 +157,10 @@ std::string why_not_comparable(const std::vector<const StudyEstimate*>& threshol
   std::string why;
   for (const StudyEstimate* one : thresholds)
     if (!one->why.empty())
-      why += fmt::format("{}at {:g} g there is no threshold, because {}", why.empty() ? "" : "; ",
+      why += fmt::format("{}at {:g} g there is no threshold ({})", why.empty() ? "" : "; ",
                          *one->reference_g, one->why);
   if (why.empty() && thresholds.front()->n < least_people)
-    why = "there are too few participants to tell how people differ";
+    why = "there are too few participants to estimate how people differ";
   return why;
 }
 
@@ -175,7 +175,7 @@ std::string threshold_figures(const std::vector<const StudyEstimate*>& threshold
 Judgment judge_rising(const Summary& summary) {
   const auto thresholds = papers(summary, "threshold_75");
   if (const std::string why = why_not_comparable(thresholds); !why.empty())
-    return {HypothesisVerdict::not_judged, why};
+    return {HypothesisVerdict::inconclusive, why};
   const std::string figures = threshold_figures(thresholds);
   if (std::ranges::all_of(papers(summary, "threshold_ratio"),
                           [](const StudyEstimate* ratio) { return *ratio->low > 1; }))
@@ -183,7 +183,7 @@ Judgment judge_rising(const Summary& summary) {
   if (std::ranges::any_of(papers(summary, "threshold_ratio_of_several"),
                           [](const StudyEstimate* ratio) { return *ratio->high < 1; }))
     return {HypothesisVerdict::not_supported, figures + ": one is smaller than the one before"};
-  return {HypothesisVerdict::not_judged, figures + ": their intervals don't tell which is larger"};
+  return {HypothesisVerdict::inconclusive, figures + ": their intervals do not separate them"};
 }
 
 // Proportional: from each reference to the next the threshold grows as the reference does, within
@@ -191,7 +191,7 @@ Judgment judge_rising(const Summary& summary) {
 Judgment judge_proportional(const Summary& summary) {
   const auto thresholds = papers(summary, "threshold_75");
   if (const std::string why = why_not_comparable(thresholds); !why.empty())
-    return {HypothesisVerdict::not_judged, why};
+    return {HypothesisVerdict::inconclusive, why};
   constexpr double near = 1.5;
   const std::string figures = threshold_figures(thresholds);
   const auto expected = [](const StudyEstimate& ratio) {
@@ -206,12 +206,12 @@ Judgment judge_proportional(const Summary& summary) {
             return *ratio->low > expected(*ratio) || *ratio->high < expected(*ratio);
           }))
     return {HypothesisVerdict::not_supported, figures + ": not in proportion to the reference"};
-  return {HypothesisVerdict::not_judged, figures + ": too uncertain to say"};
+  return {HypothesisVerdict::inconclusive, figures + ": the intervals are too wide"};
 }
 
 Judgment not_run(std::string_view what) {
   return {
-      HypothesisVerdict::not_judged,
+      HypothesisVerdict::inconclusive,
       fmt::format("no completed {} the paper's masses and technique, by law and parameters", what)};
 }
 
@@ -241,7 +241,7 @@ struct PaperSorting {
     return estimate("sorting_answers", trials, answer);
   }
   std::string none_figure() const {
-    return share_figure(condition + " \"I don't know\", an outcome of its own",
+    return share_figure(condition + " \"I don't know\", a separate outcome",
                         share("all", "I don't know"));
   }
 

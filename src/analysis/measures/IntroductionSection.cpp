@@ -38,6 +38,15 @@ class IntroductionSection final : public Section {
     if (estimate.as_published) estimate.published = &published::introduction_first_try;
   }
 
+  std::vector<std::string> findings(const Summary& summary) const override {
+    const StudyEstimate* one = find_estimate(summary.estimates, first_try.name);
+    if (!one) return {};
+    std::string interval;
+    if (one->low) interval = fmt::format(" [{:.0f}, {:.0f}]", *one->low, *one->high);
+    return {fmt::format("Introduction: {} of {} correct on the first try, {:.0f} %{}.", one->n_hits,
+                        one->n_trials, *one->value, interval)};
+  }
+
   std::vector<EstimateTable> tables() const override {
     EstimateTable table{
         "introduction",

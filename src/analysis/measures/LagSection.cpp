@@ -10,8 +10,8 @@ namespace {
 constexpr Measure lag{
     "lag", "mm", "lag",
     "largest distance of the clone from the effector while it touched a cube, as "
-    "displayed, and how far the hand went from where the touch began, which a lag "
-    "comes to at most: median over cubes and trials, quartiles as low and high"};
+    "displayed, and its upper bound, the path of the hand since the touch began: median "
+    "over cubes and trials, quartiles as low and high"};
 
 class LagSection final : public Section {
  public:

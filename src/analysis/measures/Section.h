@@ -29,8 +29,8 @@ class Section {
   /// Each participant's own, made where they are printed: of a thousand participants they would be
   /// most of what is in memory. @param summary that they belong to
   virtual Estimates of_participants(const Summary& /*summary*/) const { return {}; }
-  /// What came out, for the top of the report; empty: nothing to say.
-  virtual std::string sentence(const Summary& /*summary*/) const { return ""; }
+  /// The results in short sentences, for the first screen and the top of the report.
+  virtual std::vector<std::string> findings(const Summary& /*summary*/) const { return {}; }
   virtual std::vector<EstimateTable> tables() const { return {}; }
   virtual std::vector<ChartSpec> charts() const { return {}; }
 };

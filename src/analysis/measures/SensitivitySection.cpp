@@ -8,6 +8,7 @@
 
 #include "analysis/dataset/Sensitivity.h"
 #include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
 
 namespace heft {
 
@@ -15,21 +16,24 @@ namespace {
 constexpr Measure threshold{"threshold_75", "g", "threshold",
                             "75 %-correct discrimination threshold of the median participant in a "
                             "forced choice, free of the criterion (indecision model)"};
-constexpr Measure sensitivity{"sensitivity", "1/g", "sensitivity",
-                              "per gram, of the median participant"};
+constexpr Measure sensitivity{
+    "sensitivity", "1/g", "sensitivity",
+    "sensitivity of the median participant: d' per gram (indecision model)"};
 constexpr Measure indecision{"indecision", "SD", "criterion half-width",
                              "half the width between the median participant's criteria, in SDs of "
-                             "what is felt"};
+                             "the internal noise"};
 constexpr Measure ratio{"threshold_ratio", "", "ratio of thresholds",
-                        "of a reference's threshold to that of the next lighter one"};
+                        "threshold at a reference over the threshold at the next lighter one"};
 constexpr Measure ratio_of_several{"threshold_ratio_of_several", "", "ratio of thresholds",
-                                   "the same with an interval for all ratios of the condition "
-                                   "together (Bonferroni)"};
-constexpr Measure started_jnd{"started_jnd", "g", "JND",
-                              "a participant's JND of the staircases that began on one side"};
+                                   "ratio of thresholds with a simultaneous interval over the "
+                                   "condition's ratios (Bonferroni)"};
+constexpr Measure jnd_by_start{
+    "jnd_by_start", "g", "JND",
+    "a participant's JND by whether the staircases started above or below"};
 constexpr Measure start{"staircase_start", "g", "start",
-                        "mean first level of a participant's staircases that began on one side"};
-constexpr Measure own_jnd{"own_jnd", "g", "JND", "a participant's JND beside their threshold"};
+                        "mean first level of a participant's staircases from above or from below"};
+constexpr Measure participant_jnd{"participant_jnd", "g", "JND",
+                                  "a participant's JND, all staircases of a reference together"};
 
 StudyEstimate estimate_at(const Measure& measure, const Compared& compared) {
   return {&measure, "comparison", compared.condition, compared.reference_g};
@@ -120,7 +124,7 @@ void put_started(Estimates& all, StudyEstimate of, const char* staircases, const
   of.by = {{"staircases", staircases}};
   put_value(all, of, start, *mean(starts_g));
   if (const auto jnd = mean_figure(jnds))
-    put_value(all, of, started_jnd, jnd->value, jnd->censored);
+    put_value(all, of, jnd_by_start, jnd->value, jnd->censored);
 }
 
 // Of the staircases that began high and low; of a single start all are from above.
@@ -152,11 +156,12 @@ EstimateTable sensitivity_table() {
        json_column(sensitivity, Field::high, "sensitivity_high_per_g"),
        json_column(threshold, Field::n_trials, "n_trials"),
        json_column(threshold, Field::identifiable, "identifiable"),
-       column(threshold, Field::why, "why", "no threshold, because")},
+       column(threshold, Field::why, "why", "no threshold: why")},
       "indecision model (left, none, right; lapse rate .02) with criteria and side bias of each "
       "participant's own; the median participant's threshold of a forced choice, free of the "
       "criterion. Interval: bootstrap over participants. Criterion half-width: half the width "
-      "between the median participant's criteria in SDs of what is felt. Thresholds that are not "
+      "between the median participant's criteria in SDs of the internal noise. Thresholds that are "
+      "not "
       "identifiable are not printed.",
       TablePlace::results,
       "sensitivity[]"};
@@ -172,8 +177,8 @@ EstimateTable threshold_table() {
        column(threshold, Field::value, "threshold_75_g", "threshold g"),
        column(threshold, Field::low, "low_g", "95 % low"),
        column(threshold, Field::high, "high_g", "high"),
-       column(own_jnd, Field::value, "jnd_g", "", 1, "-"),
-       column(own_jnd, Field::censored, "censored", "", 1, "-")},
+       column(participant_jnd, Field::value, "jnd_g", "", 1, "-"),
+       column(participant_jnd, Field::censored, "censored", "", 1, "-")},
       "the 75 %-correct threshold by this person's trials alone; the paper's JND of "
       "the staircases that began high and low beside, each with its start",
       TablePlace::report,
@@ -182,13 +187,13 @@ EstimateTable threshold_table() {
     EstimateColumn began = column(start, Field::value, fmt::format("start_{}_g", name),
                                   fmt::format("start {} g", name), 1, "-");
     EstimateColumn of =
-        column(started_jnd, Field::value, fmt::format("jnd_{}_g", name), "its JND", 1, "-");
+        column(jnd_by_start, Field::value, fmt::format("jnd_{}_g", name), "its JND", 1, "-");
     began.only = of.only = {"staircases", side};
     table.columns.push_back(began);
     table.columns.push_back(of);
   }
   table.columns.push_back(
-      column(threshold, Field::why_in_short, "why", "no threshold, because", 1, "-"));
+      column(threshold, Field::why_in_short, "why", "no threshold: why", 1, "-"));
   table.columns.push_back(json_column(threshold, Field::why, "why"));
   table.columns.push_back(json_column(threshold, Field::identifiable, "identifiable"));
   table.participants = true;
@@ -222,33 +227,29 @@ class SensitivitySection final : public Section {
         own.n_trials = static_cast<int>(trials_in(answers));
         own.why = why;
         if (const auto jnd = jnds.find(key); jnd != jnds.end())
-          put_value(all, of, own_jnd, jnd->second.jnd_g, jnd->second.censored);
+          put_value(all, of, participant_jnd, jnd->second.jnd_g, jnd->second.censored);
         if (const auto found = results.find(key); found != results.end())
           put_starts(all, of, found->second);
       }
     return all;
   }
 
-  std::string sentence(const Summary& summary) const override {
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::map<std::string, std::vector<std::string>> by_condition;
     const auto thresholds = estimates_of(summary.estimates, threshold.name);
-    if (thresholds.empty()) return "";
-    std::string known, unknown;
-    for (const StudyEstimate* one : thresholds) {
-      const std::string where = fmt::format("{:g} g in {}", *one->reference_g, one->condition);
+    for (const StudyEstimate* one : thresholds)
       if (one->value)
-        known += fmt::format("{}{:.0f} g [{:.0f}, {:.0f}] at {}", known.empty() ? "" : ", ",
-                             *one->value, *one->low, *one->high, where);
-      else
-        unknown += fmt::format("{}{}", unknown.empty() ? "" : ", ", where);
-    }
-    std::string text = "Comparisons: ";
-    if (!known.empty())
-      text +=
-          fmt::format("75 %-correct discrimination threshold of the median participant: {}", known);
-    if (!unknown.empty())
-      text +=
-          fmt::format("{}no threshold is identifiable at {}", known.empty() ? "" : "; ", unknown);
-    return text + ".";
+        by_condition[one->condition].push_back(fmt::format("{:.0f} g [{:.0f}, {:.0f}] at {:g} g",
+                                                           *one->value, *one->low, *one->high,
+                                                           *one->reference_g));
+    std::vector<std::string> found;
+    for (const auto& [condition, values] : by_condition)
+      found.push_back(fmt::format("75 %-correct discrimination threshold in {}: {}.", condition,
+                                  some_of(values, 6)));
+    if (!thresholds.empty() && found.empty())
+      found.emplace_back(
+          "75 %-correct discrimination threshold: not identifiable from these trials.");
+    return found;
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -282,8 +283,8 @@ class SensitivitySection final : public Section {
          .shape = ChartShape::people,
          .importance = 30,
          .series = {{&threshold, "threshold"},
-                    {&started_jnd, "JND from above", {"staircases", "from above"}},
-                    {&started_jnd, "JND from below", {"staircases", "from below"}},
+                    {&jnd_by_start, "JND from above", {"staircases", "from above"}},
+                    {&jnd_by_start, "JND from below", {"staircases", "from below"}},
                     {&start, "start"}},
          .panels = {"reference_g", "condition"},
          .x_label = "participant, ordered by threshold",
@@ -298,7 +299,7 @@ class SensitivitySection final : public Section {
          .csv = "thresholds_by_participant.csv",
          .shape = ChartShape::scatter,
          .importance = 40,
-         .series = {{&start}, {&started_jnd}},
+         .series = {{&start}, {&jnd_by_start}},
          .split = {"reference_g", "condition"},
          .diagonal = true,
          .x_label = "start (g)",

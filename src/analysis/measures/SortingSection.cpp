@@ -2,6 +2,9 @@
 // for which.
 #include <fmt/format.h>
 
+#include <functional>
+#include <set>
+
 #include "analysis/dataset/Sorting.h"
 #include "analysis/measures/Section.h"
 #include "analysis/report/Notes.h"
@@ -12,22 +15,24 @@ namespace heft {
 namespace {
 constexpr Measure answers{
     "sorting_answers", "%", "answers",
-    "share of the completed sorting trials with an answer (of all, or of those "
-    "that were answered): mean over participants of each one's percentage"};
+    "share of completed (or of answered) sorting trials with this answer: mean over "
+    "participants of each one's percentage"};
 constexpr Measure chance{"sorting_chance", "%", "correct by chance",
                          "share of the same trials that a random order gets right, one of the n! "
                          "orders of n cubes"};
-constexpr Measure chance_by_cubes{"sorting_chance_by_cubes", "%", "correct by chance",
-                                  "the same of the trials with so many cubes"};
+constexpr Measure chance_by_cubes{
+    "sorting_chance_by_cubes", "%", "correct by chance",
+    "share of trials with this number of cubes that a random order gets right"};
 constexpr Measure equivalence{"sorting_equivalence", "%", "correct, of answered",
                               "share of answered trials sorted correctly, with its 90 % interval, "
                               "for the test of equivalence to chance"};
 constexpr Measure n_incorrect{"sorting_n_incorrect", "", "incorrect",
                               "number of trials sorted incorrectly"};
-constexpr Measure swapped{"sorting_swapped", "", "exchanged",
-                          "number of incorrect trials of three cubes by what was exchanged"};
-constexpr Measure labels{"sorting_labels", "", "labels",
-                         "how often each cube got each label, in answered trials"};
+constexpr Measure swapped{
+    "sorting_swapped", "", "exchanged",
+    "number of incorrect trials of three cubes by the pair that was exchanged"};
+constexpr Measure labels{"sorting_confusion_count", "", "labels",
+                         "confusion matrix: number of answered trials in which a cube got a label"};
 
 // Number of cubes -> labels given [cube][label], both from the lightest on.
 using LabelMatrices = std::map<int, std::vector<std::vector<int>>>;
@@ -215,7 +220,7 @@ EstimateTable swaps_table() {
 }
 
 EstimateTable label_table() {
-  EstimateTable table{"labels_by_mass",
+  EstimateTable table{"sorting_confusion",
                       "Confusion matrix: which label which cube was given",
                       {key_column("condition", "condition"), key_column("n_cubes", "of"),
                        key_column("cube", "cube")},
@@ -239,27 +244,47 @@ EstimateTable participants_table() {
   return table;
 }
 
-std::string percent(const StudyEstimate& share) {
-  if (!share.value) return "-";
+// "all 5", "3 of 5", "none of 5"
+std::string hits_in_words(int n_hits, int n) {
+  if (n_hits == n) return fmt::format("all {}", n);
+  return fmt::format("{} of {}", n_hits == 0 ? "none" : fmt::format("{}", n_hits), n);
+}
+
+std::string percent_in_words(const StudyEstimate& share) {
   std::string text = fmt::format("{:.0f} %", *share.value);
   if (share.low) text += fmt::format(" [{:.0f}, {:.0f}]", *share.low, *share.high);
   return text;
 }
 
-// Chance is of answers: who doesn't know is neither right nor wrong.
-std::string sorting_in_words(const Summary& summary, const StudyEstimate& correct) {
-  const std::string& name = correct.condition;
-  const auto of = [&](std::string_view measure, std::string_view trials, std::string_view answer) {
-    return *find_estimate(summary.estimates, measure,
-                          {{"condition", name}, {"trials", trials}, {"answer", answer}});
-  };
-  const double none_percent = of(answers.name, "all", "I don't know").value.value_or(0);
-  std::string text = fmt::format("{} of trials were correct in {}", percent(correct), name);
-  if (none_percent > 0)
-    text += fmt::format(" and {} of the answered trials in {} ({:.0f} % were \"I don't know\")",
-                        percent(of(answers.name, "answered", "correct")), name, none_percent);
-  return text + fmt::format(", where chance is {:.0f} %",
-                            of(chance.name, "all", "correct").value.value_or(0));
+const StudyEstimate& answers_in(const Summary& summary, const std::string& condition,
+                                std::string_view trials, std::string_view answer) {
+  return *find_estimate(summary.estimates, answers.name,
+                        {{"condition", condition}, {"trials", trials}, {"answer", answer}});
+}
+
+// Chance applies to answers, so "I don't know" is counted apart: "with decoupling (C2) all 5 were
+// correct, 100 % [48, 100]".
+std::string condition_in_words(const Summary& summary, const std::string& condition) {
+  const StudyEstimate& none = answers_in(summary, condition, "all", "I don't know");
+  const StudyEstimate& correct = answers_in(summary, condition, "answered", "correct");
+  const std::string where = in_condition(summary, condition);
+  if (!correct.value)
+    return fmt::format("{} all {} answers were \"I don't know\"", where, none.n_hits);
+  std::string text =
+      correct.n == 1
+          ? fmt::format("{} {} were correct, {}", where,
+                        hits_in_words(correct.n_hits, correct.n_trials), percent_in_words(correct))
+          : fmt::format("{} {} were correct", where, percent_in_words(correct));
+  if (none.n_hits == 0) return text;
+  return text + (none.n == 1 ? fmt::format(", and {} \"I don't know\"", none.n_hits)
+                             : fmt::format(" of those answered ({:.0f} % were \"I don't know\")",
+                                           *none.value));
+}
+
+std::string chance_in_words(const Summary& summary, const std::string& condition) {
+  return fmt::format(
+      "{:.0f} %",
+      find_estimate(summary.estimates, chance.name, {{"condition", condition}})->value.value_or(0));
 }
 
 class SortingSection final : public Section {
@@ -297,17 +322,26 @@ class SortingSection final : public Section {
     return all;
   }
 
-  std::string sentence(const Summary& summary) const override {
-    if (!find_estimate(summary.estimates, answers.name)) return "";
-    std::string text;
-    for (const StudyEstimate* correct :
-         estimates_of(summary.estimates, answers.name, {{"trials", "all"}, {"answer", "correct"}}))
-      if (correct->value) text += (text.empty() ? "" : "; ") + sorting_in_words(summary, *correct);
-    if (text.empty())
-      return fmt::format("Sorting: of {} no one completed a trial.",
-                         participants_in_words(summary));
-    return fmt::format("Sorting: of {}, {}{}.", participants_in_words(summary), text,
-                       verdicts_in_words(summary));
+  std::vector<std::string> findings(const Summary& summary) const override {
+    if (!find_estimate(summary.estimates, answers.name)) return {};
+    std::vector<const StudyEstimate*> conditions =
+        estimates_of(summary.estimates, answers.name, {{"trials", "all"}, {"answer", "correct"}});
+    std::erase_if(conditions, [](const StudyEstimate* one) { return !one->value; });
+    if (conditions.empty()) return {"Sorting: no trial was completed."};
+    std::ranges::stable_sort(conditions, std::greater(), &StudyEstimate::value);
+    std::vector<std::string> parts;
+    std::set<std::string> chances;
+    for (const StudyEstimate* one : conditions) {
+      parts.push_back(condition_in_words(summary, one->condition));
+      chances.insert(chance_in_words(summary, one->condition));
+    }
+    constexpr std::size_t max_shown = 4;
+    const std::size_t n_more = parts.size() > max_shown ? parts.size() - max_shown : 0;
+    parts.resize(parts.size() - n_more);
+    std::string text = fmt::format("Sorting: {}", fmt::join(parts, "; "));
+    if (n_more > 0) text += fmt::format("; {} more conditions in the tables", n_more);
+    return {fmt::format("{}. Chance is {}.", text, fmt::join(chances, " or ")),
+            sorting_verdicts(summary)};
   }
 
   std::vector<EstimateTable> tables() const override {
@@ -320,7 +354,7 @@ class SortingSection final : public Section {
          .title = "Sorting: answers per condition, 95 % intervals",
          .caption = "Percentage of completed trials, mean over participants with 95 % intervals "
                     "over participants, side by side for each condition; diamonds: the paper's "
-                    "means. \"I don't know\" is an outcome of its own. Dashed: what a random order "
+                    "means. \"I don't know\" is a separate outcome. Dashed: what a random order "
                     "gets right.",
          .csv = "sorting.csv",
          .importance = 10,
@@ -342,13 +376,13 @@ class SortingSection final : public Section {
          .reference = &chance,
          .y_label = "% of trials sorted correctly",
          .axes = "set yrange [-3:103]\n"},
-        {.name = "labels_by_mass",
+        {.name = "sorting_confusion",
          .title = "Confusion matrix: which label which cube was given",
          .caption =
              "Sorted trials, all participants together, without \"I don't know\": how often "
              "each cube got each label, and in how many percent of its labels. Right ones on "
              "the diagonal.",
-         .csv = "labels_by_mass.csv",
+         .csv = "sorting_confusion.csv",
          .shape = ChartShape::matrix,
          .importance = 50,
          .series = {{&labels}},

@@ -1,30 +1,34 @@
 // The paper's JND: by reference and condition, from above and from below, of each participant; and
 // how the staircases went.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
 #include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
 
 namespace heft {
 
 namespace {
-constexpr Measure jnd{"jnd", "g", "JND",
-                      "mean level of a staircase's reversals but the first ones (the paper's JND), "
-                      "by where the staircases began: mean over participants"};
+constexpr Measure jnd{
+    "jnd", "g", "JND",
+    "the paper's JND: mean level of a staircase's reversals without the first ones, by the "
+    "side on which staircases started; mean over participants"};
 constexpr Measure jnd_overall{
     "jnd_overall", "g", "JND",
-    "the same of a participant's staircases together, wherever they began"};
+    "the paper's JND over all staircases of a participant; mean over participants"};
 constexpr Measure n_above{"jnd_n_above", "", "above",
-                          "participants of whom it is known only that their JND lies above"};
+                          "participants whose JND is censored: it is larger than shown"};
 constexpr Measure n_below{"jnd_n_below", "", "below",
-                          "participants of whom it is known only that their JND lies below"};
+                          "participants whose JND is censored: it is smaller than shown"};
 constexpr Measure n_known{"jnd_n_known", "", "known", "participants with a JND, exact or censored"};
-constexpr Measure n_missing{"jnd_n_missing", "", "missing",
-                            "participants of whose JND nothing is known"};
+constexpr Measure n_missing{"jnd_n_missing", "", "missing", "participants without a JND"};
 
-constexpr Measure jnd_rising{"jnd_rising", "%", "rising JNDs",
-                             "share of participants whose JND rises from each of the paper's "
-                             "references to the next, of those with an exact one at all"};
+constexpr Measure jnd_rising{
+    "jnd_rising", "%", "rising JNDs",
+    "share of participants whose JND rises with the reference, of those with "
+    "an exact JND at each of the paper's references"};
 
 // What is counted of staircases.
 struct Counted {
@@ -116,8 +120,7 @@ void put_participants(Estimates& all, StudyEstimate of, const Jnds& jnds) {
     estimate.censored = one.censored;
     estimate.n = 1;
   }
-  for (const std::string& participant : jnds.missing)
-    put(participant).why = "nothing is known of it";
+  for (const std::string& participant : jnds.missing) put(participant).why = "indeterminate";
 }
 
 // The mean of several, and who is censored.
@@ -312,6 +315,27 @@ class StaircaseSection final : public Section {
       put_participants(all, estimate_at(jnd_overall, row), row.overall);
     }
     return all;
+  }
+
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::map<std::pair<std::string, std::string>, std::vector<std::string>> by_method;
+    for (const StudyEstimate* one : estimates_of(summary.estimates, jnd.name)) {
+      const std::string staircases = one->text_at("staircases");
+      if (staircases == "above - below") continue;
+      std::string text =
+          one->value ? fmt::format("{}{:.0f} g", beyond_sign(one->censored), *one->value) : "none";
+      if (one->low) text += fmt::format(" [{:.0f}, {:.0f}]", *one->low, *one->high);
+      text += fmt::format(" at {:g} g", *one->reference_g);
+      if (staircases != "all") text += " " + staircases;
+      by_method[{one->text_at("method"), one->condition}].push_back(std::move(text));
+    }
+    std::vector<std::string> found;
+    for (const auto& [of, values] : by_method)
+      found.push_back(fmt::format(
+          "{} in {}: {}.",
+          of.first == jnd_method ? "The paper's JND" : fmt::format("JND ({})", of.first), of.second,
+          some_of(values, 6)));
+    return found;
   }
 
   std::vector<EstimateTable> tables() const override {

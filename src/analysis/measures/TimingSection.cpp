@@ -1,5 +1,4 @@
-// How long answers took, by task and condition, over the trials of a session, and why attempts are
-// void.
+// Response times by task, condition and position in the session, and reasons of void attempts.
 #include <fmt/format.h>
 
 #include <functional>
@@ -15,10 +14,11 @@ constexpr Measure response_time{
     "response_time", "s", "response time",
     "median with quartiles as low and high, from all cubes shown to the "
     "answer, without pauses and time with the effector out of view"};
-constexpr Measure time_by_trial{"response_time_by_trial", "s", "response time",
-                                "the same over tenths of each session's trials of a task"};
+constexpr Measure time_by_trial{
+    "response_time_by_trial", "s", "response time",
+    "median response time by tenths of each session's trials of a task"};
 constexpr Measure n_void{"void_attempts", "", "void attempts",
-                         "attempts at trials that do not count and were presented again"};
+                         "attempts that were discarded and presented again"};
 
 constexpr int n_tenths = 10;
 

@@ -1,4 +1,4 @@
-// How well each participant's effector was tracked: what a reviewer holds beside their figures.
+// Tracking quality of each participant's effector.
 #include "analysis/measures/Section.h"
 
 namespace heft {
@@ -8,14 +8,13 @@ constexpr Measure in_view{
     "in_view", "%", "in view",
     "share of the time from all cubes shown to the answer with the effector in "
     "view"};
-constexpr Measure n_lost{"times_lost", "", "times out of sight",
-                         "how often the effector went out of sight in a trial"};
-constexpr Measure lost{"lost_time", "s", "out of sight", "for how long in all"};
+constexpr Measure n_lost{"tracking_losses", "", "tracking losses",
+                         "how often tracking of the effector was lost in a trial"};
+constexpr Measure lost{"tracking_loss_time", "s", "time lost", "total time without tracking"};
 constexpr Measure n_frames{"frames", "", "frames", "displayed frames, where they were kept"};
 constexpr Measure tracked{"tracked", "%", "tracked", "share of frames with the effector tracked"};
-constexpr Measure n_jumps{
-    "jumps", "", "jumps",
-    "times the effector came back or leapt, and the clone was put where it was"};
+constexpr Measure n_jumps{"jumps", "", "jumps",
+                          "times the effector reappeared or jumped, and the clone was moved to it"};
 constexpr Measure quality{"tracking_quality", "", "mean quality", "mean over frames, 0 to 1"};
 constexpr Measure n_pictures{"pictures", "", "camera pictures", "pictures of the camera shown"};
 constexpr Measure n_dropped{"pictures_dropped", "", "dropped", "camera pictures never shown"};
@@ -91,24 +90,23 @@ class TrackingSection final : public Section {
   }
 
   std::vector<EstimateTable> tables() const override {
-    EstimateTable table{
-        "tracking_quality",
-        "Tracking of each participant's effector",
-        {key_column("participant", "participant"),
-         column(n_lost, Field::value, "n_lost", "times out of sight", 0),
-         column(in_view, Field::value, "in_view_percent", "in view % of the time"),
-         column(lost, Field::value, "lost_s", "for s"),
-         column(n_frames, Field::value, "n_frames", "frames", 0),
-         column(tracked, Field::value, "tracked_percent", "tracked %"),
-         column(n_jumps, Field::value, "n_jumps", "jumps", 0),
-         column(quality, Field::value, "mean_quality", "mean quality", 2),
-         column(n_pictures, Field::value, "n_pictures", "camera pictures", 0),
-         column(n_dropped, Field::value, "n_dropped", "dropped", 0),
-         column(n_late, Field::value, "n_late", "late", 0)},
-        "time: from all cubes shown to the answer; frames: where they were kept; "
-        "jumps: the effector came back or leapt, and the clone was put where it was",
-        TablePlace::run_only,
-        "tracking[]"};
+    EstimateTable table{"tracking_quality",
+                        "Tracking of each participant's effector",
+                        {key_column("participant", "participant"),
+                         column(n_lost, Field::value, "n_lost", "tracking losses", 0),
+                         column(in_view, Field::value, "in_view_percent", "in view % of the time"),
+                         column(lost, Field::value, "lost_s", "lost s"),
+                         column(n_frames, Field::value, "n_frames", "frames", 0),
+                         column(tracked, Field::value, "tracked_percent", "tracked %"),
+                         column(n_jumps, Field::value, "n_jumps", "jumps", 0),
+                         column(quality, Field::value, "mean_quality", "mean quality", 2),
+                         column(n_pictures, Field::value, "n_pictures", "camera pictures", 0),
+                         column(n_dropped, Field::value, "n_dropped", "dropped", 0),
+                         column(n_late, Field::value, "n_late", "late", 0)},
+                        "time: from all cubes shown to the answer; frames: where they were kept; "
+                        "jumps: the effector reappeared or jumped, and the clone was moved to it",
+                        TablePlace::run_only,
+                        "tracking[]"};
     table.participants = true;
     return {table};
   }
@@ -117,7 +115,7 @@ class TrackingSection final : public Section {
     return {{.name = "tracking_quality",
              .title = "Tracking of each participant's effector",
              .caption =
-                 "A column for each participant, from the worst tracked on: percentage of the "
+                 "A column for each participant, the worst tracked first: percentage of the "
                  "time until the answer with the effector in view, and of displayed frames with "
                  "it tracked, where frames were kept.",
              .csv = "tracking_quality.csv",

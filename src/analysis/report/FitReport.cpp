@@ -32,8 +32,7 @@ Table table_of(const NamedFit& named) {
     table.rows.push_back({word(parameter.name), figure(parameter.value), figure(parameter.se),
                           figure(parameter.low), figure(parameter.high),
                           parameter.fixed ? word("fixed") : word(" ")});
-  if (!named.fit.identifiable())
-    table.note = fmt::format("No threshold, because {}.", named.fit.why);
+  if (!named.fit.identifiable()) table.note = fmt::format("No threshold: {}.", named.fit.why);
   return table;
 }
 

@@ -7,16 +7,20 @@
 
 namespace heft {
 
-namespace {
-// "1, 2, 3 and 40 more"
-std::string some_of(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 8;
+std::string some_of(const std::vector<std::string>& names, std::size_t most) {
   const std::size_t shown = std::min(most, names.size());
   std::string text = fmt::format("{}", fmt::join(std::span(names).first(shown), ", "));
   if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
   return text;
 }
 
+std::string simulated_note(const Summary& summary) {
+  if (summary.data == "simulated") return "All figures are of simulated responders.";
+  if (!summary.simulated()) return "";
+  return "Figures of people and of simulated responders are mixed.";
+}
+
+namespace {
 std::string unfinished_note(const Summary& summary) {
   std::vector<std::string> sessions;
   for (const SessionSummary& session : summary.sessions)
@@ -25,8 +29,7 @@ std::string unfinished_note(const Summary& summary) {
                                      name_of(session.state)));
   if (sessions.empty()) return "";
   return fmt::format(
-      "Not finished: session {}. Only completed trials and finished staircases "
-      "count.",
+      "Not finished: session {}. Only completed trials and finished staircases count.",
       some_of(sessions));
 }
 
@@ -36,13 +39,8 @@ std::string excluded_note(const Summary& summary) {
     if (row.excluded())
       excluded.push_back(fmt::format("{} ({})", row.participant, row.excluded_because));
   if (excluded.empty()) return "";
-  return fmt::format("Left out of every figure, as the protocol declares: {}.", some_of(excluded));
-}
-
-std::string simulated_note(const Summary& summary) {
-  if (summary.data == "simulated") return "Every figure here is of simulated responders.";
-  if (!summary.simulated()) return "";
-  return "Figures of persons and of simulated responders are mixed here.";
+  return fmt::format("Excluded from all figures by the rules of the protocol: {}.",
+                     some_of(excluded));
 }
 
 std::string missing_note(const Summary& summary) {
@@ -73,9 +71,8 @@ std::string NotesFold::repeated_note() const {
     if (n > 1) repeated.push_back(fmt::format("{} ({} sessions)", participant, n));
   if (repeated.empty()) return "";
   return fmt::format(
-      "More than one session: {}. All are used and the participant counts once: "
-      "sorting trials together, JNDs as the mean over sessions, the introduction "
-      "from the first session only.",
+      "More than one session: {}. The participant counts once: sorting trials are pooled, JNDs "
+      "averaged over sessions, the introduction taken from the first.",
       some_of(repeated));
 }
 
@@ -85,31 +82,30 @@ std::string NotesFold::protocols_note() const {
   for (const auto& [sha256, name] : protocols_)
     names.push_back(fmt::format("{} ({:.8})", name, sha256));
   return fmt::format(
-      "The sessions used {} different protocols: {}. Their figures are put "
-      "together; --session N... takes single sessions.",
+      "The sessions used {} different protocols, analyzed together: {}. Select sessions with "
+      "--session N...",
       protocols_.size(), some_of(names));
 }
 
 std::string NotesFold::other_methods_note() const {
   if (methods_.empty()) return "";
-  return fmt::format("The JNDs are those of the method {}; estimates by {} are in the log too.",
-                     jnd_method, fmt::join(methods_, ", "));
+  return fmt::format("JNDs are by the method {}; the log also has estimates by {}.", jnd_method,
+                     fmt::join(methods_, ", "));
 }
 
-// Without a held effector the physics are the same, the movements are not.
+// Physics are the same without a held effector; the movements differ.
 std::string NotesFold::dragged_note() const {
   if (dragged_.empty()) return "";
   return fmt::format(
-      "The effector was dragged on the screen (tracker mouse), not held, in session {}: to try and "
-      "to teach, not to be put beside a held one's figures.",
+      "The effector was dragged on the screen (tracker mouse), not held, in session {}: do not "
+      "compare with a held effector.",
       some_of(dragged_));
 }
 
 std::string NotesFold::pictures_note() const {
   if (pictures_.dropped == 0 && pictures_.late == 0) return "";
   return fmt::format(
-      "Of {} pictures shown to persons {} came late, and {} of the camera's were never shown; the "
-      "log's frames say which.",
+      "Of {} camera pictures shown to participants, {} were late; {} more were dropped.",
       pictures_.shown, pictures_.late, pictures_.dropped);
 }
 

@@ -1,5 +1,5 @@
-// What a summary says in sentences: what a reader must know about what was counted and what was
-// not, and the figures that speak to the paper's hypotheses.
+// A summary in sentences: the results, what limits them, and the verdicts on the paper's
+// hypotheses.
 #pragma once
 
 #include <map>
@@ -11,17 +11,29 @@
 
 namespace heft {
 
-/// The results of each task in a sentence, and what limits them.
+/// The results of all sections, a sentence each.
+std::vector<std::string> findings_of(const Summary& summary);
+
+/// The findings, and what limits them.
 std::vector<std::string> leading_sentences(const Summary& summary);
 
-/// "13 simulated participants"
-std::string participants_in_words(const Summary& summary);
+/// "with decoupling (C2)" where the condition is one of the paper's, otherwise "in soft".
+std::string in_condition(const Summary& summary, const std::string& condition);
 
-/// The verdicts on the paper's hypotheses about sorting, of those of its conditions that were run:
-/// "; masses are discriminated in soft".
-std::string verdicts_in_words(const Summary& summary);
+/// The conclusive verdicts on the paper's hypotheses about sorting, of those of its conditions that
+/// were run: "Masses are discriminated in soft."; empty: none is conclusive.
+std::string sorting_verdicts(const Summary& summary);
 
-/// What notes tell of the sessions beside the figures.
+/// Names the paper's hypotheses that were tested without a conclusion; empty: there are none.
+std::string inconclusive_sentence(const Summary& summary);
+
+/// That figures are of simulated responders; empty: they are not.
+std::string simulated_note(const Summary& summary);
+
+/// "1, 2, 3 and 40 more"
+std::string some_of(const std::vector<std::string>& names, std::size_t most = 8);
+
+/// Notes on the sessions, such as unfinished or repeated ones.
 class NotesFold {
  public:
   void add(const SessionData& data);

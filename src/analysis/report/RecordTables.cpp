@@ -1,4 +1,4 @@
-// Tables of records: participants, sessions, staircases, what went wrong, what was run.
+// Tables of records: participants, sessions, staircases, incidents, configurations.
 #include "analysis/report/RecordTables.h"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ Table participant_table(const Summary& summary) {
                {"n_sessions", "sessions"},
                {"n_finished", "finished"},
                {"n_completed", "trials"},
-               {"n_impossible", "anticipatory"},
+               {"n_anticipatory", "anticipatory"},
                {"n_lost", "out of view"},
                {"n_catch", "catch trials"},
                {"n_false_alarms", "false alarms"},
@@ -40,20 +40,20 @@ Table participant_table(const Summary& summary) {
               "participants[]"};
   for (const ParticipantRow& row : summary.participants)
     table.rows.push_back({word(row.participant), count(row.n_sessions), count(row.n_finished),
-                          count(row.n_completed), count(row.n_impossible), count(row.n_lost),
+                          count(row.n_completed), count(row.n_anticipatory), count(row.n_lost),
                           count(row.n_catch), count(row.n_false_alarms),
                           word(row.excluded_because)});
   return table;
 }
 
 Table counted_table(const Summary& summary) {
-  Table table{"counted_first",
+  Table table{"data_quality",
               "Data quality",
               {{"what", "what"}, {"n", "n"}, {"of", "of"}, {"meaning", "meaning"}},
               {},
-              "no participant and no trial is excluded for any of it",
+              "no participant or trial is excluded for these",
               {},
-              "quality.counted_first[]"};
+              "quality.summary[]"};
   if (summary.sessions.empty()) return table;
   for (const CountedRow& row : summary.quality.counted)
     table.rows.push_back(
@@ -62,40 +62,36 @@ Table counted_table(const Summary& summary) {
 }
 
 Table losses_table(const Summary& summary) {
-  Table table{
-      "losses",
-      "Voids, losses and anticipatory responses by level and condition",
-      {{"task", "task"},
-       {"condition", "condition"},
-       {"difference", "difference"},
-       {"n_attempts", "attempts"},
-       {"n_void", "void"},
-       {"n_lost", "out of view"},
-       {"lost_s", "for s"},
-       {"n_impossible", "anticipatory"}},
-      {},
-      "losses that depend on the level are bias: compare the rows. out of view: attempts in "
-      "which the effector was, and for how long in all",
-      {},
-      "quality.losses[]"};
+  Table table{"losses",
+              "Voids, losses and anticipatory responses by level and condition",
+              {{"task", "task"},
+               {"condition", "condition"},
+               {"difference", "difference"},
+               {"n_attempts", "attempts"},
+               {"n_void", "void"},
+               {"n_lost", "out of view"},
+               {"lost_s", "for s"},
+               {"n_anticipatory", "anticipatory"}},
+              {},
+              "losses that depend on the level bias the results: compare the rows. out of view: "
+              "attempts with tracking lost, and the total time",
+              {},
+              "quality.losses[]"};
   for (const LossRow& row : summary.quality.losses)
     table.rows.push_back({named_cell(row.task), word(row.condition), word(row.difference),
                           count(row.n_attempts), count(row.n_void), count(row.n_lost),
-                          number(row.lost_s), count(row.n_impossible)});
+                          number(row.lost_s), count(row.n_anticipatory)});
   return table;
 }
 
 Table resets_table(const Summary& summary) {
   Table table{
       "resets",
-      "Cubes that were put back to their start, by mass",
-      {{"mass", "mass"},
-       {"n_cubes", "cubes shown"},
-       {"n_reset", "put back"},
-       {"percent", "%", "-"}},
+      "Cubes reset to their start, by mass",
+      {{"mass", "mass"}, {"n_cubes", "cubes shown"}, {"n_reset", "reset"}, {"percent", "%", "-"}},
       {},
-      "where each cube goes back alone and the percentages differ, one that jumps home shows "
-      "its mass; where all of a trial go back together (out_of_area), it does not",
+      "if cubes are reset one by one and the percentages differ, a reset reveals the mass; resets "
+      "of all cubes together (out_of_area) do not",
       {},
       "quality.resets[]"};
   for (const ResetRow& row : summary.quality.resets)
@@ -113,7 +109,7 @@ Table incident_table(const Summary& summary) {
                {"kind", "kind"},
                {"text", "what"}},
               {},
-              "as the experimenter or the program logged them"};
+              "as logged by the experimenter or the program"};
   for (const Incident& row : summary.incidents)
     table.rows.push_back({session_cell(row.session_id), word(row.participant),
                           number(row.noted.t_s), named_cell(row.noted.kind), word(row.noted.text)});
@@ -122,13 +118,13 @@ Table incident_table(const Summary& summary) {
 
 Table published_table(const Summary& summary) {
   Table table{"beside_published",
-              "Found beside published",
+              "Observed and published figures",
               {{"figure", "figure"},
                {"unit", "unit"},
-               {"found", "found"},
-               {"found_sd", "SD"},
-               {"found_low", "95 % low"},
-               {"found_high", "high"},
+               {"observed", "observed"},
+               {"observed_sd", "SD"},
+               {"observed_low", "95 % low"},
+               {"observed_high", "high"},
                {"n_participants", "n"},
                {"published", "published"},
                {"published_sd", "SD"},
@@ -154,7 +150,7 @@ Table published_table(const Summary& summary) {
 
 Table flow_table(const Summary& summary) {
   Table table{"participant_flow",
-              "Participants, from the first page to the figures",
+              "Participant flow",
               {{"step", "step"}, {"n", "participants"}, {"meaning", "meaning"}},
               {},
               "how many were planned is not in a log"};
@@ -236,10 +232,10 @@ Table staircase_table(const Summary& summary) {
 
 Table choices_of_protocols(const Summary& summary) {
   Table table{"protocol_choices",
-              "What the protocol chose where the paper leaves it open",
+              "Protocol choices that the paper does not specify",
               {{"protocol", "protocol"}, {"choice", "choice"}, {"value", "value"}},
               {},
-              "each is a key of the protocol, which is kept in the log; paper.toml explains them"};
+              "protocol keys, explained in paper.toml; the log keeps the protocol"};
   for (const ProtocolChoice& choice : summary.choices)
     table.rows.push_back({word(choice.protocol), word(choice.choice), word(choice.value)});
   return table;
@@ -255,9 +251,8 @@ Table setup_table(const Summary& summary) {
                {"n_attempts", "attempts"},
                {"meaning", "meaning"}},
               {},
-              "as the log has them; two values of one thing: it differed between sessions or was "
-              "changed in one. Protocol, hash, build and seeds are in the table of the protocol's "
-              "choices"};
+              "several values of one setting: it differed between sessions or changed during one. "
+              "Protocol, hash, build and seeds are in the table of protocol choices"};
   for (const SetupValue& row : summary.setups)
     table.rows.push_back({word(row.what), word(row.value), word(row.unit), count(row.n_sessions),
                           count(row.n_attempts), word(row.meaning)});
@@ -329,7 +324,7 @@ Table track_table(const SessionTracks& session) {
                {"trial", "trial"},
                {"level_g", "difference g"},
                {"chosen", "chosen"},
-               {"wrong", "wrong"},
+               {"incorrect", "incorrect"},
                {"reversal", "reversal"}},
               {},
               ""};

@@ -1,4 +1,4 @@
-// Tables of what is no estimate: participants, sessions, staircases, what was run.
+// Tables of records rather than estimates: participants, sessions, staircases, configurations.
 #pragma once
 
 #include <vector>

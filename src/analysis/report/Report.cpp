@@ -34,7 +34,7 @@ nlohmann::json earlier_summary(const fs::path& folder) {
   return ours ? json : nlohmann::json();
 }
 
-// Charts and tables that are not made this time must not stay beside those that are.
+// Stale charts and tables of an earlier analysis.
 void remove_earlier_files(const fs::path& folder) {
   const nlohmann::json earlier = earlier_summary(folder);
   if (!earlier.is_object() || !earlier.contains(files_key)) return;
@@ -73,7 +73,7 @@ class Folder {
   std::vector<std::string> files_;
 };
 
-// A session at a time: of a thousand, each cell of a table would be most of what is in memory.
+// One session at a time: for a thousand sessions the cells would dominate memory.
 void write_tracks(Folder& folder, const Summary& summary) {
   std::string csv;
   std::string name;
@@ -156,13 +156,13 @@ std::string table_html(const Table& table) {
       table.name, as_html(table));
 }
 
-// For who reads no further: whether the paper's technique did what it is for.
+// The main result, first: whether masses were discriminated with the paper's technique.
 std::string answer_html(const Summary& summary) {
   const auto found = std::ranges::find(summary.hypotheses, "E1-H2", &Hypothesis::name);
   if (found == summary.hypotheses.end() || found->condition.empty()) return "";
   const std::string_view whom = summary.data == "simulated" ? ", for the model that answered" : "";
   const std::string condition = html_escaped(found->condition);
-  std::string answer = "These data can't tell.";
+  std::string answer = "These data are inconclusive.";
   if (found->verdict == HypothesisVerdict::supported)
     answer = fmt::format("Yes{}: masses are discriminated in {}.", whom, condition);
   if (found->verdict == HypothesisVerdict::not_supported)
@@ -195,7 +195,7 @@ struct ReportSection {
   std::vector<Table> tables;
 };
 
-// By what a reviewer asks for: who took part and what went wrong, what came out, what was run.
+// Data quality, results, and configuration.
 struct ReportSections {
   ReportSection first, results, run;
 };
@@ -205,7 +205,7 @@ ReportSections sections_of(const Summary& summary) {
       {"first", "Data quality",
        filled(tables_at(summary, {TablePlace::report_first, TablePlace::first}))},
       {"results", "Tables", filled(tables_at(summary, {TablePlace::results, TablePlace::report}))},
-      {"run", "What was run, and what it means",
+      {"run", "Configuration and definitions",
        filled(tables_at(summary, {TablePlace::run, TablePlace::run_only}))}};
 }
 
@@ -235,7 +235,7 @@ std::string contents_html(const std::vector<DrawnChart>& charts, const ReportSec
   return html + "</ul>\n</nav>\n";
 }
 
-// The report as one HTML page: what it comes to, what was counted first, figures, tables.
+// The report as one HTML page: main results, data quality, figures, tables.
 std::string report_page(const Summary& summary, const std::vector<DrawnChart>& charts) {
   const ReportSections sections = sections_of(summary);
   const std::string hypotheses = hypotheses_html(summary);

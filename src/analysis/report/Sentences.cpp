@@ -1,5 +1,7 @@
-// The sentences on top of a report: what each section says, and what limits all of it.
+// The findings and their limits as sentences, for the first screen and the top of the report.
 #include <fmt/format.h>
+
+#include <cctype>
 
 #include "analysis/measures/Section.h"
 #include "analysis/report/Notes.h"
@@ -14,67 +16,82 @@ const Hypothesis& named(const Summary& summary, std::string_view name) {
 }
 
 std::string limits_sentence(const Summary& summary) {
-  std::string open;
-  for (const Hypothesis& hypothesis : summary.hypotheses)
-    if (hypothesis.verdict == HypothesisVerdict::not_judged && !hypothesis.condition.empty())
-      open += (open.empty() ? "" : ", ") + hypothesis.name;
-  std::string text =
-      summary.plan ? "What they can't say: what the protocol did not declare is exploratory"
-                   : "What they can't say: no analysis was declared beforehand, so all of it is "
-                     "exploratory";
+  std::string text = summary.plan
+                         ? "Limits: results that the protocol did not declare are exploratory"
+                         : "Limits: no analysis was declared beforehand, so all results are "
+                           "exploratory";
   if (summary.simulated())
-    text += summary.data == "simulated"
-                ? "; a model answered, so nothing of this is about people"
-                : "; a model answered a part of it, so it is not about people alone";
+    text += summary.data == "simulated" ? "; a model answered, so nothing here is about people"
+                                        : "; a model gave some of the answers";
   if (find_estimate(summary.estimates, "jnd"))
     text +=
-        "; the paper's JND follows the criterion and the start, so it is no measure of what "
-        "people perceive";
-  if (!open.empty()) text += fmt::format("; {} are inconclusive", open);
+        "; the paper's JND depends on the criterion and on the start of the staircase, so it does "
+        "not measure perception alone";
   return text + ".";
+}
+
+// Empty: inconclusive, or not run.
+std::string technique_verdict(const Hypothesis& works) {
+  if (works.verdict == HypothesisVerdict::supported)
+    return fmt::format("masses are discriminated in {}", works.condition);
+  if (works.verdict == HypothesisVerdict::not_supported)
+    return fmt::format(
+        "masses are hardly or not discriminated in {} (at most 10 points above chance)",
+        works.condition);
+  return "";
+}
+
+std::string control_verdict(const Hypothesis& blind, double margin_percent) {
+  if (blind.verdict == HypothesisVerdict::supported)
+    return fmt::format("answers in {} are equivalent to chance (within {:g} points)",
+                       blind.condition, margin_percent);
+  if (blind.verdict == HypothesisVerdict::not_supported)
+    return fmt::format("answers in {} differ from chance", blind.condition);
+  return "";
 }
 }  // namespace
 
-std::string participants_in_words(const Summary& summary) {
-  const std::string people = fmt::format("{} {}participant{}", summary.n_participants,
-                                         summary.data == "simulated" ? "simulated " : "",
-                                         summary.n_participants == 1 ? "" : "s");
-  return summary.data == "human and simulated" ? people + " (persons and models mixed)" : people;
+std::string in_condition(const Summary& summary, const std::string& condition) {
+  const auto found = summary.comparable.find(condition);
+  const auto papers = found == summary.comparable.end() ? std::nullopt : found->second.condition();
+  return papers ? fmt::format("{} ({})", published::in_words(*papers), condition)
+                : "in " + condition;
 }
 
-std::string verdicts_in_words(const Summary& summary) {
-  const Hypothesis &blind = named(summary, "E1-H1"), &works = named(summary, "E1-H2");
-  std::string text;
-  if (!works.condition.empty()) {
-    std::string verdict =
-        fmt::format("whether masses are discriminated in {} is inconclusive", works.condition);
-    if (works.verdict == HypothesisVerdict::supported)
-      verdict = fmt::format("masses are discriminated in {}", works.condition);
-    if (works.verdict == HypothesisVerdict::not_supported)
-      verdict = fmt::format(
-          "masses are hardly or not discriminated in {} (at most 10 points above chance)",
-          works.condition);
-    text += "; " + verdict;
-  }
-  if (!blind.condition.empty()) {
-    std::string verdict =
-        fmt::format("whether masses are discriminated in {} is inconclusive", blind.condition);
-    if (blind.verdict == HypothesisVerdict::supported)
-      verdict = fmt::format("answers in {} are equivalent to chance (within {:g} points)",
-                            blind.condition, equivalence_margin_percent(summary));
-    if (blind.verdict == HypothesisVerdict::not_supported)
-      verdict = fmt::format("answers in {} are not chance", blind.condition);
-    text += "; " + verdict;
-  }
+std::string sorting_verdicts(const Summary& summary) {
+  std::vector<std::string> verdicts{
+      technique_verdict(named(summary, "E1-H2")),
+      control_verdict(named(summary, "E1-H1"), equivalence_margin_percent(summary))};
+  std::erase(verdicts, "");
+  if (verdicts.empty()) return "";
+  std::string text = fmt::format("{}.", fmt::join(verdicts, "; "));
+  text[0] = static_cast<char>(std::toupper(text[0]));
   return text;
 }
 
-std::vector<std::string> leading_sentences(const Summary& summary) {
-  std::vector<std::string> sentences;
+std::string inconclusive_sentence(const Summary& summary) {
+  std::vector<std::string> open;
+  for (const Hypothesis& hypothesis : summary.hypotheses)
+    if (hypothesis.verdict == HypothesisVerdict::inconclusive && !hypothesis.condition.empty())
+      open.push_back(hypothesis.name);
+  if (open.empty()) return "";
+  return fmt::format("Inconclusive: hypothes{} {} of the paper.", open.size() == 1 ? "is" : "es",
+                     fmt::join(open, ", "));
+}
+
+std::vector<std::string> findings_of(const Summary& summary) {
+  std::vector<std::string> findings;
   for (const auto& section : summary.sections)
-    if (std::string sentence = section->sentence(summary); !sentence.empty())
-      sentences.push_back(std::move(sentence));
+    for (std::string& finding : section->findings(summary))
+      if (!finding.empty()) findings.push_back(std::move(finding));
+  return findings;
+}
+
+std::vector<std::string> leading_sentences(const Summary& summary) {
+  std::vector<std::string> sentences = findings_of(summary);
+  sentences.push_back(inconclusive_sentence(summary));
   sentences.push_back(limits_sentence(summary));
+  std::erase(sentences, "");
   return sentences;
 }
 

@@ -141,7 +141,8 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
   std::vector<std::string> lines;
   while (text.size() > width) {
     const auto space = text.rfind(' ', width);
-    const std::size_t end = space == std::string_view::npos || space == 0 ? width : space;
+    std::size_t end = space == std::string_view::npos || space == 0 ? width : space;
+    while (end > 1 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // in a letter
     lines.emplace_back(text.substr(0, end));
     text.remove_prefix(text[end] == ' ' ? end + 1 : end);
   }

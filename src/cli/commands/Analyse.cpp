@@ -1,12 +1,14 @@
-// heft analyse: what a log holds, as tables, JSON, or a folder with charts and a report.
+// heft analyse: estimates from logs, as one screen, tables, JSON, or a folder with a report.
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/dataset/Summary.h"
+#include "analysis/report/FirstScreen.h"
 #include "analysis/report/Json.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"
@@ -22,10 +24,10 @@ struct AnalyseOptions {
   std::vector<std::string> databases;
   std::string out;
   std::vector<std::int64_t> sessions;
-  bool json = false, mix = false;
+  bool json = false, mix = false, tables = false;
 };
 
-// The command as it can be typed again.
+// The command to type again.
 std::string command_of(const AnalyseOptions& options) {
   std::string command = "heft analyse";
   for (const std::string& database : options.databases)
@@ -36,10 +38,21 @@ std::string command_of(const AnalyseOptions& options) {
   return command;
 }
 
-void report(const Summary& summary, const std::string& folder) {
-  const ReportResult result = write_report(summary, folder);
-  say("\n{} files in {}; open {}/report.html\n", result.files.size(), folder, folder);
-  explain_missing_charts(result, folder);
+// The first screen; the report is already written if there is one.
+std::string screen_of(const Summary& summary, const AnalyseOptions& options,
+                      const std::optional<ReportResult>& report) {
+  AnalyseOptions without_report = options;
+  without_report.out.clear();
+  const std::string command = command_of(without_report);
+  FirstScreenOptions screen;
+  if (report)
+    screen.next.push_back({"Report", fmt::format("{}/report.html ({} files in its folder)",
+                                                 options.out, report->files.size())});
+  if (report && !report->charts_drawn) screen.attention.emplace_back(missing_charts);
+  if (!report && !summary.sessions.empty())
+    screen.next.push_back({"Charts and report", command + " --out report"});
+  if (!summary.sessions.empty()) screen.next.push_back({"All tables", command + " --tables"});
+  return first_screen(summary, screen);
 }
 
 void analyse(AnalyseOptions options) {
@@ -48,33 +61,33 @@ void analyse(AnalyseOptions options) {
   if (!options.out.empty()) refuse_foreign_folder(options.out);
   const Summary summary =
       analyze({options.databases, options.sessions, options.mix, command_of(options)});
+  std::optional<ReportResult> report;
+  if (!options.out.empty()) report = write_report(summary, options.out);
   if (options.json)
     fmt::print("{}", as_json(summary));
   else
-    print("{}", readable(summary));
+    print("{}", options.tables ? readable(summary) : screen_of(summary, options, report));
   flush_output();
-  if (!options.out.empty())
-    report(summary, options.out);
-  else if (!options.json && !summary.sessions.empty())
-    say("\nCharts and the report: {} --out DIR\n", command_of(options));
+  if (report && (options.json || options.tables)) explain_missing_charts(*report, options.out);
 }
 }  // namespace
 
 void add_analyse(Command& app) {
   const auto options = std::make_shared<AnalyseOptions>();
   Command command = app.add_command(
-      "analyse", "tables, estimates with intervals, charts and a report of logs",
+      "analyse", "estimates with intervals, tables, charts and a report of logs",
       {"heft analyse --db heft.db", "heft analyse --db heft.db --out report",
        "heft analyse --db heft.db --session 3 4 --json", "heft analyse --db lab1.db --db lab2.db"});
   command.add_option(
       "--db", &options->databases,
-      "the log (default: heft.db); of several, people named alike are different ones");
+      "the log (default: heft.db); repeat for several, whose participants are kept distinct");
   command.add_option("--out", &options->out,
                      "a new or empty folder for CSV, charts, summary.json and report.html");
   command.add_sessions(options->sessions, "only these sessions (default: all)");
-  command.add_flag("--json", options->json, "JSON on stdout instead of tables");
+  command.add_flag("--json", options->json, "all results as JSON on stdout");
+  command.add_flag("--tables", options->tables, "all tables instead of a summary");
   command.add_flag("--mix", options->mix,
-                   "put sessions of several purposes (main, pilot, test, simulated) together");
+                   "analyze sessions of several purposes (main, pilot, test, simulated) together");
   command.does([options] { analyse(*options); });
 }
 

@@ -1,4 +1,4 @@
-// heft demo: the paper's whole session with a simulated responder, and what was found.
+// heft demo: the paper's session with a simulated participant, and its results.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "analysis/dataset/Summary.h"
-#include "analysis/report/Notes.h"
+#include "analysis/report/FirstScreen.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"
 #include "base/Program.h"
@@ -22,9 +22,10 @@ namespace {
 struct DemoOptions {
   std::string out = "heft-demo";
   std::optional<std::uint64_t> seed;
+  bool tables = false;
 };
 
-// The shortest session of 90 seeds: who hesitates more takes twice as long.
+// The shortest session of 90 seeds; others take up to twice as long.
 constexpr std::uint64_t usual_seed = 75;
 
 SessionRequest demo_session(const DemoOptions& options) {
@@ -42,10 +43,7 @@ void demo(const DemoOptions& options) {
   std::filesystem::create_directories(options.out);
   const SessionRequest request = demo_session(options);
   const auto started = std::chrono::steady_clock::now();
-  say("The paper's session: demonstration, introduction, 10 sorting trials, three interleaved "
-      "staircases.\nA rendered camera films a simulated participant's hand, the effector's tags "
-      "are found in its\npictures, physics pushes back, and everything is logged; seed {}.\n",
-      request.config->seed);
+  say("Simulating the paper\'s session before a rendered camera, seed {}.\n", request.config->seed);
   const SessionResult result =
       run_session({request.config, request.db},
                   [&](const RunnerOptions& runner) { return start_session(request, runner); });
@@ -58,28 +56,31 @@ void demo(const DemoOptions& options) {
                false,
                fmt::format("heft analyse --db {} --session {} --out {}", shell_quoted(request.db),
                            result.session_id, shell_quoted(report))});
-  print("{}", readable(summary));
+  const ReportResult files = write_report(summary, report);
+  const std::string log = "--db " + shell_quoted(request.db);
+  FirstScreenOptions screen;
+  screen.max_lines = 24;  // the line above is the first
+  screen.done = fmt::format("{:.0f} min in {:.0f} s.", result.duration_s / 60, elapsed.count());
+  if (!files.charts_drawn) screen.attention.emplace_back(missing_charts);
+  screen.next = {
+      {"Report", report + "/report.html"},
+      {"Tables", fmt::format("heft analyse {} --tables", log)},
+      {"Verify", "heft replay " + log},
+      {"Try it", "heft run protocols/quick.toml --participant 01 --responder simulated"}};
+  print("{}", options.tables ? readable(summary) : first_screen(summary, screen));
   flush_output();
-  explain_missing_charts(write_report(summary, report), report);
-  say("\n{} trials, {:.0f} minutes of session time, in {:.1f} s.\n"
-      "The log:     {}\n"
-      "Check it:    ./heft replay --db {} --session {}\n"
-      "Try it:      ./heft run protocols/quick.toml --participant 01 --responder simulated\n\n",
-      result.n_completed, result.duration_s / 60, elapsed.count(), request.db,
-      shell_quoted(request.db), result.session_id);
-  for (const std::string& sentence : leading_sentences(summary)) say("{}\n", sentence);
-  say("The report:  {}/report.html\n", report);
 }
 
 }  // namespace
 
 void add_demo(Command& app) {
   const auto options = std::make_shared<DemoOptions>();
-  Command command = app.add_command(
-      "demo", "the paper's whole session with a simulated participant, and what was found",
-      {"heft demo", "heft demo --seed 42 --out trial-run"});
+  Command command =
+      app.add_command("demo", "the paper's session with a simulated participant, and its results",
+                      {"heft demo", "heft demo --seed 42 --out trial-run"});
   command.add_option("--out", &options->out, "folder for the log and the report").shows_default();
   command.add_seed(options->seed, "always the same session; others may last twice as long");
+  command.add_flag("--tables", options->tables, "all tables instead of a summary");
   command.does([options] { demo(*options); });
 }
 

@@ -1,4 +1,4 @@
-// heft fit: the estimators alone, for anybody's data.
+// heft fit: the estimators for any data.
 #include "inference/Fit.h"
 
 #include <fmt/format.h>
@@ -48,23 +48,20 @@ FitOptions fit_options(const FitCommandOptions& options, FitModel model) {
   if (model == FitModel::indecision && (options.function || options.scale || options.guess))
     throw Error("--function, --scale and --guess belong to --model psychometric", ExitCode::usage);
   if (fit.guess.value_or(0) + fit.lapse.value_or(0) >= 1)
-    throw Error("guess and lapse together leave nothing to perceive, expected less than 1",
-                ExitCode::usage);
+    throw Error("--guess and --lapse add up to 1 or more, expected less than 1", ExitCode::usage);
   if (options.function) fit.function.shape = *named<PsychometricShape>(*options.function);
   if (options.scale) fit.function.scale = *named<LevelScale>(*options.scale);
   return fit;
 }
 
-// People differ, and staircases show those who feel little larger levels: together they look worse
-// than any of them.
+// Staircases show larger levels to less sensitive people, so pooling overestimates the threshold.
 void warn_of_pooled(std::span<const AnswerGroup> groups) {
   const auto most = std::ranges::max_element(
       groups, {}, [](const AnswerGroup& group) { return group.people.size(); });
   if (most == groups.end() || most->people.size() < 2) return;
-  say("heft: warning: {}trials of {} people are pooled into one fit, as if one person had given "
-      "them all. Where staircases chose the levels, its threshold is too large (1.4 to 2.4 times "
-      "in simulations). Give a file with one person, or use heft analyse, which lets people "
-      "differ.\n",
+  say("heft: warning: {}trials of {} people are pooled into one fit. If staircases chose the "
+      "levels, the threshold is overestimated (1.4 to 2.4 times in simulations); fit one person "
+      "per file, or use heft analyse, which models differences between people.\n",
       most->name ? *most->name + ": " : "", most->people.size());
 }
 
@@ -89,7 +86,7 @@ void fit(const FitCommandOptions& options) {
 void add_fit(Command& app) {
   const auto options = std::make_shared<FitCommandOptions>();
   Command command = app.add_command(
-      "fit", "psychometric functions and the choice with indecision, fitted to anybody's data",
+      "fit", "fit psychometric functions or the indecision model to any data",
       {"heft fit answers.csv --model psychometric --function logistic",
        "heft fit forced_choice.csv --model psychometric --function weibull --guess 0.5 --lapse "
        "free",
@@ -103,10 +100,10 @@ void add_fit(Command& app) {
        "Indecision: D = sensitivity * level_g + bias + N(0, 1); comparison where D > indecision,",
        "reference where D < -indecision, otherwise none; a lapse is any of them.",
        "threshold_75_g = 0.6745 / sensitivity makes 75 % correct in a forced choice.", "",
-       "Estimates are of maximum likelihood, SE from the observed information, intervals 95 %",
-       "profile likelihood. Where the answers bear no threshold, none is given, and why is said."});
+       "Maximum-likelihood estimates; SE from the observed information; 95 % profile intervals.",
+       "If the threshold is not identifiable, the reason is printed instead."});
   command.add_option("DATA.csv", &options->data, "the answers").required();
-  command.add_option("--model", &options->model, "what is fitted")
+  command.add_option("--model", &options->model, "the model to fit")
       .required()
       .one_of(names_of<FitModel>());
   command.add_option("--function", &options->function, "default: cumulative_normal")
@@ -115,12 +112,11 @@ void add_fit(Command& app) {
       .add_option("--scale", &options->scale,
                   "what x is, for Weibull's formula; the others take x as it is. Default: linear")
       .one_of(names_of<LevelScale>());
-  command.add_option(
-      "--guess", &options->guess,
-      "share of positive answers to nothing: fixed, or \"free\" up to 0.5. Default: 0");
+  command.add_option("--guess", &options->guess,
+                     "guess rate: fixed, or \"free\" up to 0.5. Default: 0");
   command.add_option("--lapse", &options->lapse,
-                     "share of answers without looking: fixed, or \"free\" up to 0.5. Default: 0");
-  command.add_option("--by", &options->group_by, "a fit for each text in this column");
+                     "lapse rate: fixed, or \"free\" up to 0.5. Default: 0");
+  command.add_option("--by", &options->group_by, "one fit for each value of this column");
   command.add_flag("--json", options->json, "JSON on stdout instead of tables");
   command.does([options] { fit(*options); });
 }

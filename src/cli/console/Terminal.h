@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/Error.h"
@@ -88,6 +89,9 @@ class StopOnSignal {
  private:
   std::array<void (*)(int), 3> before_{};
 };
+
+inline constexpr std::string_view missing_charts =
+    "No charts: gnuplot is not installed (sudo apt-get install gnuplot-nox).";
 
 /// Says how to get the charts of a report in `folder`, if they were not drawn.
 void explain_missing_charts(const ReportResult& report, const std::string& folder);

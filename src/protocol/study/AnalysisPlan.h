@@ -25,11 +25,11 @@ struct AnalysisPlan {
 /// [exclusion]. A participant beyond any of these is left out of every figure, and listed.
 struct ExclusionRules {
   bool unfinished = false;                   ///< who has no finished session
-  std::optional<double> impossible_answers;  ///< largest fraction of answers
+  std::optional<double> anticipatory_responses;  ///< largest fraction of answers
   std::optional<double> false_alarms;        ///< largest fraction of catch trials
   std::optional<double> out_of_view;  ///< largest fraction of attempts with the effector lost
 
-  bool any() const { return unfinished || impossible_answers || false_alarms || out_of_view; }
+  bool any() const { return unfinished || anticipatory_responses || false_alarms || out_of_view; }
 };
 
 class TableReader;

@@ -95,7 +95,7 @@ class Fit(unittest.TestCase):
         (fit,) = self.fits_of(coin, *INDECISION)
         self.assertFalse(fit["identifiable"])
         self.assertIsNone(fit["threshold_75_g"])
-        self.assertIn("no sensitivity", fit["why"])
+        self.assertIn("no reliable sensitivity", fit["why"])
         self.assertIsNotNone(fit["parameters"]["sensitivity"]["value"])
 
     def test_text_is_a_table_or_says_why_not(self):
@@ -107,7 +107,7 @@ class Fit(unittest.TestCase):
         code, text, _ = self.run_on("x,n_positive,n\n1,5,10\n2,4,10\n3,6,10\n", *PSYCHOMETRIC)
         self.assertEqual(code, 0)
         self.assertRegex(text, r"threshold +- +- +- +-\n")
-        self.assertIn("No threshold, because there is no slope", text)
+        self.assertIn("No threshold: no reliable slope", text)
 
     def test_groups(self):
         rows = "".join(f"{row},{who}\r\n" for who in ('"B, 2"', "01")
