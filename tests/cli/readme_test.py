@@ -133,7 +133,9 @@ class Parsed(SessionTest):
         done = subprocess.run([*program, *names, "--help"], capture_output=True, text=True)
         for word in words:
             if word.startswith("--") and word != "--help":
-                self.assertRegex(done.stdout, rf"(?<![\w-]){re.escape(word.partition('=')[0])}(?![\w-])")
+                option = word.partition("=")[0]
+                self.assertTrue(re.search(rf"(?<![\w-]){option}(?![\w-])", done.stdout),
+                                f"{' '.join(['heft', *names])} has no {option}")
 
     def parse_tools(self, words):
         for option, value in zip(words, words[1:]):
@@ -213,6 +215,12 @@ class Mentioned(Parsed):
                 if re.match(r"(\./)?heft [a-z]|python3 \w|ctest -|cmake --", span):
                     with self.subTest(readme=name, command=span):
                         self.parse(re.sub(r"^\./", "", span).replace("…", "").replace("...", ""))
+
+    def test_the_readme_lists_every_command(self):
+        listed = re.findall(r"`(\w+)`", " ".join(re.findall(r"^\| (`.*?) \|", text_of("README.md"), re.M)))
+        commands = self.run_heft("--help").stdout.partition("\nCommands")[2]
+        for command in re.findall(r"^  ([a-z]+)\s", commands, re.M):
+            self.assertIn(command, listed)
 
 
 FILE = re.compile(r"[\w.*{},+-]+\.(h|cpp|py|md|toml|csv|svg|png|yaml|cmake|sh|R|inc|json|cff|html|in)")
