@@ -1,6 +1,6 @@
-# What `cmake --install` and `cpack` put where. Components: heft with its data, bench, and the
-# libraries psychophysics, inference, engine and physics, of which each can be had without those that
-# it does not use.
+# Rules for `cmake --install` and `cpack`. Components: heft with its data, bench, and the libraries
+# psychophysics, inference, engine and physics, each of which can be installed without the ones that it
+# does not use.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS heft_program COMPONENT heft)
@@ -13,32 +13,32 @@ install(FILES src/record/export/analysis.R
 install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT heft)
 install(TARGETS heft_bench_program COMPONENT bench)
 
-# The program writes its own manual page and completion.
-foreach(made man/heft.1 bash/heft zsh/_heft fish/heft.fish)
-  get_filename_component(what ${made} DIRECTORY)
-  list(APPEND heft_told ${PROJECT_BINARY_DIR}/told/${made})
-  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/told/${made}
-                     COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/told/${what}
-                     COMMAND heft_program completion ${what} > ${PROJECT_BINARY_DIR}/told/${made}
+# The program generates its manual page and completion.
+foreach(file man/heft.1 bash/heft zsh/_heft fish/heft.fish)
+  get_filename_component(format ${file} DIRECTORY)
+  list(APPEND heft_generated ${PROJECT_BINARY_DIR}/generated/${file})
+  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/generated/${file}
+                     COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/generated/${format}
+                     COMMAND heft_program completion ${format} > ${PROJECT_BINARY_DIR}/generated/${file}
                      DEPENDS heft_program VERBATIM)
 endforeach()
-add_custom_target(heft_told ALL DEPENDS ${heft_told})
-install(FILES ${PROJECT_BINARY_DIR}/told/man/heft.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+add_custom_target(heft_generated ALL DEPENDS ${heft_generated})
+install(FILES ${PROJECT_BINARY_DIR}/generated/man/heft.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
         COMPONENT heft)
-install(FILES ${PROJECT_BINARY_DIR}/told/bash/heft
+install(FILES ${PROJECT_BINARY_DIR}/generated/bash/heft
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT heft)
-install(FILES ${PROJECT_BINARY_DIR}/told/zsh/_heft
+install(FILES ${PROJECT_BINARY_DIR}/generated/zsh/_heft
         DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT heft)
-install(FILES ${PROJECT_BINARY_DIR}/told/fish/heft.fish
+install(FILES ${PROJECT_BINARY_DIR}/generated/fish/heft.fish
         DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT heft)
 
 set(heft_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/heft)
-# heft_install(component rooms...): their libraries and headers.
+# heft_install(component folders...): their libraries and headers.
 function(heft_install component)
-  foreach(room ${ARGN})
-    if(TARGET heft_${room})
-      install(TARGETS heft_${room} EXPORT heft-${component} COMPONENT ${component})
-      install(DIRECTORY src/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/heft
+  foreach(folder ${ARGN})
+    if(TARGET heft_${folder})
+      install(TARGETS heft_${folder} EXPORT heft-${component} COMPONENT ${component})
+      install(DIRECTORY src/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/heft
               COMPONENT ${component} FILES_MATCHING PATTERN "*.h" PATTERN "*.inc")
     endif()
   endforeach()
@@ -84,16 +84,16 @@ set(CPACK_DEBIAN_BENCH_PACKAGE_RECOMMENDS gnuplot-nox)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libheft-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libmd-dev")
-# Each is needed by one library alone: heft::physics, heft::inference.
+# Needed by heft::physics and by heft::inference only.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "libbullet-dev, libnlopt-dev")
 
 include(CPack)
 cpack_add_component(heft GROUP heft)
 cpack_add_component_group(heft DESCRIPTION "Psychophysics experiments on perceived mass
-Heft runs them in augmented reality, simulates, replays and analyzes them.")
+Heft runs them in augmented reality, and simulates, replays and analyzes them.")
 cpack_add_component(bench GROUP bench)
 cpack_add_component_group(bench DESCRIPTION "Heft's studies of speed and accuracy
-The program heft-bench, which heft bench starts.")
+The program heft-bench, started by heft bench.")
 foreach(component psychophysics inference engine physics)
   cpack_add_component(${component} GROUP library)
 endforeach()

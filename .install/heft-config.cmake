@@ -1,6 +1,6 @@
-# find_package(heft [COMPONENTS psychophysics inference engine physics]) gives heft::psychophysics...
-# Without COMPONENTS: those that are installed and whose own needs are met. Only physics needs Bullet,
-# only inference NLopt.
+# find_package(heft [COMPONENTS psychophysics inference engine physics]) defines heft::psychophysics...
+# Without COMPONENTS: all that are installed and whose dependencies are found. Only physics needs
+# Bullet, only inference NLopt.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 NO_MODULE)
 find_dependency(fmt)
@@ -9,11 +9,11 @@ set(heft_wanted ${heft_FIND_COMPONENTS})
 if(NOT heft_wanted)
   set(heft_wanted psychophysics inference engine physics)
 endif()
-# The others stand on the first.
+# The others depend on the first.
 list(PREPEND heft_wanted psychophysics)
 list(REMOVE_DUPLICATES heft_wanted)
 
-# What a component alone needs, as pkg-config has it.
+# A dependency of one component, found by pkg-config.
 macro(heft_needs component target module name)
   find_package(PkgConfig QUIET)
   if(PkgConfig_FOUND)
@@ -21,7 +21,7 @@ macro(heft_needs component target module name)
   endif()
   if(NOT TARGET PkgConfig::${target})
     set(heft_${component}_FOUND FALSE)
-    set(heft_why "heft's component ${component} needs ${name}")
+    set(heft_reason "heft's component ${component} needs ${name}")
   endif()
 endmacro()
 
@@ -30,7 +30,7 @@ foreach(component ${heft_wanted})
   set(heft_${component}_FOUND TRUE)
   if(NOT EXISTS ${heft_file})
     set(heft_${component}_FOUND FALSE)
-    set(heft_why "heft's component ${component} is not installed")
+    set(heft_reason "heft's component ${component} is not installed")
   elseif(component STREQUAL "physics")
     heft_needs(physics bullet bullet-float64 "Bullet in double precision (bullet-float64.pc)")
   elseif(component STREQUAL "inference")
@@ -40,9 +40,9 @@ foreach(component ${heft_wanted})
     include(${heft_file})
   elseif(heft_FIND_REQUIRED_${component})
     set(heft_FOUND FALSE)
-    set(heft_NOT_FOUND_MESSAGE "${heft_why}")
+    set(heft_NOT_FOUND_MESSAGE "${heft_reason}")
   endif()
 endforeach()
 unset(heft_wanted)
 unset(heft_file)
-unset(heft_why)
+unset(heft_reason)

@@ -1,5 +1,5 @@
-// The program heft-bench: the studies of results/, and all that heft does with the simulators that
-// only the studies need as well.
+// The program heft-bench: the studies of results/, and the commands of heft with the simulators
+// that only the studies need.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -30,7 +30,7 @@ void run(const heft::StudyEntry& study, const Options& options) {
                                       options.out.empty() ? "" : " --out " + options.out);
   std::filesystem::create_directories(study_options.out);
   study.run(study_options);
-  heft::cli::say("written to {}/\n", study_options.out);
+  heft::cli::say("wrote the results to {}/\n", study_options.out);
 }
 
 void add_all(heft::cli::Command& app) {
@@ -38,9 +38,9 @@ void add_all(heft::cli::Command& app) {
     const auto options = std::make_shared<Options>();
     heft::cli::Command command =
         app.add_command(std::string(study.name), std::string(study.summary));
-    command.add_option("--out", &options->out, "folder for its files; default: results/NAME");
-    command.add_seed(options->seed, "a fresh one is drawn and printed");
-    command.add_flag("--quick", options->quick, "a small part of it, to see that it works");
+    command.add_option("--out", &options->out, "folder for the results; default: results/NAME");
+    command.add_seed(options->seed, "a new one is drawn and printed");
+    command.add_flag("--quick", options->quick, "a short run, to check that it works");
     command.does([options, &study] { run(study, *options); });
   }
   heft::cli::add_commands(app);
@@ -51,8 +51,8 @@ void add_all(heft::cli::Command& app) {
 int main(int argc, char** argv) {
   return heft::cli::run_program(
       {"heft-bench",
-       "The studies of results/: each measures, and draws its charts. The other commands are "
-       "heft's, with simulators that go wrong as well.",
+       "The studies of results/: each writes its measurements and charts. The other commands are "
+       "those of heft, here also with simulators that are known to fail.",
        "Start with: heft bench physics --quick --out try/physics", add_all},
       argc, argv);
 }

@@ -1,18 +1,19 @@
-"""The house: who may include whom, which library lives where, what the root holds.
+"""The source tree: who may include whom, which library belongs where, sizes of folders and files, words.
 
 Run: python3 tests/structure_test.py  (from anywhere)
 """
 import re
 import subprocess
 import unittest
+from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
 STUDIES = ROOT / "results"
 
-# The layer table of src/README.md. Rooms on one row don't include each other; results/main.cpp
-# alone, the program heft-bench, stands on cli's command line.
+# The layer table of src/README.md. Folders of one row do not include each other. results/main.cpp alone,
+# the program heft-bench, uses cli's command line.
 ROWS_1_2 = {"base", "psychophysics", "inference", "experiment", "tasks", "physics", "tracking"}
 ROW_3 = {"engine", "protocol", "record", "responders", "view"}
 MAY_INCLUDE = {
@@ -34,11 +35,11 @@ MAY_INCLUDE = {
     "replay": ROWS_1_2 | ROW_3 | {"apparatus"},
     "session": ROWS_1_2 | ROW_3 | {"apparatus", "replay"},
 }
-# window is loaded when it is asked for, and included by nobody.
+# window is loaded at run time, and no other folder includes it.
 MAY_INCLUDE["results"] = MAY_INCLUDE["cli"] = set(MAY_INCLUDE) - {"window"}
 
-# Third-party headers that stay inside one room (or two); what is compared with stands in results.
-LIBRARY_ROOMS = {
+# Third-party headers that stay inside one folder or two; what is only compared with is in results.
+LIBRARY_FOLDERS = {
     r"bullet/|btBullet|Bullet": {"physics", "results"},
     r"apriltag": {"tracking"},
     r"cairo": {"tracking"},
@@ -61,13 +62,19 @@ def sources():
     return sorted(p for folder in (SRC, STUDIES) for p in folder.rglob("*") if p.suffix in {".h", ".cpp"})
 
 
-def room_of(path):
+def files_in(top):
+    """All files below a folder but what is hidden, built or cached."""
+    return [path for path in sorted(top.rglob("*")) if path.is_file()
+            and not re.search(r"(^|/)(\.|build|__pycache__)", str(path.relative_to(top)))]
+
+
+def folder_of(path):
     return path.relative_to(SRC if SRC in path.parents else ROOT).parts[0]
 
 
 def may_include(path):
-    room = room_of(path)
-    return MAY_INCLUDE[room] | ({"cli"} if path == STUDIES / "main.cpp" else set())
+    folder = folder_of(path)
+    return MAY_INCLUDE[folder] | ({"cli"} if path == STUDIES / "main.cpp" else set())
 
 
 def includes(path):
@@ -76,24 +83,24 @@ def includes(path):
 
 
 class Structure(unittest.TestCase):
-    def test_every_folder_is_a_known_room(self):
-        self.assertLessEqual({room_of(p) for p in sources()}, set(MAY_INCLUDE))
+    def test_every_folder_is_a_known_layer(self):
+        self.assertLessEqual({folder_of(p) for p in sources()}, set(MAY_INCLUDE))
 
     def test_includes_point_down_the_layers(self):
         for path in sources():
-            room = room_of(path)
+            folder = folder_of(path)
             for quote, target in includes(path):
                 if quote == '"':
                     other = target.split("/")[0]
                     with self.subTest(file=str(path.relative_to(ROOT)), includes=target):
                         self.assertTrue(((ROOT if other == "results" else SRC) / target).exists(),
-                                        "include our files from src/: \"room/File.h\"; those of"
-                                        " studies from the root: \"results/File.h\"")
-                        self.assertTrue(other == room or other in may_include(path),
-                                        f"{room} may not include {other}")
+                                        "write \"folder/File.h\" for files of src, and"
+                                        " \"results/File.h\" for those of studies")
+                        self.assertTrue(other == folder or other in may_include(path),
+                                        f"{folder} may not include {other}")
 
     def test_a_name_is_one_type(self):
-        """Two rooms with one name make one program with two meanings of it, and no error."""
+        """One name for two types makes a program with two definitions of it, and no error."""
         defined = re.compile(r"^(?:class|struct|enum class)\s+(\w+)(?:\s+final)?\s*(?::[^;{]*)?\{", re.M)
         where = {}
         for path in sources():
@@ -104,26 +111,26 @@ class Structure(unittest.TestCase):
             with self.subTest(name=name):
                 self.assertEqual(len(paths), 1, f"{name} is defined in {paths}")
 
-    def test_libraries_stay_in_their_rooms(self):
+    def test_libraries_stay_in_their_folders(self):
         for path in sources():
             for quote, target in includes(path):
                 if quote == '"':
                     continue
-                for library, rooms in LIBRARY_ROOMS.items():
+                for library, folders in LIBRARY_FOLDERS.items():
                     if re.match(library, target):
                         with self.subTest(file=str(path.relative_to(ROOT)), includes=target):
-                            self.assertIn(room_of(path), rooms)
+                            self.assertIn(folder_of(path), folders)
 
     def test_targets_link_only_what_they_may_use(self):
         text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
-        linked = dict(re.findall(r"heft_room\((\w+)(?: USES ([^)]*))?\)", text))
+        linked = dict(re.findall(r"heft_\w+\((\w+) USES ([^)]*)\)", text))
         self.assertIn("responders", linked)
         self.assertIn("cli", linked)
-        for room, uses in linked.items():
-            if room in MAY_INCLUDE:
-                with self.subTest(room=room):
-                    rooms = {use for use in uses.split() if use in MAY_INCLUDE}
-                    self.assertLessEqual(rooms, MAY_INCLUDE[room])
+        for folder, uses in linked.items():
+            if folder in MAY_INCLUDE:
+                with self.subTest(folder=folder):
+                    folders = {use for use in uses.split() if use in MAY_INCLUDE}
+                    self.assertLessEqual(folders, MAY_INCLUDE[folder])
         self.assertNotIn("physics", linked["responders"].split())
 
     def test_one_file_reads_the_command_line(self):
@@ -136,7 +143,7 @@ class Structure(unittest.TestCase):
         allowed = re.compile(r"^([a-z_0-9]+|fmt/format\.h)$")  # the standard library, and messages
         impure = {"fstream", "iostream", "chrono", "ctime", "random", "thread", "cstdio", "filesystem"}
         for path in sources():
-            if room_of(path) != "psychophysics":
+            if folder_of(path) != "psychophysics":
                 continue
             for quote, target in includes(path):
                 with self.subTest(file=str(path.relative_to(ROOT)), includes=target):
@@ -147,7 +154,7 @@ class Structure(unittest.TestCase):
     def test_sql_is_written_in_record_alone(self):
         sql = re.compile(r"\b(SELECT .+ FROM|INSERT INTO|CREATE TABLE|UPDATE \w+ SET|DELETE FROM)\b")
         for path in sources():
-            if room_of(path) != "record":
+            if folder_of(path) != "record":
                 with self.subTest(file=str(path.relative_to(ROOT))):
                     self.assertIsNone(sql.search(path.read_text(encoding="utf-8")))
 
@@ -156,11 +163,46 @@ class Structure(unittest.TestCase):
         names = {line.split("/")[0] for line in listed.stdout.splitlines()}
         self.assertEqual({n for n in names if not n.startswith(".")} - ROOT_NAMES, set())
 
-    def test_no_file_is_a_crowded_room(self):
+    def test_folders_are_small(self):
+        counts = Counter(path.parent for top in (SRC, STUDIES, ROOT / "tests") for path in files_in(top))
+        for folder, n_files in counts.items():
+            with self.subTest(folder=str(folder.relative_to(ROOT))):
+                self.assertLessEqual(n_files, 25)
+
+    def test_files_are_neither_long_nor_tiny(self):
+        n_tiny = 0
         for path in sources():
+            n_lines = len(path.read_text(encoding="utf-8").splitlines())
+            n_tiny += n_lines <= 50 and SRC in path.parents
             with self.subTest(file=str(path.relative_to(ROOT))):
-                n_lines = len(path.read_text(encoding="utf-8").splitlines())
                 self.assertLessEqual(n_lines, 400)
+        self.assertLessEqual(n_tiny, 80, "files of 50 lines or less in src")
+
+    def test_the_readme_is_short(self):
+        self.assertLessEqual((ROOT / "README.md").stat().st_size, 8192)
+
+
+class PlainWords(unittest.TestCase):
+    """The left column of the style guide's table of words, where a pattern cannot mean anything else."""
+    WORDS = re.compile("|".join([
+        r"\btold\b", r"\btells?\b", r"\bin force\b", r"\b(?:goes|go|going|gone|went) on\b",
+        r"\bgone through\b", r"\b(?:is|are|was) over(?=[.,;:!?)]| and| before)", r"\bwhoever\b",
+        r"\b(?:no|some|any)body\b", r"\bof (?:its|their) own\b", r"\bby (?:itself|themselves)\b",
+        r"\banew\b", r"(?<!\ball )\bat once\b", r"\bwhat is not there\b", r"\bbears?\b", r"\bunsettled\b",
+        r"\bwhat was counted first\b", r"\bwrong cube\b", r"\bright sortings?\b", r"\bimpossible answers?\b",
+        r"\bwhich label which cube\b", r"\bcut by bounds\b", r"\bmisfortunes?\b", r"\bGoneThrough\b",
+        r"\bAskedModel\b", r"\bWhatHappened\b", r"\bHappenings?\b", r"\bdeepest_push\b",
+        r"\b(?:class|struct|enum class) (?:Setup|Noticed|Judging|Mind|Slid|Finish|Unseen|Fold)\b",
+    ]), re.I)
+
+    def test_sources_and_readmes_use_them(self):
+        pages = [path for path in files_in(ROOT) if path.name == "README.md"]
+        found = [f'{path.relative_to(ROOT)}:{number}: "{word}"'
+                 for path in pages + [path for path in files_in(SRC) if path.suffix != ".md"]
+                 for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+                 for word in self.WORDS.findall(line)]
+        if found:
+            self.fail(f"{len(found)} places:\n" + "\n".join(found))
 
 
 if __name__ == "__main__":

@@ -33,16 +33,17 @@ std::string readme(const std::vector<EffectorResult>& results, const StudyOption
   for (const EffectorResult& result : results) rows += row_of(result);
   return fmt::format(
       "# Effectors: which one to print\n\n"
-      "Written by the study itself ({}). {} random grips (rolled by up to 34 degrees, the tip away "
-      "from the participant within 40, lowered by up to 14), each filmed once by the synthetic "
-      "camera from 42 to 48 cm, 46 to 60 degrees steep, and tracked on its own.{}\n\n"
+      "Written by the study ({}). {} random grips: rolled by up to 34 degrees, turned by up to 40 "
+      "from straight ahead, lowered by up to 14. The synthetic camera films each grip once, from "
+      "42 to 48 cm at 46 to 60 degrees above the table, and each picture is tracked alone.{}\n\n"
       "| effector | picture | grips that show two tags | poses from two faces | found | tip, "
-      "median "
-      "/ p95 mm |\n|---|---|---|---|---|---|\n{}\n"
-      "A tag counts as shown that is less than 75 degrees off its front. Of prisms and boxes of "
-      "all kinds that were tried, faces at 0 and 45 degrees show two tags from the most grips for "
-      "their size: at 60 degrees (a hexagon) the second face is often too slanted to be read, "
-      "below 40 the body grows wider than a hand holds.\n",
+      "median / p95 mm |\n"
+      "|---|---|---|---|---|---|\n"
+      "{}\n"
+      "A tag counts as shown if it is seen from less than 75 degrees off its front. Of all prisms "
+      "and boxes that were tried, those with faces at 0 and 45 degrees show two tags in the most "
+      "grips for their size. At 60 degrees (a hexagon) the second face is often too slanted to be "
+      "read; below 40 the body is too wide for a hand.\n",
       provenance(options), results.front().summary.n,
       options.quick ? " **This was a quick run to see that it works: its figures mean nothing.**"
                     : "",
@@ -73,9 +74,9 @@ void run_effector_study(const StudyOptions& options) {
         results.push_back(compare_effector(body, width_px, n_grips, options.seed));
       }
   }
-  CsvFile csv(options, "effectors.csv",
-              "effector,picture,grips,two_tags_in_view,two_faces,effector_found,tip_median_mm,"
-              "tip_p95_mm");
+  CsvFile csv(
+      options, "effectors.csv",
+      "effector,picture,grips,two_tags_in_view,two_faces,effector_found,tip_median_mm,tip_p95_mm");
   for (const EffectorResult& r : results)
     csv.row(file_of(r.body), size_name(r.width_px), r.summary.n, r.two_in_view, r.two_faces,
             r.summary.effector_found, or_nan(r.summary.tip_mm.median),

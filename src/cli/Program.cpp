@@ -97,6 +97,7 @@ void add_commands(Command& app) {
   add_analyse(app);
   add_fit(app);
   add_validate(app);
+  add_new(app);
   add_procedure(app);
   add_scene(app);
   add_sheet(app);

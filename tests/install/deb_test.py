@@ -1,6 +1,6 @@
-"""The Debian packages in a root that has nothing but Debian: made by cpack, installed by apt, run.
+"""The Debian packages, made by cpack, installed by apt in a minimal Debian root, and run.
 
-Needs root and the network (debootstrap); some minutes. Run: python3 deb_test.py BUILD_FOLDER
+Needs root and a network (debootstrap); takes some minutes. Run: python3 deb_test.py BUILD_FOLDER
 """
 import shutil
 import subprocess
@@ -47,7 +47,7 @@ class Packages(unittest.TestCase):
         self.assertEqual(code, 0, f"{words}: {output}")
         return output
 
-    def test_1_each_says_what_it_needs(self):
+    def test_1_dependencies(self):
         self.assertEqual(set(self.debs), {"heft", "heft-bench", "libheft-dev"})
         needs = self.field("heft", "Depends")
         for library in ("libc6", "libbullet", "libsqlite3", "libsdl2", "libopencv-core", "dejavu"):
@@ -75,7 +75,7 @@ class Packages(unittest.TestCase):
         self.assertIn('"simulated": true', self.works("analyse", "--db", "/tmp/lab.db", "--mix",
                                                       "--json"))
 
-    def test_3_the_studies_are_a_package_of_their_own(self):
+    def test_3_the_studies_are_a_separate_package(self):
         code, said = self.heft("bench", "--help")
         self.assertEqual(code, 1)
         self.assertIn("heft-bench", said)

@@ -1,4 +1,4 @@
-// Somebody else's program: how well one person tells two masses apart, from their choices.
+// An external program: how well one participant discriminates two masses, from their choices.
 #include "inference/Fit.h"
 
 #include <cstdio>

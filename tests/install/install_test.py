@@ -1,5 +1,5 @@
-"""The installed tree: the programs run from wherever it is moved, a copied program finds its files,
-and other people's CMake projects find the libraries.
+"""The installed tree: its programs run after it is moved, a copied program finds its files, and
+external CMake projects find the libraries.
 
 Run: python3 install_test.py CMAKE BUILD_FOLDER COMPILER_FLAGS
 """
@@ -12,7 +12,7 @@ from pathlib import Path
 
 CMAKE, BUILD, FLAGS = (sys.argv.pop(1) for _ in range(3))
 HERE = Path(__file__).resolve().parent
-# Only what an installed program would see.
+# The environment of an installed program, without the build's variables.
 BARE = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent"}
 
 
@@ -41,7 +41,7 @@ class Installed(unittest.TestCase):
 
 
 class Programs(Installed):
-    def test_run_where_they_are_moved_and_find_their_files(self):
+    def test_run_after_a_move_and_find_their_files(self):
         prefix = self.install("--component", "heft")
         heft, db = prefix / "bin/heft", self.folder / "lab.db"
         protocols = prefix / "share/heft/protocols"
@@ -56,12 +56,12 @@ class Programs(Installed):
         self.must(heft, "replay", "--db", db, env=BARE)
         self.must(heft, "export", "--db", db, "--out", self.folder / "data", env=BARE)
         self.assertIn("read_table", (self.folder / "data/analysis.R").read_text())
-        # Texts that only the installed tree has.
+        # Texts that exist only in the installed tree.
         shutil.copy(protocols / "texts/en.toml", protocols / "texts/own.toml")
         self.must(heft, "run", protocols / "quick.toml", "--participant", "1", "--db", db,
                   "--responder", "simulated", "--language", "own", env=BARE)
 
-    def test_pictures_are_written_by_a_module_that_is_named_where_it_is_missing(self):
+    def test_a_missing_codecs_module_is_named(self):
         prefix = self.install("--component", "heft")
         filming = [prefix / "bin/heft", "run", prefix / "share/heft/protocols/quick.toml",
                    "--participant", "1", "--responder", "simulated"]
@@ -74,7 +74,7 @@ class Programs(Installed):
         self.assertEqual(without.returncode, 1, without.stderr)
         self.assertIn("heft-codecs.so", without.stderr)
 
-    def test_displays_are_asked_for_by_a_module_that_is_named_where_it_is_missing(self):
+    def test_a_missing_window_module_is_named(self):
         prefix = self.install("--component", "heft")
         checking = [prefix / "bin/heft", "doctor", "--db", self.folder / "lab.db"]
         showing = [prefix / "bin/heft", "run", prefix / "share/heft/protocols/quick.toml",
@@ -88,8 +88,8 @@ class Programs(Installed):
             self.assertEqual(without.returncode, 1, without.stderr)
             self.assertIn("heft-window.so", without.stdout + without.stderr)
 
-    @unittest.skipIf("-fsanitize" in FLAGS, "then the modules' libraries of OpenCV are the program's")
-    def test_a_start_loads_nothing_that_only_modules_need(self):
+    @unittest.skipIf("-fsanitize" in FLAGS, "sanitizers link the modules' OpenCV libraries into the program")
+    def test_a_start_loads_no_library_of_a_module(self):
         libraries = run("ldd", Path(BUILD) / "heft").stdout
         self.assertIn("libsqlite3", libraries)
         for name in ("imgcodecs", "videoio", "SDL", "libGL.so", "pulse"):
@@ -120,7 +120,7 @@ class Programs(Installed):
         self.must(heft, "run", HERE.parent.parent / "protocols/quick.toml", "--participant", "1",
                   "--db", self.folder / "lab.db", "--responder", "simulated", env=BARE)
 
-    def test_heft_is_without_what_only_the_studies_need(self):
+    def test_heft_does_not_link_what_only_the_studies_need(self):
         libraries = {program: run("ldd", Path(BUILD) / program).stdout
                      for program in ("heft", "heft-bench")}
         self.assertNotIn("libode", libraries["heft"])
@@ -139,12 +139,12 @@ class Libraries(Installed):
         self.assertRegex(self.must(self.folder / "build/consumer").stdout,
                          r"threshold: 6[0-9]\.[0-9]+ g")
 
-    def test_a_staircase_alone_needs_nothing_of_physics(self):
+    def test_psychophysics_alone_installs_no_physics(self):
         prefix = self.install("--component", "psychophysics")
         self.assertEqual([path.name for path in prefix.rglob("*.a")].count("libheft_physics.a"), 0)
         self.build_and_run(prefix, "psychophysics")
 
-    def test_all_that_is_installed_can_be_linked(self):
+    def test_all_components_link(self):
         prefix = self.install()
         components = [name for name in ("psychophysics", "inference", "engine", "physics")
                       if list(prefix.rglob(f"libheft_{name}.a"))]
@@ -154,7 +154,7 @@ class Libraries(Installed):
                          r"75 % correct at \d+\.\d g, 95 % interval \d+\.\d to \d+\.\d g")
         self.assertRegex(self.must(self.folder / "build/own_session").stdout, r"own: 6[0-9]")
 
-    def test_what_is_not_installed_is_named(self):
+    def test_a_missing_component_is_named(self):
         prefix = self.install("--component", "psychophysics")
         missing = self.consumer(prefix, "physics")
         self.assertNotEqual(missing.returncode, 0)

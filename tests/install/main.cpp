@@ -1,4 +1,4 @@
-// Somebody else's program: a staircase that looks for the mass difference a person can feel.
+// An external program: a staircase that finds the mass difference a participant can perceive.
 #include <cmath>
 #include <cstdio>
 
@@ -14,12 +14,13 @@ int main() {
   rule.discard_reversals = 4;
   heft::Procedure staircase("mass", rule);
   const heft::RandomStream stream = heft::level_stream(1, "mass");  // for kinds that draw levels
-  constexpr double threshold_g = 62;                                // of a person who never errs
+  constexpr double threshold_g = 62;                                // of an observer without noise
   while (!staircase.finished()) {
     const double shown_g = staircase.next_level(stream);
-    const bool felt = shown_g > threshold_g;
-    std::printf("%3d  %6.1f g  %s\n", staircase.n_trials() + 1, shown_g, felt ? "felt" : "-");
-    staircase.respond({felt}, shown_g);
+    const bool perceived = shown_g > threshold_g;
+    std::printf("%3d  %6.1f g  %s\n", staircase.n_trials() + 1, shown_g,
+                perceived ? "perceived" : "-");
+    staircase.respond({perceived}, shown_g);
   }
   const double estimate_g = *staircase.estimates().front().value;
   std::printf("threshold: %.2f g\n", estimate_g);

@@ -1,12 +1,12 @@
-// Somebody else's program: a session whose comparisons follow a procedure of its own and one of
-// Heft's, interleaved.
+// An external program: a session whose comparisons interleave a procedure defined here with one of
+// Heft's.
 #include <cstdio>
 
 #include "engine/Engine.h"
 #include "psychophysics/UpDown.h"
 #include "tasks/Comparison.h"
 
-// Halves the interval that holds the threshold.
+// Bisects the interval that contains the threshold.
 struct Bisection {
   double low, high;
 
