@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/Error.h"
-#include "base/Installation.h"
+#include "base/Program.h"
 #include "base/files/TextFile.h"
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"

@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "base/Error.h"
+#include "base/Pose.h"
 #include "tracking/camera/ImageConversion.h"
 #include "tracking/codecs/Codecs.h"
 
