@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "experiment/Trajectory.h"
-#include "physics/scene/BoxInertia.h"
+#include "physics/scene/Scene.h"
 #include "results/physics/scenes/Measurements.h"
 
 namespace heft {

@@ -10,7 +10,6 @@
 
 #include "base/Error.h"
 #include "physics/scene/Scene.h"
-#include "physics/scene/WorldState.h"
 
 namespace heft {
 

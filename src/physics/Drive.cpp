@@ -8,7 +8,7 @@
 #include "base/Error.h"
 #include "base/Pose.h"
 #include "base/math/Geometry.h"
-#include "physics/techniques/DisplacedSimulator.h"
+#include "physics/techniques/Displacement.h"
 
 namespace heft {
 

@@ -9,8 +9,8 @@
 #include <memory>
 #include <optional>
 
+#include "base/SimulationChoices.h"
 #include "physics/DecouplingSimulator.h"
-#include "physics/DriveInput.h"
 
 namespace heft {
 

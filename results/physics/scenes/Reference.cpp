@@ -4,8 +4,8 @@
 
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "physics/scene/BoxInertia.h"
 #include "physics/scene/Oracles.h"
+#include "physics/scene/Scene.h"
 
 namespace heft {
 

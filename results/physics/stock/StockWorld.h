@@ -13,7 +13,6 @@
 #include "physics/DecouplingSimulator.h"
 #include "physics/coupling/CouplingLaw.h"
 #include "physics/scene/Scene.h"
-#include "physics/scene/WorldState.h"
 
 namespace heft {
 

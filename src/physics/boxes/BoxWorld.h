@@ -26,8 +26,8 @@
 #include <optional>
 #include <vector>
 
-#include "physics/boxes/Manifold.h"
-#include "physics/scene/WorldState.h"
+#include "physics/boxes/ContactManifold.h"
+#include "physics/scene/Scene.h"
 
 namespace heft::boxes {
 

@@ -7,7 +7,7 @@
 #include "base/Pose.h"
 #include "physics/boxes/BoxWorld.h"
 #include "physics/coupling/CouplingLaw.h"
-#include "physics/scene/BoxInertia.h"
+#include "physics/scene/Scene.h"
 
 namespace heft {
 

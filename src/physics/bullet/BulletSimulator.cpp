@@ -4,8 +4,8 @@
 
 #include "base/Pose.h"
 #include "physics/bullet/ContactWorld.h"
-#include "physics/coupling/CloneCoupling.h"
-#include "physics/scene/BoxInertia.h"
+#include "physics/coupling/CouplingLaw.h"
+#include "physics/scene/Scene.h"
 
 namespace heft {
 

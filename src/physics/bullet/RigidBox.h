@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "base/PoseTypes.h"
-#include "physics/scene/BoxInertia.h"
+#include "physics/scene/Scene.h"
 
 namespace heft {
 

@@ -1,8 +1,9 @@
-// What a simulated world is made of: a table, an effector clone coupled to a target, boxes.
-// World frame and SI units as in base/Pose.h.
+// A simulated world: a table, an effector clone coupled to a target, boxes; and its state at one
+// time. World frame and SI units as in base/PoseTypes.h.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -75,5 +76,38 @@ struct Scene {
 inline Pose clone_start(const Scene& scene, const Pose& target) {
   return scene.coupling.decoupled ? target * scene.clone_offset : target;
 }
+
+/// Moments of inertia about its own axes through its center, kg m^2.
+inline Eigen::Vector3d box_inertia_kg_m2(double mass_kg, const Eigen::Vector3d& size_m) {
+  const Eigen::Vector3d squares = size_m.cwiseAbs2();
+  return mass_kg / 12 * (Eigen::Vector3d::Constant(squares.sum()) - squares);
+}
+
+struct BodyState {
+  Pose pose;
+  Velocity velocity;
+};
+
+/// Mean force over the last step of everything that presses the clone against one cube.
+struct CubeContact {
+  int cube = 0;                                       ///< index into WorldState::cubes
+  Eigen::Vector3d force_n = Eigen::Vector3d::Zero();  ///< on the cube, world frame
+};
+
+struct WorldState {
+  bool clone_present = true;  ///< false: the effector is out of view; the clone touches nothing
+  BodyState clone;
+  std::vector<BodyState> cubes;
+  std::vector<CubeContact> contacts;  ///< clone-cube pairs that touch, each cube at most once
+};
+
+/// 16 hexadecimal digits over the bits of every pose and velocity: equal hashes, equal bits.
+std::string state_hash(const WorldState& state);
+
+struct SolveCounts {
+  long not_converged =
+      0;          ///< times that velocities were taken before the solver had settled on them
+  long hits = 0;  ///< of bodies: closed in at once, without duration
+};
 
 }  // namespace heft

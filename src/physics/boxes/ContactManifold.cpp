@@ -1,4 +1,4 @@
-#include "physics/boxes/Manifold.h"
+#include "physics/boxes/ContactManifold.h"
 
 #include <Eigen/LU>
 #include <algorithm>
