@@ -1,4 +1,4 @@
-// A file that replaces another loses nothing.
+// Replacing a file keeps the old one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

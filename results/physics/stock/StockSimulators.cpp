@@ -31,7 +31,7 @@ class StockSimulator : public DecouplingSimulator {
   }
 
   void step(const Pose& target, double h_s) override {
-    refuse_impossible();  // Bullet's trees are not made for what is not finite
+    refuse_impossible();  // Bullet's trees require finite positions
     if (coupling_) {
       coupling_->step(*world_, {target_, target, h_s});
     } else {

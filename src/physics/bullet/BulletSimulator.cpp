@@ -55,7 +55,7 @@ void BulletSimulator::reset(const Scene& scene, const Pose& target) {
   coupling_.restart({clone().pose, {}}, {});
 }
 
-// Gives the clone its solver mass and the velocity at which it moves if nothing touches it.
+// Sets the clone's solver mass and free velocity.
 void BulletSimulator::begin_coupled(const Pose& target, double h_s) {
   const CoupledClone free = coupling_.begin(clone().pose, target_, target, h_s);
   clone().velocity = free.velocity;

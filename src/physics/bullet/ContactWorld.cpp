@@ -8,7 +8,7 @@
 namespace heft {
 
 namespace {
-// Velocity along a row that its constraint still lacks. Our rows hold the wanted velocity in m_rhs.
+// Missing velocity change along a row. m_rhs holds the target velocity here.
 btScalar missing_velocity(const btSolverConstraint& row, btSolverBody& a, btSolverBody& b) {
   const btScalar changed = row.m_contactNormal1.dot(a.internalGetDeltaLinearVelocity()) +
                            row.m_relpos1CrossNormal.dot(a.internalGetDeltaAngularVelocity()) +
@@ -27,8 +27,8 @@ void apply(btSolverConstraint& row, btSolverBody& a, btSolverBody& b, btScalar i
 }
 }  // namespace
 
-// Both directions take the same step size (the smaller of their effective masses), then the pair is
-// scaled back to the disk: at the end friction points exactly against the sliding.
+// Both directions use the same step size, the smaller of their effective masses, and the pair is
+// projected to the disk, so that friction opposes the slip after convergence.
 btScalar DiskFrictionSolver::solve_friction(btSolverConstraint& first, btSolverConstraint& second,
                                             btScalar limit) {
   btSolverBody& a = m_tmpSolverBodyPool[first.m_solverBodyIdA];
@@ -64,7 +64,7 @@ btScalar DiskFrictionSolver::solveGroupCacheFriendlySetup(btCollisionObject** bo
     btSolverConstraint* friction =
         &m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex];
     for (btSolverConstraint* row : {&normal, friction, friction + 1})
-      row->m_rhs /= row->m_jacDiagABInv;  // Bullet's is an impulse
+      row->m_rhs /= row->m_jacDiagABInv;  // an impulse in Bullet
     apply(friction[0], a, b, point.m_appliedImpulseLateral1);
     apply(friction[1], a, b, point.m_appliedImpulseLateral2);
   }
@@ -95,7 +95,7 @@ btScalar DiskFrictionSolver::solveSingleIteration(int, btCollisionObject**, int,
 
 namespace {
 constexpr double still_m_s = 1e-4, still_rad_s = 5e-3, still_for_s = 0.25;
-// Contacts are looked for this far ahead, beside what the boxes can cover in a step.
+// Margin of the contact detection in addition to the boxes' motion in a step.
 constexpr double look_ahead_m = 0.2e-3;
 }  // namespace
 
@@ -133,7 +133,7 @@ const ContactWorld::Pair& ContactWorld::pair(std::size_t i, std::size_t j) const
   return pairs_[high * (high + 1) / 2 + low];
 }
 
-// Any box may become as fast as the fastest within a step, by being hit.
+// An impact may make any box as fast as the fastest.
 double ContactWorld::farthest_approach_m(double h_s) const {
   double fastest_m_s = 0;
   for (const RigidBox& box : boxes_) {
@@ -167,8 +167,8 @@ void ContactWorld::wake_touched(double margin_m) {
   }
 }
 
-// Puts the contact into the pair's manifold. Impulses of points that touched in the last step
-// already are the solver's first guess.
+// Writes the contact to the pair's manifold. Points that are known keep their impulses as a warm
+// start.
 void ContactWorld::renew(Pair& pair, const Contact& contact, double impulse_scale) {
   btPersistentManifold& manifold = *pair.manifold;
   std::array<btManifoldPoint, 4> old;
@@ -195,13 +195,13 @@ void ContactWorld::renew(Pair& pair, const Contact& contact, double impulse_scal
   }
 }
 
-// Whether a pair's contact has to be found anew. A resting box that something moving could touch
-// has been woken before.
+// Whether a pair needs contact detection. Resting boxes within reach of moving ones are awake
+// already.
 bool ContactWorld::may_touch(const Pair& pair) const {
   const RigidBox& first = boxes_[pair.first];
   const RigidBox& second = boxes_[pair.second];
-  const bool can_give = first.mass_kg > 0 || (pair.first != pair.second && second.mass_kg > 0);
-  return can_give && moves(first) && moves(second);
+  const bool movable = first.mass_kg > 0 || (pair.first != pair.second && second.mass_kg > 0);
+  return movable && moves(first) && moves(second);
 }
 
 void ContactWorld::solve(double h_s) {
@@ -214,7 +214,7 @@ void ContactWorld::solve(double h_s) {
   const double impulse_scale = last_h_s_ > 0 ? h_s / last_h_s_ : 1;
   for (Pair& pair : pairs_) {
     const bool both_rest = boxes_[pair.first].at_rest && boxes_[pair.second].at_rest;
-    if (both_rest) continue;  // keeps its impulses for when they wake
+    if (both_rest) continue;  // keeps its impulses
     renew(pair, may_touch(pair) ? contact(pair, margin_m) : Contact{}, impulse_scale);
     if (pair.manifold->getNumContacts() > 0) touching.push_back(pair.manifold.get());
   }

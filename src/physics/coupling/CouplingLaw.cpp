@@ -11,10 +11,10 @@ CouplingLaw::Sampled CouplingLaw::sampled(const CouplingAxis& axis, double h_s) 
   const double x = z * omega * h_s;
   const double y = omega * h_s * std::sqrt(std::abs(z * z - 1));
   const double e = std::exp(-x), d = std::exp(-2 * x);
-  if (y < 1e-4) {  // y is divided by: the first terms of the series, exact to the last bit
-    const double bend = z < 1 ? -y * y : y * y;
-    const double a = std::expm1(-x) * std::expm1(-x) - e * bend * (1 + bend / 12);
-    return {e * (1 + bend / 2), e * h_s * (1 + bend / 6), d, a, z * omega, z < 1 ? y : 0};
+  if (y < 1e-4) {  // avoids a division by y; these terms of the series are exact to the last bit
+    const double square = z < 1 ? -y * y : y * y;
+    const double a = std::expm1(-x) * std::expm1(-x) - e * square * (1 + square / 12);
+    return {e * (1 + square / 2), e * h_s * (1 + square / 6), d, a, z * omega, z < 1 ? y : 0};
   }
   if (z < 1) {
     const double a = std::expm1(-x) * std::expm1(-x) + 4 * e * std::pow(std::sin(y / 2), 2);
@@ -40,7 +40,7 @@ OscillatorStep oscillator_step(const CouplingAxis& axis, double h_s) {
   step.velocity_by_offset = -k / m * impulse;
   step.velocity_by_velocity = half_trace - decay * impulse;
   step.velocity_by_force = impulse / m;
-  if (h_s * std::sqrt(k / m) < 0.01) {  // the differences below are lost in rounding
+  if (h_s * std::sqrt(k / m) < 0.01) {  // series, where the differences below cancel
     step.offset_by_growth = -h_s * h_s * h_s / (12 * m);
     step.velocity_by_growth = decay * h_s * h_s * h_s / (6 * m);
   } else {
@@ -52,7 +52,7 @@ OscillatorStep oscillator_step(const CouplingAxis& axis, double h_s) {
 }
 
 void CouplingLaw::sample(double h_s) {
-  if (std::abs(h_s - sampled_h_s_) <= 1e-12 * h_s) return;  // a difference of times rounds
+  if (std::abs(h_s - sampled_h_s_) <= 1e-12 * h_s) return;  // rounding of time differences
   now_ = sampled(axis_, h_s);
   sampled_h_s_ = h_s;
 }
@@ -63,8 +63,8 @@ void CouplingLaw::restart(double clone_velocity, double target_velocity) {
   last_h_s_ = load_ = sampled_h_s_ = 0;
 }
 
-// d w, for a step whose length may differ from the last one's: w is then what the mean velocity
-// over the last h_s seconds would have been on the same free path around the loaded rest point.
+// d w, for a step whose length may differ from the last one's. w is then the mean velocity over the
+// last h_s seconds of the free motion about the loaded rest point.
 double CouplingLaw::memory(double offset, double h_s) const {
   const double w = velocity_ - target_velocity_;
   if (std::abs(h_s - last_h_s_) <= 1e-9 * h_s) return now_.d * w;
@@ -72,8 +72,8 @@ double CouplingLaw::memory(double offset, double h_s) const {
   double r_velocity = w;
   if (last_h_s_ > 0) {
     const Sampled last = sampled(axis_, last_h_s_);
-    // Fewer than three samples an oscillation, or a spring that has long come to rest within a
-    // step: two positions do not tell the momentary velocity.
+    // With fewer than three samples an oscillation, or a spring that comes to rest within a step,
+    // two positions do not determine the instantaneous velocity.
     if (last.turn > 2 || last.impulse < 1e-200) return now_.d * w;
     r_velocity =
         (r * (last.half_trace - last.decay * last.impulse) - last.d * (r - last_h_s_ * w)) /

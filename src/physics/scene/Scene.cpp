@@ -30,7 +30,7 @@ Technique technique_named(const std::string& name, const std::vector<Technique>&
 }
 
 namespace {
-// FNV-1a over 64-bit words with an extra shift, so that high bits reach low ones.
+// FNV-1a over 64-bit words, with a shift that carries high bits to low ones.
 struct Hasher {
   std::uint64_t hash = 14695981039346656037ULL;
   void add(double value) {

@@ -1,16 +1,14 @@
-// The closed list of the techniques that displace the clone from the hand instead of drawing it
-// there by a spring. A further one is a name here and a header beside this one: its parameters with
-// visit_keys, after() and return_s, which DisplacedSimulator.h explains, and described().
+// Techniques that displace the clone from the hand instead of coupling it by a spring. The list is
+// closed; a further technique is one header beside this one (its parameters with visit_keys,
+// after(), return_s and described()) and its name here.
 //
-// What the techniques `gain` and `speed_limit` share: the clone turns with the hand and is
-// displaced from it, by a law while it touches cubes. It is then a coupled clone that follows a
-// displaced target, so any simulator can run them.
-//
-// Touched is what the clone touches, and what it touched that is still between it and the hand: on
-// its own way back it pushes nothing. Once nothing is touched any more the displacement returns
-// from rest, critically damped with the time constant return_s:
+// Their common part, DisplacedSimulator: the clone has the hand's orientation and is displaced by a
+// law while it touches cubes. To a simulator it is a coupled clone that follows a displaced target.
+// Touched cubes are those that the clone touches, and those that it has touched and that are still
+// between it and the hand, so that it pushes nothing on its way back. After the last contact, the
+// displacement decays from rest, critically damped with time constant return_s:
 //   d(t) = d(0) (1 + t / return_s) e^(-t / return_s).
-// Steps are cut where touching begins and ends, and where the clone has caught up with the hand.
+// Steps are divided where contacts begin and end, and where the clone reaches the hand.
 #pragma once
 
 #include <memory>
@@ -27,7 +25,7 @@ struct Scene;
 using Displacements = NamedKinds<Gain, SpeedLimit>;
 using Displacement = Displacements::Any;
 
-/// The simulator itself, if the scene's clone is not displaced.
+/// Wraps a simulator for a scene with a displaced clone; returns it unchanged for other scenes.
 std::unique_ptr<DecouplingSimulator> displaced(std::unique_ptr<DecouplingSimulator> simulator,
                                                const Scene& scene);
 
