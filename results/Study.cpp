@@ -39,7 +39,7 @@ const StudyEntry& study_named(std::string_view name) {
 }
 
 namespace {
-// Of the tree that the program is run in; a study is run where its results are kept.
+// The commit of the current folder's checkout, which holds the results.
 std::string commit() {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(
       popen("git describe --always --dirty --exclude '*' 2>/dev/null", "r"), pclose);

@@ -1,5 +1,5 @@
-// The studies behind `heft bench`: each writes CSV and SVG into a folder of results/. One table, in
-// Study.cpp, names them all.
+// The studies of `heft bench`. Each writes CSV and SVG files to a folder of results/. Study.cpp has
+// their table.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,9 +15,9 @@ namespace heft {
 
 struct StudyOptions {
   std::string out;         ///< the folder for its files
-  std::string command;     ///< how it was called, for captions
-  bool quick = false;      ///< a small part, to see that everything works
-  std::uint64_t seed = 1;  ///< of what a study draws at random
+  std::string command;     ///< command line, for captions
+  bool quick = false;      ///< a small part, as a smoke test
+  std::uint64_t seed = 1;  ///< of random draws
 };
 
 struct StudyEntry {
@@ -28,11 +28,11 @@ struct StudyEntry {
 
 std::span<const StudyEntry> studies();
 
-/// @throws Error (usage) naming the nearest study when there is none of that name
+/// @throws Error (usage) with the nearest name if there is no such study
 const StudyEntry& study_named(std::string_view name);
 
-// What every study leaves behind: CSV files and charts that say which commit and command made them,
-// and a line on stderr while it runs.
+// Outputs of every study: CSV files and charts with their commit and command, and progress on
+// stderr.
 
 /// "commit 1a2b3c4 · heft bench physics": the end of every caption.
 std::string provenance(const StudyOptions& options);
@@ -40,7 +40,7 @@ std::string provenance(const StudyOptions& options);
 /// A CSV file whose last columns are the commit and the command.
 class CsvFile {
  public:
-  /// @param name with its ending  @param columns separated by commas
+  /// @param name with extension  @param columns separated by commas
   /// @throws Error when it can't be written
   CsvFile(const StudyOptions& options, const std::string& name, std::string_view columns);
 
@@ -55,11 +55,11 @@ class CsvFile {
   static std::string cell(std::string_view text);
   static std::string cell(double value);
 
-  std::string end_;  ///< before the file opens: an open file makes the tree a changed one
+  std::string end_;  ///< taken before the file is opened, which modifies the checkout
   std::ofstream out_;
 };
 
-/// "3 of 20: boxes" on stderr where that is a terminal; gone when the work is done.
+/// "3 of 20: boxes" on stderr if that is a terminal; cleared at the end.
 class StudyProgress {
  public:
   explicit StudyProgress(int n) : n_(n) {}
@@ -74,10 +74,10 @@ class StudyProgress {
   int n_, done_ = 0;
 };
 
-/// Draws NAME.svg by gnuplot; says so on stderr where gnuplot is not installed.
+/// Draws NAME.svg with gnuplot; prints a note on stderr if gnuplot is not installed.
 void draw(const StudyOptions& options, const std::string& name, const std::string& script);
 
-// What the studies time with: a clock that other processes don't disturb.
+// A clock that other processes do not disturb.
 
 /// Seconds that this thread has spent on a processor.
 inline double thread_cpu_s() {

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "experiment/Trajectory.h"
-#include "physics/scene/BoxInertia.h"
+#include "physics/scene/Scene.h"
 #include "results/physics/scenes/Measurements.h"
 
 namespace heft {
@@ -17,7 +17,7 @@ bool all_on_table(const Scene& scene) {
   return true;
 }
 
-// The mean of v^2 over a step, of a velocity that is a parabola with these ends and this mean.
+// Mean of v^2 over a step for a parabolic velocity with these ends and this mean.
 double mean_square(const Vector3d& start, const Vector3d& end, const Vector3d& mean) {
   return mean.squaredNorm() + ((end - start) / 2).squaredNorm() / 3 +
          ((start + end) / 2 - mean).squaredNorm() / 5;
@@ -42,7 +42,7 @@ double stored_j(const WorldState& state, const Pose& hand, const Scene& scene) {
   return sum_j;
 }
 
-// The mean way of a cube's four lower corners along the table.
+// Mean sliding distance of a cube's four lower corners.
 double way_m(const Pose& from, const Pose& to, const Vector3d& size_m) {
   double sum_m = 0;
   for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
@@ -52,7 +52,7 @@ double way_m(const Pose& from, const Pose& to, const Vector3d& size_m) {
   return sum_m / 4;
 }
 
-// What the clone's momentum and the cubes' push back tell of the force that moved it.
+// The coupling force, from the clone's momentum and the contact forces of the cubes.
 Vector3d impulse_on_clone_n_s(const WorldState& from, const WorldState& to, const Scene& scene,
                               double h_s) {
   Vector3d sum_n_s = Vector3d::Zero();

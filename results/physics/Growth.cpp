@@ -1,4 +1,4 @@
-// What a step costs with more and more cubes: asleep, standing apart while one is pushed, in a row.
+// Cost of a step against the number of cubes: asleep, apart while one is pushed, in a row.
 #include "analysis/charts/Gnuplot.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/physics/scenes/RandomScenes.h"

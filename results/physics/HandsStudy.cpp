@@ -11,11 +11,11 @@
 namespace heft {
 
 namespace {
-// Of each of four promises; a scene that breaks one mostly breaks another, so that together they
-// are kept in 99.5 %, as n_over_tolerance counts.
+// Of each of four errors. Scenes that exceed one usually exceed others too, so that 99.5 % are
+// within all four, see n_over_tolerance.
 constexpr double nearly_all = 0.9975;
 
-// A simulator and the rates that it is measured at.
+// A simulator and its measured rates.
 struct Entry {
   std::string_view name;
   std::vector<int> rates_hz;
@@ -71,7 +71,7 @@ void write(CsvFile& csv, std::uint64_t seed, const Key& key, std::string_view se
           at(runs.lag_g, nearly_all), at(runs.cubes_mm, nearly_all), at(runs.turn_deg, nearly_all));
 }
 
-// A line a simulator over its rates, for half of the scenes and for nearly all.
+// One line for each simulator over its rates, at the median and at a high quantile.
 void chart(const StudyOptions& options, const std::map<Key, Runs>& all) {
   struct Panel {
     const char* title;
@@ -101,7 +101,7 @@ void chart(const StudyOptions& options, const std::map<Key, Runs>& all) {
           "'{1}' title '{2}', $block{0} using 1:2 with lines linewidth 1 linecolor '{1}' notitle",
           block++, color_of(simulator), simulator);
     }
-    plots += "\nunset label\n";  // or each panel draws title and caption again
+    plots += "\nunset label\n";  // prevents title and caption in each panel
   }
   const std::string caption = fmt::format(
       "Random scenes with one answer: minimum-jerk strokes that sway, tremble and turn, seen at 15 "

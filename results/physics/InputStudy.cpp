@@ -20,7 +20,7 @@ constexpr const char* simulator_name = "boxes";
 constexpr int physics_rate_hz = 240, width_px = 1400;
 constexpr double duration_s = 4;
 
-// What a camera does to the hand's motion.
+// A camera's effect on the hand's motion.
 enum class Fault { none, jitter, missing, noise };
 constexpr std::array<Fault, 4> all_faults{Fault::none, Fault::jitter, Fault::missing, Fault::noise};
 constexpr std::array all_modes{InputMode::path, InputMode::smooth, InputMode::hold,
@@ -41,7 +41,7 @@ const char* words_of(Fault fault) {
   return "";
 }
 
-// What there is to be moved: each has one answer, so what differs is the input.
+// Scenes with a unique solution, so that differences come from the input.
 struct Case {
   const char* name;
   bool decoupled, cube;
@@ -63,7 +63,7 @@ struct Case {
 constexpr std::array<Case, 3> cases{
     {{"free_air", true, false}, {"push", true, true}, {"push", false, true}}};
 
-// Lets another simulator work and remembers where the clone was after each step.
+// Records the clone's position after each step of another simulator.
 class Watched : public DecouplingSimulator {
  public:
   struct Seen {
@@ -102,7 +102,7 @@ class Watched : public DecouplingSimulator {
   double t_s_ = 0;
 };
 
-// The clone under a hand that is known at all times, at n / reference_rate_hz.
+// The clone under a continuously known hand, at n / reference_rate_hz.
 std::vector<Eigen::Vector3d> truth_of(const Case& one) {
   constexpr int finer = 8;
   const auto simulator = make_simulator(simulator_name);
@@ -125,8 +125,8 @@ Eigen::Vector3d at(const std::vector<Eigen::Vector3d>& truth_m, double t_s) {
   return (1 - s) * truth_m[i] + s * truth_m[i + 1];
 }
 
-// A sample a picture, each of the hand's true pose and velocity at its true time; noise of poses is
-// noise of the velocities that a tracker gets from them.
+// One sample for each picture, with the hand's true pose and velocity at the true time. Noise of
+// poses adds the noise of the velocities that a tracker derives from them.
 std::vector<TargetSample> samples_of(const Case& one, int camera_hz, Fault fault) {
   RandomStream random(7, "bench input");
   std::vector<TargetSample> samples;
@@ -151,8 +151,8 @@ std::vector<TargetSample> samples_of(const Case& one, int camera_hz, Fault fault
 }
 
 struct InputError {
-  double at_picture_mm = 0;  ///< of what is drawn over a picture, against that picture's time
-  double at_present_mm = 0;  ///< of what can be shown at any moment, against that moment
+  double at_picture_mm = 0;  ///< of the world drawn over a picture, at the picture's time
+  double at_present_mm = 0;  ///< of the displayed world, at the time of display
   double fastest_cube_m_s = 0;
 };
 
@@ -174,7 +174,7 @@ InputError error_of(InputMode mode, const Case& one, const std::vector<TargetSam
     pictures.push_back({sample.t_capture_s, clone_m, 0});
     picture_m2.push_back((clone_m - at(truth_m, sample.t_capture_s)).squaredNorm());
   }
-  // Over video, the last picture's world is all there is to show until the next one.
+  // Over video, the last picture's world is shown until the next picture.
   std::size_t picture = 0;
   InputError error;
   for (const Watched::Seen& now : seen) {

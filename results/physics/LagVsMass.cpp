@@ -23,7 +23,7 @@ struct Lag {
 
 struct Series {
   std::string simulator, technique;
-  std::string label;  ///< in the chart; one may stand for two lines that lie on each other
+  std::string label;  ///< in the chart; one label for two coincident lines
   double label_g, label_mm;
   bool is_ours() const { return simulator == "boxes"; }
 };

@@ -1,4 +1,4 @@
-// `heft bench physics`: what the simulators cost, how far off they are, and where they fail.
+// `heft bench physics`: cost, error and failures of the simulators.
 #pragma once
 
 #include <string>
@@ -10,29 +10,22 @@ namespace heft {
 
 void run_physics_study(const StudyOptions& options);
 
-// Random scenes of hands as they are: what each rate keeps in nearly all of them; and scenes that
-// grow.
-
-/// hands.csv and hands.svg
+/// hands.csv and hands.svg: quantiles of the errors in random scenes of simulated hands.
 void study_hands(const StudyOptions& options);
 
 /// growth.csv and growth.svg: the cost of a step against the number of cubes.
 void study_growth(const StudyOptions& options);
 
-// What the way from camera poses to a target costs, against a hand that is known at all times.
-
-/// input.csv and input.svg
+/// input.csv and input.svg: errors of the target's path from camera poses, compared with a
+/// continuously known hand.
 void study_input(const StudyOptions& options);
 
-// How far the clone stays behind the effector for cubes of all masses: what people perceive.
-
-/// lag_vs_mass.csv and lag_vs_mass.svg
+/// lag_vs_mass.csv and lag_vs_mass.svg: distance of the clone behind the effector against the
+/// cube's mass, which is the cue to mass.
 void study_lag(const StudyOptions& options);
 
-// The color of a simulator in every chart of the physics study.
-
-/// A color for gnuplot: one family of hues for ours, one for our schemes on Bullet, one for other
-/// people's set-ups.
+/// The color of a simulator in the study's charts, for gnuplot: one family of hues for Heft's
+/// solvers, one for its schemes on Bullet, one for stock Bullet.
 std::string color_of(std::string_view simulator);
 
 }  // namespace heft

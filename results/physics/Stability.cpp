@@ -9,7 +9,7 @@
 namespace heft {
 
 namespace {
-constexpr double travel_m = 0.1, still_s = 0.75;  // after a quarter of a second to come to rest
+constexpr double travel_m = 0.1, still_s = 0.75;  // after 0.25 s to come to rest
 
 // Overlap by more than 0.1 mm, anywhere.
 bool penetrates(const WorldState& state, const Scene& scene) {
@@ -37,7 +37,7 @@ bool has_wrong_lag(const SceneTrack& track, const SceneTrack& reference, const B
   return (clone_m - expected_m).norm() > std::max(0.02 * (hand_m - expected_m).norm(), 0.1e-3);
 }
 
-// Movement over the last states: how far back and forth the clone went, how far the cube got.
+// Movement over the last states: range of the clone, displacement of the cube.
 struct Rest {
   double clone_back_m = 0, cube_m = 0;
 };
@@ -67,7 +67,7 @@ BenchScene stability_scene(Varied varied, double value) {
   Coupling& coupling = scene.scene.coupling;
   if (varied == Varied::stiffness) {
     coupling.stiffness_n_per_m = value;
-    cube.mass_kg *= std::sqrt(value / 50);  // a lag that can be seen at either end
+    cube.mass_kg *= std::sqrt(value / 50);  // keeps the lag visible at both ends
   } else if (varied == Varied::torsional_stiffness) {
     coupling.torsional_stiffness_nm_per_rad = value;
     path.side_m = 0.008;

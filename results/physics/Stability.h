@@ -1,5 +1,5 @@
-// A map of where methods fail: each at each rate, over decades of spring stiffness, torsional
-// stiffness, cube mass, and the mass of a second cube that is swept along.
+// Map of failures: every method at every rate, over decades of spring stiffness, torsional
+// stiffness, cube mass, and mass of a second cube that is pushed along.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace heft {
 
-/// What is varied; the rest stays as in the paper.
+/// The varied parameter; the others are the paper's.
 enum class Varied { stiffness, torsional_stiffness, cube_mass, second_cube_mass };
 
 inline constexpr std::array all_varied{Varied::stiffness, Varied::torsional_stiffness,
@@ -25,7 +25,7 @@ struct EnumNames<Varied> {
       "stiffness_n_per_m", "torsional_stiffness_nm_per_rad", "cube_mass_kg", "second_cube_mass_kg"};
 };
 
-/// Gravest last.
+/// From mild to severe.
 enum class Verdict {
   stable,
   creeps,      ///< a cube moves by more than a micrometer while the hand is still
@@ -33,7 +33,7 @@ enum class Verdict {
   penetrates,  ///< boxes overlap by more than 0.1 mm
   wrong_lag,   ///< at the end of the stroke, by more than 2 % and 0.1 mm
   blows_up,
-  outside_model  ///< the simulator does not take this scene
+  outside_model  ///< the scene is outside the simulator's model
 };
 
 template <>
@@ -46,7 +46,7 @@ struct EnumNames<Verdict> {
 /// the effector's long side.
 BenchScene stability_scene(Varied varied, double value);
 
-/// The gravest fault of a run through a stability_scene.
+/// The most severe fault of a run through a stability_scene.
 /// @param reference at reference_rate_hz
 Verdict judge(const SimulatorEntry& simulator, const BenchScene& scene, const SceneTrack& reference,
               int rate_hz);
@@ -59,7 +59,7 @@ struct StabilityCell {
   Verdict verdict = Verdict::stable;
 };
 
-/// The values that the map holds.
+/// The values of a parameter in the map.
 std::vector<double> values_of(Varied varied, bool quick);
 
 /// stability.csv and stability.svg

@@ -1,5 +1,5 @@
-// The map of where methods fail: a row of panels a method, a column a thing varied, a colored cell
-// a run.
+// Map of failures: a row of panels for each method, a column for each varied parameter, a colored
+// cell for each run.
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -66,7 +66,7 @@ std::size_t position_of(double value, const std::vector<double>& values) {
   return static_cast<std::size_t>(std::ranges::find(values, value) - values.begin());
 }
 
-// The axis' names, not every one where they are many.
+// Tick labels, thinned out on long axes.
 std::string tics(const std::vector<double>& values, bool silent) {
   std::string text;
   const std::size_t every = values.size() > 8 ? 3 : values.size() > 5 ? 2 : 1;
@@ -83,7 +83,7 @@ std::vector<double> rates_in(const std::vector<StabilityCell>& cells) {
   return rates;
 }
 
-// Names that hold for a whole row or column stand once.
+// Labels of whole rows and columns are drawn once.
 struct Place {
   bool top, bottom, left;
 };
@@ -113,7 +113,7 @@ std::string panel(const std::vector<StabilityCell>& cells, const std::string& si
                       static_cast<double>(values.size()) - 0.4);
 }
 
-// The legend under the title: a colored square and its word each.
+// The legend under the title: a colored square and its label for each fault.
 std::string legend() {
   std::string script;
   double x = 0.05;
@@ -151,7 +151,7 @@ void draw_stability(const StudyOptions& options, const std::vector<StabilityCell
       const bool left = varied == all_varied.front();
       script +=
           panel(cells, names[i], varied, {i == 0, i + 1 == names.size(), left}, options.quick);
-      script += "unset label\n";  // each panel would draw title, legend and caption again
+      script += "unset label\n";  // prevents title, legend and caption in each panel
     }
   }
   draw(options, "stability", script + "unset multiplot\n");

@@ -1,4 +1,4 @@
-// Error against CPU time: a line a simulator, a point a rate; the median and the worst scene.
+// Error against CPU time: a line for each simulator, a point for each rate; median and worst scene.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,7 +18,7 @@ struct Point {
   double cpu_us_per_s = 0, median_mm = 0, worst_mm = 0;
 };
 
-// What counts as error: a blow-up is drawn on a line of its own, far above any other error.
+// The error, where instability is drawn on a separate line far above all errors.
 double error_mm(const Measurement& one) {
   if (one.outcome == RunOutcome::blew_up) return blown_up_mm;
   return std::max(one.error.clone_rms_mm, smallest_mm);
@@ -26,7 +26,7 @@ double error_mm(const Measurement& one) {
 
 using Lines = std::map<std::string, std::vector<Point>>;
 
-// Scenes with contact and one answer, in the paper's range of stiffness.
+// Scenes with contact and a unique solution, in the paper's range of stiffness.
 bool is_counted(const Measurement& one) {
   const Coupling& coupling = one.scene.scene.coupling;
   return one.outcome != RunOutcome::outside_model && one.scene.unique_if_rigid() &&
@@ -53,8 +53,7 @@ Lines lines_of(std::span<const Measurement> measurements) {
   return lines;
 }
 
-// Rates where they can be read: along the lines that the others are compared with, and at the ends
-// of those, unless they blew up.
+// Rates that are labeled: along the lines of comparison, and at the ends of the others if stable.
 bool tells_rate(const std::string& simulator, const Point& point,
                 const std::vector<Point>& points) {
   if (point.median_mm >= blown_up_mm) return false;
@@ -76,12 +75,12 @@ std::string data_of(const Lines& lines) {
   return script;
 }
 
-// Labels at the lines' dear ends, moved apart where they would lie on each other.
+// Labels at the expensive ends of the lines, moved apart where they would overlap.
 std::string labels_of(const Lines& lines, double Point::*error) {
   struct Label {
     double x, y;
     std::string name;
-    bool on_top;  // of the line of those that blew up
+    bool on_top;  // on the line of unstable runs
   };
   std::vector<Label> labels;
   for (const auto& [simulator, points] : lines)
@@ -117,7 +116,7 @@ std::string panel(const Lines& lines, double Point::*error, int column, const ch
              "{} with lines dashtype 3 linecolor '#c00000' notitle, 0.1 with lines "
              "dashtype 2 linecolor '#999999' notitle\n",
              blown_up_mm) +
-         "unset label\n";  // or the next panel draws them, title and caption again
+         "unset label\n";  // prevents labels, title and caption in the next panel
 }
 }  // namespace
 

@@ -33,4 +33,14 @@ struct EnumNames<InputMode> {
   static constexpr std::array<std::string_view, 4> names{"path", "hold", "extrapolate", "smooth"};
 };
 
+/// How Drive turns samples into the target's path.
+struct DriveInput {
+  InputMode mode = InputMode::path;
+  /// Time from a sample's capture to its display, over which the effector's pose is predicted.
+  /// Above 0 only on optical see-through displays; over video the clone would lead the filmed
+  /// effector. A sample without a velocity, such as the first one after a jump or a loss, is not
+  /// predicted.
+  double predict_s = 0;
+};
+
 }  // namespace heft

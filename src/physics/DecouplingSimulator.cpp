@@ -15,13 +15,14 @@
 namespace heft {
 
 namespace {
-// Set-ups that go wrong: see linked_simulator.
+// Simulators that fail, for studies: see linked_simulator.
 constexpr MakeSimulator only_for_studies = nullptr;
-constexpr int boxes_edition = 7;  // and of `auto`, which is made of it
+constexpr int boxes_edition = 7;  // also of `auto`, which uses it
 
 constexpr auto listed = std::to_array<SimulatorEntry>({
     {"boxes",
-     "the default: our own solver for a few boxes on a table, exact coupling, true friction disk",
+     "the default: a contact solver for a few boxes on a table, exact coupling, Coulomb friction "
+     "disk",
      make_boxes, "", true, boxes_edition},
     {"bullet", "the same as bullet-lx", make_bullet_lx, "", true, 2},
     {"bullet-lx", "exact coupling, orientation locked to the effector's", make_bullet_lx, "", true,
@@ -36,18 +37,19 @@ constexpr auto listed = std::to_array<SimulatorEntry>({
      make_auto, "", true, boxes_edition},
     {"bullet-explicit", "stock Bullet, force and torque once a step as the paper writes them",
      only_for_studies,
-     "blows up at every display rate: the paper's torsional spring needs steps below 0.1 ms"},
+     "is unstable at every display rate: the paper's torsional spring needs steps below 0.1 ms"},
     {"bullet-explicit-held", "the same, held over Bullet's substeps of 1/240 s", only_for_studies,
-     "blows up: the force is set once a step, substeps do not make it fresher"},
+     "is unstable: the force is set once a step and held over the substeps"},
     {"bullet-stable-pd", "stock Bullet, stable PD control", only_for_studies,
-     "cubes feel too heavy: the lag is (1 + w h)^2 times too long, 1.7 times at 240 Hz"},
+     "makes cubes feel too heavy: the lag is (1 + w h)^2 times too long, 1.7 times at 240 Hz"},
     {"bullet-exact-velocity", "stock Bullet, velocity set to the free oscillator's",
      only_for_studies,
-     "cubes feel too heavy: the lag is e^(w h) times too long, 1.3 times at 240 Hz"},
+     "makes cubes feel too heavy: the lag is e^(w h) times too long, 1.3 times at 240 Hz"},
     {"bullet-soft-rows", "stock Bullet, spring as soft constraint rows (ERP and CFM)",
-     only_for_studies, "blows up for small steps: with the paper's spring above 170 Hz"},
+     only_for_studies, "is unstable for small steps: with the paper's spring above 170 Hz"},
     {"bullet-spring2", "stock Bullet, btGeneric6DofSpring2Constraint", only_for_studies,
-     "quietly lowers the stiffness: the lag is 1.4 times too long at 240 Hz, 20 times at 60 Hz"},
+     "lowers the stiffness without warning: the lag is 1.4 times too long at 240 Hz, 20 times at "
+     "60 Hz"},
 });
 }  // namespace
 
@@ -68,10 +70,8 @@ std::span<const SimulatorEntry> simulators() {
 const SimulatorEntry& simulator_named(std::string_view name) {
   const SimulatorEntry& entry = entry_named("simulator", name, simulators());
   if (entry.make == only_for_studies)
-    throw OnlyForStudies(
-        fmt::format("simulator {} {}; only heft-bench is built with it, for the "
-                    "studies",
-                    entry.name, entry.warning));
+    throw OnlyForStudies(fmt::format("simulator {} {}; it is only in heft-bench, for studies",
+                                     entry.name, entry.warning));
   return entry;
 }
 

@@ -1,5 +1,4 @@
-// The plug for simulators of the decoupling technique. One table, in DecouplingSimulator.cpp, names
-// them all.
+// Interface of the simulators of the decoupling technique. DecouplingSimulator.cpp has their table.
 #pragma once
 
 #include <memory>
@@ -10,46 +9,45 @@
 
 #include "base/Error.h"
 #include "physics/scene/Scene.h"
-#include "physics/scene/WorldState.h"
 
 namespace heft {
 
-/// Thrown by a simulator that does not model what a scene or a path asks of it.
+/// Thrown when a scene or a path is outside a simulator's model.
 class OutsideModel : public Error {
  public:
   using Error::Error;
 };
 
-/// Thrown for a simulator that this program is built without.
+/// Thrown for a simulator that only heft-bench is linked with.
 class OnlyForStudies : public Error {
  public:
-  explicit OnlyForStudies(const std::string& what) : Error(what, ExitCode::usage) {}
+  explicit OnlyForStudies(const std::string& message) : Error(message, ExitCode::usage) {}
 };
 
 class DecouplingSimulator {
  public:
   virtual ~DecouplingSimulator() = default;
 
-  /// A fresh world at rest; the clone starts at target * scene.clone_offset, at rest. Gives the
-  /// same bits whether the simulator is new or used.
+  /// Starts a new world at rest, with the clone at target * scene.clone_offset. The state after a
+  /// reset does not depend on earlier use.
   virtual void reset(const Scene& scene, const Pose& target) = 0;
 
-  /// One step of h_s seconds while the effector moves from the last target to this one.
+  /// Makes one step of h_s seconds, in which the effector moves from the last target to this one.
   virtual void step(const Pose& target, double h_s) = 0;
 
-  /// Puts the clone on the target, at the target's velocity, without touching anything on the way.
+  /// Moves the clone to the target and its velocity, without contacts on the way.
   virtual void teleport_clone(const Pose& target, const Velocity& velocity) = 0;
 
-  /// Whether the clone collides with anything. Off while the effector is out of view.
+  /// Turns collisions of the clone on or off. They are off while the effector is out of view.
   virtual void set_clone_solid(bool solid) = 0;
 
-  /// Puts one cube at a pose, at rest.
+  /// Moves one cube to a pose, at rest.
   virtual void place_cube(int cube, const Pose& pose) = 0;
 
   /// State after the last step.
   virtual WorldState state() const = 0;
 
-  /// Since the reset; none where the simulator does not count.
+  /// Counts since the reset; none if the simulator does not count.
   virtual std::optional<SolveCounts> counts() const { return std::nullopt; }
 };
 
@@ -60,22 +58,21 @@ struct SimulatorEntry {
   std::string_view name;
   std::string_view summary;
   MakeSimulator make;  ///< null: only heft-bench is built with it
-  /// Where it is known to go wrong, one line; empty for those that do not. Told when it is chosen.
+  /// Known failures, in one line; printed when the simulator is chosen. Empty: none.
   std::string_view warning = {};
-  /// Whether it models all that a person may do; others throw OutsideModel.
+  /// Whether it models every hand movement; others throw OutsideModel.
   bool for_sessions = true;
-  /// Counts up when the same scene and path come to give other bits; a log keeps it.
+  /// Incremented when results for the same scene and path change; recorded in the log.
   int edition = 1;
 };
 
 std::span<const SimulatorEntry> simulators();
 
-/// A simulator that the table only names, where this program is linked with it; else null, which is
-/// what this weak definition returns. results/physics/stock/linked.cpp has the other one.
+/// The factory of a simulator that is only in heft-bench, or null. The definition in
+/// DecouplingSimulator.cpp is weak and returns null; results/physics/stock/linked.cpp overrides it.
 MakeSimulator linked_simulator(std::string_view name);
 
-/// @throws Error (usage) naming the nearest simulator when there is none of that name;
-///   OnlyForStudies
+/// @throws Error (usage) with the nearest name if there is no such simulator; OnlyForStudies
 const SimulatorEntry& simulator_named(std::string_view name);
 
 /// @throws Error as simulator_named

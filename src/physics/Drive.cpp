@@ -8,53 +8,54 @@
 #include "base/Error.h"
 #include "base/Pose.h"
 #include "base/math/Geometry.h"
-#include "physics/techniques/DisplacedSimulator.h"
+#include "physics/techniques/Displacement.h"
 
 namespace heft {
 
 namespace {
-constexpr double longest_gap_s = 0.25 + 1e-6;  // a difference of two times is a little off
+constexpr double longest_gap_s = 0.25 + 1e-6;  // allows for rounding of time differences
 constexpr double clear_m = 0.0005;
-// Where the clone waits until the effector is first seen.
+// Pose of the clone until the effector is first seen.
 const Pose out_of_the_way{{0, 0, 10}, Eigen::Quaterniond::Identity()};
 
-// ceil(dt * rate), but 16 where rounding makes it 16.0000001.
+// ceil(dt * rate), robust against rounding just above a whole number.
 double n_steps(double dt_s, double rate_hz) {
   return std::max(1.0, std::ceil(dt_s * rate_hz - 1e-6));
 }
 
-// The pose a share s of the way on the cubic that takes dt_s seconds and has these velocities at
-// its ends (Hermite's); of orientations it is that of the rotation vector from the first.
+// The pose at fraction s of a cubic Hermite curve of dt_s seconds with these velocities at its
+// ends; for orientations, the curve of the rotation vector from the first.
 Pose interpolate_smoothly(const Pose& from, const Velocity& at_from, const Pose& to,
                           const Velocity& at_to, double dt_s, double s) {
-  const double leaves = s * (1 - s) * (1 - s) * dt_s, arrives = s * s * (s - 1) * dt_s;
-  const double there = s * s * (3 - 2 * s);
-  const auto own = [&](const Velocity& velocity) -> Eigen::Vector3d {
+  const double start_slope = s * (1 - s) * (1 - s) * dt_s, end_slope = s * s * (s - 1) * dt_s;
+  const double fraction = s * s * (3 - 2 * s);
+  const auto in_from = [&](const Velocity& velocity) -> Eigen::Vector3d {
     return from.orientation.conjugate() * velocity.angular_rad_s;
   };
   const Eigen::Vector3d turn_rad = rotation_vector(from.orientation.conjugate() * to.orientation);
-  return {from.position_m + there * (to.position_m - from.position_m) +
-              leaves * at_from.linear_m_s + arrives * at_to.linear_m_s,
-          from.orientation * rotation_from_vector(there * turn_rad + leaves * own(at_from) +
-                                                  arrives * own(at_to))};
+  return {
+      from.position_m + fraction * (to.position_m - from.position_m) +
+          start_slope * at_from.linear_m_s + end_slope * at_to.linear_m_s,
+      from.orientation * rotation_from_vector(fraction * turn_rad + start_slope * in_from(at_from) +
+                                              end_slope * in_from(at_to))};
 }
 
-// A made-up path says zero everywhere; no hand is that still while it moves.
-bool is_still(const Velocity& velocity) {
+// Synthetic paths have zero velocity; measured velocities of a moving hand are never exactly zero.
+bool is_zero(const Velocity& velocity) {
   return velocity.linear_m_s.isZero(0) && velocity.angular_rad_s.isZero(0);
 }
 
 void check(const TargetSample& sample) {
   if (!std::isfinite(sample.t_capture_s))
-    throw Error("an effector sample's capture time is not a finite number");
+    throw Error("the capture time of an effector sample is not a finite number");
   if (!sample.tracked) return;
   const bool finite =
       sample.pose.position_m.allFinite() && sample.pose.orientation.coeffs().allFinite() &&
       sample.velocity.linear_m_s.allFinite() && sample.velocity.angular_rad_s.allFinite();
   if (!finite || std::abs(sample.pose.orientation.norm() - 1) > 1e-3) {
     throw Error(fmt::format(
-        "the effector's pose or velocity at {} s is unusable: expected finite numbers and a unit "
-        "quaternion; a sample without a pose has tracked = false",
+        "the effector's pose or velocity at {} s is invalid: expected finite numbers and a unit "
+        "quaternion; set tracked = false in a sample without a pose",
         sample.t_capture_s));
   }
 }
@@ -96,7 +97,7 @@ const WorldState& Drive::advance(const TargetSample& measured) {
   } else {
     const double dt_s = sample.t_capture_s - last_.t_capture_s;
     if (!(dt_s > 0)) {
-      throw Error(fmt::format("an effector sample at {} s does not come after the one at {} s",
+      throw Error(fmt::format("the effector sample at {} s is not later than the last one at {} s",
                               sample.t_capture_s, last_.t_capture_s));
     }
     const bool continues = sample.tracked && last_.tracked && !sample.jump && dt_s <= longest_gap_s;
@@ -122,30 +123,30 @@ void Drive::start(const TargetSample& sample) {
   set_solid(sample.tracked);
 }
 
-// Where the target gets to by the time of a sample that continues the last one.
+// The target at the time of a sample that continues the last one.
 Pose Drive::end_of_path(const TargetSample& sample) const {
   if (input_.mode == InputMode::path || input_.mode == InputMode::smooth) return sample.pose;
   if (input_.mode == InputMode::hold || !mean_velocity_) return last_.pose;
-  TargetSample going_on = last_;
-  going_on.velocity = *mean_velocity_;
-  return predicted(going_on, sample.t_capture_s - last_.t_capture_s);
+  TargetSample continued = last_;
+  continued.velocity = *mean_velocity_;
+  return predicted(continued, sample.t_capture_s - last_.t_capture_s);
 }
 
 void Drive::run(const Pose& target, double dt_s, const std::optional<Velocity>& at_target) {
   const double n = n_steps(dt_s, rate_hz_);
-  const bool bends = input_.mode == InputMode::smooth && at_target &&
-                     !(is_still(last_.velocity) && is_still(*at_target));
+  const bool is_curved = input_.mode == InputMode::smooth && at_target &&
+                         !(is_zero(last_.velocity) && is_zero(*at_target));
   for (double i = 1; i < n; ++i)
-    simulator_->step(
-        bends ? interpolate_smoothly(last_.pose, last_.velocity, target, *at_target, dt_s, i / n)
-              : interpolate(last_.pose, target, i / n),
-        dt_s / n);
-  simulator_->step(target, dt_s / n);  // exactly there, whatever interpolation rounds to
+    simulator_->step(is_curved ? interpolate_smoothly(last_.pose, last_.velocity, target,
+                                                      *at_target, dt_s, i / n)
+                               : interpolate(last_.pose, target, i / n),
+                     dt_s / n);
+  simulator_->step(target, dt_s / n);  // exactly the target, without rounding by interpolation
 }
 
 void Drive::return_cube(int cube) {
   if (!started_ || cube < 0 || cube >= static_cast<int>(scene_.cubes.size()))
-    throw Error(fmt::format("there is no cube {} to put back, the scene has {}{}", cube,
+    throw Error(fmt::format("can't return cube {}: the scene has {} cubes{}", cube,
                             scene_.cubes.size(), started_ ? "" : " and has not started"));
   const Cube& start = scene_.cubes[static_cast<std::size_t>(cube)];
   simulator_->place_cube(cube, upright_pose(start.position_m, start.yaw_rad));

@@ -1,16 +1,15 @@
-// Drive alone owns stepping: it turns measured effector poses into steps of a simulator. Over
-// video, physics runs from the last picture's capture time to this one's along the path between the
-// two measured poses and is shown with this picture, so nothing is predicted and nothing lags
-// (DESIGN: what is shown together belongs together). For see-through displays the poses between
-// samples can be held or extrapolated, and every sample predicted to when it is seen. It reads no
-// clock: live and replay feed it the same numbers and get the same bits.
+// Drive turns measured effector poses into steps of a simulator. Over video, physics runs from the
+// capture time of the last picture to that of this one, along the path between the two measured
+// poses, and is shown with this picture; so there is no prediction and no lag. For optical
+// see-through displays, poses between samples can be held or extrapolated, and samples predicted to
+// the time of display. Drive reads no clock: a replay computes the same bits as the session.
 #pragma once
 
 #include <memory>
 #include <optional>
 
+#include "base/SimulationChoices.h"
 #include "physics/DecouplingSimulator.h"
-#include "physics/DriveInput.h"
 
 namespace heft {
 
@@ -20,34 +19,32 @@ struct TargetSample {
   Pose pose;
   Velocity velocity;
   bool tracked = true;  ///< false: out of view; pose and velocity are not used
-  bool jump = false;    ///< the tracker says that the pose is not a continuation of the last one
+  bool jump = false;    ///< the pose does not continue the last one, according to the tracker
 };
 
-/// The sample's pose carried on along its velocity for that long; 0 gives the pose itself.
+/// The sample's pose after ahead_s seconds at its velocity; 0 gives the pose itself.
 Pose predicted(const TargetSample& sample, double ahead_s);
 
-/// A pose of a made-up path, at rest; none: out of view.
+/// A sample of a synthetic path, with zero velocity; none: out of view.
 TargetSample sample_of(double t_capture_s, const std::optional<Pose>& pose);
 
 class Drive {
  public:
-  /// @param rate_hz physics steps a second, at least; each picture takes ceil(dt * rate) equal
-  /// steps
-  /// @param input hold and extrapolate run a picture's steps with what was known at the last one
-  /// @throws Error for a rate that is not above 0, or a prediction that is not 0 or above
+  /// @param rate_hz lower bound of the physics rate; a picture takes ceil(dt * rate) equal steps
+  /// @throws Error for a rate that is not above 0 or a negative prediction
   Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz,
         const DriveInput& input = {});
 
-  /// The world at the sample's capture time, or `predict_s` after it. The first sample starts the
-  /// world. A gap above 0.25 s counts as a jump; a jump teleports the clone. After the effector was
-  /// out of view, or a jump, the clone touches nothing until it is clear of every cube. While it is
-  /// out of view or jumps, the cubes go on with their motion and nothing touches them.
-  /// @throws Error when time does not advance, or a tracked pose or velocity is not usable
+  /// The world at the sample's capture time plus `predict_s`. The first sample starts the world. A
+  /// gap above 0.25 s is a jump, and a jump teleports the clone. After a jump or a loss of the
+  /// effector, the clone touches nothing until it is clear of every cube; meanwhile the cubes keep
+  /// moving.
+  /// @throws Error if time does not advance, or a tracked pose or velocity is not usable
   const WorldState& advance(const TargetSample& measured);
 
-  /// Puts a cube back to its place in the scene, at rest. A clone that is there touches nothing
-  /// until it is clear.
-  /// @throws Error when there is no such cube
+  /// Returns a cube to its start pose, at rest. If the clone is in the way, it touches nothing
+  /// until it is clear of every cube.
+  /// @throws Error if there is no such cube
   void return_cube(int cube);
 
   const WorldState& state() const { return state_; }
@@ -68,9 +65,8 @@ class Drive {
   DriveInput input_;
   bool started_ = false;
   bool solid_ = true;
-  TargetSample last_;  ///< as predicted
-  std::optional<Velocity>
-      mean_velocity_;  ///< mean, between the last two samples; none after a jump
+  TargetSample last_;                      ///< as predicted
+  std::optional<Velocity> mean_velocity_;  ///< between the last two samples; none after a jump
   WorldState state_;
 };
 

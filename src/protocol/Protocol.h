@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/SimulationChoices.h"
 #include "experiment/SessionConfig.h"
 #include "experiment/Stage.h"
-#include "physics/DriveInput.h"
 #include "physics/scene/Scene.h"
 #include "protocol/study/AnalysisPlan.h"
 #include "tasks/SessionPlan.h"

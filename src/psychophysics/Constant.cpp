@@ -9,7 +9,7 @@
 namespace heft {
 
 ConfigMistakes ConstantConfig::check() const {
-  constexpr std::size_t most_trials = 10'000;  // beyond any session
+  constexpr std::size_t most_trials = 10'000;  // more than any session
   ConfigMistakes mistakes = out_of_range(*this);
   if (n_per_level < 1) return mistakes;
   const std::size_t n_trials = levels.size() * static_cast<std::size_t>(n_per_level);
@@ -25,7 +25,7 @@ ConfigMistakes ConstantConfig::check() const {
     if (!before.insert(levels[i]).second)
       mistakes.push_back({{"levels"},
                           fmt::format("levels has {} twice", levels[i]),
-                          "different levels: n_per_level says how often each comes",
+                          "different levels; n_per_level sets how often each is presented",
                           i});
   return mistakes;
 }
@@ -36,7 +36,7 @@ ConfigMistakes ConstantConfig::check_beside(double reference) const {
     if (levels[i] <= -reference)
       mistakes.push_back(
           {{"levels"},
-           fmt::format("levels has {}: beside a reference of {} g the comparison would weigh 0 g "
+           fmt::format("levels has {}: with a reference of {} g the comparison would weigh 0 g "
                        "or less",
                        levels[i], reference),
            fmt::format("above {}", -reference),

@@ -1,6 +1,6 @@
-// The method of constant stimuli as a pure value: every level equally often, in an order that was
-// drawn before the first answer and that no answer changes (Fechner 1860; Gescheider 1997, ch. 3).
-// What the answers say about a threshold is left to a fit of the whole function.
+// The method of constant stimuli (Fechner 1860; Gescheider 1997, ch. 3): every level equally often,
+// in a random order that does not depend on the responses. A threshold requires a fit of a
+// psychometric function.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@
 
 namespace heft {
 
-/// blocks: rounds that hold each level once, each shuffled; shuffled: all trials at once.
+/// blocks: rounds with each level once, each round shuffled; shuffled: all trials shuffled
+/// together.
 enum class ConstantOrder { blocks, shuffled };
 template <>
 struct EnumNames<ConstantOrder> {
@@ -22,16 +23,17 @@ struct EnumNames<ConstantOrder> {
 };
 
 struct ConstantConfig {
-  static constexpr bool estimates_nothing = true;  ///< its answers are for a fit
+  static constexpr bool estimates_nothing = true;  ///< needs a fit
   static constexpr std::string_view kind = "constant";
   using Procedure = class Constant;
 
-  std::vector<double> levels{};  ///< different ones, at least one
+  std::vector<double> levels{};  ///< at least one, all different
   int n_per_level = 1;
   ConstantOrder order = ConstantOrder::blocks;
 
   ConfigMistakes check() const;
-  /// Mistakes where levels are differences from a reference: the comparison must weigh something.
+  /// Mistakes if levels are differences from a reference in grams: the comparison's mass must be
+  /// positive.
   ConfigMistakes check_beside(double reference) const;
 };
 template <typename Config, typename Visit>
@@ -39,13 +41,14 @@ requires ConfigOf<Config, ConstantConfig>
 void visit_keys(Config& config, Visit&& visit) {
   visit(ConfigKey{"levels", "all levels, each different", true, "constant levels {} g"},
         config.levels, any_number);
-  visit(ConfigKey{"n_per_level", "times that each comes", true, "each {} times"},
-        config.n_per_level, WholeRange{1});
-  visit(ConfigKey{"order", "rounds of all levels, or all trials shuffled", false, "order {}"},
+  visit(ConfigKey{"n_per_level", "trials of each level", true, "each {} times"}, config.n_per_level,
+        WholeRange{1});
+  visit(ConfigKey{"order", "shuffled rounds of all levels, or all trials shuffled", false,
+                  "order {}"},
         config.order);
 }
 
-/// The level of each trial: a function of the stream alone.
+/// The level of each trial, determined by the stream.
 std::vector<double> constant_schedule(const ConstantConfig& config, RandomStream stream);
 
 class Constant {
@@ -57,7 +60,7 @@ class Constant {
   double next_level(const RandomStream& stream) const;
   Update respond(const Response& response, double shown);
   std::optional<StopReason> finish() const;
-  /// One, without a value: its trials are there, a threshold is none without a fit.
+  /// One, with the number of trials and without a value.
   std::vector<Estimate> estimates() const;
 
   const ConstantConfig& config() const { return config_; }

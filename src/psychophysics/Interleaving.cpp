@@ -13,8 +13,8 @@ int fewest_trials(std::span<const Procedure> staircases) {
   return fewest;
 }
 
-// In file order. Never empty while a staircase is unfinished: the least advanced one may always
-// run.
+// Indices in file order. Not empty while a staircase is unfinished, because the least advanced one
+// may always run.
 std::vector<std::size_t> may_run(std::span<const Procedure> staircases, int max_lag) {
   const int fewest = fewest_trials(staircases);
   std::vector<std::size_t> indices;

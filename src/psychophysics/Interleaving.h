@@ -1,4 +1,4 @@
-// Which of several staircases the next trial belongs to.
+// Interleaving: the staircase that the next trial belongs to.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace heft {
 
-/// Uniform among the unfinished; each unfinished in file order; finish one first.
+/// Uniform draw among the unfinished staircases; each in turn, in file order; one after the other.
 enum class Interleave { random, round_robin, sequential };
 template <>
 struct EnumNames<Interleave> {
@@ -25,8 +25,7 @@ struct InterleaveConfig {
   static constexpr std::string_view kind = "interleaving";
 
   Interleave interleave = Interleave::random;
-  /// > 0: no staircase more than this many completed trials ahead of the least advanced unfinished
-  /// one
+  /// Largest lead, in completed trials, over the least advanced unfinished staircase; 0: no limit.
   int max_lag = 0;
 
   ConfigMistakes check() const;
@@ -34,25 +33,24 @@ struct InterleaveConfig {
 template <typename Config, typename Visit>
 requires ConfigOf<Config, InterleaveConfig>
 void visit_keys(Config& config, Visit&& visit) {
-  visit(
-      ConfigKey{"interleave", "a draw among the unfinished, each in turn, or one after the other"},
-      config.interleave);
-  visit(ConfigKey{"max_lag", "most trials that one may be ahead of the least advanced; 0: any"},
+  visit(ConfigKey{"interleave", "random draw, each in turn, or one after the other"},
+        config.interleave);
+  visit(ConfigKey{"max_lag", "largest lead over the least advanced, in trials; 0: any"},
         config.max_lag, WholeRange{});
 }
 
-/// Keys of a procedure file: seed, how to interleave, and the staircases.
+/// Contents of a procedure file.
 struct InterleavedProcedures {
   std::uint64_t seed = 1;
   InterleaveConfig interleaving;
   std::vector<Procedure> staircases;
 };
 
-/// Index of the staircase that the next trial belongs to; none when all are finished. Where
-/// max_lag holds a staircase back, round_robin and sequential go on to the next one that may run.
+/// Index of the staircase that the next trial belongs to; none when all are finished. round_robin
+/// and sequential skip staircases whose lead has reached max_lag.
+/// @param previous index of the last completed trial's staircase, for round_robin
+/// @param stream used by `random` only, and only if there is a choice
 /// @throws InvalidConfig
-/// @param previous index chosen for the last completed trial, for round_robin
-/// @param stream drawn from only by `random`, and only where there is a choice
 std::optional<std::size_t> next_staircase(std::span<const Procedure> staircases,
                                           const InterleaveConfig& config,
                                           std::optional<std::size_t> previous,

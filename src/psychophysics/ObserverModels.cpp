@@ -13,7 +13,7 @@ double normal_cdf(double z) {
   return std::erfc(-z / std::numbers::sqrt2) / 2;
 }
 
-// Halley's iteration: a handful of steps from any start nearby.
+// Halley's iteration from the rational start of Abramowitz & Stegun (26.2.22).
 double normal_quantile(double p) {
   if (p > 0.5) return -normal_quantile(1 - p);
   const double tail = std::sqrt(-2 * std::log(p));
@@ -26,7 +26,7 @@ double normal_quantile(double p) {
 }
 
 namespace {
-// Of Weibull's exponent: u on the natural axis of the scale.
+// Converts the Weibull exponent to natural logarithms.
 double exponent_factor(LevelScale scale) {
   if (scale == LevelScale::linear) return 1;
   return scale == LevelScale::log10 ? std::numbers::ln10 : std::numbers::ln10 / 20;
@@ -43,7 +43,7 @@ StandardCurve gumbel_curve(double u) {
   return {-std::expm1(-hazard), above, density, density > 0 ? density * (1 - hazard) : 0};
 }
 
-// Phi(to) - Phi(from), from <= to, on the side where neither is near 1.
+// Phi(to) - Phi(from), from <= to, without cancellation near 1.
 double normal_between(double from, double to) {
   return from > 0 ? normal_cdf(-from) - normal_cdf(-to) : normal_cdf(to) - normal_cdf(from);
 }
@@ -92,14 +92,14 @@ double probability(const PsychometricFunction& function, const PsychometricParam
 }
 
 IndecisionShares indecision_shares(const IndecisionParameters& parameters, double level) {
-  const double felt = parameters.sensitivity * level + parameters.bias;
-  const double up = felt - parameters.indecision, down = -felt - parameters.indecision;
-  const double attentive = 1 - parameters.lapse, astray = parameters.lapse / 3;
+  const double mean = parameters.sensitivity * level + parameters.bias;
+  const double up = mean - parameters.indecision, down = -mean - parameters.indecision;
+  const double attentive = 1 - parameters.lapse, lapsed = parameters.lapse / 3;
   const double reference = normal_cdf(down), comparison = normal_cdf(up);
   double none = 1 - reference - comparison;
-  if (none < 1e-4) none = normal_between(down, -up);  // the rest has too few digits
-  return {astray + attentive * reference, astray + attentive * none,
-          astray + attentive * comparison};
+  if (none < 1e-4) none = normal_between(down, -up);  // avoids cancellation
+  return {lapsed + attentive * reference, lapsed + attentive * none,
+          lapsed + attentive * comparison};
 }
 
 namespace {

@@ -1,5 +1,5 @@
-// Formulas of how answers depend on the level: psychometric functions, the indecision model, signal
-// detection, and the standard normal distribution that they use.
+// Observer models: psychometric functions, the indecision model, signal detection, and the standard
+// normal distribution. Pure functions; arguments outside the stated ranges are not checked.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct EnumNames<PsychometricShape> {
                                                          "gumbel"};
 };
 
-/// What a level is a number of: plain units, their decimal logarithm, or decibels (20 a decade).
+/// Unit of levels: linear, decimal logarithm, or decibels (20 a decade).
 enum class LevelScale { linear, log10, db };
 template <>
 struct EnumNames<LevelScale> {
@@ -25,24 +25,24 @@ struct EnumNames<LevelScale> {
 };
 
 /// F(u) of a shape at threshold 0 and steepness 1, 1 - F(u) without cancellation, F'(u) and F''(u).
-/// Weibull's and Gumbel's are the same: 1 - exp(-e^u).
+/// The Weibull and Gumbel shapes have the same F: 1 - exp(-e^u).
 struct StandardCurve {
   double below = 0, above = 0, density = 0, density_slope = 0;
 };
 StandardCurve standard_curve(PsychometricShape shape, double u);
 
 /// p(x) = guess + (1 - guess - lapse) F(steepness * (place(x) - place(threshold))).
-/// `slope` is the spread s of F((x - t) / s), for Weibull's function the exponent beta of Watson
-/// (1979; with scales: Watson 2017): 1 - exp(-(x/t)^beta), on log10 levels with 10^(beta (x - t)),
-/// on dB with 10^(beta (x - t) / 20).
+/// `slope` is the spread s of F((x - t) / s), above 0. For the Weibull function it is the exponent
+/// beta (Watson 1979; with scales: Watson 2017): 1 - exp(-(x/t)^beta), with 10^(beta (x - t)) for
+/// log10 levels and 10^(beta (x - t) / 20) for dB.
 struct PsychometricFunction {
   PsychometricShape shape = PsychometricShape::cumulative_normal;
-  /// Changes Weibull's formula alone; the others take levels as they are.
+  /// Changes the Weibull formula only; the other shapes use levels as they are.
   LevelScale scale = LevelScale::linear;
 
-  /// Whether levels (and the threshold) can't be below 0.
+  /// Whether levels and threshold must be above 0.
   bool takes_logarithm() const;
-  /// Where a level lies on the axis on which only place and steepness of the curve change.
+  /// The abscissa of a level on which threshold and slope only shift and scale the curve.
   double place(double level) const;
   double level(double place) const;
   double steepness(double slope) const;
@@ -53,46 +53,49 @@ struct PsychometricParameters {
   double threshold = 0, slope = 1, guess = 0, lapse = 0;
 };
 
-/// Of a positive answer.
+/// Probability of a positive response at a level.
 double probability(const PsychometricFunction& function, const PsychometricParameters& parameters,
                    double level);
 
-/// The 2-AC model (Christensen, Lee & Brockhoff 2011; Garcia-Perez & Alcala-Quintana 2017): what is
-/// felt is D = sensitivity * level + bias + N(0, 1); the answer is "comparison" where D >
-/// indecision, "reference" where D < -indecision, otherwise "none". A lapse is any of them.
+/// Indecision model, or 2-AC (Christensen, Lee & Brockhoff 2011; Garcia-Perez & Alcala-Quintana
+/// 2017): the decision variable is D = sensitivity * level + bias + N(0, 1); the response is
+/// "comparison" if D > indecision, "reference" if D < -indecision, otherwise "none". A lapse is one
+/// of the three at random.
 struct IndecisionParameters {
   double sensitivity = 0;  ///< per unit of level
-  double indecision = 0;   ///< half the width between the criteria, at least 0
+  double indecision = 0;   ///< criterion half-width tau, at least 0
   double bias = 0, lapse = 0;
 };
 
+/// Probabilities of the three responses; their sum is 1.
 struct IndecisionShares {
   double reference = 0, none = 0, comparison = 0;
 };
 IndecisionShares indecision_shares(const IndecisionParameters& parameters, double level);
 
-/// Trials with a difference (signal) and without (noise), and in how many a difference was told.
+/// Trials with a difference (signal) and without (noise), and "different" responses in each.
 struct DetectionCounts {
   int n_signal = 0, n_hits = 0;
   int n_noise = 0, n_false_alarms = 0;
 };
 
-/// Standard errors: Gourevitch & Galanter (1967), from the corrected rates.
+/// Equal-variance signal detection (Macmillan & Creelman 2005). Standard errors by Gourevitch &
+/// Galanter (1967), from the corrected rates.
 struct Detection {
   double d_prime = 0, d_prime_se = 0;
-  double criterion = 0, criterion_se = 0;  ///< positive: inclined to say "no difference"
+  double criterion = 0, criterion_se = 0;  ///< positive: biased to "no difference"
 };
 
-/// With log-linear rates, (x + 1/2) / (n + 1), which are never 0 or 1 (Hautus 1995).
-/// @return none where there is no trial of either kind
+/// Uses log-linear rates, (x + 1/2) / (n + 1), which are never 0 or 1 (Hautus 1995).
+/// @return none without signal trials or without noise trials
 std::optional<Detection> detection(const DetectionCounts& counts);
 
 double normal_density(double z);
 
-/// Its tails stay exact.
+/// Accurate in both tails.
 double normal_cdf(double z);
 
-/// @param p in (0, 1)
+/// Inverse of normal_cdf. @param p in (0, 1)
 double normal_quantile(double p);
 
 }  // namespace heft

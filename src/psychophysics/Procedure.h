@@ -1,7 +1,7 @@
-// A procedure of any kind as one value: which level comes next, what an answer does, when it ends
-// and what it estimates. Pure: chance comes in as a stream. Files, logs and traces call each
-// procedure that runs a "staircase", whatever its kind. Files know the kinds of ProcedureKinds.h; a
-// program can run any type that is a ProcedureKind beside them.
+// A psychophysical procedure of any kind as one value: next level, response, stop rule, estimates.
+// Procedures are pure; random draws come from a stream. Files and logs call every running procedure
+// a "staircase", of whatever kind. Files can name the kinds of ProcedureKinds.h; a program can also
+// run its own types that satisfy ProcedureKind.
 #pragma once
 
 #include <concepts>
@@ -17,21 +17,21 @@
 
 namespace heft {
 
-/// What a type must have to run as a procedure. Copies are independent of each other, and a value
-/// depends on nothing but what it was made from and the answers that it got: an answer that is
-/// taken back is undone by answering anew. It may also have
-///   std::optional<int> planned_trials() const;       how many trials it takes, where that is known
-///   std::vector<double> planned_levels() const;      levels that are known before any answer
+/// Requirements of a procedure. Copies are independent, and the state is a function of the
+/// configuration and the responses only, so that a response is withdrawn by replaying the others.
+/// Optional members:
+///   std::optional<int> planned_trials() const;       number of trials, if known in advance
+///   std::vector<double> planned_levels() const;      levels known before the first response
 template <typename Kind>
 concept ProcedureKind = std::copyable<Kind> &&
     requires(Kind& kind, const Kind& fixed, const RandomStream& stream, const Response& response,
              double shown) {
-  /// The level to present next; the same until an answer comes. Not asked for after the end.
+  /// The level to present next, constant until the next response. Not called after the end.
   { fixed.next_level(stream) } -> std::convertible_to<double>;
-  /// Takes the answer to a trial that presented `shown`.
+  /// Records the response to a trial that presented the level `shown`.
   { kind.respond(response, shown) } -> std::same_as<Update>;
-  { fixed.finish() } -> std::same_as<std::optional<StopReason>>;  ///< none: it continues
-  /// One a method, at any time; the first is the one that is summarized.
+  { fixed.finish() } -> std::same_as<std::optional<StopReason>>;  ///< none: not finished
+  /// One for each method, at any time; summaries use the first.
   { fixed.estimates() } -> std::same_as<std::vector<Estimate>>;
 };
 
@@ -40,7 +40,7 @@ class Procedure {
   template <ProcedureKind Kind>
   Procedure(std::string name, Kind kind)
       : name_(std::move(name)), kind_(std::make_unique<Of<Kind>>(std::move(kind))) {}
-  /// Of a kind that has settings: UpDownConfig... @throws InvalidConfig
+  /// From the configuration of a kind, such as UpDownConfig. @throws InvalidConfig
   template <typename Config>
   requires ProcedureKind<typename Config::Procedure> Procedure(std::string name,
                                                                const Config& config)
@@ -58,30 +58,29 @@ class Procedure {
 
   const std::string& name() const { return name_; }
 
-  /// The level to present next; the same until an answer comes. Undefined after the end.
-  /// @param stream the procedure's own and always the same: level_stream()
+  /// The level to present next, constant until the next response. Undefined after the end.
+  /// @param stream level_stream() of this staircase, the same in every call
   double next_level(const RandomStream& stream) const { return kind_->next_level(stream); }
 
-  /// Takes the answer to a trial. Undefined after the end.
-  /// @param shown the level really shown, within +-largest_level
+  /// Records the response to a trial. Undefined after the end.
+  /// @param shown the level that was presented, within +-largest_level
   Update respond(const Response& response, double shown) {
     ++n_trials_;
     return kind_->respond(response, shown);
   }
 
   bool finished() const { return finish().has_value(); }
-  std::optional<StopReason> finish() const { return kind_->finish(); }  ///< none: it continues
-  /// One a method, whether finished or not.
+  std::optional<StopReason> finish() const { return kind_->finish(); }  ///< none: not finished
+  /// One for each method, before the end too.
   std::vector<Estimate> estimates() const { return kind_->estimates(); }
 
   int n_trials() const { return n_trials_; }
-  /// How many trials it takes in all; none where that depends on the answers.
+  /// Total number of trials; none if it depends on the responses.
   std::optional<int> planned_trials() const { return kind_->planned_trials(); }
-  /// The levels that are known before any answer: all of a fixed kind, the first of an adaptive
-  /// one.
+  /// Levels known before the first response: all of a fixed kind, the first of an adaptive one.
   std::vector<double> planned_levels() const { return kind_->planned_levels(); }
 
-  /// As the kind that it is; null where it is another.
+  /// The procedure as a `Kind`; null if it is of another kind.
   template <ProcedureKind Kind>
   const Kind* get_if() const {
     const auto* of_kind = dynamic_cast<const Of<Kind>*>(kind_.get());
@@ -124,10 +123,10 @@ class Procedure {
 
   std::string name_;
   std::unique_ptr<AnyKind> kind_;
-  int n_trials_ = 0;  ///< answered
+  int n_trials_ = 0;
 };
 
-/// What the staircase of that name draws its levels from.
+/// The random stream of a staircase's levels.
 inline RandomStream level_stream(std::uint64_t seed, const std::string& staircase) {
   return {seed, "levels/" + staircase};
 }

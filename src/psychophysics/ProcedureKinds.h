@@ -1,5 +1,5 @@
-// The closed list of the kinds of procedures that files can name. A further one is an entry here
-// and a file beside this one: its settings, with visit_keys, check and check_beside, and the kind.
+// The closed list of procedures that files can name. A further kind is an entry here and a header
+// beside this one with its configuration (visit_keys, check, check_beside) and the procedure.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace heft {
 
 template <typename... KindConfig>
 struct KindsOfProcedure : NamedKinds<KindConfig...> {
-  /// What a report says was chosen; empty for a kind that no file can name.
+  /// The settings as a report prints them; empty for a kind that files cannot name.
   static std::string described(const Procedure& procedure) {
     std::string text;
     const auto describe = [&](const auto* kind) {
@@ -23,7 +23,7 @@ struct KindsOfProcedure : NamedKinds<KindConfig...> {
     return text;
   }
 
-  /// Where it starts and how it moves, as an adaptive kind says it; empty for the others.
+  /// Start and steps of an adaptive kind, for reports; empty for the others.
   /// @param unit of levels
   static std::string course(const Procedure& procedure, std::string_view unit) {
     std::string text;
@@ -35,7 +35,7 @@ struct KindsOfProcedure : NamedKinds<KindConfig...> {
     return text;
   }
 
-  /// Whether it estimates a level; a kind that does not declares `estimates_nothing`.
+  /// Whether it estimates a level. Kinds that do not declare `estimates_nothing`.
   static bool estimates_level(const Procedure& procedure) {
     const auto is_without = [&]<typename Config>() {
       if constexpr (requires { Config::estimates_nothing; })
@@ -46,7 +46,7 @@ struct KindsOfProcedure : NamedKinds<KindConfig...> {
   }
 };
 
-/// The first is what a file means that names none.
+/// The first is the default of files.
 using ProcedureKinds = KindsOfProcedure<UpDownConfig, ConstantConfig>;
 
 }  // namespace heft

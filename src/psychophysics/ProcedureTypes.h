@@ -1,4 +1,4 @@
-// What every procedure takes and gives: answers, reversals, the end, estimates.
+// Inputs and results of procedures: responses, reversals, stop reasons, estimates.
 #pragma once
 
 #include <array>
@@ -10,24 +10,23 @@
 
 namespace heft {
 
-/// Levels are held within +-this, so that they and their means stay finite whatever the steps.
+/// Levels are limited to +-largest_level, so that they and their means stay finite for all steps.
 inline constexpr double largest_level = 1e300;
 
-/// Which of two stimuli was said to be more; none: no difference.
+/// The stimulus that was chosen as the greater; none: no difference.
 enum class Choice { comparison, reference, none };
 template <>
 struct EnumNames<Choice> {
   static constexpr std::array<std::string_view, 3> names{"comparison", "reference", "none"};
 };
 
-/// The answer to a trial: yes or no by the rule of whoever asks, and where two stimuli were
-/// compared, the choice itself.
+/// The response to a trial: positive or negative by the task's rule, and in comparisons the choice.
 struct Response {
-  bool positive = false;  ///< perceived, correct
+  bool positive = false;  ///< perceived, or correct
   std::optional<Choice> choice{};
 };
 
-/// A choice without a rule of its own: a difference was perceived, whichever was chosen.
+/// The response "a difference was perceived" for either stimulus.
 inline Response response_of(Choice choice) {
   return {choice != Choice::none, choice};
 }
@@ -35,38 +34,38 @@ inline Response response_of(Choice choice) {
 struct Reversal {
   int number = 0;  ///< from 1
   double level = 0;
-  double step_before = 0, step_after = 0;  ///< in force before and after it, in its own direction
+  double step_before = 0, step_after = 0;  ///< step sizes in its direction, before and after it
 };
 
-/// Why a procedure ended: by its reversals, because it had all the trials that it may have, or
-/// because its estimate is as precise as was asked for.
+/// Why a procedure ended: number of reversals, number of trials, or precision of the estimate.
 enum class StopReason { reversals, trials, precision };
 template <>
 struct EnumNames<StopReason> {
   static constexpr std::array<std::string_view, 3> names{"reversals", "trials", "precision"};
 };
 
-/// What one answer did.
+/// The effect of one response.
 struct Update {
   std::optional<Reversal> reversal;
   std::optional<StopReason> finish;
 };
 
-/// Whether an estimate is censored. above, below: the ceiling, the floor cut moves that it depends
-/// on, so that the true value may lie beyond; indeterminate: both did, or the trials ran out before
-/// the reversals.
+/// Whether an estimate is censored. above (below): the ceiling (floor) shortened moves that the
+/// estimate depends on, so that the true value may be beyond the bound; indeterminate: both bounds
+/// did, or the trials ended before the reversals.
 enum class Censored { none, above, below, indeterminate };
 template <>
 struct EnumNames<Censored> {
   static constexpr std::array<std::string_view, 4> names{"none", "above", "below", "indeterminate"};
 };
 
-/// What one method makes of a procedure's trials; a procedure may have several.
+/// Estimate of one method. A procedure may have several.
 struct Estimate {
   std::string method;
-  std::optional<double> value{}, low{}, high{};  ///< none: it gives no such figure
+  /// In the unit of levels, with the limits of an interval; none: the method does not give it.
+  std::optional<double> value{}, low{}, high{};
   int n_trials = 0, n_reversals = 0;
-  int n_floor = 0, n_ceiling = 0;  ///< moves that a bound cut short
+  int n_floor = 0, n_ceiling = 0;  ///< moves that a bound shortened
   Censored censored = Censored::none;
 };
 

@@ -31,7 +31,7 @@ void check_steps(const UpDownConfig& config, ConfigMistakes& mistakes) {
   const auto only_one = [&](std::string_view key) {
     mistakes.push_back({{key, "steps"},
                         fmt::format("{} together with steps", key),
-                        "only one of them: the list says every step"});
+                        "only one of them, because the list has every step"});
   };
   if (!config.steps.empty()) {
     if (config.step) only_one("step");
@@ -81,9 +81,10 @@ ConfigMistakes UpDownConfig::check() const {
   if (discard_reversals >= stop_reversals)
     mistakes.push_back(
         {{"discard_reversals", "stop_reversals"},
-         fmt::format("discard_reversals is {} and stop_reversals {}: no reversal is left for the "
-                     "estimate",
-                     discard_reversals, stop_reversals),
+         fmt::format(
+             "discard_reversals is {} and stop_reversals {}, which leaves no reversal for the "
+             "estimate",
+             discard_reversals, stop_reversals),
          "fewer to discard"});
   if (min_trials > stop_trials)
     mistakes.push_back({{"min_trials", "stop_trials"},
@@ -95,9 +96,10 @@ ConfigMistakes UpDownConfig::check() const {
 ConfigMistakes UpDownConfig::check_beside(double reference) const {
   if (floor && *floor < 0)
     return {{{"floor"},
-             fmt::format("floor is {}: beside a reference of {} g the comparison could get the "
-                         "lighter one, for which this staircase's answers mean the opposite",
-                         *floor, reference),
+             fmt::format(
+                 "floor is {}: the comparison could become lighter than the reference of {} g, for "
+                 "which this staircase's responses have the opposite meaning",
+                 *floor, reference),
              "0 or more"}};
   if (!floor && step_scale == StepScale::linear)
     return {
@@ -114,7 +116,7 @@ double UpDown::level() const {
   return presented(target_);
 }
 
-// What the next step starts from.
+// The level that the next step starts from.
 double UpDown::inner_level() const {
   return config_.at_bound == AtBound::clamp ? presented(target_) : target_;
 }
@@ -151,7 +153,7 @@ std::vector<Estimate> UpDown::estimates() const {
            .censored = censored()}};
 }
 
-// By the reversals that count, or where there are none by the level that it got to.
+// By the reversals in the estimate, or without an estimate by the current level.
 Censored UpDown::censored() const {
   const Censored last = estimate() ? Censored::none : side_of(target_, level());
   const bool below = cut_below_ || last == Censored::below;
@@ -160,8 +162,8 @@ Censored UpDown::censored() const {
   return above || finish_ == StopReason::trials ? Censored::indeterminate : Censored::none;
 }
 
-// The bound that cut the move to `target`, by more than rounding; by the older rule, the one that
-// the level shown was at.
+// The bound that shortened the move to `target` by more than rounding; by the older rule, the bound
+// at the presented level.
 Censored UpDown::side_of(double target, double shown) const {
   const bool by_level = config_.censoring == CensoringRule::levels_at_bounds;
   const auto is_beyond = [&](double beyond, double bound) {
@@ -197,7 +199,7 @@ std::optional<UpDown::Move> UpDown::due_move(bool positive) {
   return move;
 }
 
-// A reversal that a bound made, though nothing turned, is cut by that bound.
+// A reversal by bound_is_reversal alone is censored by that bound.
 Reversal UpDown::add_reversal(const Move& move, double shown_level) {
   const int n_before = static_cast<int>(reversals_.size());
   const auto n = static_cast<std::size_t>(n_before);
@@ -219,8 +221,8 @@ double UpDown::step(Direction direction, std::size_t n_reversals) const {
   return halved_step(config_, n_reversals);
 }
 
-// Downward steps on a ratio scale divide by the factor of upward ones, as PsychoPy does, so that
-// its traces come out to the last bit.
+// Downward steps on a ratio scale divide by the factor of upward steps, as in PsychoPy, whose
+// traces are reproduced to the last bit.
 double UpDown::moved(double level, Direction direction, double step) const {
   const bool up = direction == Direction::up;
   if (config_.step_scale == StepScale::linear) return held_finite(up ? level + step : level - step);
@@ -228,9 +230,9 @@ double UpDown::moved(double level, Direction direction, double step) const {
   return held_finite(up ? level * factor : level / factor);
 }
 
-// A linear step that ends a billionth of itself beside a bound of 0 was to end on it: .3 - .1 - .1
-// - .1 is not 0, and what rounding leaves over would be the whole level. Beside other bounds it is
-// a last bit, and there other programs' bits are kept.
+// A linear step that ends within a billionth of its size from a bound of 0 ends on it: .3 - .1 - .1
+// - .1 is not 0, and the rounding error would be the whole level. At other bounds the error is a
+// last bit, which is kept as in other programs.
 double UpDown::landed(double target) const {
   if (config_.step_scale != StepScale::linear) return target;
   const bool has_zero = config_.floor == 0.0 || config_.ceiling == 0.0;

@@ -1,18 +1,17 @@
-// The up-down staircase as a pure value: levels, steps, reversals, bounds, the end and the
-// estimate. No I/O, no clock, no randomness. Law and choices: Levitt (1971); Leek (2001); for the
-// paper's rule its section 4.2.1.
+// The up-down staircase (Levitt 1971; Leek 2001; the paper's rule: its section 4.2.1) as a pure
+// value: level, steps, reversals, bounds, stop rule, estimate.
 //
-// A positive answer (perceived, correct) counts towards a move down, a negative one towards a move
-// up. A move is due after `down` positive or `up` negative answers in a row; an opposite answer
-// starts the other count again, a due move both. A due move opposite to the previous due move is a
-// reversal, whether or not a bound leaves it room; the first due move never is one. Its value is
-// the level presented on that trial. The answer that ends a staircase makes no move.
+// A positive response (perceived, correct) counts towards a move down, a negative one towards a
+// move up. A move is due after `down` positive or `up` negative responses in a row. A response of
+// the other kind restarts the count, and so does a due move. A due move opposite to the previous
+// due move is a reversal, even if a bound prevents the move; the first due move is never one. Its
+// value is the level presented in that trial. The response that ends the staircase makes no move.
 //
-// What the literature leaves open, other programs decide like this. PsychoPy, expyfun and the Unity
-// Staircase Procedure toolkit change the step before the reversal's own move, pychoacoustics after
-// it. PsychoPy clamps and counts no clamp as a reversal; expyfun clamps and lets its user choose
-// (repeat_limit); Palamedes with truncate = "no" and the Unity toolkit without strict limits let
-// the inner level continue beyond the bound. PsychoPy with applyInitialRule and Palamedes are
+// Programs differ where the literature leaves choices open. PsychoPy, expyfun and the Unity
+// Staircase Procedure toolkit change the step before the reversal's move, pychoacoustics after it.
+// PsychoPy clamps levels and counts no clamped move as a reversal; expyfun clamps and offers a
+// choice (repeat_limit); Palamedes with truncate = "no" and the Unity toolkit without strict limits
+// let the internal level pass the bound. PsychoPy with applyInitialRule and Palamedes are
 // 1-up-1-down until the first reversal.
 #pragma once
 
@@ -33,28 +32,27 @@ struct EnumNames<StepScale> {
   static constexpr std::array<std::string_view, 3> names{"linear", "db", "log10"};
 };
 
-/// At a bound, either the level itself stops there, or it continues beyond and only what is
-/// presented stays at the bound.
+/// At a bound, either the level is clamped, or an internal level passes the bound and only the
+/// presented level is clamped.
 enum class AtBound { clamp, virtual_level };
 template <>
 struct EnumNames<AtBound> {
   static constexpr std::array<std::string_view, 2> names{"clamp", "virtual"};
 };
 
-/// Whether the step that a reversal changes applies to the move that it makes, or from the next one
-/// on.
+/// Whether the step changed by a reversal applies to the reversal's move or from the next move.
 enum class ChangeStep { before_move, after_move };
 template <>
 struct EnumNames<ChangeStep> {
   static constexpr std::array<std::string_view, 2> names{"before_move", "after_move"};
 };
 
-/// What makes an estimate censored: a bound that cut the move to the level of a reversal that
-/// counts, or, as sessions of logs before version 6 recorded it, every such reversal at a bound,
-/// also where a step ended on it exactly.
+/// When an estimate is censored: a bound shortened the move to the level of a reversal in the
+/// estimate (cut_moves); or, as in logs before version 6, such a reversal is at a bound, even if a
+/// step ended exactly there (levels_at_bounds).
 enum class CensoringRule { cut_moves, levels_at_bounds };
 
-/// Ten decades at once leave every scale of levels.
+/// A step of ten decades leaves every range of levels.
 constexpr double largest_step(StepScale scale) {
   return scale == StepScale::linear ? furthest : scale == StepScale::db ? 200 : 10;
 }
@@ -63,46 +61,46 @@ struct UpDownConfig {
   static constexpr std::string_view kind = "up_down";
   using Procedure = class UpDown;
 
-  double start = 0;
-  /// Steps after 0, 1, 2... reversals; the last one repeats. Used when not empty; otherwise `step`,
-  /// halved every `halve_every` reversals (0: never) and at least `min_step`.
+  double start = 0;  ///< level of the first trial, within the bounds
+  /// Steps after 0, 1, 2... reversals; the last one repeats. If empty: `step`, halved every
+  /// `halve_every` reversals (0: never), at least `min_step`. In the unit of levels, in dB (20 a
+  /// decade) or in decades, see step_scale.
   std::vector<double> steps{};
   std::vector<double> steps_up{};  ///< for upward moves; empty: the same as down
   std::optional<double> step{};
   int halve_every = 0;
   double min_step = 0;
   StepScale step_scale = StepScale::linear;
-  int up = 1;    ///< consecutive negative answers before a move up
-  int down = 1;  ///< consecutive positive answers before a move down
-  bool initial_1up1down =
-      false;  ///< 1-up-1-down until the first reversal, and for the answer making it
+  int up = 1;    ///< consecutive negative responses before a move up
+  int down = 1;  ///< consecutive positive responses before a move down
+  /// 1-up-1-down up to and including the response that makes the first reversal.
+  bool initial_1up1down = false;
   std::optional<double> floor{}, ceiling{};  ///< none: no bound
   AtBound at_bound = AtBound::clamp;
-  /// A due move that would pass the bound counts as a reversal too, also when it has the
-  /// direction of the last one; whether it would is judged by the step without it. So someone who
-  /// always says yes ends by reversals, with an estimate at the floor. Reaching the bound exactly
-  /// is no reversal, and no answer makes two.
+  /// A due move that would pass a bound is a reversal, also in the direction of the last move. The
+  /// test uses the step before this reversal. A participant who always answers yes then ends by
+  /// reversals, with an estimate at the floor. A move that ends exactly at the bound is no
+  /// reversal, and no response makes two.
   bool bound_is_reversal = false;
   ChangeStep change_step = ChangeStep::before_move;
   int stop_reversals = 10;
-  int min_trials = 0;     ///< reversals end it only from this many trials on; more are recorded
-  int stop_trials = 200;  ///< a hard limit
-  int discard_reversals = 2;
-  CensoringRule censoring = CensoringRule::cut_moves;  ///< no key of a file
+  int min_trials = 0;         ///< trials before which reversals do not end it
+  int stop_trials = 200;      ///< trials that end it in any case
+  int discard_reversals = 2;  ///< first reversals that the estimate leaves out
+  CensoringRule censoring = CensoringRule::cut_moves;  ///< not a key of files
 
   /// "from 175 g, steps 50 g, halved every 2 reversals". @param unit of levels
   std::string course(std::string_view unit) const;
 
   ConfigMistakes check() const;
-  /// Mistakes where levels are differences from a reference: a difference that is perceived, or
-  /// not, means the opposite where the comparison is the lighter one, so that levels must not get
-  /// there.
+  /// Mistakes if levels are differences from a reference in grams. For a comparison lighter than
+  /// the reference a perceived difference has the opposite meaning, so levels must not be negative.
   ConfigMistakes check_beside(double reference) const;
 };
 template <typename Config, typename Visit>
 requires ConfigOf<Config, UpDownConfig>
 void visit_keys(Config& config, Visit&& visit) {
-  visit(ConfigKey{"step_scale", "what steps are: differences, or ratios in dB or decades"},
+  visit(ConfigKey{"step_scale", "steps are differences, or ratios in dB or decades"},
         config.step_scale);
   const bool is_ratio = config.step_scale != StepScale::linear;
   const Range steps{0, largest_step(config.step_scale), true};
@@ -113,25 +111,25 @@ void visit_keys(Config& config, Visit&& visit) {
   visit(ConfigKey{"min_step", "smallest step"}, config.min_step, Range{0, steps.high});
   visit(ConfigKey{"steps", "instead: steps after 0, 1, 2... reversals; the last one repeats"},
         config.steps, steps);
-  visit(ConfigKey{"steps_up", "the same for upward moves, where they differ"}, config.steps_up,
-        steps);
+  visit(ConfigKey{"steps_up", "steps of upward moves, if different"}, config.steps_up, steps);
   const Range levels = is_ratio ? zero_or_more : any_number;
   visit(ConfigKey{"floor", "lowest level", false, "floor {} g"}, config.floor, levels);
   visit(ConfigKey{"ceiling", "highest level", false, "ceiling {} g"}, config.ceiling, levels);
-  visit(ConfigKey{"up", "negative answers in a row before a move up"}, config.up, WholeRange{1});
-  visit(ConfigKey{"down", "positive answers in a row before a move down"}, config.down,
+  visit(ConfigKey{"up", "consecutive negative responses before a move up"}, config.up,
+        WholeRange{1});
+  visit(ConfigKey{"down", "consecutive positive responses before a move down"}, config.down,
         WholeRange{1});
   visit(ConfigKey{"initial_1up1down", "1-up-1-down until the first reversal"},
         config.initial_1up1down);
-  visit(ConfigKey{"at_bound", "the level stops at a bound, or only what is presented does"},
+  visit(ConfigKey{"at_bound", "clamp the level at a bound, or only the presented level"},
         config.at_bound);
-  visit(ConfigKey{"bound_is_reversal", "a move that a bound cuts counts as a reversal"},
+  visit(ConfigKey{"bound_is_reversal", "a move that would pass a bound is a reversal"},
         config.bound_is_reversal);
-  visit(ConfigKey{"change_step", "whether a reversal's own move has the new step", false,
+  visit(ConfigKey{"change_step", "whether a reversal's move has the new step", false,
                   "step changes {}"},
         config.change_step);
   visit(ConfigKey{"stop_reversals", "reversals that end it"}, config.stop_reversals, WholeRange{1});
-  visit(ConfigKey{"min_trials", "trials before which reversals don't end it"}, config.min_trials,
+  visit(ConfigKey{"min_trials", "trials before which reversals do not end it"}, config.min_trials,
         WholeRange{});
   visit(ConfigKey{"stop_trials", "trials that end it", false, "at most {} trials"},
         config.stop_trials, WholeRange{1});
@@ -141,18 +139,19 @@ void visit_keys(Config& config, Visit&& visit) {
 
 class UpDown {
  public:
-  /// @throws InvalidConfig with all that config.check() finds
+  /// @throws InvalidConfig with all mistakes of config.check()
   explicit UpDown(UpDownConfig config);
 
-  /// Level to present next: the planned level held within the bounds.
+  /// The level to present next: the planned level, clamped to the bounds.
   double level() const;
 
-  /// Takes the answer to a trial. Undefined after the end (check finished()).
-  /// @param shown the level really shown where it was not level(), within +-largest_level; the
-  ///   reversal's value, while the next level still follows the planned one
+  /// Records the response to a trial. Undefined after the end (see finished()).
+  /// @param shown the level that was presented, if not level(), within +-largest_level. It is the
+  /// value of
+  ///   a reversal; the next level follows the planned level.
   Update respond(bool positive, std::optional<double> shown = std::nullopt);
 
-  // As every procedure.
+  // Members of every ProcedureKind.
   double next_level(const RandomStream&) const { return level(); }
   Update respond(const Response& response, double shown) {
     return respond(response.positive, shown);
@@ -163,13 +162,13 @@ class UpDown {
 
   bool finished() const { return finish_.has_value(); }
   std::optional<StopReason> finish() const { return finish_; }
-  /// Mean level of the reversals but the first `discard_reversals`; none if there is none left.
+  /// Mean level of the reversals after the first `discard_reversals`; none without such reversals.
   std::optional<double> estimate() const;
 
   const UpDownConfig& config() const { return config_; }
   const std::vector<Reversal>& reversals() const { return reversals_; }
   int n_trials() const { return n_trials_; }
-  /// Moves that the floor (ceiling) cut short.
+  /// Moves that the floor (ceiling) shortened.
   int n_floor() const { return n_floor_; }
   int n_ceiling() const { return n_ceiling_; }
 
@@ -178,9 +177,9 @@ class UpDown {
 
   struct Move {
     Direction direction;
-    double target;  ///< level that it leads to, not yet held within the bounds
+    double target;  ///< level after the move, not clamped
     bool is_reversal;
-    bool turned;  ///< opposite to the due move before it
+    bool turned;  ///< opposite to the previous due move
   };
 
   std::optional<Direction> due_direction(bool positive);
@@ -198,11 +197,11 @@ class UpDown {
   std::optional<StopReason> reason_to_finish() const;
 
   UpDownConfig config_;
-  double target_ = 0;  ///< level that the last move led to, not held within the bounds
+  double target_ = 0;                    ///< level after the last move, not clamped
   int n_positive_ = 0, n_negative_ = 0;  ///< consecutive, since the last due move
   std::optional<Direction> last_due_;
   std::vector<Reversal> reversals_;
-  bool cut_below_ = false, cut_above_ = false;  ///< reversals that count, by a bound
+  bool cut_below_ = false, cut_above_ = false;  ///< reversals in the estimate, censored
   int n_trials_ = 0, n_floor_ = 0, n_ceiling_ = 0;
   std::optional<StopReason> finish_;
 };

@@ -26,7 +26,7 @@ Pose random_pose(RandomStream& stream, double reach_m) {
           Eigen::Quaterniond(draw(), draw(), draw(), draw()).normalized()};
 }
 
-TEST(Pose, rotation_vectors_and_rotations_are_inverse_from_tiny_to_half_a_turn) {
+TEST(Pose, RotationVectorsAndRotationsAreInverseFromTinyToHalfATurn) {
   for (double angle_rad : {1e-15, 1e-9, 1e-4, 0.3, 2.0, std::numbers::pi - 1e-6}) {
     const Eigen::Vector3d vector = angle_rad * Eigen::Vector3d(1, -2, 2) / 3;
     const Eigen::Vector3d back = rotation_vector(rotation_from_vector(vector));
@@ -34,7 +34,7 @@ TEST(Pose, rotation_vectors_and_rotations_are_inverse_from_tiny_to_half_a_turn) 
   }
 }
 
-TEST(Pose, mean_velocity_takes_one_pose_to_the_other) {
+TEST(Pose, MeanVelocityTakesOnePoseToTheOther) {
   RandomStream stream(1, "poses");
   for (int i = 0; i < 100; ++i) {
     const Pose from = random_pose(stream, 0.1), to = random_pose(stream, 0.1);
@@ -46,7 +46,7 @@ TEST(Pose, mean_velocity_takes_one_pose_to_the_other) {
   }
 }
 
-TEST(Boxes, overlap_agrees_with_a_search_for_a_common_point) {
+TEST(Boxes, OverlapAgreesWithASearchForACommonPoint) {
   // A point of one box inside the other proves overlap; boxes that overlap by a margin have one on
   // a grid of that spacing.
   RandomStream stream(2, "boxes");
@@ -68,7 +68,7 @@ TEST(Boxes, overlap_agrees_with_a_search_for_a_common_point) {
     if (grid_point_of_b_in_a(size_a / 2)) {
       EXPECT_TRUE(overlap);
     }
-    // Grid spacing 2.2 mm: if they overlap, a grid point lies within its diagonal of box a.
+    // Grid spacing 2.2 mm: if they overlap, a grid point is within its diagonal of box a.
     if (overlap) {
       EXPECT_TRUE(grid_point_of_b_in_a(size_a / 2 + Eigen::Vector3d::Constant(0.002)));
     }
@@ -78,20 +78,20 @@ TEST(Boxes, overlap_agrees_with_a_search_for_a_common_point) {
   EXPECT_LT(n_overlaps, 350);
 }
 
-TEST(Boxes, touching_counts_as_overlapping) {
+TEST(Boxes, TouchingCountsAsOverlapping) {
   const Pose a, b{{1, 0, 0}, Eigen::Quaterniond::Identity()};
   EXPECT_TRUE(boxes_overlap(a, {1, 1, 1}, b, {1, 1, 1}));
   EXPECT_FALSE(boxes_overlap(a, {1, 1, 1}, b, {0.999, 1, 1}));
 }
 
-TEST(Names, the_nearest_name_is_found_if_it_is_near_enough) {
+TEST(Names, TheNearestNameIsFoundIfItIsNearEnough) {
   constexpr std::array<std::string_view, 3> names{"friction", "gravity_m_s2", "simulator"};
   EXPECT_THAT(nearest_name("fricton", names), Optional(std::string("friction")));
   EXPECT_THAT(nearest_name("simulatr", names), Optional(std::string("simulator")));
   EXPECT_EQ(nearest_name("xyzzy", names), std::nullopt);
 }
 
-TEST(Text, cells_lines_and_numbers) {
+TEST(Text, CellsLinesAndNumbers) {
   EXPECT_THAT(lines_of("a\r\nb\n\nc"), ElementsAre("a", "b", "", "c"));
   EXPECT_THAT(cells_of(" 1 ,,x"), ElementsAre("1", "", "x"));
   EXPECT_THAT(number_in("-1.5e-3"), Optional(-1.5e-3));
@@ -100,14 +100,14 @@ TEST(Text, cells_lines_and_numbers) {
     EXPECT_EQ(number_in(text), std::nullopt) << text;
 }
 
-TEST(Text, a_byte_order_mark_is_no_part_of_the_first_line) {
+TEST(Text, AByteOrderMarkIsNoPartOfTheFirstLine) {
   EXPECT_THAT(lines_of("\xEF\xBB\xBF"
                        "t_s,x_m\r\n\xEF\xBB\xBF"),
               ElementsAre("t_s,x_m", "\xEF\xBB\xBF"));
   EXPECT_THAT(lines_of("\xEF\xBB\xBF"), ElementsAre());
 }
 
-TEST(Text, an_unreadable_file_is_named_with_the_reason) {
+TEST(Text, AnUnreadableFileIsNamedWithTheReason) {
   try {
     read_text_file("no/such/file");
     FAIL();
@@ -116,12 +116,12 @@ TEST(Text, an_unreadable_file_is_named_with_the_reason) {
   }
 }
 
-TEST(Sha256, gives_the_standard_digest_of_abc) {  // FIPS 180-2, appendix B.1
+TEST(Sha256, GivesTheStandardDigestOfAbc) {  // FIPS 180-2, appendix B.1
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-// A laboratory's machine with an empty battery.
-TEST(Build, times_before_1970_are_read_back) {
+// The clock of a machine with an empty battery.
+TEST(Build, TimesBefore1970AreReadBack) {
   const auto at = [](std::chrono::milliseconds since_1970) {
     return utc_of(std::chrono::system_clock::time_point(since_1970));
   };
@@ -130,12 +130,12 @@ TEST(Build, times_before_1970_are_read_back) {
   EXPECT_EQ(at(milliseconds(-1000)), "1969-12-31T23:59:59.000Z");
   EXPECT_EQ(at(milliseconds(1001)), "1970-01-01T00:00:01.001Z");
   EXPECT_NEAR(seconds_since(at(milliseconds(-1500))) - seconds_since(at(milliseconds(500))), 2, .1);
-  // As it stands in logs that were written before.
+  // The format of earlier logs.
   EXPECT_NEAR(seconds_since("1969-12-31T23:59:59.-500Z") - seconds_since(at(milliseconds(0))), 1.5,
               .1);
 }
 
-TEST(Build, times_in_utc_are_read_back) {
+TEST(Build, TimesInUtcAreReadBack) {
   EXPECT_NEAR(seconds_since(utc_now()), 0, 5);
   EXPECT_NEAR(seconds_since("2026-01-01T00:00:00.500Z") - seconds_since("2026-01-01T00:01:00.250Z"),
               59.75, 0.1);

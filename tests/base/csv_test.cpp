@@ -1,4 +1,4 @@
-// Comma-separated text as spreadsheets and careful and careless people write it.
+// Comma-separated text, well-formed and malformed.
 #include "base/files/Csv.h"
 
 #include <gmock/gmock.h>

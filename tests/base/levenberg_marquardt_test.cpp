@@ -69,7 +69,7 @@ TEST(LevenbergMarquardt, ComesDownToPowellsSingularPoint) {
   EXPECT_LT(x.norm(), 0.01);
 }
 
-TEST(LevenbergMarquardt, LeavesBardsProblemTheResidualThatItHas) {
+TEST(LevenbergMarquardt, FindsTheResidualOfBardsProblem) {
   constexpr std::array y{0.14, 0.18, 0.22, 0.25, 0.29, 0.32, 0.35, 0.39,
                          0.37, 0.58, 0.73, 0.96, 1.34, 2.10, 4.39};
   const auto bard = problem<15, 3>([&](const auto& x, auto& r, auto& by) {
@@ -85,7 +85,7 @@ TEST(LevenbergMarquardt, LeavesBardsProblemTheResidualThatItHas) {
   EXPECT_NEAR((x - Eigen::Vector3d(0.0824106, 1.1330361, 2.3436952)).norm(), 0, 1e-4);
 }
 
-// Huber's cost by itself, so that the answer can be found another way.
+// Huber's cost alone, for an independent solution.
 RC_GTEST_PROP(LevenbergMarquardt, ALineIsWhereNoStepAsideCostsLess, (std::uint64_t seed)) {
   RandomStream draws(seed, "line");
   std::array<Eigen::Vector2d, 20> points;
@@ -112,7 +112,7 @@ RC_GTEST_PROP(LevenbergMarquardt, ALineIsWhereNoStepAsideCostsLess, (std::uint64
   const auto moved = [](const Eigen::Vector2d& from, const Eigen::VectorXd& step) {
     return Eigen::Vector2d(from + step);
   };
-  // Points far off on one side pull it along by a hundredth of its way a step: many steps.
+  // Outliers on one side move it by a hundredth of the way in each step.
   const auto equations = levenberg_marquardt(line, 100000, 1e-14, at, moved);
   RC_ASSERT(equations.cost == at(line).cost);
   for (const Eigen::Vector2d& aside :
@@ -143,7 +143,7 @@ RC_GTEST_PROP(LevenbergMarquardt, APriorPullsAsAMeasurementOfItsVarianceDoes,
   RC_ASSERT(std::abs(1 / equations.matrix(0, 0) - 1 / (weight + known_weight)) < 1e-12);
 }
 
-TEST(LevenbergMarquardt, StaysWhereEveryStepLeadsOutOfTheWorld) {
+TEST(LevenbergMarquardt, StaysIfEveryStepLeavesTheDomain) {
   Eigen::Vector2d x(1, 2);
   const auto at = [](const Eigen::Vector2d& there) {
     NormalEquations<2> equations;

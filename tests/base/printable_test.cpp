@@ -1,4 +1,4 @@
-// Names and notes from anywhere: shown, never obeyed.
+// Untrusted texts are displayed, never interpreted.
 #include "base/files/Printable.h"
 
 #include <gtest/gtest.h>

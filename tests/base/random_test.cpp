@@ -13,7 +13,7 @@ namespace {
 // From a separate implementation of Philox4x64-10 (in Python), which gives Random123's published
 // vector 16554d9eca36314c db20fe9d672d0fdc d7e772cee186176b 7e68b68aec7ba23b for zero key and
 // counter.
-TEST(Random, streams_are_philox_keyed_by_seed_and_purpose_and_counted_by_trial_and_attempt) {
+TEST(Random, StreamsArePhiloxKeyedBySeedAndPurposeAndCountedByTrialAndAttempt) {
   RandomStream stream(42, "slots", 7, 2);
   for (std::uint64_t expected :
        {0x195d029b4e203158ull, 0x8f419ff464aaff7dull, 0x104fecd5e09924f6ull, 0x552cba7e8b20154cull,
@@ -21,7 +21,7 @@ TEST(Random, streams_are_philox_keyed_by_seed_and_purpose_and_counted_by_trial_a
     EXPECT_EQ(stream.bits(), expected);
 }
 
-TEST(Random, equal_keys_give_equal_streams_and_others_do_not) {
+TEST(Random, EqualKeysGiveEqualStreamsAndOthersDoNot) {
   const auto first = [](RandomStream stream) { return stream.bits(); };
   const std::uint64_t value = first(RandomStream(1, "a", 2, 3));
   EXPECT_EQ(first(RandomStream(1, "a", 2, 3)), value);
@@ -31,7 +31,7 @@ TEST(Random, equal_keys_give_equal_streams_and_others_do_not) {
   EXPECT_NE(first(RandomStream(1, "a", 2, 4)), value);
 }
 
-TEST(Random, bounded_draws_are_uniform) {
+TEST(Random, BoundedDrawsAreUniform) {
   constexpr int n = 60000, bound = 6;
   std::map<std::uint64_t, int> counts;
   RandomStream stream(3, "below");
@@ -43,7 +43,7 @@ TEST(Random, bounded_draws_are_uniform) {
   EXPECT_LT(chi_squared, 20.5);  // 5 degrees of freedom, 0.1 %
 }
 
-TEST(Random, uniform_and_normal_draws_have_their_moments) {
+TEST(Random, UniformAndNormalDrawsHaveTheirMoments) {
   constexpr int n = 100000;
   RandomStream stream(4, "moments");
   double sum = 0, sum_squares = 0, uniform_sum = 0;
@@ -61,7 +61,7 @@ TEST(Random, uniform_and_normal_draws_have_their_moments) {
   EXPECT_NEAR(sum_squares / n, 1, 4 * std::sqrt(2.0 / n));
 }
 
-TEST(Random, every_order_of_a_shuffle_is_equally_likely) {
+TEST(Random, EveryOrderOfAShuffleIsEquallyLikely) {
   constexpr int n = 60000;
   std::map<std::vector<int>, int> counts;
   RandomStream stream(5, "shuffle");

@@ -1,4 +1,4 @@
-// Points and areas: what a polygon covers of a grid, by either way of asking.
+// Points and areas of a grid that a polygon covers.
 #include "base/math/Scan.h"
 
 #include <gtest/gtest.h>
@@ -81,7 +81,7 @@ RC_GTEST_PROP(Scan, FindsThePointsThatATriangleHoldsAndNoOthers, (std::uint64_t 
   }
 }
 
-// Corners on points and edges through them, where a careless converter counts twice or not at all.
+// Corners on points and edges through points, which must be counted exactly once.
 RC_GTEST_PROP(Scan, TrianglesWithAnEdgeInCommonPartThePointsBetweenThem, ()) {
   const auto point = [] {
     return Vector2d(*rc::gen::inRange(-4, n_columns + 4), *rc::gen::inRange(-4, n_rows + 4));

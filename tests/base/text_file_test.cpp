@@ -1,4 +1,4 @@
-// A file that replaces another loses nothing.
+// Replacing a file keeps the old one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -61,7 +61,7 @@ TEST(RequireWritable, SaysWhatIsWrongBeforeTheWork) {
   EXPECT_EQ(refusal(folder.file("new.yaml")), "writable");
   EXPECT_EQ(refusal("in_this_folder.yaml"), "writable");
   EXPECT_THAT(files_in(folder.path()), ElementsAre());  // asking leaves nothing behind
-  EXPECT_THAT(refusal(folder.file("missing/camera.yaml")), HasSubstr("does its folder exist"));
+  EXPECT_THAT(refusal(folder.file("missing/camera.yaml")), HasSubstr("check that its folder exists"));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("it is a folder"));
   EXPECT_THAT(refusal("/dev/null"), HasSubstr("a device"));
 }

@@ -198,7 +198,7 @@ class Apparatus(unittest.TestCase):
         run = self.heft("calibrate", "camera", "--camera", "camera:97", "--board",
                         APPARATUS / "board.toml", "--out", self.folder / "missing" / "camera.yaml")
         self.assertEqual(run.returncode, 1)
-        self.assertIn("does its folder exist", run.stderr)
+        self.assertIn("check that its folder exists", run.stderr)
 
     def test_calibrating_needs_different_views(self):
         _, pdf = self.sheet("board")

@@ -397,9 +397,10 @@ class ByteOrderMarks(CommandLine):
     def test_a_trajectory_from_a_spreadsheet_is_read(self):
         push = self.folder / "push.csv"
         scenes = ROOT / "tests" / "scenes"
-        push.write_bytes(b"\xef\xbb\xbf" + (scenes / "push.csv").read_bytes())
-        outputs = {self.run_heft("scene", scenes / "push_200g.toml", "--trajectory", path).stdout
-                   for path in (push, scenes / "push.csv")}
+        push.write_bytes(b"\xef\xbb\xbf" + (scenes / "paths" / "push.csv").read_bytes())
+        scene = scenes / "pushes" / "push_200g.toml"
+        outputs = {self.run_heft("scene", scene, "--trajectory", path).stdout
+                   for path in (push, scenes / "paths" / "push.csv")}
         self.assertEqual(len(outputs), 1)
 
     def test_a_protocol_with_a_mark_is_read(self):

@@ -16,8 +16,8 @@ import time
 
 from session_harness import PROTOCOLS, ROOT, SessionTest, change, main, outcome_of, query
 
-SCENE = ROOT / "tests" / "scenes" / "push_200g.toml"
-TRAJECTORY = ROOT / "tests" / "scenes" / "push.csv"
+SCENE = ROOT / "tests" / "scenes" / "pushes" / "push_200g.toml"
+TRAJECTORY = ROOT / "tests" / "scenes" / "paths" / "push.csv"
 
 
 class UnderARunningSession(SessionTest):

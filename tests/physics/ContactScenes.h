@@ -1,4 +1,4 @@
-// Scenes with contacts that simulators are compared on, with the hand's path in each.
+// Contact scenes with the hand's paths, for comparisons of simulators.
 #pragma once
 
 #include <functional>
@@ -100,8 +100,8 @@ inline std::vector<ContactScene> all() {
   return list;
 }
 
-/// Those whose motion is determined: rigid corners share the load of the others in many ways, see
-/// Scene::contact_compliance_m_per_n, and small differences grow.
+/// The scenes with a unique rigid solution. In the others the load of rigid corners is
+/// indeterminate, see Scene::contact_compliance_m_per_n, and small differences grow.
 inline std::vector<ContactScene> well_posed() {
   std::vector<ContactScene> list = all();
   std::erase_if(list, [](const ContactScene& contact) {

@@ -1,10 +1,9 @@
-// Boxes that only slide, never turn: an answer to hold solvers to that shares no convention with
-// them. Time is cut into microseconds; contacts are stiff springs with dampers so strong that
-// nothing bounces; no constraint is solved, no impulse of a step is looked for, no step is cut.
+// An independent reference for boxes that slide without rotation. Steps are microseconds and
+// contacts are stiff, overdamped springs; there are no constraints, impulses or events.
 //
-// All boxes stand square to one heading. A cube stands on the table or on another cube, with its
-// weight and that of what it carries as the load; the disk of friction is exact where it is the
-// only one that acts, and shared by a few sweeps where several do.
+// All boxes are aligned with one heading. The load of a cube on the table or on another cube is its
+// weight and that of the cubes on it. Coulomb friction is exact for one contact and iterated for
+// several.
 #pragma once
 
 #include <array>
@@ -20,7 +19,7 @@ class SlidingReference {
  public:
   using Vec = Eigen::Vector2d;
 
-  /// @param heading_rad which every box stands square to
+  /// @param heading_rad with which all boxes are aligned
   /// @param effector_turned its long side is across the heading
   SlidingReference(const Scene& scene, double heading_rad, bool effector_turned, const Pose& hand)
       : scene_(scene), along_(std::cos(heading_rad), std::sin(heading_rad)) {
@@ -41,7 +40,7 @@ class SlidingReference {
     hand_ = turned(hand.position_m);
   }
 
-  /// The hand goes straight to this pose; dt_s is cut into steps of 2 us.
+  /// The hand moves straight to this pose; dt_s is divided into steps of 2 us.
   void advance(const Pose& hand, double dt_s) {
     const int n = static_cast<int>(std::ceil(dt_s / step_s));
     const Vec velocity = (turned(hand.position_m) - hand_) / dt_s;
@@ -65,7 +64,7 @@ class SlidingReference {
     std::size_t on;  ///< 0: the table
     double load_n;   ///< of it and all that it carries
   };
-  // What rubs: a pair's friction impulse so far in this step.
+  // The friction impulse of a pair so far in this step.
   struct Rub {
     std::size_t first, second;  ///< second 0 and table: the table
     bool table;

@@ -1,5 +1,4 @@
-// A step of `boxes`, `push` or `quasi_static` allocates nothing. Counts this program's operator
-// new.
+// Steps of `boxes`, `push` and `quasi_static` allocate no memory, counted by operator new.
 #include <gtest/gtest.h>
 
 #include <atomic>

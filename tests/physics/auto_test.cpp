@@ -26,7 +26,7 @@ Scene with_tolerance(const Tolerance& tolerance) {
   return scene;
 }
 
-TEST(Auto, BeginsWithAStraightPushAndEndsWithWhatModelsEverything) {
+TEST(Auto, TriesAStraightPushBeforeTheGeneralModel) {
   const auto ladder = simulator_ladder(one_cube(0.2), 30);
   EXPECT_THAT(names_of(ladder), testing::ElementsAre("push", "boxes"));
   for (const SimulatorPick& pick : ladder) EXPECT_FALSE(pick.why.empty());
@@ -39,10 +39,10 @@ TEST(Auto, StaysWithinTheToleranceAsFarAsTheTableKnows) {
   EXPECT_LE(known.lag_g, asked.lag_g);
   EXPECT_LE(known.cubes_rms_m, asked.cubes_rms_m);
   EXPECT_LE(known.turn_rms_rad, asked.turn_rms_rad);
-  EXPECT_EQ(pick.why.find("MISSES"), std::string::npos);
+  EXPECT_EQ(pick.why.find("NOT within"), std::string::npos);
 }
 
-TEST(Auto, KeepsWhatIsAskedOfCubesToo) {
+TEST(Auto, KeepsTheToleranceOfCubesToo) {
   const double usual_hz = resolve_auto(one_cube(0.2), 15).rate_hz;
   EXPECT_GT(resolve_auto(with_tolerance({.cubes_rms_m = 1e-9}), 15).rate_hz, usual_hz);
 }
@@ -64,14 +64,14 @@ TEST(Auto, TakesMoreStepsForATighterToleranceAndForAFasterSpring) {
   EXPECT_EQ(resolve_auto(slow, 15).rate_hz, usual_hz);
 }
 
-TEST(Auto, SaysSoWhereNothingIsAccurateEnough) {
+TEST(Auto, ReportsAMissedTolerance) {
   const auto ladder = simulator_ladder(with_tolerance({1e-9, 1e-9, 1e-9, 1e-9}), 15);
   ASSERT_EQ(ladder.size(), 1u);
-  EXPECT_NE(ladder[0].why.find("MISSES the tolerance"), std::string::npos) << ladder[0].why;
+  EXPECT_NE(ladder[0].why.find("NOT within the tolerance"), std::string::npos) << ladder[0].why;
   EXPECT_TRUE(simulator_named(ladder[0].simulator).for_sessions);
 }
 
-TEST(Auto, LeavesContactsThatGiveToBoxes) {
+TEST(Auto, LeavesCompliantContactsToBoxes) {
   Scene scene = one_cube(0.2);
   scene.contact_compliance_m_per_n = 1e-4;
   EXPECT_THAT(names_of(simulator_ladder(scene, 60)), testing::ElementsAre("boxes"));

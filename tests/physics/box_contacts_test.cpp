@@ -51,7 +51,7 @@ TEST(BoxContacts, CrossedEdgesMeetInOnePoint) {
   EXPECT_NEAR(contact.points[0].on_second_m.z(), 0.02 * std::sqrt(2), 1e-12);
 }
 
-// 80 mm away and beside it: the nearest faces now are the sides, but the front is what will be hit.
+// 80 mm away and offset: the nearest faces are the sides, but the front will be hit.
 TEST(BoxContacts, OnTheWayFindsTheFaceThatWillBeHit) {
   const Box still = cube_at(0, 0, 0), coming = cube_at(-0.12, -0.045, 0);
   const Eigen::Vector3d travel_m(0.1, 0.01, 0);
@@ -75,8 +75,8 @@ TEST(BoxContacts, ABoxStandsOnTheTableWithItsLowestCorners) {
   EXPECT_EQ(contact_with_table(cube_at(0, 0, 0.022), 0.001).n_points, 0);
 }
 
-// Any two boxes: points lie on their surfaces within rounding, distances fit, and swapping the
-// boxes turns the normal around.
+// Any two boxes: points are on their surfaces within rounding, distances are consistent, and
+// exchanging the boxes reverses the normal.
 RC_GTEST_PROP(BoxContacts, PointsDistancesAndNormalsAgree, ()) {
   const auto unit = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
   const auto direction = [&] { return Eigen::Vector3d(unit(), unit(), 1.5 + unit()); };

@@ -1,4 +1,4 @@
-// `boxes` against closed forms, and what it promises about contacts.
+// `boxes` against closed forms, and properties of its contacts.
 #include <gtest/gtest.h>
 
 #include "base/Pose.h"
@@ -71,8 +71,7 @@ TEST_P(BoxesLag, IsWithinATenthOfAPercentInEveryDirection) {
 
 INSTANTIATE_TEST_SUITE_P(Masses, BoxesLag, testing::Values(0.015, 0.05, 0.2, 0.5));
 
-// A disk of friction holds alike in every direction, so a cube that does not face the hand does
-// too.
+// Friction on a disk is isotropic, so the deceleration does not depend on the cube's yaw.
 TEST(Boxes, ASlidingCubeIsSlowedAlikeWhateverItsYaw) {
   for (double degrees : {0.0, 10.0, 30.0, 45.0}) {
     Scene scene = one_cube(0.2);
@@ -110,7 +109,7 @@ TEST(Boxes, FreeReturnIsExactInTranslationAndRotationForAnyDamping) {
   }
 }
 
-TEST(Boxes, ACubeFallsAsGalileoSaysAndStaysDown) {
+TEST(Boxes, ACubeFallsFreelyAndStaysDown) {
   Scene scene = one_cube(0.2);
   scene.cubes[0].position_m.z() = 0.1175;
   const Pose away = upright_pose({0, 0.3, 0.3}, 0);
@@ -134,7 +133,7 @@ TEST(Boxes, NothingCreepsWhilePressedForTenSeconds) {
   }
 }
 
-// Nothing in C1 shows what a cube weighs, as long as cubes do not touch cubes.
+// In C1 nothing depends on a cube's mass, unless cubes touch cubes.
 TEST(Boxes, ACoupledCloneIsBlindToMass) {
   for (double side_m : {0.0, 0.006, 0.028}) {
     for (double yaw_rad : {0.0, 0.5}) {
@@ -159,8 +158,8 @@ TEST(Boxes, ACoupledCloneIsBlindToMass) {
   }
 }
 
-// A coupled hand that brakes throws its cube ahead: friction alone slows it, until the hand meets
-// it again.
+// A coupled hand that brakes throws its cube ahead; friction alone decelerates it until the hand
+// meets it again.
 TEST(Boxes, ACubeThatABrakingCoupledHandThrowsAheadIsMetWhereFrictionLetsIt) {
   const double fast_m_s = 0.3, brakes_s = 0.3, brakes_by_m_s2 = 0.8 * 9.81;
   Scene scene = one_cube(0.2);
@@ -189,7 +188,7 @@ TEST(Boxes, ACubeThatABrakingCoupledHandThrowsAheadIsMetWhereFrictionLetsIt) {
   }
 }
 
-// What meets slowly may bounce by what friction takes away within a step, however short that is.
+// After a slow contact a rebound is limited to the velocity that friction removes within a step.
 TEST(Boxes, ACubeThatACoupledCloneMeetsIsAsFastAsTheClone) {
   Scene scene = one_cube(0.2);
   scene.coupling.decoupled = false;
@@ -273,8 +272,8 @@ TEST(Boxes, ACompliantPointSinksByItsShareOfTheLoad) {
   EXPECT_NEAR(state.cubes[0].pose.position_m.z(), 0.0175 - 1e-4 * 0.2 * 9.81 / 4, 1e-6);
 }
 
-// The hand's speed cuts steps into pieces as long as the cube is near it: where it stops must not
-// depend on that.
+// The hand's speed determines the pieces of a step while the cube is near; the cube's stop must not
+// depend on them.
 TEST(Boxes, AFastSwipeThrowsACubeEquallyFarAtEveryRate) {
   const auto stop_m = [](double rate_hz) {
     const auto path = [](double t_s) {

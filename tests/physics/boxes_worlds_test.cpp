@@ -1,4 +1,5 @@
-// `boxes` in scenes without a closed form: converged, side by side with Bullet, stable, repeatable.
+// `boxes` in scenes without a closed form: convergence, agreement with Bullet, stability,
+// repeatability.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -84,7 +85,7 @@ Scene any_scene() {
 
 const std::vector<double> every_rate{15, 30, 60, 240, 960, 2000};
 
-// The clone is released beside or inside nothing, thrown at cubes by its own spring.
+// The clone is released in free space, and its spring throws it at cubes.
 RC_GTEST_PROP(BoxesProperty, EnergyNeverGrowsWhileTheTargetRests, ()) {
   Scene scene = any_scene();
   scene.clone_offset.position_m = {-0.04 - 0.001 * *rc::gen::inRange(0, 50), 0, 0};
@@ -109,7 +110,7 @@ Pose any_path(const Eigen::Vector3d& shake_m, const Eigen::Vector3d& turn_rad, d
   return {at_m, rotation_from_vector(turn_rad * std::sin(4 * t_s))};
 }
 
-RC_GTEST_PROP(BoxesProperty, NothingBlowsUpAndAResetWorldRepeatsItself, ()) {
+RC_GTEST_PROP(BoxesProperty, IsStableAndRepeatsItselfAfterAReset, ()) {
   Scene scene = any_scene();
   scene.coupling.decoupled = *rc::gen::arbitrary<bool>();
   const Eigen::Vector3d shake_m = any_vector(0.08), turn_rad = any_vector(0.6);
@@ -132,8 +133,8 @@ RC_GTEST_PROP(BoxesProperty, NothingBlowsUpAndAResetWorldRepeatsItself, ()) {
   }
 }
 
-// A hand that presses cubes on the table, and against each other, has no answer; but cubes of some
-// grams are not to be shot, nor 100 kg thrown, by a solver that goes astray.
+// There is no solution for a hand that presses cubes into the table and each other; a diverging
+// solver must not throw them.
 TEST(BoxesProperty, WhatIsSqueezedIsNotFlung) {
   struct Squeeze {
     Coupling coupling;
@@ -165,8 +166,8 @@ TEST(BoxesProperty, WhatIsSqueezedIsNotFlung) {
   }
 }
 
-// A light cube jammed before a heavy one settles slowly; sweeps that end before it has turn the
-// row.
+// Sweeps converge slowly for a light cube between clone and heavy cube; ending them early rotates
+// the row.
 TEST(Boxes, ALightCubeBeforeAHeavyOneSettlesAtEveryRate) {
   ContactScene contact;
   contact.scene.cubes = {cube_of(0.001, 0), cube_of(1, 0.055)};

@@ -1,4 +1,4 @@
-// The coupling along one axis, free and loaded, apart from any simulator.
+// The coupling along one axis, free and loaded, without a simulator.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -50,7 +50,7 @@ RC_GTEST_PROP(CouplingLaw, ExactSchemeStaysExactWhenTheStepChanges, ()) {
   }
 }
 
-// A soft spring and short steps: what one step gives way is a billionth, and must be that.
+// With a soft spring and short steps the motion of one step is a billionth, which must be accurate.
 TEST(CouplingLaw, TheFirstOfManySmallStepsIsAsLongAsItIs) {
   for (const double z : {0.999, 1.0, 1.01, 2.01, 5.0}) {
     const CouplingAxis axis{1, 0.001, z};
@@ -90,7 +90,7 @@ TEST(CouplingLaw, ImplicitEulerIsTheTextbookStep) {
               1e-13);
 }
 
-// A blow takes no time: the clone is as heavy as it is, whatever the damping.
+// Over an instant the clone responds with its bare mass, independent of the damping.
 TEST(CouplingLaw, HasTheBareMassWithinAnInstant) {
   for (const double damping_ratio : {0.5, 1.0, 2.0}) {
     CouplingLaw law(CouplingScheme::exact, {0.1, 100, damping_ratio});
@@ -101,7 +101,7 @@ TEST(CouplingLaw, HasTheBareMassWithinAnInstant) {
   }
 }
 
-RC_GTEST_PROP(CouplingLaw, NeverBlowsUpHoweverStiff, ()) {
+RC_GTEST_PROP(CouplingLaw, IsStableForAnyStiffness, ()) {
   const CouplingAxis axis{std::pow(10, *rc::gen::inRange(-7, 1)),
                           std::pow(10, *rc::gen::inRange(-3, 10)),
                           *rc::gen::inRange(1, 500) / 100.0};

@@ -1,4 +1,4 @@
-// What Drive asks of a simulator, and what comes of it in a real world.
+// Calls of Drive to a simulator, and results with real simulators.
 #include "physics/Drive.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@
 namespace heft {
 namespace {
 
-// Writes down what it is asked for; its clone is where the target is.
+// Records calls; its clone is at the target.
 struct Calls {
   std::vector<std::string> names;
   std::vector<Pose> targets;
@@ -107,7 +107,7 @@ TEST_F(DriveSteps, AGapOfUpToAQuarterSecondIsAPathALongerOneAJump) {
   drive.advance(late);
   EXPECT_THAT(calls.names, testing::ElementsAre("reset", "teleport"));
   EXPECT_EQ(calls.teleport_velocity.linear_m_s.x(), 0.3);
-  EXPECT_EQ(calls.targets.back().position_m.x(), -0.19);  // meanwhile the world went on
+  EXPECT_EQ(calls.targets.back().position_m.x(), -0.19);  // the world kept moving
   EXPECT_EQ(calls.targets.size(), 60u + 63u);
 }
 
@@ -159,7 +159,7 @@ TEST_F(DriveSteps, RefusesTimeThatDoesNotAdvanceAndUnusableSamples) {
   TargetSample bent = seen(1.1, -0.2);
   bent.pose.orientation.coeffs() *= 2;
   EXPECT_THROW(drive.advance(bent), std::exception);
-  drive.advance(seen(1.1, -0.2));  // and goes on afterwards
+  drive.advance(seen(1.1, -0.2));  // and continues afterwards
 }
 
 TEST_F(DriveSteps, ReturnsACubeAndKeepsTheCloneOffUntilItIsClearOfIt) {
@@ -174,7 +174,7 @@ TEST_F(DriveSteps, ReturnsACubeAndKeepsTheCloneOffUntilItIsClearOfIt) {
 
 class DriveTargets : public testing::Test {
  protected:
-  // x of every target while these samples come in, a tenth of a second apart, two steps each.
+  // x of every target for these samples, 0.1 s apart, two steps each.
   std::vector<double> targets(const DriveInput& input,
                               const std::vector<TargetSample>& seen_samples) {
     Calls calls;
@@ -194,7 +194,7 @@ TEST_F(DriveTargets, PathGoesToTheNewPose) {
   EXPECT_THAT(targets({InputMode::path}, samples), near({-0.49, -0.48, -0.46, -0.44}));
 }
 
-// From rest at -.5 with .4 m/s at the end: the cubic that gets there.
+// The cubic from rest at -.5 to .4 m/s at the end.
 TEST_F(DriveTargets, SmoothBendsAsTheVelocitiesSayAndIsStraightWithoutAny) {
   EXPECT_THAT(targets({InputMode::smooth}, samples), targets({InputMode::path}, samples));
   auto moving = samples;
@@ -206,7 +206,7 @@ TEST_F(DriveTargets, SmoothBendsAsTheVelocitiesSayAndIsStraightWithoutAny) {
   EXPECT_THAT(targets({InputMode::smooth}, moving), near({-0.50, -0.50, -0.4625, -0.44}));
 }
 
-// A hand of 1 Hz and 10 cm, seen at 15 Hz. Straight it is off by more than 0.1 mm.
+// A hand of 1 Hz and 10 cm, sampled at 15 Hz. The linear path is off by more than 0.1 mm.
 TEST(Smooth, FollowsAHandInFreeAir) {
   const double w = 2 * M_PI, a_m = 0.05, turn_rad = 0.3;
   const auto hand = [&](double t_s) {
@@ -239,11 +239,11 @@ TEST_F(DriveTargets, HoldStaysAtTheLastPose) {
   EXPECT_THAT(targets({InputMode::hold}, samples), near({-0.50, -0.50, -0.48, -0.48}));
 }
 
-TEST_F(DriveTargets, ExtrapolateGoesOnAsBetweenTheLastTwo) {
+TEST_F(DriveTargets, ExtrapolateContinuesTheLastTwo) {
   EXPECT_THAT(targets({InputMode::extrapolate}, samples), near({-0.50, -0.50, -0.47, -0.46}));
 }
 
-TEST_F(DriveTargets, ExtrapolateTurnsOn) {
+TEST_F(DriveTargets, ExtrapolateContinuesRotation) {
   Calls calls;
   Drive drive(std::make_unique<FakeSimulator>(calls), one_cube(0.2), 20, {InputMode::extrapolate});
   for (int i = 0; i < 3; ++i) {
@@ -283,7 +283,7 @@ TEST_F(DriveTargets, ACloneThatJumpsComesBackWhereItIsPredicted) {
   EXPECT_NEAR(drive.advance(sample).clone.pose.position_m.x(), -0.28, 1e-12);
 }
 
-TEST(Predicted, GoesOnAndTurnsOnAsTheSampleDoes) {
+TEST(Predicted, ContinuesTranslationAndRotation) {
   TargetSample sample = seen(0, -0.5);
   sample.pose = upright_pose({-0.5, 0.1, 0.02}, 0.3);
   sample.velocity = {{0.2, -0.4, 0}, {0, 0, 2}};
@@ -324,9 +324,9 @@ TEST(DriveInAWorld, PicturesAtFifteenHertzGiveTheSteadyLag) {
   EXPECT_NEAR(lag_m, steady_lag_m(0.8, 0.2, 50), 0.3e-3);
 }
 
-// Pushed, then the effector vanishes: the cube slides on, comes to rest, and a hand that comes back
-// inside it does not throw it away.
-TEST(DriveInAWorld, CubesGoOnWhileTheEffectorIsAway) {
+// The effector disappears after a push: the cube slides to rest, and a hand that returns inside it
+// does not throw it.
+TEST(DriveInAWorld, CubesKeepMovingWhileTheEffectorIsAway) {
   Scene scene = one_cube(0.2);
   scene.coupling.decoupled = false;
   Drive drive = drive_of(scene);

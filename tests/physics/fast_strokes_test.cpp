@@ -1,5 +1,5 @@
-// Quick strokes at one cube, as a hand makes them: it hits the cube, speeds it up and lets it go,
-// all within a few steps. `push` has the closed forms of all of it.
+// Quick strokes of a hand: impact, acceleration and separation within a few steps, compared with
+// the closed forms of `push`.
 #include <gtest/gtest.h>
 
 #include "base/PoseTypes.h"
@@ -19,7 +19,7 @@ void PrintTo(const FastStroke& stroke, std::ostream* out) {
 
 constexpr double stroke_m = 0.1, before_cube_m = 0.01;
 
-// Ends at a picture's time, as a hand that is filmed seems to.
+// Ends at the time of a picture, like a filmed hand.
 double stroke_s(const FastStroke& stroke) {
   return std::max(1.0, std::round(stroke_m / stroke.speed_m_s * 60)) / 60;
 }
@@ -33,7 +33,7 @@ struct Way {
   std::vector<double> clone_m, cube_m;
 };
 
-// Sixty times a second until the cube lies still.
+// At 60 Hz until the cube is at rest.
 Way way_of(const std::string& simulator, const FastStroke& stroke) {
   const Scene scene = one_cube(stroke.mass_kg);
   const auto one = make_simulator(simulator);
@@ -75,8 +75,8 @@ std::vector<FastStroke> fast_strokes() {
 
 INSTANTIATE_TEST_SUITE_P(MassesAndSpeeds, FastStrokes, testing::ValuesIn(fast_strokes()));
 
-// Pressed against a cube that does not move, then drawn along its face: it sticks, slips and slides
-// off as it does in small steps.
+// Pressed against a cube that does not move, then moved along its face: it sticks, slips and slides
+// off as in small steps.
 TEST(PressedClone, SlipsWhenFrictionGives) {
   const Scene scene = one_cube(1000);
   const auto hand = [](double t_s) {

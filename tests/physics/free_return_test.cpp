@@ -1,4 +1,4 @@
-// The clone released at rest beside a still effector, far from everything.
+// The clone released at rest with an offset from a still effector, without contacts.
 #include <gtest/gtest.h>
 
 #include "base/Pose.h"
@@ -46,7 +46,7 @@ TEST(FreeReturn30mm, ImplicitEulerWithinHalfAMillimeterAndFirstOrder) {
   EXPECT_NEAR(translation_rms_m("bullet-ea", {0.030, 0, 0}, 960) / coarse_m, 0.25, 0.05);
 }
 
-// A soft torsional spring, so that there is something to see.
+// With a soft torsional spring, so that the rotation is visible.
 TEST(FreeReturnInRotation, FollowsTheClosedFormAboutEachAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     Scene scene;

@@ -1,4 +1,4 @@
-// Pushing one cube: Newton's third law as the clone shows it.
+// Pushes of one cube: the clone's lag shows friction's force.
 #include <gtest/gtest.h>
 
 #include "physics/Pushes.h"
@@ -7,7 +7,7 @@
 namespace heft {
 namespace {
 
-// Slow and long, so that the start has died out.
+// Slow and long, so that the start has decayed.
 const Stroke steady{.speed_m_s = 0.05, .length_m = 0.15};
 
 double lag_m(const Stroke& stroke, const Pose& target, const WorldState& state) {
@@ -90,7 +90,7 @@ TEST(HeavyCube, DoesNotMoveAtTheCamerasRateEither) {
   EXPECT_NEAR(state.cubes[0].pose.position_m.x(), 0, 0.01e-3);
 }
 
-// The clone must give way: nothing may be inside the cube at any time.
+// The clone must never overlap the cube.
 TEST(Push, TheTipStaysAtTheCubesFace) {
   const Stroke stroke{.speed_m_s = 0.3, .length_m = 0.15};
   for (const std::string& name : every_solver) {

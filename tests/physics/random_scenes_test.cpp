@@ -1,5 +1,5 @@
-// `boxes` against SlidingReference in scenes drawn at random from all that has one rigid answer:
-// strokes, oblique strokes, chains, pairs that the long side sweeps, stacks.
+// `boxes` against SlidingReference in random scenes with a unique rigid solution: strokes, oblique
+// strokes, chains, pairs pushed by the long side, stacks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,8 +39,8 @@ class Draw {
   std::mt19937_64 random_;
 };
 
-/// Share of a stroke at a share of its time: as fast all the time, of minimum jerk, or forth and
-/// half the way back.
+/// Fraction of a stroke at a fraction of its time: constant speed, minimum jerk, or out and half of
+/// the way back.
 double course(int kind, double s) {
   s = std::clamp(s, 0.0, 1.0);
   if (kind == 0) return s;
@@ -203,7 +203,7 @@ TEST_P(RandomScenes, AreTheReferences) {
             << percentile(clone_mm, 0.5) << ", p95 " << percentile(clone_mm, 0.95) << ", worst "
             << all[0].clone_mm << " mm; cubes' ends p95 " << percentile(cubes_mm, 0.95)
             << ", worst " << percentile(cubes_mm, 1) << " mm; turned at most "
-            << percentile(turned_deg, 1) << " degrees; " << n_not_converged << " unsettled\n";
+            << percentile(turned_deg, 1) << " degrees; " << n_not_converged << " not converged\n";
   if (std::getenv("HEFT_SCENES_WORST"))
     for (std::size_t i = 0; i < std::min<std::size_t>(25, all.size()); ++i)
       std::cout << "  seed " << all[i].seed << " " << random_scene(all[i].seed).kind << " clone "
@@ -216,9 +216,9 @@ TEST_P(RandomScenes, AreTheReferences) {
 INSTANTIATE_TEST_SUITE_P(Rates, RandomScenes, testing::Values(240, 120),
                          [](const auto& test) { return std::to_string(test.param) + "Hz"; });
 
-// A clone that sticks to a cube that sticks to the table has nothing to stop (316: its steps were
-// cut again and again, and it trembled loose); and mixing that takes an impulse below zero has not
-// settled (1378: the clone was flung off two cubes that it pushed in turn).
+// Regressions. 316: a clone that sticks to a cube that sticks to the table caused event after
+// event, and came loose. 1378: mixing to negative impulses was taken as converged, and the clone
+// was thrown off two cubes.
 TEST(RandomScenes, SticksAndSettles) {
   for (unsigned seed : {316u, 1378u}) {
     const RandomScene made = random_scene(seed);
@@ -227,7 +227,7 @@ TEST(RandomScenes, SticksAndSettles) {
   }
 }
 
-// The reference itself, where there is a closed form.
+// The reference against a closed form.
 TEST(SlidingReference, IsTheClosedFormOfAPush) {
   for (unsigned seed = 0; seed < 20; seed += 5) {
     RandomScene made = random_scene(seed);

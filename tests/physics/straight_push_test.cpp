@@ -38,7 +38,7 @@ RC_GTEST_PROP(Oscillation, IsTheFreeReturnAndComposes, ()) {
 
 class PushAgainstBoxes : public testing::TestWithParam<double> {};
 
-// Two methods with nothing in common but the laws; `boxes` at a step of 65 microseconds.
+// Two independent methods; `boxes` at a step of 65 microseconds.
 TEST_P(PushAgainstBoxes, AgreesWithinAFewMicrometers) {
   for (bool decoupled : {true, false}) {
     for (double damping : {0.5, 1.0, 1.6}) {
@@ -169,7 +169,7 @@ TEST(StraightStroke, RefusesWhatItCannotRepresentAndSaysWhy) {
   }
 }
 
-TEST(StraightStroke, DoesNotMindCubesThatAreNotTouched) {
+TEST(StraightStroke, IgnoresCubesThatAreNotTouched) {
   Scene scene = one_cube(0.2);
   scene.cubes.push_back(cube_of(0.2, 0, 0.1));
   scene.cubes.push_back(cube_of(0.2, 0.3));

@@ -68,7 +68,7 @@ TEST(Gain, IsThatOfAllCubesThatAreTouched) {
   EXPECT_NEAR(behind_m(stroke.at(1), state), 0.4 * (0.05 - gap_m), 0.05e-3);
 }
 
-// In for 5 cm within half a second, then back, too gently to throw a cube.
+// In by 5 cm within half a second and back, too slowly to throw a cube.
 double way_in_m(double t_s) {
   return 0.025 * (1 - std::cos(2 * M_PI * t_s));
 }
@@ -78,7 +78,7 @@ Pose in_and_back(double t_s) {
 
 TEST(Gain, ReturnsCriticallyDampedOnceTheHandHasLeftTheCube) {
   const double in_m = 0.05 - gap_m, g = 0.6, return_s = 0.08;
-  const double out_m = gap_m + g * in_m;  // there the hand leaves the cube, pushed that far
+  const double out_m = gap_m + g * in_m;  // where the hand leaves the pushed cube
   const double left_s = 1 - std::acos(1 - out_m / 0.025) / (2 * M_PI);
   const FreeReturn back(1 / (return_s * return_s), 1, 1);
   for (const std::string& name : every_solver)
@@ -93,7 +93,7 @@ TEST(Gain, ReturnsCriticallyDampedOnceTheHandHasLeftTheCube) {
           });
 }
 
-// A hand that went right through a heavy cube and turns back: the clone must not follow it through.
+// A hand passes through a heavy cube and returns: the clone must not follow it through the cube.
 TEST(Gain, DoesNotKickACubeThatTheHandHasPassed) {
   const auto deep = [](double t_s) {
     return Stroke{.speed_m_s = 1, .length_m = 1}.at(0.09 * (1 - std::cos(M_PI * t_s)));
@@ -121,7 +121,7 @@ TEST(SpeedLimit, HoldsTheCloneBackFromTheFirstTouchAndLetsItCatchUp) {
             });
 }
 
-// As fast as it may until it has caught up with a hand that waits: it throws the cube at that
+// The clone moves at the limit until it reaches a hand that waits, and throws the cube at that
 // speed.
 TEST(SpeedLimit, HoldsUntilTheCloneHasCaughtUp) {
   const double limit_m_s = 0.15, slides_m = limit_m_s * limit_m_s / (2 * 0.8 * 9.81);
@@ -154,7 +154,7 @@ TEST_P(Displaced, IsTheHandItselfWhereNothingIsTouched) {
         });
 }
 
-TEST_P(Displaced, IsBlindToAMassThatItsTableDoesNotTellApart) {
+TEST_P(Displaced, IsEqualForMassesOfEqualTableValues) {
   const MassCurve flat({{0.2, 0.1}});
   Displacement displacement = GetParam();
   std::visit([&](auto& law) { law.of_mass = flat; }, displacement);
@@ -165,7 +165,7 @@ TEST_P(Displaced, IsBlindToAMassThatItsTableDoesNotTellApart) {
   for (double mass_kg : {0.015, 0.2, 1.5}) {
     Scene scene = scene_with(displacement, mass_kg);
     scene.cubes[0].position_m.x() = 0.06;
-    scene.coupling.stiffness_n_per_m *= 1 + mass_kg;  // nor to a spring that it has not
+    scene.coupling.stiffness_n_per_m *= 1 + mass_kg;  // has no effect without a spring
     ends.push_back(drive("boxes", scene, swing, 1.2, 60));
   }
   for (const WorldState& end : ends) {
@@ -187,7 +187,7 @@ TEST_P(Displaced, NoticesACubeOnTheWayOfAFastHandAtACamerasRate) {
   EXPECT_LT(end_at(15), slow_m - 0.05);
 }
 
-TEST_P(Displaced, StartsAnewAfterAJump) {
+TEST_P(Displaced, StartsAgainAfterAJump) {
   const Stroke stroke;
   Drive drive(make_simulator("boxes"), scene_with(GetParam()), 240);
   for (int i = 0; i <= 12; ++i) drive.advance(sample_of(i / 15.0, stroke.at(i / 15.0)));

@@ -1,5 +1,4 @@
-// Whole worlds: boxes at rest, any number of them, the same bits every time, and scenes that are
-// meant to break a simulator.
+// Whole worlds: boxes at rest, many boxes, determinism, and scenes that stress a simulator.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -36,7 +35,7 @@ TEST(Boxes, AnyNumberOfThem) {
   for (int n : {0, 1, 10}) {
     Scene scene;
     for (int i = 0; i < n; ++i) scene.cubes.push_back(cube_of(0.05, 0.05 * i));
-    // Reaches half of them: row by row the clone feels more of them and falls behind.
+    // Reaches half of them; the lag grows with every row.
     const auto simulator = make_simulator("bullet");
     const WorldState state = run(*simulator, scene, along(Stroke{}), 2);
     ASSERT_EQ(state.cubes.size(), static_cast<std::size_t>(n));
@@ -67,7 +66,7 @@ TEST(Boxes, AStackStandsAndFallsWhenItsLowestCubeIsTakenAway) {
   EXPECT_NEAR(simulator->state().cubes[2].pose.position_m.z(), 0.0525, 0.1e-3);
 }
 
-TEST(Boxes, ACubeFallsAsGalileoSaysAndLandsOnTheTable) {
+TEST(Boxes, ACubeFallsFreelyAndLandsOnTheTable) {
   Scene scene = one_cube(0.2);
   scene.cubes[0].position_m.z() = 0.1175;
   const auto simulator = make_simulator("bullet");
@@ -83,7 +82,7 @@ TEST(Boxes, TheCloneStandsOnTheTableToo) {
   EXPECT_NEAR(state.clone.pose.position_m.z(), 0.020, 0.01e-3);
 }
 
-// A stroke that turns, lifts and hits three cubes at an angle.
+// A stroke that rotates, lifts and hits three cubes at an angle.
 Pose busy_path(double t_s) {
   const Eigen::Vector3d at_m(-0.08 + 0.06 * std::sin(5 * t_s), 0.05 * std::sin(2 * t_s),
                              0.022 + 0.004 * std::sin(7 * t_s));
@@ -178,8 +177,8 @@ std::vector<RoughScene> rough_scenes() {
 
 class Rate : public testing::TestWithParam<double> {};
 
-// Nothing becomes much faster than the hand or what falls, nor leaves the hand or the table.
-TEST_P(Rate, NothingBlowsUp) {
+// Speeds are bounded by those of the hand and of free fall; nothing leaves the hand or the table.
+TEST_P(Rate, IsStable) {
   for (const std::string& name : every_solver) {
     for (bool decoupled : {true, false}) {
       for (RoughScene& rough : rough_scenes()) {
@@ -201,7 +200,7 @@ TEST_P(Rate, NothingBlowsUp) {
             });
         const std::string which =
             name + (decoupled ? " C2 " : " C1 ") + rough.name + " at " + std::to_string(GetParam());
-        // A coupled clone is as fast as the hand, a decoupled one as its spring lets it be.
+        // A coupled clone is as fast as the hand; the spring bounds the speed of a decoupled one.
         EXPECT_LT(fastest_m_s, decoupled ? 15 : std::max(3.0, 2 * hand_m_s)) << which;
         EXPECT_LT(farthest_m, 0.5) << which;
         if (decoupled) {
@@ -229,7 +228,7 @@ TEST(Simulators, AreFoundByNameAndTheNearestNameIsOffered) {
   }
 }
 
-TEST(Simulators, ThatGoWrongAreNamedButNotBuiltIn) {
+TEST(Simulators, ThatFailAreListedButNotBuiltIn) {
   int n = 0;
   for (const SimulatorEntry& entry : simulators()) {
     EXPECT_EQ(entry.make == nullptr, !entry.warning.empty()) << entry.name;

@@ -1,5 +1,4 @@
-// A procedure of a test's own: halves the interval that holds a threshold until it is narrow
-// enough.
+// A test procedure that is not one of Heft's: bisects the interval of a threshold.
 #pragma once
 
 #include "psychophysics/Procedure.h"

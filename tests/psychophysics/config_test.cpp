@@ -1,11 +1,11 @@
-// What a procedure's settings find wrong with themselves, without any file.
+// Mistakes that configurations of procedures find without a file.
 #include <gmock/gmock.h>
 
 #include <limits>
 
 #include "psychophysics/Interleaving.h"
 #include "psychophysics/ProcedureKinds.h"
-#include "psychophysics/staircases.h"
+#include "psychophysics/Staircases.h"
 
 namespace heft {
 namespace {
@@ -62,7 +62,7 @@ TEST(Config, OfAnUpDownNamesEachMistake) {
   EXPECT_THAT(changed([](auto& c) { c.down = -2; }), ElementsAre(HasSubstr("down is -2")));
   EXPECT_THAT(changed([](auto& c) { c.halve_every = -1; }), ElementsAre(HasSubstr("halve_every")));
   EXPECT_THAT(changed([](auto& c) { c.discard_reversals = 10; }),
-              ElementsAre(HasSubstr("no reversal is left for the estimate")));
+              ElementsAre(HasSubstr("leaves no reversal for the estimate")));
   EXPECT_THAT(changed([](auto& c) { c.discard_reversals = 9; }), IsEmpty());
   EXPECT_THAT(changed([](auto& c) { c.min_trials = 201; }),
               ElementsAre("min_trials is 201, expected at most stop_trials 200"));

@@ -1,4 +1,4 @@
-// The method of constant stimuli: what its schedule holds, and that nothing but the seed orders it.
+// The method of constant stimuli: its schedule and order.
 #include "psychophysics/Constant.h"
 
 #include <gmock/gmock.h>
@@ -30,7 +30,8 @@ std::uint64_t any_seed() {
   return *rc::gen::arbitrary<std::uint64_t>();
 }
 
-/// The levels that a procedure presents, answered by `answer(trial)`, `looks` looks a trial.
+/// The levels that a procedure presents, with responses `answer(trial)` and `looks` queries in each
+/// trial.
 template <typename Answers>
 std::vector<double> presented(Procedure procedure, std::uint64_t seed, int looks,
                               const Answers& answer) {

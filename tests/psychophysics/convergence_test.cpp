@@ -1,7 +1,6 @@
-// Where the rules converge, with simulated observers at fixed seeds: the probabilities that Levitt
-// (1971) and Kaernbach (1991) derive, and for large steps a Markov chain. Each figure is a mean
-// over independent runs; it must lie within four of its own standard errors of the theory, and the
-// standard error must be small enough to tell.
+// Convergence of the rules with simulated observers at fixed seeds: the probabilities of Levitt
+// (1971) and Kaernbach (1991), and for large steps a Markov chain. Each mean over independent runs
+// must be within four standard errors of the theory, and the standard error must be small.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -125,8 +124,8 @@ double stationary_level_1u2d(Observer observer, double start, double step) {
   return mean;
 }
 
-// Steps of one standard deviation bring two alternatives to a level of 66.6 %, not 70.7 %, which
-// lies 0.22 higher: the standard error must be far below that.
+// With steps of one standard deviation, two alternatives converge to 66.6 %, not to 70.7 %, which
+// is 0.22 higher; the standard error must be far below that difference.
 TEST(Convergence, LargeStepsMissTheTargetAsTheChainSays) {
   const double theory = stationary_level_1u2d(two_alternatives, 0, 1);
   EXPECT_NEAR(two_alternatives(theory), 0.666, 0.0005);

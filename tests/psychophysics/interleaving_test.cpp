@@ -1,4 +1,4 @@
-// Which staircase comes next: order, chance, lag.
+// Selection of the next staircase: order, random draws, lag.
 #include "psychophysics/Interleaving.h"
 
 #include <gmock/gmock.h>
@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
+#include "psychophysics/Staircases.h"
 #include "psychophysics/UpDown.h"
-#include "psychophysics/staircases.h"
 
 namespace heft {
 namespace {

@@ -1,10 +1,10 @@
-// A procedure of a program's own, as one of Heft's: run, copied and interleaved with them.
+// A procedure that is not one of Heft's is run, copied and interleaved with them.
 #include <gmock/gmock.h>
 
 #include "psychophysics/Bisection.h"
 #include "psychophysics/Constant.h"
 #include "psychophysics/Interleaving.h"
-#include "psychophysics/staircases.h"
+#include "psychophysics/Staircases.h"
 
 namespace heft {
 namespace {

@@ -1,9 +1,9 @@
-// Procedures as one value: each kind behaves as it does alone.
+// Procedure: each kind behaves as without the wrapper.
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
 #include "psychophysics/ProcedureKinds.h"
-#include "psychophysics/staircases.h"
+#include "psychophysics/Staircases.h"
 
 namespace heft {
 namespace {

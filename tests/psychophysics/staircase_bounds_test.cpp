@@ -1,8 +1,8 @@
-// Staircases worked out by hand: floors, ceilings and what counts there.
+// Hand-computed staircases: floors, ceilings and reversals at bounds.
 #include <gmock/gmock.h>
 
+#include "psychophysics/Staircases.h"
 #include "psychophysics/UpDown.h"
-#include "psychophysics/staircases.h"
 
 namespace heft {
 namespace {
@@ -101,7 +101,7 @@ TEST(UpDown, OneAnswerMakesOneReversal) {
   EXPECT_THAT(answer(config, "-+-++").reversal_trials, ElementsAre(1, 2, 3, 4, 5));
 }
 
-// Trial 2 would pass the floor with the step in force, 8; the reversal it makes thereby halves it.
+// Trial 2 would pass the floor with the current step, 8; the resulting reversal halves the step.
 TEST(UpDown, BoundIsJudgedByTheStepWithoutItsReversal) {
   UpDownConfig config = fixed_step(14, 8);
   config.halve_every = 1;

@@ -1,8 +1,8 @@
-// Staircases worked out by hand: how they end, and the estimate.
+// Hand-computed staircases: stop rules and estimates.
 #include <gmock/gmock.h>
 
+#include "psychophysics/Staircases.h"
 #include "psychophysics/UpDown.h"
-#include "psychophysics/staircases.h"
 
 namespace heft {
 namespace {

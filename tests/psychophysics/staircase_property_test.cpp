@@ -1,11 +1,11 @@
-// What holds for every staircase and every sequence of answers.
+// Properties of every staircase for every sequence of responses.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "psychophysics/staircases.h"
+#include "psychophysics/Staircases.h"
 
 namespace heft {
 namespace {
@@ -82,7 +82,7 @@ RC_GTEST_PROP(StaircaseProperty, OneUpOneDownReversesWhereverTheAnswerChanges, (
 
 RC_GTEST_PROP(StaircaseProperty, MovesNeverGoAgainstTheAnswer, ()) {
   UpDownConfig config = *any_staircase();
-  config.start = std::abs(config.start);  // factors move negative levels the other way
+  config.start = std::abs(config.start);  // factors move negative levels in the opposite direction
   config.floor.reset();
   config.ceiling.reset();
   if (config.step_scale == StepScale::linear) config.start = 0;
@@ -123,12 +123,12 @@ RC_GTEST_PROP(StaircaseProperty, BoundReversalsEndOneSidedAnswersLongBeforeTheLi
 
 RC_GTEST_PROP(StaircaseProperty, ShownLevelsChangeOnlyTheReversalValues, ()) {
   const UpDownConfig config = *any_staircase();
-  UpDown told(config), untold(config);
+  UpDown with_level(config), without_level(config);
   for (bool positive : any_answers()) {
-    if (untold.finished()) break;
-    RC_ASSERT(told.level() == untold.level());
-    const auto with = told.respond(positive, 12345.0);
-    const auto without = untold.respond(positive);
+    if (without_level.finished()) break;
+    RC_ASSERT(with_level.level() == without_level.level());
+    const auto with = with_level.respond(positive, 12345.0);
+    const auto without = without_level.respond(positive);
     RC_ASSERT(with.reversal.has_value() == without.reversal.has_value());
     if (with.reversal) RC_ASSERT(with.reversal->level == 12345.0);
     RC_ASSERT(with.finish == without.finish);

@@ -1,10 +1,10 @@
-// Staircases worked out by hand: moves, steps and reversals.
+// Hand-computed staircases: moves, steps and reversals.
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "psychophysics/Staircases.h"
 #include "psychophysics/UpDown.h"
-#include "psychophysics/staircases.h"
 
 namespace heft {
 namespace {

@@ -1,5 +1,5 @@
-// The bench's scenes are the files of tests/scenes/, and their references are to be trusted.
-// HEFT_WRITE_SCENES=1 in the environment writes the files anew.
+// The scenes of the physics study equal the files of tests/scenes/, and their references are
+// accurate. HEFT_WRITE_SCENES=1 in the environment rewrites the files.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,14 +22,14 @@ const std::string folder = source_folder() + "/tests/scenes/";
 void expect_file(const std::string& name, const std::string& text) {
   if (std::getenv("HEFT_WRITE_SCENES")) std::ofstream(folder + name) << text;
   EXPECT_EQ(read_text_file(folder + name), text)
-      << name
-      << " differs from results/physics/scenes/Scenes.cpp; HEFT_WRITE_SCENES=1 writes it anew";
+      << name << " differs from results/physics/scenes/Scenes.cpp; HEFT_WRITE_SCENES=1 rewrites it";
 }
 
 TEST(BenchScenes, AreTheShippedFiles) {
   for (const BenchScene& scene : bench_scenes()) {
-    expect_file(scene.name + ".toml", scene_toml(scene));
-    expect_file(scene.path_name + ".csv", path_csv(scene));
+    const std::string subfolder = scene.name.starts_with("push_") ? "pushes/" : "";
+    expect_file(subfolder + scene.name + ".toml", scene_toml(scene));
+    expect_file("paths/" + scene.path_name + ".csv", path_csv(scene));
   }
 }
 

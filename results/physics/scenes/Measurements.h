@@ -1,5 +1,5 @@
-// Every simulator at every rate through every scene: how far off, at what cost. The tables and the
-// chart of error against CPU time come from these.
+// Error and cost of every simulator at every rate in every scene, for the tables and the chart of
+// error against CPU time.
 #pragma once
 
 #include <optional>
@@ -13,21 +13,20 @@
 
 namespace heft {
 
-// Where the hand's work went: a balance that needs no other simulator to compare with.
-
-/// Of a whole run, joules. The clone's turning is left out.
+/// Energy balance of a whole run, J, which needs no reference simulator. Ignores the clone's
+/// rotation.
 struct EnergyBalance {
   double hand_work_j = 0;  ///< on the spring and its damper; of a coupled clone, on the cubes
   double damped_j = 0;     ///< by the coupling
-  double rubbed_j = 0;     ///< by the table, a quarter of each cube's weight on each of its corners
-  double stored_j = 0;     ///< more at the end than at the start: spring, motion, height
+  double rubbed_j = 0;  ///< by friction on the table, with a quarter of the weight on each corner
+  double stored_j = 0;  ///< gain of spring, kinetic and potential energy
 
-  /// What hits and rubbing between boxes took. Below zero: what came from nowhere.
+  /// Dissipated by impacts and friction between boxes; negative values are errors.
   double left_j() const { return hand_work_j - damped_j - rubbed_j - stored_j; }
 };
 
-/// @param track with a state for every step, so that each has steady pushes
-/// @return none where cubes stand on each other, or the effector goes out of view
+/// @param track with a state for every step, so that contact forces are constant between states
+/// @return none for stacked cubes or an effector that leaves the view
 std::optional<EnergyBalance> energy_balance(const SceneTrack& track, const BenchScene& scene);
 
 struct Measurement {
@@ -47,12 +46,12 @@ struct Measurements {
   std::vector<std::pair<BenchScene, Reference>> references;
 };
 
-/// Simulators that stand for themselves: without aliases and without those that pick another.
+/// The simulators without aliases and without `auto`.
 std::vector<SimulatorEntry> measured_simulators();
 
 Measurements measure(const StudyOptions& options);
 
-/// work_precision.csv, a row a measurement; references.csv, a row a scene.
+/// work_precision.csv, a row for each measurement; references.csv, a row for each scene.
 void write_tables(const StudyOptions& options, const Measurements& measurements);
 
 /// work_precision.svg

@@ -25,19 +25,20 @@ namespace heft {
 namespace {
 using Eigen::Vector3d;
 
-constexpr double no_penetration_speed_m_s = 0.02;  // at which overlaps are undone
-// From here on an orientation stays within 0.03 degrees; ODE takes normal forces as if there were
-// no friction, and with that gets the torque of a sliding tip wrong if it may turn at all.
+constexpr double no_penetration_speed_m_s = 0.02;  // at which overlaps are corrected
+// Stiffer torsional springs keep the orientation within 0.03 degrees. ODE computes normal forces as
+// if there were no friction, so the torque of a sliding tip is wrong unless the orientation is
+// locked.
 constexpr double locks_nm_per_rad = 50;
 constexpr double sticking_m_s = 1e-5;  // slower is sticking
-// Where contacts give, what sticks creeps by this, so that its points share friction in one way.
+// Creep of sticking compliant contacts, which makes the distribution of friction unique.
 constexpr double creep_m_s_per_n = 1e-6;
 constexpr double no_slip_m_s = 1e-12;
 
 struct OdeIsReady {
   OdeIsReady() {
     dInitODE2(0);
-    // It warns of resting contacts that share a load in more than one way; results say how far off.
+    // ODE warns of statically indeterminate contacts; the study reports the differences.
     dSetMessageHandler([](int, const char*, va_list) {});
   }
 };
@@ -168,7 +169,7 @@ void OdeSimulator::reset(const Scene& scene, const Pose& target) {
     add(cube.size_m, upright_pose(cube.position_m, cube.yaw_rad), cube.mass_kg);
 }
 
-// The paper's law, with damping on the velocity relative to the target.
+// The paper's coupling, with damping of the velocity relative to the target.
 void OdeSimulator::pull(const Pose& target, double h_s) {
   const Coupling& coupling = scene_.coupling;
   const BodyState clone = state_of(bodies_[0]);
@@ -197,7 +198,7 @@ void OdeSimulator::pull(const Pose& target, double h_s) {
   dBodyAddRelTorque(bodies_[0], torque_nm.x(), torque_nm.y(), torque_nm.z());
 }
 
-// Of the point of a against that of b.
+// Velocity of the point of a relative to that of b.
 Vector3d OdeSimulator::relative_velocity(const dContactGeom& at, dBodyID a, dBodyID b) const {
   const auto velocity = [&](dBodyID body) {
     dVector3 v{0, 0, 0};
@@ -207,14 +208,14 @@ Vector3d OdeSimulator::relative_velocity(const dContactGeom& at, dBodyID a, dBod
   return velocity(a) - velocity(b);
 }
 
-// Velocity of a against b along the contact's plane.
+// Velocity of a relative to b in the contact plane.
 Vector3d OdeSimulator::slip(const dContactGeom& at, dBodyID a, dBodyID b) const {
   const Vector3d normal(at.normal[0], at.normal[1], at.normal[2]);
   const Vector3d relative = relative_velocity(at, a, b);
   return relative - normal * normal.dot(relative);
 }
 
-// Of a body, as a push along the contact's normal meets it.
+// Inverse effective mass of a body along the contact normal.
 double OdeSimulator::inverse_mass_per_kg(const dContactGeom& at, dBodyID body) const {
   if (!body || dBodyIsKinematic(body)) return 0;
   dMass mass;
@@ -227,8 +228,7 @@ double OdeSimulator::inverse_mass_per_kg(const dContactGeom& at, dBodyID body) c
   return 1 / mass.mass + turn.dot(turn.cwiseQuotient(inertia_kg_m2));
 }
 
-// A spring and its critical damper at this point, in ODE's terms (its manual, "How to use ERP and
-// CFM").
+// ERP and CFM of a spring with critical damping (ODE manual, "How to use ERP and CFM").
 void OdeSimulator::give(dContact& contact, dBodyID a, dBodyID b, double h_s) const {
   const dContactGeom& at = contact.geom;
   const double k_n_per_m = 1 / scene_.contact_compliance_m_per_n;
@@ -244,10 +244,10 @@ void OdeSimulator::give(dContact& contact, dBodyID a, dBodyID b, double h_s) con
   rub(contact, (velocity + closing_m_s * normal).norm(), load_n);
 }
 
-// Coulomb's disk, made linear about the slip of now: along it friction is at its limit, across it
-// as strong as the limit's direction turns. A pyramid's other axis would not let a box that slides
-// on four points change the point that it turns about. The limit goes by the load of now: ODE's own
-// (dContactApprox1) by the load without friction, that is without what friction adds to it.
+// Coulomb's disk, linearized about the current slip: friction is at its limit along the slip, and
+// across it follows the rotation of the limit's direction. With a pyramid, a box that slides on
+// four points could not change its center of rotation. The limit uses the current load; ODE's
+// dContactApprox1 uses the load without friction.
 void OdeSimulator::rub(dContact& contact, double slip_m_s, double load_n) const {
   const double limit_n = scene_.friction * load_n;
   contact.surface.mode &= ~dContactApprox1;
@@ -258,9 +258,9 @@ void OdeSimulator::rub(dContact& contact, double slip_m_s, double load_n) const 
       limit_n > 0 ? std::max(creep_m_s_per_n, slip_m_s / limit_n) : creep_m_s_per_n;
 }
 
-// Puts the points of an overlap into one plane across the normal, as `boxes` takes them. They are
-// some hundredths of a millimeter deep, unequally so on a cube that is pitched; a clone that cannot
-// turn grips it there, and how it twists then depends on where in the overlap friction acts.
+// Moves the points of an overlap to one plane across the normal, as in `boxes`. Overlaps are some
+// hundredths of a millimeter deep and unequal on a pitched cube, and the torque of friction depends
+// on where in the overlap it acts.
 void flatten(std::span<dContact> contacts) {
   const auto along_normal_m = [](const dContactGeom& at) {
     return at.normal[0] * at.pos[0] + at.normal[1] * at.pos[1] + at.normal[2] * at.pos[2];
@@ -275,7 +275,7 @@ void flatten(std::span<dContact> contacts) {
   }
 }
 
-// ODE's friction is a pyramid. Where one of its axes points along the slip, it is Coulomb's disk.
+// ODE's friction pyramid equals Coulomb's disk if one of its axes is along the slip.
 void OdeSimulator::touch(dGeomID a, dGeomID b, double h_s) {
   std::array<dContact, 8> contacts{};
   const int n = dCollide(a, b, 8, &contacts[0].geom, sizeof(dContact));

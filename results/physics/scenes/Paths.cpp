@@ -7,7 +7,7 @@
 namespace heft {
 
 namespace {
-// To a nanometer and a nanosecond, so that files read as they were meant.
+// Rounds to nanometers and nanoseconds, so that files hold the exact values.
 double rounded(double value) {
   return std::round(value * 1e9) / 1e9;
 }
@@ -26,7 +26,7 @@ PathBuilder& PathBuilder::lost(double t_s) {
 std::vector<TrajectoryRow> StraightPath::rows() const {
   const auto at = [&](double along_m) {
     const double c = std::cos(heading_rad), s = std::sin(heading_rad);
-    if (broadside) along_m += 0.025;  // so much less reaches ahead
+    if (broadside) along_m += 0.025;  // the effector is that much shorter ahead
     return Eigen::Vector3d(along_m * c - side_m * s, along_m * s + side_m * c, hand_height_m);
   };
   const double end_s = length_m / speed_m_s, start_rad = heading_rad + (broadside ? M_PI / 2 : 0),

@@ -26,7 +26,7 @@ double minimum_jerk(double s) {
   return s * s * s * (10 + s * (6 * s - 15));
 }
 
-// A hand that pushes a few times along x and draws back in between.
+// A hand that pushes a few times along x and returns in between.
 struct Hand {
   double start_m = 0, aside_m = 0, yaw_rad = 0, turn_rad = 0;
   double length_m = 0, stroke_s = 0, back = 0;
@@ -76,7 +76,7 @@ Hand hand_of(RandomStream& random, Setting setting) {
     hand.wag_rad = between(random, 0, 0.05);
   if (setting == Setting::turning) hand.turn_rad = between(random, -0.6, 0.6);
   if (setting == Setting::pair || setting == Setting::staggered) hand.yaw_rad = M_PI / 2;
-  if (hand.yaw_rad > 0) hand.start_m += 0.025;  // broadside, it is that much shorter
+  if (hand.yaw_rad > 0) hand.start_m += 0.025;  // the effector is that much shorter ahead
   return hand;
 }
 
@@ -107,7 +107,7 @@ std::vector<Cube> cubes_of(RandomStream& random, Setting setting) {
   return one;
 }
 
-// As a camera sees it.
+// Adds a camera's sampling and noise.
 std::vector<TrajectoryRow> seen(RandomStream& random, const Hand& hand) {
   constexpr std::array<double, 3> rates_hz{15, 30, 60};
   const double rate_hz = rates_hz[random.below(3)];

@@ -1,6 +1,6 @@
-// Scenes as people make them: hands that start and stop, sway, tremble and turn, seen by a camera,
-// among cubes that stand alone, staggered, stacked or in a row. What a rate keeps in all but a few
-// of a thousand of these is what it may promise.
+// Random scenes of simulated hands: they start and stop, sway, tremble and rotate, seen by a
+// camera, among single, staggered, stacked or lined-up cubes. The known errors of a rate are
+// quantiles over these scenes.
 #pragma once
 
 #include <array>
@@ -20,10 +20,10 @@ inline constexpr double hand_height_m = 0.021;
 /// Where the effector's center is when its tip is 2 mm before a cube at the origin.
 inline constexpr double before_cube_m = -0.0645;
 
-/// Puts a path together from its corners.
+/// Builds a path from its corners.
 class PathBuilder {
  public:
-  /// Goes straight to a place, to be there at t_s.
+  /// Moves straight to a position, which is reached at t_s.
   PathBuilder& to(double t_s, const Eigen::Vector3d& position_m, double yaw_rad = 0);
   /// Out of view at t_s, until the next row.
   PathBuilder& lost(double t_s);
@@ -51,7 +51,7 @@ std::vector<TrajectoryRow> taps();
 /// A straight path as a camera with noise sees it 60 times a second.
 std::vector<TrajectoryRow> noisy(const StraightPath& path, double sd_m);
 
-/// What is in a random scene.
+/// Contents of a random scene.
 enum class Setting {
   straight,
   one,
@@ -74,8 +74,8 @@ struct EnumNames<Setting> {
       "row",      "stack", "tower", "thrown",  "gain", "speed_limit"};
 };
 
-/// Whether rigid bodies have one answer. A cube on four corners that is made to turn, or to carry,
-/// has many.
+/// Whether the rigid solution is unique. It is not for a cube on four corners that rotates or
+/// carries another.
 constexpr bool has_one_answer(Setting setting) {
   return setting != Setting::aside && setting != Setting::turning && setting != Setting::stack &&
          setting != Setting::tower;
@@ -84,8 +84,8 @@ constexpr bool has_one_answer(Setting setting) {
 /// Poses a second of its path.
 int poses_hz_of(const BenchScene& random_scene);
 
-/// The n-th of a seed: the same on every machine, so that any one can be looked at alone. Where
-/// rigid bodies have more than one answer, contacts give a little.
+/// Scene n of a seed, equal on all machines, so that any scene can be run alone. Scenes without a
+/// unique rigid solution have compliant contacts.
 BenchScene random_scene(Setting setting, std::uint64_t seed, int n);
 
 }  // namespace heft

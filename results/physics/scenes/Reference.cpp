@@ -4,8 +4,8 @@
 
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "physics/scene/BoxInertia.h"
 #include "physics/scene/Oracles.h"
+#include "physics/scene/Scene.h"
 
 namespace heft {
 
@@ -47,14 +47,14 @@ SceneTrack converged(std::unique_ptr<DecouplingSimulator> simulator, const Bench
   return std::move(run.track);
 }
 
-// Two runs, the second against the first.
+// Two runs, and the difference of the second from the first.
 struct Pair {
   SceneTrack first;
   TrackError between;
   std::string method;
 };
 
-// The other is ours at half the rate where there is no other engine, or none is wanted.
+// Without another engine, the second run is Heft's solver at half the rate.
 Pair ours_and_other(const BenchScene& scene, int rate_hz, bool other_engine) {
   auto other = other_engine ? make_ode_simulator() : nullptr;
   const int other_hz = other ? ode_rate_hz : rate_hz / 2;

@@ -19,7 +19,7 @@ int n_steps(const BenchScene& scene, int rate_hz) {
   return static_cast<int>(std::floor(scene.duration_s() * rate_hz + 1e-6));
 }
 
-// Poses for every step; while the effector is out of view, the last one.
+// Poses for every step; the last one while the effector is out of view.
 std::vector<Pose> targets_of(const BenchScene& scene, int rate_hz) {
   const Trajectory path(scene.path);
   std::vector<Pose> targets;
@@ -30,7 +30,7 @@ std::vector<Pose> targets_of(const BenchScene& scene, int rate_hz) {
   return targets;
 }
 
-// Until the end or the blow-up. @return CPU seconds per simulated second
+// Runs to the end or until unstable. @return CPU seconds per simulated second
 double timed_run(DecouplingSimulator& simulator, const Scene& scene,
                  const std::vector<Pose>& targets, double h_s) {
   simulator.reset(scene, targets.front());

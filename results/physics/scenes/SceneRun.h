@@ -1,5 +1,4 @@
-// Running a simulator through a bench scene: where everything went, what it cost, how far from the
-// truth it was.
+// Runs of a simulator through a scene: states, cost, and error against the reference.
 #pragma once
 
 #include <memory>
@@ -14,10 +13,10 @@
 
 namespace heft {
 
-/// The rates that the study steps at. All divide the reference's, so that times meet.
+/// The study's rates. All divide the reference's rate.
 inline constexpr std::array<int, 7> bench_rates_hz{15, 30, 60, 120, 240, 480, 960};
 inline constexpr int reference_rate_hz = 960;
-/// Those that stability is looked at: up to twice the reference's.
+/// Rates of the stability map, up to twice the reference's.
 inline constexpr std::array<int, 8> stability_rates_hz{15, 30, 60, 120, 240, 480, 960, 1920};
 
 /// States at path start + n / rate_hz.
@@ -28,7 +27,7 @@ struct SceneTrack {
 
 enum class RunOutcome {
   ran,
-  outside_model,  ///< the simulator cannot represent this scene and said so
+  outside_model,  ///< the simulator threw OutsideModel
   blew_up
 };
 
@@ -39,13 +38,13 @@ struct EnumNames<RunOutcome> {
 
 struct SceneRun {
   RunOutcome outcome = RunOutcome::ran;
-  std::string why;   ///< in the simulator's words, unless it ran
+  std::string why;   ///< the simulator's message, if it failed
   SceneTrack track;  ///< until then
   std::optional<SolveCounts> counts;
 };
 
 /// Steps along the scene's path at step_rate_hz and keeps states at keep_rate_hz, a divisor of it.
-/// @param poses_hz at which the path is looked at, if not at every step; keep_rate_hz divides it
+/// @param poses_hz rate at which the path is sampled, if not at every step; keep_rate_hz divides it
 SceneRun run_scene(std::unique_ptr<DecouplingSimulator> simulator, const BenchScene& scene,
                    int step_rate_hz, int keep_rate_hz, int poses_hz = 0);
 
@@ -53,8 +52,8 @@ struct TrackError {
   double clone_rms_mm = 0, clone_max_mm = 0;  ///< of its center
   double clone_turn_rms_deg = 0;
   double cubes_rms_mm = 0;  ///< of all cubes' centers
-  /// How much heavier (or lighter) than it is the cube seems: the mean error of the clone's
-  /// distance to the effector over the last quarter of the path, times k / (mu g).
+  /// Error of the lag as a mass: the mean error of the clone's distance to the effector over the
+  /// last quarter of the path, times k / (mu g).
   double lag_error_g = 0;
 };
 
@@ -62,7 +61,7 @@ struct TrackError {
 TrackError error_of(const SceneTrack& track, const SceneTrack& reference, const BenchScene& scene);
 
 /// CPU time of this thread per simulated second, the best of several repeats: steps alone, without
-/// reading states. Up to the blow-up where there is one.
+/// reading states. Unstable runs are measured until they fail.
 double cpu_us_per_s(const SimulatorEntry& simulator, const BenchScene& scene, int rate_hz,
                     double at_least_s);
 

@@ -1,4 +1,4 @@
-// Scenes and paths as the files that `heft scene` reads. Numbers have the shortest digits that read
+// Scenes and paths in the file formats of `heft scene`. Numbers have the fewest digits that read
 // back as the same doubles.
 #include <fmt/format.h>
 

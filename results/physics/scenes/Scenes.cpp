@@ -28,7 +28,7 @@ Scene scene_of(std::vector<Cube> cubes) {
   return scene;
 }
 
-const StraightPath steady;  // slow and long, so that the start has died out
+const StraightPath steady;  // slow and long, so that the start has decayed
 
 void add_free_returns(Scenes& scenes) {
   const auto hold = PathBuilder().to(0, {0, 0, 0.2}).to(0.5, {0, 0, 0.2}).rows();
@@ -143,7 +143,7 @@ void add_several(Scenes& scenes) {
                          .to(2, {0.0605, 0, hand_height_m}, M_PI / 2)
                          .rows();
   scenes.push_back({"sweep_three",
-                    "Three cubes of 15, 200 and 100 g moved by the effector's long side at once.",
+                    "Three cubes of 15, 200 and 100 g pushed together by the effector's long side.",
                     SceneClass::several,
                     scene_of({cube_of(0.015, 0, -0.04), cube_of(0.2, 0, 0), cube_of(0.1, 0, 0.04)}),
                     "sweep_three", sweep});

@@ -1,5 +1,5 @@
-// The scenes that the physics study measures, each with the effector's path through it. The files
-// in tests/scenes/ are written from here, so tests, `heft scene` and the study see the same ones.
+// The scenes of the physics study with the effector's paths. The files of tests/scenes/ are written
+// from here, so that tests, `heft scene` and the study use the same scenes.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@
 
 namespace heft {
 
-/// What a simulator has to be able to do for a scene.
+/// The kind of a scene, by what it requires of a simulator.
 enum class SceneClass {
   free_air,  ///< nothing is touched
   push,      ///< one cube, straight, through its center
-  turn,      ///< one cube that turns
-  press,     ///< against something that does not give way
+  turn,      ///< one cube that rotates
+  press,     ///< against an immovable object
   several,   ///< more than one cube is touched, or cubes touch cubes
   rough      ///< fast, noisy, interrupted
 };
@@ -37,8 +37,8 @@ struct BenchScene {
   std::string path_name;  ///< of the trajectory's file; scenes may share one
   std::vector<TrajectoryRow> path;
 
-  /// Whether rigid bodies have only one answer. A cube on four corners that is made to turn has
-  /// many: how its corners share its weight is open. Such scenes have contacts that give a little.
+  /// Whether the rigid solution is unique. It is not for a cube on four corners that rotates,
+  /// because the distribution of its weight is indeterminate; such scenes have compliant contacts.
   bool unique_if_rigid() const { return scene.contact_compliance_m_per_n == 0; }
   double duration_s() const { return path.back().t_s - path.front().t_s; }
 };
@@ -46,7 +46,7 @@ struct BenchScene {
 /// All of them: closed forms first, then one contact, then many. Names are unique.
 std::vector<BenchScene> bench_scenes();
 
-/// @throws Error when there is none of that name
+/// @throws Error if there is no scene of that name
 BenchScene bench_scene(std::string_view name);
 
 /// The scene file's text; reads back (protocol/SceneFile.h) as the same scene.

@@ -1,4 +1,4 @@
-// Couplings that are a force and a torque on the clone before Bullet's step.
+// Couplings by a force and a torque on the clone before Bullet's step.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +30,7 @@ double at_the_end(const CouplingAxis& axis, double offset, double velocity, doub
          (axis.mass + h_s * (c + hk));
 }
 
-// x(t) = A e^(l1 t) + B e^(l2 t); equal roots are set apart by less than what rounding does.
+// x(t) = A e^(l1 t) + B e^(l2 t); equal roots are separated by less than rounding.
 double to_the_exact_velocity(const CouplingAxis& axis, double offset, double velocity, double h_s) {
   using Complex = std::complex<double>;
   const double omega = std::sqrt(axis.stiffness / axis.mass), z = axis.damping_ratio;
@@ -59,7 +59,7 @@ class ForceCoupling : public StockCoupling {
     const btVector3 force_n = to_bullet(
         force(clone.position_m - target.from.position_m, relative.linear_m_s, target.h_s));
     const btVector3 torque_nm = to_bullet(torque(clone, relative, target));
-    // As inside stepSimulation(h, n): it, too, keeps a force over its substeps.
+    // As stepSimulation(h, n), which holds a force over its substeps.
     const double n = std::max(1.0, std::ceil(target.h_s / longest_substep_s_ - 1e-6));
     for (double i = 0; i < n; ++i) {
       world.clone().applyCentralForce(force_n);

@@ -1,4 +1,4 @@
-// Couplings that are rows in Bullet's constraint solver.
+// Couplings by rows of Bullet's constraint solver.
 #include <array>
 #include <cmath>
 
@@ -58,7 +58,7 @@ class SoftRows : public btTypedConstraint {
     const double h_s = target_.h_s, hk = h_s * axis.stiffness;
     const double c = axis.damping_ratio * 2 * std::sqrt(axis.stiffness * axis.mass);
     info->m_constraintError[row * info->rowskip] = target_velocity - offset * hk / (hk + c) / h_s;
-    // Bullet wants force mixing in units of the row's own inverse mass.
+    // Bullet expects force mixing in units of the row's inverse mass.
     info->cfm[row * info->rowskip] = axis.mass / (h_s * (hk + c));
   }
 

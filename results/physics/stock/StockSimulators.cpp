@@ -31,7 +31,7 @@ class StockSimulator : public DecouplingSimulator {
   }
 
   void step(const Pose& target, double h_s) override {
-    refuse_impossible();  // Bullet's trees are not made for what is not finite
+    refuse_impossible();  // Bullet's trees require finite positions
     if (coupling_) {
       coupling_->step(*world_, {target_, target, h_s});
     } else {
@@ -57,10 +57,11 @@ class StockSimulator : public DecouplingSimulator {
  private:
   void refuse_impossible() const {
     if (world_->slower_than(impossible_speed_m_s, impossible_turn_rad_s)) return;
-    throw Error(fmt::format(
-        "{} blew up {:.4g} s after its start; results/physics/README.md shows where it does. Take "
-        "another simulator (boxes, bullet) or a higher rate",
-        name_, t_s_));
+    throw Error(
+        fmt::format("{} became unstable {:.4g} s after its start; choose another simulator (boxes, "
+                    "bullet) or a "
+                    "higher rate, see results/physics/README.md",
+                    name_, t_s_));
   }
 
   std::string name_;

@@ -1,6 +1,5 @@
-// Other people's set-ups of the decoupling technique, on Bullet as it comes: to reproduce them and
-// to chart where they fail. All run condition C1 as a kinematic clone. A world that blows up is
-// stopped with an Error instead of going on with figures that mean nothing.
+// Common implementations of the decoupling technique on stock Bullet, to reproduce them and to map
+// their failures. All run condition C1 with a kinematic clone. An unstable world throws an Error.
 #pragma once
 
 #include <string_view>
@@ -9,7 +8,7 @@
 
 namespace heft {
 
-/// @return null where none has that name
+/// @return null if there is none of that name
 MakeSimulator stock_simulator(std::string_view name);
 
 }  // namespace heft

@@ -70,7 +70,7 @@ void StockWorld::add_clone(const Scene& scene, const Pose& pose) {
   if (!decoupled) body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
 }
 
-// With no substeps allowed, Bullet steps by exactly what it is given.
+// Without substeps, Bullet steps by exactly the given time.
 void StockWorld::step(double h_s) {
   world_.stepSimulation(h_s, 0);
   last_h_s_ = h_s;

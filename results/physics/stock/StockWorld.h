@@ -1,6 +1,5 @@
-// A scene as one builds it on Bullet's own world, solver and contacts, with the settings that
-// people find they need. The variants in StockSimulators.h run on it; our own schemes use
-// ContactWorld.
+// A scene on Bullet's own world, solver and contacts with customary settings, for the simulators of
+// StockSimulators.h. Heft's schemes use ContactWorld.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -13,7 +12,6 @@
 #include "physics/DecouplingSimulator.h"
 #include "physics/coupling/CouplingLaw.h"
 #include "physics/scene/Scene.h"
-#include "physics/scene/WorldState.h"
 
 namespace heft {
 
@@ -28,7 +26,7 @@ class StockWorld {
   btRigidBody& clone() { return *bodies_[clone_index]; }
   const btRigidBody& clone() const { return *bodies_[clone_index]; }
   btDiscreteDynamicsWorld& bullet() { return world_; }
-  /// Of the clone about its own axes, whether it is kinematic or not.
+  /// Of the clone about its axes, kinematic or not.
   const Eigen::Vector3d& clone_inertia_kg_m2() const { return clone_inertia_kg_m2_; }
 
   /// One step of exactly h_s seconds.
@@ -38,7 +36,7 @@ class StockWorld {
   void put_cube(std::size_t cube, const Pose& pose) { put(cube_index(cube), pose, {}); }
   void set_clone_solid(bool solid);
 
-  /// False, too, where anything is not finite.
+  /// False also if a value is not finite.
   bool slower_than(double speed_m_s, double turn_rad_s) const;
 
   WorldState state() const;
@@ -68,10 +66,9 @@ btTransform to_bullet(const Pose& pose);
 Pose pose_of(const btRigidBody& body);
 Velocity velocity_of(const btRigidBody& body);
 
-// How people tie a body to a target with what Bullet offers: forces before the step, or constraint
-// rows in it. Each is one way; none gives the contact solver the spring as part of the clone's
-// mass, which is what physics/coupling/CouplingLaw.h does. Where each fails: see the function that
-// makes it.
+// Customary couplings of a body to a target in Bullet: forces before the step, or constraint rows
+// in it. None includes the spring in the clone's solver mass, as physics/coupling/CouplingLaw.h
+// does. Failures: see the factory functions.
 
 /// One step of the target.
 struct TargetStep {
@@ -89,11 +86,11 @@ class StockCoupling {
 /// Makes a coupling for a world whose clone is not kinematic. The world outlives it.
 using MakeStockCoupling = std::unique_ptr<StockCoupling> (*)(StockWorld&, const Coupling&);
 
-/// F = -k d - c v once a step, as the paper writes it. Stable for steps below 2 (sqrt 2 - 1) / w.
+/// F = -k d - c v once a step, as in the paper. Stable for steps below 2 (sqrt 2 - 1) / w.
 std::unique_ptr<StockCoupling> explicit_force(StockWorld& world, const Coupling& coupling);
 
-/// The same, set once and held while Bullet takes substeps of at most 1/240 s: the spring still
-/// sees one step, so substeps do not help it.
+/// The same, held over Bullet's substeps of at most 1/240 s. Substeps do not improve stability,
+/// because the force is set once a step.
 std::unique_ptr<StockCoupling> held_force(StockWorld& world, const Coupling& coupling);
 
 /// The force at the end of the step, position and velocity predicted with the clone's mass (stable
@@ -110,8 +107,8 @@ std::unique_ptr<StockCoupling> exact_velocity(StockWorld& world, const Coupling&
 /// Bullet's iteration lacks the mixing in its step size: it diverges for w h < sqrt 2 - 1.
 std::unique_ptr<StockCoupling> soft_rows(StockWorld& world, const Coupling& coupling);
 
-/// btGeneric6DofSpring2Constraint with its limits on, as by default: it quietly lowers stiffness
-/// and damping to what an explicit step bears.
+/// btGeneric6DofSpring2Constraint with its default limits, which lower stiffness and damping to the
+/// stability limit of an explicit step.
 std::unique_ptr<StockCoupling> six_dof_spring(StockWorld& world, const Coupling& coupling);
 
 }  // namespace heft

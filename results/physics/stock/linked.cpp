@@ -1,5 +1,5 @@
-// Linked into heft-bench and its tests, and into no library: what makes the simulators that the
-// table in physics only names. A program's table is so fixed when it is linked.
+// Linked into heft-bench and its tests, but into no library: overrides linked_simulator() of
+// physics with the factories of the stock simulators.
 #include "results/physics/stock/StockSimulators.h"
 
 namespace heft {

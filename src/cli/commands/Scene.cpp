@@ -162,7 +162,7 @@ void run_scene(const SceneOptions& options) {
 void add_scene(Command& app) {
   Command command = app.add_command(
       "scene", "physics alone: effector poses in, clone and cube poses out, as CSV",
-      {"heft scene tests/scenes/push_200g.toml --trajectory tests/scenes/push.csv > out.csv",
+      {"heft scene SCENE.toml --trajectory T.csv > out.csv",
        "heft scene SCENE.toml --trajectory T.csv --simulator bullet-ea --rate 60",
        "heft scene SCENE.toml --trajectory T.csv --simulator auto --rate 60 --explain > out.csv"});
   const auto options = std::make_shared<SceneOptions>();

@@ -13,8 +13,8 @@ constexpr auto table = std::to_array<KnownError>({
 #include "physics/auto/ErrorTable.inc"
 });
 
-// The table is for the paper's springs. What counts is how far a spring swings in a step: a faster
-// one needs shorter steps for the same error. A slower one is left with the table's.
+// The table is for the paper's springs. The error depends on the oscillator's phase per step, so a
+// faster oscillator needs shorter steps. A slower one uses the table unchanged.
 double times_faster(const Scene& scene) {
   const auto omega_rad_s = [](const Coupling& coupling) {
     return std::sqrt(coupling.stiffness_n_per_m / coupling.clone_mass_kg);
@@ -39,11 +39,11 @@ SimulatorPick pick_of(const KnownError& known, const Scene& scene, double at_lea
           std::max(std::ceil(known.rate_hz * times_faster(scene)), at_least_hz),
           fmt::format("models {}, known to be within {:.2g} mm RMS and {:.2g} g, {} (asked for: "
                       "{:.2g} mm and {:.2g} g, {}){}",
-                      general ? "everything" : "a straight push at one cube",
+                      general ? "everything" : "a straight push of one cube",
                       1e3 * known.within.clone_rms_m, known.within.lag_g,
                       text_of_rest(known.within), 1e3 * scene.tolerance.clone_rms_m,
                       scene.tolerance.lag_g, text_of_rest(scene.tolerance),
-                      kept ? "" : ": the most accurate there is, and MISSES the tolerance")};
+                      kept ? "" : ": the most accurate available, but NOT within the tolerance")};
 }
 }  // namespace
 

@@ -1,8 +1,8 @@
-// The rule behind the simulator `auto`: the cheapest that stays within a tolerance as far as is
-// known. What a hand will do is not known beforehand, so there is a ladder of two: `push`, exact
-// for a straight push at one cube, then `boxes`, which models everything, at the lowest rate that
-// kept the tolerance on hands as they are. Whoever runs a scene climbs when a simulator throws
-// OutsideModel, and starts over, so that all output is of one simulator; nobody climbs down.
+// The rule of the simulator `auto`: the cheapest simulator whose known errors are within a
+// tolerance. The hand's movement is not known in advance, so there is a ladder of two: `push`,
+// exact for a straight push of one cube, then `boxes`, which models everything, at the lowest rate
+// within the tolerance for simulated hands. When a simulator throws OutsideModel, the caller
+// restarts the scene with the next one, so that all output is from one simulator.
 #pragma once
 
 #include <memory>
@@ -17,38 +17,37 @@ namespace heft {
 
 struct SimulatorPick {
   std::string simulator;
-  double rate_hz = 240;  ///< steps a second, at least
-  std::string why;       ///< one line for people: it ...
+  double rate_hz = 240;  ///< lower bound of the physics rate
+  std::string why;       ///< reason, as a predicate: "models everything, ..."
 };
 
-/// How far off a simulator is on hands as they are: what 99.75 % of the random scenes of
-/// `heft bench physics` stay within (results/physics/hands.csv), all four together in 99.5 %.
+/// Errors of a simulator for simulated hands: 99.75 % quantiles over the random scenes of
+/// `heft bench physics` (results/physics/hands.csv); 99.5 % of the scenes are within all four.
 struct KnownError {
   std::string_view simulator;
   double rate_hz;
   Tolerance within;
 };
 
-/// The cheaper simulator first, each one's rates ascending.
+/// By cost: the cheaper simulator first, rates ascending.
 std::span<const KnownError> known_errors();
 
-/// Whether the simulator knows contacts that give, or the scene's are rigid.
+/// Whether the simulator models the scene's contact compliance.
 bool models_contacts(std::string_view simulator, const Scene& scene);
 
-/// One line for people: "auto takes boxes at 240 Hz: it models everything, known to be ...".
+/// "auto takes boxes at 240 Hz: it models everything, known to be ..."
 std::string described(const SimulatorPick& pick);
 
-/// At least one; the last models everything. Where no rate stays within the scene's tolerance, it
-/// is the highest there is, and says so.
-/// @param at_least_hz poses a second; fewer steps are never made
+/// At least one; the last models everything. If no rate is within the scene's tolerance, the last
+/// is the most accurate one, and its reason reports that.
+/// @param at_least_hz lower bound of the rate, such as the rate of the poses
 std::vector<SimulatorPick> simulator_ladder(const Scene& scene, double at_least_hz);
 
-/// For sessions, where a person may do anything: the ladder's first that models everything. Depends
-/// on nothing that happens later.
+/// For sessions: the first of the ladder that models everything.
 SimulatorPick resolve_auto(const Scene& scene, double at_least_hz);
 
-/// What resolve_auto picks for a scene with the paper's springs. It steps as it is told: whoever
-/// wants the rate too asks resolve_auto.
+/// The simulator that resolve_auto picks for a scene with the paper's springs. The caller chooses
+/// the rate.
 std::unique_ptr<DecouplingSimulator> make_auto();
 
 }  // namespace heft

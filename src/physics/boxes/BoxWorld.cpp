@@ -9,24 +9,23 @@ using Eigen::Vector3d;
 
 namespace {
 constexpr double resting_m_s = 1e-4, resting_rad_s = 5e-3, resting_for_s = 0.25;
-// Contacts are looked for this far ahead, beside what the boxes cover in a step: the speculative
-// margin.
-constexpr double near_m = 0.1e-3;
-constexpr double faster_m_s = 0.1;  // than at its start a body may become within a step
-// How far beyond the margin neighbours are listed: so far bodies move before it is done again.
-constexpr double listed_beyond_m = 0.02;
-constexpr double far_m = 0.1e-3;  // a travel worth finding out where on the way boxes meet
-constexpr double clear_m = 1e-6;  // boxes that slid off each other are so far apart
-constexpr double exactly_m = 1e-9;
-// What closes in faster hits. Slower, a step gives back a third of it: so much as friction and
-// weight take away within the step.
-constexpr double hit_m_s = 0.01, hit_m_s2 = 10;
-constexpr double least_step_s = 1e-6;  // up to an event
-constexpr double least_cut_s = 5e-6;   // of a step that is worth cutting off
-constexpr double farthest = 100;       // that sweeps are extrapolated, in sweeps
-constexpr int most_sweeps = 300;
-constexpr double settled_m_s = 1e-5;   // sweeps end when no velocity changes by more
-constexpr double squeezed_m_s = 0.01;  // what never ends has no answer
+// Speculative margin of the contact detection, in addition to the bodies' motion in a step.
+constexpr double contact_margin_m = 0.1e-3;
+constexpr double speed_gain_m_s = 0.1;  // upper bound within a step
+// Of the neighbor list beyond the detection margin: distance that bodies move before it is renewed.
+constexpr double list_margin_m = 0.02;
+constexpr double min_travel_m = 0.1e-3;  // smaller ones need no swept contact detection
+constexpr double separated_m = 1e-6;     // gap after one box has slid off another
+constexpr double flush_m = 1e-9;
+// Faster approach is an impact. Contact forces stop slower approach within a step and return a
+// third of it, which friction and weight remove in the same step.
+constexpr double impact_m_s = 0.01, impact_m_s2 = 10;
+constexpr double min_step_s = 1e-6;        // up to an event
+constexpr double min_remainder_s = 5e-6;   // of a step after an event
+constexpr double max_extrapolation = 100;  // of Anderson mixing, in sweeps
+constexpr int max_sweeps = 300;
+constexpr double converged_m_s = 1e-5;  // largest velocity change of the last sweep
+constexpr double diverged_m_s = 0.01;   // larger last changes mean that no solution exists
 }  // namespace
 
 BoxWorld::BoxWorld(const ContactSurface& surface, double gravity_m_s2, std::size_t n_bodies)
@@ -36,7 +35,7 @@ BoxWorld::BoxWorld(const ContactSurface& surface, double gravity_m_s2, std::size
   listed_m_.reserve(n_bodies);
   for (auto* pairs : {&pairs_, &old_pairs_}) pairs->reserve(n_pairs);
   touching_.reserve(n_pairs);
-  table_.solid = false;  // not one of the boxes
+  table_.solid = false;  // marks the table
 }
 
 std::size_t BoxWorld::add(const Body& body) {
@@ -46,29 +45,29 @@ std::size_t BoxWorld::add(const Body& body) {
   return bodies_.size() - 1;
 }
 
-void BoxWorld::settle_at_start() {
+void BoxWorld::sleep_resting_bodies() {
   for (Body& body : bodies_) {
-    const Contact standing = contact_with_table(body.shape, near_m);
+    const Contact standing = contact_with_table(body.shape, contact_margin_m);
     body.asleep = !body.driven && standing.n_points == 4;
     for (const ContactPoint& point : standing.all())
-      if (std::abs(point.distance_m) > exactly_m) body.asleep = false;
+      if (std::abs(point.distance_m) > flush_m) body.asleep = false;
   }
   for (Body& first : bodies_)
     for (Body* second = bodies_.data(); second != &first; ++second)
-      if (near(first, *second, near_m) &&
-          contact_between(first.shape, second->shape, near_m).n_points > 0)
+      if (within(first, *second, contact_margin_m) &&
+          contact_between(first.shape, second->shape, contact_margin_m).n_points > 0)
         first.asleep = second->asleep = false;
   listed_reach_m_ = 0;
 }
 
-// How far a body may get in a step.
-double BoxWorld::reach_m(const Body& body, double h_s) const {
-  if (!body.moves()) return 0;
-  const double free_m_s = body.driven ? body.tip_speed_m_s(body.step.mean) : 0;
-  return near_m + h_s * (faster_m_s + std::max(free_m_s, body.tip_speed_m_s(body.velocity)));
+double BoxWorld::travel_bound_m(const Body& body, double h_s) const {
+  if (!body.is_active()) return 0;
+  const double free_m_s = body.driven ? body.point_speed_bound_m_s(body.step.mean) : 0;
+  return contact_margin_m +
+         h_s * (speed_gain_m_s + std::max(free_m_s, body.point_speed_bound_m_s(body.velocity)));
 }
 
-bool BoxWorld::near(const Body& first, const Body& second, double margin_m) const {
+bool BoxWorld::within(const Body& first, const Body& second, double margin_m) const {
   const double reach_m = first.radius_m + second.radius_m + margin_m;
   return (first.pose.position_m - second.pose.position_m).squaredNorm() < reach_m * reach_m;
 }
@@ -77,31 +76,31 @@ Contact BoxWorld::contact(const Pair& pair, double h_s, double margin_m) const {
   const Body& first = bodies_[pair.first];
   const Body& second = bodies_[pair.second];
   if (pair.with_table()) return contact_with_table(first.shape, margin_m);
-  if (!near(first, second, margin_m)) return {};
+  if (!within(first, second, margin_m)) return {};
   const auto velocity = [](const Body& body) {
     return body.driven ? body.step.mean.linear_m_s : body.velocity.linear_m_s;
   };
   const Vector3d travel_m = h_s * (velocity(first) - velocity(second));
-  if (pair.manifold.touches() || travel_m.squaredNorm() < far_m * far_m)
+  if (pair.manifold.touches() || travel_m.squaredNorm() < min_travel_m * min_travel_m)
     return contact_between(first.shape, second.shape, margin_m);
   return contact_on_the_way(first.shape, second.shape, travel_m, margin_m);
 }
 
-// The list holds as long as no two bodies together get farther than it reaches.
-void BoxWorld::find_neighbours(double h_s) {
+// The list is valid while no two bodies together can move farther than its reach.
+void BoxWorld::update_neighbors(double h_s) {
   double farthest_m = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    bodies_[i].reach_m = reach_m(bodies_[i], h_s);
+    bodies_[i].travel_bound_m = travel_bound_m(bodies_[i], h_s);
     if (bodies_[i].asleep) continue;
-    const double gone_m = (bodies_[i].pose.position_m - listed_m_[i]).norm();
-    farthest_m = std::max(farthest_m, gone_m + bodies_[i].reach_m);
+    const double moved_m = (bodies_[i].pose.position_m - listed_m_[i]).norm();
+    farthest_m = std::max(farthest_m, moved_m + bodies_[i].travel_bound_m);
   }
   if (2 * farthest_m <= listed_reach_m_) return;
-  listed_reach_m_ = 2 * farthest_m + listed_beyond_m;
-  list_neighbours();
+  listed_reach_m_ = 2 * farthest_m + list_margin_m;
+  list_neighbors();
 }
 
-void BoxWorld::list_neighbours() {
+void BoxWorld::list_neighbors() {
   std::swap(pairs_, old_pairs_);
   pairs_.clear();
   const auto list = [this](std::size_t i, std::size_t j) {
@@ -116,15 +115,15 @@ void BoxWorld::list_neighbours() {
     listed_m_[i] = bodies_[i].pose.position_m;
     for (std::size_t j = 0; j < i; ++j) {
       const Body &first = bodies_[i], &second = bodies_[j];
-      if (!(first.asleep && second.asleep) && near(first, second, listed_reach_m_)) list(i, j);
+      if (!(first.asleep && second.asleep) && within(first, second, listed_reach_m_)) list(i, j);
     }
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (!bodies_[i].asleep) list(i, i);
 }
 
-// @return whether anything woke
-bool BoxWorld::wake_reached(double h_s) {
+// @return whether a body woke
+bool BoxWorld::wake_within_reach(double h_s) {
   bool any = false;
   for (bool more = true; more; any = any || more) {
     more = false;
@@ -132,210 +131,213 @@ bool BoxWorld::wake_reached(double h_s) {
       Body& first = bodies_[pair.first];
       Body& second = bodies_[pair.second];
       if (first.asleep == second.asleep || !first.solid || !second.solid) continue;
-      const double margin_m = first.reach_m + second.reach_m;
-      if (!near(first, second, margin_m) || contact(pair, h_s, margin_m).n_points == 0) continue;
+      const double margin_m = first.travel_bound_m + second.travel_bound_m;
+      if (!within(first, second, margin_m) || contact(pair, h_s, margin_m).n_points == 0) continue;
       for (Body* woken : {&first, &second}) {
         woken->wake();
-        woken->reach_m = reach_m(*woken, h_s);
+        woken->travel_bound_m = travel_bound_m(*woken, h_s);
       }
       more = true;
     }
-    if (more) list_neighbours();
+    if (more) list_neighbors();
   }
   return any;
 }
 
-double BoxWorld::advance(double h_s, const SteppedBy& how) {
-  set_motions(h_s, how);
-  find_neighbours(h_s);
-  if (wake_reached(h_s)) set_motions(h_s, how);
-  const double closing_m_s = find_contacts(h_s, how.beyond_s);
-  hit_ = how.cuts && closing_m_s > std::min(hit_m_s, hit_m_s2 * how.beyond_s);
-  if (hit_) {
-    hit(how.driver);
+double BoxWorld::advance(double h_s, const StepOptions& options) {
+  set_motions(h_s, options);
+  update_neighbors(h_s);
+  if (wake_within_reach(h_s)) set_motions(h_s, options);
+  const double approach_m_s = find_contacts(h_s, options.lookahead_s);
+  was_impact_ = options.splits_at_events &&
+                approach_m_s > std::min(impact_m_s, impact_m_s2 * options.lookahead_s);
+  if (was_impact_) {
+    solve_impact(options.driver);
     return 0;
   }
-  solve(h_s, how);
-  const Event event = how.cuts ? next_event(h_s) : Event{};
+  solve(h_s, options);
+  const Event event = options.splits_at_events ? next_event(h_s) : Event{};
   if (event.fraction < 1) {
-    h_s = std::min(h_s, std::max(event.fraction * h_s, least_step_s));
-    set_motions(h_s, how);
-    solve(h_s, how);
+    h_s = std::min(h_s, std::max(event.fraction * h_s, min_step_s));
+    set_motions(h_s, options);
+    solve(h_s, options);
   }
-  move(h_s, event.ends_pushes);
+  move(h_s, event.ends_contact);
   return h_s;
 }
 
-void BoxWorld::set_motions(double h_s, const SteppedBy& how) {
+void BoxWorld::set_motions(double h_s, const StepOptions& options) {
   for (Body& body : bodies_) {
     if (body.driven)
-      how.driver.set_motion(body, {h_s, how.beyond_s});
+      options.driver.set_motion(body, {h_s, options.lookahead_s});
     else if (!body.asleep)
-      body.fall(gravity_m_s2_, {h_s, how.beyond_s});
+      body.set_free_motion(gravity_m_s2_, {h_s, options.lookahead_s});
   }
 }
 
-// @return the largest speed at which what touches closes in, m/s
+// @return the largest approach speed of points in contact, m/s
 double BoxWorld::find_contacts(double h_s, double regular_s) {
-  double closing_m_s = 0;
+  double approach_m_s = 0;
   touching_.clear();
   for (Pair& pair : pairs_) {
     Body& first = bodies_[pair.first];
     Body& second = pair.with_table() ? table_ : bodies_[pair.second];
     if (first.asleep && (pair.with_table() || second.asleep)) continue;
-    const bool gives = first.step.per_kg > 0 || second.step.per_kg > 0;
-    const double margin_m = first.reach_m + second.reach_m;
-    if (!gives || !first.solid || (!second.solid && !pair.with_table()))
+    const bool movable = first.step.inverse_mass > 0 || second.step.inverse_mass > 0;
+    const double margin_m = first.travel_bound_m + second.travel_bound_m;
+    if (!movable || !first.solid || (!second.solid && !pair.with_table()))
       pair.manifold.clear();
-    else if (!pair.manifold.still_fits(margin_m))
-      pair.manifold.prepare(contact(pair, h_s, margin_m), first, second, surface_, margin_m);
+    else if (!pair.manifold.is_current(margin_m))
+      pair.manifold.update(contact(pair, h_s, margin_m), first, second, surface_, margin_m);
     if (pair.manifold.empty()) continue;
-    closing_m_s = std::max(closing_m_s, pair.manifold.start(regular_s));
-    pair.manifold.extrapolate();
+    approach_m_s = std::max(approach_m_s, pair.manifold.begin_step(regular_s));
+    pair.manifold.extrapolate_impulses();
     touching_.push_back(&pair.manifold);
   }
-  // Sweeps settle sooner from the table up. But where a coupled clone squeezes a cube against it
-  // there is no answer, and the cube should stay above the table.
+  // Sweeps converge faster from the table up. But where a coupled clone presses a cube into the
+  // table there is no solution, and the last contact, with the table, must win.
   if (surface_.shortcuts) std::ranges::reverse(touching_);
-  return closing_m_s;
+  return approach_m_s;
 }
 
-void BoxWorld::hit(const Driver& driver) {
+void BoxWorld::solve_impact(const Driver& driver) {
   ++counts_.hits;
   set_motions(0, {driver});
   for (Body& body : bodies_) body.step.begin(0);
-  for (Manifold* manifold : touching_) {
-    manifold->begin_hit();
+  for (ContactManifold* manifold : touching_) {
+    manifold->begin_impact();
   }
-  relax();
+  iterate();
   for (Pair& pair : pairs_)
-    pair.hit_n_s = pair.manifold.empty() ? Vector3d::Zero() : pair.manifold.end_hit();
+    pair.impact_n_s = pair.manifold.empty() ? Vector3d::Zero() : pair.manifold.end_impact();
   for (Body& body : bodies_)
-    if (body.moves()) {
-      body.velocity = body.step.ahead;
-      body.pushed_s = 0;
+    if (body.is_active()) {
+      body.velocity = body.step.constrained;
+      body.force_duration_s = 0;
     }
 }
 
-void BoxWorld::solve(double h_s, const SteppedBy& how) {
-  const StepTime time{h_s, how.beyond_s};
+void BoxWorld::solve(double h_s, const StepOptions& options) {
+  const StepTime time{h_s, options.lookahead_s};
   for (Body& body : bodies_)
     if (!body.asleep) body.step.begin(time.mean_weight());
-  for (Manifold* manifold : touching_) {
-    manifold->take_step(time);
-    if (!how.cuts) manifold->stop_at_gaps();
+  for (ContactManifold* manifold : touching_) {
+    manifold->set_step(time);
+    if (!options.splits_at_events) manifold->add_speculative_limits();
     manifold->warm_start();
   }
-  relax();
+  iterate();
   for (Body& body : bodies_)
     if (!body.asleep) body.step.finish(time.mean_weight(), body.driven);
 }
 
-// The impulses of the last step, and mixing, may lead sweeps astray: then they start anew without
-// either, where each one takes energy from the bodies. Where a clone squeezes a cube there is no
-// answer, and the impulses grow without end: they are no start for the next step.
-void BoxWorld::relax() {
-  double change_m_s = sweeps(surface_.shortcuts);
-  if (change_m_s > squeezed_m_s) {
-    forget_impulses();
-    for (Body& body : bodies_) body.step.ahead = body.step.free;
-    change_m_s = sweeps(false);
+// If sweeps diverge, they are repeated without warm start and mixing, where each sweep dissipates
+// energy. Where a clone squeezes a cube there is no solution and the impulses grow without bound;
+// they must not start the next step.
+void BoxWorld::iterate() {
+  double change_m_s = run_sweeps(surface_.shortcuts);
+  if (change_m_s > diverged_m_s) {
+    clear_impulses();
+    for (Body& body : bodies_) body.step.constrained = body.step.free;
+    change_m_s = run_sweeps(false);
   }
-  if (change_m_s > settled_m_s) ++counts_.not_converged;
-  if (change_m_s > squeezed_m_s) forget_impulses();
+  if (change_m_s > converged_m_s) ++counts_.not_converged;
+  if (change_m_s > diverged_m_s) clear_impulses();
 }
 
-void BoxWorld::forget_impulses() {
-  for (Manifold* manifold : touching_) manifold->forget_impulses();
+void BoxWorld::clear_impulses() {
+  for (ContactManifold* manifold : touching_) manifold->clear_impulses();
 }
 
-// @return the largest change of a velocity at a point in the last one, m/s
-double BoxWorld::sweeps(bool mixed) {
-  for (Manifold* manifold : touching_) manifold->begin_sweeps();
+// @return the largest change of a point's velocity in the last sweep, m/s
+double BoxWorld::run_sweeps(bool accelerated) {
+  for (ContactManifold* manifold : touching_) manifold->begin_sweeps();
   for (Body& body : bodies_) body.step.begin_sweeps();
   last_energy_j_ = 0;
   double change_m_s = 0;
-  for (int i = 0; i < most_sweeps; ++i) {
-    if (i > 0 && mixed) mix();
+  for (int i = 0; i < max_sweeps; ++i) {
+    if (i > 0 && accelerated) accelerate();
     change_m_s = 0;
-    for (Manifold* manifold : touching_) change_m_s = std::max(change_m_s, manifold->relax());
-    if (change_m_s <= settled_m_s) break;
+    for (ContactManifold* manifold : touching_)
+      change_m_s = std::max(change_m_s, manifold->sweep());
+    if (change_m_s <= converged_m_s) break;
   }
   return change_m_s;
 }
 
-// Anderson's (1965) mixing with one step of memory. Sweeps that settle slowly do so in one
-// direction, each change a fixed part of the last one: velocities and impulses go on to where the
-// changes would have the least energy. Velocities depend linearly on impulses, so that both go on
-// by the same fraction and still belong together. What the last sweep leaves is the result.
-void BoxWorld::mix() {
-  double energy_j = 0, common_j = 0;
+// Anderson mixing (1965) with one step of memory. Slow convergence is along one direction, each
+// change a constant part of the last one: velocities and impulses are extrapolated to where the
+// change would have the least kinetic energy. Velocities are linear in the impulses, so the same
+// fraction keeps both consistent. The result is that of the last sweep, without extrapolation.
+void BoxWorld::accelerate() {
+  double energy_j = 0, product_j = 0;
   for (Body& body : bodies_) {
     Motion& motion = body.step;
-    if (body.asleep || !(motion.per_kg > 0)) continue;
-    const Velocity last = motion.change;
-    motion.change = {motion.ahead.linear_m_s - motion.start.linear_m_s,
-                     motion.ahead.angular_rad_s - motion.start.angular_rad_s};
-    const double mass_kg = 1 / motion.per_kg;
-    const double inertia = motion.turns ? 1 / motion.per_kg_m2.diagonal().maxCoeff() : 0;
-    const auto& [along, about] = motion.change;
+    if (body.asleep || !(motion.inverse_mass > 0)) continue;
+    const Velocity last = motion.sweep_change;
+    motion.sweep_change = {motion.constrained.linear_m_s - motion.sweep_start.linear_m_s,
+                           motion.constrained.angular_rad_s - motion.sweep_start.angular_rad_s};
+    const double mass_kg = 1 / motion.inverse_mass;
+    const double inertia = motion.rotates ? 1 / motion.inverse_inertia.diagonal().maxCoeff() : 0;
+    const auto& [along, about] = motion.sweep_change;
     energy_j += mass_kg * along.squaredNorm() + inertia * about.squaredNorm();
-    common_j += mass_kg * along.dot(last.linear_m_s) + inertia * about.dot(last.angular_rad_s);
+    product_j += mass_kg * along.dot(last.linear_m_s) + inertia * about.dot(last.angular_rad_s);
   }
-  const double between_j = energy_j + last_energy_j_ - 2 * common_j;
-  const bool known = last_energy_j_ > 0 && between_j > 0;
-  const double fraction = known ? std::clamp((common_j - energy_j) / between_j, 0.0, farthest) : 0;
+  const double denominator_j = energy_j + last_energy_j_ - 2 * product_j;
+  const bool known = last_energy_j_ > 0 && denominator_j > 0;
+  const double fraction =
+      known ? std::clamp((product_j - energy_j) / denominator_j, 0.0, max_extrapolation) : 0;
   last_energy_j_ = energy_j;
   for (Body& body : bodies_)
-    if (!body.asleep) body.step.go_on(fraction);
-  for (Manifold* manifold : touching_) manifold->go_on(fraction);
+    if (!body.asleep) body.step.extrapolate_sweep(fraction);
+  for (ContactManifold* manifold : touching_) manifold->extrapolate_sweep(fraction);
 }
 
 BoxWorld::Event BoxWorld::next_event(double h_s) const {
-  Event soonest;
-  const auto note = [&](std::optional<double> fraction, bool ends_pushes) {
-    if (fraction && (1 - *fraction) * h_s > least_cut_s && *fraction < soonest.fraction)
-      soonest = {*fraction, ends_pushes};
+  Event first_event;
+  const auto consider = [&](std::optional<double> fraction, bool ends_contact) {
+    if (fraction && (1 - *fraction) * h_s > min_remainder_s && *fraction < first_event.fraction)
+      first_event = {*fraction, ends_contact};
   };
   for (const Pair& pair : pairs_) {
     if (pair.manifold.empty() || bodies_[pair.first].asleep) continue;
-    note(pair.manifold.fraction_before_hit(), false);
-    note(pair.manifold.fraction_before_stop(), false);
-    const bool slides = bodies_[pair.first].driven || bodies_[pair.second].driven;
-    if (slides && !pair.with_table()) note(fraction_before_sliding_off(pair, h_s), true);
+    consider(pair.manifold.fraction_before_impact(), false);
+    consider(pair.manifold.fraction_before_sticking(), false);
+    const bool with_driven = bodies_[pair.first].driven || bodies_[pair.second].driven;
+    if (with_driven && !pair.with_table()) consider(fraction_before_separation(pair, h_s), true);
   }
-  return soonest;
+  return first_event;
 }
 
-// A drawn clone that slides off a cube snaps back; a step later it would be millimeters elsewhere.
-std::optional<double> BoxWorld::fraction_before_sliding_off(const Pair& pair, double h_s) const {
+// A clone that slides off a cube springs back by millimeters within a step.
+std::optional<double> BoxWorld::fraction_before_separation(const Pair& pair, double h_s) const {
   const Body &first = bodies_[pair.first], &second = bodies_[pair.second];
   const Vector3d& normal = pair.manifold.normal();
   if (!pair.manifold.touches()) return std::nullopt;
   Vector3d travel_m = h_s * (first.step.mean.linear_m_s - second.step.mean.linear_m_s);
   travel_m -= travel_m.dot(normal) * normal;
-  if (travel_m.squaredNorm() < clear_m * clear_m) return std::nullopt;
-  Box sunk = first.shape;
-  sunk.center_m -= near_m * normal;  // so that they overlap
-  const auto fraction = parting(sunk, second.shape, travel_m);
+  if (travel_m.squaredNorm() < separated_m * separated_m) return std::nullopt;
+  Box overlapping = first.shape;
+  overlapping.center_m -= contact_margin_m * normal;  // makes the boxes overlap
+  const auto fraction = parting(overlapping, second.shape, travel_m);
   if (!fraction) return std::nullopt;
-  return *fraction + clear_m / travel_m.norm();
+  return *fraction + separated_m / travel_m.norm();
 }
 
-void BoxWorld::move(double h_s, bool ends_pushes) {
+void BoxWorld::move(double h_s, bool ends_contact) {
   for (Body& body : bodies_) {
     if (body.asleep) continue;
-    if (body.driven) body.pushed_s = ends_pushes ? 0 : h_s;
-    if (body.driven && body.step.per_kg > 0)
-      body.pushed_n =
-          (body.step.ahead.linear_m_s - body.step.free.linear_m_s) / (body.step.per_kg * h_s);
-    body.move(body.step.mean, h_s);
+    if (body.driven) body.force_duration_s = ends_contact ? 0 : h_s;
+    if (body.driven && body.step.inverse_mass > 0)
+      body.mean_force_n = (body.step.constrained.linear_m_s - body.step.free.linear_m_s) /
+                          (body.step.inverse_mass * h_s);
+    body.integrate(body.step.mean, h_s);
     body.velocity = body.step.end;
   }
-  settle(h_s);
+  update_sleep(h_s);
 }
 
-void BoxWorld::settle(double h_s) {
+void BoxWorld::update_sleep(double h_s) {
   for (Body& body : bodies_) {
     if (body.asleep) continue;
     const auto& [along, about] = body.velocity;
@@ -356,18 +358,18 @@ void BoxWorld::settle(double h_s) {
   }
 }
 
-bool BoxWorld::near_driven(double reach_m) const {
+bool BoxWorld::driven_body_within(double reach_m) const {
   return std::ranges::any_of(bodies_, [&](const Body& driven) {
     if (!driven.driven || !driven.solid) return false;
     const double half_height_m = driven.shape.axes.row(2).cwiseAbs().dot(driven.shape.half_m);
     return driven.pose.position_m.z() - half_height_m < reach_m ||
            std::ranges::any_of(bodies_, [&](const Body& body) {
-             return !body.driven && near(driven, body, reach_m);
+             return !body.driven && within(driven, body, reach_m);
            });
   });
 }
 
-double BoxWorld::fastest_turn_rad_s() const {
+double BoxWorld::max_angular_speed_rad_s() const {
   double fastest = 0;
   for (const Body& body : bodies_)
     if (!body.asleep) fastest = std::max(fastest, body.velocity.angular_rad_s.squaredNorm());
@@ -377,7 +379,7 @@ double BoxWorld::fastest_turn_rad_s() const {
 Vector3d BoxWorld::impulse_n_s(std::size_t pusher, std::size_t pushed) const {
   for (const Pair& pair : pairs_) {
     if (pair.with_table() || !pair.has(pusher) || !pair.has(pushed)) continue;
-    const Vector3d on_first = hit_ ? pair.hit_n_s : pair.manifold.impulse_n_s();
+    const Vector3d on_first = was_impact_ ? pair.impact_n_s : pair.manifold.impulse_n_s();
     return pushed == pair.first ? on_first : Vector3d(-on_first);
   }
   return Vector3d::Zero();

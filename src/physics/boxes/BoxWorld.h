@@ -1,48 +1,41 @@
-// Boxes on a table. One step, in order:
+// Rigid boxes on a table. One step, in order:
 //
-// 1. Each body's free motion: two velocities, the mean over the step, which says where it gets to,
-//    and the one at its end, which is what the next step starts from. Pushes are steady over a
-//    step; a steady push changes a box's mean velocity by half of what it changes the end's by, and
-//    the clone's two follow from its oscillator and are set by whoever drives it.
-// 2. Neighbours (a Verlet list: pairs within some reach, looked for anew when a body has used the
-//    reach up) are tested for contact as far ahead as the bodies get; what sleeps and is reached
-//    wakes.
-// 3. Points that touch and close in have hit: impulses without duration, and without weight, make
-//    them move together. What was held before is held through the hit. It is a step of its own that
-//    takes no time.
-// 4. Contacts are solved by projected Gauss-Seidel with an extrapolated warm start and Anderson
-//    mixing: with steady pushes, points that touch shall touch one step beyond the end, if nothing
-//    pushes any more from the end on. With the end in place of that, velocities would ring from
-//    step to step; with velocities alone, bodies would drift apart. Looking ahead takes two thirds
-//    of a gap away in a step, so that both die out.
-// 5. Points that are apart and would meet within the step, a patch whose slip friction stops, and
-//    the clone sliding off a face, are events: the step ends there, and is solved anew for that
-//    length with every contact in it.
-// 6. Bodies move; boxes that stay at rest for a while fall asleep.
+// 1. Free motion of each body: its mean velocity over the step and its velocity at the end, without
+//    contacts. The driver sets both for the clone, from the coupling's oscillator.
+// 2. Contact detection. Neighbors (a Verlet list: pairs within a distance, listed again when bodies
+//    have moved that far) are tested as far ahead as the bodies can move in the step. Sleeping
+//    bodies that could be reached wake.
+// 3. Impact. If points in contact approach each other, impulses over an instant stop the approach.
+//    The impact is a step of zero length; impulses of the contact forces are kept for the next
+//    step.
+// 4. Contact solver, see ContactSolver.cpp.
+// 5. Events that a step cannot contain: points meet, friction stops a sliding patch, or the clone
+//    slides off a face. The step ends at the first event and is solved again for that length.
+// 6. Bodies move. Boxes that have been at rest for a while fall asleep.
 //
-// Nothing is allocated after the last add().
+// No memory is allocated after the last add().
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "physics/boxes/Manifold.h"
-#include "physics/scene/WorldState.h"
+#include "physics/boxes/ContactManifold.h"
+#include "physics/scene/Scene.h"
 
 namespace heft::boxes {
 
-/// Says how driven bodies move by themselves: sets their motion for a step; for one of 0 s, what
-/// pushes do to them within an instant.
+/// Sets the free motion of driven bodies over a step; for a step of 0 s, their response to an
+/// impact.
 class Driver {
  public:
   virtual ~Driver() = default;
   virtual void set_motion(Body& driven, const StepTime& time) const = 0;
 };
 
-struct SteppedBy {
+struct StepOptions {
   const Driver& driver;
-  double beyond_s = 0;  ///< how far contacts look beyond the step's end
-  bool cuts = true;     ///< false: what meets within the step stops there
+  double lookahead_s = 0;        ///< of the contacts, see ContactSolver.cpp
+  bool splits_at_events = true;  ///< false: speculative contacts instead
 };
 
 class BoxWorld {
@@ -54,73 +47,70 @@ class BoxWorld {
   Body& body(std::size_t i) { return bodies_[i]; }
   const Body& body(std::size_t i) const { return bodies_[i]; }
 
-  /// Puts to sleep what stands on the table and touches nothing else.
-  void settle_at_start();
+  /// Lets boxes sleep that stand on the table and touch nothing else.
+  void sleep_resting_bodies();
 
-  /// Goes on by h_s seconds, or until something happens that a step cannot contain: then the rest
-  /// is for the next step.
-  /// @return how long the step was; 0 if it was a hit
-  double advance(double h_s, const SteppedBy& how);
+  /// Makes one step of h_s seconds, or a shorter one up to the first event.
+  /// @return the length of the step; 0 for an impact
+  double advance(double h_s, const StepOptions& options);
 
-  /// Whether driven bodies are nearer than reach_m to a box or the table.
-  bool near_driven(double reach_m) const;
-  /// Of boxes, rad/s.
-  double fastest_turn_rad_s() const;
+  /// Whether a driven body is nearer than distance_m to a box or the table.
+  bool driven_body_within(double distance_m) const;
+  double max_angular_speed_rad_s() const;
 
   /// Impulse of `pusher` on `pushed` over the last step, N s.
   Eigen::Vector3d impulse_n_s(std::size_t pusher, std::size_t pushed) const;
 
-  /// Forgets the contacts that a body has had, and wakes all.
+  /// Drops the contacts of a body and wakes all bodies.
   void forget_contacts(std::size_t i);
 
   const SolveCounts& counts() const { return counts_; }
 
  private:
-  // Two bodies, or a body (first) and the table.
+  // Two bodies, or one body and the table.
   struct Pair {
     std::size_t first, second;
-    Manifold manifold;
-    Eigen::Vector3d hit_n_s = Eigen::Vector3d::Zero();  // on the first, of the last hit
+    ContactManifold manifold;
+    Eigen::Vector3d impact_n_s = Eigen::Vector3d::Zero();  // on the first body, of the last impact
     bool with_table() const { return first == second; }
     bool has(std::size_t i) const { return first == i || second == i; }
   };
 
-  // Something within a step that the step cannot contain.
   struct Event {
-    double fraction = 1;       // of the step, before it
-    bool ends_pushes = false;  // of the clone: they say nothing of those that follow
+    double fraction = 1;        // of the step
+    bool ends_contact = false;  // the clone slides off: its contact force ends
   };
 
-  double reach_m(const Body& body, double h_s) const;
-  bool near(const Body& first, const Body& second, double margin_m) const;
+  double travel_bound_m(const Body& body, double h_s) const;
+  bool within(const Body& first, const Body& second, double margin_m) const;
   Contact contact(const Pair& pair, double h_s, double margin_m) const;
-  void find_neighbours(double h_s);
-  void list_neighbours();
-  bool wake_reached(double h_s);
+  void update_neighbors(double h_s);
+  void list_neighbors();
+  bool wake_within_reach(double h_s);
   double find_contacts(double h_s, double regular_s);
-  void hit(const Driver& driver);
-  void set_motions(double h_s, const SteppedBy& how);
-  void solve(double h_s, const SteppedBy& how);
-  void relax();
-  double sweeps(bool mixed);
-  void forget_impulses();
-  void mix();
+  void solve_impact(const Driver& driver);
+  void set_motions(double h_s, const StepOptions& options);
+  void solve(double h_s, const StepOptions& options);
+  void iterate();
+  double run_sweeps(bool accelerated);
+  void clear_impulses();
+  void accelerate();
   Event next_event(double h_s) const;
-  std::optional<double> fraction_before_sliding_off(const Pair& pair, double h_s) const;
-  void move(double h_s, bool ends_pushes);
-  void settle(double h_s);
+  std::optional<double> fraction_before_separation(const Pair& pair, double h_s) const;
+  void move(double h_s, bool ends_contact);
+  void update_sleep(double h_s);
 
   ContactSurface surface_;
   double gravity_m_s2_;
   std::vector<Body> bodies_;
   Body table_;
-  std::vector<Pair> pairs_, old_pairs_;    ///< neighbours; each body with the table last
-  std::vector<Eigen::Vector3d> listed_m_;  ///< where bodies were when neighbours were listed
-  double listed_reach_m_ = 0;              ///< 0: to be listed anew
-  bool hit_ = false;                       ///< the last step was one
-  std::vector<Manifold*> touching_;        ///< of this step, in a sweep's order
+  std::vector<Pair> pairs_, old_pairs_;     ///< neighbors; pairs with the table last
+  std::vector<Eigen::Vector3d> listed_m_;   ///< positions of the bodies at that time
+  double listed_reach_m_ = 0;               ///< 0: list again
+  bool was_impact_ = false;                 ///< the last step was an impact
+  std::vector<ContactManifold*> touching_;  ///< of this step, in the order of a sweep
   SolveCounts counts_;
-  double last_energy_j_ = 0;  ///< of the last sweep's changes
+  double last_energy_j_ = 0;  ///< of the changes of the last sweep
 };
 
 }  // namespace heft::boxes

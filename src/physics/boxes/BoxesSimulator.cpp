@@ -7,7 +7,7 @@
 #include "base/Pose.h"
 #include "physics/boxes/BoxWorld.h"
 #include "physics/coupling/CouplingLaw.h"
-#include "physics/scene/BoxInertia.h"
+#include "physics/scene/Scene.h"
 
 namespace heft {
 
@@ -17,24 +17,25 @@ using boxes::BoxWorld;
 using boxes::Motion;
 using Eigen::Vector3d;
 
-// Near boxes a step is cut into pieces in which the clone's oscillator turns no farther than this,
-// and no box either: a push is taken as steady over a piece, a lever as the same. Where that would
-// be more pieces than the most, they are longer.
-constexpr double oscillation_rad = 0.4, turn_rad = 0.05;
-// A coupled clone has none; but the cube that it throws ahead and meets again wants short pieces.
+// Near boxes a step is divided into pieces, because forces and lever arms are constant over a
+// piece. Limits of the phase of the clone's oscillator and of the rotation of a box in one piece;
+// max_pieces takes precedence.
+constexpr double oscillation_rad = 0.4, rotation_rad = 0.05;
+// Rate for a coupled clone, which has no oscillator but throws cubes ahead and meets them again.
 constexpr double coupled_per_s = 190;
-constexpr double near_m = 5e-3;
-constexpr double most_pieces = 32;
+constexpr double proximity_m = 5e-3;
+constexpr double max_pieces = 32;
 constexpr double rounding = 1e-9;
-constexpr int most_cuts = 24;  // pieces of a step that may end at an event
+constexpr int max_event_pieces = 24;  // of a step; further pieces use speculative contacts
 
-// How many times more a push at the tip moves the clone than it turns the tip aside, at least: with
-// the paper's spring and effector from 68 N m/rad on, where 10 cm of spring across hide 0.1 mm.
+// Smallest ratio of the tip's displacement by translation to that by rotation for a locked
+// orientation. With the paper's spring and effector it corresponds to 68 N m/rad, where 10 cm of
+// translation go with 0.1 mm of rotation.
 constexpr double locked_ratio = 482;
 
-// Where the torsional spring is so much stiffer than the other that turning adds nothing to the
-// lag, unless the clone is released turned away.
-bool turns_as_target(const Scene& scene) {
+// Whether the torsional spring is so stiff that rotation adds nothing to the lag. A clone that is
+// released with an angular offset rotates in any case.
+bool orientation_is_locked(const Scene& scene) {
   const Coupling& coupling = scene.coupling;
   const double lever_m = scene.effector_size_m.norm() / 2;
   const bool stiff = coupling.torsional_stiffness_nm_per_rad >=
@@ -42,31 +43,31 @@ bool turns_as_target(const Scene& scene) {
   return stiff && rotation_vector(scene.clone_offset.orientation).norm() < 1e-9;
 }
 
-// The clone on its way with the target, from pose to pose in a straight line.
-class Coupled : public boxes::Driver {
+// Drives the clone by the coupling, with a target that moves at a constant velocity.
+class CloneDriver : public boxes::Driver {
  public:
-  Coupled() = default;
-  explicit Coupled(const Scene& scene)
+  CloneDriver() = default;
+  explicit CloneDriver(const Scene& scene)
       : decoupled_(scene.coupling.decoupled),
-        locked_(turns_as_target(scene)),
+        locked_(orientation_is_locked(scene)),
         mass_kg_(scene.coupling.clone_mass_kg),
         inertia_kg_m2_(box_inertia_kg_m2(mass_kg_, scene.effector_size_m)),
         coupling_(scene.coupling) {}
 
-  /// What is not free to move is exactly where the target is, whatever steps round to.
-  void keep_on(const Pose& target, Body& clone) const {
+  /// Sets the coordinates that are not free to the target's, without rounding.
+  void constrain(const Pose& target, Body& clone) const {
     if (!decoupled_)
-      clone.place(target);
+      clone.set_pose(target);
     else if (locked_)
-      clone.place({clone.pose.position_m, target.orientation});
+      clone.set_pose({clone.pose.position_m, target.orientation});
   }
-  /// The fastest that its oscillator swings or decays.
-  double fastest_per_s() const {
+  /// Largest rate of its oscillator or decay, 1/s.
+  double max_rate_per_s() const {
     if (!decoupled_) return coupled_per_s;
     const double z = std::max(1.0, coupling_.damping_ratio);
     return std::sqrt(coupling_.stiffness_n_per_m / mass_kg_) * (z + std::sqrt(z * z - 1));
   }
-  void follow(const Pose& from, const Velocity& velocity) {
+  void set_target(const Pose& from, const Velocity& velocity) {
     from_ = from;
     velocity_ = velocity;
   }
@@ -74,8 +75,8 @@ class Coupled : public boxes::Driver {
   void set_motion(Body& clone, const boxes::StepTime& time) const override {
     Motion& step = clone.step;
     step.mean = step.end = velocity_;
-    step.per_kg = 0;
-    step.turns = false;
+    step.inverse_mass = 0;
+    step.rotates = false;
     if (!decoupled_) {
       clone.velocity = velocity_;
       return;
@@ -83,7 +84,7 @@ class Coupled : public boxes::Driver {
     if (time.h_s > 0)
       set_translation(clone, time, step);
     else
-      step.per_kg = 1 / mass_kg_;
+      step.inverse_mass = 1 / mass_kg_;
     if (!locked_) set_rotation(clone, time, step);
     if (!(time.h_s > 0)) step.mean = step.end = clone.velocity;
   }
@@ -101,35 +102,37 @@ class Coupled : public boxes::Driver {
         axis.velocity_by_offset * offset_m + axis.velocity_by_velocity * relative_m_s;
     double mean_per_kg = axis.offset_by_force / (h_s * h_s);
     double end_per_kg = axis.velocity_by_force / h_s;
-    if (clone.pushed_s > h_s / 2 && h_s * fastest_per_s() < 1) {
-      // From the middle of the last step on the push grows by so much per newton of difference.
-      const double growth_per_s = 2 / (h_s + clone.pushed_s);
+    if (clone.force_duration_s > h_s / 2 && h_s * max_rate_per_s() < 1) {
+      // The contact force changes linearly from the middle of the last step, with this slope per
+      // newton of difference.
+      const double growth_per_s = 2 / (h_s + clone.force_duration_s);
       const double mean_by_growth = growth_per_s * axis.offset_by_growth / h_s;
       const double end_by_growth = growth_per_s * axis.velocity_by_growth;
       mean_per_kg += mean_by_growth / h_s;
       end_per_kg += end_by_growth / h_s;
-      step.mean.linear_m_s -= mean_by_growth * clone.pushed_n;
-      step.end.linear_m_s -= end_by_growth * clone.pushed_n;
+      step.mean.linear_m_s -= mean_by_growth * clone.mean_force_n;
+      step.end.linear_m_s -= end_by_growth * clone.mean_force_n;
     }
-    end_per_kg = std::max(0.0, end_per_kg);  // a stiff spring may have swung back
-    step.per_kg = end_per_kg + mean_weight * (mean_per_kg - end_per_kg);
-    step.mean_by_ahead = mean_per_kg / step.per_kg;
+    end_per_kg = std::max(0.0, end_per_kg);  // negative for a stiff spring in a long step
+    step.inverse_mass = end_per_kg + mean_weight * (mean_per_kg - end_per_kg);
+    step.mean_per_constrained = mean_per_kg / step.inverse_mass;
   }
 
-  // The same about each of the clone's own axes.
+  // The same about each body axis.
   void set_rotation(const Body& clone, const boxes::StepTime& time, Motion& step) const {
     const double h_s = time.h_s, mean_weight = time.mean_weight();
     const auto& own = clone.pose.orientation;
     const Vector3d offset_rad = rotation_vector(from_.orientation.conjugate() * own);
     const Vector3d relative_rad_s =
         own.conjugate() * (clone.velocity.angular_rad_s - velocity_.angular_rad_s);
-    Vector3d mean_rad_s = Vector3d::Zero(), end_rad_s = mean_rad_s, per_kg_m2, mean_by_ahead;
+    Vector3d mean_rad_s = Vector3d::Zero(), end_rad_s = mean_rad_s, inverse_inertia,
+             mean_per_constrained;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto e = static_cast<Eigen::Index>(i);
       const double kappa = coupling_.torsional_stiffness_nm_per_rad;
       const CouplingAxis axis{inertia_kg_m2_[e], kappa, coupling_.damping_ratio};
       if (!(h_s > 0)) {
-        per_kg_m2[e] = mean_by_ahead[e] = 1 / axis.mass;
+        inverse_inertia[e] = mean_per_constrained[e] = 1 / axis.mass;
         continue;
       }
       const OscillatorStep& by = steps_[i].of(axis, h_s);
@@ -140,23 +143,24 @@ class Coupled : public boxes::Driver {
           by.velocity_by_offset * offset_rad[e] + by.velocity_by_velocity * relative_rad_s[e];
       const double mean_per_kg_m2 = by.offset_by_force / (h_s * h_s);
       const double end_per_kg_m2 = std::max(0.0, by.velocity_by_force / h_s);
-      per_kg_m2[e] = end_per_kg_m2 + mean_weight * (mean_per_kg_m2 - end_per_kg_m2);
-      mean_by_ahead[e] = mean_per_kg_m2 / per_kg_m2[e];
+      inverse_inertia[e] = end_per_kg_m2 + mean_weight * (mean_per_kg_m2 - end_per_kg_m2);
+      mean_per_constrained[e] = mean_per_kg_m2 / inverse_inertia[e];
     }
     const Eigen::Matrix3d axes = clone.shape.axes;
     step.mean.angular_rad_s += axes * mean_rad_s;
     step.end.angular_rad_s += axes * end_rad_s;
-    step.per_kg_m2 = axes * per_kg_m2.asDiagonal() * axes.transpose();
-    step.mean_turn_by_ahead = axes * mean_by_ahead.asDiagonal() * axes.transpose();
-    step.turns = true;
+    step.inverse_inertia = axes * inverse_inertia.asDiagonal() * axes.transpose();
+    step.mean_rotation_per_constrained =
+        axes * mean_per_constrained.asDiagonal() * axes.transpose();
+    step.rotates = true;
   }
 
-  // Of one axis, kept: most steps are as long as the last.
-  struct Kept {
+  // Response of one axis, cached because most steps have equal length.
+  struct CachedStep {
     double h_s = 0;
     OscillatorStep step;
     const OscillatorStep& of(const CouplingAxis& axis, double for_s) {
-      if (std::abs(for_s - h_s) > 1e-12 * for_s) {  // a difference of times rounds
+      if (std::abs(for_s - h_s) > 1e-12 * for_s) {  // rounding of time differences
         step = oscillator_step(axis, for_s);
         h_s = for_s;
       }
@@ -170,7 +174,7 @@ class Coupled : public boxes::Driver {
   Coupling coupling_;
   Pose from_;
   Velocity velocity_;
-  mutable std::array<Kept, 4> steps_;
+  mutable std::array<CachedStep, 4> steps_;
 };
 
 class BoxesSimulator : public DecouplingSimulator {
@@ -190,13 +194,13 @@ class BoxesSimulator : public DecouplingSimulator {
 
   Body& clone() { return world_->body(clone_index); }
   static std::size_t index_of(std::size_t cube) { return cube + 1; }
-  void note_impulses();
-  double regular_piece_s(const Velocity& of_target, double h_s);
-  double longest_after_hit_s(double regular_s);
+  void add_impulses();
+  double max_piece_s(const Velocity& target_velocity, double h_s);
+  double max_piece_after_impact_s(double regular_s);
 
   std::size_t n_cubes_ = 0;
   std::optional<BoxWorld> world_;
-  Coupled coupled_;
+  CloneDriver clone_driver_;
   Pose target_;
   std::vector<Vector3d> impulse_n_s_;  // of the clone on each cube, over the last step
   double last_h_s_ = 0;
@@ -207,62 +211,62 @@ void BoxesSimulator::reset(const Scene& scene, const Pose& target) {
   target_ = target;
   last_h_s_ = 0;
   impulse_n_s_.assign(n_cubes_, Vector3d::Zero());
-  coupled_ = Coupled(scene);
+  clone_driver_ = CloneDriver(scene);
   const boxes::ContactSurface surface{scene.friction, scene.contact_compliance_m_per_n,
                                       scene.coupling.decoupled};
   world_.emplace(surface, scene.gravity_m_s2, n_cubes_ + 1);
   Body clone;
   clone.driven = true;
   clone.set_size(scene.effector_size_m);
-  clone.put(clone_start(scene, target), {});
+  clone.reset(clone_start(scene, target), {});
   world_->add(clone);
   for (const Cube& cube : scene.cubes) {
     Body body;
     body.set_size(cube.size_m);
     body.mass_kg = cube.mass_kg;
     body.inertia_kg_m2 = box_inertia_kg_m2(cube.mass_kg, cube.size_m);
-    body.put(upright_pose(cube.position_m, cube.yaw_rad), {});
+    body.reset(upright_pose(cube.position_m, cube.yaw_rad), {});
     world_->add(body);
   }
-  if (scene.contact_compliance_m_per_n == 0) world_->settle_at_start();  // else they sink first
+  if (scene.contact_compliance_m_per_n == 0)
+    world_->sleep_resting_bodies();  // compliant ones sink first
 }
 
 void BoxesSimulator::step(const Pose& target, double h_s) {
   for (Vector3d& impulse_n_s : impulse_n_s_) impulse_n_s.setZero();
-  const Velocity of_target = mean_velocity(target_, target, h_s);
+  const Velocity target_velocity = mean_velocity(target_, target, h_s);
   const Pose from = target_;
   double left_s = h_s;
   for (int i = 0; left_s > 0; ++i) {
-    coupled_.follow(target_, of_target);
-    const double regular_s = regular_piece_s(of_target, h_s);
+    clone_driver_.set_target(target_, target_velocity);
+    const double regular_s = max_piece_s(target_velocity, h_s);
     const double piece_s = left_s / std::ceil(left_s / regular_s - rounding);
-    const double done_s = world_->advance(std::min(piece_s, longest_after_hit_s(regular_s)),
-                                          {coupled_, regular_s, i < most_cuts});
+    const double done_s = world_->advance(std::min(piece_s, max_piece_after_impact_s(regular_s)),
+                                          {clone_driver_, regular_s, i < max_event_pieces});
     left_s = done_s > (1 - rounding) * left_s ? 0 : left_s - done_s;
     target_ = left_s > 0 ? interpolate(from, target, 1 - left_s / h_s) : target;
-    coupled_.keep_on(target_, clone());
-    note_impulses();
+    clone_driver_.constrain(target_, clone());
+    add_impulses();
   }
   last_h_s_ = h_s;
 }
 
-// Of a step of h_s seconds.
-double BoxesSimulator::regular_piece_s(const Velocity& of_target, double h_s) {
-  const double travel_m =
-      h_s * std::max(clone().tip_speed_m_s(clone().velocity), clone().tip_speed_m_s(of_target));
-  const bool near = world_->near_driven(near_m + travel_m);
-  const double n_swinging = near ? h_s * coupled_.fastest_per_s() / oscillation_rad : 0;
-  const double n_turning = h_s * world_->fastest_turn_rad_s() / turn_rad;
-  const double n = std::max(n_turning, n_swinging);
-  return h_s / std::clamp(std::ceil(n), 1.0, most_pieces);
+double BoxesSimulator::max_piece_s(const Velocity& target_velocity, double h_s) {
+  const double travel_m = h_s * std::max(clone().point_speed_bound_m_s(clone().velocity),
+                                         clone().point_speed_bound_m_s(target_velocity));
+  const bool near = world_->driven_body_within(proximity_m + travel_m);
+  const double n_oscillation = near ? h_s * clone_driver_.max_rate_per_s() / oscillation_rad : 0;
+  const double n_rotation = h_s * world_->max_angular_speed_rad_s() / rotation_rad;
+  const double n = std::max(n_rotation, n_oscillation);
+  return h_s / std::clamp(std::ceil(n), 1.0, max_pieces);
 }
 
-// How a push grows is known from the piece before, but not after a hit.
-double BoxesSimulator::longest_after_hit_s(double regular_s) {
-  return clone().pushed_s > 0 ? 2 * clone().pushed_s : regular_s / 8;
+// The slope of the contact force is known from the piece before, but not after an impact.
+double BoxesSimulator::max_piece_after_impact_s(double regular_s) {
+  return clone().force_duration_s > 0 ? 2 * clone().force_duration_s : regular_s / 8;
 }
 
-void BoxesSimulator::note_impulses() {
+void BoxesSimulator::add_impulses() {
   for (std::size_t cube = 0; cube < n_cubes_; ++cube)
     if (!world_->body(index_of(cube)).asleep)
       impulse_n_s_[cube] += world_->impulse_n_s(clone_index, index_of(cube));
@@ -270,13 +274,13 @@ void BoxesSimulator::note_impulses() {
 
 void BoxesSimulator::teleport_clone(const Pose& target, const Velocity& velocity) {
   target_ = target;
-  clone().put(target, velocity);
+  clone().reset(target, velocity);
   world_->forget_contacts(clone_index);
 }
 
 void BoxesSimulator::place_cube(int cube, const Pose& pose) {
   const std::size_t i = index_of(static_cast<std::size_t>(cube));
-  world_->body(i).put(pose, {});
+  world_->body(i).reset(pose, {});
   world_->forget_contacts(i);
 }
 

@@ -1,4 +1,4 @@
-// `boxes`: the decoupling technique on our own solver for a handful of boxes on a table. Law:
+// `boxes`: the decoupling technique on a contact solver for a few boxes on a table. Law:
 // physics/coupling/CouplingLaw.h; contacts: boxes/BoxWorld.h.
 #pragma once
 
@@ -8,8 +8,9 @@
 
 namespace heft {
 
-/// Exact coupling in translation; orientation locked to the effector's where the torsional spring
-/// is stiff enough (the paper's is), else exact per axis. Contacts with Coulomb's friction disk.
+/// Exact coupling in translation. The orientation is locked to the effector where the torsional
+/// spring is stiff enough (as the paper's), otherwise coupled exactly about each axis. Coulomb
+/// friction on its disk.
 std::unique_ptr<DecouplingSimulator> make_boxes();
 
 }  // namespace heft

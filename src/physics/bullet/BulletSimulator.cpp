@@ -4,8 +4,8 @@
 
 #include "base/Pose.h"
 #include "physics/bullet/ContactWorld.h"
-#include "physics/coupling/CloneCoupling.h"
-#include "physics/scene/BoxInertia.h"
+#include "physics/coupling/CouplingLaw.h"
+#include "physics/scene/Scene.h"
 
 namespace heft {
 
@@ -55,7 +55,7 @@ void BulletSimulator::reset(const Scene& scene, const Pose& target) {
   coupling_.restart({clone().pose, {}}, {});
 }
 
-// Gives the clone its solver mass and the velocity at which it moves if nothing touches it.
+// Sets the clone's solver mass and free velocity.
 void BulletSimulator::begin_coupled(const Pose& target, double h_s) {
   const CoupledClone free = coupling_.begin(clone().pose, target_, target, h_s);
   clone().velocity = free.velocity;

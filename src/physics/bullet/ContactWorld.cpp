@@ -2,13 +2,100 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <limits>
 
 namespace heft {
 
 namespace {
+// Missing velocity change along a row. m_rhs holds the target velocity here.
+btScalar missing_velocity(const btSolverConstraint& row, btSolverBody& a, btSolverBody& b) {
+  const btScalar changed = row.m_contactNormal1.dot(a.internalGetDeltaLinearVelocity()) +
+                           row.m_relpos1CrossNormal.dot(a.internalGetDeltaAngularVelocity()) +
+                           row.m_contactNormal2.dot(b.internalGetDeltaLinearVelocity()) +
+                           row.m_relpos2CrossNormal.dot(b.internalGetDeltaAngularVelocity());
+  return row.m_rhs - changed;
+}
+
+void apply(btSolverConstraint& row, btSolverBody& a, btSolverBody& b, btScalar impulse) {
+  const btScalar change = impulse - row.m_appliedImpulse;
+  a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA,
+                         change);
+  b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB,
+                         change);
+  row.m_appliedImpulse = impulse;
+}
+}  // namespace
+
+// Both directions use the same step size, the smaller of their effective masses, and the pair is
+// projected to the disk, so that friction opposes the slip after convergence.
+btScalar DiskFrictionSolver::solve_friction(btSolverConstraint& first, btSolverConstraint& second,
+                                            btScalar limit) {
+  btSolverBody& a = m_tmpSolverBodyPool[first.m_solverBodyIdA];
+  btSolverBody& b = m_tmpSolverBodyPool[first.m_solverBodyIdB];
+  const btScalar mass = btMin(first.m_jacDiagABInv, second.m_jacDiagABInv);
+  const btScalar old_x = first.m_appliedImpulse, old_y = second.m_appliedImpulse;
+  if (limit == 0 && old_x == 0 && old_y == 0) return 0;
+  btScalar x = old_x + mass * missing_velocity(first, a, b);
+  btScalar y = old_y + mass * missing_velocity(second, a, b);
+  const btScalar length = btSqrt(x * x + y * y);
+  if (length > limit) {
+    x *= limit / length;
+    y *= limit / length;
+  }
+  apply(first, a, b, x);
+  apply(second, a, b, y);
+  return ((x - old_x) * (x - old_x) + (y - old_y) * (y - old_y)) / (mass * mass);
+}
+
+btScalar DiskFrictionSolver::solveGroupCacheFriendlySetup(btCollisionObject** bodies, int n_bodies,
+                                                          btPersistentManifold** manifolds,
+                                                          int n_manifolds,
+                                                          btTypedConstraint** joints, int n_joints,
+                                                          const btContactSolverInfo& info,
+                                                          btIDebugDraw* drawer) {
+  const btScalar result = btSequentialImpulseConstraintSolver::solveGroupCacheFriendlySetup(
+      bodies, n_bodies, manifolds, n_manifolds, joints, n_joints, info, drawer);
+  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) {
+    btSolverConstraint& normal = m_tmpSolverContactConstraintPool[i];
+    const auto& point = *static_cast<btManifoldPoint*>(normal.m_originalContactPoint);
+    btSolverBody& a = m_tmpSolverBodyPool[normal.m_solverBodyIdA];
+    btSolverBody& b = m_tmpSolverBodyPool[normal.m_solverBodyIdB];
+    btSolverConstraint* friction =
+        &m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex];
+    for (btSolverConstraint* row : {&normal, friction, friction + 1})
+      row->m_rhs /= row->m_jacDiagABInv;  // an impulse in Bullet
+    apply(friction[0], a, b, point.m_appliedImpulseLateral1);
+    apply(friction[1], a, b, point.m_appliedImpulseLateral2);
+  }
+  return result;
+}
+
+btScalar DiskFrictionSolver::solveSingleIteration(int, btCollisionObject**, int,
+                                                  btPersistentManifold**, int, btTypedConstraint**,
+                                                  int, const btContactSolverInfo&, btIDebugDraw*) {
+  btScalar residual = 0;
+  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) {
+    btSolverConstraint& normal = m_tmpSolverContactConstraintPool[i];
+    btSolverBody& a = m_tmpSolverBodyPool[normal.m_solverBodyIdA];
+    btSolverBody& b = m_tmpSolverBodyPool[normal.m_solverBodyIdB];
+    const btScalar old = normal.m_appliedImpulse;
+    apply(normal, a, b,
+          btMax(btScalar(0), old + normal.m_jacDiagABInv * missing_velocity(normal, a, b)));
+    const btScalar change = (normal.m_appliedImpulse - old) / normal.m_jacDiagABInv;
+    residual = btMax(residual, change * change);
+    residual =
+        btMax(residual,
+              solve_friction(m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex],
+                             m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex + 1],
+                             normal.m_friction * normal.m_appliedImpulse));
+  }
+  return residual;
+}
+
+namespace {
 constexpr double still_m_s = 1e-4, still_rad_s = 5e-3, still_for_s = 0.25;
-// Contacts are looked for this far ahead, beside what the boxes can cover in a step.
+// Margin of the contact detection in addition to the boxes' motion in a step.
 constexpr double look_ahead_m = 0.2e-3;
 }  // namespace
 
@@ -46,7 +133,7 @@ const ContactWorld::Pair& ContactWorld::pair(std::size_t i, std::size_t j) const
   return pairs_[high * (high + 1) / 2 + low];
 }
 
-// Any box may become as fast as the fastest within a step, by being hit.
+// An impact may make any box as fast as the fastest.
 double ContactWorld::farthest_approach_m(double h_s) const {
   double fastest_m_s = 0;
   for (const RigidBox& box : boxes_) {
@@ -80,8 +167,8 @@ void ContactWorld::wake_touched(double margin_m) {
   }
 }
 
-// Puts the contact into the pair's manifold. Impulses of points that touched in the last step
-// already are the solver's first guess.
+// Writes the contact to the pair's manifold. Points that are known keep their impulses as a warm
+// start.
 void ContactWorld::renew(Pair& pair, const Contact& contact, double impulse_scale) {
   btPersistentManifold& manifold = *pair.manifold;
   std::array<btManifoldPoint, 4> old;
@@ -108,13 +195,13 @@ void ContactWorld::renew(Pair& pair, const Contact& contact, double impulse_scal
   }
 }
 
-// Whether a pair's contact has to be found anew. A resting box that something moving could touch
-// has been woken before.
+// Whether a pair needs contact detection. Resting boxes within reach of moving ones are awake
+// already.
 bool ContactWorld::may_touch(const Pair& pair) const {
   const RigidBox& first = boxes_[pair.first];
   const RigidBox& second = boxes_[pair.second];
-  const bool can_give = first.mass_kg > 0 || (pair.first != pair.second && second.mass_kg > 0);
-  return can_give && moves(first) && moves(second);
+  const bool movable = first.mass_kg > 0 || (pair.first != pair.second && second.mass_kg > 0);
+  return movable && moves(first) && moves(second);
 }
 
 void ContactWorld::solve(double h_s) {
@@ -127,7 +214,7 @@ void ContactWorld::solve(double h_s) {
   const double impulse_scale = last_h_s_ > 0 ? h_s / last_h_s_ : 1;
   for (Pair& pair : pairs_) {
     const bool both_rest = boxes_[pair.first].at_rest && boxes_[pair.second].at_rest;
-    if (both_rest) continue;  // keeps its impulses for when they wake
+    if (both_rest) continue;  // keeps its impulses
     renew(pair, may_touch(pair) ? contact(pair, margin_m) : Contact{}, impulse_scale);
     if (pair.manifold->getNumContacts() > 0) touching.push_back(pair.manifold.get());
   }

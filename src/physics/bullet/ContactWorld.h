@@ -1,20 +1,44 @@
-// Boxes on a table, stepped with Bullet's rigid bodies and contact solver. The solver is called
-// directly rather than through Bullet's world, so that nothing happens behind our back: no fixed
-// substep, no sleeping thresholds made for meter-sized bodies, no multiplied friction, no order of
-// pairs that depends on addresses. Bodies and pairs keep the order they were added in, and all
-// contacts are found anew each step, some millimeters before the boxes meet.
+// Boxes on a table with Bullet's contact solver. The solver is called directly, not through
+// Bullet's world, which has fixed substeps, sleeping thresholds for meter-sized bodies, multiplied
+// friction coefficients, and an order of pairs that depends on addresses. Bodies and pairs keep the
+// order in which they were added. Contacts are detected in every step, some millimeters before
+// boxes meet.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 
 #include <memory>
 #include <vector>
 
-#include "physics/bullet/DiskFrictionSolver.h"
 #include "physics/bullet/RigidBox.h"
 #include "physics/scene/BoxContacts.h"
 
 namespace heft {
+
+/// Bullet's sequential impulse solver with Coulomb's friction disk instead of a pyramid, whose
+/// friction is up to sqrt(2) times too large at 45 degrees. Friction is warm-started like the
+/// normal impulses; Bullet's starts from zero in each step.
+class DiskFrictionSolver : public btSequentialImpulseConstraintSolver {
+ protected:
+  /// Needs two friction directions per contact (SOLVER_USE_2_FRICTION_DIRECTIONS) and no joints.
+  /// @return the largest squared change of a contact velocity, m^2/s^2; Bullet stops iterating when
+  /// it
+  ///   falls below m_leastSquaresResidualThreshold
+  btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int n_bodies,
+                                btPersistentManifold** manifolds, int n_manifolds,
+                                btTypedConstraint** joints, int n_joints,
+                                const btContactSolverInfo& info, btIDebugDraw* drawer) override;
+
+  btScalar solveGroupCacheFriendlySetup(btCollisionObject** bodies, int n_bodies,
+                                        btPersistentManifold** manifolds, int n_manifolds,
+                                        btTypedConstraint** joints, int n_joints,
+                                        const btContactSolverInfo& info,
+                                        btIDebugDraw* drawer) override;
+
+ private:
+  btScalar solve_friction(btSolverConstraint& first, btSolverConstraint& second, btScalar limit);
+};
 
 class ContactWorld {
  public:
@@ -26,22 +50,21 @@ class ContactWorld {
   const RigidBox& box(std::size_t i) const { return boxes_[i]; }
   std::size_t size() const { return boxes_.size(); }
 
-  /// Adds gravity to what is not driven, then changes velocities so that nothing overlaps at the
-  /// end of a step of h_s seconds, with friction. Where boxes overlap already, moves them apart a
-  /// little.
+  /// Adds gravity to the boxes that are not driven, and solves contacts with friction, so that no
+  /// boxes overlap after a step of h_s seconds. Separates overlapping boxes gradually.
   void solve(double h_s);
 
-  /// Lets boxes that have been calm for a while, away from what moves, rest until touched.
+  /// Lets boxes rest that have not moved for a while and touch no moving box.
   void settle(double h_s);
 
-  /// Mean force of `pusher` on `pushed` over the last step, N; zero if they don't touch.
+  /// Mean force of `pusher` on `pushed` over the last step, N; zero without contact.
   Eigen::Vector3d force_n(std::size_t pusher, std::size_t pushed) const;
 
-  /// Forgets the contacts that a box has had, and wakes what it touched.
+  /// Drops the contacts of a box and wakes the boxes that it touched.
   void forget_contacts(std::size_t i);
 
  private:
-  // One pair of boxes, or a box (first) and the table.
+  // Two boxes, or one box and the table.
   struct Pair {
     std::size_t first, second;
     std::unique_ptr<btPersistentManifold> manifold;
@@ -60,7 +83,7 @@ class ContactWorld {
   double last_h_s_ = 0;
   std::vector<RigidBox> boxes_;
   std::unique_ptr<btRigidBody> table_;
-  std::vector<Pair> pairs_;  ///< each box with the boxes before it, then with the table
+  std::vector<Pair> pairs_;  ///< each box with all earlier ones, then with the table
   DiskFrictionSolver solver_;
   btContactSolverInfo info_;
 };

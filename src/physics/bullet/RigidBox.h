@@ -1,5 +1,5 @@
-// One box of a ContactWorld. Its pose and velocity are the truth; Bullet's body is filled from them
-// for the contact solver and read back after it.
+// One box of a ContactWorld. Its pose and velocity are authoritative; Bullet's body is written
+// before the contact solver and read after it.
 #pragma once
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "base/PoseTypes.h"
-#include "physics/scene/BoxInertia.h"
+#include "physics/scene/Scene.h"
 
 namespace heft {
 
@@ -18,35 +18,35 @@ inline Eigen::Vector3d from_bullet(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// A body without mass, at rest. No gyroscopic term: it would not know that our masses can hold a
-/// spring.
+/// A body without mass, at rest, without Bullet's gyroscopic term, which would be wrong for solver
+/// masses that include a spring.
 std::unique_ptr<btRigidBody> make_bullet_body();
 
 struct RigidBox {
   Eigen::Vector3d size_m = Eigen::Vector3d::Ones();
   Pose pose;
   Velocity velocity;
-  double mass_kg = 0;   ///< 0: moves as its velocity says, whatever touches it
+  double mass_kg = 0;   ///< 0: contacts do not change its velocity
   bool solid = true;    ///< false: touches nothing
-  bool driven = false;  ///< true: has no weight and never rests
-  double still_s = 0;   ///< for how long it has not moved noticeably
+  bool driven = false;  ///< true: weightless, never at rest
+  double still_s = 0;   ///< time since it last moved noticeably
   bool at_rest = false;
   std::unique_ptr<btRigidBody> body;
 
-  /// Zero inertia: nothing turns it.
+  /// Zero inertia: contacts do not rotate it.
   void set_mass(double kg, const Eigen::Vector3d& inertia_kg_m2);
   void wake() {
     at_rest = false;
     still_s = 0;
   }
-  /// Wakes it, too.
+  /// Sets pose and velocity and wakes the box.
   void put(const Pose& to, const Velocity& at);
-  /// Goes on at its velocity for h_s seconds.
+  /// Moves at its velocity for h_s seconds.
   void move(double h_s);
 
   void write_body();
-  /// Takes the velocity; and the pose only where the solver has pushed overlapping boxes apart, so
-  /// that otherwise it keeps its bits.
+  /// Reads the velocity, and the pose only if the solver has separated overlapping boxes, so that
+  /// otherwise the pose keeps its bits.
   void read_body();
 };
 

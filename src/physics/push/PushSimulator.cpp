@@ -12,11 +12,11 @@ namespace heft {
 namespace {
 constexpr double touching_m = 1e-12;
 constexpr double still_m_s = 1e-12;
-constexpr double slipping = 1 - 1e-12;  // of friction's force: friction gives
-constexpr int most_events = 1000;       // in one step; a cube cannot start and stop more often
+constexpr double slipping = 1 - 1e-12;  // fraction of the friction limit at which sliding starts
+constexpr int max_events = 1000;        // in one step
 
-// How often a motion has to be looked at so that no event between two looks goes unseen.
-int looks(double omega_rad_s, double h_s) {
+// Number of intervals in which events are searched, so that none is missed.
+int n_intervals(double omega_rad_s, double h_s) {
   const double n = 2 * omega_rad_s * h_s;
   return n <= 1 ? 1 : static_cast<int>(std::min(std::ceil(n), 1000.0));
 }
@@ -26,8 +26,8 @@ struct Fall {
   bool fell;
 };
 
-// Where f falls to zero within (from, to], f(to) being zero or below, to a millionth of a
-// microsecond: false position, halving the weight of an end that stays (the Illinois rule).
+// Root of f within (from, to], where f(to) <= 0, to 1e-12 s: false position with the Illinois rule,
+// which halves the weight of an end that stays.
 template <typename F>
 double bracketed_root(const F& f, double from_s, double at_from, double to_s, double at_to) {
   constexpr double exactly_s = 1e-12;
@@ -46,8 +46,7 @@ double bracketed_root(const F& f, double from_s, double at_from, double to_s, do
   return to_s;
 }
 
-// The first time in (0, end_s] at which f falls to zero or below, else end_s. f(0) may be zero or
-// rounding: what counts is where it goes from there.
+// The first time in (0, end_s] at which f is zero or below, or end_s. f(0) may be zero or rounding.
 template <typename F>
 Fall first_fall(const F& f, double end_s, int n) {
   double from_s = 0, at_from = 0;
@@ -70,18 +69,18 @@ class PushSimulator : public DecouplingSimulator {
   WorldState state() const override;
 
  private:
-  // Each goes on for left_s seconds or to the next event, and returns how long that took.
+  // Each simulates left_s seconds, or less up to the next event, and returns that time.
   double apart(double left_s);
   double sticking(double left_s);
   double sliding(double left_s);
   double carried(double left_s);
-  double go_on(double left_s);
+  double advance(double left_s);
 
   bool has_cube() const { return solid_ && stroke_.cube().has_value(); }
   bool touching() const { return has_cube() && stroke_.contact() - clone_ <= touching_m; }
   double spring_n() const { return -stiffness_ * (clone_ - target_) - damping_ * (v_ - u_); }
   double slide_n() const { return deceleration_ * cube_kg_; }
-  // Whether the spring slows the clone more than friction alone slows a sliding cube.
+  // Whether the spring decelerates the clone more than friction alone decelerates a sliding cube.
   bool parts() const { return spring_n() + deceleration_ * mass_ < (1 - slipping) * slide_n(); }
   bool may_meet(double left_s) const;
   Oscillation::At free_clone(double t_s) const;
@@ -94,7 +93,7 @@ class PushSimulator : public DecouplingSimulator {
   double mass_ = 0, stiffness_ = 0, damping_ = 0, deceleration_ = 0;
   Oscillation free_, together_;
   double cube_kg_ = 0;
-  double rest_ = 0;  // of a clone that slides with the cube, from the target
+  double rest_ = 0;  // offset from the target of a clone that slides with the cube steadily
   Eigen::Vector3d start_velocity_ = Eigen::Vector3d::Zero();  // until the line has a direction
   bool started_ = false;
   // Along the line: the target and its speed in this step, the clone, the cube.
@@ -139,14 +138,14 @@ void PushSimulator::step(const Pose& target, double h_s) {
   u_ = (to - target_) * per_step_;
   impulse_n_s_ = 0;
   double left_s = h_s;
-  for (int event = 0; left_s > 0 && event < most_events; ++event) left_s -= go_on(left_s);
-  if (left_s > 0) throw OutsideModel("clone and cube part and meet too often");
+  for (int event = 0; left_s > 0 && event < max_events; ++event) left_s -= advance(left_s);
+  if (left_s > 0) throw OutsideModel("clone and cube separate and meet too often");
   target_ = to;
   if (!decoupled_) clone_ = to;
   stroke_.check(clone_, solid_ && (impulse_n_s_ > 0 || touching()));
 }
 
-double PushSimulator::go_on(double left_s) {
+double PushSimulator::advance(double left_s) {
   if (!touching()) return apart(left_s);
   if (!decoupled_) {
     if (u_ < cube_v_ || u_ < 0) return apart(left_s);
@@ -161,14 +160,14 @@ double PushSimulator::go_on(double left_s) {
   return leaves ? apart(left_s) : sticking(left_s);
 }
 
-// No bounce: both go on as one.
+// Inelastic: both have the same velocity afterwards.
 void PushSimulator::collide() {
   const double common = (mass_ * v_ + cube_kg_ * cube_v_) / (mass_ + cube_kg_);
   impulse_n_s_ += cube_kg_ * (common - cube_v_);
   v_ = cube_v_ = common;
 }
 
-// The clone as it moves when nothing touches it, from the target at that time.
+// The free clone, relative to the target at that time.
 Oscillation::At PushSimulator::free_clone(double t_s) const {
   return decoupled_ ? free_.after(t_s, clone_ - target_, v_ - u_) : Oscillation::At{};
 }
@@ -178,22 +177,23 @@ double PushSimulator::cube_at(double t_s) const {
   return stroke_.contact() + (cube_v_ - deceleration_ * sliding_s / 2) * sliding_s;
 }
 
-// A bound that needs no exponential: an oscillator's offset does not exceed its first one by more
-// than its first speed over omega.
+// A bound without exponentials: an oscillator's offset exceeds its first one by at most its first
+// speed over omega.
 bool PushSimulator::may_meet(double left_s) const {
   const double offset =
       decoupled_ ? std::max(0.0, clone_ - target_) + std::abs(v_ - u_) / free_.omega_rad_s() : 0;
   return target_ + std::max(0.0, u_ * left_s) + offset >= stroke_.contact();
 }
 
-// Each for itself, until they meet. A cube that a coupled clone meets goes on with it.
+// Clone and cube move independently until they meet. A cube that meets a coupled clone takes its
+// velocity.
 double PushSimulator::apart(double left_s) {
   Fall meeting{left_s, false};
   if (has_cube() && may_meet(left_s)) {
     const auto gap_m = [&](double t_s) {
       return cube_at(t_s) - (target_ + u_ * t_s + free_clone(t_s).y);
     };
-    meeting = first_fall(gap_m, left_s, looks(free_.omega_rad_s(), left_s));
+    meeting = first_fall(gap_m, left_s, n_intervals(free_.omega_rad_s(), left_s));
   }
   const auto [t_s, met] = meeting;
   const Oscillation::At now = free_clone(t_s);
@@ -209,7 +209,8 @@ double PushSimulator::apart(double left_s) {
   return t_s;
 }
 
-// Clone and cube stand still while the spring is drawn, until friction gives or nothing presses.
+// Clone and cube are at rest while the spring is loaded, until friction yields or the force is
+// zero.
 double PushSimulator::sticking(double left_s) {
   v_ = 0;
   const double force_n = spring_n(), change_n_s = stiffness_ * u_;
@@ -221,15 +222,15 @@ double PushSimulator::sticking(double left_s) {
   return t_s;
 }
 
-// One oscillator of both masses under friction's load, until it stops or friction alone slows the
-// cube more than the spring slows the clone.
+// One oscillator of both masses under friction, until it stops or friction alone decelerates the
+// cube more than the spring decelerates the clone.
 double PushSimulator::sliding(double left_s) {
   const double y = clone_ - target_ - rest_, speed = v_ - u_;
   const auto after = [&](double at_s) { return together_.after(at_s, y, speed); };
   const auto hold_together = [&](const Oscillation::At& at) {
     return std::min(at.speed + u_ + still_m_s, at.acceleration + deceleration_);
   };
-  const int n = looks(together_.omega_rad_s(), left_s);
+  const int n = n_intervals(together_.omega_rad_s(), left_s);
   Oscillation::At now = after(left_s);
   double t_s = left_s;
   if (n > 1 || hold_together(now) <= 0) {
@@ -246,7 +247,7 @@ double PushSimulator::sliding(double left_s) {
   return t_s;
 }
 
-// A coupled clone takes the cube along.
+// A coupled clone carries the cube.
 double PushSimulator::carried(double left_s) {
   impulse_n_s_ += cube_kg_ * (u_ - cube_v_) + (u_ > 0 ? slide_n() * left_s : 0);
   clone_ = target_ + u_ * left_s;

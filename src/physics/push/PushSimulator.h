@@ -1,5 +1,5 @@
-// Simulators of one straight push with one degree of freedom. Both refuse, with OutsideModel, what
-// is not such a push.
+// Simulators of one straight push with one degree of freedom. They throw OutsideModel for all other
+// movements.
 #pragma once
 
 #include <memory>
@@ -8,14 +8,13 @@
 
 namespace heft {
 
-/// `push`: clone and cube along the stroke, exact between the effector's poses: the free clone and
-/// the clone that slides with the cube are damped oscillators in closed form; the times of contact,
-/// slip, stop and separation are found and the motion goes on from there. Friction is Coulomb's,
-/// contacts are rigid and without bounce.
+/// `push`: clone and cube along the stroke, exact between the effector's poses. The free clone and
+/// the clone that slides with the cube are damped oscillators in closed form; the motion is divided
+/// at contact, slip, stop and separation. Coulomb friction, rigid contacts, no restitution.
 std::unique_ptr<DecouplingSimulator> make_push();
 
-/// `quasi_static`: no masses in motion at all. The clone lags by min(x_hand, mu M g / k), x_hand
-/// being how far the effector has gone since the clone touched the cube (paper, section 3.2).
+/// `quasi_static`: without inertia. The clone lags by min(x_hand, mu M g / k), where x_hand is the
+/// distance that the effector has moved since the clone touched the cube (paper, section 3.2).
 std::unique_ptr<DecouplingSimulator> make_quasi_static();
 
 }  // namespace heft

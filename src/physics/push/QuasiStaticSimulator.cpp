@@ -35,7 +35,7 @@ class QuasiStaticSimulator : public DecouplingSimulator {
   WorldState state() const override { return stroke_.state(clone_, v_, cube_v_, force_n_); }
 
  private:
-  // The spring holds as much as friction can; the cube follows the rest of the way.
+  // The spring's force is at most the friction limit; beyond that the cube follows.
   void push(double hand, double h_s) {
     const Scene& scene = stroke_.scene();
     const double slide_n =

@@ -23,7 +23,7 @@ Vector3d across(const Vector3d& direction) {
   return Vector3d::UnitZ().cross(direction);
 }
 
-// Whether one of the box's own axes is along the direction.
+// Whether an axis of the box is parallel to the direction.
 bool is_square(const Pose& pose, const Vector3d& direction, double within_rad) {
   return (pose.orientation.conjugate() * direction).cwiseAbs().maxCoeff() > std::cos(within_rad);
 }
@@ -86,7 +86,7 @@ double StraightStroke::half_along(const Pose& pose, const Vector3d& size_m) cons
   return half_width(pose, size_m, *direction_);
 }
 
-// Whether two boxes would meet if they moved along the line.
+// Whether two boxes would collide if one moved along the line.
 bool StraightStroke::beside(const Pose& a, const Vector3d& a_size_m, const Pose& b,
                             const Vector3d& b_size_m) const {
   const Vector3d between_m = b.position_m - a.position_m;
@@ -97,7 +97,7 @@ bool StraightStroke::beside(const Pose& a, const Vector3d& a_size_m, const Pose&
   return true;
 }
 
-// Finds the cube that is ahead of the clone, and how far all can go.
+// Finds the next cube ahead of the clone and the limits of both movements.
 void StraightStroke::look_ahead() {
   const auto along = [&](const Pose& pose) {
     return (pose.position_m - start_.position_m).dot(*direction_);
@@ -135,19 +135,19 @@ void StraightStroke::look_ahead() {
 }
 
 void StraightStroke::refuse_place(double clone) const {
-  if (clone < behind_) throw OutsideModel("the clone backs into a cube");
+  if (clone < behind_) throw OutsideModel("the clone moves backwards into a cube");
   throw OutsideModel("a second cube is touched");
 }
 
-// How far a push at that distance from the clone's axis turns the clone's edge aside.
+// Displacement of the clone's edge by rotation under a push at that distance from its axis.
 double StraightStroke::turned_aside_m(double aside_m) const {
   const double push_n = scene_.friction * scene_.cubes[*cube_].mass_kg * scene_.gravity_m_s2;
   const double turn_rad = push_n * aside_m / scene_.coupling.torsional_stiffness_nm_per_rad;
   return turn_rad * scene_.effector_size_m.norm() / 2;
 }
 
-// Friction acts below the cube's center: the clone must push there, between the cube's sides, and
-// low enough.
+// Friction acts below the cube's center. The clone must push through its center, between its sides,
+// and low enough that the cube does not tip.
 void StraightStroke::check_square() const {
   const Pose& cube = cubes_[*cube_];
   const Vector3d& size_m = scene_.cubes[*cube_].size_m;

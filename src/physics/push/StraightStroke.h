@@ -1,7 +1,7 @@
-// The scenes that `push` and `quasi_static` can represent, seen along one line: the effector moves
-// straight and level without turning and pushes at most one cube, squarely enough that the cube
-// neither turns nor tips. Anything else is refused with the reason. Places along the line are those
-// of the clone's center, in meters from where the effector was when the line began.
+// The movements that `push` and `quasi_static` model, along one line: the effector moves straight
+// and level without rotation and pushes at most one cube, so squarely that it neither rotates nor
+// tips. All other movements throw OutsideModel. Coordinates along the line are those of the clone's
+// center, in meters from the effector's position at the start of the line.
 #pragma once
 
 #include <cmath>
@@ -15,37 +15,37 @@ namespace heft {
 class StraightStroke {
  public:
   StraightStroke() = default;
-  /// @throws OutsideModel where the scene is not like that from the start
+  /// @throws OutsideModel if the start of the scene is outside the model
   StraightStroke(const Scene& scene, const Pose& target);
 
-  /// Takes the effector's next pose. The first that differs gives the line its direction.
-  /// @return how far along the line it is
-  /// @throws OutsideModel when it leaves the line or turns
+  /// Adds the effector's next pose. The first that differs from the start sets the line's
+  /// direction.
+  /// @return its coordinate along the line
+  /// @throws OutsideModel if it leaves the line or rotates
   double follow(const Pose& target);
 
-  /// Begins a new line at this pose.
+  /// Starts a new line at this pose.
   void restart(const Pose& target);
 
-  /// @throws OutsideModel when the cube does not stand on the table there
+  /// @throws OutsideModel if the cube does not stand on the table
   void place_cube(std::size_t cube, const Pose& pose);
 
-  /// Where the clone starts.
   double clone_start() const { return clone_start_; }
   bool has_direction() const { return direction_.has_value(); }
-  /// Zero as long as the line has none.
+  /// Unit vector; zero while the line has no direction.
   Eigen::Vector3d direction() const { return direction_.value_or(Eigen::Vector3d::Zero()); }
 
   const Scene& scene() const { return scene_; }
 
-  /// The cube that the clone would touch next, and where along the line.
+  /// The next cube along the line, and the clone's coordinate at which it touches the cube.
   std::optional<std::size_t> cube() const { return cube_; }
   double contact() const { return contact_; }
 
-  /// Moves the cube: the clone would touch it there now.
+  /// Moves the cube so that the clone touches it at this coordinate.
   void move_cube_to(double contact);
 
   /// @param touching whether the clone pushes the cube
-  /// @throws OutsideModel when the cube would turn or tip, or something else is touched
+  /// @throws OutsideModel if the cube would rotate or tip, or the clone or cube touches another box
   void check(double clone, bool touching);
 
   /// @param force_n mean force of the clone on the cube over the last step
@@ -53,7 +53,7 @@ class StraightStroke {
 
  private:
   static constexpr double straight_m = 0.05e-3, straight_rad = 1e-3;
-  static constexpr double still_m = 1e-9;  ///< below this a direction would be rounding
+  static constexpr double still_m = 1e-9;  ///< smaller movements have no direction
   static constexpr double still_cosine = 1 - straight_rad * straight_rad / 8;  ///< of half of it
 
   [[noreturn]] void refuse(double off_m2) const;
@@ -72,14 +72,12 @@ class StraightStroke {
   std::optional<Eigen::Vector3d> direction_;
   double clone_start_ = 0;
   std::optional<std::size_t> cube_;
-  bool square_ = false;  ///< the cube has been found to be pushed squarely
+  bool square_ = false;  ///< the push has been checked to be square
   double contact_ = 0;
-  // The clone would touch a cube behind it below `behind_`, and a second one ahead above
-  // `blocked_`; the pushed cube would touch another when `contact_` is above `cube_blocked_`.
+  // Limits of the clone's coordinate by cubes behind it and further ones ahead, and of `contact_`
+  // by cubes ahead of the pushed one.
   double behind_ = 0, blocked_ = 0, cube_blocked_ = 0;
 };
-
-// Here, to be inlined: a step is hardly more.
 
 inline double StraightStroke::follow(const Pose& target) {
   const Eigen::Vector3d moved_m = target.position_m - start_.position_m;

@@ -5,8 +5,24 @@
 #include <limits>
 #include <optional>
 
+#include "base/math/Geometry.h"
+
 namespace heft {
 
+namespace {
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// A corner in coordinates of the reference face: u, v along it from its center, w above it.
+struct FaceCorner {
+  double u = 0, v = 0, w = 0;  ///< m
+  int feature = 0;             ///< identifies a corner from step to step
+};
+
+using FacePolygon = Polygon<FaceCorner, 9>;  ///< a quadrilateral cut by four lines has eight
+
+// The part of a face with sign * coordinate <= limit. clip, the index 0...3 of the clipping line,
+// is part of new corners' features.
 FacePolygon clipped(const FacePolygon& face, double FaceCorner::*coordinate, double sign,
                     double limit, int clip) {
   return clipped(
@@ -18,6 +34,8 @@ FacePolygon clipped(const FacePolygon& face, double FaceCorner::*coordinate, dou
       });
 }
 
+// Reduces a polygon to four corners: the deepest, the farthest from it, and the farthest to each
+// side of the line between these two.
 void keep_four(FacePolygon& polygon) {
   if (polygon.size() <= 4) return;
   const auto begin = polygon.begin(), end = polygon.end();
@@ -38,12 +56,8 @@ void keep_four(FacePolygon& polygon) {
   polygon.keep_first(4);
 }
 
-namespace {
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
-// Among axes that separate about equally well, the first box's faces are preferred to the second's
-// and faces to edges, so that the choice does not flicker between steps.
+// Among axes with nearly equal gaps, faces of the first box are preferred to those of the second,
+// and faces to edges, so that the choice is stable from step to step.
 constexpr double face_preference_m = 1e-5;
 constexpr double edge_preference_m = 5e-5;
 constexpr double parallel_edges = 1e-3;  // sine of their angle
@@ -52,15 +66,15 @@ struct Axis {
   enum class Kind { first_face, second_face, edges } kind = Kind::first_face;
   double gap_m = -std::numeric_limits<double>::infinity();
   Vector3d direction = Vector3d::UnitX();  // unit, from the first to the second
-  int first = 0, second = 0;               // indices of the box axes it is made of
+  int first = 0, second = 0;               // indices of the box axes that define it
 };
 
 double reach_m(const Box& box, const Vector3d& direction) {
   return (box.axes.transpose() * direction).cwiseAbs().dot(box.half_m);
 }
 
-// Gottschalk, Lin and Manocha (1996): everything in the first box's axes.
-// Stops looking where a gap is wider than enough_m.
+// Separating axes in the frame of the first box (Gottschalk, Lin and Manocha 1996). Returns early
+// when a gap is wider than enough_m.
 Axis widest_gap(const Box& a, const Box& b, double enough_m) {
   const Vector3d between = a.axes.transpose() * (b.center_m - a.center_m);
   const Matrix3d turn = a.axes.transpose() * b.axes;
@@ -105,8 +119,8 @@ Axis widest_gap(const Box& a, const Box& b, double enough_m) {
   return best;
 }
 
-// The fractions of travel_m, of `a`, between which the boxes overlap: they do while they overlap
-// along every axis. Leave is before enter where they never do.
+// The fractions of travel_m of `a` between which the boxes overlap, that is, along every axis.
+// leave < enter if they never do.
 struct Passage {
   double enter = -1, leave = 2;
 };
@@ -136,7 +150,7 @@ Passage passage(const Box& a, const Box& b, const Vector3d& travel_m) {
   return passage;
 }
 
-// The face of `box` that looks most against `normal`, in coordinates of the reference face.
+// The face of `box` most opposed to `normal`, in coordinates of the reference face.
 FacePolygon facing_face(const Box& box, const Vector3d& normal, const Vector3d& face_center_m,
                         const Vector3d& u, const Vector3d& v) {
   Eigen::Index k = 0;
@@ -184,7 +198,7 @@ Contact face_contact(const Box& reference, const Box& other, const Vector3d& nor
   return contact;
 }
 
-// The point in the middle of the edge along box axis k that reaches farthest towards `direction`.
+// Middle of the edge along box axis k that is farthest towards `direction`.
 Vector3d edge_middle_m(const Box& box, const Vector3d& direction, int k) {
   Vector3d middle_m = box.center_m;
   for (int i = 0; i < 3; ++i)
@@ -193,7 +207,7 @@ Vector3d edge_middle_m(const Box& box, const Vector3d& direction, int k) {
   return middle_m;
 }
 
-// Two crossing edges touch where the lines through them come nearest.
+// Two crossing edges touch at the points where their lines are nearest.
 Contact edge_contact(const Box& a, const Box& b, const Axis& axis) {
   const Vector3d u = a.axes.col(axis.first), v = b.axes.col(axis.second);
   const Vector3d p = edge_middle_m(a, axis.direction, axis.first);
@@ -207,6 +221,14 @@ Contact edge_contact(const Box& a, const Box& b, const Axis& axis) {
   contact.points[0] = {p + s * u, q + t * v, axis.gap_m, -1 - 3 * axis.first - axis.second};
   contact.n_points = 1;
   return contact;
+}
+
+// Fraction of travel_m of the first box at which the boxes begin to overlap; none if they do not,
+// or overlap from the start.
+std::optional<double> meeting(const Box& first, const Box& second, const Vector3d& travel_m) {
+  const auto [enter, leave] = passage(first, second, travel_m);
+  if (enter <= 0 || enter > 1 || enter >= std::min(leave, 1.0)) return std::nullopt;
+  return enter;
 }
 }  // namespace
 
@@ -228,12 +250,6 @@ Contact contact_between(const Box& first, const Box& second, double margin_m) {
       return edge_contact(first, second, axis);
   }
   return {};
-}
-
-std::optional<double> meeting(const Box& first, const Box& second, const Vector3d& travel_m) {
-  const auto [enter, leave] = passage(first, second, travel_m);
-  if (enter <= 0 || enter > 1 || enter >= std::min(leave, 1.0)) return std::nullopt;
-  return enter;
 }
 
 Contact contact_on_the_way(const Box& first, const Box& second, const Vector3d& travel_m,

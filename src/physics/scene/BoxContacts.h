@@ -1,4 +1,4 @@
-// Where boxes touch, or would meet next. No masses and no forces live here.
+// Contact detection between boxes, also swept along a path, and with the table. Geometry only.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,29 +7,8 @@
 #include <span>
 
 #include "base/PoseTypes.h"
-#include "base/math/Geometry.h"
 
 namespace heft {
-
-// The part of one box's face that lies over another box's face: corners, clipping, and which four
-// corners to keep.
-
-/// A corner in coordinates of the reference face: u, v along it from its center, w above it.
-struct FaceCorner {
-  double u = 0, v = 0, w = 0;  ///< m
-  int feature = 0;             ///< equal in the next step for the same corner
-};
-
-using FacePolygon = Polygon<FaceCorner, 9>;  ///< a quadrilateral cut by four lines has eight
-
-/// The part within sign * coordinate <= limit.
-/// @param clip 0...3, which of the four lines; part of new corners' features
-FacePolygon clipped(const FacePolygon& face, double FaceCorner::*coordinate, double sign,
-                    double limit, int clip);
-
-/// Reduces a polygon to the four corners that hold a body best: the deepest, the farthest from it,
-/// and the farthest to either side of the line between these two.
-void keep_four(FacePolygon& polygon);
 
 struct Box {
   Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
@@ -42,10 +21,10 @@ Box box_at(const Pose& pose, const Eigen::Vector3d& size_m);
 struct ContactPoint {
   Eigen::Vector3d on_first_m, on_second_m;
   double distance_m = 0;  ///< along the normal; negative where the boxes overlap
-  int feature = 0;        ///< equal in the next step if the same corner or edge touches
+  int feature = 0;        ///< identifies a corner or edge from step to step
 };
 
-/// Where two bodies meet: at most four points that share a normal.
+/// Contact of two bodies: up to four points with a common normal.
 struct Contact {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, from the second to the first
   std::array<ContactPoint, 4> points;
@@ -56,23 +35,18 @@ struct Contact {
   }
 };
 
-/// Contact of two boxes nearer than margin_m: points at positive distances too, so that a solver
-/// can stop the boxes where they meet instead of pushing them apart afterwards.
+/// Contact of two boxes nearer than margin_m (separating-axis test and clipping). It includes
+/// points at positive distances, so that a solver can stop the boxes before they overlap.
 Contact contact_between(const Box& first, const Box& second, double margin_m);
 
-/// The same for a first box on its way along travel_m, as seen from the second: if the boxes meet
-/// on the way, the contact is the one there, brought back to where the first box is now. Finds the
-/// face that is hit, however far away or beside the other box it still is; does not look at
-/// turning.
+/// The same for a first box that moves by travel_m relative to the second, without rotation. If the
+/// boxes meet on the way, the contact is found there and moved back to the current position, which
+/// selects the face that will be hit.
 Contact contact_on_the_way(const Box& first, const Box& second, const Eigen::Vector3d& travel_m,
                            double margin_m);
 
-/// The share of travel_m, of the first box, after which the boxes begin to overlap; none if they do
-/// not, or do from the start. Does not look at turning.
-std::optional<double> meeting(const Box& first, const Box& second, const Eigen::Vector3d& travel_m);
-
-/// The share of travel_m, of the first box, after which the boxes no longer overlap; none if they
-/// do not overlap or still do at its end. Does not look at turning.
+/// Fraction of travel_m of the first box at which the boxes stop overlapping, without rotation;
+/// none if they do not overlap, or still do at its end.
 std::optional<double> parting(const Box& first, const Box& second, const Eigen::Vector3d& travel_m);
 
 /// Contact of a box (first) with the table plane z = 0 (second): its lowest corners.

@@ -1,4 +1,4 @@
-// Closed forms that simulators are held to. They have tests of their own in oracles_test.cpp.
+// Closed-form solutions that simulators are tested against.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ class FreeReturn {
 
   double omega_rad_s() const { return omega_; }
 
-  /// Fraction of the first offset that is left after t_s.
+  /// Offset after t_s as a fraction of the first one.
   double operator()(double t_s) const {
     const double wt = omega_ * t_s;
     if (std::abs(z_ - 1) < 1e-9) return (1 + wt) * std::exp(-wt);
@@ -28,12 +28,12 @@ class FreeReturn {
   double omega_, z_;
 };
 
-/// Newton's third law: what pushes a sliding cube steadily holds friction's whole force.
+/// Force that pushes a sliding cube at a constant velocity.
 inline double sliding_force_n(double friction, double mass_kg, double gravity_m_s2 = 9.81) {
   return friction * mass_kg * gravity_m_s2;
 }
 
-/// How far the clone then stays behind the effector (paper, section 3.2).
+/// Distance of the clone behind the effector at that force (paper, section 3.2).
 inline double steady_lag_m(double friction, double mass_kg, double stiffness_n_per_m) {
   return sliding_force_n(friction, mass_kg) / stiffness_n_per_m;
 }

@@ -1,4 +1,4 @@
-// A number that depends on a mass, as a technique's table gives it.
+// A parameter of a technique as a function of mass.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace heft {
 
-/// Interpolated over the logarithm of mass; beyond the table's ends, theirs.
+/// A table, interpolated linearly over the logarithm of mass and constant beyond its ends.
 class MassCurve {
  public:
   struct Point {
@@ -37,7 +37,7 @@ class MassCurve {
 };
 
 /// "gain 0.95 at 15 g, 0.2 at 800 g, back in 0.05 s"
-/// @param unit behind each of the curve's values, with its space
+/// @param unit of the curve's values, with a leading space
 std::string displacement_text(std::string_view name, const MassCurve& curve, std::string_view unit,
                               double return_s);
 

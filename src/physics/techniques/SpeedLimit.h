@@ -1,9 +1,9 @@
-// The technique `speed_limit`. While the clone touches cubes of mass m together it goes straight
-// towards the hand, no faster than v(m): of the way w that it is from the hand at the end of a step
-// of h seconds there remains
+// The technique `speed_limit`. While the clone touches cubes of total mass m, it moves straight
+// towards the hand, at most at speed v(m): of its distance |w| from the hand, a step of h seconds
+// leaves
 //   max(0, |w| - v(m) h).
-// A hand that pushes at speed u for t seconds is (u - v) t ahead, and the clone catches up with one
-// that waits: mass is told by how fast a cube can be moved.
+// A hand that pushes at speed u for t seconds is (u - v) t ahead, and the clone reaches a hand that
+// waits. The cue to mass is the speed at which a cube can be moved.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,15 +17,15 @@ struct SpeedLimit {
   static constexpr std::string_view kind = "speed_limit";
 
   MassCurve of_mass;       ///< m/s
-  double return_s = 0.05;  ///< of the way back, see DisplacedSimulator.h
+  double return_s = 0.05;  ///< time constant of the return, see Displacement.h
 
-  /// The displacement at the end of a step in which the hand moves.
+  /// The displacement after a step in which the hand moves.
   Eigen::Vector3d after(const Eigen::Vector3d& displacement_m, const Eigen::Vector3d& hand_moves_m,
                         double mass_kg, double h_s) const {
     const Eigen::Vector3d behind_m = displacement_m - hand_moves_m;
-    const double can_go_m = of_mass.at(mass_kg) * h_s, way_m = behind_m.norm();
-    return way_m > can_go_m ? Eigen::Vector3d(behind_m * (1 - can_go_m / way_m))
-                            : Eigen::Vector3d::Zero();
+    const double limit_m = of_mass.at(mass_kg) * h_s, distance_m = behind_m.norm();
+    return distance_m > limit_m ? Eigen::Vector3d(behind_m * (1 - limit_m / distance_m))
+                                : Eigen::Vector3d::Zero();
   }
   /// For reports.
   std::string described() const {
@@ -35,9 +35,9 @@ struct SpeedLimit {
 template <typename Law, typename Visit>
 requires ConfigOf<Law, SpeedLimit>
 void visit_keys(Law& law, Visit&& visit) {
-  visit(ConfigKey{"limit_m_s_of_mass", "how fast the clone may go", true}, law.of_mass,
+  visit(ConfigKey{"limit_m_s_of_mass", "largest speed of the clone", true}, law.of_mass,
         Range{0, 100});
-  visit(ConfigKey{"return_s", "time constant of the way back"}, law.return_s, above_zero);
+  visit(ConfigKey{"return_s", "time constant of the return"}, law.return_s, above_zero);
 }
 
 }  // namespace heft

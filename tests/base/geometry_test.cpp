@@ -1,4 +1,6 @@
-// Clipping: what is kept and what is cut off make up the whole.
+// Clipping of convex polygons.
+#include "base/math/Geometry.h"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -8,7 +10,6 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "base/math/Geometry.h"
 
 namespace heft {
 namespace {

@@ -1,20 +1,31 @@
-#include "physics/techniques/DisplacedSimulator.h"
+#include "physics/techniques/Displacement.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 
 #include "base/Pose.h"
 #include "base/math/Geometry.h"
+#include "physics/DecouplingSimulator.h"
 
 namespace heft {
+
+std::string displacement_text(std::string_view name, const MassCurve& curve, std::string_view unit,
+                              double return_s) {
+  std::string values;
+  for (const MassCurve::Point& point : curve.points())
+    values += fmt::format("{:g}{} at {:g} g, ", point.value, unit, 1e3 * point.mass_kg);
+  return fmt::format("{} {}back in {:g} s", name, values, return_s);
+}
 
 namespace {
 using Eigen::Vector3d;
 
 constexpr double touching_m = 1e-5;
-constexpr double longest_way_m = 5e-3;    // of the hand's tip between two looks
-constexpr double between_looks_m = 0.01;  // on the way from hand to clone, less than a cube
-constexpr int most_cuts = 4;              // of one such way
-constexpr int halvings = 20;              // until the time of a touch is known
+constexpr double max_travel_m = 5e-3;       // of the effector's tip in one substep
+constexpr double sample_distance_m = 0.01;  // between hand and clone, less than a cube
+constexpr int max_divisions = 4;            // of one substep
+constexpr int n_bisections = 20;            // for the time of a contact
 
 class DisplacedSimulator : public DecouplingSimulator {
  public:
@@ -30,15 +41,15 @@ class DisplacedSimulator : public DecouplingSimulator {
   std::optional<SolveCounts> counts() const override { return simulator_->counts(); }
 
  private:
-  void forget();
-  void take_note();
+  void clear_history();
+  void update_contacts();
   bool meets(const Pose& effector, std::size_t cube) const;
   bool touches(std::size_t cube, const Pose& hand, const Vector3d& displacement_m) const;
   double touched_kg(const Pose& hand, const Vector3d& displacement_m) const;
   Vector3d displacement_at(const Pose& hand, double h_s) const;
   double fraction_until_change(const Pose& hand, double h_s) const;
-  void go(const Pose& hand, double h_s);
-  void go_on(const Pose& hand, double h_s);
+  void step_simulator(const Pose& hand, double h_s);
+  void substep(const Pose& hand, double h_s);
 
   std::unique_ptr<DecouplingSimulator> simulator_;
   Scene scene_;
@@ -47,9 +58,9 @@ class DisplacedSimulator : public DecouplingSimulator {
   Pose hand_;
   Vector3d displacement_m_ = Vector3d::Zero();
   std::vector<bool> touched_;
-  double touched_kg_ = 0;                      // all of them together
-  Vector3d released_at_m_ = Vector3d::Zero();  // displaced by so much,
-  double since_release_s_ = 0;                 // so long ago
+  double touched_kg_ = 0;                      // their total mass
+  Vector3d released_at_m_ = Vector3d::Zero();  // displacement at the end of the last contact
+  double since_release_s_ = 0;
 };
 
 Pose moved(const Pose& hand, const Vector3d& displacement_m) {
@@ -61,17 +72,17 @@ void DisplacedSimulator::reset(const Scene& scene, const Pose& target) {
   scene_ = scene;
   hand_ = target;
   solid_ = true;
-  forget();
+  clear_history();
 }
 
-void DisplacedSimulator::forget() {
+void DisplacedSimulator::clear_history() {
   displacement_m_ = released_at_m_ = Vector3d::Zero();
   touched_.assign(scene_.cubes.size(), false);
   touched_kg_ = 0;
-  take_note();
+  update_contacts();
 }
 
-void DisplacedSimulator::take_note() {
+void DisplacedSimulator::update_contacts() {
   cubes_ = simulator_->state().cubes;
   const bool held = touched_kg_ > 0;
   touched_kg_ = touched_kg(hand_, displacement_m_);
@@ -91,7 +102,7 @@ bool DisplacedSimulator::touches(std::size_t cube, const Pose& hand,
   if (!solid_) return false;
   if (meets(moved(hand, displacement_m), cube)) return true;
   if (!touched_[cube]) return false;
-  const double n = std::max(1.0, std::ceil(displacement_m.norm() / between_looks_m));
+  const double n = std::max(1.0, std::ceil(displacement_m.norm() / sample_distance_m));
   for (double i = 0; i < n; ++i)
     if (meets(moved(hand, i / n * displacement_m), cube)) return true;
   return false;
@@ -105,17 +116,16 @@ double DisplacedSimulator::touched_kg(const Pose& hand, const Vector3d& displace
 }
 
 Vector3d DisplacedSimulator::displacement_at(const Pose& hand, double h_s) const {
-  const auto by_law = [&](const auto& law) -> Vector3d {
+  const auto apply_law = [&](const auto& law) -> Vector3d {
     if (touched_kg_ > 0)
       return law.after(displacement_m_, hand.position_m - hand_.position_m, touched_kg_, h_s);
     const double t = (since_release_s_ + h_s) / law.return_s;
     return released_at_m_ * ((1 + t) * std::exp(-t));
   };
-  return std::visit(by_law, *scene_.displacement);
+  return std::visit(apply_law, *scene_.displacement);
 }
 
-// The fraction of a step after which what is touched is not what it was, or the clone has caught up
-// with the hand.
+// The fraction of a step at which the touched cubes change or the clone reaches the hand.
 double DisplacedSimulator::fraction_until_change(const Pose& hand, double h_s) const {
   const auto changed = [&](double fraction) {
     const Pose there = interpolate(hand_, hand, fraction);
@@ -125,58 +135,58 @@ double DisplacedSimulator::fraction_until_change(const Pose& hand, double h_s) c
   };
   if (!changed(1)) return 1;
   double before = 0, after = 1;
-  for (int i = 0; i < halvings; ++i) {
+  for (int i = 0; i < n_bisections; ++i) {
     const double middle = (before + after) / 2;
     (changed(middle) ? after : before) = middle;
   }
   return after;
 }
 
-void DisplacedSimulator::go(const Pose& hand, double h_s) {
+void DisplacedSimulator::step_simulator(const Pose& hand, double h_s) {
   displacement_m_ = displacement_at(hand, h_s);
   since_release_s_ += h_s;
   hand_ = hand;
   simulator_->step(moved(hand, displacement_m_), h_s);
-  take_note();
+  update_contacts();
 }
 
-void DisplacedSimulator::go_on(const Pose& hand, double h_s) {
+void DisplacedSimulator::substep(const Pose& hand, double h_s) {
   double left_s = h_s;
-  for (int cut = 0; cut < most_cuts; ++cut) {
+  for (int i = 0; i < max_divisions; ++i) {
     const double fraction = fraction_until_change(hand, left_s);
     if (fraction >= 1) break;
-    go(interpolate(hand_, hand, fraction), fraction * left_s);
+    step_simulator(interpolate(hand_, hand, fraction), fraction * left_s);
     left_s -= fraction * left_s;
   }
-  go(hand, left_s);
+  step_simulator(hand, left_s);
 }
 
 void DisplacedSimulator::step(const Pose& target, double h_s) {
   const Pose from = hand_;
   const Velocity mean = mean_velocity(from, target, 1);
-  const double way_m =
+  const double travel_m =
       mean.linear_m_s.norm() + mean.angular_rad_s.norm() * scene_.effector_size_m.norm() / 2;
-  const double n = std::max(1.0, std::ceil(way_m / longest_way_m));
-  for (double i = 1; i < n; ++i) go_on(interpolate(from, target, i / n), h_s / n);
-  go_on(target, h_s / n);
+  const double n = std::max(1.0, std::ceil(travel_m / max_travel_m));
+  for (double i = 1; i < n; ++i) substep(interpolate(from, target, i / n), h_s / n);
+  substep(target, h_s / n);
 }
 
 void DisplacedSimulator::teleport_clone(const Pose& target, const Velocity& velocity) {
   simulator_->teleport_clone(target, velocity);
   hand_ = target;
-  forget();
+  clear_history();
 }
 
 void DisplacedSimulator::set_clone_solid(bool solid) {
   simulator_->set_clone_solid(solid);
   solid_ = solid;
-  take_note();
+  update_contacts();
 }
 
 void DisplacedSimulator::place_cube(int cube, const Pose& pose) {
   simulator_->place_cube(cube, pose);
   touched_[static_cast<std::size_t>(cube)] = false;
-  take_note();
+  update_contacts();
 }
 }  // namespace
 

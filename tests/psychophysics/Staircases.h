@@ -1,4 +1,4 @@
-// Staircases for tests: the paper's, runs over written-out answers, and random ones.
+// Staircases for tests: the paper's, traces of given responses, and random configurations.
 #pragma once
 
 #include <rapidcheck.h>
