@@ -187,7 +187,7 @@ LikelihoodFit maximize_turned(const std::vector<Level>& levels, const Eigen::Mat
       bounds, starts);
 }
 
-// To where bias at level 0, which is sensitivity * zero + bias on the axis, is an axis of its own.
+// Rotation after which the bias at level 0, sensitivity * zero + bias, is one of the axes.
 Eigen::Matrix4d turn_to(double zero) {
   const double length = std::hypot(1, zero);
   Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();

@@ -58,8 +58,9 @@ void IntervalEnd::search(double first_step) {
       distance *= 2;
       n_doublings += 1;
     }
-    // Where the others go on as they went, or stay: going on may lead to a bound where nothing is
-    // likely, and from where no way leads back.
+    // Start of the other parameters: extrapolated from the last two points, or the last point
+    // itself. An
+    // extrapolation may reach a bound where the likelihood is 0 and the search cannot return.
     const Parameters ahead = last_.at + (to - last_.at[parameter_]) * change;
     const Maximum outer = likelier(likelihood_.profile(parameter_, to, ahead, last_.at),
                                    likelihood_.profile_from_anywhere(parameter_, to, last_.at));

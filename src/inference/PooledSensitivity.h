@@ -2,14 +2,14 @@
 // their criteria.
 //
 // Each person follows the indecision model (psychophysics/ObserverModels.h) with a lapse rate
-// of .02 and an indecision and a side bias of their own, which are random effects: log indecision
+// of .02 and an own indecision and side bias, which are random effects: log indecision
 // and bias are normal over people, with spreads estimated from the answers (EM), and integrated out
 // (Laplace). To maximize them out instead makes the sensitivity of 20 to 50 trials a person 8 to 50
 // % too large. What remains is each person's likelihood of a sensitivity, on a grid.
 //
 // The sensitivity that all have in common says whether there is any: its interval holds 0 or not.
 // Where there is, the estimate is the median of sensitivities that are log-normal over people, each
-// with criteria of their own (SensitivitySpread.h). Intervals come from a bootstrap over people: as
+// with its own criteria (SensitivitySpread.h). Intervals come from a bootstrap over people: as
 // many as the study has are drawn with replacement, and the percentiles are taken farther out, as
 // Student's t and n/(n-1) ask for where people are few (Hesterberg 2015, "expanded percentile
 // interval"); the median's are symmetric about its logarithm (Hall 1988). The indecision's comes

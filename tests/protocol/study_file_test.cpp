@@ -180,7 +180,8 @@ TEST(BrokenStudy, IsRefusedAtItsPlace) {
 
 TEST(BrokenStudy, IdsThatNobodyCanHaveAreRefused) {
   EXPECT_THAT(mistakes_in(study("id_prefix = \"P\\u0007\"\n")),
-              HasSubstr("lab/STUDY.toml:5:13: id_prefix \"P \" can't be: the id holds"));
+              HasSubstr("lab/STUDY.toml:5:13: id_prefix \"P \" can't be: the id contains the "
+                        "control character U+0007"));
   EXPECT_THAT(mistakes_in(study("id_prefix = \"" + std::string(199, 'x') + "\"\n")),
               HasSubstr("has 201 bytes"));
   EXPECT_THAT(mistakes_in(study("id_prefix = \" P\"\n")), HasSubstr("begins with a blank"));

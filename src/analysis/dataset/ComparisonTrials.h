@@ -61,8 +61,8 @@ std::map<std::string, AnswersByLevel> answers_by_side(const ComparisonTrials& tr
 using ComparedTrials = std::vector<const ComparedTrial*>;
 ComparedTrials pointers_to(const std::deque<ComparedTrial>& trials);
 
-/// Those whose differences lie next to each other, in bins of about as many; those at 0, catch
-/// trials too, are one of their own.
+/// Trials in bins of neighboring differences, about equally many in each; those at 0, catch trials
+/// included, form a separate bin.
 std::vector<ComparedTrials> binned(ComparedTrials trials);
 
 }  // namespace heft

@@ -37,7 +37,7 @@ StudyEstimate at_compared(StudyEstimate estimate, const Compared& compared) {
   return estimate;
 }
 
-constexpr std::size_t most_lines = 60;  // more participants have no line of their own
+constexpr std::size_t most_lines = 60;  // more participants are not drawn one by one
 
 double mean_level_g(const ComparedTrials& bin) {
   const double sum =

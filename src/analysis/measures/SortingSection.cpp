@@ -1,5 +1,4 @@
-// Sorting: what the answers were in each condition, of each participant, and which cube was taken
-// for which.
+// Sorting: answers by condition and by participant, and the confusion matrix.
 #include <fmt/format.h>
 
 #include <functional>
@@ -221,7 +220,7 @@ EstimateTable swaps_table() {
 
 EstimateTable label_table() {
   EstimateTable table{"sorting_confusion",
-                      "Confusion matrix: which label which cube was given",
+                      "Confusion matrix of labels and cubes",
                       {key_column("condition", "condition"), key_column("n_cubes", "of"),
                        key_column("cube", "cube")},
                       "numbers of sorted trials, without \"I don't know\"; right answers on the "
@@ -352,10 +351,8 @@ class SortingSection final : public Section {
     return {
         {.name = "sorting",
          .title = "Sorting: answers per condition, 95 % intervals",
-         .caption = "Percentage of completed trials, mean over participants with 95 % intervals "
-                    "over participants, side by side for each condition; diamonds: the paper's "
-                    "means. \"I don't know\" is a separate outcome. Dashed: what a random order "
-                    "gets right.",
+         .caption = "Percentage of completed trials, mean over participants with 95 % intervals. "
+                    "Diamonds: the paper's means. Dashed: correct by chance.",
          .csv = "sorting.csv",
          .importance = 10,
          .series = {{&answers, "", {"trials", "all"}}},
@@ -366,8 +363,7 @@ class SortingSection final : public Section {
          .axes = "set yrange [0:100]\n"},
         {.name = "sorting_by_participant",
          .title = "Correct sortings of each participant",
-         .caption = "Percentage of each participant's completed trials that were sorted "
-                    "correctly; a line joins one's conditions. \"I don't know\" is not correct.",
+         .caption = "Percentage of completed trials; a line joins a participant's conditions.",
          .csv = "sorting_by_participant.csv",
          .shape = ChartShape::linked,
          .importance = 45,
@@ -377,11 +373,9 @@ class SortingSection final : public Section {
          .y_label = "% of trials sorted correctly",
          .axes = "set yrange [-3:103]\n"},
         {.name = "sorting_confusion",
-         .title = "Confusion matrix: which label which cube was given",
-         .caption =
-             "Sorted trials, all participants together, without \"I don't know\": how often "
-             "each cube got each label, and in how many percent of its labels. Right ones on "
-             "the diagonal.",
+         .title = "Confusion matrix of labels and cubes",
+         .caption = "Sorted trials of all participants, without \"I don't know\": counts, and "
+                    "percent of the cube's labels. Correct labels are on the diagonal.",
          .csv = "sorting_confusion.csv",
          .shape = ChartShape::matrix,
          .importance = 50,
@@ -395,7 +389,7 @@ class SortingSection final : public Section {
 
  private:
   std::map<std::string, Counted> conditions_;
-  std::map<std::string, Tallies> correct_;  // what is kept of them
+  std::map<std::string, Tallies> correct_;  // of each condition
 };
 }  // namespace
 

@@ -273,7 +273,7 @@ Table dictionary_table(const Summary& summary) {
       "Data dictionary: the columns of the log",
       {{"table", "table"}, {"column", "column"}, {"unit", "unit"}, {"meaning", "meaning"}},
       {},
-      "heft export writes these as CSV, Psych-DS or BIDS, with a dictionary of their own; the CSV "
+      "heft export writes these as CSV, Psych-DS or BIDS, with a separate dictionary; the CSV "
       "files of this report are explained below each of its tables and figures, and measures.csv "
       "says what each measure is"};
   if (summary.sessions.empty()) return table;
