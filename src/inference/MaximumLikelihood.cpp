@@ -59,8 +59,7 @@ void IntervalEnd::search(double first_step) {
       n_doublings += 1;
     }
     // Start of the other parameters: extrapolated from the last two points, or the last point
-    // itself. An
-    // extrapolation may reach a bound where the likelihood is 0 and the search cannot return.
+    // itself. An extrapolation may reach a bound where the likelihood is 0, without a way back.
     const Parameters ahead = last_.at + (to - last_.at[parameter_]) * change;
     const Maximum outer = likelier(likelihood_.profile(parameter_, to, ahead, last_.at),
                                    likelihood_.profile_from_anywhere(parameter_, to, last_.at));
