@@ -32,12 +32,9 @@ void read_analysis(TableReader& protocol, AnalysisPlan& plan) {
 void read_exclusion(TableReader& protocol, ExclusionRules& rules) {
   protocol.in_table("exclusion", [&](TableReader& table) {
     table.read("unfinished", rules.unfinished);
+    // Protocols in logs may have the former name.
+    table.read("impossible_answers", rules.anticipatory_responses, fractions);
     table.read("anticipatory_responses", rules.anticipatory_responses, fractions);
-    std::optional<double> former;  // the key's name in earlier editions
-    table.read("impossible_answers", former);
-    if (table.has("impossible_answers"))
-      table.mistake("impossible_answers",
-                    "impossible_answers is not a key any more, expected anticipatory_responses");
     table.read("false_alarms", rules.false_alarms, fractions);
     table.read("out_of_view", rules.out_of_view, fractions);
   });
