@@ -107,8 +107,10 @@ class Replay : public ::testing::Test {
 
 TEST_F(Replay, LogsOfOlderVersionsAreVerified) {
   for (const int version : {5, 6}) {
-    test::copy_older_log(path, version);
-    const LogReader reader(path.string());
+    const test::TemporaryFolder folder;
+    const std::string file = folder.file("older.db");
+    test::copy_older_log(file, version);
+    const LogReader reader(file);
     for (const SessionRow& session : reader.sessions()) {
       const Verification found = verify_session(reader, session.session_id, [](double) {});
       EXPECT_FALSE(found.first) << "session " << session.session_id << ": " << found.first->what
