@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "analysis/charts/Gnuplot.h"
+#include "analysis/charts/Plot.h"
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/files/Csv.h"

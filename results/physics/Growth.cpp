@@ -1,5 +1,5 @@
 // Cost of a step against the number of cubes: asleep, apart while one is pushed, in a row.
-#include "analysis/charts/Gnuplot.h"
+#include "analysis/charts/Plot.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/physics/scenes/RandomScenes.h"
 #include "results/physics/scenes/SceneRun.h"

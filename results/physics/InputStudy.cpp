@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "analysis/charts/Gnuplot.h"
+#include "analysis/charts/Plot.h"
 #include "base/Pose.h"
 #include "base/Random.h"
 #include "base/SimulationChoices.h"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/charts/Gnuplot.h"
+#include "analysis/charts/Plot.h"
 #include "base/Error.h"
 #include "base/SimulationChoices.h"
 #include "physics/scene/Oracles.h"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <map>
 
-#include "analysis/charts/Gnuplot.h"
+#include "analysis/charts/Plot.h"
 #include "results/physics/Stability.h"
 
 namespace heft {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/charts/Gnuplot.h"
-#include "base/math/Statistics.h"
+#include "analysis/charts/Plot.h"
+#include "base/math/Quantiles.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/physics/scenes/Measurements.h"
 

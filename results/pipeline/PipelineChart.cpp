@@ -1,6 +1,6 @@
 #include <array>
 
-#include "analysis/charts/Gnuplot.h"
+#include "analysis/charts/Plot.h"
 #include "results/Study.h"
 #include "results/pipeline/Chain.h"
 #include "results/tracking/TrackingStudy.h"

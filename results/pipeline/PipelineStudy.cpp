@@ -3,7 +3,7 @@
 #include <fstream>
 #include <numeric>
 
-#include "base/math/Statistics.h"
+#include "base/math/Quantiles.h"
 #include "results/Study.h"
 #include "results/pipeline/Chain.h"
 #include "results/tracking/TrackingStudy.h"

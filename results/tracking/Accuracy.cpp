@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "analysis/charts/Gnuplot.h"
+#include "analysis/charts/Plot.h"
 #include "results/tracking/TrackingStudy.h"
 #include "results/tracking/comparison/ComparisonTracker.h"
 

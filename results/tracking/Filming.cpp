@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/Pose.h"
-#include "base/math/Statistics.h"
+#include "base/math/Quantiles.h"
 #include "results/Study.h"
 #include "results/tracking/TrackingStudy.h"
 #include "tracking/pose/MarkerBody.h"

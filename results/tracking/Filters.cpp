@@ -3,8 +3,8 @@
 #include <limits>
 #include <map>
 
-#include "analysis/charts/Gnuplot.h"
-#include "base/math/Statistics.h"
+#include "analysis/charts/Plot.h"
+#include "base/math/Quantiles.h"
 #include "results/tracking/TrackingStudy.h"
 
 namespace heft {

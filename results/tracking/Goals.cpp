@@ -3,7 +3,7 @@
 #include <iterator>
 #include <limits>
 
-#include "base/math/Statistics.h"
+#include "base/math/Quantiles.h"
 #include "physics/Drive.h"
 #include "results/tracking/faults/FaultStudy.h"
 #include "tracking/calibration/CameraCalibration.h"

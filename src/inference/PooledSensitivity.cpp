@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "base/Random.h"
-#include "base/math/Statistics.h"
+#include "base/math/Quantiles.h"
 #include "inference/CriteriaFit.h"
 #include "inference/MaximumLikelihood.h"
 #include "inference/SensitivitySpread.h"

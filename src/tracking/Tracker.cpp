@@ -8,7 +8,7 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "base/Pose.h"
-#include "base/math/Statistics.h"
+#include "base/math/Quantiles.h"
 #include "tracking/calibration/Response.h"
 #include "tracking/camera/ImageConversion.h"
 #include "tracking/camera/RollingShutter.h"

@@ -6,7 +6,7 @@
 
 #include "MadeUpSessions.h"
 #include "analysis/charts/Charts.h"
-#include "analysis/report/Json.h"
+#include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"
 
 namespace heft {

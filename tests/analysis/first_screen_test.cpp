@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "MadeUpSessions.h"
-#include "analysis/report/FirstScreen.h"
+#include "analysis/report/Report.h"
 
 namespace heft {
 namespace {

@@ -1,7 +1,7 @@
 // Texts in gnuplot's scripts.
-#include "analysis/charts/Gnuplot.h"
-
 #include <gtest/gtest.h>
+
+#include "analysis/charts/Plot.h"
 
 namespace heft {
 namespace {

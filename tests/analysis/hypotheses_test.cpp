@@ -3,8 +3,8 @@
 
 #include "MadeUpSessions.h"
 #include "analysis/dataset/Summary.h"
-#include "analysis/report/Json.h"
 #include "analysis/report/Notes.h"
+#include "analysis/report/Report.h"
 #include "nlohmann/json.hpp"
 
 namespace heft {

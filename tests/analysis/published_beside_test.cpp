@@ -6,7 +6,7 @@
 
 #include "MadeUpSessions.h"
 #include "analysis/charts/Charts.h"
-#include "analysis/report/RecordTables.h"
+#include "analysis/report/Tables.h"
 
 namespace heft {
 namespace {

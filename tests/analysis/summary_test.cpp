@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MadeUpSessions.h"
-#include "analysis/report/Json.h"
+#include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"
 
 namespace heft {

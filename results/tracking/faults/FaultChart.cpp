@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "analysis/charts/Gnuplot.h"
+#include "analysis/charts/Plot.h"
 #include "results/tracking/faults/FaultStudy.h"
 
 namespace heft {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "analysis/charts/Gnuplot.h"
+#include "analysis/charts/Plot.h"
 #include "results/tracking/TrackingStudy.h"
 
 namespace heft {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "analysis/charts/ChartSpec.h"
-#include "analysis/charts/Gnuplot.h"
+#include "analysis/charts/Plot.h"
 
 namespace heft {
 

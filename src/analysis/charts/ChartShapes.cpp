@@ -6,7 +6,6 @@
 #include <map>
 
 #include "analysis/charts/ChartAxis.h"
-#include "analysis/charts/Gnuplot.h"
 #include "analysis/charts/Plot.h"
 #include "analysis/report/Tables.h"
 

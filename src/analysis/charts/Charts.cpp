@@ -4,10 +4,8 @@
 
 #include <algorithm>
 
-#include "analysis/charts/Gnuplot.h"
 #include "analysis/charts/Plot.h"
 #include "analysis/measures/Section.h"
-#include "analysis/report/RecordTables.h"
 #include "analysis/report/Tables.h"
 
 namespace heft {

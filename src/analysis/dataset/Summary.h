@@ -15,7 +15,6 @@
 #include "analysis/dataset/Participants.h"
 #include "analysis/dataset/ProtocolChoices.h"
 #include "analysis/dataset/Quality.h"
-#include "analysis/dataset/SessionIncidents.h"
 #include "analysis/dataset/StudyEstimate.h"
 #include "analysis/dataset/Tracks.h"
 

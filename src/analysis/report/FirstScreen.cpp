@@ -1,11 +1,10 @@
-#include "analysis/report/FirstScreen.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
 #include "analysis/report/Notes.h"
+#include "analysis/report/Report.h"
 #include "analysis/report/Table.h"
 #include "analysis/report/Tables.h"
 #include "base/files/Printable.h"

@@ -1,11 +1,10 @@
-#include "analysis/report/Json.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"
 
 namespace heft {

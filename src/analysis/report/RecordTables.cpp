@@ -1,8 +1,7 @@
 // Tables of records: participants, sessions, staircases, incidents, configurations.
-#include "analysis/report/RecordTables.h"
-
 #include <fmt/format.h>
 
+#include "analysis/report/Tables.h"
 #include "experiment/Rows.h"
 
 namespace heft {

@@ -10,10 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/charts/Charts.h"
-#include "analysis/charts/Gnuplot.h"
-#include "analysis/report/Json.h"
+#include "analysis/charts/Plot.h"
 #include "analysis/report/Notes.h"
-#include "analysis/report/RecordTables.h"
 #include "analysis/report/Tables.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"

@@ -1,5 +1,5 @@
-// A folder with everything an analysis found: tables as CSV, summary.json, charts as SVG with the
-// scripts that draw them, and report.html, which needs no other file.
+// Everything that an analysis prints or writes: the report folder, summary.json and the first
+// screen.
 #pragma once
 
 #include <string>
@@ -22,5 +22,30 @@ ReportResult write_report(const Summary& summary, const std::string& folder);
 /// Whether write_report would refuse the folder; for asking before a long analysis.
 /// @throws Error as write_report
 void refuse_foreign_folder(const std::string& folder);
+
+/// A command or file for the reader's next step.
+struct NextStep {
+  std::string label;  ///< "All tables"
+  std::string what;   ///< "heft analyse --db heft.db --tables"
+};
+
+struct FirstScreenOptions {
+  std::string done{};                    ///< added to the line that counts the trials
+  std::vector<std::string> attention{};  ///< sentences beside those of the summary
+  std::vector<NextStep> next{};
+  std::size_t max_lines = 25;
+};
+
+/// What was done, the results with intervals, what deserves attention, and the next steps: at most
+/// `max_lines` lines of 80 columns, however many conditions and participants there are. Only a
+/// single word (a path) that is longer makes a line longer.
+std::string first_screen(const Summary& summary, const FirstScreenOptions& options);
+
+/// Sentences on everything that limits the results: excluded participants, void attempts, lost
+/// tracking, anticipatory responses, censored staircases, thresholds that are not identifiable.
+std::vector<std::string> attention_sentences(const Summary& summary);
+
+/// UTF-8, indented by two spaces, ending in a newline. Percentages are 0...100.
+std::string as_json(const Summary& summary);
 
 }  // namespace heft

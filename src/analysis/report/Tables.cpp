@@ -6,7 +6,6 @@
 
 #include "analysis/measures/Section.h"
 #include "analysis/report/Notes.h"
-#include "analysis/report/RecordTables.h"
 
 namespace heft {
 

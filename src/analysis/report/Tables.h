@@ -1,4 +1,5 @@
-// The tables of a Summary, and all of it as text for a terminal.
+// The tables of a Summary: of estimates, of records (participants, sessions, staircases,
+// configurations), and all as text for a terminal.
 #pragma once
 
 #include <string>
@@ -27,5 +28,19 @@ std::string headline(const Summary& summary);
 
 /// "Sorting" becomes "Sorting (simulated)" where it is.
 std::string titled(std::string_view title, const Summary& summary);
+
+struct RecordTable {
+  TablePlace place;
+  Table (*make)(const Summary& summary);
+};
+
+/// In reading order.
+std::vector<RecordTable> record_tables();
+
+/// Every trial of a session's staircases.
+Table track_table(const SessionTracks& session);
+
+/// The estimates that the paper has a figure for, each once.
+std::vector<const StudyEstimate*> published_among(const Summary& summary);
 
 }  // namespace heft

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "apparatus/checks/ApparatusCheck.h"
-#include "base/math/Statistics.h"
+#include "base/math/Quantiles.h"
 #include "tracking/calibration/Response.h"
 
 namespace heft {

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "analysis/dataset/Summary.h"
-#include "analysis/report/FirstScreen.h"
-#include "analysis/report/Json.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"
 #include "base/files/Printable.h"

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "analysis/dataset/Summary.h"
-#include "analysis/report/FirstScreen.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"
 #include "base/Program.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/math/Statistics.h"
+#include "base/math/Quantiles.h"
 
 namespace heft {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/math/Statistics.h"
+#include "base/math/Quantiles.h"
 
 namespace heft {
 

@@ -1,4 +1,4 @@
-#include "base/math/Statistics.h"
+#include "base/math/Quantiles.h"
 
 #include <algorithm>
 #include <cmath>

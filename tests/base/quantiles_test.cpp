@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "base/math/Statistics.h"
+#include "base/math/Quantiles.h"
 
 namespace heft {
 namespace {
