@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "analysis/charts/Plot.h"
 #include "analysis/report/Tables.h"
@@ -144,13 +145,12 @@ Chart tracks_chart(const Summary& summary) {
 }
 
 std::vector<Chart> multiples_charts(const Summary& summary) {
-  std::map<Compared, bool> all;
+  std::set<Compared> all;
   for (const SessionTracks& session : summary.all_tracks)
-    for (const Track& track : session.tracks) all[track.compared] = true;
+    for (const Track& track : session.tracks) all.insert(track.compared);
   std::vector<Chart> charts;
-  for (const auto& [compared, any] : all) {
-    const auto same = std::ranges::count_if(
-        all, [&](const auto& other) { return other.first.reference_g == compared.reference_g; });
+  for (const Compared& compared : all) {
+    const auto same = std::ranges::count(all, compared.reference_g, &Compared::reference_g);
     charts.push_back(all_at(summary, compared, same > 1));
   }
   return charts;

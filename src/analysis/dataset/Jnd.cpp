@@ -7,7 +7,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <ranges>
 
 #include "analysis/dataset/Dataset.h"
 #include "protocol/Protocol.h"
@@ -28,9 +27,9 @@ std::map<std::string, Compared> compared_by(const SessionData& data) {
         !data.without_jnd.contains(plan.staircase))
       staircases.emplace(plan.staircase, Compared{*plan.reference_g, plan.condition});
   }
-  for (const EstimateRow& row : data.estimates | std::views::reverse)  // the first one is kept
-    if (const auto found = staircases.find(row.staircase); found != staircases.end())
-      found->second.method = row.method;
+  for (auto row = data.estimates.rbegin(); row != data.estimates.rend(); ++row)  // keeps the first
+    if (const auto found = staircases.find(row->staircase); found != staircases.end())
+      found->second.method = row->method;
   return staircases;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <map>
-#include <ranges>
+#include <span>
 #include <tuple>
 
 #include "analysis/measures/Section.h"
@@ -82,7 +82,7 @@ StudyEstimate sum_over_people(const std::vector<const StudyEstimate*>& people) {
   StudyEstimate sum = *people.front();
   sum.participant.clear();
   sum.n = static_cast<int>(people.size());
-  for (const StudyEstimate* own : people | std::views::drop(1)) {
+  for (const StudyEstimate* own : std::span(people).subspan(1)) {
     *sum.value += *own->value;
     sum.n_trials += own->n_trials;
   }
@@ -107,11 +107,12 @@ class EstimationSection final : public Section {
 
   Estimates of_participants(const Summary&) const override {
     Estimates all;
-    for (const auto& [of, numbers] : people_) {
-      const auto put = [&](const Measure& measure, std::optional<double> value,
+    for (const auto& [key, numbers] : people_) {
+      const auto put = [&, &condition = key.first, &participant = key.second](
+                           const Measure& measure, std::optional<double> value,
                            std::size_t n_trials) -> StudyEstimate& {
-        StudyEstimate& own = all.emplace_back(StudyEstimate{&measure, "estimation", of.first});
-        own.participant = of.second;
+        StudyEstimate& own = all.emplace_back(StudyEstimate{&measure, "estimation", condition});
+        own.participant = participant;
         own.value = value;
         own.n = 1;
         own.n_trials = static_cast<int>(n_trials);

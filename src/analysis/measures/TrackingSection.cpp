@@ -68,9 +68,9 @@ class TrackingSection final : public Section {
   Estimates of_participants(const Summary&) const override {
     Estimates all;
     for (const auto& [participant, person] : people_) {
-      const auto put = [&](const Measure& measure, std::optional<double> value) {
+      const auto put = [&, &id = participant](const Measure& measure, std::optional<double> value) {
         StudyEstimate& estimate = all.emplace_back(StudyEstimate{&measure});
-        estimate.participant = participant;
+        estimate.participant = id;
         estimate.value = value;
         estimate.n = 1;
       };

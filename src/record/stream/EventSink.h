@@ -59,7 +59,7 @@ class RecordedSession final : public EventSink {
   explicit RecordedSession(SessionHeader header) : header_(std::move(header)) {}
 
   void append(const Event& event, const Changes& changes, Durability) override {
-    entries_.emplace_back(std::in_place_type<RecordedEvent>, event, changes);
+    entries_.push_back(RecordedEvent{event, changes});
   }
   void add_frame(const FrameRow& frame) override { entries_.push_back(frame); }
   void add_info(const std::string& key, const std::string& value) override {
