@@ -26,7 +26,7 @@ int n_trials(const SessionData& data) {
 
 using Labels = std::array<std::optional<Label>, 3>;
 
-constexpr Label L = "lightest", I = "intermediate", H = "heaviest";
+const Label L = "lightest", I = "intermediate", H = "heaviest";
 constexpr std::array masses_g{15.0, 200.0, 800.0};
 
 std::optional<Swap> swapped(Label light, Label intermediate, Label heavy) {

@@ -81,7 +81,7 @@ def reason_not_to_run(line):
 @functools.cache
 def names_of_tests():
     folders = [path.split("/")[1] for path in TREE if re.fullmatch(r"tests/\w+", path)]
-    names = [name.replace("${room}", folder).replace("${folder}", folder) for folder in folders
+    names = [name.replace("${folder}", folder) for folder in folders
              for name in re.findall(r"add_test\(NAME (\S+)", text_of("tests/CMakeLists.txt"))]
     for path in TREE:
         if path.startswith("tests/") and path.endswith("_test.cpp"):

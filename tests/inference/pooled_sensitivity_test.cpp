@@ -98,7 +98,7 @@ TEST(NoThreshold, WhereNoCubeWasEverChosen) {
 
 // Criteria beyond all levels: the few choices are lapses.
 TEST(NoThreshold, WhereTheLikelihoodIsFlat) {
-  for (int seed = 0; seed < 10; ++seed)
+  for (std::uint64_t seed = 0; seed < 10; ++seed)
     for (const int n_people : {2, 6, 13}) {
       People people;
       for (int i = 0; i < n_people; ++i) {

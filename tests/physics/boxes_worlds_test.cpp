@@ -159,7 +159,7 @@ TEST(BoxesProperty, WhatIsSqueezedIsNotFlung) {
       return any_path(shake_m, turn_rad, t_s);
     };
     run(*make_simulator("boxes"), scene, path, 100 / rate_hz, rate_hz,
-        [&](double t_s, const Pose&, const WorldState& state) {
+        [&, &second_kg = second_kg](double t_s, const Pose&, const WorldState& state) {
           for (const BodyState& cube : state.cubes)
             EXPECT_LT(cube.velocity.linear_m_s.norm(), 3) << second_kg << " kg at " << t_s << " s";
         });

@@ -60,7 +60,7 @@ TEST(FreeReturnInRotation, FollowsTheClosedFormAboutEachAxis) {
     Errors exact, euler;
     for (auto [name, errors] : {std::pair{"bullet-x", &exact}, {"bullet-ea", &euler}}) {
       run(*make_simulator(name), scene, held(in_the_air), 0.5, 240,
-          [&](double t_s, const Pose&, const WorldState& state) {
+          [&, &errors = errors](double t_s, const Pose&, const WorldState& state) {
             errors->add(
                 (rotation_vector(state.clone.pose.orientation) - left(t_s) * offset_rad).norm());
           });
