@@ -67,7 +67,10 @@ ordered_json object_of(const NamedFit& named) {
 
 std::string fits_as_text(std::span<const NamedFit> fits) {
   std::string text;
-  for (const NamedFit& fit : fits) text += (text.empty() ? "" : "\n") + as_text(table_of(fit));
+  for (const NamedFit& fit : fits) {
+    if (!text.empty()) text += '\n';
+    text += as_text(table_of(fit));
+  }
   return text;
 }
 
