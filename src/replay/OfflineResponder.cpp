@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "base/Error.h"
-#include "replay/LoggedFrames.h"
+#include "replay/AttemptReplay.h"
 #include "responders/Responder.h"
 #include "tasks/SessionPlan.h"
 #include "tasks/Task.h"

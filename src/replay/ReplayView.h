@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "replay/LoggedFrames.h"
+#include "replay/AttemptReplay.h"
 #include "view/ArView.h"
 
 namespace heft {

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "replay/AttemptReplay.h"
-#include "replay/LoggedFrames.h"
 #include "tasks/Task.h"
 
 namespace heft {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <random>
 
-#include "apparatus/AnnouncingSink.h"
+#include "apparatus/EventOutlet.h"
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "base/Program.h"

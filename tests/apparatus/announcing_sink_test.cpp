@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "apparatus/AnnouncingSink.h"
+#include "apparatus/EventOutlet.h"
 #include "base/Error.h"
 
 namespace heft {

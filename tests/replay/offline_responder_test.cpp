@@ -4,7 +4,7 @@
 #include <set>
 
 #include "base/Error.h"
-#include "replay/LoggedFrames.h"
+#include "replay/AttemptReplay.h"
 #include "replay/OfflineResponder.h"
 #include "replay/StoredSession.h"
 

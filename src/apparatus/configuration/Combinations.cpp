@@ -1,7 +1,6 @@
-#include "apparatus/configuration/Combinations.h"
-
 #include <fmt/format.h>
 
+#include "apparatus/configuration/ResolvedConfig.h"
 #include "apparatus/sources/PictureSource.h"
 #include "base/Error.h"
 #include "physics/DecouplingSimulator.h"

@@ -3,9 +3,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "apparatus/configuration/Combinations.h"
 #include "apparatus/configuration/ResolvedConfig.h"
-#include "apparatus/configuration/Texts.h"
 #include "apparatus/sources/PictureSource.h"
 #include "base/Program.h"
 #include "base/files/TextFile.h"

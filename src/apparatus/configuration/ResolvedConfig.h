@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -144,5 +145,33 @@ std::vector<ConfigChange> changes_between(const SessionConfig& from, const Sessi
 /// The path itself where nothing is there, else the first free one of "film-2.avi", "film-3.avi"...
 /// A video can't be added to, and recordings must not be mixed.
 std::string next_part(const std::string& path);
+
+/// @throws Error (usage) where a person can't see or touch the view, or drags where there is no
+///   person or no window
+void require_compatible_plugs(const ResolvedConfig::Parts& parts);
+
+/// Whether the participant can give the answers that the protocol takes, and the simulator models
+/// what their hand does.
+/// @throws Error (usage) where answers need contact with every cube and a model's hand touches
+///   none; where the simulator knows straight strokes alone and the hand does more
+void require_answerable(const ResolvedConfig::Parts& parts, const Protocol& protocol);
+
+/// @throws Error (invalid_file) where a block asks a question that the session's texts do not have
+void require_questions(const Protocol& protocol);
+
+struct Protocol;
+
+/// A file of protocols/texts/ by its language, or any other by its path.
+/// @throws Error (usage) naming the languages that there are
+std::string texts_file(const std::string& language);
+
+/// Puts the protocol's questionnaires below the texts, from NAME.LANGUAGE.toml beside the protocol
+/// or in protocols/questionnaires. Those that the texts have already stay as they are.
+/// @return the file that each questionnaire of these texts came from, by its name
+/// @throws Error naming what is missing, or two files that have one of a name; InvalidFile where a
+///   file has mistakes
+std::map<std::string, std::string> add_questionnaires(ConfigFile& texts,
+                                                      const std::string& protocol_file,
+                                                      const Protocol& protocol);
 
 }  // namespace heft

@@ -1,5 +1,3 @@
-#include "apparatus/configuration/Texts.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/Program.h"

@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "apparatus/checks/ApparatusCheck.h"
-#include "apparatus/configuration/Texts.h"
+#include "apparatus/configuration/ResolvedConfig.h"
 #include "apparatus/sources/PictureSource.h"
 #include "base/Error.h"
 #include "base/Program.h"

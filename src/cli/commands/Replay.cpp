@@ -7,7 +7,7 @@
 #include <array>
 #include <memory>
 
-#include "apparatus/configuration/Texts.h"
+#include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "cli/Commands.h"

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <set>
 
-#include "apparatus/configuration/Texts.h"
+#include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/files/TextFile.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "apparatus/configuration/Texts.h"
+#include "apparatus/configuration/ResolvedConfig.h"
 #include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 #include "cli/SessionOptions.h"
