@@ -52,7 +52,7 @@ class Descriptor {
 class EventOutlet::Way {
  public:
   virtual ~Way() = default;
-  /// @return whether all of it was taken, or will be before the next
+  /// @return whether the whole line was sent, or will be before the next one
   virtual bool hand_over(const std::string& line) = 0;
 };
 
@@ -75,7 +75,7 @@ class Datagrams final : public EventOutlet::Way {
     if (!socket_.is_open()) miss(spec, std::strerror(errno));
   }
 
-  // That nobody listened to the one before is told now, and is no reason not to send this one.
+  // A refused datagram is reported by the next send, which is no reason not to send this one.
   bool hand_over(const std::string& line) override {
     return sends(line) || (errno == ECONNREFUSED && sends(line));
   }
@@ -88,7 +88,7 @@ class Datagrams final : public EventOutlet::Way {
   Descriptor socket_;
 };
 
-// Opened when there is a reader, and again when there is another one.
+// Opens the pipe when it has a reader, and again for each new reader.
 class PipeWriter final : public EventOutlet::Way {
  public:
   PipeWriter(const EventTarget::NamedPipe& target, const std::string& spec) : path_(target.path) {
@@ -96,7 +96,7 @@ class PipeWriter final : public EventOutlet::Way {
     if (stat(path_.c_str(), &there) != 0)
       miss(spec,
            fmt::format("there is no such pipe; make it with: mkfifo {}", shell_quoted(path_)));
-    if (!S_ISFIFO(there.st_mode)) refuse(spec, fmt::format("{} is no named pipe", path_));
+    if (!S_ISFIFO(there.st_mode)) refuse(spec, fmt::format("{} is not a named pipe", path_));
   }
 
   bool hand_over(const std::string& line) override {
@@ -114,7 +114,7 @@ class PipeWriter final : public EventOutlet::Way {
   Descriptor pipe_;
 };
 
-// A line that was begun is ended before the next one.
+// Completes an interrupted line before it sends the next one.
 class SerialWriter final : public EventOutlet::Way {
  public:
   SerialWriter(const EventTarget::SerialLine& target, const std::string& spec)
@@ -122,7 +122,7 @@ class SerialWriter final : public EventOutlet::Way {
     if (!line_.is_open()) miss(spec, std::strerror(errno));
     termios settings{};
     if (tcgetattr(line_.number(), &settings) != 0)
-      refuse(spec, fmt::format("{} is no serial line", target.device));
+      refuse(spec, fmt::format("{} is not a serial line", target.device));
     cfmakeraw(&settings);
     settings.c_cflag |= CLOCAL;
     cfsetspeed(&settings, B115200);
@@ -150,17 +150,17 @@ class SerialWriter final : public EventOutlet::Way {
 
 EventTarget::Udp udp_target(const std::string& target, const std::string& spec) {
   const auto colon = target.rfind(':');
-  if (colon == std::string::npos || colon == 0) refuse(spec, "there is no HOST:PORT");
+  if (colon == std::string::npos || colon == 0) refuse(spec, "HOST:PORT is missing");
   std::string host = target.substr(0, colon);
   const std::string port = target.substr(colon + 1);
   if (host.size() > 2 && host.front() == '[' && host.back() == ']')
     host = host.substr(1, host.size() - 2);
   else if (host.find(':') != std::string::npos)
-    refuse(spec, "an address with colons stands in brackets");
+    refuse(spec, "put an address with colons in brackets");
   const bool is_number = !port.empty() && port.size() <= 5 &&
                          port.find_first_not_of("0123456789") == std::string::npos;
   if (!is_number || std::stoi(port) < 1 || std::stoi(port) > 65535)
-    refuse(spec, fmt::format("\"{}\" is no port from 1 to 65535", printable(port)));
+    refuse(spec, fmt::format("\"{}\" is not a port from 1 to 65535", printable(port)));
   return {host, port};
 }
 
@@ -181,13 +181,13 @@ struct Opens {
 
 EventTarget parse_event_target(const std::string& text) {
   const auto colon = text.find(':');
-  if (colon == std::string::npos) refuse(text, "there is no colon");
+  if (colon == std::string::npos) refuse(text, "the colon is missing");
   const std::string kind = text.substr(0, colon), target = text.substr(colon + 1);
-  if (target.empty()) refuse(text, "there is nothing after the colon");
+  if (target.empty()) refuse(text, "nothing follows the colon");
   if (kind == "udp") return {text, udp_target(target, text)};
   if (kind == "fifo") return {text, EventTarget::NamedPipe{target}};
   if (kind == "serial") return {text, EventTarget::SerialLine{target}};
-  refuse(text, fmt::format("\"{}\" is no such way", printable(kind)));
+  refuse(text, fmt::format("\"{}\" is not a kind of target", printable(kind)));
 }
 
 EventOutlet::EventOutlet(const EventTarget& target)
@@ -195,7 +195,7 @@ EventOutlet::EventOutlet(const EventTarget& target)
 EventOutlet::~EventOutlet() = default;
 
 void EventOutlet::send(const std::string& line) {
-  constexpr std::size_t longest = 4096;  // what a pipe takes whole or not at all (PIPE_BUF)
+  constexpr std::size_t longest = 4096;  // a longer line could be split by a pipe (PIPE_BUF)
   const bool is_taken = line.size() < longest && way_->hand_over(line + '\n');
   ++(is_taken ? n_sent_ : n_dropped_);
 }
@@ -226,7 +226,7 @@ void AnnouncingSink::announce(const Event& event, const Changes& changes) {
   outlet_.send(line_of(event, changes));
 }
 
-// An event that the log can't take yet is kept by it; one that it refuses has never been.
+// An event that a busy log buffers is announced later; one that it refuses is never announced.
 void AnnouncingSink::append(const Event& event, const Changes& changes, Durability durability) {
   waiting_.push_back(line_of(event, changes));
   try {

@@ -1,6 +1,6 @@
-// Where lines of text go for other recorders (EEG, motion capture, eye trackers): a UDP port, a
-// named pipe or a serial line. It never waits: what can't be handed over at once is dropped and
-// counted, and a reader that is not there, or goes away, harms nothing.
+// Events as lines of text for other recorders (EEG, motion capture, eye trackers), sent to a UDP
+// port, a named pipe or a serial line. Sending never blocks: a line that cannot be sent immediately
+// is dropped and counted, and a missing reader does no harm.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace heft {
 
-/// Where lines go, as --events says it.
+/// Where lines are sent: the argument of --events.
 struct EventTarget {
   struct Udp {
     std::string host, port;
@@ -28,7 +28,7 @@ struct EventTarget {
     std::string device;  ///< 115200 baud, 8N1
   };
 
-  std::string text;  ///< as it was given
+  std::string text;  ///< the argument itself
   std::variant<Udp, NamedPipe, SerialLine> to;
 };
 
@@ -38,17 +38,17 @@ EventTarget parse_event_target(const std::string& text);
 
 class EventOutlet {
  public:
-  /// @throws Error (device_missing) where there is no such host, pipe or serial line; Error (usage)
-  ///   where the path is something else
+  /// @throws Error (device_missing) if the host, pipe or serial line is missing; Error (usage) if
+  ///   the path is something else
   explicit EventOutlet(const EventTarget& target);
   ~EventOutlet();
   EventOutlet(const EventOutlet&) = delete;
 
-  /// Hands a line over, with a line end; at most 4096 bytes, which pipes and datagrams take whole.
+  /// Sends a line and a line end; at most 4096 bytes, which pipes and datagrams do not split.
   void send(const std::string& line);
 
   std::int64_t n_sent() const { return n_sent_; }
-  /// Lines that nobody took.
+  /// Lines that could not be sent.
   std::int64_t n_dropped() const { return n_dropped_; }
 
   class Way;  ///< that lines take
@@ -63,7 +63,7 @@ class AnnouncingSink final : public EventSink {
   AnnouncingSink(EventSink& log, EventOutlet& outlet, std::int64_t session_id,
                  std::string participant);
 
-  /// Tells of an event that is on disk already.
+  /// Announces an event that is already on disk.
   void announce(const Event& event, const Changes& changes);
 
   void append(const Event& event, const Changes& changes, Durability durability) override;
@@ -79,11 +79,11 @@ class AnnouncingSink final : public EventSink {
   EventOutlet& outlet_;
   std::int64_t session_id_;
   std::string participant_;
-  /// When session time 0 was, so that two events are as far apart in UTC as in session time.
+  /// UTC at session time 0: two events are equally far apart in UTC and in session time.
   std::optional<std::chrono::system_clock::time_point> zero_;
   int attempt_index_ = 0;
-  std::optional<TrialPlan> plan_;     ///< of that attempt
-  std::vector<std::string> waiting_;  ///< for their events to be on disk
+  std::optional<TrialPlan> plan_;     ///< of the current attempt
+  std::vector<std::string> waiting_;  ///< until their events are on disk
 };
 
 }  // namespace heft

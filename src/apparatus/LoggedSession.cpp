@@ -11,7 +11,7 @@
 namespace heft {
 
 namespace {
-// A session keeps the rule that its first estimates were recorded by, also when it is resumed.
+// A resumed session keeps the censoring rule of its first estimates.
 void keep_censoring_rule(Protocol& protocol, int log_version) {
   constexpr int first_with_cut_moves = 6;
   if (log_version >= first_with_cut_moves) return;
@@ -43,7 +43,7 @@ LoggedSession load_session(const LogReader& reader, const std::string& db,
   session.setups = reader.setups(session_id);
   if (session.setups.empty())
     throw Error(
-        fmt::format("session {} in {} does not say what it was run with: its setup is "
+        fmt::format("session {} in {} has no recorded configuration: its setup is "
                     "missing",
                     session_id, db));
   const SessionHeader& header = session.row.header;

@@ -1,5 +1,4 @@
-// A session of a log with what it was run with, read back from the log alone: none of its files and
-// devices is opened.
+// A session read back from its log with its configuration. No other file or device is opened.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +15,16 @@ struct LoggedSession {
   std::string db;
   SessionRow row;
   std::vector<LoggedSetup> setups;  ///< at least one
-  SessionConfig setup;              ///< in force at its end
-  /// As the session's file and settings have it, with the simulator of `setup`.
+  SessionConfig setup;              ///< the last one
+  /// From the session's protocol text and settings, with the simulator of `setup`.
   std::shared_ptr<const Protocol> protocol;
 
-  /// The protocol with what was in force in a trial.
+  /// The protocol with the configuration in effect in a trial.
   std::shared_ptr<const Protocol> protocol_of(const TrialRow& trial) const;
   const SessionConfig& setup_of(const TrialRow& trial) const;
 };
 
-/// @throws Error when there is no such session, or its protocol or setups can't be read
+/// @throws Error if the session is missing, or its protocol or configurations cannot be read
 LoggedSession load_session(const LogReader& reader, const std::string& db, std::int64_t session_id);
 
 }  // namespace heft

@@ -1,6 +1,6 @@
-// Session time: seconds since the session started. On a virtual clock it goes as fast as the
-// pictures do and no result depends on the time of day; on a wall clock it is the machine's
-// monotonic clock, for people and cameras.
+// Session time: seconds since the session started. A virtual clock follows the frames' times, so
+// that no result depends on the time of day. A wall clock is the machine's monotonic clock, for
+// participants and cameras.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace heft {
 class SessionClock {
  public:
   static SessionClock virtual_from(double start_s) { return {false, start_s}; }
-  /// @param monotonic made up in tests
+  /// @param monotonic replaced in tests
   static SessionClock wall_from(double start_s, double (*monotonic)() = monotonic_s) {
     return {true, start_s, monotonic};
   }
@@ -21,17 +21,17 @@ class SessionClock {
 
   double now_s() const { return is_wall_ ? session_s(monotonic_()) : now_s_; }
 
-  /// Session time of a time on the machine's monotonic clock; wall clock only.
+  /// Converts a time of the machine's monotonic clock; wall clock only.
   double session_s(double at_monotonic_s) const {
     return start_s_ + (at_monotonic_s - started_monotonic_s_);
   }
 
-  /// Goes on from this session time, now.
+  /// Sets the current session time.
   void restart(double start_s) {
     *this = is_wall_ ? wall_from(start_s, monotonic_) : virtual_from(start_s);
   }
 
-  /// Puts a virtual clock forward; a wall clock goes by itself.
+  /// Advances a virtual clock; no effect on a wall clock.
   void advance_to(double t_s) { now_s_ = std::max(now_s_, t_s); }
 
  private:

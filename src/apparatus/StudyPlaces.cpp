@@ -24,7 +24,7 @@ bool counts(const SessionRow& session, const StudyPlan& plan, Purpose purpose) {
          value_of(session.header.participant_info, "study") == plan.name;
 }
 
-// A plan that was edited so that places mean something else would give some twice and others never.
+// If an edited plan changes the meaning of places, some would be given twice and others never.
 void refuse_other_place(const SessionRow& session, const LoggedPlace& logged,
                         const StudyPlan& plan) {
   std::string now = fmt::format("has only {} places", plan.participants);
@@ -63,7 +63,7 @@ bool is_in(const std::vector<SessionRow>& sessions, const std::string& id) {
       sessions, [&](const SessionRow& session) { return session.header.participant == id; });
 }
 
-// As the plan calls them; P07b where a P07 began and was ended.
+// The plan's id, or P07b if a session of P07 was begun and ended.
 std::string fresh_id(const StudyPlan& plan, int number, const std::vector<SessionRow>& sessions,
                      Purpose purpose) {
   const std::string planned = id_for(purpose, planned_id(plan, number));
@@ -72,8 +72,8 @@ std::string fresh_id(const StudyPlan& plan, int number, const std::vector<Sessio
   return id;
 }
 
-// Blanks, hyphens and zeros at the beginning of a number mean nothing to people, nor do capitals;
-// O is taken for 0, l and I for 1.
+// For comparison: without blanks, hyphens, leading zeros of numbers and capitals; O is read as 0, l
+// and I as 1.
 std::string folded(const std::string& id) {
   std::string plain;
   for (const char c : id) {
@@ -87,7 +87,7 @@ std::string folded(const std::string& id) {
     const bool leads =
         plain[i] == '0' && (i == 0 || !is_digit(i - 1)) && i + 1 < plain.size() && is_digit(i + 1);
     if (leads)
-      plain[i] = ' ';  // so that the next zero leads too
+      plain[i] = ' ';  // so that the next zero is a leading one, too
     else
       folded += plain[i];
   }
@@ -98,7 +98,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// "01" of "P01" or "P-01"; none where there is no such number, or nothing but the number.
+// "01" of "P01" or "P-01"; none without a number or without other characters.
 std::optional<std::string> without_letters(const std::string& id) {
   const auto number = std::ranges::find_if(id, is_digit);
   const auto is_part = [](char c) {
@@ -111,7 +111,7 @@ std::optional<std::string> without_letters(const std::string& id) {
   return std::string(number, id.end());
 }
 
-// Only what is data: pilot-P01 or simulated-1 is nobody's id.
+// Only ids of data: pilot-P01 and simulated-1 are no participants.
 bool lacks_letters_of(const std::string& id, const SessionRow& session) {
   if (session.header.purpose != Purpose::main) return false;
   const auto number = without_letters(session.header.participant);
@@ -154,8 +154,8 @@ PlannedParticipant planned_participant(const StudyPlan& plan,
     if (is_free(number))
       return given(number, id ? id_for(purpose, *id) : fresh_id(plan, number, sessions, purpose));
   throw Error(
-      fmt::format("all {} participants of the study \"{}\" have their sessions; to go on, "
-                  "plan more: a larger `participants` leaves the places before as they are",
+      fmt::format("all {} participants of the study \"{}\" have their sessions; to continue, "
+                  "plan more: a larger `participants` keeps the existing places",
                   plan.participants, plan.name));
 }
 

@@ -9,7 +9,7 @@
 namespace heft {
 
 namespace {
-// A contact that stops for less than this is the same push.
+// A contact interrupted for less than this is one push.
 constexpr double push_gap_s = 0.2;
 
 int slot_of(std::size_t cube) {
@@ -29,14 +29,14 @@ void TrialWorld::rearrange(const TrialPlan& plan) {
   reset_requested_ = false;
 }
 
-// A simulator that models one stroke alone meets, sooner or later, what it does not.
+// A simulator of a single stroke refuses other movements sooner or later.
 void TrialWorld::advance_drive(const TargetSample& sample) {
   try {
     drive_->advance(sample);
   } catch (const OutsideModel& outside) {
     throw Error(
-        fmt::format("simulator \"{}\", {:.2f} s into the trial: {}; take \"boxes\", or "
-                    "\"auto\", which does so by itself",
+        fmt::format("simulator \"{}\", {:.2f} s into the trial: {}; use \"boxes\", or "
+                    "\"auto\", which chooses a suitable simulator",
                     protocol_.simulator.name, sample.t_capture_s, outside.what()));
   }
 }

@@ -1,7 +1,7 @@
-// The world of one attempt as the participant meets it: cubes that appear once the effector is
-// clear of their places, physics through Drive, cubes that leave their area and come back, and
-// which cube is being touched. The runner and replay both use it, so a logged attempt runs again
-// bit for bit. All times are seconds since the attempt's start.
+// The world of one attempt: cubes that appear once the effector is clear of their places, physics
+// (Drive), cubes that leave their area and are reset, and the touched cube. Runner and replay share
+// it, so that a logged attempt is recomputed bit by bit. Times are seconds since the attempt's
+// start.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace heft {
 
-/// One displayed frame and what happened in it.
+/// One displayed frame and its events.
 struct ShownFrame {
   DisplayedFrame frame;
   std::optional<int> contact_slot;  ///< the cube pressed hardest
@@ -27,25 +27,25 @@ struct ShownFrame {
 
 class TrialWorld {
  public:
-  /// @param protocol outlives this
+  /// @param protocol must outlive this object
   TrialWorld(const Protocol& protocol, const TrialPlan& plan);
 
-  /// Runs the world to the sample's time.
+  /// Advances the world to the sample's time.
   ShownFrame advance(const TargetSample& sample);
 
-  /// New cubes in the slots, as for a fresh attempt; they appear once the effector is clear.
+  /// Replaces the cubes, as at the start of an attempt; they appear once the effector is clear.
   void rearrange(const TrialPlan& plan);
 
-  /// Puts every cube back to its start, as soon as the effector is clear of all of them.
+  /// Resets every cube to its start, as soon as the effector is clear of all of them.
   void request_reset() { reset_requested_ = true; }
 
-  /// The ends of contacts that are still going on, for when the attempt ends.
+  /// Ends the current contacts at the attempt's end.
   std::vector<Event> end_contacts(double t_s);
 
  private:
   struct Contact {
-    std::optional<double> since_s, left_s;  // left: first picture without it, if there was one
-    Eigen::Vector3d from_m{0, 0, 0};        // the effector's place at since_s
+    std::optional<double> since_s, left_s;  // left: first frame without contact, if any
+    Eigen::Vector3d from_m{0, 0, 0};        // the effector's position at since_s
     double max_push_displacement_m = 0, peak_lag_m = 0;
   };
 
@@ -63,7 +63,7 @@ class TrialWorld {
   const Protocol& protocol_;
   Stage stage_;
   Scene scene_;
-  std::optional<Drive> drive_;  // from when the cubes appear
+  std::optional<Drive> drive_;  // exists once the cubes appear
   std::vector<Contact> contacts_;
   bool tracked_ = true;
   bool reset_requested_ = false;

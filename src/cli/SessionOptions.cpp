@@ -267,7 +267,7 @@ SessionResult run_session(const CommandedSession& session,
   options.stop = &stop_on_signal.requested();
   options.go_on_unchecked = session.go_on_unchecked;
   options.events = events ? &*events : nullptr;
-  options.tell = [](const std::string& text) { say("heft: {}\n", text); };
+  options.print = [](const std::string& text) { say("heft: {}\n", text); };
   if (session.config->on_wall_clock)
     options.console = &console.emplace(expected, session.unblind, session.place);
   else  // nothing that would unblind whoever watches: no mass, level, condition or correctness

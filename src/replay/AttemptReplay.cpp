@@ -21,7 +21,7 @@ ShownFrame AttemptReplay::advance(const FrameRow& frame) {
   sample.tracked = frame.tracked;
   sample.jump = frame.jump;
   ShownFrame shown = world_.advance(sample);
-  // As the runner logs them: the cubes are shown once everything else of the frame is told.
+  // As the runner logs them: cubes_shown after the other events of the frame.
   std::ranges::stable_partition(shown.events, [](const Event& e) { return !e.as<CubesShown>(); });
   for (Event event : shown.events) {
     event.t_s += attempt_.row.started_s;

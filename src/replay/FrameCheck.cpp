@@ -13,9 +13,9 @@ namespace heft {
 
 namespace {
 
-constexpr double pose_tolerance_m = 1e-6;  // where another build wrote the log
+constexpr double pose_tolerance_m = 1e-6;  // if another build wrote the log
 
-// Adding 0 turns -0, which the log does not keep, into 0.
+// Adding 0 turns -0, which the log does not distinguish, into 0.
 std::string text_of(const Pose& pose) {
   const Eigen::Vector3d p = pose.position_m + Eigen::Vector3d::Zero();
   const Eigen::Vector4d q = pose.orientation.coeffs() + Eigen::Vector4d::Zero();
@@ -35,7 +35,7 @@ std::optional<Pose> pose_at(const std::vector<Pose>& poses, std::size_t i) {
   return i < poses.size() ? std::optional(poses[i]) : std::nullopt;
 }
 
-// Events that the world makes, as opposed to people and the engine.
+// Events of the world, as opposed to those of people and the engine.
 bool made_by_world(const Event& event) {
   const auto* reset = event.as<CubesReset>();
   return (reset && reset->slot) || event.as<CubesShown>() || event.as<CubeTouch>() ||
@@ -54,7 +54,7 @@ void FrameCheck::run(const std::vector<FrameRow>& frames) {
   for (const FrameRow& frame : frames) {
     try {
       if (!check(frame, replay.advance(frame), n++)) return;
-    } catch (const Error& error) {  // poses or times that no simulator takes
+    } catch (const Error& error) {  // poses or times that no simulator accepts
       return options_.differ(frame.t_s, "frame", "effector pose and time", error.what());
     }
   }
@@ -123,22 +123,22 @@ void FrameCheck::check_end(const FrameRow& last) {
                     fmt::format("some until {} s", ended_s));
 }
 
-// Where bits need not be equal, the logged push is taken.
+// Where bits may differ, the logged push is used.
 void FrameCheck::take_over_push(Event& came_out, const Event& logged) {
   auto* touch = std::get_if<CubeTouch>(&came_out.what);
-  const auto* told = logged.as<CubeTouch>();
-  if (!touch || !told || options_.equal_bits) return;
+  const auto* logged_touch = logged.as<CubeTouch>();
+  if (!touch || !logged_touch || options_.equal_bits) return;
   const auto differs = [](const std::optional<double>& a, const std::optional<double>& b) {
     return a.has_value() != b.has_value() || (a && std::abs(*a - *b) > pose_tolerance_m);
   };
-  if (differs(touch->max_push_displacement_m, told->max_push_displacement_m) ||
-      differs(touch->peak_lag_m, told->peak_lag_m))
+  if (differs(touch->max_push_displacement_m, logged_touch->max_push_displacement_m) ||
+      differs(touch->peak_lag_m, logged_touch->peak_lag_m))
     return;
-  touch->max_push_displacement_m = told->max_push_displacement_m;
-  touch->peak_lag_m = told->peak_lag_m;
+  touch->max_push_displacement_m = logged_touch->max_push_displacement_m;
+  touch->peak_lag_m = logged_touch->peak_lag_m;
 }
 
-// An attempt that a crash or a veto cut short may lack the last events of its world.
+// An attempt that was cut short by a crash or a veto may lack its world's last events.
 void FrameCheck::check_events(const std::vector<Event>& derived) {
   std::vector<AttemptEvent> logged;
   for (const AttemptEvent& folded : attempt_.events)
@@ -147,7 +147,7 @@ void FrameCheck::check_events(const std::vector<Event>& derived) {
   for (std::size_t i = 0; i < n; ++i) {
     const Event& event = logged[i].event;
     Event came_out = derived[i];
-    // Cubes are shown when the frame is; nothing is logged before what was logged already.
+    // Cubes are shown with the frame, and not before an event that was already logged.
     came_out.t_s =
         came_out.as<CubesShown>() ? event.t_s : std::max(came_out.t_s, logged[i].previous_s);
     take_over_push(came_out, event);

@@ -1,4 +1,4 @@
-// The frames of one logged attempt against what their effector poses give.
+// Compares the frames of a logged attempt with the simulation of their effector poses.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@
 
 namespace heft {
 
-/// How exactly, and who is told.
+/// Tolerances, and the report of a difference.
 struct FrameCheckOptions {
   bool equal_bits = true;     ///< otherwise poses within 1e-6 m
   bool same_edition = true;   ///< otherwise poses are only measured, and contacts not compared
-  bool virtual_clock = true;  ///< every frame of the display's rate is there
-  /// Called at the attempt's first difference: session time, what, logged, came out.
+  bool virtual_clock = true;  ///< frames are complete at the display's rate
+  /// Called for the attempt's first difference: session time, what, logged, recomputed.
   std::function<void(double, const std::string&, const std::string&, const std::string&)> differ;
 };
 
@@ -25,12 +25,12 @@ class FrameCheck {
  public:
   FrameCheck(const Protocol& protocol, const AttemptFold& attempt, FrameCheckOptions options);
 
-  /// Runs the attempt again. Stops at the first difference.
+  /// Recomputes the attempt up to the first difference.
   /// @param frames all of the attempt's, at least one
   void run(const std::vector<FrameRow>& frames);
 
-  /// Largest distance of a pose from its logged one, where bits need not be equal
-  /// or poses are only measured.
+  /// Largest distance of a recomputed pose from the logged one, where bits may differ or poses are
+  /// only measured.
   double largest_difference_m() const { return largest_difference_m_; }
 
  private:

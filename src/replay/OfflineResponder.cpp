@@ -15,7 +15,7 @@ namespace heft {
 
 namespace {
 
-// The actions that make one answer: up to the first that is no step of it.
+// The actions of one answer: up to the first action that is not part of it.
 std::span<const Action> one_answer(std::span<const Action> actions, const TaskDeclaration& task) {
   for (std::size_t i = 0; i < actions.size(); ++i)
     if (const ActionSpec* spec = task.action(actions[i].kind); spec && !spec->is_step)
@@ -23,7 +23,7 @@ std::span<const Action> one_answer(std::span<const Action> actions, const TaskDe
   return {};
 }
 
-// What an answer comes to by the rules of the trial's task. @return null: it can't be taken
+// The trial with the answer taken by its task's rules. @return null: the answer is refused
 std::unique_ptr<TaskTrial> answered(const TaskBlock& block, const TrialPlan& plan,
                                     std::uint64_t seed, std::span<const Action> actions) {
   auto trial = block.trial(plan, seed);
@@ -35,7 +35,8 @@ std::unique_ptr<TaskTrial> answered(const TaskBlock& block, const TrialPlan& pla
   return answer.empty() ? nullptr : std::move(trial);
 }
 
-// The responder of the question under each of the session's setups, with the stage as it was then.
+// The responder in question under each of the session's configurations, with the stage of that
+// time.
 class DecisionModels {
  public:
   DecisionModels(const LoggedSession& session, const WhoAnswers& responder)
@@ -49,7 +50,7 @@ class DecisionModels {
   const DecisionModel& in_effect(const TrialRow& trial) {
     DecisionModel& mind = models_[trial.setup_index];
     if (mind.responder) return mind;
-    // Without a file of its own it has the logged one's.
+    // Without a file it has the logged responder's parameters.
     const auto* logged = std::get_if<Plug>(&session_.setup_of(trial).responder);
     const bool same = logged && named_.named.what.empty() && logged->name == named_.named.name;
     const ResolvedModel model = same ? logged_model(*logged) : named_;
@@ -62,9 +63,9 @@ class DecisionModels {
   static ResolvedModel named(const WhoAnswers& responder) {
     const auto* model = std::get_if<Plug>(&responder);
     if (!model)
-      throw Error("a person can't judge a log; expected a model as --responder", ExitCode::usage);
+      throw Error("a person cannot judge a log; expected a model as --responder", ExitCode::usage);
     ResolvedModel resolved = resolve_model(*model);
-    resolved.responder(0);  // says what is wrong with its parameters
+    resolved.responder(0);  // reports mistakes in its parameters
     return resolved;
   }
 
@@ -73,7 +74,7 @@ class DecisionModels {
   std::map<int, DecisionModel> models_;
 };
 
-// The attempt's actions, and after how many events its one answer came.
+// The attempt's actions, and the number of events before its one answer.
 std::pair<std::vector<Action>, int> logged_answer(const AttemptFold& attempt) {
   const TaskDeclaration& task = task_named(attempt.first_plan.task);
   std::vector<Action> actions;

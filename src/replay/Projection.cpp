@@ -20,7 +20,7 @@ std::string text(bool value) {
 std::string text(int value) {
   return fmt::format("{}", value);
 }
-// Adding 0 turns -0, which the log does not keep, into 0.
+// Adding 0 turns -0, which the log does not distinguish, into 0.
 std::string text(double value) {
   return fmt::format("{}", value + 0.0);
 }
@@ -95,7 +95,7 @@ RowText text_of(const SessionConfig& setup, int number, int from_event) {
 
 void put(std::map<std::string, RowText>& rows, RowText row) {
   std::string key = row.table + ": " + row.key;
-  // Attempts that crashed share trial and attempt number with the one that replaced them.
+  // Attempts that crashed share trial and attempt number with their replacement.
   if (row.table == "trial") key += fmt::format(" (#{})", row.attempt_index);
   rows.insert_or_assign(std::move(key), std::move(row));
 }

@@ -1,5 +1,5 @@
-// A whole session folded: the rows that its events project, and what each attempt's world needs to
-// be run again.
+// A folded session: the rows projected from its events, and what each attempt's world needs to be
+// recomputed.
 #pragma once
 
 #include <map>
@@ -14,27 +14,28 @@
 
 namespace heft {
 
-// Projected rows as named columns of text, so that logged and folded rows can be compared and a
-// difference named. Doubles are written so that equal text means equal bits.
+// A projected row as named columns of text, to compare logged and folded rows and to name a
+// difference. Equal texts of doubles mean equal bits.
 
 struct ColumnText {
   std::string name, value;
 };
 
 struct RowText {
-  std::string table;  ///< as the log calls it
-  std::string key;    ///< which row, for people: "cube 2 of trial 7"
+  std::string table;  ///< name in the log
+  std::string key;  ///< which row, for people: "cube 2 of trial 7"  ///< of the row, for messages:
+                    ///< "cube 2 of trial 7"
   int attempt_index = 0;
-  double t_s = 0;  ///< session time that the row belongs to; negative: its attempt's end
+  double t_s = 0;  ///< session time of the row; negative: its attempt's end
   std::vector<ColumnText> columns;
 };
 
-/// One event of an attempt, with how many events of the session came before it.
+/// One event of an attempt, and the number of the session's events before it.
 struct AttemptEvent {
   int before = 0;
-  double previous_s = 0;  ///< time of the event before it
+  double previous_s = 0;  ///< time of the previous event
   Event event;
-  TrialPlan plan_after;  ///< as presented after it
+  TrialPlan plan_after;  ///< as presented after this event
 };
 
 struct AttemptFold {
@@ -50,14 +51,14 @@ struct Projection {
   SessionState state = SessionState::running;
   int n_events = 0;
   double last_s = 0;  ///< of the last event
-  /// The first event that could not come, with the reason; the fold stops there.
+  /// The first event that is not possible, and the reason; the fold stops there.
   std::optional<std::pair<LoggedEvent, std::string>> refused;
 };
 
 Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed,
                         const std::vector<LoggedEvent>& events);
 
-/// The rows that the log holds, by the same keys.
+/// The rows of the log, by the same keys.
 std::map<std::string, RowText> logged_rows(const LogReader& reader, std::int64_t session_id);
 
 }  // namespace heft

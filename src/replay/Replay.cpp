@@ -29,7 +29,7 @@ class Verifier {
       fold();
       compare_rows();
       compare_state();
-    } catch (const Error& error) {  // a row that can't be read is a difference too
+    } catch (const Error& error) {  // an unreadable row is a difference, too
       unreadable = error.what();
     }
     if (!unreadable.empty())
@@ -40,14 +40,14 @@ class Verifier {
     return result_;
   }
 
-  // What was changed is not simulated: nobody knows what it asks for.
+  // Changed rows are not simulated: their cost is unknown.
   Verification all(const std::function<void(double)>& progress) {
     rows();
     if (result_.first) return result_;
     try {
       compare_frames(progress);
     } catch (const OnlyForStudies&) {
-      throw;  // another program verifies it
+      throw;  // needs another program to verify
     } catch (const Error& error) {
       differ(0, fold_.last_s, "the log", error.what(), "rows that can be read");
     }
@@ -92,7 +92,7 @@ class Verifier {
     }
   }
 
-  // Where an event is refused the fold ends inside an attempt, whose rows go on in the log.
+  // If an event is refused, the fold ends inside an attempt that continues in the log.
   bool was_cut_short(const RowText& row) const {
     const auto attempt = fold_.attempts.find(row.attempt_index);
     return fold_.refused && attempt != fold_.attempts.end() &&
@@ -124,7 +124,7 @@ class Verifier {
         compare_attempt(index, attempt, frames);
     }
     progress(1);
-    // A log keeps frames or it doesn't; a crash may lose an attempt's last ones.
+    // A log has frames or has none; a crash may lose an attempt's last ones.
     for (int index : without) {
       const TrialRow& row = fold_.attempts[index].row;
       if (result_.n_frames > 0 && row.status == TrialStatus::completed)
@@ -132,8 +132,8 @@ class Verifier {
     }
   }
 
-  // What can't be folded or simulated again (a note, who took part) is held by its digest. Asked
-  // last: of two differences at one time the more telling one stands.
+  // Rows that are neither folded nor simulated (notes, participant_info) are protected by their
+  // digest only. Compared last: of two differences at one time, the other is more specific.
   void compare_digests() {
     const auto broken = reader_.first_broken_digest(session_id_);
     if (!broken) return;
@@ -172,7 +172,7 @@ class Verifier {
               const std::string& came_out) {
     double t_s = row.t_s;
     if (t_s < 0) {
-      // Such a row is settled when its attempt ends; an estimate belongs to no attempt.
+      // Such a row is final when its attempt ends; an estimate belongs to no attempt.
       const auto attempt = fold_.attempts.find(row.attempt_index);
       const bool known = attempt != fold_.attempts.end();
       t_s = known ? attempt->second.row.ended_s.value_or(fold_.last_s) : fold_.last_s;
@@ -200,7 +200,7 @@ class Verifier {
 
 Verification verify_session(const LogReader& reader, std::int64_t session_id,
                             const std::function<void(double)>& progress) {
-  reader.session(session_id);  // says so if there is none
+  reader.session(session_id);  // throws if it is missing
   return Verifier(reader, session_id).all(progress);
 }
 

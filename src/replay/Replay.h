@@ -1,6 +1,6 @@
-// Replay: a log folded and simulated again. Verification looks at digests and schema first, then
-// compares every projected row with what the events give, then every frame's world with what its
-// logged effector pose gives, and names the first difference.
+// Replay: a log is folded and simulated again. Verification checks digests and schema, then
+// compares every projected row with the fold of the events, and every frame with the simulation of
+// its effector pose. It reports the first difference.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace heft {
 
-/// Where a log and its replay part.
+/// The first difference between a log and its replay.
 struct Divergence {
   int trial_number = 0;  ///< 0: none
   double t_s = 0;        ///< session time
@@ -23,11 +23,10 @@ struct Divergence {
 
 struct Verification {
   int n_events = 0, n_rows = 0, n_attempts = 0, n_frames = 0;
-  bool ended = false;  ///< the session has its end; otherwise all there is was verified
-  /// Frames of a simulator's edition that this program does not have: verified in all but their
-  /// poses.
+  bool ended = false;  ///< whether the session has ended; otherwise its part so far was verified
+  /// Frames of a simulator edition that this program lacks: verified except for their poses.
   int n_other_edition = 0;
-  int n_other_build = 0;                  ///< frames that poses within 1e-6 m are demanded of
+  int n_other_build = 0;                  ///< frames whose poses must agree within 1e-6 m
   double largest_difference_m = 0;        ///< of any of their poses
   double largest_of_other_edition_m = 0;  ///< of any pose that is only measured
   std::optional<Divergence> first;
@@ -37,7 +36,7 @@ struct Verification {
 Verification verify_session(const LogReader& reader, std::int64_t session_id,
                             const std::function<void(double)>& progress);
 
-/// All of it but the frames' worlds.
+/// Everything except the simulation of frames.
 Verification verify_rows(const LogReader& reader, const LoggedSession& session);
 
 }  // namespace heft

@@ -8,7 +8,7 @@
 namespace heft {
 
 namespace {
-// A view with a screen keeps itself alive in the meantime.
+// Keeps a view with a screen responsive while waiting.
 constexpr double longest_wait_s = 0.02;
 
 class Show {

@@ -1,5 +1,5 @@
-// A logged session shown again: its frames as they were displayed, without the camera's pictures,
-// and the clone of a what-if beside the logged one.
+// Displays a logged session: its frames as they were displayed, without the camera's pictures, and
+// optionally the clone of a what-if simulation beside the logged one.
 #pragma once
 
 #include <atomic>
@@ -10,13 +10,13 @@
 namespace heft {
 
 struct ReplayViewOptions {
-  const Protocol* what_if = nullptr;  ///< whose clone is drawn too; null: none
-  bool in_real_time = false;          ///< frames at their times; otherwise one after the other
+  const Protocol* what_if = nullptr;  ///< whose clone is drawn, too; null: none
+  bool in_real_time = false;          ///< at the frames' times; otherwise as fast as possible
   const std::atomic<bool>* stop = nullptr;
 };
 
 /// Presents every logged frame of the session's attempts.
-/// @return how many
+/// @return number of frames
 int show_session(const LogReader& reader, const LoggedSession& session, ArView& view,
                  const ReplayViewOptions& showing);
 

@@ -5,15 +5,15 @@
 namespace heft {
 
 namespace {
-// A contact that stops for less than this is the same push, as in the log.
+// A contact interrupted for less than this is one push, as in the log.
 constexpr double push_gap_s = 0.2;
-// Before the hand has gone so far, the direction of its push is not known.
+// Movement of the hand before the direction of its push is known.
 constexpr double least_way_m = 1e-3;
 }  // namespace
 
 void CueMeter::add(const DisplayedFrame& frame, std::optional<int> contact_slot,
                    const std::vector<double>& masses_g) {
-  if (frame.cubes.size() != cubes_.size()) finish();  // they appear, or are shuffled
+  if (frame.cubes.size() != cubes_.size()) finish();  // cubes appear or are rearranged
   follow_cubes(frame.cubes, masses_g);
   const bool touches = contact_slot && *contact_slot <= static_cast<int>(cubes_.size());
   if (push_ && (frame.t_s > push_->last_s + push_gap_s ||
@@ -22,7 +22,7 @@ void CueMeter::add(const DisplayedFrame& frame, std::optional<int> contact_slot,
   if (touches && frame.clone) follow_push(frame, static_cast<std::size_t>(*contact_slot - 1));
 }
 
-// A cube that is put back to its start has not gone there.
+// A cube that is reset to its start has not moved there.
 void CueMeter::follow_cubes(const std::vector<Pose>& cubes, const std::vector<double>& masses_g) {
   if (cubes_.empty()) {
     masses_g_ = masses_g;

@@ -1,5 +1,5 @@
-// What a participant could notice of cubes: how far the clone lags behind the effector in each
-// push, how far cubes go and where they end. Measured from displayed frames alone.
+// Visible cues to the cubes' masses: the clone's lag behind the effector in each push, the cubes'
+// paths and final positions. Measured from displayed frames alone.
 #pragma once
 
 #include <map>
@@ -13,9 +13,10 @@ namespace heft {
 /// Sums over the pushes and cubes of one mass.
 struct VisibleCues {
   int n_pushes = 0;
-  double lag_m = 0, largest_lag_m = 0;  ///< of each push its largest lag: their sum, the largest
-  int n_cubes = 0;                      ///< that were pushed, each anew in each attempt
-  double path_m = 0, end_m = 0;         ///< of these: length of path, distance of end from start
+  double lag_m = 0, largest_lag_m = 0;  ///< of the largest lag of each push: sum, maximum
+  int n_cubes = 0;                      ///< pushed cubes, counted in each attempt
+  double path_m = 0,
+         end_m = 0;  ///< sums over these cubes: length of path, distance of end from start
 
   double mean_lag_m() const { return n_pushes == 0 ? 0 : lag_m / n_pushes; }
   double mean_path_m() const { return n_cubes == 0 ? 0 : path_m / n_cubes; }
@@ -28,7 +29,7 @@ using CuesByMass = std::map<double, VisibleCues>;
 /// Measures the frames of one attempt.
 class CueMeter {
  public:
-  /// @param noticed where it is added; outlives this
+  /// @param noticed gets the results; must outlive this object
   explicit CueMeter(CuesByMass& noticed) : noticed_(noticed) {}
   ~CueMeter() { finish(); }
   CueMeter(const CueMeter&) = delete;

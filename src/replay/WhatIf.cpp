@@ -11,7 +11,7 @@ namespace heft {
 
 namespace {
 
-// Root of mean square and largest of the distances given to it.
+// Root mean square and maximum of distances.
 struct Distances {
   int n = 0;
   double sum_squared_m2 = 0, largest_m = 0;
@@ -108,12 +108,12 @@ std::vector<PathDifference> compare_paths(const LogReader& reader, const LoggedS
 }
 
 OtherResponder compare_sessions(const LogReader& reader, std::int64_t session_id,
-                                const RecordedSession& anew) {
+                                const RecordedSession& rerun) {
   std::vector<TrialRow> trials;
   std::map<std::string, EstimateDifference> estimates;
   for (const EstimateRow& row : reader.estimates(session_id))
     estimates[row.staircase] = {row.staircase, row.jnd_g, std::nullopt};
-  for (const RecordedEntry& entry : anew.entries()) {
+  for (const RecordedEntry& entry : rerun.entries()) {
     const auto* recorded = std::get_if<RecordedEvent>(&entry);
     if (!recorded) continue;
     if (recorded->changes.trial) trials.push_back(*recorded->changes.trial);

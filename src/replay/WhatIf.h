@@ -1,5 +1,5 @@
-// What a logged session would have been: its hand through another simulator or other parameters, or
-// its trials with another responder.
+// What-if: the logged hand with another simulator or other parameters, or the logged trials with
+// another responder.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace heft {
 
-/// What a participant would notice in one kind of trial of cubes of one mass.
+/// Difference of the visible cues in one kind of trial for cubes of one mass.
 struct CueDifference {
   double mass_g = 0;
   VisibleCues logged, would_be;
 };
 
-/// How far bodies end up from where they were logged, over all frames of one kind of trial.
+/// Distance of bodies from their logged positions over all frames of one kind of trial.
 struct PathDifference {
   Task task;
   std::string condition;  ///< technique
@@ -25,19 +25,20 @@ struct PathDifference {
   double clone_rms_m = 0, clone_max_m = 0;
   double cubes_rms_m = 0, cubes_max_m = 0;
   std::vector<CueDifference> noticed;  ///< by mass
-  /// Where the technique's lag tells mass, as a spring's does (μ m g / k): grams a meter of lag.
+  /// If the technique's lag depends on mass, as a spring's does (μ m g / k): grams per meter of
+  /// lag.
   std::optional<double> logged_g_per_m, would_be_g_per_m;
 };
 
-/// Grams that a meter of lag tells; none where the technique's lag tells no mass.
+/// Grams per meter of lag; none if the technique's lag does not depend on mass.
 std::optional<double> grams_per_lag(const Protocol& protocol, const std::string& technique);
 
-/// Runs the logged effector poses through `protocol`'s physics. Trials without frames are
+/// Simulates the logged effector poses with `protocol`'s physics. Trials without frames are
 /// skipped.
 std::vector<PathDifference> compare_paths(const LogReader& reader, const LoggedSession& session,
                                           const Protocol& protocol);
 
-/// One staircase's estimate as logged and as it would have been.
+/// A staircase's estimate, as logged and with the other responder.
 struct EstimateDifference {
   std::string staircase;
   std::optional<double> logged_g, would_be_g;
@@ -46,7 +47,7 @@ struct EstimateDifference {
 struct OutcomeDifference {
   Task task;
   std::string condition;                   ///< technique
-  int n_logged = 0, n_logged_correct = 0;  ///< completed trials, and those rightly answered
+  int n_logged = 0, n_logged_correct = 0;  ///< completed trials, and correct ones
   int n_would_be = 0, n_would_be_correct = 0;
 };
 
@@ -55,8 +56,8 @@ struct OtherResponder {
   std::vector<EstimateDifference> estimates;
 };
 
-/// The session as logged beside its trials run anew.
+/// Compares the logged session with its trials run with another responder.
 OtherResponder compare_sessions(const LogReader& reader, std::int64_t session_id,
-                                const RecordedSession& anew);
+                                const RecordedSession& rerun);
 
 }  // namespace heft

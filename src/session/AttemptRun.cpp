@@ -9,12 +9,12 @@
 namespace heft {
 
 namespace {
-constexpr double look_up_s = 0.004;  // a live camera is asked for its next picture this often
+constexpr double look_up_s = 0.004;  // polling interval of a live camera
 constexpr double longest_wait_s = 0.02;
-constexpr double longest_unseen_s = 120;  // without anybody who could see to it
-constexpr double late_periods = 2;        // of the display; a frame that is shown later is late
+constexpr double longest_unseen_s = 120;  // with no experimenter to act on it
+constexpr double late_periods = 2;        // of the display; a later frame counts as late
 
-// What a frame's row of the log takes over from its picture's effector sample.
+// Copies a picture's effector sample to a frame's row.
 FrameRow row_of(const Picture& picture, double start_s) {
   const TargetSample& sample = picture.sample;
   FrameRow row;
@@ -52,13 +52,13 @@ bool AttemptRun::trial_goes_on() const {
   return engine().next().kind == Next::Kind::act;
 }
 
-// A trial that was voided while the camera gave nothing is waited in until it does: the session is
+// A trial that was voided while the camera was lost ends only when pictures return: the session is
 // paused, and the next attempt could not start.
 bool AttemptRun::is_over() const {
   return !engine().trial_is_open() && !trouble_since_s_;
 }
 
-// One picture. @return whether the attempt goes on.
+// Runs one picture. @return whether the attempt continues.
 bool AttemptRun::run_picture() {
   const auto picture = next_picture();
   if (!picture) return false;
@@ -77,16 +77,16 @@ bool AttemptRun::run_picture() {
   take_actions(shown);
   if (!trial_goes_on()) return false;
   if (!parts_.texts && !parts_.responder.has_more(picture->sample.t_capture_s)) {
-    control_.leave("the responder has nothing more to do");
+    control_.leave("the responder has no more actions");
     throw Error(
-        fmt::format("the responder has nothing more to do in trial {}, but the trial is "
+        fmt::format("the responder has no more actions in trial {}, but the trial is "
                     "still open; everything so far is saved",
                     engine().next().plan->trial_number));
   }
   return true;
 }
 
-// The next picture, at its time. None: the attempt is over, or the session is to be left.
+// The next picture, at its time. None: the attempt has ended, or the session is being left.
 std::optional<Picture> AttemptRun::next_picture() {
   for (;;) {
     control_.wait_while_held();
@@ -95,10 +95,10 @@ std::optional<Picture> AttemptRun::next_picture() {
     if (auto picture = parts_.pictures.next()) {
       if (!wait_until(start_s_ + picture->sample.t_capture_s)) return std::nullopt;
       if (journal_.n_continued() == n_continued_) return picture;
-      continue;  // of before a pause
+      continue;  // taken before a pause
     }
     if (parts_.pictures.ended()) {
-      control_.leave("there are no more pictures");
+      control_.leave("the pictures have ended");
       throw Error("the pictures have ended but the session has not; everything so far is saved");
     }
     take_touches(control_.wait(look_up_s));
@@ -106,7 +106,7 @@ std::optional<Picture> AttemptRun::next_picture() {
   }
 }
 
-// Of a pause nothing is made up for, missed or counted.
+// Pictures of a pause are neither caught up with nor counted.
 void AttemptRun::listen() {
   if (parts_.clock.is_wall()) parts_.pictures.skip_to(parts_.clock.now_s() - start_s_);
   if (journal_.n_continued() == n_continued_) return;
@@ -114,7 +114,7 @@ void AttemptRun::listen() {
   parts_.pictures.listen_again();
 }
 
-// On a wall clock. @return whether the attempt goes on
+// On a wall clock. @return whether the attempt continues
 bool AttemptRun::wait_until(double t_s) {
   if (!parts_.clock.is_wall()) return true;
   do {
@@ -124,20 +124,20 @@ bool AttemptRun::wait_until(double t_s) {
   return true;
 }
 
-// A model would wait for ever for an effector that its camera never shows.
+// A model would wait forever for an effector that its camera never shows.
 void AttemptRun::require_sight(const FrameRow& row) {
   if (row.tracked || parts_.clock.is_wall()) seen_s_ = row.t_s;
   if (row.t_s - seen_s_ <= longest_unseen_s) return;
   control_.leave("the effector was not seen");
   throw Error(
-      fmt::format("the effector was in no picture for {:g} s, and nobody is here to see to it; "
-                  "everything so far is saved. Look at the camera's file, its pictures and the "
+      fmt::format("the effector was in no picture for {:g} s, and there is no experimenter to ask; "
+                  "everything so far is saved. Check the camera's file, its pictures and the "
                   "effector's file: heft doctor, heft track",
                   longest_unseen_s));
 }
 
-// A dead camera or lost board pauses the trial at once and voids it after void_after_s; the session
-// goes on when pictures return. @return whether the attempt goes on.
+// A lost camera or board pauses the trial immediately and voids it after void_after_s; the session
+// continues when pictures return. @return whether the attempt continues.
 bool AttemptRun::wait_for_camera(const Picture& picture) {
   const bool open = engine().trial_is_open();
   control_.status.trouble = picture.trouble;
@@ -181,7 +181,7 @@ void AttemptRun::show(const ShownFrame& shown, const Picture& picture, FrameRow&
   if (options_.keep_frames) journal_.add_frame(row);
 }
 
-// What happened in the world, in session time.
+// Logs the world's events, in session time.
 void AttemptRun::log_events(const std::vector<Event>& events) {
   for (Event event : events) {
     event.t_s += start_s_;
@@ -208,27 +208,27 @@ void AttemptRun::count_frame(const Picture& picture, const FrameRow& row) {
   presented_s_ = row.present_s;
 }
 
-// On a virtual clock no picture can be dropped or late.
+// On a virtual clock no picture is dropped or late.
 void AttemptRun::report_pictures() {
   if (!parts_.clock.is_wall()) return;
   journal_.emit_now(CameraReport{n_shown_, n_dropped_, n_late_});
 }
 
 void AttemptRun::take_touches(const std::vector<Touch>& touches) {
-  if (!parts_.texts) return;  // a model answers; who looks on has no say
-  if (!presented_s_) return;  // meant for the screen before
+  if (!parts_.texts) return;  // a model answers; touches of spectators are ignored
+  if (!presented_s_) return;  // meant for the previous screen
   bool changed = false;
   for (const Touch& touch : touches) {
-    if (!trial_goes_on()) break;  // meant for a screen that is not there any more
+    if (!trial_goes_on()) break;  // meant for a screen that has gone
     changed = take_touch(touch) || changed;
   }
-  control_.wait_while_held();  // what was done is shown once it is on disk
+  control_.wait_while_held();  // an answer is shown once it is on disk
   if (changed && trial_goes_on()) screen_.present(shown_, engine().screen());
 }
 
-// @return whether the screen may look different now
+// @return whether the screen may have changed
 bool AttemptRun::take_touch(const Touch& touch) {
-  if (touch.page != engine().screen().page()) return false;  // meant for the page before
+  if (touch.page != engine().screen().page()) return false;  // meant for the previous page
   if (touch.kind == TouchKind::put_cubes_back) {
     put_cubes_back();
     return false;
@@ -244,15 +244,15 @@ bool AttemptRun::take_touch(const Touch& touch) {
 
 void AttemptRun::put_cubes_back() {
   const Admission admission = engine().admit({journal_.now_s(), CubesReset{}});
-  if (!admission.admitted) return;  // they are not there yet
+  if (!admission.admitted) return;  // the cubes have not appeared yet
   if (journal_.emit(*admission.admitted, Durability::acknowledged).empty()) world_->request_reset();
 }
 
 void AttemptRun::take_actions(const ShownFrame& shown) {
   const std::vector<TimedAction> actions = parts_.responder.see(shown.frame, engine().screen());
-  if (parts_.texts) return;  // a person answers; of the model only the hand is wanted
+  if (parts_.texts) return;  // a person answers; only the model's hand is used
   for (const TimedAction& action : actions) {
-    // Its own time, which may lie before the newest picture's, but not before an event.
+    // The action's time may precede the newest picture's, but not the last event's.
     const double t_s = std::max(start_s_ + log_time(action.t_s), engine().last_s());
     const std::string refusal = answer(action, t_s);
     if (!refusal.empty()) refuse_model(action, refusal);
@@ -260,22 +260,22 @@ void AttemptRun::take_actions(const ShownFrame& shown) {
   }
 }
 
-// What a model does wrong is a mistake in it, not in an answer.
+// An invalid action of a model is a defect of the model.
 void AttemptRun::refuse_model(const TimedAction& action, const std::string& why) {
   const int trial_number = engine().next().plan->trial_number;
   control_.leave("the responder's action was refused");
-  throw Error(fmt::format("trial {}: the responder's \"{}\"{} at {:.3f} s can't be taken: {}",
+  throw Error(fmt::format("trial {}: the responder's \"{}\"{} at {:.3f} s is refused: {}",
                           trial_number, name_of(action.kind),
                           action.slot ? fmt::format(" of cube {}", *action.slot) : "", action.t_s,
                           why));
 }
 
-// @return why it is refused; empty: it is taken
+// @return the reason for refusing it; empty: accepted
 std::string AttemptRun::answer(const Action& action, double t_s) {
   const Admission admission = engine().admit({t_s, action});
   if (!admission.admitted) return admission.refusal;
   const int n_reshuffles = engine().next().plan->n_reshuffles;
-  // What is still being touched is let go of before an answer can close the trial.
+  // Contacts end before the answer that closes the trial.
   if (engine().ends_trial(action)) log_events(world_->end_contacts(t_s - start_s_));
   if (std::string why = journal_.emit(*admission.admitted, Durability::acknowledged); !why.empty())
     return why;

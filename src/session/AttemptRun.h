@@ -1,5 +1,5 @@
-// One attempt at a trial, from its start to its end: poses in, physics, the frame shown, and what
-// the participant does.
+// One attempt at a trial, from start to end: poses, physics, displayed frames and the participant's
+// actions.
 #pragma once
 
 #include "apparatus/TrialWorld.h"
@@ -13,12 +13,12 @@ class AttemptRun {
   AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,
              SessionControl& control, ParticipantScreen& screen);
 
-  /// Returns when the attempt is over, the session pauses itself or is to be left; an attempt that
-  /// was left is void ("interrupted") once the session is.
+  /// Returns when the attempt has ended, the session pauses, or it is to be left. An open attempt
+  /// of a session that is left becomes void ("interrupted").
   /// @throws Error as Runner::run
   void run(const TrialPlan& plan);
 
-  /// What was displayed last.
+  /// The last displayed frame.
   const ViewFrame& shown() const { return shown_; }
 
  private:
@@ -52,11 +52,11 @@ class AttemptRun {
 
   double start_s_ = 0;  // session time
   std::optional<TrialWorld> world_;
-  double seen_s_ = 0;  // when the effector was seen last
+  double seen_s_ = 0;  // when the effector was last seen
   std::optional<double> trouble_since_s_;
   ViewFrame shown_;
   std::optional<double> presented_s_;  // session time of the last frame
-  int n_continued_ = 0;                // of the journal, when pictures were last listened for
+  int n_continued_ = 0;                // Journal::n_continued when pictures were last awaited
   int n_shown_ = 0, n_dropped_ = 0, n_late_ = 0;
 };
 

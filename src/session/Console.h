@@ -1,6 +1,6 @@
-// The experimenter's console: what they see of a running session, and what they can do to it. It
-// keeps them blind: no mass, level, condition or correctness unless they unblind themselves, which
-// is logged.
+// The experimenter's console: the state of a running session and the commands on it. The
+// experimenter stays blind to mass, level, condition and correctness until they ask to be
+// unblinded, which is logged.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@
 namespace heft {
 
 enum class ConsoleCommandKind {
-  pause,  ///< the session stands still, an open trial too
+  pause,  ///< pauses the session, with an open trial
   go_on,
-  veto,         ///< the open trial is void and will be presented again; text: why
-  veto_answer,  ///< the same of the trial that was answered last; text: why
-  check,        ///< look at the apparatus once more
+  veto,         ///< voids the open trial, which will be presented again; text: reason
+  veto_answer,  ///< voids the trial that was answered last; text: reason
+  check,        ///< checks the apparatus again
   note,         ///< text
   rest,         ///< a break before the next trial
-  end,          ///< leave the session so that it can be resumed
-  unblind       ///< show the open trial's plan from now on
+  end,          ///< leaves the session, which can be resumed
+  unblind       ///< shows the open trial's plan from now on
 };
 
 struct ConsoleCommand {
@@ -28,9 +28,9 @@ struct ConsoleCommand {
   std::string text;
 };
 
-/// How the frames of a trial come along.
+/// Tracking during a trial.
 struct TrackingStatus {
-  bool tracked = false;           ///< the effector, in the last frame
+  bool tracked = false;           ///< whether the effector was tracked in the last frame
   std::optional<double> quality;  ///< 0...1
   double frames_per_s = 0;        ///< 0: not known yet
 };
@@ -38,12 +38,12 @@ struct TrackingStatus {
 struct ConsoleStatus {
   double session_s = 0;
   int n_completed = 0;                ///< trials
-  std::optional<ScreenState> screen;  ///< what the participant has before them; none: nothing
+  std::optional<ScreenState> screen;  ///< the participant's screen; none: nothing
   bool paused = false;
-  bool paused_itself = false;              ///< somebody has to look
-  std::string trouble;                     ///< with the camera or the board
-  std::optional<TrackingStatus> tracking;  ///< none: no trial is on the screen
-  int n_dropped = 0, n_late = 0;           ///< pictures, in this session
+  bool paused_itself = false;              ///< needs the experimenter
+  std::string trouble;                     ///< of the camera or the board
+  std::optional<TrackingStatus> tracking;  ///< none: no trial is open
+  int n_dropped = 0, n_late = 0;           ///< pictures of this session
   std::optional<TrialPlan> plan;           ///< only once unblinded
 };
 
@@ -51,17 +51,17 @@ class Console {
  public:
   virtual ~Console() = default;
 
-  /// What the experimenter wants, if anything. Returns at once.
+  /// The experimenter's next command, if any. Returns immediately.
   virtual std::optional<ConsoleCommand> command() = 0;
 
-  /// Called often; draw when it suits.
+  /// Called often; draws at its own rate.
   virtual void show(const ConsoleStatus& status) = 0;
 
-  /// Asks whether to go on; the answer comes as a command, go_on or end.
-  /// @return false: nobody can be asked, and no answer will come
+  /// Asks whether to continue; the answer arrives as a command, go_on or end.
+  /// @return false: there is no one to ask, and no answer will come
   virtual bool ask_to_go_on(const std::string& question) = 0;
 
-  /// Something to tell them: why a command was not taken.
+  /// Displays a message, such as why a command was refused.
   virtual void say(const std::string& text) = 0;
 };
 

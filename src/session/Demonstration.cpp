@@ -11,10 +11,10 @@
 namespace heft {
 
 namespace {
-constexpr double mass_g = 200;  // any: a coupled clone moves all alike
+constexpr double mass_g = 200;  // arbitrary: a coupled clone moves all masses alike
 
-// Turned about its long axis, the effector shows the camera two of its faces; that is what a good
-// pose needs, and how people should hold it.
+// Rolled about its long axis, the effector shows the camera two of its faces, which a good pose
+// needs. This is how participants should hold it.
 constexpr double roll_rad = 40 * std::numbers::pi / 180;
 
 TrialPlan plan_of_demonstration() {
@@ -31,7 +31,7 @@ std::unique_ptr<Responder> hand_for(std::uint64_t seed) {
   return responder_named("simulated").make(options);
 }
 
-// A model holds it upright; its lower edge stays as high over the table as its lower face was.
+// A model holds it upright; its lower edge keeps the height of its lower face.
 Pose as_people_hold_it(const Pose& upright, const Eigen::Vector3d& size_m) {
   Pose held = upright;
   held.orientation = held.orientation * Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
@@ -40,7 +40,7 @@ Pose as_people_hold_it(const Pose& upright, const Eigen::Vector3d& size_m) {
   return held;
 }
 
-// From where a session without a camera is drawn, too.
+// The viewpoint that is also used without a camera.
 SyntheticSettings camera_settings(bool left_hand) {
   SyntheticSettings settings;
   settings.left_hand = left_hand;
@@ -75,13 +75,13 @@ void Demonstration::advance() {
   const auto pose =
       hand.in_view ? std::optional(as_people_hold_it(hand.pose, effector_size_m_)) : std::nullopt;
   last_.frame = world_.advance(sample_of(frame_s, pose)).frame;
-  // It looks again and again: what it would answer is not taken.
+  // The model keeps looking: its answers are ignored.
   ScreenState screen;
   screen.screen = Screen::trial;
   hand_->see(last_.frame, screen);
 }
 
-// Only what is looked at. Here it is known where the hand is: cubes are drawn behind it.
+// Draws cubes behind the hand, whose position is known here.
 void Demonstration::film() {
   const DisplayedFrame& frame = last_.frame;
   const auto held = [&](double) {

@@ -1,6 +1,6 @@
-// The demonstration video, made from the protocol: a hand holds the effector as people should, and
-// pushes cubes of equal masses with a clone that stays on it (paper, 5.1: equal masses, no
-// decoupling). It looks like a trial, filmed by a synthetic camera.
+// The demonstration video, rendered from the protocol: a hand holds the effector as recommended and
+// pushes cubes of equal masses without decoupling (paper, 5.1). It looks like a trial, filmed by a
+// synthetic camera.
 #pragma once
 
 #include <memory>
@@ -15,14 +15,14 @@ namespace heft {
 
 class Demonstration {
  public:
-  /// @param protocol outlives this
-  /// @param apparatus what is filmed, and through what lens; without a board nothing is filmed
-  /// @param left_hand which hand holds the effector
+  /// @param protocol must outlive this object
+  /// @param apparatus board, effector and camera; without a board no video picture is rendered
+  /// @param left_hand the hand that holds the effector
   Demonstration(const Protocol& protocol, const Apparatus& apparatus, std::uint64_t seed,
                 bool left_hand = false);
   Demonstration(Protocol&&, const Apparatus&, std::uint64_t, bool = false) = delete;
 
-  /// What is displayed at a time since its start; times increase.
+  /// The frame at a time since its start; times increase.
   ViewFrame at(double t_s);
 
  private:
@@ -34,7 +34,7 @@ class Demonstration {
   std::unique_ptr<Responder> hand_;
   TrialWorld world_;
   std::optional<SyntheticCamera> camera_;
-  std::uint64_t count_ = 0;  // of frames so far
+  std::uint64_t count_ = 0;  // number of frames so far
   ViewFrame last_;
 };
 

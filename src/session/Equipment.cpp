@@ -9,13 +9,13 @@
 namespace heft {
 
 namespace {
-constexpr double same_size_m = 0.0015;  // a printer's 1 % off, measured and written down
+constexpr double same_size_m = 0.0015;  // 1 % printing error, measured and recorded
 
 bool has_size(const MarkerBody& effector, const Eigen::Vector3d& size_m) {
   return (effector.size_m - size_m).cwiseAbs().maxCoeff() < same_size_m;
 }
 
-// What people hold must be what the simulated one looks like.
+// The simulated effector must have the size of the real one.
 void require_size(const SessionConfig& config, const Protocol& protocol,
                   const MarkerBody& effector) {
   const Eigen::Vector3d& size_m = protocol.effector_size_m;
@@ -27,8 +27,8 @@ void require_size(const SessionConfig& config, const Protocol& protocol,
               ExitCode::invalid_file);
 }
 
-// What the demonstration shows: the filmed board and effector, else those that would be filmed, as
-// far as there are any. Of another size than these there is no print.
+// Board and effector that are filmed, else those of the files that exist. The effector's print must
+// have the protocol's size.
 Apparatus demonstrated_apparatus(const ResolvedConfig& resolved) {
   const auto& [path, text, hash] = resolved->config.board;
   if (resolved->tracker->has_camera) return resolved->apparatus;
@@ -42,8 +42,8 @@ Apparatus demonstrated_apparatus(const ResolvedConfig& resolved) {
   return apparatus;
 }
 
-// The row with most cubes and as much as a gap beside it, in front of it the resting effector's
-// fore half, behind it all that cubes can be pushed.
+// Covers the row with most cubes and as much as a gap beside it, the front half of the resting
+// effector, and the range over which cubes can be pushed.
 Eigen::AlignedBox3d working_box(const Protocol& protocol) {
   const Layout& layout = protocol.layout;
   int n = 3;
@@ -58,7 +58,7 @@ Eigen::AlignedBox3d working_box(const Protocol& protocol) {
           Eigen::Vector3d(stage.slots_m.back().x() + beside_m, back_m, layout.cube_size_m)};
 }
 
-// Where a model's hand would rest; none where it is not dragged.
+// Starts where a model's hand would rest; none if the effector is not dragged.
 std::shared_ptr<DraggedEffector> dragged_effector(const ResolvedConfig& resolved) {
   constexpr double hover_m = 0.005;
   if (!resolved->tracker->is_dragged) return {};

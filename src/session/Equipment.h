@@ -1,5 +1,5 @@
-// The opened view, camera, responder and clock of a session. Made before the log is touched, so
-// that a missing camera or display leaves no session behind.
+// Opens a session's view, camera, responder and clock, before anything is logged, so that a missing
+// camera or display leaves no session behind.
 #pragma once
 
 #include <memory>
@@ -11,15 +11,15 @@ namespace heft {
 
 class Equipment {
  public:
-  /// @throws Error (device_missing) when a camera or display is not there; Error (invalid_file)
-  ///   when the effector is not the protocol's
+  /// @throws Error (device_missing) if a camera or display is missing; Error (invalid_file) if the
+  ///   effector's size is not the protocol's
   explicit Equipment(ResolvedConfig config);
   Equipment(const Equipment&) = delete;
 
   SessionParts parts(Engine& engine, EventSink& sink);
 
-  /// The configuration with what only the opened devices know.
-  /// @throws Error (invalid_file) when the display is not the one that was measured
+  /// The configuration with the opened devices' facts.
+  /// @throws Error (invalid_file) if the display is not the measured one
   SessionConfig logged_config() const {
     return with_devices(config_->config, {view_->display(), pictures_->rate_hz()});
   }

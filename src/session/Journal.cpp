@@ -8,7 +8,7 @@ namespace {
 constexpr double flush_every_s = 1;
 }  // namespace
 
-// What the log could not write yet is kept by it, in order.
+// A busy log buffers what it could not write, in order.
 template <typename Write>
 void Journal::write(const Write& write) {
   try {
@@ -35,7 +35,7 @@ std::string Journal::emit(const AdmittedEvent& admitted, Durability durability) 
 void Journal::keep(const Event& event, const Changes& changes, Durability durability) {
   if (event.is<SessionContinued>()) ++n_continued_;
   write([&] { sink_.append(event, changes, durability); });
-  told_(engine_);
+  on_event_(engine_);
 }
 
 void Journal::leave(const std::string& why) {

@@ -23,7 +23,7 @@ bool Pages::welcome() {
   return true;
 }
 
-// Who does not agree is asked once more, and can leave it at that. @return false: they do
+// Asks a participant who does not agree once more. @return false: they do not take part
 bool Pages::agrees() {
   for (;;) {
     const TouchKind answer = show(Screen::consent);
@@ -31,7 +31,7 @@ bool Pages::agrees() {
     const bool agreed = answer == TouchKind::next;
     journal_.emit_now(Consent{agreed, texts_->language, sha256(page_text(*texts_, "consent"))});
     if (agreed) return true;
-    if (!texts_->pages.contains("declined")) return false;  // texts from before that page
+    if (!texts_->pages.contains("declined")) return false;  // older texts lack that page
     const TouchKind sure = show(Screen::declined);
     if (sure != TouchKind::next) return sure == TouchKind::close;
   }
@@ -46,8 +46,8 @@ void Pages::show_form(Screen screen) {
   if (end == TouchKind::next) gone_.pages.insert(std::string(name_of(screen)));
 }
 
-// Blocks of one task have one page: those of a block that has begun were read by whoever left that
-// page before; not by a person who goes on where a model began.
+// Blocks of one task share one page. It counts as read for the blocks that began before a person
+// resumed their session, but not where a person continues a model's session.
 void Pages::instructions(const std::string& block, const Task& task) {
   const bool left_before = gone_.pages.contains(text_page(Screen::instructions, task));
   if (instructed_.contains(block) || (left_before && journal_.engine().has_begun(block))) return;
@@ -70,8 +70,8 @@ void Pages::how_decided() {
   if (protocol_.screens.how_decided) show_once(Screen::how_decided);
 }
 
-// Once it was gone through, its own entry has the time; until then it comes again after a
-// break-off, with its first question that has no answer.
+// A completed questionnaire has an entry with its time. Otherwise it is shown again when the
+// session is resumed, from its first unanswered question.
 void Pages::ask(const std::string& name, const std::string& after) {
   const std::string asked = (after.empty() ? "" : after + '.') + name;
   const std::string done = asked + ".done_s";
@@ -93,7 +93,7 @@ void Pages::ask(const std::string& name, const std::string& after) {
   journal_.add_info(done, gone_.entries[done]);
 }
 
-// As show(), with the model's touches in place of a person's.
+// As show(), with the model's touches instead of a person's.
 TouchKind Pages::ask_model(const Questionnaire& form, const ScreenState& screen) {
   QuestionnaireResponder model(*asked_.mind, form, screen);
   SessionClock& clock = journal_.clock();
@@ -102,7 +102,7 @@ TouchKind Pages::ask_model(const Questionnaire& form, const ScreenState& screen)
     if (control_.has_screen())
       screen_.present({}, screen);
     else
-      screen_.tell(screen);
+      screen_.log_text(screen);
     control_.wait(still_page_step_s);
     clock.advance_to(clock.now_s() + still_page_step_s);
     for (const Touch& touch : model.touch(clock.now_s() - since_s)) {
@@ -130,7 +130,8 @@ void Pages::questionnaires_at_the_end() {
   ask_after(over);
 }
 
-// Of an answer that is taken back meanwhile the trial comes again before what is left of them.
+// If the last answer is vetoed meanwhile, its trial is repeated before the remaining
+// questionnaires.
 void Pages::ask_after(const std::vector<std::string>& blocks) {
   if (!texts_ && !asked_.texts) return;
   const int n_completed = journal_.engine().n_completed();
@@ -151,14 +152,14 @@ TouchKind Pages::show(ScreenState screen, double least_s, const Moving& frame_at
   const double since_s = clock.now_s();
   const double step_s = frame_at ? 1 / protocol_.display_rate_hz : still_page_step_s;
   while (!control_.leaving()) {
-    control_.wait_while_held();  // a page that is turned acknowledges what was given on it
+    control_.wait_while_held();  // turning a page acknowledges its answers
     const double now_s = clock.now_s(), elapsed_s = now_s - since_s;
     screen.wait_s = std::max(0.0, least_s - elapsed_s);
-    if (!texts_ && screen.wait_s == 0) return TouchKind::next;  // only looked on at
+    if (!texts_ && screen.wait_s == 0) return TouchKind::next;  // a spectator does not answer
     screen_.present(frame_at ? frame_at(elapsed_s) : ViewFrame{}, screen);
     const double left_s = std::max(0.0, now_s + step_s - clock.now_s());
     for (const Touch& touch : control_.wait(left_s)) {
-      if (touch.page != screen.page()) continue;  // meant for the page before
+      if (touch.page != screen.page()) continue;  // meant for the previous page
       if (touch.kind == TouchKind::entry) journal_.add_info(touch.key, touch.value);
       if (touch.kind == TouchKind::decline) return touch.kind;
       if (touch.kind == TouchKind::next && screen.wait_s == 0) return touch.kind;

@@ -16,21 +16,20 @@
 
 namespace heft {
 
-// What a person went through before their session went on: it does not come again.
-
+/// Pages and entries of a session before it was resumed: they are not repeated.
 struct ResumeState {
   bool consented = false;
-  std::set<std::string> pages = {};                 ///< that were turned
-  std::map<std::string, std::string> entries = {};  ///< of forms, answered so far
-  bool in_break = false;                            ///< was shown last, and not ended
+  std::set<std::string> pages = {};                 ///< completed by the participant
+  std::map<std::string, std::string> entries = {};  ///< answers of questionnaires so far
+  bool in_break = false;  ///< a break was displayed last, and has not ended
 };
 
-/// Whether people go on to read the page that this one covers for a while.
+/// Whether this page only covers another one for a while.
 inline bool covers_a_page(const std::string& page) {
   return page == name_of(Screen::paused) || page == name_of(Screen::setting_up);
 }
 
-/// @param entries what the log keeps of the participant
+/// @param entries logged about the participant
 inline ResumeState resume_state(const std::vector<Event>& events,
                                 std::map<std::string, std::string> entries) {
   ResumeState gone{.entries = std::move(entries)};
@@ -38,7 +37,7 @@ inline ResumeState resume_state(const std::vector<Event>& events,
   for (const Event& event : events) {
     if (const auto* consent = event.as<Consent>()) gone.consented = consent->agreed;
     if (event.as<BreakTaken>()) gone.in_break = false;
-    if (event.as<SessionResumed>()) page.clear();  // it was broken off, not turned
+    if (event.as<SessionResumed>()) page.clear();  // interrupted, not completed
     const auto* shown = event.as<TextShown>();
     if (!shown || covers_a_page(shown->page)) continue;
     if (!page.empty() && shown->page != page) gone.pages.insert(page);
@@ -48,17 +47,17 @@ inline ResumeState resume_state(const std::vector<Event>& events,
   return gone;
 }
 
-/// Who is asked questionnaires where no person is.
+/// The model that answers questionnaires in place of a person.
 struct AskedMind {
   const Responder* mind = nullptr;
-  const ScreenTexts* texts = nullptr;  ///< null: it is asked none
+  const ScreenTexts* texts = nullptr;  ///< null: it answers none
 };
 
 class Pages {
  public:
-  /// @param texts what the person reads; null: nobody reads; who looks on sees the
-  ///   demonstration and breaks, which go on by themselves
-  /// @param before the session went on
+  /// @param texts for the participant; null: there is no reader, and the demonstration and breaks
+  ///   continue without a touch
+  /// @param before pages and entries of the session so far
   Pages(const Protocol& protocol, Journal& journal, SessionControl& control,
         ParticipantScreen& screen, const ScreenTexts* texts, ResumeState before,
         AskedMind asked = {})
@@ -72,24 +71,24 @@ class Pages {
 
   bool has_reader() const { return texts_ != nullptr; }
 
-  /// The pages before a session's first trial, but for those that were turned before.
-  /// @return false when the person does not agree to take part
+  /// The pages before a session's first trial, without those completed before.
+  /// @return false if the person does not agree to take part
   bool welcome();
 
-  /// Those of a block, unless they were read before.
+  /// The instructions of a block, unless completed before.
   void instructions(const std::string& block, const Task& task);
 
-  /// The demonstration, for as long as the block says and until the person goes on.
+  /// The demonstration, for at least the block's duration and until the person continues.
   /// @param apparatus, left_hand as Demonstration
   void demonstration(const DemonstrationBlock& block, const Apparatus& apparatus, bool left_hand);
 
-  /// A break of at least so many seconds.
+  /// A break of at least `least_s` seconds.
   void rest(double least_s);
 
-  /// The questionnaires after the blocks before this one that were not asked yet; of no block none.
-  /// A model is asked, too.
+  /// Unanswered questionnaires that follow the blocks before this one; none for an empty name. A
+  /// model answers them, too.
   void questionnaires_before(const std::string& block);
-  /// Those after all blocks, and those at the end.
+  /// Questionnaires after all blocks, and those at the end.
   void questionnaires_at_the_end();
 
   /// The pages after the last trial.
@@ -99,7 +98,7 @@ class Pages {
  private:
   using Moving = std::function<ViewFrame(double t_s)>;
 
-  /// @return the touch that ended it: next, decline, or close when the session is left
+  /// @return the touch that ended it: next, decline, or close if the session is left
   TouchKind show(ScreenState screen, double least_s = 0, const Moving& frame_at = {});
   TouchKind show(Screen screen) { return show(ScreenState{.screen = screen}); }
   void show_once(Screen screen);
@@ -115,7 +114,7 @@ class Pages {
   ParticipantScreen& screen_;
   const ScreenTexts* texts_;
   ResumeState gone_;
-  std::set<std::string> instructed_;  // of which blocks, since the session goes on
+  std::set<std::string> instructed_;  // blocks whose instructions were read in this run
   AskedMind asked_;
 };
 

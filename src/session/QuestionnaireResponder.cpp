@@ -3,7 +3,7 @@
 namespace heft {
 
 namespace {
-constexpr double reading_s = 3;  // of a question
+constexpr double reading_s = 3;  // per question
 }
 
 QuestionnaireResponder::QuestionnaireResponder(const Responder& mind, const Questionnaire& form,

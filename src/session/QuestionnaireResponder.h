@@ -1,4 +1,4 @@
-// A model before a questionnaire: what a person would touch there, at a person's pace.
+// A model that answers a questionnaire by touches, at a person's pace.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@ namespace heft {
 
 class QuestionnaireResponder {
  public:
-  /// @param screen of the questionnaire: what its entries have is not answered again
+  /// @param screen the questionnaire's; its existing entries are not answered again
   QuestionnaireResponder(const Responder& mind, const Questionnaire& form,
                          const ScreenState& screen);
 
-  /// What it touches until that time after the page came that it has not touched before: an answer
-  /// or none every few seconds, then the button to go on.
+  /// New touches until a time after the page appeared: an answer or none every few seconds, then
+  /// the button "next".
   std::vector<Touch> touch(double elapsed_s);
 
  private:

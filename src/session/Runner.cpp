@@ -18,7 +18,7 @@ Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
       pages_(parts.protocol, journal_, control_, screen_, parts.texts, parts.before,
              {&parts.responder, parts.asked}) {
   control_.on_check([this] { check_apparatus(); });
-  // One of the protocol the engine knows to be due; one that was asked for it does not.
+  // The engine knows the protocol's breaks, but not a requested one.
   if (parts.before.in_break && !parts.engine.next().rest) control_.want_rest();
 }
 
@@ -30,23 +30,23 @@ RunEnd Runner::run() {
   return end;
 }
 
-// Looked at until nothing fails any more, or the experimenter decides.
+// Repeats the checks until none fails, or the experimenter decides.
 void Runner::check_apparatus() {
   for (;;) {
     const std::string failed = failed_checks();
     if (failed.empty()) return;
     const SessionControl::Answer answer = ask_whether_failures_matter();
     if (answer == SessionControl::Answer::check) continue;
-    const bool asked = answer != SessionControl::Answer::nobody_there;
+    const bool asked = answer != SessionControl::Answer::no_one_there;
     if (!asked && !options_.go_on_unchecked) refuse_unchecked(failed);
-    const std::string who = asked ? "the experimenter" : "nobody could be asked; the session";
+    const std::string who = asked ? "the experimenter" : "without an experimenter the session";
     const bool goes_on = answer != SessionControl::Answer::leave;
-    return journal_.emit_now(
-        Note{fmt::format("failed check: {}; {} {}", failed, who, goes_on ? "goes on" : "leaves")});
+    return journal_.emit_now(Note{
+        fmt::format("failed check: {}; {} {}", failed, who, goes_on ? "continues" : "leaves")});
   }
 }
 
-// @return the names of what failed, as said and logged
+// @return names of the failed checks, as printed and logged
 std::string Runner::failed_checks() {
   std::string failed;
   if (parts_.has_screen && parts_.pictures.has_checks())
@@ -64,21 +64,21 @@ std::string Runner::failed_checks() {
 }
 
 SessionControl::Answer Runner::ask_whether_failures_matter() {
-  const std::string shown = screen_.shown() ? "" : "; nothing was shown to anybody yet";
-  return control_.ask_to_go_on("go on? y goes on, n leaves, r checks again" + shown);
+  const std::string shown = screen_.shown() ? "" : "; the participant has seen nothing yet";
+  return control_.ask_to_go_on("continue? y continues, n leaves, r checks again" + shown);
 }
 
 void Runner::refuse_unchecked(const std::string& failed) {
-  journal_.emit_now(Note{fmt::format("failed check: {}; nobody could be asked", failed)});
+  journal_.emit_now(Note{fmt::format("failed check: {}; no experimenter to ask", failed)});
   control_.leave("failed check: " + failed);
-  throw Error(
-      fmt::format("the check of the apparatus failed ({}), and without a terminal nobody can be "
-                  "asked. Nothing was shown to the participant. See to it and go on with heft "
-                  "resume, or add --go-on to go on all the same",
-                  failed));
+  throw Error(fmt::format(
+      "the check of the apparatus failed ({}), and without a terminal there is no one to "
+      "ask. The participant has seen nothing. Fix it and continue with heft "
+      "resume, or add --go-on to continue anyway",
+      failed));
 }
 
-// Who comes back after a crash has read the first pages already.
+// After a crash the first pages are not repeated.
 bool Runner::begin() {
   if (!pages_.has_reader()) return true;
   check_apparatus();
@@ -95,7 +95,7 @@ RunEnd Runner::run_blocks() {
     if (control_.leaving()) return RunEnd::stopped;
     if (const auto rest = parts_.engine.next().rest) {
       take_break(rest->name, rest->least_duration_s);
-      continue;  // it may be asked about, too
+      continue;  // its answers may be asked about, too
     }
     if (control_.take_rest_wish()) take_break("asked for", 0);
     control_.check_if_wanted();
@@ -111,7 +111,7 @@ RunEnd Runner::run_blocks() {
       case Next::Kind::finish:
         if (const auto end = finish()) return *end;
         break;
-      case Next::Kind::act:  // unreachable: an attempt leaves no trial open
+      case Next::Kind::act:  // unreachable: no trial is open after an attempt
       case Next::Kind::paused:
         return RunEnd::paused;
       case Next::Kind::over:
@@ -120,7 +120,7 @@ RunEnd Runner::run_blocks() {
   }
 }
 
-// Of a break that is due, its own. None: no block is to come.
+// The block of a due break, or the next one. None: no block follows.
 std::string Runner::block_to_come() const {
   const Next& next = parts_.engine.next();
   if (next.rest) return next.rest->name;
@@ -128,7 +128,7 @@ std::string Runner::block_to_come() const {
   return next.plan ? next.plan->block : "";
 }
 
-// None: the last answer was vetoed meanwhile, and there is more to do.
+// None: the last answer was vetoed meanwhile, and trials remain.
 std::optional<RunEnd> Runner::finish() {
   const auto at_end = [this] { return parts_.engine.next().kind == Next::Kind::finish; };
   pages_.questionnaires_at_the_end();
@@ -145,7 +145,7 @@ void Runner::take_break(const std::string& name, double least_s) {
     pages_.rest(least_s);
   else
     parts_.clock.advance_to(since_s + least_s);
-  if (control_.leaving()) return;  // who comes back takes it again
+  if (control_.leaving()) return;  // repeated when the session is resumed
   journal_.emit_now(BreakTaken{name, journal_.now_s() - since_s});
 }
 
@@ -178,7 +178,7 @@ void Runner::run_trial(const TrialPlan& plan) {
   last_shown_ = attempt.shown();
 }
 
-// The gap between two trials, visible where there is a screen; what is touched in it means nothing.
+// A visible gap between two trials; touches in it are ignored.
 void Runner::fade_out() {
   const double due_s = parts_.engine.trial_due_s(), since_s = parts_.clock.now_s();
   if (!parts_.clock.is_wall()) return parts_.clock.advance_to(due_s);

@@ -1,5 +1,5 @@
-// Runs a session: asks the engine what comes next and lets it happen: pages for people, breaks, the
-// demonstration, one attempt after the other.
+// Runs a session: asks the engine for the next step and carries it out (pages, breaks, the
+// demonstration, attempts).
 #pragma once
 
 #include "apparatus/sources/PictureSource.h"
@@ -13,29 +13,28 @@
 
 namespace heft {
 
-/// What a session is run with.
+/// Everything that a session runs with.
 struct SessionParts {
   const Protocol& protocol;
   Engine& engine;
   EventSink& sink;
   PictureSource& pictures;
-  Responder& responder;  ///< its mind answers, unless a person does
+  Responder& responder;  ///< answers, unless a person does
   ArView& view;
   SessionClock& clock;
-  bool has_screen = false;             ///< the view can be looked at and touched
-  const ScreenTexts* texts = nullptr;  ///< of the person who answers; null: the responder answers
-  Apparatus apparatus = {};  ///< what the demonstration shows; without a board a plain table
-  ResumeState before = {};   ///< of a session that goes on
-  bool left_hand = false;    ///< holds the effector in it
-  const ScreenTexts* asked =
-      nullptr;  ///< of questionnaires that the responder is asked; null: none
+  bool has_screen = false;             ///< whether the view can be seen and touched
+  const ScreenTexts* texts = nullptr;  ///< for the person who answers; null: the responder answers
+  Apparatus apparatus = {};  ///< shown in the demonstration; without a board a plain table
+  ResumeState before = {};   ///< of a resumed session
+  bool left_hand = false;    ///< holds the effector in the demonstration
+  const ScreenTexts* asked = nullptr;  ///< of questionnaires for the responder; null: none
 };
 
 enum class RunEnd {
   finished,
-  paused,   ///< three voids of one trial: somebody has to look
+  paused,   ///< three voids of one trial: needs the experimenter
   stopped,  ///< RunnerOptions::stop, the experimenter, or a closed window
-  declined  ///< the person does not want to take part
+  declined  ///< the person does not agree to take part
 };
 
 class Runner {
@@ -43,9 +42,9 @@ class Runner {
   Runner(const SessionParts& parts, const RunnerOptions& options);
   Runner(const Runner&) = delete;
 
-  /// Runs until the session ends, pauses or is stopped. On a finished session everything is saved.
-  /// @throws Error from the log (nothing acknowledged is lost), or when the responder has nothing
-  ///   more to do, or does what the screen does not offer, while a trial is open
+  /// Runs until the session ends, pauses or is stopped. When it has ended, everything is saved.
+  /// @throws Error from the log (nothing acknowledged is lost), or if the responder has no more
+  ///   actions, or an action that the screen does not offer, while a trial is open
   RunEnd run();
 
  private:

@@ -1,4 +1,4 @@
-// How a session is run, apart from what it is run with.
+// How a session is run: callbacks, console and event outlet.
 #pragma once
 
 #include <atomic>
@@ -16,16 +16,16 @@ struct RunnerOptions {
   bool keep_frames = true;
   /// Called after every event, for a progress bar.
   std::function<void(const Engine&)> progress = [](const Engine&) {};
-  /// Set from a signal handler to stop at the next picture; the session can be resumed.
+  /// Set by a signal handler to stop at the next picture; the session can be resumed.
   const std::atomic<bool>* stop = nullptr;
-  /// What is to be said where there is no console.
-  std::function<void(const std::string&)> tell = [](const std::string&) {};
+  /// Prints messages where there is no console.
+  std::function<void(const std::string&)> print = [](const std::string&) {};
   Console* console = nullptr;  ///< the experimenter's; only on a wall clock
-  /// Other recorders, informed of each event that is on disk; null: there are none.
+  /// Other recorders, informed of each event once it is on disk; null: none.
   EventOutlet* events = nullptr;
-  /// Where the session's number is put once it is in the log; null: nobody asks.
+  /// Set to the session's number once it is logged; null: not needed.
   std::int64_t* begun = nullptr;
-  /// Go on although the check failed, where nobody can be asked.
+  /// Continue after a failed check if there is no experimenter to ask.
   bool go_on_unchecked = false;
 };
 

@@ -21,24 +21,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A participant's data is never mixed up by a slip: an unfinished session is resumed, a finished
-// one repeated only on purpose. Of two programs that come through here at once only one gets the
-// log's lock.
+// Protects participants' data against slips: an unfinished session is resumed, a finished one is
+// repeated only with --again. Of two programs that start simultaneously only one gets the log's
+// lock.
 void refuse_repetition(const SessionRequest& request) {
   refuse_special_file(request.db);
-  std::error_code unknown;  // what can't be looked at is explained when it is opened for writing
+  std::error_code unknown;  // unreadable files are reported when opened for writing
   if (!fs::exists(request.db, unknown)) return;
   for (const SessionRow& session :
        LogReader(request.db).sessions_of(request.participant, request.config->protocol->name)) {
     if (is_unfinished(session.state))
-      throw Error(fmt::format("participant {} has an unfinished session of {} in {}; go on with "
+      throw Error(fmt::format("participant {} has an unfinished session of {} in {}; continue "
                               "it: heft resume --db {} --session {}",
                               request.participant, request.config->protocol->name, request.db,
                               shell_quoted(request.db), session.session_id),
                   ExitCode::usage);
     if (!request.again)
-      throw Error(fmt::format("participant {} has {} {} in {} (session {}); to run it once "
-                              "more on purpose add --again",
+      throw Error(fmt::format("participant {} has {} {} in {} (session {}); to repeat it "
+                              "on purpose add --again",
                               request.participant,
                               session.state == SessionState::finished ? "finished" : "ended",
                               request.config->protocol->name, request.db, session.session_id),
@@ -76,23 +76,23 @@ SessionResult result_of(const Engine& engine, RunEnd end, std::int64_t session_i
   return {end, session_id, engine.last_s(), engine.n_completed()};
 }
 
-// What is written next must follow what was written before, by anybody's account.
+// New events must follow an unchanged log.
 void refuse_changed_log(const LogReader& reader, const LoggedSession& session) {
   std::string why;
   if (const auto foreign = reader.foreign_objects(); !foreign.empty())
-    why = fmt::format("it holds what no log does: {}", foreign.front());
+    why = fmt::format("its schema has an unknown object: {}", foreign.front());
   else if (const Verification found = verify_rows(reader, session); found.first)
-    why = fmt::format("{} reads {}, but its events give {}", found.first->what, found.first->logged,
+    why = fmt::format("{} is {}, but its events give {}", found.first->what, found.first->logged,
                       found.first->came_out);
   if (!why.empty())
     throw Error(
-        fmt::format("session {} in {} can't go on: the log is not as it was written; {}. "
-                    "Look at it with: heft replay --db {} --session {}",
+        fmt::format("session {} in {} cannot be continued: the log was changed; {}. "
+                    "Inspect it with: heft replay --db {} --session {}",
                     session.row.session_id, session.db, why, session.db, session.row.session_id),
         ExitCode::diverged);
 }
 
-// A logged session folded up to its last event, with nobody else writing.
+// A logged session folded up to its last event, under the log's lock.
 struct Reopened {
   explicit Reopened(const LoggedSession& session)
       : log(SessionLog::reopen(session.db, session.row.session_id)),
@@ -117,15 +117,15 @@ struct Reopened {
   std::vector<Event> events;
 };
 
-// The log, or what tells others of its events too.
+// The log itself, or the log with its announcements.
 EventSink& heard_by_others(std::optional<AnnouncingSink>& announcing, SessionLog& log,
                            const RunnerOptions& runner, const std::string& participant) {
   if (!runner.events) return log;
   return announcing.emplace(log, *runner.events, log.session_id(), participant);
 }
 
-// From here on this is in force.
-void tell_setup(Engine& engine, EventSink& sink, const SessionConfig& setup) {
+// The configuration in effect from here on.
+void log_config(Engine& engine, EventSink& sink, const SessionConfig& setup) {
   const Event event{engine.last_s(), setup};
   sink.append(event, engine.apply(event), Durability::buffered);
 }
@@ -141,7 +141,7 @@ void refuse_special_file(const std::string& db) {
   std::error_code unknown;
   const auto status = fs::status(db, unknown);
   if (!fs::exists(status) || fs::is_regular_file(status) ||
-      fs::is_directory(status))  // a folder is explained when it is opened
+      fs::is_directory(status))  // a folder is reported when opened
     return;
   throw Error(
       fmt::format("{} is a device, pipe or socket, expected a log file. Choose another "
@@ -154,15 +154,15 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   Equipment equipment(request.config);
   const SessionConfig setup = equipment.logged_config();
   Engine engine(request.config->protocol, request.config->seed);
-  const Event told{0, setup};
-  const RecordedEvent first{told, engine.apply(told)};
+  const Event event{0, setup};
+  const RecordedEvent first{event, engine.apply(event)};
   SessionLog log = SessionLog::start(request.db, header_of(request, setup), first);
   if (runner.begun) *runner.begun = log.session_id();
   std::optional<AnnouncingSink> announcing;
   EventSink& sink = heard_by_others(announcing, log, runner, request.participant);
   if (announcing) announcing->announce(first.event, first.changes);
   const RunEnd end = run_with(equipment, engine, sink, runner, 0);
-  sink.flush();  // it is still where it is thought to be
+  sink.flush();  // fails if the file was moved or deleted
   return result_of(engine, end, log.session_id());
 }
 
@@ -178,8 +178,8 @@ LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_
                       db, shell_quoted(db)));
     session_id = row->session_id;
   } else if (const SessionState state = reader.session(*session_id).state; !is_unfinished(state)) {
-    throw Error(fmt::format("session {} in {} is {}; there is nothing to go on with", *session_id,
-                            db, name_of(state)));
+    throw Error(fmt::format("session {} in {} is {}; there is nothing to resume", *session_id, db,
+                            name_of(state)));
   }
   LoggedSession session = load_session(reader, db, *session_id);
   refuse_changed_log(reader, session);  // before any path that it holds is opened
@@ -200,8 +200,8 @@ SessionResult resume_session(const LoggedSession& session, const ResolvedConfig&
   const double now_s = log_time(std::max(last_s, seconds_since(session.row.header.started_utc)));
   reopened.append({now_s, SessionResumed{utc_now(), now_s - last_s}});
   if (const SessionConfig setup = equipment.logged_config(); setup != session.setups.back().setup)
-    tell_setup(reopened.engine, sink, setup);
-  sink.flush();  // all of the return or nothing of it
+    log_config(reopened.engine, sink, setup);
+  sink.flush();  // the whole resumption or nothing
   const RunEnd end = run_with(equipment, reopened.engine, sink, runner, now_s,
                               resume_state(reopened.events, session.row.header.participant_info));
   sink.flush();
@@ -220,7 +220,7 @@ RecordedSession compute_session(const SessionRequest& request, const RunnerOptio
   const SessionConfig setup = equipment.logged_config();
   RecordedSession recorded(header_of(request, setup));
   Engine engine(request.config->protocol, request.config->seed);
-  tell_setup(engine, recorded, setup);
+  log_config(engine, recorded, setup);
   run_with(equipment, engine, recorded, runner, 0);
   return recorded;
 }

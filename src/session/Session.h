@@ -1,4 +1,4 @@
-// Whole sessions: start one, go on with one, or compute one in memory.
+// Whole sessions: started, resumed, aborted, or computed in memory.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,14 @@ struct SessionRequest {
   std::string participant;
   std::string db = "heft.db";
   Purpose purpose = Purpose::main;  ///< of a person's session
-  /// What is known of the participant beforehand: their place in a study.
+  /// Known facts about the participant: their place in a study.
   std::map<std::string, std::string> participant_info = {};
-  bool again = false;  ///< one more session of a participant who finished this protocol
+  bool again = false;  ///< another session of a participant who finished this protocol
 };
 
-/// @throws Error when there is a device, a pipe or a socket where the log should be: opening one
-///   could wait forever or leave files beside it
+/// @throws Error if the log's path is a device, a pipe or a socket: opening one could wait forever
+/// or
+///   leave files beside it
 void refuse_special_file(const std::string& db);
 
 struct SessionResult {
@@ -34,26 +35,26 @@ struct SessionResult {
   int n_completed = 0;
 };
 
-/// A fresh seed, 0...2^63-1, from the operating system.
+/// A new seed, 0...2^63-1, from the operating system.
 std::uint64_t fresh_seed();
 
-/// @throws Error (usage) when the participant has an unfinished session of the protocol, or a
+/// @throws Error (usage) if the participant has an unfinished session of the protocol, or a
 ///   finished one and `again` is not set; otherwise as Runner::run
 SessionResult start_session(const SessionRequest& request, const RunnerOptions& runner);
 
 /// The session of that id, or the newest unfinished one.
-/// @throws Error when there is none, or it is over
+/// @throws Error if there is none, or it has ended
 LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_t> session_id);
 
-/// Resumes an unfinished session: an attempt that was open is void ("interrupted") and runs again
-/// with the same draws. A configuration that is not the last one logged is logged first.
+/// Resumes an unfinished session: an open attempt becomes void ("interrupted") and is repeated with
+/// the same draws. A changed configuration is logged first.
 /// @param config resolved from the session's own
-/// @throws Error (diverged) when the log is not as it was written
+/// @throws Error (diverged) if the log was changed
 SessionResult resume_session(const LoggedSession& session, const ResolvedConfig& config,
                              const RunnerOptions& runner);
 
-/// Ends an unfinished session for good (state "aborted"): somebody who will not come back. What was
-/// answered stays; an attempt that was open is void.
+/// Ends an unfinished session for good (state "aborted"), for participants who do not return.
+/// Answers are kept; an open attempt becomes void.
 void abort_session(const LoggedSession& session);
 
 /// A simulated session that is kept in memory.

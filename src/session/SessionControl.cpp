@@ -13,16 +13,16 @@ namespace heft {
 
 std::optional<double> ParticipantScreen::present(const ViewFrame& frame,
                                                  const ScreenState& screen) {
-  tell(screen);
+  log_text(screen);
   return view_.present(frame, screen);
 }
 
-void ParticipantScreen::tell(const ScreenState& screen) {
+void ParticipantScreen::log_text(const ScreenState& screen) {
   const ScreenTexts* read = screen.screen == Screen::questionnaire && asked_ ? asked_ : texts_;
   if (read)
     log_text(*read, text_page(screen));
   else
-    page_.clear();  // nobody reads what stands there now
+    page_.clear();  // its page is not read any more
   shown_ = screen;
 }
 
@@ -62,11 +62,12 @@ void SessionControl::wait_while_held() {
   for (;;) {
     if (journal_.busy() && !busy_since_s) {
       busy_since_s = monotonic_s();
-      if (journal_.clock().is_wall()) keep(touched(0));  // touched before the screen pauses
+      if (journal_.clock().is_wall())
+        keep(touched(0));  // touched before the screen shows the pause
       const std::string locked =
           "Database locked by another process; retrying. Nothing is lost. "
           "Close the other program to continue.";
-      console_ ? console_->say(locked) : tell_(locked);
+      console_ ? console_->say(locked) : print_(locked);
     }
     if (busy_since_s) {
       pause_for_database();
@@ -81,7 +82,7 @@ void SessionControl::wait_while_held() {
   refuse_stale();
 }
 
-// An answer that was pending in a pause, to a trial that is over after it.
+// An answer that was pending in a pause, to a trial that has ended since.
 void SessionControl::refuse_stale() {
   if (!has_person_) return;
   const PageId page = journal_.engine().screen().page();
@@ -92,7 +93,7 @@ void SessionControl::refuse_stale() {
   });
 }
 
-// Where there is a wall clock; a command may have continued the session meanwhile.
+// On a wall clock; a command may have continued the session meanwhile.
 void SessionControl::pause_for_database() {
   if (!journal_.clock().is_wall() || journal_.engine().state() != SessionState::running) return;
   journal_.emit_now(SessionPaused{std::string(database_locked)});
@@ -111,7 +112,7 @@ bool SessionControl::gives_up_after(double waited_s) const {
   return !has_person_ && waited_s >= longest_wait_alone_s;
 }
 
-// What is touched meanwhile means nothing.
+// Touches meanwhile are ignored.
 void SessionControl::stand_still(bool is_locked) {
   if (is_locked) status.trouble = std::string(database_locked) + "; retrying";
   if (journal_.clock().is_wall()) {
@@ -134,7 +135,7 @@ void SessionControl::leave(const std::string& why) {
 }
 
 SessionControl::Answer SessionControl::ask_to_go_on(const std::string& question) {
-  if (!console_ || !console_->ask_to_go_on(question)) return Answer::nobody_there;
+  if (!console_ || !console_->ask_to_go_on(question)) return Answer::no_one_there;
   answer_.reset();
   asking_ = true;
   while (!answer_ && !leaving()) {
@@ -156,13 +157,13 @@ std::vector<Touch> SessionControl::poll(double seconds) {
   return touches;
 }
 
-// How it stood at first is in the setup; F11 changes it.
+// The initial state is in the configuration; F11 changes it.
 void SessionControl::note_window() {
   const std::optional<bool> full = screen_.is_full_screen();
   const bool is_new = full && full_screen_ && *full != *full_screen_;
   if (is_new && journal_.engine().next().kind != Next::Kind::over)
     journal_.emit_now(
-        Note{*full ? "the window is full screen now" : "the window is not full screen any more"});
+        Note{*full ? "the window is now full screen" : "the window is no longer full screen"});
   if (full) full_screen_ = full;
 }
 
@@ -207,18 +208,18 @@ void SessionControl::obey(const ConsoleCommand& command) {
 
 void SessionControl::pause() {
   if (journal_.engine().next().kind == Next::Kind::over)
-    return console_->say("the session is over; there is nothing to pause");
+    return console_->say("the session has ended; it cannot be paused");
   if (paused_for_database_ && !holding_) {
     holding_ = true;
     return console_->say("the session stays paused until you continue it");
   }
   if (journal_.engine().state() == SessionState::paused)
-    return console_->say("the session is paused already");
+    return console_->say("the session is already paused");
   journal_.emit_now(SessionPaused{"experimenter"});
   holding_ = true;
 }
 
-// Nothing that is not on disk is reported as done.
+// Only what is on disk is reported as done.
 void SessionControl::confirm(const std::string& done) {
   console_->say(journal_.busy() ? done + "; not saved yet" : done);
 }
@@ -228,7 +229,7 @@ void SessionControl::go_on() {
     answer_ = Answer::go_on;
     return;
   }
-  if (!holding_) return console_->say("the session is not held; it goes on by itself");
+  if (!holding_) return console_->say("the session is not held; it continues automatically");
   holding_ = false;
   if (!paused_for_database_) journal_.emit_now(SessionContinued{});
 }
@@ -240,19 +241,18 @@ void SessionControl::veto(const std::string& why) {
   confirm("the trial is void and will be presented again");
 }
 
-// A trial that has begun since then is run again after it, with the same draws.
+// A trial that has begun since then is repeated afterwards, with the same draws.
 void SessionControl::veto_answer(const std::string& why) {
   const Engine& engine = journal_.engine();
   if (engine.next().kind == Next::Kind::over)
-    return console_->say("the session is over; its answers stay as they are");
-  if (!engine.vetoable())
-    return console_->say("no trial was answered whose answer could be taken back");
+    return console_->say("the session has ended; its answers are kept");
+  if (!engine.vetoable()) return console_->say("there is no answered trial to void");
   if (engine.trial_is_open()) journal_.emit_now(TrialVoided{std::string(void_interrupted)});
   journal_.emit_now(AnswerVetoed{why});
   confirm("the last answer is void; its cubes will be presented again");
 }
 
-// Not in the middle of a trial, whose pictures it would take away.
+// Not during a trial, whose pictures it would take.
 void SessionControl::check() {
   if (asking_) {
     answer_ = Answer::check;

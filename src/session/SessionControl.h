@@ -1,4 +1,4 @@
-// The two people around a session: the participant before their screen, and the experimenter.
+// The participant's screen and the experimenter's commands during a session.
 #pragma once
 
 #include <atomic>
@@ -15,22 +15,21 @@
 
 namespace heft {
 
-/// What the participant has in front of them. Everything that is presented goes through here, so
-/// that each text that comes to stand there is logged, in which language, with its hash, and when;
-/// and so that the experimenter's monitor knows which page it is.
+/// The participant's screen. Everything is presented through it, so that each text is logged with
+/// its language, hash and time, and the experimenter's monitor knows the page.
 class ParticipantScreen {
  public:
-  /// @param texts what the person reads; null: nobody reads
-  /// @param asked of questionnaires that a model is asked; null: it is asked none
+  /// @param texts for the participant; null: there is no reader
+  /// @param asked texts of questionnaires for a model; null: none
   ParticipantScreen(Journal& journal, ArView& view, const ScreenTexts* texts,
                     const ScreenTexts* asked)
       : journal_(journal), view_(view), texts_(texts), asked_(asked) {}
 
-  /// As ArView::present; logs the screen's text unless it is the one that stands there already.
+  /// As ArView::present; logs the screen's text if it is new.
   std::optional<double> present(const ViewFrame& frame, const ScreenState& screen);
 
-  /// The same of a page that stands before a model, where there is no screen.
-  void tell(const ScreenState& screen);
+  /// Logs the text of a page for a model, where there is no screen.
+  void log_text(const ScreenState& screen);
 
   std::vector<Touch> wait(double seconds) { return view_.wait(seconds); }
   /// As ArView::is_full_screen.
@@ -38,7 +37,7 @@ class ParticipantScreen {
   /// As ArView::clone_offset_px.
   std::optional<double> clone_offset_px() const { return view_.clone_offset_px(); }
 
-  /// What was presented last; none: nothing yet.
+  /// The last presented screen; none: nothing yet.
   const std::optional<ScreenState>& shown() const { return shown_; }
 
  private:
@@ -48,35 +47,35 @@ class ParticipantScreen {
   ArView& view_;
   const ScreenTexts *texts_, *asked_;
   std::optional<ScreenState> shown_;
-  std::string page_;  // of texts, that stands there
+  std::string page_;  // page of texts that is displayed
 };
 
-/// What happens while a session waits: the screen is kept alive, the experimenter's commands are
-/// obeyed, what waits in memory is written. Events come only from here while the session's own
-/// steps stand still: between two pictures, and on pages.
+/// Activities while a session waits: keeps the screen responsive, carries out the experimenter's
+/// commands, writes buffered events. Events come only from here while the session's own steps wait:
+/// between two pictures, and on pages.
 class SessionControl {
  public:
-  /// @param has_screen whether `screen` can wait; otherwise this waits by itself
-  /// @param has_person who would be lost if the session gave up
+  /// @param has_screen whether `screen` can wait; otherwise this object does
+  /// @param has_person whether a participant would be lost if the session gave up
   SessionControl(Journal& journal, ParticipantScreen& screen, const RunnerOptions& options,
                  bool has_screen, bool has_person)
       : journal_(journal),
         screen_(screen),
         console_(options.console),
         stop_(options.stop),
-        tell_(options.tell),
+        print_(options.print),
         has_screen_(has_screen),
         has_person_(has_person) {}
 
-  /// Waits up to `seconds`, or as long as the experimenter holds the session; returns early with
-  /// what the participant touched. On a virtual clock it returns at once.
+  /// Waits up to `seconds`, or while the experimenter holds the session; returns early with the
+  /// participant's touches. On a virtual clock it returns immediately.
   std::vector<Touch> wait(double seconds);
 
-  /// Waits, in a paused session, as long as the experimenter holds it or another process locks the
+  /// Waits, in a paused session, while the experimenter holds it or another process locks the
   /// database, so that acknowledged events are not on disk. Call it between the steps of a session,
   /// before anything is shown that acknowledges an event: the state may change meanwhile.
-  /// @throws LogBusy when the database stays locked: for a person never, for a model after half a
-  ///   minute, sooner when the session is to be left
+  /// @throws LogBusy if the database stays locked: for a person never, for a model after half a
+  ///   minute, earlier if the session is to be left
   void wait_while_held();
 
   /// Writes everything, waiting as above.
@@ -85,33 +84,33 @@ class SessionControl {
   /// Leaves the session as Journal::leave, and saves it.
   void leave(const std::string& why);
 
-  /// What the experimenter says to that question.
+  /// The experimenter's answer.
   enum class Answer {
     go_on,
-    leave,  ///< the session, or it is left by other means
-    check,  ///< look once more, and ask again
-    nobody_there
+    leave,  ///< the session, which may also be left by other means
+    check,  ///< again, then repeat the question
+    no_one_there
   };
-  /// Asks the experimenter whether to go on, and waits for their answer.
+  /// Asks the experimenter whether to continue, and waits for the answer.
   Answer ask_to_go_on(const std::string& question);
 
-  /// How the apparatus is looked at when the experimenter wants it to be.
+  /// Sets the check of the apparatus that the experimenter can request.
   void on_check(std::function<void()> check) { check_ = std::move(check); }
-  /// Does that where it was wanted while a trial was open.
+  /// Runs the check if it was requested while a trial was open.
   void check_if_wanted();
 
   /// Whether the session is to be left: a signal, the experimenter, a closed window.
   bool leaving() const { return leaving_ || (stop_ && stop_->load()); }
 
-  /// As if the experimenter asked for a break.
+  /// Requests a break, as the experimenter can.
   void want_rest() { rest_wanted_ = true; }
-  /// Whether the experimenter asked for a break since the last time.
+  /// Whether a break was requested since the last call.
   bool take_rest_wish();
 
-  /// Whether there is a screen that can be looked at and touched.
+  /// Whether a screen can be seen and touched.
   bool has_screen() const { return has_screen_; }
 
-  /// What the experimenter is shown with the next wait(); a trial fills in how its frames come.
+  /// Shown to the experimenter by the next wait(); a trial fills in the tracking status.
   ConsoleStatus status;
 
  private:
@@ -138,7 +137,7 @@ class SessionControl {
   ParticipantScreen& screen_;
   Console* console_;
   const std::atomic<bool>* stop_;
-  std::function<void(const std::string&)> tell_;
+  std::function<void(const std::string&)> print_;
   bool has_screen_, has_person_;
   std::function<void()> check_;
   std::optional<Answer> answer_;  // to what is being asked

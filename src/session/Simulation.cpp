@@ -20,13 +20,13 @@ namespace heft {
 
 namespace {
 
-// Hands out session numbers to workers and gives their results back in order. Workers wait when
-// they are far ahead, so memory stays flat.
+// Distributes session numbers to workers and returns their results in order. Workers that are far
+// ahead wait, so that memory stays constant.
 class InOrder {
  public:
   InOrder(int n, int ahead) : n_(n), ahead_(ahead) {}
 
-  // Next number to compute, 0 when there is none.
+  // Next number to compute; 0: none left.
   int take() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return closed_ || taken_ < given_ + ahead_; });
@@ -84,14 +84,14 @@ int number_in_id(const std::string& participant) {
   return n > 0 && participant == simulated_participant(n) ? n : 0;
 }
 
-// Call it with the file held: nobody else then takes the number.
+// Requires the file's lock, so that no other program takes the number.
 int first_free_number(const SimulationRequest& request) {
   int highest = 0;
   for (const SessionRow& session : LogReader(request.db).sessions())
     if (session.header.protocol_name == request.config->protocol->name)
       highest = std::max(highest, number_in_id(session.header.participant));
   if (highest > std::numeric_limits<int>::max() - request.participants)
-    throw Error(fmt::format("{} holds participant {} already; choose another file with --db FILE",
+    throw Error(fmt::format("{} already holds participant {}; choose another file with --db FILE",
                             request.db, simulated_participant(highest)));
   return highest + 1;
 }
@@ -105,7 +105,7 @@ std::string simulated_participant(int n) {
 int simulate(const SimulationRequest& request, const std::function<void(int)>& progress,
              const std::atomic<bool>& stop) {
   refuse_special_file(request.db);
-  SessionArchive archive(request.db);  // says what is wrong with the file before hours of work
+  SessionArchive archive(request.db);  // reports a bad file before hours of work
   const int first = first_free_number(request);
   request.numbered(first);
   InOrder sessions(request.participants, 2 * request.jobs);
@@ -121,7 +121,7 @@ int simulate(const SimulationRequest& request, const std::function<void(int)>& p
     }
   };
   std::vector<std::jthread> workers;
-  // Whatever happens here, the workers must not wait for it.
+  // Workers must not wait if this thread leaves early.
   struct CloseAtEnd {
     InOrder& sessions;
     ~CloseAtEnd() { sessions.close(); }
@@ -131,7 +131,7 @@ int simulate(const SimulationRequest& request, const std::function<void(int)>& p
   int stored = 0;
   while (stored < request.participants && !stop) {
     const RecordedSession session = sessions.give(stored + 1);
-    if (stop) break;  // it may be cut short
+    if (stop) break;  // may be incomplete
     archive.store(session);
     progress(++stored);
   }

@@ -15,7 +15,7 @@ namespace {
 constexpr int n_wanted = 45;      // pictures; three seconds at the paper's rate
 constexpr double patience_s = 1;  // for one picture
 
-// As a trial shows it: three cubes on the table.
+// A typical trial: three cubes on the table.
 ViewSetup usual_view(const Intrinsics& camera) {
   ViewSetup setup;
   setup.stage = stage_of(Protocol{}, 3);
@@ -34,7 +34,7 @@ ViewFrame usual_frame(const CameraPicture& picture, const TrackedPicture& tracke
   return shown;
 }
 
-// The first channel is enough: tags and paper are gray.
+// One channel is enough, because tags and paper are gray.
 void look_at_light(const Image& image, LookedAt& seen) {
   std::vector<std::uint8_t> values;
   const auto step = static_cast<std::size_t>(image.channels) * 7;
@@ -48,10 +48,11 @@ void look_at_light(const Image& image, LookedAt& seen) {
 
 CheckResult camera_verdict(const CameraMode& mode, int n_pictures) {
   if (n_pictures == 0)
-    return {CheckVerdict::failed, "camera",
-            "it gives no pictures; is the cable in, does another program use it?"};
+    return {
+        CheckVerdict::failed, "camera",
+        "the camera delivers no pictures; check its cable, and whether another program uses it"};
   return {CheckVerdict::ok, "camera",
-          fmt::format("{} x {} pixels{}{}, {} pictures looked at", mode.width_px, mode.height_px,
+          fmt::format("{} x {} pixels{}{}, {} pictures examined", mode.width_px, mode.height_px,
                       mode.pixel_format.empty() ? "" : " ", mode.pixel_format, n_pictures)};
 }
 }  // namespace

@@ -11,8 +11,8 @@
 namespace heft {
 
 namespace {
-// What is good enough. The tracker sees a board or effector that is wholly in view, sharp and lit
-// in every picture; below these fractions something is in the way.
+// Limits. A board or effector that is wholly in view, sharp and lit is tracked in every picture;
+// below these fractions something obstructs it.
 constexpr double expected_fraction = 0.95;
 constexpr double expected_two_faces = 0.5;
 constexpr double board_limit_px = 0.5;
@@ -64,7 +64,7 @@ double spent_s(const LookedAt& seen) {
   return seen.tracked_in_s + seen.drawn_in_s;
 }
 
-// "exposure 4.0 ms" and "exposure: the camera chooses it...": the control, and what is said of it.
+// "exposure 4.0 ms" or "exposure: the camera chooses it...": the control and its state.
 CheckResult lock_verdict(CheckVerdict verdict, const std::string& what) {
   for (const char* control : {"exposure", "focus", "white balance"}) {
     if (!what.starts_with(control)) continue;
@@ -94,7 +94,7 @@ std::vector<CheckResult> lock_verdicts(const CameraMode& mode) {
 }
 
 CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz) {
-  if (pictures.size() < 2) return {CheckVerdict::failed, "frame rate", "only one picture came"};
+  if (pictures.size() < 2) return {CheckVerdict::failed, "frame rate", "only one picture arrived"};
   std::vector<double> gaps_s;
   for (std::size_t i = 1; i < pictures.size(); ++i)
     gaps_s.push_back(pictures[i].capture_s - pictures[i - 1].capture_s);
@@ -104,9 +104,10 @@ CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz) {
                                          1000 * std::ranges::max(gaps_s));
   if (rate_hz > 0.95 * wanted_rate_hz) return {CheckVerdict::ok, "frame rate", figure};
   return {CheckVerdict::failed, "frame rate",
-          fmt::format("{}; the protocol shows {:g}: more light or a shorter exposure, another USB "
-                      "port, or a lower display_rate_hz",
-                      figure, wanted_rate_hz)};
+          fmt::format(
+              "{}; the protocol displays {:g}: use more light or a shorter exposure, another USB "
+              "port, or a lower display_rate_hz",
+              figure, wanted_rate_hz)};
 }
 
 CheckResult light_verdict(const Pictures& pictures) {
@@ -115,23 +116,26 @@ CheckResult light_verdict(const Pictures& pictures) {
   const std::string figure =
       fmt::format("median brightness {:.0f} of 255, {:.1f} % of pixels white", level, 100 * white);
   if (white > white_limit)
-    return {CheckVerdict::warning, "light",
-            fmt::format("{} (expected {:.0f} % at most); overexposed paper makes tags look small: "
-                        "less light or a shorter exposure",
-                        figure, 100 * white_limit)};
+    return {
+        CheckVerdict::warning, "light",
+        fmt::format("{} (expected {:.0f} % at most); overexposed paper makes tags look smaller: "
+                    "use less light or a shorter exposure",
+                    figure, 100 * white_limit)};
   if (level < dark_limit)
-    return {CheckVerdict::warning, "light",
-            fmt::format("{} (expected {:.0f} or more); too dark: more light", figure, dark_limit)};
+    return {
+        CheckVerdict::warning, "light",
+        fmt::format("{} (expected {:.0f} or more); too dark: use more light", figure, dark_limit)};
   return {CheckVerdict::ok, "light", figure};
 }
 
 CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const char* what) {
   if (!body.measured_ruler_m)
-    return {CheckVerdict::warning, name,
-            fmt::format("not measured: measure the 150 mm ruler on the {0}'s sheet and write its "
-                        "length in meters as ruler_measured_m into the {0}'s file; half a percent "
-                        "of scale is 2 mm of pose",
-                        what)};
+    return {
+        CheckVerdict::warning, name,
+        fmt::format("not measured: measure the 150 mm ruler on the {0}'s sheet and write its "
+                    "length in meters as ruler_measured_m into the {0}'s file; an error of 0.5 % "
+                    "in scale is 2 mm in pose",
+                    what)};
   double off = *body.measured_ruler_m / ruler_m - 1;
   std::string figure = fmt::format("the {}'s ruler was measured as {:.2f} mm ({:+.2f} %)", what,
                                    1000 * *body.measured_ruler_m, 100 * off);
@@ -143,8 +147,8 @@ CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const 
   }
   if (std::abs(off) <= plausible_scale) return {CheckVerdict::ok, name, figure};
   return {CheckVerdict::warning, name,
-          fmt::format("{}, expected within {:.0f} %: was it printed at 100 %, is the length right?",
-                      figure, 100 * plausible_scale)};
+          fmt::format("{}, expected within {:.0f} %; print at 100 % and check the length", figure,
+                      100 * plausible_scale)};
 }
 
 CheckResult tone_verdict(const Intrinsics& camera, const ToneCurve& seen) {
@@ -156,17 +160,17 @@ CheckResult tone_verdict(const Intrinsics& camera, const ToneCurve& seen) {
   if (camera.response && std::abs(brighter_levels(seen, response_of(camera))) >= bending_levels)
     return {CheckVerdict::warning, "tones",
             figure +
-                "; not as when it was calibrated: set its contrast, gamma and picture mode as "
-                "they were, or calibrate it once more"};
+                "; it differs from the calibration: restore the contrast, gamma and picture mode, "
+                "or calibrate again"};
   if (std::abs(bent) < bending_levels) return {CheckVerdict::ok, "tones", figure};
   if (camera.response)
     return {CheckVerdict::ok, "tones",
-            figure + "; its file says so, and the tracker allows for it"};
+            figure + "; the camera's file records it, and the tracker compensates it"};
   return {CheckVerdict::warning, "tones",
           figure +
-              "; the tracker learns that from the board, but the camera's file lacks it: set a "
-              "plain picture mode (no HDR, no added contrast), or calibrate it once more, so "
-              "that the first picture is right, too"};
+              "; the tracker learns it from the board, but the camera's file lacks it: set a "
+              "neutral picture mode (no HDR, no added contrast), or calibrate again, so that the "
+              "first picture is right, too"};
 }
 
 CheckResult board_verdict(const Pictures& pictures, const MarkerBody& board,
@@ -175,7 +179,7 @@ CheckResult board_verdict(const Pictures& pictures, const MarkerBody& board,
   if (fraction == 0)
     return {CheckVerdict::failed, "board",
             fmt::format("found in 0 of {} pictures: {}", pictures.size(),
-                        why.empty() ? "is it in view, and is this its file?" : why)};
+                        why.empty() ? "check that it is in view and that this is its file" : why)};
   const Pictures seen = with_board(pictures);
   const double off_px =
       median(seen, [](const LookedAt& l) { return l.tracked.board_reprojection_px; });
@@ -185,12 +189,12 @@ CheckResult board_verdict(const Pictures& pictures, const MarkerBody& board,
       board.tags.size(), off_px);
   if (fraction < expected_fraction)
     return {CheckVerdict::failed, "board",
-            fmt::format("{} (expected {:.0f} %); put it wholly in view, check light and focus",
+            fmt::format("{} (expected {:.0f} %); move it fully into view, check light and focus",
                         figure, 100 * expected_fraction)};
   if (off_px > board_limit_px)
     return {CheckVerdict::warning, "board",
             fmt::format("{} (expected {:g} at most); the camera's calibration or the board's file "
-                        "does not fit",
+                        "is wrong",
                         figure, board_limit_px)};
   return {CheckVerdict::ok, "board", figure};
 }
@@ -208,18 +212,18 @@ CheckResult jitter_verdict(const Pictures& pictures) {
   const std::string figure = fmt::format("the board's pose varies by {:.3f} mm (sd)", 1000 * sd_m);
   if (sd_m < jitter_limit_m) return {CheckVerdict::ok, "jitter", figure};
   return {CheckVerdict::warning, "jitter",
-          fmt::format("{}, expected {:g} at most; does the camera or the table move?", figure,
+          fmt::format("{}, expected {:g} at most; check that camera and table are still", figure,
                       1000 * jitter_limit_m)};
 }
 
-// Out of view it is no failure: people put it down.
+// Out of view is not a failure: the effector may have been put down.
 CheckResult effector_verdict(const Pictures& pictures, const std::string& why) {
   const double fraction = fraction_of(pictures, has_effector);
   if (fraction == 0)
     return {CheckVerdict::warning, "effector",
             why.empty()
-                ? "not seen: hold it in view as in a trial and look again; if it was, is "
-                  "this its file?"
+                ? "not seen: hold it in view as in a trial and check again; if it was, check "
+                  "its file"
                 : fmt::format("found in 0 of {} pictures: hold it in view as in a trial and "
                               "look again; {}",
                               pictures.size(), why)};
@@ -230,15 +234,15 @@ CheckResult effector_verdict(const Pictures& pictures, const std::string& why) {
     return {
         CheckVerdict::warning, "effector",
         fmt::format(
-            "{}, expected {:.0f} % and {:.0f} %: if it was in view all the time, no finger may lie "
-            "on a tag, and tags should be 25 pixels wide or more and not smeared",
+            "{}, expected {:.0f} % and {:.0f} %: if it was in view all the time, keep fingers off "
+            "the tags, and make tags at least 25 pixels wide and sharp",
             figure, 100 * expected_fraction, 100 * expected_two_faces)};
   if (firm >= expected_two_faces) return {CheckVerdict::ok, "effector", figure};
-  return {CheckVerdict::ok, "effector",
-          figure +
-              "; one face alone does, but two are more exact: turn the effector a little about its "
-              "long "
-              "axis, or move the camera to the side, so that an edge between two tags faces it"};
+  return {
+      CheckVerdict::ok, "effector",
+      figure +
+          "; one face suffices, but two are more accurate: turn the effector slightly about its "
+          "axis, or move the camera to the side, so that an edge between two tags faces it"};
 }
 
 CheckResult latency_verdict(const Pictures& pictures) {
@@ -250,7 +254,7 @@ CheckResult latency_verdict(const Pictures& pictures) {
                                    ms([](const LookedAt& l) { return l.tracked.times.pose_s; }),
                                    ms(&LookedAt::drawn_in_s));
   if (pictures.front().waited_s < 0)
-    return {CheckVerdict::ok, "latency", figure + "; a file's pictures don't tell the camera's"};
+    return {CheckVerdict::ok, "latency", figure + "; a file cannot show the camera's latency"};
   const double camera_ms = ms(&LookedAt::waited_s);
   const double all_ms = camera_ms + drawn_ms;
   figure = fmt::format("camera {:.0f} ms (95 %: {:.0f}), {}; {:.0f} ms from light to drawn picture",
@@ -258,9 +262,10 @@ CheckResult latency_verdict(const Pictures& pictures) {
                        all_ms);
   if (all_ms < 1000 * latency_limit_s) return {CheckVerdict::ok, "latency", figure};
   return {CheckVerdict::warning, "latency",
-          fmt::format("{}, expected {:.0f} at most: people feel it; a shorter exposure, a faster "
-                      "camera mode, another USB port",
-                      figure, 1000 * latency_limit_s)};
+          fmt::format(
+              "{}, expected {:.0f} at most, above it participants notice: use a shorter exposure, "
+              "a faster camera mode, or another USB port",
+              figure, 1000 * latency_limit_s)};
 }
 
 CheckResult speed_verdict(const Pictures& pictures, const Intrinsics& camera,
@@ -270,10 +275,11 @@ CheckResult speed_verdict(const Pictures& pictures, const Intrinsics& camera,
   const std::string figure = fmt::format("{:.1f} ms a picture, tracked and drawn (95 %: {:.1f} ms)",
                                          1000 * median_s, 1000 * p95_s);
   if (p95_s > 1 / wanted_rate_hz)
-    return {CheckVerdict::failed, "speed",
-            fmt::format("{}, but the protocol shows one each {:.0f} ms: end other programs, or use "
-                        "a smaller camera mode",
-                        figure, 1000 / wanted_rate_hz)};
+    return {
+        CheckVerdict::failed, "speed",
+        fmt::format("{}, but the protocol displays one each {:.0f} ms: end other programs, or use "
+                    "a smaller camera mode",
+                    figure, 1000 / wanted_rate_hz)};
   if (median_s <= expected_s) return {CheckVerdict::ok, "speed", figure};
   return {CheckVerdict::warning, "speed",
           fmt::format("{}, expected {:.0f} at {} x {}: this machine is slow or busy", figure,

@@ -9,7 +9,7 @@
 namespace heft {
 
 namespace {
-// The first block with trials; none: nothing is asked.
+// The first block with trials; none if there are none.
 std::optional<std::string> first_block_with_trials(const Protocol& protocol) {
   for (const Block& block : protocol.blocks)
     if (!std::holds_alternative<DemonstrationBlock>(block) &&
@@ -18,20 +18,20 @@ std::optional<std::string> first_block_with_trials(const Protocol& protocol) {
   return std::nullopt;
 }
 
-// The model whose own hand is tracked; none: a person's hand, or a filmed one.
+// The model whose hand is tracked; none if a person's or a filmed hand is.
 const ResponderEntry* tracked_model(const ResolvedConfig::Parts& parts) {
   const bool is_filmed = parts.tracker->what == TrackerWhat::source;
   return has_person(parts.config) || is_filmed ? nullptr : parts.model.entry;
 }
 
-// Hands reach around corners; some simulators would stop in the middle of a trial. What a script's
-// hand does was written down by a person.
+// Models' hands may move around corners, where some simulators would stop in the middle of a trial.
+// A script's movements were chosen by its author.
 void require_general_simulator(const std::string& simulator, const ResponderEntry* model) {
   if (simulator_named(simulator).for_sessions) return;
   if (model && (!model->touches_cubes || model->file == ResponderFile::folder)) return;
   throw Error(
       fmt::format(
-          "the simulator \"{}\" knows straight strokes at one cube only, and hands do more; "
+          "the simulator \"{}\" models only straight pushes of one cube, but hands move freely; "
           "expected another --simulator, or one in the protocol's [physics]",
           simulator),
       ExitCode::usage);
@@ -42,11 +42,12 @@ void require_compatible_plugs(const ResolvedConfig::Parts& parts) {
   const std::string& view = parts.config.view.name;
   const auto* model = std::get_if<Plug>(&parts.config.responder);
   if (parts.tracker->is_dragged && model)
-    throw Error(fmt::format("tracker \"mouse\": a person drags the effector, but the responder is "
-                            "\"{}\", which has a hand of its own; expected --tracker hand or "
-                            "synthetic, or --responder human",
-                            model->name),
-                ExitCode::usage);
+    throw Error(
+        fmt::format("tracker \"mouse\": the participant drags the effector, but the responder "
+                    "\"{}\" moves it without a mouse; expected --tracker hand or "
+                    "synthetic, or --responder human",
+                    model->name),
+        ExitCode::usage);
   if (parts.tracker->is_dragged && !parts.view->has_screen)
     throw Error(
         fmt::format("tracker \"mouse\": the effector is dragged in the window, and the view "
@@ -54,10 +55,11 @@ void require_compatible_plugs(const ResolvedConfig::Parts& parts) {
                     view),
         ExitCode::usage);
   if (!model && !parts.view->has_screen)
-    throw Error(fmt::format("a person can't see or touch the view \"{}\"; expected --view window, "
-                            "or a model as --responder",
-                            view),
-                ExitCode::usage);
+    throw Error(
+        fmt::format("a participant cannot see or touch the view \"{}\"; expected --view window, "
+                    "or a model as --responder",
+                    view),
+        ExitCode::usage);
 }
 
 void require_answerable(const ResolvedConfig::Parts& parts, const Protocol& protocol) {
@@ -67,7 +69,7 @@ void require_answerable(const ResolvedConfig::Parts& parts, const Protocol& prot
   if (!protocol.require_contact || !model || model->touches_cubes || !block) return;
   throw Error(
       fmt::format(
-          "responder \"{}\" never touches a cube, and the protocol takes no answer before "
+          "responder \"{}\" never touches a cube, but the protocol takes no answer before "
           "every cube was touched (require_contact = true), first in block \"{}\"; expected "
           "another responder, or require_contact = false",
           model->name, *block),
@@ -78,7 +80,7 @@ void require_questions(const Protocol& protocol) {
   for (const Block& block : protocol.blocks)
     if (const auto* trials = std::get_if<TaskBlock>(&block); trials && trials->lacks_question())
       throw Error(fmt::format("block {} asks a question of the questionnaire {} that the session's "
-                              "texts do not have; expected one that is answered on the screen",
+                              "texts lack; expected one that is answered on the screen",
                               trials->name(), *trials->questionnaire()),
                   ExitCode::invalid_file);
 }

@@ -20,16 +20,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A session may be resumed from another folder than it was started in.
+// A session may be resumed from another working directory.
 std::string absolute_path(const std::string& file) {
   std::error_code error;
   const auto path = fs::absolute(file, error);
-  if (error) throw Error(fmt::format("can't find {}: {}", file, error.message()));
+  if (error) throw Error(fmt::format("cannot find {}: {}", file, error.message()));
   return path.lexically_normal().string();
 }
 
 bool exists(const char* file) {
-  std::error_code unknown;  // what can't be looked at is not taken
+  std::error_code unknown;  // unreadable files are skipped
   return fs::exists(file, unknown);
 }
 
@@ -42,10 +42,10 @@ ConfigFile read_config_file(const std::string& file,
 Plug read_tracker(Plug tracker) {
   const TrackerEntry& entry = tracker_named(tracker.name);
   if (entry.what == TrackerWhat::source && tracker.what.empty())
-    throw Error(fmt::format("tracker \"{}\" needs to know which: {}", entry.name, entry.summary),
+    throw Error(fmt::format("tracker \"{}\" needs a source: {}", entry.name, entry.summary),
                 ExitCode::usage);
   if (entry.what == TrackerWhat::nothing && !tracker.what.empty())
-    throw Error(fmt::format("tracker \"{}\" takes nothing after it", entry.name), ExitCode::usage);
+    throw Error(fmt::format("tracker \"{}\" takes no argument", entry.name), ExitCode::usage);
   if (!entry.is_live && !tracker.what.empty()) tracker.what = absolute_path(tracker.what);
   if (entry.what == TrackerWhat::settings && !tracker.what.empty())
     tracker.text = read_text_file(tracker.what);
@@ -57,15 +57,15 @@ Plug checked_view(Plug view) {
   if (entry.has_file && view.what.empty())
     throw Error(fmt::format("view \"{0}\" needs a file: {0}:FILE", entry.name), ExitCode::usage);
   if (!entry.has_file && !view.what.empty())
-    throw Error(fmt::format("view \"{}\" takes nothing after it", entry.name), ExitCode::usage);
+    throw Error(fmt::format("view \"{}\" takes no argument", entry.name), ExitCode::usage);
   if (!view.what.empty()) view.what = absolute_path(view.what);
   return view;
 }
 
 }  // namespace
 
-/// Options over a logged configuration, or over none. Each step takes what was given, else keeps
-/// what was logged, else its default.
+/// Applies options to a logged configuration or to none. Each value is the given option, else the
+/// logged value, else the default.
 class Resolver {
  public:
   Resolver(const SessionOptions& given, const SessionConfig* logged, const Protocol& protocol,
@@ -108,11 +108,11 @@ class Resolver {
     parts_.view = &view_named(config_.view.name);
     if (parts_.tracker->what == TrackerWhat::settings)
       parse_synthetic_camera(config_.tracker.text, config_.tracker.what);
-    parts_.model.responder(0);  // says what is wrong before anything is logged
+    parts_.model.responder(0);  // reports mistakes before anything is logged
     parts_.on_wall_clock = runs_on_wall_clock(person, *parts_.tracker, *parts_.view);
   }
 
-  // What is given is read; what was logged stays.
+  // Reads a given file; keeps a logged one.
   void take_file(ConfigFile& file, const std::optional<std::string>& given, const char* shipped) {
     if (given || file.text.empty())
       file = read_config_file(given ? *given : installed_file(shipped));
@@ -124,13 +124,12 @@ class Resolver {
     if (!is_filmed) {
       config_.camera = {};
       if (!given_.record_camera.empty())
-        throw Error(
-            fmt::format("tracker \"{}\" has no camera whose pictures --record-camera could keep",
-                        parts_.tracker->name),
-            ExitCode::usage);
+        throw Error(fmt::format("tracker \"{}\" has no camera pictures for --record-camera",
+                                parts_.tracker->name),
+                    ExitCode::usage);
       config_.record_camera.clear();
     }
-    // Also where nothing is filmed, people are shown how the effector is held.
+    // Without a camera, too, participants see how to hold the effector.
     if (is_filmed || has_person(config_)) {
       take_file(config_.board, given_.board_file, "protocols/apparatus/board.toml");
       take_file(config_.effector, given_.effector_file, "protocols/apparatus/effector.toml");
@@ -152,15 +151,15 @@ class Resolver {
       return installed_file("protocols/apparatus/synthetic_camera.yaml");
     if (exists(default_camera_file)) return default_camera_file;
     const auto& [name, what, text] = config_.tracker;
-    if (parts_.tracker->is_live) open_camera(name, what);  // a missing one is reported first
+    if (parts_.tracker->is_live) open_camera(name, what);  // a missing camera is reported first
     throw Error(fmt::format("tracker \"{}\" needs the camera's calibration: --camera-file "
-                            "CAMERA.yaml; make one with heft calibrate camera. A {} in this folder "
-                            "would be taken",
+                            "CAMERA.yaml; make one with heft calibrate camera. A {} in the current "
+                            "directory would be used",
                             name, default_camera_file),
                 ExitCode::usage);
   }
 
-  // A file that was named must be sound, whether it is read or not.
+  // A named file must be valid, even if it is not needed.
   void take_texts() {
     const bool are_read = has_person(config_) || parts_.view->has_screen;
     const bool are_asked = !questionnaires_of(protocol_).empty();
@@ -211,7 +210,7 @@ class Resolver {
   bool simulator_stays() const {
     if (config_.simulator.empty() || !config_.rate_hz) return false;
     if (!given_.simulator) return true;
-    // What `auto` was at the start it stays, whatever the error table says now.
+    // A session keeps the choice of `auto` from its start, even if the error table has changed.
     if (given_.simulator == automatic && !config_.simulator_reason.empty()) return true;
     return simulator_named(*given_.simulator).make == simulator_named(config_.simulator).make;
   }
@@ -245,7 +244,7 @@ class Resolver {
     if (!has_person(config_)) config_.participant_parameters = parts_.model.drawn(parts_.seed);
   }
 
-  // Where texts meet the protocol.
+  // Checks texts and protocol against each other.
   void take_protocol() {
     parts_.protocol = protocol_for(protocol_, config_);
     if (!parts_.texts.pages.empty()) require_questions(*parts_.protocol);

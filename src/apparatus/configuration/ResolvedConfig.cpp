@@ -23,7 +23,7 @@ namespace heft {
 namespace fs = std::filesystem;
 
 namespace {
-// A column's value, for people.
+// A column's value in a message.
 std::string shown(const std::string& text) {
   return text;
 }
@@ -60,7 +60,7 @@ ResolvedConfig ResolvedConfig::with_seed(std::uint64_t seed) const {
 }
 
 SessionConfig with_devices(SessionConfig config, const DeviceFacts& devices) {
-  constexpr double same_rate = 0.01;  // 29.97 is 30
+  constexpr double same_rate = 0.01;  // 29.97 equals 30
   config.source_rate_hz = devices.source_rate_hz;
   if (config.source_rate_hz && config.display_rate_hz &&
       std::abs(*config.source_rate_hz / *config.display_rate_hz - 1) < same_rate)
@@ -68,7 +68,7 @@ SessionConfig with_devices(SessionConfig config, const DeviceFacts& devices) {
   if (!devices.display) return config;
   const auto& [number, name, w_px, h_px, refresh_hz, scale] = *devices.display;
   if (config.display_w_mm && (config.display_w_px != w_px || config.display_h_px != h_px))
-    throw Error(fmt::format("{} is of a display of {} x {} pixels, but this one has {} x {}: "
+    throw Error(fmt::format("{} describes a display of {} x {} pixels, but this one has {} x {}: "
                             "measure it (heft calibrate display), or name its file with "
                             "--display-file",
                             config.display_file, config.display_w_px.value_or(0),
@@ -93,7 +93,7 @@ ResolvedModel logged_model(Plug logged) {
 }
 
 namespace {
-// A seed of its own: the session's trials can't be drawn from it.
+// A separate seed, from which the session's trials cannot be derived.
 ResponderOptions seeded(ResponderOptions options, std::uint64_t session_seed) {
   options.seed = RandomStream(session_seed, "responder").bits();
   return options;

@@ -20,14 +20,14 @@ namespace heft {
 namespace {
 namespace fs = std::filesystem;
 
-// Where a questionnaire's file may be: beside the protocol, or as it comes with the program.
+// Possible places of a questionnaire's file: beside the protocol, or installed with the program.
 std::array<std::string, 2> places_of(const std::string& file, const std::string& protocol_file) {
   const fs::path texts = installed_file("protocols/texts/en.toml");
   return {(fs::path(protocol_file).parent_path() / file).string(),
           (texts.parent_path().parent_path() / "questionnaires" / file).string()};
 }
 
-// The texts of a session with the questionnaires below them, and which file each came from.
+// A session's texts with its questionnaires and their files.
 class Gathered {
  public:
   Gathered(ConfigFile& texts, const std::string& protocol_file)
@@ -47,8 +47,8 @@ class Gathered {
     if (held != file_of_.end() && (file == places.end() || *file == held->second)) return;
     if (file == places.end())
       throw Error(
-          fmt::format("the protocol asks a questionnaire, and there is neither {} nor {}; write "
-                      "it, or put its [questionnaire] into the text file",
+          fmt::format("the protocol uses a questionnaire, but neither {} nor {} exists; write "
+                      "one, or put its [questionnaire] into the text file",
                       places.front(), places.back()),
           ExitCode::usage);
     add(name, *file);
@@ -64,7 +64,7 @@ class Gathered {
       throw Error(fmt::format("{} has no [questionnaire.{}]", file, name), ExitCode::invalid_file);
     for (const auto& [held, questionnaire] : read.questionnaires)
       if (const auto [other, is_new] = file_of_.emplace(held, file); !is_new)
-        throw Error(fmt::format("{} and {} both have a [questionnaire.{}], expected one: give one "
+        throw Error(fmt::format("{} and {} both have a [questionnaire.{}]; give one "
                                 "of them another name",
                                 other->second, file, held),
                     ExitCode::invalid_file);

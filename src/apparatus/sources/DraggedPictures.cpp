@@ -21,18 +21,18 @@ DraggedPictures::DraggedPictures(const PictureParts& parts)
       clock_(parts.clock),
       count_(parts.protocol.display_rate_hz) {
   if (!effector_)
-    throw Error("tracker \"mouse\": there is no window to drag the effector in", ExitCode::usage);
+    throw Error("tracker \"mouse\" needs a window to drag the effector in", ExitCode::usage);
   if (!parts.record_to.empty()) recording_.emplace(parts.record_to);
 }
 
-// The effector stays where it was left, as a real one would.
+// The effector stays in place between attempts, as a real one would.
 void DraggedPictures::begin_attempt(const AttemptStart& attempt) {
   attempt_ = attempt;
   count_.restart();
   last_.reset();
 }
 
-// Nobody can know where it will be: a picture comes when its time has.
+// The next position is unknown until its time comes.
 std::optional<Picture> DraggedPictures::next() {
   const double now_s = clock_.now_s() - attempt_.start_s;
   if (now_s < count_.next_s()) return std::nullopt;

@@ -1,6 +1,6 @@
-// Tracker "mouse": the effector that a person drags on the screen, to try and to teach without a
-// camera or a print. A rendered camera films the table and the effector, and no hand, which would
-// be nobody's; its pose is the one that it has, not a tracked one.
+// Tracker "mouse": the participant drags the effector on the screen, for trials and teaching
+// without camera or printed tags. A rendered camera films the table and the effector, without a
+// hand. The pose is the true one, not tracked.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace heft {
 
 class DraggedPictures final : public PictureSource {
  public:
-  /// @throws Error (usage) where there is no effector to drag
+  /// @throws Error (usage) if there is no effector to drag
   explicit DraggedPictures(const PictureParts& parts);
 
   void begin_attempt(const AttemptStart& attempt) override;
@@ -34,7 +34,7 @@ class DraggedPictures final : public PictureSource {
   AttemptStart attempt_;
   PictureCount count_;
   std::optional<TargetSample> last_;
-  std::uint64_t number_ = 0;  // of the camera's pictures
+  std::uint64_t number_ = 0;  // of the next camera picture
 };
 
 }  // namespace heft

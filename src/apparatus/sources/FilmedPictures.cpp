@@ -13,25 +13,24 @@
 namespace heft {
 
 namespace {
-// An arm over the board for a moment is no lost board.
+// An arm over the board for a moment does not lose it.
 constexpr double board_patience_s = 0.5;
-// A camera that gives nothing for this long is lost; at 15 pictures a second some seven are
-// missing.
+// A camera without a picture for this long is lost: about seven pictures at 15 Hz.
 constexpr double silence_s = 0.5;
 
 SyntheticSettings settings_for(const PictureParts& parts) {
   SyntheticSettings settings = parse_synthetic_camera(parts.settings, parts.what);
   double& exposure_s = settings.optics.exposure_s;
   const double rate_hz = parts.protocol.display_rate_hz;
-  // The usual one gives way to a fast display.
+  // The default exposure is shortened for a fast display.
   if (parts.what.empty()) exposure_s = std::min(exposure_s, 0.5 / rate_hz);
   if (exposure_s > 1 / rate_hz)
     throw Error(fmt::format("{}: exposure_s is {} s, but at the protocol's {} pictures a second "
-                            "each lasts {:.4g} s, expected at most that",
+                            "each lasts {:.4g} s; expected at most that",
                             parts.what, exposure_s, rate_hz, 1 / rate_hz),
                 ExitCode::invalid_file);
   settings.left_hand = parts.left_hand;
-  settings.motion_samples = 1;  // more only where something moves
+  settings.motion_samples = 1;  // more only if something moves
   return settings;
 }
 }  // namespace
@@ -86,7 +85,7 @@ CameraPictures::CameraPictures(OpenCamera open, const PictureParts& parts)
 void CameraPictures::begin_attempt(const AttemptStart& attempt) {
   attempt_start_s_ = attempt.start_s;
   attempt_capture_s_ = last_capture_s_;
-  listen_again();  // nobody listened between attempts
+  listen_again();  // pictures between attempts do not count
 }
 
 void CameraPictures::listen_again() {
@@ -110,7 +109,7 @@ std::optional<Picture> CameraPictures::next() {
   if (recording_) recording_->keep(taken->image, taken->capture_s);
   Picture picture =
       tracker_.track(std::make_shared<const Image>(std::move(taken->image)), taken->capture_s);
-  if (t_s < 0) return std::nullopt;  // taken before the attempt started
+  if (t_s < 0) return std::nullopt;  // taken before the attempt
   picture.sample.t_capture_s = t_s;
   picture.n_dropped = n_dropped;
   return picture;
@@ -121,7 +120,7 @@ std::vector<CheckResult> CameraPictures::check(double wanted_rate_hz) {
   return check_camera(*open_(), apparatus_, wanted_rate_hz);
 }
 
-// Since the attempt's start.
+// Time since the attempt's start.
 double CameraPictures::time_of(const CameraPicture& taken) {
   last_capture_s_ = taken.capture_s;
   if (camera_->is_live()) return clock_.session_s(taken.capture_s) - attempt_start_s_;
@@ -149,7 +148,7 @@ SyntheticPictures::SyntheticPictures(const PictureParts& parts)
   if (!parts.record_to.empty()) recording_.emplace(parts.record_to);
 }
 
-// Every attempt's pictures are its own, so that one that a crash cut short runs again exactly.
+// Each attempt restarts the camera, so that one interrupted by a crash is repeated exactly.
 void SyntheticPictures::begin_attempt(const AttemptStart& attempt) {
   attempt_ = attempt;
   count_.restart();
@@ -178,7 +177,7 @@ std::optional<Picture> SyntheticPictures::next() {
   return picture;
 }
 
-// As of a real camera, with the effector held still over the board.
+// As for a real camera, with the effector held still over the board.
 std::vector<CheckResult> SyntheticPictures::check(double wanted_rate_hz) {
   constexpr std::uint64_t n_looked_at = 15;
   const auto held = [](double) -> std::optional<Pose> {

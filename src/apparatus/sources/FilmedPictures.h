@@ -1,4 +1,4 @@
-// Pictures of a camera, a video file, a folder of images or a synthetic camera, tracked alike.
+// Tracked pictures of a camera, a video file, a folder of images or a synthetic camera.
 #pragma once
 
 #include <functional>
@@ -13,22 +13,22 @@
 
 namespace heft {
 
-/// What was seen of the effector, smoothed, as Drive wants it.
+/// The filtered pose of the effector, as input for Drive.
 TargetSample smoothed(PoseFilter& filter, const TrackedPicture& tracked, double t_s);
 
-/// From a camera's picture to what the session needs of it: tracks board and effector, smooths the
-/// effector's pose without lag, and says when the board is lost.
+/// Converts a camera's picture to the session's Picture: tracks board and effector, filters the
+/// effector's pose without lag, and detects a lost board.
 class PictureTracker {
  public:
   explicit PictureTracker(const Apparatus& apparatus) : tracker_(apparatus) {}
 
-  /// @param t_s of its capture, increasing; Picture::sample has the same time
+  /// @param t_s of its capture, increasing; also the time of Picture::sample
   Picture track(std::shared_ptr<const Image> image, double t_s);
 
-  /// How long the board is out of view is counted from the next picture on.
+  /// Restarts the count of the board's time out of view.
   void look_again() { board_seen_s_.reset(); }
 
-  /// What comes next is no continuation.
+  /// The next picture does not continue the previous ones.
   void reset();
 
  private:
@@ -43,8 +43,8 @@ class CameraPictures final : public PictureSource {
  public:
   using OpenCamera = std::function<std::unique_ptr<Camera>()>;
 
-  /// @param open called once here, and for a file once more by each check(): what is looked at
-  ///   before the session must not be missing from it
+  /// @param open called once here, and again for a file by each check(), so that the check takes no
+  ///   pictures from the session
   /// @throws Error as open_camera
   CameraPictures(OpenCamera open, const PictureParts& parts);
 
@@ -67,10 +67,10 @@ class CameraPictures final : public PictureSource {
   std::optional<PictureRecording> recording_;
   const SessionClock& clock_;
   double attempt_start_s_ = 0;
-  // A file's times go on from picture to picture; an attempt starts with the one after the last.
+  // A file's times continue between attempts; an attempt starts with the next picture.
   std::optional<double> last_capture_s_, attempt_capture_s_;
   std::optional<std::int64_t> last_number_;
-  double heard_s_ = 0;  ///< session time of the last sign of life of a live camera
+  double heard_s_ = 0;  ///< session time of the last picture of a live camera
 };
 
 /// Pictures of a synthetic camera that films the responder's hand.

@@ -6,7 +6,7 @@
 namespace heft {
 
 namespace {
-// Pictures of a camera come so much earlier or later than their rate says.
+// Jitter of a camera's pictures, as a fraction of their period.
 constexpr double jitter_periods = 0.25;
 }  // namespace
 
@@ -38,7 +38,7 @@ std::optional<Picture> PacedPictures::next() {
   return std::nullopt;
 }
 
-// Nearer to its time than the one after it will be, as far as the source keeps its own rate.
+// Whether this picture is nearer to the due time than the expected next one.
 bool PacedPictures::is_due(double t_s) const {
   if (!due_s_ || !taken_s_) return true;
   return t_s + std::min(t_s - *taken_s_, period_s_) / 2 >= *due_s_;
@@ -50,7 +50,7 @@ void PacedPictures::show(Picture& picture) {
   const int n_missing = std::max(0, static_cast<int>(late_s / period_s_ + jitter_periods));
   picture.n_dropped = std::min(std::exchange(n_lost_, 0), n_missing);
   picture.sample.jump = std::exchange(jumped_, false);
-  // Of a gap, or a slower source, nothing is caught up with.
+  // After a gap, or with a slower source, the schedule restarts instead of catching up.
   due_s_ = (late_s > period_s_ / 2 ? t_s : t_s - late_s) + period_s_;
 }
 

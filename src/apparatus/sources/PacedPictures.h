@@ -1,5 +1,5 @@
-// Pictures at the display's rate, wherever they come from: of a source that gives more, the ones in
-// between are neither shown nor dropped. Capture times stay the pictures' own.
+// Reduces a faster source to the display's rate. Pictures left out count neither as displayed nor
+// as dropped. Capture times are kept.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class PacedPictures final : public PictureSource {
       : source_(std::move(source)), period_s_(1 / display_rate_hz) {}
 
   void begin_attempt(const AttemptStart& attempt) override;
-  /// As the source's. Dropped are only pictures that would have been shown.
+  /// Dropped pictures are counted only if they would have been displayed.
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { source_->skip_to(t_s); }
   void listen_again() override;
@@ -32,10 +32,10 @@ class PacedPictures final : public PictureSource {
 
   std::unique_ptr<PictureSource> source_;
   double period_s_;
-  // Since the attempt's start.
-  std::optional<double> due_s_;    ///< when the next one is to be shown; none: at once
+  // Since the attempt's start:
+  std::optional<double> due_s_;    ///< when the next one is to be displayed; none: immediately
   std::optional<double> taken_s_;  ///< the source's last one
-  // Since the picture that was shown last.
+  // Since the last displayed picture:
   int n_lost_ = 0;
   bool jumped_ = false;
 };

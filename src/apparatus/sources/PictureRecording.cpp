@@ -18,28 +18,27 @@ PictureRecording::PictureRecording(const std::string& folder) : folder_(folder) 
   const std::string times = folder + "/times.csv";
   if (std::filesystem::exists(times))
     throw Error(
-        fmt::format("{} holds a recording already; choose another folder for "
+        fmt::format("{} already holds a recording; choose another folder for "
                     "--record-camera",
                     folder));
   times_ = begun(times, "frame,t_s");
 }
 
 std::ofstream PictureRecording::begun(const std::string& file, const std::string& header) const {
-  if (!create_file(file, 0600)) throw Error(fmt::format("{} is there already", file));
+  if (!create_file(file, 0600)) throw Error(fmt::format("{} already exists", file));
   std::ofstream out(file);
   out << header << "\n" << std::flush;
-  if (!out) throw Error(fmt::format("nothing can be written in {}", folder_));
+  if (!out) throw Error(fmt::format("cannot write in {}", folder_));
   return out;
 }
 
 void PictureRecording::keep(const Image& image, double capture_s) {
   const std::string name = fmt::format("picture_{:06}.png", ++count_);
   if (!create_file(folder_ + "/" + name, 0600))
-    throw Error(fmt::format("{}/{} is there already; nothing is written over", folder_, name));
+    throw Error(fmt::format("{}/{} already exists and is not overwritten", folder_, name));
   write_image(folder_ + "/" + name, image);
   times_ << fmt::format("{},{}\n", name, capture_s) << std::flush;
-  if (!times_)
-    throw Error(fmt::format("{}/times.csv can't be written; is the disk full?", folder_));
+  if (!times_) throw Error(fmt::format("cannot write {}/times.csv; is the disk full?", folder_));
 }
 
 void PictureRecording::keep(const Image& image, double capture_s, const RenderedPoses& truth) {
@@ -49,8 +48,7 @@ void PictureRecording::keep(const Image& image, double capture_s, const Rendered
   truth_ << fmt::format("{},{},{}\n", count_ - 1, capture_s,
                         pose_cells(truth.board_from_effector, truth.camera_from_board))
          << std::flush;
-  if (!truth_)
-    throw Error(fmt::format("{}/truth.csv can't be written; is the disk full?", folder_));
+  if (!truth_) throw Error(fmt::format("cannot write {}/truth.csv; is the disk full?", folder_));
 }
 
 }  // namespace heft

@@ -1,7 +1,6 @@
-// Keeps a camera's pictures in a folder that `frames:DIR` reads: picture_000001.png..., and their
-// times in times.csv; of a rendered camera also the poses that were rendered, in truth.csv. Only
-// where --record-camera says so, and only for the eyes of who records: pictures of people are
-// personal data.
+// Stores a camera's pictures in a folder that `frames:DIR` reads: picture_000001.png..., their
+// times in times.csv, and for a rendered camera the rendered poses in truth.csv. Only with
+// --record-camera, and readable by the owner only: pictures of people are personal data.
 #pragma once
 
 #include <fstream>
@@ -13,7 +12,7 @@
 
 namespace heft {
 
-/// What a rendered picture shows, exactly.
+/// The true poses in a rendered picture.
 struct RenderedPoses {
   std::optional<Pose> board_from_effector;  ///< none: out of view
   Pose camera_from_board;
@@ -21,12 +20,12 @@ struct RenderedPoses {
 
 class PictureRecording {
  public:
-  /// @throws Error when the folder can't be made or holds pictures already
+  /// @throws Error if the folder cannot be created or already holds pictures
   explicit PictureRecording(const std::string& folder);
 
-  /// @throws Error when it can't be saved
+  /// @throws Error if it cannot be saved
   void keep(const Image& image, double capture_s);
-  /// With a row of truth.csv: frame (from 0), t_s, and the columns of heft track's poses.
+  /// Also writes a row of truth.csv: frame (from 0), t_s, and the pose columns of heft track.
   void keep(const Image& image, double capture_s, const RenderedPoses& truth);
 
  private:

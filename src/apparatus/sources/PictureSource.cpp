@@ -40,13 +40,14 @@ constexpr std::array table{
     TrackerEntry{"hand", "the responder's own effector pose; no pixels", false, false,
                  TrackerWhat::nothing, make_hand},
     TrackerEntry{"synthetic",
-                 "a rendered camera that films the responder's hand; synthetic:FILE.toml says what "
-                 "it gets wrong",
+                 "a rendered camera that films the responder's hand; synthetic:FILE.toml sets "
+                 "its imperfections",
                  true, false, TrackerWhat::settings, make_synthetic},
-    TrackerEntry{"mouse",
-                 "the person drags the effector in the window, with the mouse or a finger; to try "
-                 "and to teach without a print",
-                 true, false, TrackerWhat::nothing, make_dragged, true},
+    TrackerEntry{
+        "mouse",
+        "the participant drags the effector in the window, with the mouse or a finger; for "
+        "trying and teaching without printed tags",
+        true, false, TrackerWhat::nothing, make_dragged, true},
     TrackerEntry{"camera", "camera:N, a live camera", true, true, TrackerWhat::source,
                  [](const PictureParts& parts) { return open("camera", parts); }},
     TrackerEntry{"video", "video:FILE, a video", true, false, TrackerWhat::source,

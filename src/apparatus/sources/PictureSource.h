@@ -1,5 +1,5 @@
-// Where the runner's pictures come from: a camera and its tracker, a synthetic camera that films a
-// model's hand, or that hand as it is. One table, in PictureSource.cpp, names them all.
+// Sources of the runner's pictures: a camera with its tracker, a synthetic camera that films a
+// model's hand, or that hand's true pose. PictureSource.cpp has the table of all.
 #pragma once
 
 #include <memory>
@@ -21,17 +21,18 @@
 
 namespace heft {
 
-/// One picture, reduced to what the session needs of it.
+/// What the session needs of one picture.
 struct Picture {
   TargetSample sample;  ///< t_capture_s: since the attempt's start
-  std::string trouble;  ///< why it can't be used: "camera_lost", "board_lost"; empty: it can
+  std::string trouble;  ///< why it can't be used: "camera_lost", "board_lost"; empty: it can  ///<
+                        ///< "camera_lost", "board_lost"; empty: usable
   std::optional<double> quality;
-  std::shared_ptr<const Image> camera;  ///< none: there is no camera
+  std::shared_ptr<const Image> camera;  ///< none: no camera
   std::optional<Pose> camera_from_board;
-  int n_dropped = 0;  ///< of the camera's, since the picture before this one
+  int n_dropped = 0;  ///< by the camera, since the previous picture
 };
 
-/// Which attempt starts, and when in the session.
+/// An attempt and its start.
 struct AttemptStart {
   double start_s = 0;
   int trial_number = 1, attempt = 1;
@@ -41,55 +42,56 @@ class PictureSource {
  public:
   virtual ~PictureSource() = default;
 
-  /// Called when an attempt starts, before its first picture.
+  /// Called before an attempt's first picture.
   virtual void begin_attempt(const AttemptStart& attempt) = 0;
 
   /// The next picture; times increase within an attempt. None: a live camera has no new one yet, or
-  /// there will be no more.
+  /// the file has ended.
   virtual std::optional<Picture> next() = 0;
 
-  /// Pictures of before this time of the attempt are not worth making: a model's hand was not
-  /// waited for. Only on a wall clock; a camera does so by itself.
+  /// A model's hand need not produce pictures before this time of the attempt. Wall clock only; no
+  /// effect on a camera.
   virtual void skip_to(double) {}
 
-  /// What came until now was not listened to: the session was held, or a break taken. Nothing of it
-  /// is dropped, and a camera or board that is missing now is missing since now.
+  /// Pictures since the last call were ignored (held session, break). They do not count as dropped,
+  /// and a missing camera or board counts as missing from now.
   virtual void listen_again() {}
 
-  /// Pictures a second that come by themselves, as the source tells; none: as many as are shown.
+  /// Rate of a live source in Hz; none: the display's rate.
   virtual std::optional<double> rate_hz() const { return std::nullopt; }
 
-  /// Looks at the camera before a session; nothing where there is none.
+  /// Examines the camera before a session; no results without one.
   /// @param wanted_rate_hz of the display
   virtual std::vector<CheckResult> check(double wanted_rate_hz [[maybe_unused]]) { return {}; }
 
-  /// check() looks at something, which takes a while.
+  /// Whether check() takes time to examine something.
   virtual bool has_checks() const { return false; }
 
-  /// No picture will come any more: the end of a file.
+  /// Whether the file has ended.
   virtual bool ended() const { return false; }
 };
 
-/// What pictures are made from.
+/// Everything that a picture source is made from.
 struct PictureParts {
   const Protocol& protocol;
-  Responder& hand;      ///< whose hand is filmed, where no real one is
-  Apparatus apparatus;  ///< empty where the tracker uses none
-  std::string what;     ///< what follows the colon: "camera:0"
+  Responder& hand;      ///< filmed instead of a real hand
+  Apparatus apparatus;  ///< empty if the tracker uses none
+  std::string what;  ///< what follows the colon: "camera:0"  ///< the part after the colon, as in
+                     ///< "camera:0"
   const SessionClock& clock;
-  std::uint64_t seed = 0;  ///< the session's
-  std::string record_to;   ///< a folder that the camera's pictures are kept in; empty: they are not
-  std::string settings = {};  ///< contents of the file that `what` names, where it names settings
-  bool left_hand = false;     ///< holds the effector, where a rendered camera films one
-  /// What a person drags on the screen; none: there is no such window.
+  std::uint64_t seed = 0;     ///< the session's
+  std::string record_to;      ///< folder for the camera's pictures; empty: not stored
+  std::string settings = {};  ///< contents of the settings file that `what` names
+  bool left_hand = false;     ///< which hand holds the effector before a rendered camera
+  /// Dragged on the screen by the participant; none without such a window.
   std::shared_ptr<const DraggedEffector> dragged = {};
 };
 
 /// What follows the colon of a tracker's name.
 enum class TrackerWhat {
   nothing,
-  settings,  ///< a file of settings, or nothing
-  source     ///< where the pictures come from
+  settings,  ///< a settings file or nothing
+  source     ///< the source of pictures
 };
 
 /// A row of the table of trackers.
@@ -97,16 +99,16 @@ struct TrackerEntry {
   std::string_view name;
   std::string_view summary;
   bool has_camera;  ///< needs camera, board and effector files
-  bool is_live;     ///< pictures come when they come: the session runs on a wall clock
+  bool is_live;     ///< pictures arrive in real time: the session runs on a wall clock
   TrackerWhat what;
-  /// @throws Error (device_missing) when the camera is not there
+  /// @throws Error (device_missing) if the camera is missing
   std::unique_ptr<PictureSource> (*make)(const PictureParts& parts);
-  bool is_dragged = false;  ///< a person drags the effector in the window
+  bool is_dragged = false;  ///< the participant drags the effector in the window
 };
 
 std::span<const TrackerEntry> trackers();
 
-/// @throws Error (usage) naming the nearest when there is none of that name
+/// @throws Error (usage) suggesting the most similar name if there is none of that name
 const TrackerEntry& tracker_named(std::string_view name);
 
 /// The tracker's pictures, at the display's rate.
@@ -114,7 +116,7 @@ const TrackerEntry& tracker_named(std::string_view name);
 std::unique_ptr<PictureSource> open_pictures(const TrackerEntry& tracker,
                                              const PictureParts& parts);
 
-/// Numbers the pictures of a display's rate, from 0 at an attempt's start.
+/// Numbers the pictures at the display's rate, from 0 at an attempt's start.
 class PictureCount {
  public:
   explicit PictureCount(double rate_hz) : rate_hz_(rate_hz) {}
@@ -125,9 +127,9 @@ class PictureCount {
   double time_s(std::uint64_t number) const {
     return static_cast<double>(number) / rate_hz_;  // no accumulated rounding
   }
-  /// The next one is not earlier than this time; nothing happens where it is not.
+  /// The next picture is not earlier than this time.
   void skip_to(double t_s);
-  /// How many were skipped since the last time.
+  /// Number of skipped pictures since the last call.
   int skipped() { return std::exchange(n_skipped_, 0); }
 
  private:
@@ -136,7 +138,7 @@ class PictureCount {
   int n_skipped_ = 0;
 };
 
-/// Tracker "hand": the responder's effector pose as it is, at the display's rate. No pixels.
+/// Tracker "hand": the responder's true effector pose at the display's rate, without pixels.
 class HandPictures final : public PictureSource {
  public:
   HandPictures(Responder& responder, double rate_hz) : responder_(responder), count_(rate_hz) {}
