@@ -30,7 +30,7 @@ class Reader {
   void header(std::string_view line) {
     const auto cells = cells_of(line);
     if (std::ranges::equal(cells, columns)) return;
-    n_columns_ = columns.size() - 1;  // recordings from before there was a value
+    n_columns_ = columns.size() - 1;  // recordings made before the column value was added
     if (!std::ranges::equal(cells, std::span(columns).first(n_columns_)))
       mistake(1, 1, fmt::format("expected the header {}", fmt::join(columns, ",")));
   }
@@ -100,7 +100,7 @@ class Reader {
 
   std::optional<double> value_of(const ActionSpec& spec) {
     if (n_columns_ <= number) {
-      if (spec.value) mistake(action, "expected a column value, which it fills");
+      if (spec.value) mistake(action, "expected the column value, which it needs");
       return std::nullopt;
     }
     if (!spec.value) return nothing(number, spec);
@@ -163,12 +163,12 @@ std::map<int, fs::path> trial_files(const std::string& folder) {
       files[*number] = entry.path();
   if (error)
     throw Error(fmt::format(
-        "can't read the recording {}: {}; expected a folder with actions.csv and trial_1.csv, ...",
+        "cannot read the recording {}: {}; expected a folder with actions.csv and trial_1.csv, ...",
         folder, error.message()));
   return files;
 }
 
-// Runs a reader and keeps its mistakes beside those of the other files.
+// Runs a reader and adds its mistakes to those of the other files.
 template <typename Read>
 void collect(std::vector<Mistake>& mistakes, Read read) {
   try {

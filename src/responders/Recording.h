@@ -1,6 +1,6 @@
 // A recorded participant as a folder: trial_<trial_number>.csv, the effector's trajectory
 // (experiment/Trajectory.h), and actions.csv: trial_number,t_s,action,slot,label,value (value may
-// be left out). Times count from the trial's start.
+// be missing). Times are seconds since the trial's start.
 #pragma once
 
 #include <map>
@@ -18,10 +18,10 @@ struct RecordedAction {
   SourcePlace place;
 };
 
-/// Actions by trial number, in the file's order, which is that of time within a trial.
+/// Actions by trial number, in the file's order; times increase within a trial.
 using RecordedActions = std::map<int, std::vector<RecordedAction>>;
 
-/// @throws InvalidFile naming every unusable cell and what was expected there
+/// @throws InvalidFile naming every invalid cell and what was expected
 RecordedActions parse_actions(const std::string& text, const std::string& file);
 
 struct Recording {
@@ -30,8 +30,7 @@ struct Recording {
   RecordedActions actions;
 };
 
-/// @throws Error where the folder or its actions.csv can't be read, InvalidFile with the mistakes
-/// of
+/// @throws Error if the folder or its actions.csv cannot be read; InvalidFile with the mistakes of
 ///   all its files
 Recording load_recording(const std::string& folder);
 

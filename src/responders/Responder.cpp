@@ -10,7 +10,7 @@ namespace heft {
 
 namespace {
 constexpr std::array table{
-    ResponderEntry{"simulated", "a hand that pushes cubes, an eye for the clone, a judgment",
+    ResponderEntry{"simulated", "a hand that pushes cubes, an eye for the clone, a decision",
                    ResponderFile::parameters, make_simulated, simulated_parts},
     ResponderEntry{"always_yes",
                    "finds a difference in every trial without touching a cube",
@@ -24,12 +24,12 @@ constexpr std::array table{
                    make_always_no,
                    {},
                    false},
-    ResponderEntry{"coin", "finds a difference with probability p, whatever there is",
+    ResponderEntry{"coin", "finds a difference with probability p, whatever it sees",
                    ResponderFile::parameters, make_coin, coin_parts, false},
     ResponderEntry{"criterion_only", "answers from its criterion and noise alone, never looking",
                    ResponderFile::parameters, make_criterion_only, criterion_only_parts, false},
     ResponderEntry{"scripted",
-                   "plays a folder of trajectories and timed actions back",
+                   "plays back a folder of trajectories and timed actions",
                    ResponderFile::folder,
                    make_scripted,
                    {}},

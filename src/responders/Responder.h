@@ -1,9 +1,9 @@
-// A responder is a hand and a mind. The hand gives the effector's pose over time; the mind receives
-// what is displayed and answers with actions. Neither ever gets a mass, a force or a condition. One
-// table, in Responder.cpp, names them all.
+// A responder has a hand and a decision model. The hand gives the effector's pose over time; the
+// decision model receives displayed frames and answers with actions. Neither gets a mass, a force
+// or a condition. Responder.cpp has the table of all responders.
 //
-// Responders remember nothing from trial to trial, and draw from streams keyed by trial number and
-// attempt, so a trial that a crash cut short runs again exactly as it would have.
+// Responders keep no memory between trials, and draw from streams keyed by trial number and
+// attempt, so that a trial interrupted by a crash is repeated exactly.
 #pragma once
 
 #include <any>
@@ -26,13 +26,13 @@
 
 namespace heft {
 
-/// What a participant sees when a trial begins.
+/// The participant's view of a trial at its start.
 struct TrialView {
   int trial_number = 0;
   int attempt = 1;
   Task task;
   Stage stage;
-  std::any offer = {};  ///< of the task, before any answer
+  std::any offer = {};  ///< the task's, before any answer
 };
 
 struct HandSample {
@@ -46,31 +46,30 @@ class Responder {
 
   virtual void begin_trial(const TrialView& trial) = 0;
 
-  /// The effector at a time since the trial's start. Asked for with non-decreasing times.
+  /// The effector at a time since the trial's start. Times do not decrease between calls.
   virtual HandSample hand(double t_s) = 0;
 
-  /// Takes in one displayed frame and the screen beside it, in order of time.
-  /// @return what it does after this frame and before the next, in order; times since the trial's
-  ///   start, within [frame.t_s, frame.t_s + 1/display rate)
+  /// Processes one displayed frame and the screen beside it, in order of time.
+  /// @return actions after this frame and before the next, in order; times since the trial's start,
+  ///   within [frame.t_s, frame.t_s + 1/display rate)
   virtual std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) = 0;
 
-  /// False when it has nothing left to do in this trial though the trial is still open (a recording
-  /// that ended): the runner then stops the session instead of waiting forever.
+  /// False if no action is left although the trial is open (a recording that has ended): the runner
+  /// then stops the session instead of waiting forever.
   virtual bool has_more(double t_s) const = 0;
 
-  /// Its one answer to a whole trial, whoever's hand moved in it: what its mind says to all of
-  /// these frames, the first one where the task asks again. Changes nothing of the trial that it is
-  /// in.
-  /// @return none: it has no answer to this trial
+  /// The answer to a logged trial, moved by any hand: the decision model's answer to all of these
+  /// frames, the first one if the task asks again. Does not affect the current trial.
+  /// @return none: no answer to this trial
   virtual std::optional<Answer> judge(const TrialView& trial [[maybe_unused]],
                                       std::span<const DisplayedFrame> frames
                                       [[maybe_unused]]) const {
     return std::nullopt;
   }
 
-  /// What it says to a question of a questionnaire.
-  /// @param key of the log, another for each time that the question is asked
-  /// @return none: it leaves it out
+  /// The answer to a question of a questionnaire.
+  /// @param key in the log; differs each time the question is asked
+  /// @return none: left unanswered
   virtual std::optional<std::string> answer(const FormQuestion& question [[maybe_unused]],
                                             const std::string& key [[maybe_unused]]) const {
     return std::nullopt;
@@ -93,40 +92,41 @@ struct ResponderEntry {
   std::string_view name;
   std::string_view summary;
   ResponderFile file = ResponderFile::none;
-  /// @throws InvalidFile naming each unknown or impossible parameter at its place, with the nearest
-  ///   valid name; Error where a folder lacks what it must hold
+  /// @throws InvalidFile naming each unknown or invalid parameter at its place, with the most
+  /// similar
+  ///   valid name; Error if a folder lacks a required file
   std::unique_ptr<Responder> (*make)(const ResponderOptions& options);
-  std::span<const ParameterPart> parts;  ///< whose parameters its file may set
-  bool touches_cubes = true;             ///< its hand does; false: it rests
+  std::span<const ParameterPart> parts;  ///< parts whose parameters its file may set
+  bool touches_cubes = true;             ///< false: its hand rests
 };
 
 std::span<const ResponderEntry> responders();
 
-/// Its parameters, a line each: name, default, unit, range, spread, reason. Empty: it has none.
+/// Its parameters, one per line: name, default, unit, range, spread, reason. Empty: none.
 std::string describe_parameters(const ResponderEntry& responder);
 
-/// @throws Error (usage) naming the nearest responder when there is none of that name
+/// @throws Error (usage) suggesting the most similar responder if there is none of that name
 const ResponderEntry& responder_named(std::string_view name);
 
-/// The random stream of one attempt at a trial: a trial run again draws the same.
+/// The random stream of one attempt at a trial; equal when the attempt is repeated.
 inline RandomStream trial_stream(std::uint64_t seed, std::string_view purpose,
                                  const TrialView& trial) {
   return {seed, purpose, static_cast<std::uint64_t>(trial.trial_number),
           static_cast<std::uint64_t>(trial.attempt)};
 }
 
-// What the table makes them with.
+// Functions of the table.
 
-/// A hand, an eye and a judgment, put together. Looks at every cube, comes back, answers; looks
-/// again when told to try again or when an answer was not taken.
+/// Hand, eye and decision combined. Looks at every cube, returns, answers; looks again when asked
+/// to try again or when an answer was refused.
 std::unique_ptr<Responder> make_simulated(const ResponderOptions& options);
 
-/// Plays a recording back: a real hand's trajectories and timed actions.
-/// @throws Error and InvalidFile as load_recording; at a trial's start, where the recording lacks
-///   that trial or has an action that its task does not offer
+/// Plays back a recording: a real hand's trajectories and timed actions.
+/// @throws Error and InvalidFile as load_recording; at a trial's start, if the recording lacks that
+///   trial or has an action that its task does not offer
 std::unique_ptr<Responder> make_scripted(const ResponderOptions& options);
 
-// Whose hand stays at rest and whose answers owe nothing to what the cubes do: baselines.
+// Baselines: the hand rests, and answers do not depend on the cubes.
 std::unique_ptr<Responder> make_always_yes(const ResponderOptions& options);
 std::unique_ptr<Responder> make_always_no(const ResponderOptions& options);
 std::unique_ptr<Responder> make_coin(const ResponderOptions& options);

@@ -42,7 +42,7 @@ constexpr std::array rows{
                  "the effector glides just above the table, so that it does not scrape"},
     ParameterRow{hand, "reach_m", "m", 0.3, 0.05, 0.6, 0, &P::reach_m,
                  "behind a tablet the tip gets about a forearm's length past the row's near faces"},
-    // The eye, and what is remembered of what it saw.
+    // The eye and its memory.
     ParameterRow{perception, "just_visible_mm", "mm", 2, 0, 20, 0.3, &P::just_visible_mm,
                  "a few pixels of a camera that films 40 cm: less looks like one contour"},
     ParameterRow{perception, "localization_noise_mm", "mm", 1, 0, 20, 0.3,
@@ -54,7 +54,7 @@ constexpr std::array rows{
                  "vision sums over about a tenth of a second, here as a first-order lag"},
     ParameterRow{perception, "memory_noise", "1", 0.08, 0, 1, 0.3, &P::memory_noise,
                  "a length kept in mind over seconds and other lengths blurs by 5 to 10 %"},
-    // The judgment and the finger.
+    // The decision and the finger.
     ParameterRow{decision, "judgment_noise_mm", "mm", 1.5, 0, 50, 0.3, &P::judgment_noise_mm,
                  "comparing adds noise of the order of what the eye adds, even to nothing seen"},
     ParameterRow{decision, "criterion_mm", "mm", 5, 0, 100, 0.4, &P::criterion_mm,
@@ -99,7 +99,7 @@ std::string unknown(const std::string& name, std::span<const ParameterPart> part
   return fmt::format("unknown parameter \"{}\", expected {}", name, quoted_list(known));
 }
 
-// Each of these returns what is wrong, or nothing.
+// Each of these returns the mistake, or an empty string.
 std::string set_cue(const Parameter& parameter, P& parameters) {
   const auto* text = std::get_if<std::string>(&parameter.value);
   const auto cue = text ? named<Cue>(*text) : std::nullopt;
@@ -125,7 +125,7 @@ std::string set(const Parameter& parameter, std::span<const ParameterPart> parts
   return set_number(parameter, *row, parameters);
 }
 
-// A stream for each parameter: a new row of the table changes no other value.
+// One stream per parameter: a new row of the table changes no other value.
 void vary(std::uint64_t seed, P& parameters) {
   for (const ParameterRow& row : rows) {
     RandomStream stream(seed, fmt::format("participant {}", row.name));

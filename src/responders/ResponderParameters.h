@@ -1,6 +1,6 @@
-// The numbers that simulated participants are made of. One table, in ResponderParameters.cpp, gives
-// each its name, unit, default, allowed range, spread between participants and reason. They are
-// provisional: taken from general knowledge of hands and eyes, fitted to no experiment.
+// Parameters of simulated participants. The table in ResponderParameters.cpp gives each its name,
+// unit, default, allowed range, spread between participants and reason. The values are provisional:
+// based on general knowledge of hands and eyes, not fitted to an experiment.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace heft {
 
-/// What a cube's heaviness is seen by.
-/// offset: how far the clone is from the effector while it touches the cube.
+/// The visible cue to a cube's heaviness.
+/// offset: distance of the clone from the effector while it touches the cube.
 /// cube_motion: how much less the cube has moved than the hand since they touched.
 enum class Cue { offset, cube_motion };
 template <>
@@ -23,7 +23,7 @@ struct EnumNames<Cue> {
   static constexpr std::array<std::string_view, 2> names{"offset", "cube_motion"};
 };
 
-/// Which part of a responder a parameter belongs to; a responder takes those of the parts it has.
+/// The part of a responder that has the parameter.
 enum class ParameterPart { everyone, hand, perception, decision, coin };
 
 inline constexpr std::array simulated_parts{ParameterPart::everyone, ParameterPart::hand,
@@ -31,7 +31,7 @@ inline constexpr std::array simulated_parts{ParameterPart::everyone, ParameterPa
 inline constexpr std::array criterion_only_parts{ParameterPart::everyone, ParameterPart::decision};
 inline constexpr std::array coin_parts{ParameterPart::coin};
 
-/// One participant's values. Meanings, units and defaults: the table.
+/// One participant's values. Meanings, units and defaults: see the table.
 struct ResponderParameters {
   double participant_spread = 0;
 
@@ -58,30 +58,30 @@ struct ParameterRow {
   ParameterPart part;
   std::string_view name, unit;
   double value, least, most;
-  double spread;  ///< between participants: SD of the value's logarithm
+  double spread;  ///< SD between participants of the value's logarithm
   double ResponderParameters::*member;
   std::string_view reason;
 };
 
-/// All numbers; the cue, a name, stands beside the table.
+/// All numeric parameters; the cue, a name, is not in the table.
 std::span<const ParameterRow> parameter_rows();
 
-/// The defaults of all parts, as an average participant has them.
+/// Defaults of all parts: an average participant.
 ResponderParameters default_parameters();
 
 /// Defaults, overridden by the options' parameters, then varied between participants: each value
-/// times exp(spread * normal), drawn from the seed once per parameter and held in its range.
+/// times exp(spread * normal), drawn from the seed once per parameter and clamped to its range.
 /// @param parts whose parameters may be given
-/// @throws InvalidFile naming each unknown or impossible parameter at its place
+/// @throws InvalidFile naming each unknown or invalid parameter at its place
 ResponderParameters participant_parameters(const ResponderOptions& options,
                                            std::span<const ParameterPart> parts);
 
-/// The numbers of those parts, by name: what a participant of these options is drawn as.
+/// The drawn parameters of those parts, by name.
 /// @throws InvalidFile as participant_parameters
 std::map<std::string, double> drawn_values(const ResponderOptions& options,
                                            std::span<const ParameterPart> parts);
 
-/// A line a parameter: name, default, unit, range, spread, reason.
+/// One line per parameter: name, default, unit, range, spread, reason.
 std::string describe_parameters(std::span<const ParameterPart> parts);
 
 }  // namespace heft

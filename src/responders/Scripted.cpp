@@ -11,7 +11,7 @@
 namespace heft {
 
 namespace {
-// Steps recorded just before what completes them take a frame or two to be on the screen.
+// Steps recorded just before the completing one take a frame or two to be displayed.
 constexpr double waits_for_steps_s = 1;
 
 void check(const std::vector<RecordedAction>& actions, const TrialView& trial) {
@@ -35,7 +35,7 @@ class Scripted : public Responder {
   void begin_trial(const TrialView& trial) override {
     const auto trajectory = recording_.trajectories.find(trial.trial_number);
     if (trajectory == recording_.trajectories.end())
-      throw Error(fmt::format("the recording {} has no trial {}: expected the file trial_{}.csv",
+      throw Error(fmt::format("the recording {} lacks trial {}: expected the file trial_{}.csv",
                               recording_.folder, trial.trial_number, trial.trial_number));
     trajectory_ = &trajectory->second;
     const auto& actions = recording_.actions[trial.trial_number];
@@ -56,7 +56,7 @@ class Scripted : public Responder {
   }
 
   std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {
-    // A pause takes no taps; those that fell into it come after it.
+    // Taps are postponed during a pause.
     paused_ = screen.screen != Screen::trial;
     std::vector<TimedAction> actions;
     if (paused_) return actions;

@@ -13,7 +13,7 @@
 namespace heft {
 
 namespace {
-/// Everything that lives for one trial.
+/// State of one trial.
 struct SimulatedTrial {
   SimulatedTrial(const ResponderParameters& parameters, std::uint64_t seed, const TrialView& trial)
       : hand(parameters, seed, trial),
@@ -32,7 +32,7 @@ struct SimulatedTrial {
   Answering answering;
   std::vector<int> cubes;
   bool looked_twice = false;  ///< at cubes that it had missed
-  bool answered = false;      ///< since it last set out
+  bool answered = false;      ///< since the last exploration began
 };
 
 class Simulated : public Responder {
@@ -83,7 +83,7 @@ class Simulated : public Responder {
     trial.answered = true;
   }
 
-  // The last answer was wrong or not taken.
+  // The last answer was wrong or refused.
   void set_out_again() {
     SimulatedTrial& trial = *trial_;
     trial.perception.forget();

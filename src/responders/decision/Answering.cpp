@@ -9,11 +9,11 @@
 namespace heft {
 
 namespace {
-// An answer that has had no effect for this long was not taken.
+// An answer without effect for this long was refused.
 constexpr double patience_s = 2;
 constexpr double least_interval_s = 0.3;
 constexpr int most_refused = 3;
-// Cubes that have not appeared by then never will: the hand rests where it keeps them away.
+// Cubes that have not appeared by then never will: the hand rests in their places.
 constexpr double waits_for_cubes_s = 60;
 }  // namespace
 
@@ -53,7 +53,7 @@ void Answering::give(const Answer& answer, double first_tap_s) {
 std::vector<TimedAction> Answering::see(const DisplayedFrame& frame, const ScreenState& screen) {
   cubes_seen_ = cubes_seen_ || !frame.cubes.empty();
   if (screen.screen != Screen::trial || free_) {
-    last_tap_s_ = std::max(last_tap_s_, frame.t_s);  // patience starts anew after a pause
+    last_tap_s_ = std::max(last_tap_s_, frame.t_s);  // the patience timer restarts after a pause
     return {};
   }
   if (queue_.empty()) look_for_outcome(frame.t_s, screen);
@@ -74,7 +74,7 @@ void Answering::look_for_outcome(double t_s, const ScreenState& screen) {
 }
 
 std::vector<TimedAction> Answering::due(double t_s, const ScreenState& screen) {
-  // What could not be done in its time moves on as a whole, so that taps keep their distance.
+  // Delayed taps are shifted together, so that their intervals remain.
   const double earliest_s = std::max(t_s, screen.answers_from_s.value_or(t_s));
   const double late_s = queue_.empty() ? 0 : std::max(0.0, earliest_s - queue_.front().t_s);
   for (TimedAction& action : queue_) action.t_s += late_s;

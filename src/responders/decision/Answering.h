@@ -1,5 +1,5 @@
-// A finger on the touch screen: carries out an answer tap by tap, at human intervals, and only what
-// the screen offers; finds out whether the answer was taken.
+// A finger on the touch screen: carries out an answer tap by tap, at human intervals, using only
+// what the screen offers, and detects whether the answer was accepted.
 #pragma once
 
 #include <cstdint>
@@ -16,23 +16,23 @@ namespace heft {
 
 class Answering {
  public:
-  /// @param tap_interval_s mean; taps are 0.3 s apart or more
+  /// @param tap_interval_s mean; at least 0.3 s between taps
   Answering(std::uint64_t seed, const TrialView& trial, double tap_interval_s);
 
   /// Starts to carry out an answer.
   /// @param first_tap_s time of its first action
   void give(const Answer& answer, double first_tap_s);
 
-  /// Actions that fall between this frame and the next. Nothing while the trial is paused; what
-  /// was due then comes after.
+  /// Actions between this frame and the next. None while the trial is paused; delayed ones follow
+  /// afterwards.
   std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen);
 
-  /// No answer is under way: none given yet, or the last one was wrong or not taken.
+  /// Whether no answer is in progress: none given yet, or the last one was wrong or refused.
   bool free() const { return free_; }
-  /// Slots chosen wrongly so far, oldest first, where the task asks again.
+  /// Slots of incorrect choices so far, oldest first, if the task asks again.
   const std::vector<int>& wrong_slots() const { return wrong_slots_; }
   bool cubes_seen() const { return cubes_seen_; }
-  /// Going on is pointless: several answers were not taken, or the cubes never appeared.
+  /// Whether to give up: several answers were refused, or the cubes never appeared.
   bool gave_up(double t_s) const;
 
  private:
@@ -46,7 +46,7 @@ class Answering {
   bool cubes_seen_ = false;
   bool free_ = true;
   std::deque<TimedAction> queue_;
-  std::optional<Action> last_;  // of an answer in steps, once the screen shows them complete
+  std::optional<Action> last_;  // last step of an answer, given once the screen shows the others
   double last_tap_s_ = 0;
   int n_choices_before_ = 0;
   std::optional<int> chosen_;

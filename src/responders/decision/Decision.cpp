@@ -20,14 +20,14 @@ Answer Decision::decide(std::span<const double> percepts_mm, std::span<const int
                     .guess_probability = parameters_.guess_probability,
                     .correction_probability = parameters_.correction_probability,
                     .wrong_slots = wrong_slots};
-  // A lapse answers as if something else had been seen; all of it equally likely.
+  // A lapse answers as for another percept; all answers are equally likely.
   if (percepts.lapse)
     for (double& value : percepts.remembered_mm) value = stream_.uniform();
   percepts.differ = differ(percepts.remembered_mm);
   return simulated_answer(task_, offer_, percepts, stream_);
 }
 
-// Noise in proportion to the percept, and some that is there even when nothing was seen.
+// Noise proportional to the percept plus constant noise.
 std::vector<double> Decision::remembered_mm(std::span<const double> percepts_mm) {
   std::vector<double> remembered;
   for (double percept : percepts_mm) {

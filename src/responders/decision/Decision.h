@@ -1,5 +1,5 @@
-// From percepts to an answer: what is remembered of them, a criterion, guesses and lapses. Knows
-// neither frames nor the screen.
+// From percepts to an answer: memory, criterion, guesses and lapses. Independent of frames and
+// screens.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class Decision {
   Decision(const ResponderParameters& parameters, std::uint64_t seed, const TrialView& trial);
 
   /// @param percepts_mm by cube, leftmost first
-  /// @param wrong_slots chosen wrongly so far, oldest first, where the task asks again
+  /// @param wrong_slots incorrect choices so far, oldest first, if the task asks again
   Answer decide(std::span<const double> percepts_mm, std::span<const int> wrong_slots);
 
  private:
@@ -30,7 +30,7 @@ class Decision {
   RandomStream stream_;
 };
 
-/// What a mind that does not look says to a trial of any task.
+/// The answer of a model that does not look, for a trial of any task.
 Answer blind_answer(const TrialView& trial, const WithoutPercepts& unseen, RandomStream& stream);
 
 }  // namespace heft

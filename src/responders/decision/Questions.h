@@ -1,5 +1,5 @@
-// What a model says to a questionnaire: any of the answers, and none that owes anything to what it
-// went through. Enough to have the pages turned and the answers logged.
+// A model's answers to questionnaires: random, independent of its trials. Enough to complete the
+// pages and to log answers.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace heft {
 
-/// Each answer equally likely; of a number's range the whole ones. None to what is told to the
-/// experimenter.
-/// @param seed the responder's  @param key of the log: every question has draws of its own
+/// Each answer equally likely; whole numbers of a number's range. None for questions that are
+/// answered to the experimenter.
+/// @param seed the responder's  @param key in the log: every question has its own draws
 std::optional<std::string> any_answer_to(const FormQuestion& question, std::uint64_t seed,
                                          const std::string& key);
 

@@ -87,7 +87,7 @@ bool Hand::done(double t_s) const {
 void Hand::see(const DisplayedFrame& frame) {
   if (frame.t_s < path_.end_s()) return;
   path_.begin_at(frame.t_s);
-  // Cubes that are not there yet appear only once the hand is out of their way.
+  // Missing cubes appear only once the hand is out of their way.
   if (frame.cubes.empty()) return go_home(frame.cubes);
   if (pushed_) return back_off(frame.cubes);
   if (const auto stroke = next_stroke(frame.cubes)) return push(*stroke, frame.cubes);
@@ -103,14 +103,14 @@ std::optional<Hand::Stroke> Hand::next_stroke(std::span<const Pose> cubes) {
   return std::nullopt;
 }
 
-// None where the cube can't be pushed now.
+// None if the cube cannot be pushed now.
 std::optional<Hand::Stroke> Hand::stroke_on(int cube, std::span<const Pose> cubes) {
   const double length_m = varied(parameters_.stroke_length_m);
   const double peak_speed_m_s = varied(parameters_.stroke_peak_speed_m_s);
   const double lateral_m = error(parameters_.lateral_error_m);
   const double yaw_rad = error(parameters_.yaw_error_rad);
   const Pose& at = cubes[static_cast<std::size_t>(cube)];
-  // In a narrow place the hand aims with more care, beside the middle if need be.
+  // In a narrow place the hand aims more carefully, off center if necessary.
   const double aside_m = stage_.cube_size_m / 4;
   for (Stroke stroke :
        {aimed(cube, at, lateral_m, yaw_rad, length_m), aimed(cube, at, 0, 0, length_m),
@@ -142,7 +142,7 @@ bool Hand::possible(const Stroke& stroke, std::span<const Pose> cubes) const {
   const Eigen::Vector3d half_m = half_extents_m(stroke.start.orientation, stage_.effector_size_m);
   const double half_width_m = half_m.x() + side_margin_m;
   const Eigen::Vector3d& from_m = stroke.start.position_m;
-  // From the effector's tail to the far face of the cube that it may take along.
+  // From the effector's tail to the far face of the cube.
   const Footprint swept{{from_m.x() - half_width_m, from_m.y() - half_m.y()},
                         {from_m.x() + half_width_m, tip_m(stroke.end) + stage_.cube_size_m}};
   return on_table && within_reach && clear_of_others(swept, cubes, stroke.cube, stage_);
@@ -157,8 +157,8 @@ void Hand::push(const Stroke& stroke, std::span<const Pose> cubes) {
   pushed_ = stroke;
 }
 
-// Straight back until the tip, and with it the clone, has left the cube, and up. Not further back:
-// a cube that was pushed too far returns to its place, and the effector's tail would drag it along.
+// Straight back until the tip and the clone have left the cube, then up. Not further back: a cube
+// that was pushed too far returns to its place, and the effector's tail would drag it along.
 void Hand::back_off(std::span<const Pose> cubes) {
   const double inside_m =
       tip_m(path_.end()) - near_face_m(cubes[static_cast<std::size_t>(pushed_->cube)]);
@@ -176,17 +176,17 @@ Eigen::Vector3d Hand::half_extents_of(const Pose& cube) const {
   return half_extents_m(cube.orientation, Eigen::Vector3d::Constant(stage_.cube_size_m));
 }
 
-// How far away the edge of a cube towards the participant is.
+// Distance of a cube's near edge from the participant.
 double Hand::near_face_m(const Pose& cube) const {
   return cube.position_m.y() - half_extents_of(cube).y();
 }
 
-// How far away the tip is.
+// Distance of the tip.
 double Hand::tip_m(const Pose& effector) const {
   return (effector * Eigen::Vector3d(stage_.effector_size_m.x() / 2, 0, 0)).y();
 }
 
-// Of the effector's center, over whatever stands there.
+// Height of the effector's center that clears all cubes.
 double Hand::safe_height_m(std::span<const Pose> cubes) const {
   double top_m = stage_.cube_size_m;
   for (const Pose& cube : cubes)
@@ -208,7 +208,7 @@ void Hand::go_home(std::span<const Pose> cubes) {
   pushed_.reset();
 }
 
-// Held within two standard deviations: the tails would leave what a human does.
+// Limited to two standard deviations, because the tails would not be human.
 double Hand::error(double sd) {
   return sd * std::clamp(stream_.normal(), -2.0, 2.0);
 }

@@ -1,6 +1,6 @@
-// A simulated hand: rests in front of the row, pushes cubes away from the participant where it sees
-// them, lifts over everything between pushes, and comes back. Its pose is a pure function of time
-// and of what has been displayed so far. It knows nothing of answers.
+// A simulated hand: rests in front of the row, pushes the cubes it sees away from the participant,
+// lifts over everything between pushes, and returns. Its pose is a pure function of time and of the
+// displayed frames so far. It does not know the answers.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace heft {
 
-/// Fraction of the way after a fraction u (held in 0...1) of the time: 10u^3 - 15u^4 + 6u^5
+/// Fraction of the distance after a fraction u (clamped to 0...1) of the time: 10u^3 - 15u^4 + 6u^5
 /// (Flash and Hogan 1985).
 double minimum_jerk(double u);
 
@@ -28,12 +28,12 @@ struct HandMove {
   Pose from, to;
 };
 
-/// A hand's way through space: straight minimum-jerk movements with rests between them.
+/// A hand's path: straight minimum-jerk movements with rests between them.
 class HandPath {
  public:
   explicit HandPath(const Pose& start) : start_(start) {}
 
-  /// Forgets the movements made so far; the next one starts where they ended, at t_s or later.
+  /// Removes past movements; the next one starts where they ended, at t_s or later.
   void begin_at(double t_s);
   void wait(double duration_s) { end_s_ += duration_s; }
   void move(const Pose& to, double peak_speed_m_s);
@@ -57,14 +57,14 @@ class Hand {
  public:
   Hand(const ResponderParameters& parameters, std::uint64_t seed, const TrialView& trial);
 
-  /// Sets out to push these cubes (from 0), one after the other in drawn order.
+  /// Starts to push these cubes (from 0), one after the other in drawn order.
   void explore(std::span<const int> cubes);
 
-  /// Takes in a frame; plans the next movement when the last one is over.
+  /// Processes a frame; plans the next movement when the last one has ended.
   void see(const DisplayedFrame& frame);
 
   Pose at(double t_s) const { return path_.at(t_s); }
-  /// Back at rest with nothing left to push.
+  /// Whether it is back at rest with nothing left to push.
   bool done(double t_s) const;
   /// Movements planned last.
   const HandPath& path() const { return path_; }
@@ -97,9 +97,9 @@ class Hand {
   RandomStream stream_;
   Pose home_;
   HandPath path_;
-  std::deque<int> to_push_;  ///< cubes, one entry a stroke
+  std::deque<int> to_push_;  ///< cubes, one entry per stroke
   bool at_home_ = true;
-  std::optional<Stroke> pushed_;  ///< the last planned movement ends in this push
+  std::optional<Stroke> pushed_;  ///< the push at the end of the last planned movement
 };
 
 }  // namespace heft

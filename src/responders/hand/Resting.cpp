@@ -16,10 +16,10 @@ namespace {
 constexpr double hover_m = 0.005;
 constexpr double tap_interval_s = 0.7;
 
-/// Gives the answer to a trial.
-/// @param wrong_slots chosen wrongly so far, oldest first, where the task asks again
+/// Answers a trial.
+/// @param wrong_slots incorrect choices so far, oldest first, if the task asks again
 using DecisionModel = std::function<Answer(std::span<const int> wrong_slots)>;
-/// Makes the mind for one trial.
+/// Creates the decision model of one trial.
 using MakeDecisionModel = std::function<DecisionModel(const TrialView& trial)>;
 
 class Resting : public Responder {
@@ -64,7 +64,7 @@ class Resting : public Responder {
   std::optional<RandomStream> delays_;
 };
 
-// Finds a difference with a probability, whatever there is.
+// Finds a difference with a fixed probability.
 std::unique_ptr<Responder> make_blind(std::uint64_t seed, double p_different) {
   return std::make_unique<Resting>(seed, [=](const TrialView& trial) -> DecisionModel {
     RandomStream stream = trial_stream(seed, "blind answer", trial);

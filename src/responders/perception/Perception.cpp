@@ -10,7 +10,7 @@
 namespace heft {
 
 namespace {
-// A touch that flickers for less is one touch; strokes are further apart.
+// A touch interrupted for less than this is one touch; strokes are further apart.
 constexpr double touch_break_s = 0.3;
 constexpr double mm_per_m = 1000;
 
@@ -57,7 +57,7 @@ double Perception::cue_mm(const DisplayedFrame& frame) const {
          horizontal_mm(cube.position_m - touch_->cube_at_start.position_m);
 }
 
-// Nothing visible is read as nothing, without noise: the noise of judging it comes later.
+// A cue below the threshold is read as zero, without noise; decision noise is added later.
 double Perception::reading_mm(double shown_mm) {
   if (shown_mm <= parameters_.just_visible_mm) return 0;
   const double noise_mm =

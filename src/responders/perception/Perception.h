@@ -1,10 +1,10 @@
-// A simulated eye: what the displayed frames tell of each cube's heaviness, in millimeters of the
-// cue. It gets frames only: no mass, force, condition, and nothing of the hand's plans.
+// A simulated eye: reads each cube's heaviness from the displayed frames, in millimeters of the
+// cue. It gets frames only: no mass, force or condition, and nothing of the hand's plans.
 //
-// Each frame in which the clone touches a cube gives a noisy reading of the cue, nothing where it
-// is less than just visible. Readings are smoothed over the eye's integration time; the largest one
-// of an unbroken touch is a look, and the mean of a cube's looks is its percept. Without a drawn
-// clone there is no cue.
+// Each frame in which the clone touches a cube gives a noisy reading of the cue, zero where it is
+// less than just visible. Readings are smoothed over the eye's integration time; the largest one of
+// an unbroken touch is a look, and the mean of a cube's looks is its percept. Without a drawn clone
+// there is no cue.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ class Perception {
   /// By cube, leftmost first; 0 for a cube that was not looked at.
   std::vector<double> percepts_mm() const;
 
-  /// Cubes (from 0) that were not seen touched.
+  /// Cubes (from 0) that were never seen touched.
   std::vector<int> not_looked_at() const;
 
-  /// Looks afresh from now on.
+  /// Discards all looks.
   void forget();
 
  private:

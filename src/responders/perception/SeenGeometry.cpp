@@ -5,7 +5,7 @@
 namespace heft {
 
 namespace {
-// Contact is drawn to about a pixel or two; strokes come from further away than this.
+// Accuracy of a drawn contact, about a pixel or two; strokes start further away.
 constexpr double touch_tolerance_m = 0.004;
 
 Eigen::Vector3d cube_size_m(const Stage& stage) {

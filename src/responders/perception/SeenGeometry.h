@@ -1,5 +1,4 @@
-// What can be told from displayed poses alone: how far boxes extend, what touches what, which ways
-// are free.
+// Geometry visible in displayed poses: extents of boxes, contacts, free paths.
 #pragma once
 
 #include <optional>
@@ -14,8 +13,8 @@ namespace heft {
 Eigen::Vector3d half_extents_m(const Eigen::Quaterniond& orientation,
                                const Eigen::Vector3d& size_m);
 
-/// Index of the cube that the clone's tip looks to be in touch with: the nearest one in front of
-/// it. None when there is none within a few millimeters.
+/// Index of the cube that the clone's tip seems to touch: the nearest one in front of it, within a
+/// few millimeters. None if there is none.
 std::optional<int> touched_cube(const Pose& clone, std::span<const Pose> cubes, const Stage& stage);
 
 /// A rectangle on the table, world axes.
@@ -23,7 +22,7 @@ struct Footprint {
   Eigen::Vector2d least_m, most_m;
 };
 
-/// Whether a rectangle is clear of every cube but one.
+/// Whether a rectangle is clear of every cube except one.
 bool clear_of_others(const Footprint& area, std::span<const Pose> cubes, int but,
                      const Stage& stage);
 
