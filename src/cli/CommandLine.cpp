@@ -31,10 +31,10 @@ bool is_whole_number(const std::string& text, std::uint64_t least, std::uint64_t
   return result.ec == std::errc() && value >= least && value <= most;
 }
 
-// A shell's variable that is not set, mostly: nothing goes on as if the option had not been given.
+// Usually an unset shell variable: the option must not be treated as missing.
 std::string refused_if_blank(const std::string& text) {
   if (text.find_first_not_of(" \t") != std::string::npos) return "";
-  return "its value is empty; give it one, or leave it out";
+  return "its value is empty; give one, or omit the option";
 }
 
 std::string nearest_hint(const std::string& wanted, const std::vector<std::string>& names) {
@@ -43,8 +43,8 @@ std::string nearest_hint(const std::string& wanted, const std::vector<std::strin
   return nearest ? fmt::format(" (did you mean {}?)", *nearest) : "";
 }
 
-// CLI11 would only say that a subcommand is required.
-// @param name as it is typed, with the commands before it
+// CLI11's own message would only be that a subcommand is required.
+// @param name as typed, with the commands before it
 void refuse_unknown_command(const CLI::App& app, const std::string& name,
                             std::span<char* const> words) {
   std::vector<std::string> names;
@@ -61,7 +61,7 @@ void refuse_unknown_command(const CLI::App& app, const std::string& name,
               ExitCode::usage);
 }
 
-// CLI11 lists what it could not use backwards.
+// CLI11 lists unexpected words in reverse order.
 std::string unexpected_words(const CLI::App& app, const CLI::App& command) {
   const std::vector<std::string> words = app.remaining(true);
   std::vector<std::string> options;
@@ -72,13 +72,13 @@ std::string unexpected_words(const CLI::App& app, const CLI::App& command) {
                      option == words.end() ? "" : nearest_hint(*option, options));
 }
 
-// A misspelled option makes what it was meant to be look missing.
+// A misspelled option makes the intended one appear missing.
 bool has_unexpected_option(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining(true);
   return std::ranges::any_of(words, [](const std::string& word) { return word.starts_with("--"); });
 }
 
-// A usage mistake as CLI11 found it, with where to read on.
+// A usage error found by CLI11, with a pointer to --help.
 Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const auto given = app.get_subcommands();
   const CLI::App& command = given.empty() ? app : *given.front();
@@ -100,41 +100,43 @@ std::string value_of(const CLI::Option& option) {
 }
 
 OptionDescription described(const CLI::Option& option) {
-  OptionDescription told;
-  told.by_place = !option.nonpositional();
-  told.names = option.get_name(false, true);
-  told.value = value_of(option);
-  told.group = told.by_place ? "Arguments" : option.get_group();
-  told.required = option.get_required();
-  told.repeats = option.get_items_expected_max() > 1;
-  told.help = option.get_description();
-  if (told.required && !told.by_place) told.help += " (required)";
+  OptionDescription description;
+  description.by_place = !option.nonpositional();
+  description.names = option.get_name(false, true);
+  description.value = value_of(option);
+  description.group = description.by_place ? "Arguments" : option.get_group();
+  description.required = option.get_required();
+  description.repeats = option.get_items_expected_max() > 1;
+  description.help = option.get_description();
+  if (description.required && !description.by_place) description.help += " (required)";
   if (!option.get_default_str().empty())
-    told.help += fmt::format(" (default: {})", option.get_default_str());
-  return told;
+    description.help += fmt::format(" (default: {})", option.get_default_str());
+  return description;
 }
 
-// @param before the names that are typed before this one's, with a blank after them
+// @param before the command names before this one, with a blank after each
 CommandDescription described(const CLI::App& app, const std::string& before) {
-  CommandDescription told{before + app.get_name(), app.get_description(), app.get_footer(), {}, {}};
-  for (const CLI::Option* option : app.get_options()) told.options.push_back(described(*option));
-  // What a command can't do without comes first, what all have last.
-  std::ranges::stable_sort(told.options, {}, [](const OptionDescription& option) {
+  CommandDescription description{
+      before + app.get_name(), app.get_description(), app.get_footer(), {}, {}};
+  for (const CLI::Option* option : app.get_options())
+    description.options.push_back(described(*option));
+  // Required options first, options of all commands last.
+  std::ranges::stable_sort(description.options, {}, [](const OptionDescription& option) {
     return option.by_place ? 0 : option.names.starts_with("-h,") ? 2 : 1;
   });
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    told.commands.push_back(described(*command, told.name + " "));
-  return told;
+    description.commands.push_back(described(*command, description.name + " "));
+  return description;
 }
 
-// Of the innermost command that was given.
+// Describes the innermost given command.
 CommandDescription described_as_given(const CLI::App& app, const std::string& before = "") {
   const auto given = app.get_subcommands();
   if (given.empty()) return described(app, before);
   return described_as_given(*given.front(), before + app.get_name() + " ");
 }
 
-// Of the terminal that reads it, as far as lines are good to read.
+// Width of the terminal, within limits for legible lines.
 std::size_t help_width() {
   constexpr unsigned short narrowest = 60, usual = 80, widest = 120;
   winsize size{};
@@ -144,7 +146,7 @@ std::size_t help_width() {
 
 void add_completion(Command& program, const CLI::App& app) {
   Command command = program.add_command(
-      "completion", "print what completes commands and options in a shell, or the manual page",
+      "completion", "print a shell's completion of commands and options, or the manual page",
       {"source <(heft completion bash)", "source <(heft completion zsh)",
        "heft completion fish | source", "heft completion man > heft.1"});
   const std::map<std::string, std::string (*)(const CommandDescription&)> makers{

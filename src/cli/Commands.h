@@ -1,6 +1,5 @@
-// The program: its commands, one file each, and what heft and heft-bench have in common. A
-// command's action does the work, writes data to stdout and messages to stderr, and throws Error to
-// end with a message and an exit code.
+// The commands of heft, one file each, and the common part of heft and heft-bench. A command writes
+// data to stdout and messages to stderr, and throws Error to end with a message and an exit code.
 #pragma once
 
 #include "cli/CommandLine.h"
@@ -26,12 +25,11 @@ void add_simulate(Command& app);
 void add_track(Command& app);
 void add_validate(Command& app);
 
-/// All of the above.
+/// All commands above.
 void add_commands(Command& app);
 
-/// @return the exit code. heft-bench takes over where heft is asked for `bench`, and with the same
-/// words
-///   where it is asked for a simulator that only heft-bench has.
+/// @return the exit code. heft starts heft-bench with the same arguments for `bench`, and for a
+///   simulator that only heft-bench has.
 int run_program(const ProgramDescription& program, int argc, char** argv);
 
 }  // namespace heft::cli

@@ -10,7 +10,7 @@ namespace heft::cli {
 namespace {
 constexpr std::size_t help_column = 28;
 
-// Words of a text in lines from a column on; the first goes on a line that is `used` long.
+// Words wrapped to lines from a column on; the first line already has `used` characters.
 std::string wrapped(const std::string& text, std::size_t column, std::size_t width,
                     std::size_t used) {
   if (text.empty()) return "\n";
@@ -31,10 +31,10 @@ std::string wrapped(const std::string& text, std::size_t column, std::size_t wid
   return result;
 }
 
-// An example in lines that a shell takes as one: broken between words, never within quotes.
+// An example as lines that a shell joins: broken between words, never within quotes.
 std::string continued(std::string_view example, std::size_t width) {
   std::string result;
-  std::size_t line = 0, blank = 0;  // where the line began in the result, and its last free blank
+  std::size_t line = 0, blank = 0;  // start of the line in the result, and its last unquoted blank
   bool quoted = false;
   for (const char c : example) {
     if (c == '\'' || c == '"') quoted = !quoted;
@@ -48,7 +48,7 @@ std::string continued(std::string_view example, std::size_t width) {
   return result;
 }
 
-// What stands below the options, its commands no wider than the terminal.
+// The text below the options, with commands wrapped to the terminal's width.
 std::string with_examples(const std::string& footer, std::size_t width) {
   std::istringstream lines(footer);
   std::string result;
@@ -88,7 +88,7 @@ std::string last_word(const std::string& name) {
   return name.substr(name.rfind(' ') + 1);
 }
 
-// The options' long names, or the commands' names, with blanks between.
+// Long names of options, or names of commands, separated by blanks.
 std::string options_in_a_row(const CommandDescription& command) {
   std::string row;
   for (const OptionDescription& option : command.options)
@@ -111,7 +111,7 @@ void add_cases(const CommandDescription& command, const std::string& path, std::
     add_cases(inner, path + "/" + last_word(inner.name), text);
 }
 
-// As roff takes it: nothing at a line's start is a request, no hyphen is a dash.
+// Escapes for roff: no line starts with a request, no hyphen becomes a dash.
 std::string roff(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -201,13 +201,13 @@ _{1}_completion() {{
   fi
 }}
 compdef _{1}_completion {0}
-[[ ${{funcstack[1]}} != _{0} ]] || _{1}_completion "$@"  # installed as a function of its own file
+[[ ${{funcstack[1]}} != _{0} ]] || _{1}_completion "$@"  # installed as an autoloaded function
 )",
                      program.name, function, cases);
 }
 
 namespace {
-// In single quotes, in which fish takes \\ and \' for what they stand for.
+// In single quotes, within which fish only interprets \\ and \'.
 std::string fish_quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) {
@@ -217,7 +217,7 @@ std::string fish_quoted(const std::string& text) {
   return quoted + "'";
 }
 
-// @param seen what fish asks before it offers a command's own
+// @param seen fish's condition for offering a command's own words
 void add_fish_lines(const CommandDescription& command, const std::string& program,
                     const std::string& seen, std::string& lines) {
   const std::string begin = fmt::format("complete -c {} -n {}", program, fish_quoted(seen));

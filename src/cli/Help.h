@@ -1,5 +1,5 @@
-// What a command line tells of itself, made from one description: --help, completion in a shell and
-// the manual page. Knows no library that reads command lines.
+// --help, shell completion and the manual page, generated from one description of the commands.
+// Independent of the library that reads command lines.
 #pragma once
 
 #include <string>
@@ -8,25 +8,24 @@
 namespace heft::cli {
 
 struct OptionDescription {
-  std::string names;  ///< "--db", "-h,--help"; of what is told by its place: "PROTOCOL"
-  std::string value;  ///< what it takes: "TEXT"; empty: nothing
-  std::string group;  ///< the heading that it stands under
+  std::string names;  ///< "--db", "-h,--help"; "PROTOCOL" for a positional argument
+  std::string value;  ///< type of its value: "TEXT"; empty: none
+  std::string group;  ///< heading in --help
   std::string help;   ///< line ends are kept
   bool by_place = false, required = false, repeats = false;
 };
 
 struct CommandDescription {
-  std::string name;  ///< as it is typed: "heft calibrate camera"
+  std::string name;  ///< as typed: "heft calibrate camera"
   std::string summary, footer;
   std::vector<OptionDescription> options;
   std::vector<CommandDescription> commands;
 };
 
-/// @param width in characters, that no line of an option's help goes beyond, nor an example's that
-///   can be broken between words
+/// @param width in characters; words and quoted texts are not broken
 std::string help_of(const CommandDescription& command, std::size_t width);
 
-/// Scripts to be sourced by a shell: commands and options; elsewhere files.
+/// Scripts for a shell to source: commands and options; files elsewhere.
 std::string bash_completion(const CommandDescription& program);
 std::string zsh_completion(const CommandDescription& program);
 std::string fish_completion(const CommandDescription& program);

@@ -21,11 +21,11 @@ namespace heft::cli {
 
 namespace {
 
-// What a library threw, as an error for people.
+// A library's exception as an error for users.
 Error explained(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error)) return Error("out of memory");
   if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
-    return Error(fmt::format("can't use {}: {}", file->path1().string(), file->code().message()));
+    return Error(fmt::format("cannot use {}: {}", file->path1().string(), file->code().message()));
   if (const auto* system = dynamic_cast<const std::system_error*>(&error))
     return std::ferror(stdout) != 0 ? output_error(system->code().message())
                                     : Error(system->what());
@@ -37,9 +37,9 @@ int fail(const Error& error) {
   return static_cast<int>(error.exit_code());
 }
 
-// A reader that goes away (SIGPIPE) and a file that may not grow (SIGXFSZ) are errors of a write,
-// told where the write is. Programs started from here get back what is usual, which they would not
-// if the signals were ignored.
+// A closed pipe (SIGPIPE) and a file size limit (SIGXFSZ) become errors of the write, reported
+// there. Programs started from here get the default handlers back, which they would not if the
+// signals were ignored.
 void survive_failed_writes() {
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, [](int) {});
 }
@@ -63,21 +63,21 @@ int exit_code_of(const std::function<void()>& work) {
 constexpr const char* how_to_get_bench =
     "In a checkout ./heft bench builds it; otherwise install heft-bench";
 
-// Goes on as heft-bench, from the arguments at `first` on.
+// Replaces this program by heft-bench, with the arguments from `first` on.
 [[noreturn]] void become_bench(char** first, char** last) {
   const std::string program = bench_program();
   if (program.empty())
     throw Error(
-        fmt::format("heft-bench, the program with the studies, is not here. {}", how_to_get_bench));
+        fmt::format("heft-bench, the program with the studies, is missing. {}", how_to_get_bench));
   std::vector<char*> arguments{const_cast<char*>(program.c_str())};
   arguments.insert(arguments.end(), first, last);
   arguments.push_back(nullptr);
   flush_output();
   execv(program.c_str(), arguments.data());
-  throw Error(fmt::format("can't start {}: {}", program, std::strerror(errno)));
+  throw Error(fmt::format("cannot start {}: {}", program, std::strerror(errno)));
 }
 
-// With the same words.
+// With the same arguments.
 void hand_over_to_bench(const OnlyForStudies& wanted, int argc, char** argv) {
   if (bench_program().empty())
     throw Error(fmt::format("{}. {}", wanted.what(), how_to_get_bench), wanted.exit_code());

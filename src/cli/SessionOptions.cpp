@@ -19,7 +19,7 @@
 namespace heft::cli {
 
 namespace {
-// A function that reads an option's text into `value`.
+// A function that parses an option's text into `value`.
 template <typename Value>
 ReadsText reads(std::string option, Value& value, const char* expected) {
   return {[option = std::move(option), &value, expected](const std::string& text) {
@@ -62,11 +62,10 @@ Option add_responder(Command& command, std::optional<WhoAnswers>& responder,
 
 namespace {
 void add_files_of_apparatus(Command& command, SessionOptions& given, bool stay) {
-  command.add_option("--camera-file", &given.camera_file,
-                     with_default("the camera's calibration, from heft calibrate camera",
-                                  "camera.yaml in this folder, for synthetic and mouse a made-up "
-                                  "one",
-                                  stay));
+  command.add_option(
+      "--camera-file", &given.camera_file,
+      with_default("the camera's calibration, from heft calibrate camera",
+                   "camera.yaml in this folder; a synthetic one for synthetic and mouse", stay));
   command.add_option("--board", &given.board_file,
                      with_default("the printed board", "protocols/apparatus/board.toml", stay));
   command.add_option(
@@ -81,23 +80,22 @@ void add_apparatus_options(Command& command, SessionOptions& given) {
 }
 
 void add_session_options(Command& command, SessionOptions& given, bool stay) {
-  command.group(stay ? "What is another from here on (the rest stays as it was)"
-                     : "Who answers, what films, what shows");
+  command.group(stay ? "Changes from here on (the rest is kept)" : "Responder, tracker and view");
   add_responder(
       command, given.responder,
       with_default("human, or a model: NAME or NAME:FILE (heft doctor lists them)", "human", stay));
   add_plug(
       command, "--tracker", given.tracker,
       with_default(
-          "where effector poses come from: camera:N, video:FILE, frames:FOLDER, synthetic (a "
-          "rendered camera films a model's hand; synthetic:FILE.toml says what it gets wrong, "
-          "as protocols/apparatus/synthetic_camera.toml explains), hand (that hand as it is), "
-          "mouse "
-          "(you drag the effector in the window with the mouse or a finger and turn it with the "
-          "wheel: to try and to teach without a print)",
+          "source of effector poses: camera:N, video:FILE, frames:FOLDER, synthetic (a "
+          "rendered camera films a model's hand; synthetic:FILE.toml sets its imperfections, see "
+          "protocols/apparatus/synthetic_camera.toml), hand (that hand's true pose), "
+          "mouse (the participant drags the effector in the window with the mouse or a finger and "
+          "turns it "
+          "with the wheel: for trying and teaching without printed tags)",
           "camera:0 for a person, hand for a model", stay));
   add_plug(command, "--view", given.view,
-           with_default("what shows the session: window, headless, video:FILE",
+           with_default("display of the session: window, headless, video:FILE",
                         "window for a person, headless for a model", stay));
   if (!stay) command.group("Apparatus");
   add_files_of_apparatus(command, given, stay);
@@ -109,9 +107,9 @@ void add_session_options(Command& command, SessionOptions& given, bool stay) {
                    "0", stay));
   command.add_option("--display-file", &given.display_file,
                      with_default("the measured display, from heft calibrate display",
-                                  "display.toml in this folder, if there is one", stay));
+                                  "display.toml in this folder, if it exists", stay));
   command.add_flag("--windowed", given.windowed,
-                   "the window does not fill the display; F11 changes that, too");
+                   "the window does not fill the display; F11 toggles that");
 }
 
 void add_settings(Command& command, std::vector<ProtocolSetting>& settings,
@@ -119,7 +117,7 @@ void add_settings(Command& command, std::vector<ProtocolSetting>& settings,
   const auto read = [&settings](const std::string& text) {
     ProtocolSetting setting;
     if (!from_text(text, setting) || text.find('\n') != std::string::npos)
-      throw Error(fmt::format("--set {}: expected KEY=VALUE in a line as in "
+      throw Error(fmt::format("--set {}: expected KEY=VALUE, such as "
                               "coupling.stiffness_n_per_m=100 or block.sorting.trials=4",
                               text),
                   ExitCode::usage);
@@ -130,8 +128,8 @@ void add_settings(Command& command, std::vector<ProtocolSetting>& settings,
 
 void add_go_on(Command& command, bool& go_on) {
   command.add_flag("--go-on", go_on,
-                   "go on although the check of the apparatus FAILED, where there is no terminal "
-                   "to ask at; it is logged");
+                   "continue after a FAILED check of the apparatus where there is no terminal "
+                   "to ask; it is logged");
 }
 
 void add_elsewhere_options(Command& command, std::string& backup,
@@ -139,15 +137,15 @@ void add_elsewhere_options(Command& command, std::string& backup,
   command.group("Backups and other recorders");
   command.add_option(
       "--backup", &backup,
-      "a folder, best on another disk: after the session a copy of the log is put "
-      "there and checked (default: the study plan's; of a session that goes on, the one it had)");
+      "a folder, preferably on another disk: after the session a copy of the log is saved and "
+      "verified there (default: the study plan's; for a resumed session, the one it had)");
   const auto read = [&events](const std::string& text) { events = parse_event_target(text); };
   command.add_option("--events", ReadsText{read},
-                     "udp:HOST:PORT, fifo:PATH or serial:DEVICE: a line of JSON for each event, "
-                     "once it is in the log, with its t_s and UTC; the session never waits for it");
+                     "udp:HOST:PORT, fifo:PATH or serial:DEVICE: one line of JSON for each event, "
+                     "once it is logged, with its t_s and UTC; the session never waits for it");
 }
 
-void tell_camera_file(const SessionOptions& given, const SessionConfig& config) {
+void print_camera_file(const SessionOptions& given, const SessionConfig& config) {
   const auto usual = std::filesystem::absolute(default_camera_file).lexically_normal();
   if (!given.camera_file && config.camera.path == usual)
     say("camera calibration: {}\n", default_camera_file);
@@ -158,7 +156,7 @@ void warn_of_simulator(const std::string& name) {
   if (!entry.warning.empty()) say("heft: {} {}\n", entry.name, entry.warning);
 }
 
-void tell_simulator(const ResolvedConfig& config) {
+void print_simulator(const ResolvedConfig& config) {
   const SimulatorChoice& simulator = config->protocol->simulator;
   if (const std::string& why = config->config.simulator_reason; !why.empty())
     say("heft: {}\n", heft::described({simulator.name, simulator.rate_hz, why}));
@@ -166,8 +164,8 @@ void tell_simulator(const ResolvedConfig& config) {
   for (const std::string& caution : cautions(*config->protocol)) say("heft: {}\n", caution);
 }
 
-// Simulators for one stroke alone; and over video people see how far the clone is from the
-// effector, and take it for mass.
+// Simulators of a single stroke; settings that over video make the clone visibly displaced from the
+// effector, which participants interpret as mass.
 std::vector<std::string> cautions(const Protocol& protocol) {
   constexpr double stroke_m_s = 0.3;
   const auto& [mode, predict_s] = protocol.simulator.input;
@@ -175,26 +173,25 @@ std::vector<std::string> cautions(const Protocol& protocol) {
   const std::string& simulator = protocol.simulator.name;
   if (!entry_named("simulator", simulator, simulators()).for_sessions)
     found.push_back(fmt::format(
-        "[physics] simulator = \"{}\" models one straight push: sessions refuse it where a hand "
+        "[physics] simulator = \"{}\" models one straight push: sessions refuse it if a hand "
         "does more: use \"boxes\" or \"auto\"",
         simulator));
   if (mode == InputMode::hold || mode == InputMode::extrapolate)
     found.push_back(
         fmt::format("[physics] input = \"{}\" is for see-through displays; over video, where the "
-                    "clone is seen beside the filmed effector, it adds false mass: use \"path\"",
+                    "clone is seen beside the filmed effector, it adds apparent mass: use \"path\"",
                     name_of(mode)));
   if (protocol.layout.out_of_area == OutOfArea::give_back)
     found.push_back(
-        "[layout] out_of_area = \"return\", also where nothing is said, tells the mass: light "
-        "cubes "
-        "jump home in most trials, heavy ones hardly ever: use \"together\"");
+        "[layout] out_of_area = \"return\", the default, reveals the mass: light "
+        "cubes jump back in most trials, heavy ones hardly ever: use \"together\"");
   if (predict_s > 0) {
     const Scene scene = scene_of(protocol, coupled_technique, {});
     const double ahead_m = stroke_m_s * predict_s;
     const double slide_n_per_kg = sliding_force_n(scene.friction, 1, scene.gravity_m_s2);
     const std::string false_mass =
         slide_n_per_kg > 0
-            ? fmt::format(", about {:.0f} g of false mass",
+            ? fmt::format(", about {:.0f} g of apparent mass",
                           1e3 * scene.coupling.stiffness_n_per_m * ahead_m / slide_n_per_kg)
             : "";
     found.push_back(fmt::format(
@@ -205,10 +202,10 @@ std::vector<std::string> cautions(const Protocol& protocol) {
   return found;
 }
 
-void back_up_and_tell(const std::string& db, const std::string& folder, std::int64_t session_id) {
+void back_up_and_report(const std::string& db, const std::string& folder, std::int64_t session_id) {
   if (folder.empty()) return;
   try {
-    say("backup, checked: {}\n", back_up(db, folder, session_id));
+    say("verified backup: {}\n", back_up(db, folder, session_id));
   } catch (const std::exception& error) {
     ring();
     say("heft: WARNING: there is NO BACKUP of session {}: {}. The session itself is saved in {}; "
@@ -218,37 +215,37 @@ void back_up_and_tell(const std::string& db, const std::string& folder, std::int
 }
 
 namespace {
-// Known before the session, not after it.
+// Reports a bad backup folder before the session.
 void check_backup(const std::string& folder) try {
   if (folder.empty()) return;
   require_backup_folder(folder);
-  say("a copy of the log will be put into {}\n", folder);
+  say("a copy of the log will be saved in {}\n", folder);
 } catch (const Error& error) {
   throw Error(
-      fmt::format("{}. The session has not begun. See to that folder, or give another with "
+      fmt::format("{}. The session has not begun. Correct that folder, or give another with "
                   "--backup FOLDER",
                   error.what()));
 }
 
-void tell_dropped(const EventOutlet& events, const std::string& where) {
+void report_dropped(const EventOutlet& events, const std::string& where) {
   if (events.n_dropped() == 0) return;
-  say("heft: WARNING: {} of {} events could not be handed on to {}: nobody took them in time. All "
-      "of them are in the log\n",
+  say("heft: WARNING: {} of {} events could not be sent to {}, because they were not read in time. "
+      "All of them are in the log\n",
       events.n_dropped(), events.n_dropped() + events.n_sent(), where);
 }
 
-// Not to take part is everybody's right, and no error.
+// Declining is everyone's right, and no error.
 void say_declined(const SessionResult& result, const std::string& db) {
-  say("the participant declined to take part: session {} is ended as aborted, before its first "
-      "trial; that is saved in {}\n",
+  say("the participant declined: session {} has ended as aborted, before its first "
+      "trial; this is saved in {}\n",
       result.session_id, db);
 }
 }  // namespace
 
 void say_finished(const SessionResult& result, const std::string& db) {
   if (result.end == RunEnd::declined) return say_declined(result, db);
-  say("session {} is finished: {} trials, {:.0f} minutes of session time, all saved in {}\n"
-      "what was found: heft analyse --db {}\n"
+  say("session {} is finished: {} trials, {:.0f} min of session time, all saved in {}\n"
+      "results: heft analyse --db {}\n"
       "check the log: heft replay --db {} --session {}\n",
       result.session_id, result.n_completed, result.duration_s / 60, db, shell_quoted(db),
       shell_quoted(db), result.session_id);
@@ -270,7 +267,7 @@ SessionResult run_session(const CommandedSession& session,
   options.print = [](const std::string& text) { say("heft: {}\n", text); };
   if (session.config->on_wall_clock)
     options.console = &console.emplace(expected, session.unblind, session.place);
-  else  // nothing that would unblind whoever watches: no mass, level, condition or correctness
+  else  // blind: no mass, level, condition or correctness
     options.progress = [&](const Engine& engine) {
       bar.update(expected > 0 ? engine.n_completed() / expected : 0,  // a demonstration alone: 0
                  fmt::format("{} trials, {:.0f} min", of_about(engine.n_completed(), expected),
@@ -281,24 +278,24 @@ SessionResult run_session(const CommandedSession& session,
   SessionResult result;
   try {
     result = run(options);
-  } catch (...) {  // what went wrong is told below the backup, where it stays in sight
+  } catch (...) {  // the error is reported below the backup, where it remains visible
     console.reset();
-    if (begun > 0) back_up_and_tell(session.db, session.config->config.backup, begun);
+    if (begun > 0) back_up_and_report(session.db, session.config->config.backup, begun);
     throw;
   }
   console.reset();
-  if (events) tell_dropped(*events, session.events->text);
-  back_up_and_tell(session.db, session.config->config.backup, result.session_id);
+  if (events) report_dropped(*events, session.events->text);
+  back_up_and_report(session.db, session.config->config.backup, result.session_id);
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
   if (result.end == RunEnd::stopped)
-    throw Error("stopped; everything up to the last answer is saved. Go on with: " + resume,
+    throw Error("stopped; everything up to the last answer is saved. Continue with: " + resume,
                 ExitCode::interrupted);
   if (result.end == RunEnd::paused) {
     ring();
     throw Error(
-        fmt::format("the session paused itself: one trial was void {} times. Look at the "
-                    "camera and the board, then go on with: {}",
+        fmt::format("the session is paused: one trial was void {} times. Check the "
+                    "camera and the board, then continue with: {}",
                     max_voids, resume));
   }
   return result;

@@ -1,5 +1,5 @@
-// What the commands that run sessions share: what a session is run with, Ctrl-C, progress, and what
-// is said at the end.
+// Common to the commands that run sessions: configuration options, Ctrl-C, progress, and the final
+// messages.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ struct SessionResult;
 
 namespace heft::cli {
 
-// The text of these options is read where the command line is, and nowhere else.
+// The text of these options is parsed on the command line only.
 
 /// NAME or NAME:WHAT
 Option add_plug(Command& command, const std::string& name, std::optional<Plug>& plug,
@@ -33,47 +33,47 @@ Option add_responder(Command& command, std::optional<WhoAnswers>& responder,
 template <typename Enum>
 Option add_choice(Command& command, const std::string& name, std::optional<Enum>& choice,
                   const std::string& help, const std::vector<std::string>& names) {
-  // Another text is refused before it gets here.
+  // Other texts were refused before.
   return command
       .add_option(name, ReadsText{[&choice](const std::string& text) { from_text(text, choice); }},
                   help)
       .one_of(names);
 }
 
-/// --camera-file, --board, --effector
+/// Adds --camera-file, --board, --effector.
 void add_apparatus_options(Command& command, SessionOptions& given);
 
-/// --set
+/// Adds --set.
 void add_settings(Command& command, std::vector<ProtocolSetting>& settings,
                   const std::string& help);
 
-/// --responder, --tracker, --view and those of the apparatus.
-/// @param stay what is not given stays as the session has it; otherwise --help tells the defaults
+/// Adds --responder, --tracker, --view and the options of the apparatus.
+/// @param stay missing options keep the session's values; otherwise --help shows defaults
 void add_session_options(Command& command, SessionOptions& given, bool stay = false);
 
-/// Says on stderr which calibration is taken where none was named.
-void tell_camera_file(const SessionOptions& given, const SessionConfig& config);
+/// Prints which default calibration is used, on stderr.
+void print_camera_file(const SessionOptions& given, const SessionConfig& config);
 
-/// Says on stderr what is known to be wrong with a simulator, if anything.
+/// Prints a simulator's known defects, if any, on stderr.
 void warn_of_simulator(const std::string& name);
 
-/// The same of the simulator that a session starts with, and the protocol's cautions; of `auto`,
-/// which the options have resolved, what it is and why.
-void tell_simulator(const ResolvedConfig& config);
+/// The same for the simulator that a session starts with, and the protocol's cautions; for `auto`
+/// also the chosen simulator and the reason.
+void print_simulator(const ResolvedConfig& config);
 
-/// What somebody should know before using a valid protocol, a sentence each; mostly nothing.
+/// Cautions about a valid protocol, one sentence each; usually none.
 std::vector<std::string> cautions(const Protocol& protocol);
 
-/// --backup, --events
+/// Adds --backup, --events.
 void add_elsewhere_options(Command& command, std::string& backup,
                            std::optional<EventTarget>& events);
 
-/// Puts a copy of the log there and says where, or loudly that there is none: that harms no
-/// session, but somebody has to know it.
-/// @param folder empty: none is wanted
-void back_up_and_tell(const std::string& db, const std::string& folder, std::int64_t session_id);
+/// Backs up the log and prints where, or a warning that there is no backup, which does not affect
+/// the session.
+/// @param folder empty: no backup is wanted
+void back_up_and_report(const std::string& db, const std::string& folder, std::int64_t session_id);
 
-/// How a session ended, and what comes next.
+/// Prints how a session ended, and the next step.
 void say_finished(const SessionResult& result, const std::string& db);
 
 struct CommandedSession {
@@ -85,14 +85,14 @@ struct CommandedSession {
   std::string place = {};  ///< in a study, "7 of 24"
 };
 
-/// --go-on
+/// Adds --go-on.
 void add_go_on(Command& command, bool& go_on);
 
-/// Runs `run` with Ctrl-C turned into a clean stop, and with a progress bar, or the experimenter's
-/// console where the session keeps the time of day. Who declines to take part ends it as well. A
-/// copy of the log is put to the setup's folder afterwards.
-/// @throws Error before anything else when no copy could be put there; Error (interrupted) when
-/// stopped, with how to go on; Error when the session paused itself
+/// Runs `run` with Ctrl-C as a clean stop, and with a progress bar, or the experimenter's console
+/// if the session runs in real time. A participant who declines ends it as well. Afterwards the log
+/// is backed up to the configuration's folder.
+/// @throws Error before the session if it could not be backed up; Error (interrupted) when stopped,
+///   with how to continue; Error if the session is paused
 SessionResult run_session(const CommandedSession& session,
                           const std::function<SessionResult(const RunnerOptions&)>& run);
 

@@ -1,12 +1,11 @@
-// The program heft. `heft bench` is another one, heft-bench, which has the studies and what only
-// they need.
+// The program heft. `heft bench` starts heft-bench, which has the studies and their dependencies.
 #include "cli/Commands.h"
 
 namespace {
 
 void add_all(heft::cli::Command& app) {
   heft::cli::add_commands(app);
-  app.add_command("bench", "measure: the studies that results/ holds (starts heft-bench)");
+  app.add_command("bench", "run the studies of results/ (starts heft-bench)");
 }
 
 }  // namespace
@@ -14,6 +13,6 @@ void add_all(heft::cli::Command& app) {
 int main(int argc, char** argv) {
   return heft::cli::run_program(
       {"heft", "Heft runs psychophysics experiments on perceived mass in augmented reality.",
-       "Start with: heft demo. Each command explains itself: heft COMMAND --help", add_all},
+       "Start with: heft demo. Help on a command: heft COMMAND --help", add_all},
       argc, argv);
 }

@@ -23,8 +23,7 @@ struct ColumnText {
 
 struct RowText {
   std::string table;  ///< name in the log
-  std::string key;  ///< which row, for people: "cube 2 of trial 7"  ///< of the row, for messages:
-                    ///< "cube 2 of trial 7"
+  std::string key;    ///< of the row, for messages: "cube 2 of trial 7"
   int attempt_index = 0;
   double t_s = 0;  ///< session time of the row; negative: its attempt's end
   std::vector<ColumnText> columns;

@@ -24,8 +24,7 @@ namespace heft {
 /// What the session needs of one picture.
 struct Picture {
   TargetSample sample;  ///< t_capture_s: since the attempt's start
-  std::string trouble;  ///< why it can't be used: "camera_lost", "board_lost"; empty: it can  ///<
-                        ///< "camera_lost", "board_lost"; empty: usable
+  std::string trouble;  ///< "camera_lost", "board_lost"; empty: usable
   std::optional<double> quality;
   std::shared_ptr<const Image> camera;  ///< none: no camera
   std::optional<Pose> camera_from_board;
@@ -76,8 +75,7 @@ struct PictureParts {
   const Protocol& protocol;
   Responder& hand;      ///< filmed instead of a real hand
   Apparatus apparatus;  ///< empty if the tracker uses none
-  std::string what;  ///< what follows the colon: "camera:0"  ///< the part after the colon, as in
-                     ///< "camera:0"
+  std::string what;     ///< the part after the colon, as in "camera:0"
   const SessionClock& clock;
   std::uint64_t seed = 0;     ///< the session's
   std::string record_to;      ///< folder for the camera's pictures; empty: not stored

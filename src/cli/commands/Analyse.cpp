@@ -25,7 +25,7 @@ struct AnalyseOptions {
   bool json = false, mix = false, tables = false;
 };
 
-// The command to type again.
+// The command, for repeating it with other options.
 std::string command_of(const AnalyseOptions& options) {
   std::string command = "heft analyse";
   for (const std::string& database : options.databases)

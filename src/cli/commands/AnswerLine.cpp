@@ -1,5 +1,5 @@
-// Reads the line as a stream of tokens, so that what nests, repeats or does not belong is refused
-// where it stands, however long or deep it goes on.
+// Reads the line as a stream of tokens, so that nested, repeated or unknown parts are refused at
+// their place, however long or deep.
 #include "cli/commands/AnswerLine.h"
 
 #include <fmt/format.h>
@@ -135,7 +135,7 @@ AnswerLine AnswerReader::answer() const {
 AnswerLine parse_answer(const std::string& line) {
   AnswerReader reader;
   try {
-    // The JSON library takes a NUL byte for the end of the text and would ignore what follows it.
+    // The JSON library ends a text at a NUL byte and would ignore the rest.
     if (line.find('\0') != std::string::npos) throw Error("there is a NUL byte in the line");
     if (!nlohmann::json::sax_parse(line, &reader)) throw Error(reader.problem());
     return reader.answer();

@@ -1,4 +1,4 @@
-// One line of input to `heft procedure`: the answer to a trial, or that the trial is void.
+// One line of input to `heft procedure`: the answer to a trial, or a void trial.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@ namespace heft::cli {
 
 struct AnswerLine {
   bool is_void = false;
-  Response response;            ///< when not void
-  std::optional<double> level;  ///< really shown, where it was not the trial's
+  Response response;            ///< unless void
+  std::optional<double> level;  ///< presented, if it differs from the trial's
 };
 
-/// Reads {"response":true|false} or {"answer":"comparison"|"reference"|"none"}, with "level":X
-/// beside it or without, or {"void":true}.
-/// @throws Error saying what was expected instead of this
+/// Reads {"response":true|false} or {"answer":"comparison"|"reference"|"none"}, with or without
+/// "level":X, or {"void":true}.
+/// @throws Error naming what was expected
 AnswerLine parse_answer(const std::string& line);
 
 }  // namespace heft::cli

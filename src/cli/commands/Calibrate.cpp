@@ -1,5 +1,5 @@
-// heft calibrate: the camera from views of the board, where the effector's tags really are, and how
-// large a display is.
+// heft calibrate: measures the camera, the positions of the effector's tags, and the size of a
+// display.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
@@ -30,8 +30,8 @@ namespace heft::cli {
 
 namespace {
 constexpr const char* doubtful =
-    "{} is written, but should not be trusted: see above, and calibrate once more\n";
-constexpr double patience_s = 5;  ///< with a camera that gives no picture
+    "{} is written, but should not be trusted: see above, and calibrate again\n";
+constexpr double patience_s = 5;  ///< limit for a camera without a picture
 
 struct CalibrateOptions {
   std::optional<Plug> source;
@@ -40,13 +40,13 @@ struct CalibrateOptions {
   bool shutter = false;
 };
 
-// A calibration that turned out worse than the last one must not have cost it.
+// A bad calibration must not replace the last one without a copy.
 void write_result(const std::string& path, const std::string& text) {
   const std::string kept = replace_text_file(path, text);
-  if (!kept.empty()) say("the {} that was there is kept as {}\n", path, kept);
+  if (!kept.empty()) say("the previous {} is kept as {}\n", path, kept);
 }
 
-// How a live camera is to be set while it is calibrated; and so it is set ever after.
+// Settings of a live camera during calibration, recorded for later sessions.
 CameraRequest request_of(const CalibrateOptions& options) {
   constexpr double shortest_ms = 0.1, longest_ms = 100;
   CameraRequest request;
@@ -70,20 +70,20 @@ CameraRequest request_of(const CalibrateOptions& options) {
   return request;
 }
 
-// What was asked of a camera that can't do it, or of pictures that were taken long ago.
+// Refuses requests that the camera cannot fulfil, or that concern existing pictures.
 void require_as_asked(const CalibrateOptions& options, const CameraRequest& request,
                       const Camera& camera, const Image& picture) {
   if (options.exposure_ms && !camera.is_live())
-    throw Error(fmt::format("--exposure-ms: the pictures of {} have been taken; it sets live "
+    throw Error(fmt::format("--exposure-ms: the pictures of {} already exist; it sets live "
                             "cameras only",
                             to_text(*options.source)),
                 ExitCode::usage);
   const bool fits = picture.width == request.width_px && picture.height == request.height_px;
   if (options.size.empty() || fits) return;
-  throw Error(fmt::format("--size {}: {} gives pictures of {} x {} pixels; {}", options.size,
-                          to_text(*options.source), picture.width, picture.height,
-                          camera.is_live() ? "heft doctor lists the sizes that it can"
-                                           : "leave --size out, it sets live cameras only"));
+  throw Error(fmt::format(
+      "--size {}: {} gives pictures of {} x {} pixels; {}", options.size, to_text(*options.source),
+      picture.width, picture.height,
+      camera.is_live() ? "heft doctor lists its sizes" : "omit --size, it sets live cameras only"));
 }
 
 void say_locks(const Camera& camera) {
@@ -92,7 +92,7 @@ void say_locks(const Camera& camera) {
   for (const std::string& what : mode.not_locked) say("it does not hold {}\n", what);
 }
 
-// The next picture; none at the end of a file, or when the person stops.
+// The next picture; none at the end of a file, or when the operator stops.
 std::optional<CameraPicture> next_picture(Camera& camera, const StopOnSignal& stop) {
   if (stop.requested() || camera.ended()) return std::nullopt;
   auto picture = camera.next(patience_s);
@@ -113,7 +113,7 @@ void say_progress(const ViewCollector& views) {
   if (!views.wanted().empty()) say("next: {}\n", views.wanted());
 }
 
-// Every picture of a file; of a live camera until all is there or the person presses Ctrl-C.
+// From every picture of a file; from a live camera until complete or stopped with Ctrl-C.
 ViewCollector board_views(Camera& camera, const MarkerBody& board, const CalibrateOptions& options,
                           const CameraRequest& request) {
   const StopOnSignal stop;
@@ -124,7 +124,7 @@ ViewCollector board_views(Camera& camera, const MarkerBody& board, const Calibra
   say_locks(camera);
   if (live)
     say("Move the board slowly through the whole picture, near and far, tilted to all sides. Hold\n"
-        "it still for a moment in each place. Ctrl-C ends it with what is there.\n");
+        "it still for a moment in each place. Ctrl-C ends with the views so far.\n");
   ViewCollector views(board, picture->image.width, picture->image.height, live);
   for (; picture; picture = next_picture(camera, stop)) {
     if (views.offer(picture->image, name_of_picture(*picture)) && live) say_progress(views);
@@ -133,17 +133,17 @@ ViewCollector board_views(Camera& camera, const MarkerBody& board, const Calibra
   return views;
 }
 
-// What can't become a camera file, and what to film to make it one.
+// Refuses too few views, and says which to film.
 void require_views(const ViewCollector& views, const MarkerBody& board) {
   if (views.size() >= least_views) return;
   std::string missing;
   for (const std::string& what : views.missing()) missing += "\n  " + what;
   if (views.size() == 0)
-    throw Error(fmt::format("no picture shows the board: {}. Of the last one: {}", views.tally(),
+    throw Error(fmt::format("no picture shows the board: {}. The last one: {}", views.tally(),
                             why_unseen(views.last_offered(), board, "board")));
   throw Error(
-      fmt::format("too few views of the board that differ: {}; expected at least {} and "
-                  "better {}. What is missing:{}",
+      fmt::format("too few different views of the board: {}; expected at least {}, "
+                  "better {}. Missing:{}",
                   views.tally(), least_views, ViewCollector::enough, missing));
 }
 
@@ -177,7 +177,8 @@ void calibrate_the_camera(const CalibrateOptions& options) {
         options.out, shell_quoted(options.out));
 }
 
-// Every picture of a file; of a live camera until there are enough of a moving board, or Ctrl-C.
+// From every picture of a file; from a live camera until there are enough of a moving board, or
+// Ctrl-C.
 std::vector<TimedView> waved_views(Camera& camera, const MarkerBody& board,
                                    const Intrinsics& intrinsics) {
   constexpr std::size_t wanted = 3 * enough_waved_pictures, most = 600;
@@ -185,7 +186,7 @@ std::vector<TimedView> waved_views(Camera& camera, const MarkerBody& board,
   say_locks(camera);
   if (camera.is_live())
     say("Wave the board to and fro and up and down in front of the camera, as fast as it stays\n"
-        "sharp. Ctrl-C ends it with what is there.\n");
+        "sharp. Ctrl-C ends with the views so far.\n");
   TagViewer viewer(board);
   std::vector<TimedView> views;
   ProgressBar bar("board");
@@ -202,9 +203,9 @@ std::vector<TimedView> waved_views(Camera& camera, const MarkerBody& board,
 
 void calibrate_the_shutter(const CalibrateOptions& options) {
   if (options.camera_file.empty())
-    throw Error("--shutter needs --camera-file: the camera, calibrated already", ExitCode::usage);
+    throw Error("--shutter needs --camera-file: the calibrated camera", ExitCode::usage);
   if (!options.size.empty() || options.exposure_ms)
-    throw Error("--shutter takes the size and the exposure of the camera file", ExitCode::usage);
+    throw Error("--shutter uses the size and the exposure of the camera file", ExitCode::usage);
   require_writable(options.out);
   Intrinsics intrinsics = load_intrinsics(options.camera_file);
   const MarkerBody board = load_board(options.board);
@@ -234,8 +235,8 @@ void calibrate_the_effector(const CalibrateOptions& options) {
   EffectorViews views(nominal, intrinsics);
   say_locks(*camera);
   if (camera->is_live())
-    say("Turn the effector slowly in front of the camera, near, so that two faces or three are\n"
-        "seen at a time. Ctrl-C ends it with what is there.\n");
+    say("Turn the effector slowly close to the camera, so that two or three faces are visible\n"
+        "at a time. Ctrl-C ends with the views so far.\n");
   {
     ProgressBar bar("effector");
     while (const auto picture = next_picture(*camera, stop)) {
@@ -272,25 +273,25 @@ void add_camera(Command& parent) {
   command.add_option("--board", &options->board, "board file").required();
   command.add_option("--out", &options->out, "the camera file (OpenCV YAML) to write").required();
   command.add_option("--size", &options->size,
-                     "of a live camera's pictures, WIDTHxHEIGHT (640x480 unless told)");
+                     "of a live camera's pictures, WIDTHxHEIGHT (default: 640x480)");
   command.add_option("--exposure-ms", &options->exposure_ms,
-                     "how long a live camera's shutter is open (4 unless told)");
+                     "exposure time of a live camera (default: 4)");
   command.add_flag("--shutter", options->shutter,
-                   "only its read-out (rolling shutter), from a board that is waved; the rest is "
+                   "only the read-out time (rolling shutter), from a waved board; the rest is "
                    "--camera-file's");
   command.add_option("--camera-file", &options->camera_file,
                      "for --shutter: the calibrated camera");
   command.does([options] {
     if (options->shutter) return calibrate_the_shutter(*options);
     if (!options->camera_file.empty())
-      throw Error("--camera-file goes with --shutter", ExitCode::usage);
+      throw Error("--camera-file requires --shutter", ExitCode::usage);
     calibrate_the_camera(*options);
   });
 }
 
 void add_effector(Command& parent) {
   Command command =
-      parent.add_command("effector", "where the effector's tags really are, from pictures",
+      parent.add_command("effector", "measure the effector's tags, from pictures",
                          {"heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
                           "      --effector EFFECTOR.toml --out MEASURED.toml"});
   const auto options = std::make_shared<CalibrateOptions>();
@@ -313,17 +314,17 @@ double asked_mm(const std::string& what, const std::string& option) {
                 ExitCode::usage);
   for (std::string line;;) {
     say("{}, in millimeters: ", what);
-    if (!std::getline(std::cin, line)) throw Error("nothing was answered", ExitCode::usage);
+    if (!std::getline(std::cin, line)) throw Error("no answer was given", ExitCode::usage);
     if (const auto mm = number_in(line); mm && *mm > 0) return *mm;
     say("expected a number such as 450\n");
   }
 }
 
-// Its pixels are square.
+// Assumes square pixels.
 DisplayMeasures by_card(int display) {
   const std::string how =
-      "Hold a bank card against the display and make the blue rectangle as large as it is: with "
-      "the arrow keys (Shift: faster), the wheel or the mouse. Enter when it is, Escape to leave.";
+      "Hold a bank card against the display and adjust the blue rectangle to its size with "
+      "the arrow keys (Shift: faster), the wheel or the mouse. Enter accepts, Escape leaves.";
   say("{}\n", how);
   const auto card = window_module().measure_card(display, how);
   if (!card) throw Error("the display was not measured", ExitCode::interrupted);
@@ -351,26 +352,27 @@ void calibrate_the_display(const DisplayOptions& options) {
           ? *options.eye_distance_mm
           : asked_mm("from the participant's eyes to the display", "--eye-distance-mm");
   const std::string text = to_toml(measured);
-  parse_display(text, options.out);  // what can't be is not written
+  parse_display(text, options.out);  // invalid measures are not written
   write_result(options.out, text);
   print("{} x {} pixels are {:.1f} x {:.1f} mm, seen from {:.0f} mm\n", measured.w_px,
         measured.h_px, measured.w_mm, measured.h_mm, measured.eye_distance_mm);
-  say("{} is written. Sessions that start in this folder take it, others with --display-file\n",
+  say("{} is written. Sessions that start in this folder use it, others with --display-file\n",
       options.out);
 }
 
 void add_display(Command& parent) {
   Command command = parent.add_command(
-      "display", "how large the participant's display is, with a bank card held to it",
+      "display", "measure the participant's display, with a bank card held to it",
       {"heft calibrate display", "heft calibrate display --display 1 --eye-distance-mm 450",
        "heft calibrate display --width-mm 154 --height-mm 90 --eye-distance-mm 450"});
   const auto options = std::make_shared<DisplayOptions>();
   command.add_option("--display", &options->display, "its number (heft doctor lists them)")
       .shows_default();
-  command.add_option("--width-mm", &options->width_mm, "of its picture, by a ruler: no card then");
+  command.add_option("--width-mm", &options->width_mm,
+                     "of its picture, measured with a ruler instead");
   command.add_option("--height-mm", &options->height_mm, "likewise");
   command.add_option("--eye-distance-mm", &options->eye_distance_mm,
-                     "from the participant's eyes to the display (default: it is asked)");
+                     "from the participant's eyes to the display (default: asked for)");
   command.add_option("--out", &options->out, "the file to write").shows_default();
   command.does([options] { calibrate_the_display(*options); });
 }
@@ -378,7 +380,7 @@ void add_display(Command& parent) {
 
 void add_calibrate(Command& app) {
   Command command = app.add_command(
-      "calibrate", "measure the camera, where the effector's tags are, or the display",
+      "calibrate", "measure the camera, the effector's tags, or the display",
       {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
        "heft calibrate camera --camera camera:0 --size 1280x720 --board BOARD.toml \\\n"
        "      --out camera.yaml",

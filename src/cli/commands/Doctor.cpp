@@ -1,4 +1,4 @@
-// heft doctor: whether this machine has what a session needs, with a verdict each.
+// heft doctor: checks this machine for a session, with a verdict each.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/statvfs.h>
@@ -37,7 +37,7 @@ namespace heft::cli {
 
 namespace {
 
-// Prints one line a check and remembers the worst.
+// Prints one line per check and remembers the worst verdict.
 class Report {
  public:
   void line(CheckVerdict verdict, const std::string& what, const std::string& found) {
@@ -51,7 +51,7 @@ class Report {
   CheckVerdict worst_ = CheckVerdict::ok;
 };
 
-// What a command prints; nothing if it can't be run.
+// A command's output; empty if it cannot be run.
 std::string output_of(const std::string& command) {
   std::string output;
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
@@ -62,8 +62,7 @@ std::string output_of(const std::string& command) {
 
 void check_packages(Report& report) {
   const std::string file = installed_file_or_none(".packages");
-  if (file.empty())
-    return report.line(CheckVerdict::ok, "packages", "came with heft when it was installed");
+  if (file.empty()) return report.line(CheckVerdict::ok, "packages", "installed with heft");
   std::istringstream list(read_text_file(file));
   std::string line, missing;
   int n = 0;
@@ -87,7 +86,7 @@ void check_space(Report& report, const std::string& folder) {
   struct statvfs space {};
   if (statvfs(folder.c_str(), &space) != 0)
     return report.line(CheckVerdict::failed, "disk",
-                       fmt::format("{} can't be looked at; is the folder there?", folder));
+                       fmt::format("{} cannot be examined; does the folder exist?", folder));
   const double free_gb =
       static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize) / 1e9;
   const std::string found = fmt::format("{:.1f} GB free in {}", free_gb, folder);
@@ -98,7 +97,7 @@ void check_space(Report& report, const std::string& folder) {
     report.line(free_gb < 1 ? CheckVerdict::warning : CheckVerdict::ok, "disk", found);
 }
 
-// SQLite's write-ahead log needs shared memory, which network file systems do not give.
+// SQLite's write-ahead log needs shared memory, which network file systems lack.
 void check_file_system(Report& report, const std::string& folder) {
   constexpr long nfs = 0x6969, smb = 0x517B, smb2 = 0xFE534D42L, cifs = 0xFF534D42L;
   struct statfs system {};
@@ -110,7 +109,7 @@ void check_file_system(Report& report, const std::string& folder) {
                      : "local");
 }
 
-// A file that is written as the log is, a page at a time until it is safe on disk.
+// Writes as the log does, one synchronized page at a time.
 class WrittenForTrial {
  public:
   explicit WrittenForTrial(const std::string& folder) : path_(folder + "/heft-doctor-XXXXXX") {
@@ -134,13 +133,13 @@ class WrittenForTrial {
   int file_ = -1;
 };
 
-// How long an answer takes to be safe on disk.
+// Time until an answer is safe on disk.
 void check_commit(Report& report, const std::string& folder) {
   const WrittenForTrial file(folder);
   if (!file.is_there())
     return report.line(
         CheckVerdict::failed, "writing",
-        fmt::format("no file can be made in {}; choose another folder with --db", folder));
+        fmt::format("no file can be created in {}; choose another folder with --db", folder));
   std::vector<double> times_ms;
   for (int i = 0; i < 20; ++i) {
     const auto started = std::chrono::steady_clock::now();
@@ -150,8 +149,7 @@ void check_commit(Report& report, const std::string& folder) {
     if (written) times_ms.push_back(took.count());
   }
   if (times_ms.empty())
-    return report.line(CheckVerdict::failed, "writing",
-                       "nothing can be written; is the disk full?");
+    return report.line(CheckVerdict::failed, "writing", "cannot write; is the disk full?");
   std::ranges::sort(times_ms);
   const double median_ms = times_ms[times_ms.size() / 2], worst_ms = times_ms.back();
   report.line(worst_ms > 100 ? CheckVerdict::warning : CheckVerdict::ok, "writing",
@@ -166,7 +164,7 @@ void check_displays(Report& report, const ScreenTexts& texts) try {
   report.line(CheckVerdict::failed, "display", error.what());
 }
 
-// From a touch to the disk and the display. Of fifty, one may be late.
+// From a touch to disk and display. One of fifty may be late.
 void check_touch_delay(Report& report, const std::string& folder, const ScreenTexts& texts) try {
   constexpr int n_taps = 50;
   constexpr double usual_refresh_hz = 60, beside_a_frame_s = 0.020;
@@ -186,7 +184,7 @@ void check_touch_delay(Report& report, const std::string& folder, const ScreenTe
   report.line(is_late ? CheckVerdict::warning : CheckVerdict::ok, "touch delay",
               fmt::format("{:.1f} ms from the touch's event until it is on disk and its answer "
                           "presented (worst two of {}: {:.1f} and {:.1f} ms; a frame and 20 ms are "
-                          "{:.1f} ms); what the touch screen and the panel take is not in it",
+                          "{:.1f} ms); excludes the touch screen's and panel's own delay",
                           1e3 * times_s[times_s.size() / 2], times_s.size(),
                           1e3 * times_s[times_s.size() - 2], 1e3 * times_s.back(),
                           1e3 * (frame_s + beside_a_frame_s)));
@@ -196,7 +194,7 @@ void check_touch_delay(Report& report, const std::string& folder, const ScreenTe
 
 void check_log(Report& report, const std::string& db) {
   if (!std::filesystem::exists(db))
-    return report.line(CheckVerdict::ok, "log", fmt::format("{} is not there yet", db));
+    return report.line(CheckVerdict::ok, "log", fmt::format("{} does not exist yet", db));
   const std::vector<std::string> faults = check_integrity(db);
   if (faults.empty()) return report.line(CheckVerdict::ok, "log", fmt::format("{} is sound", db));
   for (const std::string& fault : faults) report.line(CheckVerdict::failed, "log", fault);
@@ -207,20 +205,22 @@ void check_shutter(Report& report, const Intrinsics& camera) {
     return report.line(CheckVerdict::ok, "shutter",
                        "the camera file has no readout_s: a global shutter, or not measured yet "
                        "(heft calibrate camera --shutter)");
-  report.line(CheckVerdict::ok, "shutter",
-              fmt::format("read-out {:.1f} ms, taken back by the tracker; untold, it would be half "
-                          "a millimeter off at {:.2f} m/s",
-                          1e3 * camera.readout_s, half_millimeter_m_s(camera.readout_s)));
+  report.line(
+      CheckVerdict::ok, "shutter",
+      fmt::format(
+          "read-out {:.1f} ms, corrected by the tracker; uncorrected, the error would be half "
+          "a millimeter off at {:.2f} m/s",
+          1e3 * camera.readout_s, half_millimeter_m_s(camera.readout_s)));
 }
 
-// The camera, its calibration, the light, the board: with pictures from it.
+// Examines pictures: the camera, its calibration, the light, the board.
 void check_tracker(Report& report, SessionOptions given, double rate_hz) {
   const auto& [name, what, text] = given.tracker.value();
   if (tracker_named(name).what != TrackerWhat::source)
     throw Error("--tracker: expected camera:N, video:FILE or frames:FOLDER", ExitCode::usage);
   given.responder = Plug{"simulated"};
   const ResolvedConfig config = resolve(given, {}, 0);
-  tell_camera_file(given, config->config);
+  print_camera_file(given, config->config);
   const Apparatus& apparatus = config->apparatus;
   const auto camera =
       open_camera(name, config->config.tracker.what, request_for(apparatus.camera, rate_hz));
@@ -286,16 +286,17 @@ void add_doctor(Command& app) {
   };
   const auto options = std::make_shared<DoctorOptions>();
   Command command = app.add_command(
-      "doctor", "check this machine, a camera too, and list what can be plugged in",
+      "doctor",
+      "check this machine and a camera, and list trackers, views, simulators and responders",
       {"heft doctor", "heft doctor --db lab.db", "heft doctor --tracker camera:0",
        "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
        "heft doctor --responder simulated"});
   command.add_option("--db", &options->db, "the log to check, and whose folder").shows_default();
   add_plug(command, "--tracker", options->given.tracker,
-           "look through this camera: camera:N, video:FILE, frames:FOLDER");
+           "examine this camera: camera:N, video:FILE, frames:FOLDER");
   add_apparatus_options(command, options->given);
   command.group("Options");
-  command.add_option("--display-rate", &options->rate_hz, "pictures a second that are wanted")
+  command.add_option("--display-rate", &options->rate_hz, "required pictures per second")
       .shows_default();
   command.add_option("--responder", &options->responder, "only describe its parameters");
   command.does([options] {

@@ -24,7 +24,7 @@ struct ExportOptions {
   bool pseudonymise = false;
 };
 
-// Beside the folder, never in it: the folder is given away.
+// Beside the folder, never in it, because the folder is shared.
 std::string key_file_of(const ExportOptions& options) {
   namespace fs = std::filesystem;
   std::string folder = options.out;
@@ -33,7 +33,7 @@ std::string key_file_of(const ExportOptions& options) {
   const fs::path given_away = fs::weakly_canonical(fs::absolute(folder)),
                  key = fs::weakly_canonical(fs::absolute(file));
   if (std::ranges::mismatch(given_away, key).in1 == given_away.end())
-    throw Error(fmt::format("--key {}: it would be given away with the folder {}. Name a place "
+    throw Error(fmt::format("--key {}: it would be shared with the folder {}. Name a place "
                             "outside of it",
                             file, options.out),
                 ExitCode::usage);
@@ -44,17 +44,17 @@ std::string key_file_of(const ExportOptions& options) {
 std::optional<std::string> key_of(const ExportOptions& options) {
   if (!options.pseudonymise && options.key_file.empty()) return std::nullopt;
   const PseudonymKey key = pseudonym_key(key_file_of(options));
-  say("{} {}: whoever has it can tell a pseudonym's person. Keep it to yourself.\n",
-      key.is_new ? "made the key" : "the key is that of", key.file);
+  say("{} {}: it links pseudonyms to persons. Keep it private.\n",
+      key.is_new ? "made the key" : "used the key", key.file);
   return key.key;
 }
 
-void tell(const std::vector<ExportedFile>& files) {
-  constexpr std::size_t most_told = 20;
-  for (std::size_t i = 0; i < std::min(files.size(), most_told); ++i)
+void list_files(const std::vector<ExportedFile>& files) {
+  constexpr std::size_t most_listed = 20;
+  for (std::size_t i = 0; i < std::min(files.size(), most_listed); ++i)
     say("{:>10} {}  {}\n", files[i].n_rows ? std::to_string(*files[i].n_rows) : "",
         files[i].n_rows ? "rows" : "    ", files[i].name);
-  if (files.size() > most_told) say("           and {} more files\n", files.size() - most_told);
+  if (files.size() > most_listed) say("           and {} more files\n", files.size() - most_listed);
 }
 
 void export_to(const ExportOptions& options) {
@@ -70,7 +70,7 @@ void export_to(const ExportOptions& options) {
     ProgressBar bar("exporting");
     files = export_logs(request, [&](double fraction) { bar.update(fraction, ""); });
   }
-  tell(files);
+  list_files(files);
   if (format == ExportFormat::csv)
     say("\ndictionary.csv explains every column. In R: trials <- read.csv(\"{0}/trials.csv\"); "
         "figures and models: (cd {1} && Rscript analysis.R)\n",
@@ -85,27 +85,31 @@ void add_export(Command& app) {
       {"heft export --db heft.db --format csv --out data",
        "heft export lab1.db lab2.db --format psych-ds --out dataset",
        "heft export heft.db --format bids --pseudonymise --out shared", "",
-       "--pseudonymise puts names of the form p1a2b3c4d5e6f for participants (HMAC-SHA-256 with "
-       "the",
-       "key, so that the same person has the same one in each export with it), leaves out what was",
-       "typed (reasons, texts that participants wrote) and files' names, keeps of what "
-       "participants",
-       "told what is a number, and of dates the year.", "",
-       "The key is a line of 64 hexadecimal digits, made where its file is not there yet; your own",
-       "comes from: (umask 077; openssl rand -hex 32 > study.key)"});
+       "--pseudonymise replaces participants' ids by names such as p1a2b3c4d5e6f (HMAC-SHA-256 "
+       "with "
+       "the "
+       "key, so that a person has the same one in each export with it), omits typed texts "
+       "(reasons, "
+       "texts that participants wrote) and file names, and keeps only numbers of what participants "
+       "reported, and only the year of dates.",
+       "",
+       "The key is a line of 64 hexadecimal digits, created if its file is missing. To make your "
+       "own:",
+       "(umask 077; openssl rand -hex 32 > study.key)"});
   command.add_option("LOG", &options->logs, "logs, together in one folder (default: heft.db)");
   command.add_option("--db", &options->databases, "the same");
   command
-      .add_option("--format", &options->format,
-                  "csv: a file a table, and analysis.R; psych-ds, bids: a dataset by that standard")
+      .add_option(
+          "--format", &options->format,
+          "csv: one file per table, and analysis.R; psych-ds, bids: a dataset by that standard")
       .shows_default()
       .one_of({"csv", "psych-ds", "bids"});
   command.add_option("--out", &options->out, "a new or empty folder").required();
   command.add_flag("--pseudonymise", options->pseudonymise,
-                   "nobody's name, nothing that was typed; the key is OUT.key, made if it is not "
+                   "no names and typed texts; the key is OUT.key, created if it is "
                    "there");
   command.add_option("--key", &options->key_file,
-                     "another file for --pseudonymise: its key, or a new one if it is not there");
+                     "another file for --pseudonymise: its key, or a new one if it is missing");
   command.does([options] { export_to(*options); });
 }
 

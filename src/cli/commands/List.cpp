@@ -1,4 +1,4 @@
-// heft list: which sessions a log holds, and how far each is.
+// heft list: the sessions of a log and their progress.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ std::string in_columns(std::vector<Line> lines) {
   for (const Line& line : lines) {
     std::string row;
     for (std::size_t k = 0; k < widths.size(); ++k) {
-      if (widths[k] == 0) continue;  // nothing in that column
+      if (widths[k] == 0) continue;  // an empty column
       const int width = std::max(widths[k], columns_of(headings[k])) + 2;
       row += line[k] + std::string(static_cast<std::size_t>(width - columns_of(line[k])), ' ');
     }
@@ -78,7 +78,7 @@ void list(const std::string& db, bool json) {
   for (const SessionFacts& facts : sessions) lines.push_back(line_of(facts));
   print("{}", in_columns(lines));
   flush_output();
-  say("\nmore of one: heft show --db {} --session N\n", shell_quoted(db));
+  say("\ndetails of a session: heft show --db {} --session N\n", shell_quoted(db));
   for (const std::string& step : next_steps(sessions, db)) say("{}\n", step);
 }
 }  // namespace
@@ -89,8 +89,9 @@ void add_list(Command& app) {
     bool json = false;
   };
   const auto options = std::make_shared<ListOptions>();
-  Command command = app.add_command("list", "the sessions of a log: who, what, how far, since when",
-                                    {"heft list --db lab.db", "heft list --db lab.db --json"});
+  Command command =
+      app.add_command("list", "the sessions of a log: participant, protocol, progress",
+                      {"heft list --db lab.db", "heft list --db lab.db --json"});
   command.add_option("--db", &options->db, "the log").shows_default();
   command.add_flag("--json", options->json, "JSON on stdout instead of a table");
   command.does([options] { list(options->db, options->json); });

@@ -1,4 +1,4 @@
-// heft procedure: procedures for programs in any language. The formats are shown by its --help.
+// heft procedure: procedures for programs in any language. --help shows the formats.
 #include <fmt/format.h>
 
 #include <csignal>
@@ -16,12 +16,12 @@ namespace heft::cli {
 
 namespace {
 void converse(const std::string& file) {
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error to report, not a kill
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is reported as an error
   std::ios::sync_with_stdio(false);
   ProcedureDialog(load_procedure(file), std::cout).run(std::cin);
 }
 
-// The keys of a file, as their declarations have them.
+// The keys of a procedure file, from their declarations.
 std::vector<std::string> keys_of_files() {
   std::vector<std::string> lines{"", "Keys of a procedure file: seed,"};
   const auto add = [&](const ConfigKey& key, const auto&...) {
@@ -43,13 +43,13 @@ void add_procedure(Command& app) {
   std::vector<std::string> lines{
       "heft procedure staircases.toml",
       "",
-      "A session (> is written by heft, < is your program's answer, a line a trial):",
+      "A session (> is written by heft, < is your program's answer, one line per trial):",
       R"(  > {"event":"trial","trial":1,"staircase":"15g","level":175})",
       R"(  < {"response":true}                 perceived, correct: the level goes down)",
       R"(  > {"event":"trial","trial":2,"staircase":"15g","level":125})",
-      R"(  < {"void":true}                     the staircase is untouched, a new trial is drawn)",
+      R"(  < {"void":true}                     the staircase is unchanged, a new trial is drawn)",
       R"(  > {"event":"trial","trial":3,"staircase":"15g","level":125})",
-      R"(  < {"response":false,"level":124.5}  the level really shown, where it was another)",
+      R"(  < {"response":false,"level":124.5}  the presented level, if it differs)",
       R"(  > {"event":"reversal","staircase":"15g","trial":3,"number":1,"level":124.5,)"
       R"("step_before":50,"step_after":50})",
       R"(  > {"event":"trial","trial":4,"staircase":"15g","level":175})",
@@ -62,7 +62,7 @@ void add_procedure(Command& app) {
       "more. Every kind takes it as a response: any choice is true, none is false.",
       R"(A kind that ends by "trials" alone, such as "constant", estimates null; low and high are)",
       "the ends of the estimate's interval, null where the kind gives none.",
-      R"(Input it can't use is answered by {"event":"error","line":N,"message":...}; the trial)",
+      R"(Invalid input is answered by {"event":"error","line":N,"message":...}; the trial)",
       "stays open. It ends, with exit code 0, when all staircases are done or its input ends."};
   for (std::string& line : keys_of_files()) lines.push_back(std::move(line));
   Command command = app.add_command(

@@ -11,7 +11,7 @@
 namespace heft::cli {
 
 namespace {
-// Far above any answer; a line without end must not eat the memory.
+// Far above any answer; bounds the memory for an endless line.
 constexpr std::size_t longest_line = 4096;
 
 std::string json_text(std::string_view text) {
@@ -23,7 +23,7 @@ struct InputLine {
   bool too_long = false;
 };
 
-// None at the end of the input. Of a line that is too long only the beginning is kept.
+// None at the end of the input. A line that is too long is truncated.
 std::optional<InputLine> read_line(std::istream& in) {
   constexpr int end = std::char_traits<char>::eof();
   if (in.peek() == end) return std::nullopt;
@@ -63,7 +63,7 @@ std::string json_number(const std::optional<double>& number) {
   return number ? fmt::to_string(*number) : "null";
 }
 
-// By the first of its methods.
+// With the first of its estimates.
 std::string finished_event(const Procedure& staircase, StopReason reason) {
   const Estimate estimate = staircase.estimates().front();
   return fmt::format(
@@ -125,8 +125,8 @@ void ProcedureDialog::write(const std::string& json) {
   out_ << json << '\n' << std::flush;
   if (!out_)
     throw Error(
-        fmt::format("can't write to the standard output any more, in trial {}: its reader "
-                    "has gone or its disk is full; the session ends here",
+        fmt::format("cannot write to the standard output, in trial {}: its reader "
+                    "has closed it or its disk is full; the session ends here",
                     trial_));
 }
 

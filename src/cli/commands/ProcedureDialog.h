@@ -1,5 +1,5 @@
-// Procedures by a conversation, a JSON object a line: trials out and answers in. `heft procedure
-// --help` shows the lines.
+// Procedures as a dialog, one JSON object per line: trials out, answers in. `heft procedure --help`
+// shows the lines.
 #pragma once
 
 #include <iosfwd>
@@ -17,8 +17,8 @@ class ProcedureDialog {
   /// @param out every line is flushed
   ProcedureDialog(InterleavedProcedures procedures, std::ostream& out);
 
-  /// Holds the conversation until every staircase is finished or the input ends.
-  /// @throws Error when a line can't be written
+  /// Runs the dialog until every staircase is finished or the input ends.
+  /// @throws Error if a line cannot be written
   void run(std::istream& in);
 
  private:
@@ -32,7 +32,7 @@ class ProcedureDialog {
   std::optional<std::size_t> current_;   ///< staircase of the open trial; none: all are finished
   std::optional<std::size_t> previous_;  ///< of the last completed trial
   int trial_ = 0;                        ///< number of the open trial
-  double level_ = 0;                     ///< that it presents
+  double level_ = 0;                     ///< of the open trial
 };
 
 }  // namespace heft::cli

@@ -1,4 +1,4 @@
-// heft replay: verify a log, or ask what a session would have been.
+// heft replay: verifies a log, or recomputes it under other conditions.
 #include "replay/Replay.h"
 
 #include <fmt/format.h>
@@ -39,18 +39,17 @@ struct ReplayOptions {
   bool judges() const { return responder && !rerun; }
 };
 
-// Of a protocol, what a logged hand's world is made of.
+// Tables of a protocol that affect the world of a logged hand.
 constexpr std::array world{"physics", "coupling", "technique", "layout", "effector"};
 
-// Who asks what else would have been is not to take a key that says nothing of it for one that
-// makes no difference.
+// Refuses keys without effect on the replay, which would otherwise seem to make no difference.
 void check_world(const std::vector<ProtocolSetting>& settings) {
   for (const ProtocolSetting& setting : settings) {
     const std::string section = setting.key.substr(0, setting.key.find('.'));
     if (std::ranges::find(world, section) != world.end()) continue;
-    throw Error(fmt::format("--set {}: a replay takes the logged hand through another world, with "
-                            "the logged trials; expected a key of {}. --rerun with a --responder "
-                            "runs the trials anew",
+    throw Error(fmt::format("--set {}: a replay simulates the logged hand in the logged trials; "
+                            "expected a key of {}. --rerun with a --responder runs new trials "
+                            "with any key",
                             to_text(setting), fmt::join(world, ", ")),
                 ExitCode::usage);
   }
@@ -59,14 +58,13 @@ void check_world(const std::vector<ProtocolSetting>& settings) {
 void check(const ReplayOptions& options) {
   const auto refuse = [](const char* why) { throw Error(why, ExitCode::usage); };
   if (options.rerun && !options.responder)
-    refuse("--rerun runs the trials anew with a --responder, and none is named");
+    refuse("--rerun runs the trials again with a --responder, but none is given");
   if (options.judges() && options.supposes())
     refuse(
-        "a --responder judges what was displayed, which --set and --simulator would change; add "
-        "--rerun to run the trials anew");
+        "a --responder judges the displayed frames, which --set and --simulator would change; add "
+        "--rerun to run the trials again");
   if (!options.rerun) check_world(options.set);
-  if (options.json && !options.judges())
-    refuse("--json is for what a --responder judges, without --rerun");
+  if (options.json && !options.judges()) refuse("--json requires a --responder without --rerun");
   if (options.view && options.responder)
     refuse(
         "--view shows the logged frames, with --set or --simulator another clone beside them; "
@@ -84,7 +82,7 @@ std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const ReplayO
 void print_divergence(const Divergence& divergence) {
   const std::string trial =
       divergence.trial_number > 0 ? fmt::format("trial {}", divergence.trial_number) : "no trial";
-  print("  first divergence: {}, at {:.6f} s: {}\n    logged:   {}\n    came out: {}\n", trial,
+  print("  first divergence: {}, at {:.6f} s: {}\n    logged:   {}\n    replayed: {}\n", trial,
         divergence.t_s, divergence.what, divergence.logged, divergence.came_out);
 }
 
@@ -94,23 +92,23 @@ std::string how_frames_were_checked(const Verification& found) {
   std::vector<std::string> how;
   if (found.n_other_edition > 0)
     how.push_back(
-        fmt::format("{} of them logged with an edition of the simulator that this heft does not "
-                    "have: only measured, they differ by up to {:.3g} m",
+        fmt::format("{} of them logged with an edition of the simulator that this heft lacks: "
+                    "only measured, they differ by up to {:.3g} m",
                     found.n_other_edition, found.largest_of_other_edition_m));
   if (found.n_other_build > 0)
     how.push_back(fmt::format(
-        "{}logged by another build: poses within 1e-6 m demanded, largest difference {:.3g} m",
+        "{}logged by another build: poses within 1e-6 m required, largest difference {:.3g} m",
         found.n_other_build == found.n_frames ? ""
                                               : fmt::format("{} of them ", found.n_other_build),
         found.largest_difference_m));
   if (const int n_same = n_same_edition - found.n_other_build; n_same > 0)
     how.push_back(n_same == found.n_frames
-                      ? "equal bits demanded"
-                      : fmt::format("of the other {} equal bits demanded", n_same));
+                      ? "equal bits required"
+                      : fmt::format("of the other {} equal bits required", n_same));
   return fmt::format("{} frames simulated again, {}", found.n_frames, fmt::join(how, "; "));
 }
 
-// @return whether the log says what its events give
+// @return whether the log agrees with its events
 bool verify(const LogReader& reader, std::int64_t session_id) {
   ProgressBar bar(fmt::format("session {}", session_id));
   const Verification found = verify_session(reader, session_id, [&](double done) {
@@ -125,8 +123,8 @@ bool verify(const LogReader& reader, std::int64_t session_id) {
   return !found.first;
 }
 
-// What this program is built without another one verifies, from the first line on. What can't be
-// read is told where it is verified.
+// Fails before the first line of output if another build is needed. An unreadable row is reported
+// where it is verified.
 void require_simulators(const LogReader& reader, const std::string& db,
                         const std::vector<std::int64_t>& ids) {
   for (const std::int64_t id : ids) try {
@@ -138,15 +136,14 @@ void require_simulators(const LogReader& reader, const std::string& db,
     }
 }
 
-// Sessions are numbered from 1, and none is ever taken out. The last ones can't be missed.
+// Sessions are numbered from 1 and never removed. Missing last ones cannot be detected.
 bool none_is_missing(const std::vector<std::int64_t>& ids) {
   std::int64_t before = 0;
   bool none = true;
   for (const std::int64_t id : ids) {
     if (id != before + 1) {
       none = false;
-      print("between sessions {} and {} numbers are missing: rows were taken out of the log\n",
-            before, id);
+      print("sessions between {} and {} are missing: rows were removed from the log\n", before, id);
     }
     before = id;
   }
@@ -167,17 +164,15 @@ void verify_all(const LogReader& reader, const ReplayOptions& options) {
   } catch (const OnlyForStudies&) {
     throw;
   } catch (const Error& error) {
-    if (same) throw;  // what was asked for is not there
+    if (same) throw;  // the requested session is missing
     print("first divergence: no trial: {}\n", error.what());
   }
-  if (!same)
-    throw Error(fmt::format("{} does not hold what its events give", options.db),
-                ExitCode::diverged);
+  if (!same) throw Error(fmt::format("{} contradicts its events", options.db), ExitCode::diverged);
 }
 
 void print_paths(const std::vector<PathDifference>& differences) {
   print(
-      "  where things would have been, against the log (mm):\n"
+      "  positions with the change against the log (mm):\n"
       "  {:<13} {:<4} {:>9} {:>11} {:>10} {:>11} {:>10}\n",
       "task", "", "frames", "clone RMS", "clone max", "cubes RMS", "cubes max");
   for (const PathDifference& d : differences)
@@ -198,13 +193,14 @@ std::string as_grams(double lag_m, const std::optional<double>& g_per_m) {
   return g_per_m ? fmt::format("{:.1f}", *g_per_m * lag_m) : "-";
 }
 
-// Of each push its largest lag, mean over pushes; of each pushed cube its path, mean over cubes.
+// Largest lag of each push, mean over pushes; path of each pushed cube, mean over cubes.
 void print_visible_cues(const std::vector<PathDifference>& differences) {
   print(
-      "  what a participant would notice, logged > as it would be: of a push the clone's largest "
-      "lag along it\n  (mean, largest, and as grams where lag tells mass), of a pushed cube its "
-      "path "
-      "and how far from its start it ends (means)\n"
+      "  visible cues, logged > recomputed: the clone's largest lag along a push (mean, maximum, "
+      "and\n"
+      "  in grams if it depends on mass), the path of a pushed cube and its end's distance from "
+      "its\n"
+      "  start (means)\n"
       "  {:<13} {:<4} {:>7} {:^17} {:^17} {:^17} {:^17} {:^17} {:^17}\n",
       "task", "", "cube g", "pushes", "lag mm", "largest lag mm", "lag as g", "path mm", "end mm");
   for (const PathDifference& d : differences)
@@ -234,7 +230,7 @@ void print_responder(const OtherResponder& other) {
           grams(e.logged_g), grams(e.would_be_g));
 }
 
-// What the question supposes: the logged protocol and configuration with the changes.
+// The logged protocol and configuration with the changes.
 struct Supposed {
   Protocol protocol;
   SessionConfig config;
@@ -249,7 +245,7 @@ Supposed supposed(const LoggedSession& session, const ReplayOptions& options) {
   std::string simulator = options.simulator.value_or(config.simulator);
   for (const ProtocolSetting& set : options.set)
     if (set.key == "physics.simulator" && !options.simulator) simulator = protocol.simulator.name;
-  if (options.supposes()) {  // the rate may be among what was set
+  if (options.supposes()) {  // the rate may be among the changes
     const SimulatorPick pick = simulator_for(simulator, protocol);
     config.simulator = pick.simulator;
     config.rate_hz = pick.rate_hz;
@@ -311,7 +307,7 @@ void judge(const LogReader& reader, const ReplayOptions& options) {
   for (const AnsweredSession& session : judged) print_offline_responder(session);
 }
 
-// The words are the log's, where it keeps any.
+// The log's texts, if it has any.
 ScreenTexts texts_of(const SessionConfig& setup) {
   if (!setup.texts.text.empty()) return parse_texts(setup.texts.text, setup.texts.path);
   return load_texts(texts_file("en"));
@@ -320,7 +316,7 @@ ScreenTexts texts_of(const SessionConfig& setup) {
 void show(const LogReader& reader, const ReplayOptions& options) {
   const auto ids = chosen_sessions(reader, options);
   if (ids.size() > 1)
-    throw Error(fmt::format("{} holds {} sessions; say with --session which one --view is to show",
+    throw Error(fmt::format("{} holds {} sessions; select one with --session for --view",
                             options.db, ids.size()),
                 ExitCode::usage);
   const auto& [name, file, text] = *options.view;
@@ -352,7 +348,8 @@ void show(const LogReader& reader, const ReplayOptions& options) {
 void add_replay(Command& app) {
   const auto options = std::make_shared<ReplayOptions>();
   Command command = app.add_command(
-      "replay", "verify a log (exit 5 at a divergence), or ask what a session would have been",
+      "replay",
+      "verify a log (exit 5 at a divergence), or recompute a session under other conditions",
       {"heft replay --db lab.db", "heft replay --db lab.db --session 3",
        "heft replay --db lab.db --session 3 --simulator bullet-ea",
        "heft replay --db lab.db --set physics.friction=0.64",
@@ -363,19 +360,19 @@ void add_replay(Command& app) {
   command.add_option("--db", &options->db, "the log").shows_default();
   command.add_session(options->session, "all");
   add_responder(command, options->responder,
-                "NAME[:FILE]: give this responder the frames that were displayed, and compare "
+                "NAME[:FILE]: give this responder the displayed frames, and compare "
                 "its answers; the logged one without a file has its logged parameters");
-  command.add_flag("--rerun", options->rerun, "run the trials anew with the responder instead");
-  command.add_flag("--json", options->json, "what the responder answers as JSON");
+  command.add_flag("--rerun", options->rerun, "run the trials again with the responder instead");
+  command.add_flag("--json", options->json, "the responder's answers as JSON");
   command.add_option("--simulator", &options->simulator,
-                     "run the logged hand through this simulator, and compare lags and paths");
+                     "simulate the logged hand with this simulator, and compare lags and paths");
   add_settings(command, options->set,
                fmt::format("change a key of the protocol, such as "
                            "coupling.stiffness_n_per_m=100: of its {}; with --rerun any",
                            fmt::join(world, ", ")));
   add_plug(command, "--view", options->view,
-           "window or video:FILE: show the logged frames, with --set or --simulator also "
-           "the clone as it would be");
+           "window or video:FILE: show the logged frames; with --set or --simulator also "
+           "the changed clone");
   command.does([options] {
     check(*options);
     refuse_special_file(options->db);

@@ -1,4 +1,4 @@
-// heft resume: going on with a session that was interrupted, or ending it.
+// heft resume: continues an interrupted session, or ends it for good.
 #include <fmt/format.h>
 
 #include <memory>
@@ -15,13 +15,13 @@ namespace {
 void say_next_parts(const ResolvedConfig& config) {
   const Plug& view = config->config.view;
   if (config->film != view.what)
-    say("{} is there already; from here on it is {}\n", to_text(view),
+    say("{} already exists; from here on it is {}\n", to_text(view),
         to_text(Plug{view.name, config->film}));
   if (const std::string& pictures = config->config.record_camera; config->pictures != pictures)
-    say("{} is there already; from here on it is {}\n", pictures, config->pictures);
+    say("{} already exists; from here on it is {}\n", pictures, config->pictures);
 }
 
-// The folder that was given, or the session's; older logs have a plan's elsewhere.
+// The given folder, or the session's; older logs do not have a plan's.
 std::string backup_of(const LoggedSession& session, const std::string& given) {
   if (!given.empty()) return given;
   if (!session.setup.backup.empty()) return session.setup.backup;
@@ -35,7 +35,7 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id, Sessi
   again.backup = backup_of(session, again.backup);
   const ResolvedConfig config =
       resolve(again, session.setup, *session.protocol, session.row.header.seed);
-  say("going on with session {}: participant {}, protocol {}\n", session.row.session_id,
+  say("resuming session {}: participant {}, protocol {}\n", session.row.session_id,
       session.row.header.participant, session.protocol->name);
   for (const auto& [column, from, to] : changes_between(session.setup, config->config))
     if (to.empty())
@@ -50,7 +50,7 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id, Sessi
       db);
 }
 
-// There is no way back, so it is never somebody's because they happened to come last.
+// It cannot be undone, so it is never applied to the newest session by default.
 void end(const std::string& db, std::optional<std::int64_t> session_id, const std::string& backup) {
   if (!session_id)
     throw Error(fmt::format("--end needs --session N: which one to end for good; heft list --db {} "
@@ -59,9 +59,9 @@ void end(const std::string& db, std::optional<std::int64_t> session_id, const st
                 ExitCode::usage);
   const LoggedSession session = session_to_resume(db, session_id);
   abort_session(session);
-  back_up_and_tell(db, backup_of(session, backup), session.row.session_id);
-  say("session {} of participant {} is ended as it is; what was answered is kept\n",
-      session.row.session_id, session.row.header.participant);
+  back_up_and_report(db, backup_of(session, backup), session.row.session_id);
+  say("session {} of participant {} has ended; its answers are kept\n", session.row.session_id,
+      session.row.header.participant);
 }
 }  // namespace
 
@@ -75,8 +75,7 @@ void add_resume(Command& app) {
   };
   const auto options = std::make_shared<ResumeOptions>();
   Command command = app.add_command(
-      "resume",
-      "go on with an unfinished session; options that are not given again stay as they were",
+      "resume", "continue an unfinished session; options that are not given again are kept",
       {"heft resume --db lab.db", "heft resume --db lab.db --session 3",
        "heft resume --db lab.db --responder scripted:recorded/07-second-half",
        "heft resume --db lab.db --session 3 --end"});
@@ -84,7 +83,7 @@ void add_resume(Command& app) {
   command.add_session(options->session, "the newest unfinished one");
   add_session_options(command, options->again, true);
   command.add_option("--simulator", &options->again.simulator,
-                     "from here on; each trial is replayed with the one that it ran with");
+                     "from here on; each trial is replayed with its own");
   command.add_option("--language", &options->again.language,
                      "of the participant's screens: en, fr, or a text FILE.toml");
   add_elsewhere_options(command, options->again.backup, options->events);
@@ -94,8 +93,9 @@ void add_resume(Command& app) {
   command.add_flag("--keys", options->keys,
                    "let the participant's window take keys as answers from here on");
   add_go_on(command, options->go_on);
-  command.add_flag("--end", options->end,
-                   "don't go on: end that --session as it is, for somebody who will not come back");
+  command.add_flag(
+      "--end", options->end,
+      "do not continue: end that --session for good, if the participant does not return");
   command.does([options] {
     if (options->end) return end(options->db, options->session, options->again.backup);
     if (options->keys) options->again.keys = TakesKeys::yes;

@@ -1,4 +1,4 @@
-// heft run: one participant's session.
+// heft run: runs one participant's session.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -31,10 +31,10 @@ struct RunOptions {
   SessionOptions given;
   std::optional<Purpose> purpose;
   std::optional<double> text_size;
-  std::map<std::string, std::string> participant_info;  // what the plan gave
+  std::map<std::string, std::string> participant_info;  // assigned by the plan
   bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
   bool changed_protocol = false;
-  bool are_two = false;  // somebody with an id much like another's, who was asked about
+  bool are_two = false;  // a participant with a similar id, confirmed to be another person
 };
 
 void check_participant(const std::string& id) {
@@ -46,7 +46,7 @@ bool is_persons(const RunOptions& options) {
   return std::holds_alternative<Person>(options.given.responder.value_or(Person{}));
 }
 
-// A session that was played with the mouse is data only where that was asked for.
+// A session played with the mouse counts as data only if requested.
 Purpose purpose_of(const RunOptions& options) {
   const auto& tracker = options.given.tracker;
   const bool is_dragged = tracker && tracker_named(tracker->name).is_dragged;
@@ -55,11 +55,12 @@ Purpose purpose_of(const RunOptions& options) {
 
 SessionOptions session_options(const RunOptions& options) {
   SessionOptions given = options.given;
-  // It is kept with the session, as the key of the protocol that it is.
+  // Logged as the protocol's key that it is.
   if (options.text_size)
     given.settings.push_back({"screens.text_size", fmt::format("{}", *options.text_size)});
   if (options.left_handed && given.controls == Side::right)
-    throw Error("--left-handed is --controls left; expected one of them", ExitCode::usage);
+    throw Error("--left-handed is the same as --controls left; expected one of them",
+                ExitCode::usage);
   if (options.left_handed) given.controls = Side::left;
   if (!given.hand) given.hand = Side::right;
   if (is_persons(options))
@@ -76,11 +77,11 @@ SessionRequest request_of(const RunOptions& options) {
                          options.participant.value(), options.db.value(), purpose_of(options)};
   request.participant_info = options.participant_info;
   request.again = options.again;
-  tell_camera_file(given, request.config->config);
+  print_camera_file(given, request.config->config);
   return request;
 }
 
-// Sessions that the log has already; a missing file has none.
+// Sessions of an existing log; none if the file is missing.
 std::vector<SessionRow> sessions_in(const std::string& db) {
   refuse_special_file(db);
   std::error_code unknown;
@@ -88,7 +89,7 @@ std::vector<SessionRow> sessions_in(const std::string& db) {
                                               : std::vector<SessionRow>{};
 }
 
-// What the plan says goes where the command line says nothing.
+// The plan's values for options that are not given.
 void fill_from(const StudyPlan& plan, RunOptions& options) {
   const auto fill = [](std::optional<std::string>& given,
                        const std::optional<std::string>& planned) {
@@ -109,7 +110,7 @@ void give_place(const StudyPlan& plan, const PlannedParticipant& planned, RunOpt
   if (!order.empty()) {
     for (const ProtocolSetting& setting : options.given.settings)
       if (setting.key == order_key)
-        throw Error(fmt::format("the plan {} gives the order of blocks, expected no --set {}",
+        throw Error(fmt::format("the plan {} sets the order of blocks, expected no --set {}",
                                 options.plan, to_text(setting)),
                     ExitCode::usage);
     options.given.settings.push_back(order_setting(order));
@@ -117,7 +118,7 @@ void give_place(const StudyPlan& plan, const PlannedParticipant& planned, RunOpt
   options.participant_info = info_of(plan, planned.place);
 }
 
-// Who is asked at a terminal types y or n; any other word is asked again, the end of input is no.
+// Asks until the answer is y or n; the end of input means no.
 bool answers_yes(const std::string& question) {
   for (std::string answer; say("{} y/n: ", question), std::getline(std::cin, answer);) {
     if (answer == "y" || answer == "yes") return true;
@@ -126,38 +127,37 @@ bool answers_yes(const std::string& question) {
   return false;
 }
 
-// Without a terminal it is no.
+// Without a terminal the answer is no.
 bool is_asked_and_answered_yes(const std::string& question) {
   const bool has_terminal = isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
   return has_terminal && answers_yes(question);
 }
 
-// What was found of an id is asked about at a terminal; elsewhere only --again goes on with it.
+// Asks about a similar id at a terminal; elsewhere only --again continues.
 void refuse_unless_two_people(const std::string& found, RunOptions& options) {
   if (is_asked_and_answered_yes(found + ". Are these two people?")) {
     options.are_two = true;
     return;
   }
-  throw Error(fmt::format("{}: give that id if it is the same person; if it is another one, add "
+  throw Error(fmt::format("{}: give that id if it is the same person; if it is another, add "
                           "--again",
                           found),
               ExitCode::usage);
 }
 
-// P2 for P02 would take another one's place.
+// P2 instead of P02 would take another participant's place.
 void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
                                RunOptions& options) {
   if (!options.participant || options.again) return;
   for (const SessionRow& session : sessions)
     if (session.header.participant == *options.participant) return;
   if (const auto near = near_planned_id(*options.participant, plan))
-    refuse_unless_two_people(
-        fmt::format("the plan {} has no participant \"{}\", but there is \"{}\"", options.plan,
-                    *options.participant, *near),
-        options);
+    refuse_unless_two_people(fmt::format("the plan {} has no participant \"{}\", but it has \"{}\"",
+                                         options.plan, *options.participant, *near),
+                             options);
 }
 
-// People of one group who did different things are no group.
+// A group's participants must have the same protocol.
 void refuse_changed_protocol(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
                              Purpose purpose, const StudyGroup& group, const RunOptions& options) {
   const auto [participants, since_the_last] = had_another_protocol(
@@ -167,19 +167,20 @@ void refuse_changed_protocol(const StudyPlan& plan, const std::vector<SessionRow
       "{} is not what participant(s) {} {}had", group.protocol, fmt::join(participants, ", "),
       group.name.empty() ? "" : fmt::format("of the group \"{}\" ", group.name));
   if (!since_the_last || options.changed_protocol) return say("heft: WARNING: {}\n", found);
-  if (is_asked_and_answered_yes(found + ": it was changed since then. Go on with it as it is now?"))
+  if (is_asked_and_answered_yes(found +
+                                ": it was changed since then. Continue with the changed one?"))
     return;
   throw Error(
-      fmt::format("{}: it was changed since then. Undo that, give the changed study another "
-                  "name, or add --changed-protocol to go on with it as it is now; the log "
-                  "keeps what each of them had",
+      fmt::format("{}: it was changed since then. Undo the change, give the changed study another "
+                  "name, or add --changed-protocol to continue with the changed one; the log "
+                  "records each participant's version",
                   found),
       ExitCode::usage);
 }
 
 void take_from_plan(RunOptions& options) {
   if (!options.protocol.empty())
-    throw Error(fmt::format("the plan {} says which protocol is next, expected no other one ({})",
+    throw Error(fmt::format("the plan {} selects the protocol, expected no other one ({})",
                             options.plan, options.protocol),
                 ExitCode::usage);
   const StudyPlan plan = load_study(options.plan);
@@ -201,22 +202,22 @@ void take_from_plan(RunOptions& options) {
   const std::string rehearsal =
       purpose == Purpose::main
           ? ""
-          : fmt::format("; purpose {}, which takes nobody's place or id", name_of(purpose));
+          : fmt::format("; purpose {}, which takes no place or id", name_of(purpose));
   say("participant {} of the study {}: {} of {}{}\n", planned.id, plan.name, planned.place.number,
       plan.participants, rehearsal);
 }
 
-// 1 for 01 would part one person's sessions.
+// 1 for 01 would separate one person's sessions.
 void refuse_near_id(RunOptions& options) {
   if (options.again || options.are_two) return;
   if (const auto near = near_id(*options.participant, sessions_in(*options.db)))
-    refuse_unless_two_people(fmt::format("participant \"{}\" is new in {}, but there is \"{}\"",
+    refuse_unless_two_people(fmt::format("participant \"{}\" is new in {}, but it has \"{}\"",
                                          *options.participant, *options.db, *near),
                              options);
 }
 
-// A plan is easily given as a protocol, and the other way round; what else is wrong with a file is
-// told by who reads it.
+// A plan is easily given as a protocol, and the reverse; other mistakes in a file are reported by
+// its reader.
 void refuse_other_kind(const std::string& path, FileKind expected) {
   std::optional<FileKind> kind;
   try {
@@ -225,17 +226,16 @@ void refuse_other_kind(const std::string& path, FileKind expected) {
   }
   const std::string file = shell_quoted(path);
   if (kind == FileKind::study && expected == FileKind::protocol)
-    throw Error(fmt::format("{} is a study's plan: heft run --plan {}", path, file),
-                ExitCode::usage);
+    throw Error(fmt::format("{} is a study plan: heft run --plan {}", path, file), ExitCode::usage);
   if (kind == FileKind::protocol && expected == FileKind::study)
     throw Error(
-        fmt::format("{} is a protocol, no study's plan: heft run {} --participant ID", path, file),
+        fmt::format("{} is a protocol, not a study plan: heft run {} --participant ID", path, file),
         ExitCode::usage);
 }
 
 [[noreturn]] void refuse_missing(const char* option) {
   throw Error(
-      fmt::format("{} is required, or --plan STUDY.toml, which says it; see heft run --help",
+      fmt::format("{} is required, or --plan STUDY.toml, which provides it; see heft run --help",
                   option),
       ExitCode::usage);
 }
@@ -261,10 +261,10 @@ void run(RunOptions options) {
   say("participant {}, protocol {}, responder {}, seed {}\n", request.participant,
       request.config->protocol->name, to_text(request.config->config.responder),
       request.config->seed);
-  tell_simulator(request.config);
+  print_simulator(request.config);
   if (request.config->tracker->is_dragged)
-    say("heft: you drag the effector in the window (tracker mouse): mouse or finger, the wheel "
-        "turns it. This is to try and to teach; the log and every report say so\n");
+    say("heft: drag the effector in the window (tracker mouse) with mouse or finger; the wheel "
+        "turns it. For trying and teaching only; the log and every report say so\n");
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
   say_finished(run_session({request.config, request.db, options.unblind, options.go_on,
                             options.events, place_words(options.participant_info)},
@@ -291,15 +291,15 @@ void add_run(Command& app) {
        "heft run protocols/paper.toml --participant 07 --backup /media/stick --events "
        "udp:127.0.0.1:5005"});
   command.add_option("PROTOCOL", &options->protocol, "a protocol file (not with --plan)");
-  command.add_option("--plan", &options->plan,
-                     "a study's plan, STUDY.toml: the next participant's session, or that of the "
-                     "--participant given, with the group, protocol and order of blocks that the "
-                     "plan gives them (heft validate STUDY.toml shows these)");
   command.add_option(
-      "--participant", &options->participant,
-      "the participant's id; text, kept as it is (default with --plan: the next one's)");
+      "--plan", &options->plan,
+      "a study plan, STUDY.toml: the session of the next participant, or of --participant, "
+      "with the plan's group, protocol and order of blocks (heft validate STUDY.toml shows "
+      "them)");
+  command.add_option("--participant", &options->participant,
+                     "the participant's id, any text (default with --plan: the next one's)");
   command.add_option("--db", &options->db,
-                     "the log; an existing one gets one more session (default: the plan's, or "
+                     "the log; an existing one gets another session (default: the plan's, or "
                      "heft.db)");
   command.add_seed(options->seed);
   add_session_options(command, options->given);
@@ -314,38 +314,37 @@ void add_run(Command& app) {
                      "protocol's)");
   command.add_flag("--keys", options->keys,
                    "let the participant's window take keys as answers (default: only with "
-                   "--purpose test); without it what somebody types there does nothing");
+                   "--purpose test); otherwise keys there do nothing");
   add_choice(command, "--hand", options->given.hand,
-             "that holds the effector: the demonstration shows it (default: right)",
-             {"left", "right"});
+             "that holds the effector, for the demonstration (default: right)", {"left", "right"});
   add_choice(command, "--controls", options->given.controls,
-             "the side of the screen that the buttons are on, for the hand that taps; the cubes "
-             "stay where they are (default: right)",
+             "the side of the buttons on the screen, for the tapping hand; the cubes "
+             "keep their places (default: right)",
              {"left", "right"});
   command.add_flag("--left-handed", options->left_handed, "the same as --controls left");
   command
       .add_option("--text-size", &options->text_size,
-                  fmt::format("how large the participant's texts are, {} to {} times the usual, as "
-                              "--set screens.text_size=... does (default: the protocol's)",
+                  fmt::format("size of the participant's texts, {} to {} times the usual, as "
+                              "--set screens.text_size=... (default: the protocol's)",
                               least_text_size, most_text_size))
       .between(least_text_size, most_text_size);
   add_choice(command, "--purpose", options->purpose,
-             "of a person's session; analyse keeps them apart; with --tracker mouse it is test "
-             "unless told (default: main)",
+             "of a person's session; analyse separates them (default: main, but test with "
+             "--tracker mouse)",
              {"main", "pilot", "test"});
   command.add_option("--record-camera", &options->given.record_camera,
-                     "keep the camera's pictures in this folder, their times in its times.csv; "
-                     "without it none are kept. Of a synthetic camera truth.csv has the exact "
+                     "store the camera's pictures in this folder, with their times in times.csv "
+                     "(default: not stored). For a synthetic camera truth.csv has the true "
                      "poses: frame (from 0), t_s, and x_m...camera_qz as in heft track");
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
   add_go_on(command, options->go_on);
   command.add_flag("--changed-protocol", options->changed_protocol,
-                   "go on with a plan's protocol that was changed since earlier participants of "
-                   "the group had it");
+                   "continue with a plan's protocol that was changed since earlier participants of "
+                   "the group");
   command.add_flag("--again", options->again,
-                   "run once more a protocol that the participant has finished; or take an id "
-                   "that is nearly another's, as 1 and 01 are");
+                   "repeat a protocol that the participant has finished; or use an id "
+                   "that is similar to another's, as 1 and 01 are");
   command.does([options] { run(*options); });
 }
 

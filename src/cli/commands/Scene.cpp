@@ -1,5 +1,5 @@
-// heft scene: physics alone. A scene and the effector's path in, the clone's and the cubes' paths
-// out, as CSV on stdout.
+// heft scene: physics alone. Reads a scene and the effector's path, prints the clone's and the
+// cubes' paths as CSV.
 #include "physics/scene/Scene.h"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ std::string header(std::size_t n_cubes) {
   return line;
 }
 
-// The names, and which of them are known to go wrong and how.
+// The names, and the known defects of some.
 std::string simulator_help() {
   std::string text = "one of";
   for (const SimulatorEntry& entry : simulators()) text += fmt::format(" {}", entry.name);
@@ -70,13 +70,13 @@ bool is_finite(const WorldState& state) {
          std::ranges::all_of(state.cubes, [&](const BodyState& cube) { return good(cube.pose); });
 }
 
-// Drive takes a longer pause between two poses for a gap in tracking.
+// Drive treats a longer interval between two poses as a gap in tracking.
 void check(const SceneOptions& options) {
   if (options.rate_hz >= 4 && options.rate_hz <= 1e6) return;
   throw Error(fmt::format("--rate {}: expected 4 to 1000000 Hz", options.rate_hz), ExitCode::usage);
 }
 
-// Gives a row for every 1 / rate seconds to `take`.
+// Calls `take` with a row every 1 / rate seconds.
 template <typename Take>
 void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take& take) {
   const double start_s = trajectory.start_s();
@@ -86,8 +86,8 @@ void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take&
     const WorldState& state = drive.advance(sample_of(t_s, trajectory.at(t_s)));
     if (!is_finite(state))
       throw Error(fmt::format(
-          "at {:.3f} s a pose is no number any more: the scene's or the path's numbers lie too far "
-          "from what a table and a hand can be",
+          "at {:.3f} s a pose is not a number: values of the scene or the path are far outside "
+          "of a table's and a hand's range",
           t_s));
     take(row(t_s, state));
   }
@@ -96,11 +96,11 @@ void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take&
 void explain_solves(const SceneOptions& options, const Drive& drive) {
   const std::optional<SolveCounts> counts = drive.counts();
   if (options.explain && counts)
-    say("heft: {} hits; {} solves ended before velocities had settled\n", counts->hits,
+    say("heft: {} contact checks; {} solves did not converge\n", counts->hits,
         counts->not_converged);
 }
 
-// Climbs the ladder until a simulator models all of the path; only its rows are shown.
+// Tries simulators from simple to general until one models the whole path; prints only its rows.
 void run_auto(const SceneOptions& options, const Scene& scene, const Trajectory& trajectory) {
   const auto explain = [&](const std::string& what) {
     if (options.explain) say("heft: {}\n", what);
@@ -116,8 +116,8 @@ void run_auto(const SceneOptions& options, const Scene& scene, const Trajectory&
       explain_solves(options, drive);
     } catch (const OutsideModel& outside) {
       if (&pick == &ladder.back()) throw;
-      explain(fmt::format("{} does not model this: {}; the run starts over", pick.simulator,
-                          outside.what()));
+      explain(
+          fmt::format("{} does not model this: {}; starting over", pick.simulator, outside.what()));
       continue;
     }
     fmt::print("{}\n{}", header(scene.cubes.size()), rows);
@@ -129,7 +129,7 @@ void run_named(const SceneOptions& options, const Scene& scene, const Trajectory
   const SimulatorEntry& entry = simulator_named(options.simulator);
   warn_of_simulator(options.simulator);
   if (options.explain)
-    say("heft: {} at {:g} Hz, as asked for: {}\n", entry.name, options.rate_hz, entry.summary);
+    say("heft: {} at {:g} Hz, as requested: {}\n", entry.name, options.rate_hz, entry.summary);
   if (scene.contact_compliance_m_per_n > 0 && !models_contacts(entry.name, scene))
     say("heft: {}'s contacts are rigid: contact_compliance_m_per_n has no effect\n", entry.name);
   long n_rows = 0;
@@ -145,14 +145,14 @@ void run_named(const SceneOptions& options, const Scene& scene, const Trajectory
     const double t_s = trajectory.start_s() + static_cast<double>(n_rows) / options.rate_hz;
     throw Error(
         fmt::format("{} at {:.3f} s: {}; --simulator boxes models this, and --simulator "
-                    "auto runs all of it with what does",
+                    "auto chooses a suitable one",
                     entry.name, t_s, outside.what()));
   }
 }
 
 void run_scene(const SceneOptions& options) {
   check(options);
-  simulator_named(options.simulator);  // says so if there is none of that name
+  simulator_named(options.simulator);  // throws if there is none of that name
   const Scene scene = load_scene(options.scene);
   const Trajectory trajectory = load_trajectory(options.trajectory);
   (options.simulator == "auto" ? run_auto : run_named)(options, scene, trajectory);
@@ -161,7 +161,7 @@ void run_scene(const SceneOptions& options) {
 
 void add_scene(Command& app) {
   Command command = app.add_command(
-      "scene", "physics alone: effector poses in, clone and cube poses out, as CSV",
+      "scene", "physics alone: from effector poses to clone and cube poses, as CSV",
       {"heft scene SCENE.toml --trajectory T.csv > out.csv",
        "heft scene SCENE.toml --trajectory T.csv --simulator bullet-ea --rate 60",
        "heft scene SCENE.toml --trajectory T.csv --simulator auto --rate 60 --explain > out.csv"});
@@ -172,10 +172,10 @@ void add_scene(Command& app) {
                   "effector path: CSV t_s,x_m,y_m,z_m,qw,qx,qy,qz")
       .required();
   command.add_option("--simulator", &options->simulator, simulator_help()).shows_default();
-  command.add_option("--rate", &options->rate_hz, "physics steps and rows a second")
+  command.add_option("--rate", &options->rate_hz, "physics steps and rows per second")
       .shows_default();
   command.add_flag("--explain", options->explain,
-                   "say on stderr which simulator and step were taken, and why");
+                   "print on stderr which simulator and step are used, and why");
   command.does([options] { run_scene(*options); });
 }
 

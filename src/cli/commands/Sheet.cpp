@@ -27,7 +27,7 @@ void draw(const SheetOptions& options, const char* what, LoadBody load, WriteShe
   if (!paper) throw unknown_name("paper", options.paper, EnumNames<Paper>::names);
   write(load(options.body), *paper, options.out);
   say("{}: print page 1 at 100 %, measure its ruler lines, and write their lengths into {} as\n"
-      "ruler_measured_m = [0.150, 0.150] (in meters). Page 2 says what to do with the {}.\n",
+      "ruler_measured_m = [0.150, 0.150] (in meters). Page 2 has the instructions for the {}.\n",
       options.out, options.body, what);
 }
 
@@ -39,7 +39,7 @@ void add_body(Command& sheet, const char* name, const char* summary, LoadBody lo
   const auto options = std::make_shared<SheetOptions>();
   command.add_option(fmt::format("--{}", name), &options->body, fmt::format("{} file", name))
       .required();
-  command.add_option("--out", &options->out, "the PDF to write; none is written over").required();
+  command.add_option("--out", &options->out, "the PDF to write, a new file").required();
   command.add_option("--paper", &options->paper, "a4 or letter").shows_default();
   command.does([=] { draw(*options, name, load, write); });
 }

@@ -1,5 +1,4 @@
-// heft show: one session of a log: how far it is, what was in force, and what the experimenter and
-// the apparatus had to say.
+// heft show: one session of a log: its progress, configuration, notes and checks of the apparatus.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,8 +23,8 @@ namespace heft::cli {
 namespace {
 using Json = nlohmann::ordered_json;
 
-// What is told of the session's course, in order; trials are counted instead.
-bool is_worth_telling(const Event& event) {
+// Events of the session's course, in order; trials are counted instead.
+bool is_listed(const Event& event) {
   return event.is<Note, Deviation, Unblinding, SessionPaused, SessionContinued, SessionResumed,
                   BreakTaken, Consent, AnswerVetoed, SessionEnded>();
 }
@@ -35,7 +34,7 @@ struct BlockProgress {
   int n_completed = 0, n_void = 0;
 };
 
-// In the order in which they came.
+// In their order in the session.
 std::vector<BlockProgress> progress_of(const std::vector<TrialRow>& trials) {
   std::vector<BlockProgress> blocks;
   for (const TrialRow& trial : trials) {
@@ -64,13 +63,13 @@ Shown shown_of(const std::string& db, std::optional<std::int64_t> session_id) {
   return {facts_of(reader, row), reader.events(id), reader.trials(id), reader.setups(id)};
 }
 
-// The participant's own answers, without what a study's plan gave.
-std::map<std::string, std::string> told_by_participant(const SessionRow& row) {
-  auto told = row.header.participant_info;
-  std::erase_if(told, [](const auto& entry) {
+// The participant's answers, without the study plan's entries.
+std::map<std::string, std::string> participant_reports(const SessionRow& row) {
+  auto reported = row.header.participant_info;
+  std::erase_if(reported, [](const auto& entry) {
     return entry.first == "study" || entry.first.starts_with("study_");
   });
-  return told;
+  return reported;
 }
 
 std::string minutes(double t_s) {
@@ -110,17 +109,17 @@ std::string in_short(const SessionConfig& setup) {
     return hz ? fmt::format(" at {} Hz", *hz) : std::string{};
   };
   const std::string simulator = setup.simulator.empty() ? "of the protocol" : setup.simulator;
-  std::string told = fmt::format(
+  std::string reported = fmt::format(
       "responder {}, tracker {}, simulator {}{}, view {}{}", escaped_line(to_text(setup.responder)),
       escaped_line(to_text(setup.tracker)), escaped_line(simulator), often(setup.rate_hz),
       escaped_line(to_text(setup.view)), often(setup.display_rate_hz));
   for (const auto& [name, value] : {std::pair{"input", to_text(setup.input)},
                                     {"display", to_text(setup.display)},
                                     {"language", setup.language}})
-    if (!value.empty()) told += fmt::format(", {} {}", name, escaped_line(value));
+    if (!value.empty()) reported += fmt::format(", {} {}", name, escaped_line(value));
   for (const ProtocolSetting& setting : setup.settings)
-    told += ", set " + escaped_line(to_text(setting));
-  return told;
+    reported += ", set " + escaped_line(to_text(setting));
+  return reported;
 }
 
 void print_setups(const std::vector<LoggedSetup>& setups) {
@@ -155,7 +154,7 @@ void print_checks(const std::vector<LoggedEvent>& events) {
 void print_course(const std::vector<LoggedEvent>& events) {
   bool any = false;
   for (const LoggedEvent& logged : events) {
-    if (!is_worth_telling(logged.event)) continue;
+    if (!is_listed(logged.event)) continue;
     if (!std::exchange(any, true)) print("\nwhat happened\n");
     const EventRow row = row_of(logged.event);
     print("  {} {}{}{}\n", minutes(row.t_s), name_of(row.kind), row.detail.empty() ? "" : ": ",
@@ -164,12 +163,13 @@ void print_course(const std::vector<LoggedEvent>& events) {
 }
 
 void print_info(const SessionRow& row) {
-  const auto told = told_by_participant(row);
-  if (!told.empty()) print("\nwhat the participant told\n");
-  for (const auto& [key, value] : told) print("  {}: {}\n", escaped_line(key), escaped_line(value));
+  const auto reported = participant_reports(row);
+  if (!reported.empty()) print("\nreported by the participant\n");
+  for (const auto& [key, value] : reported)
+    print("  {}: {}\n", escaped_line(key), escaped_line(value));
 }
 
-// Columns alone: the contents of files are long, and in the log.
+// Columns only: the contents of files are long, and in the log.
 Json setup_json(const LoggedSetup& logged) {
   const Json all = Json::parse(to_json(logged.setup));
   Json columns{{"from_event", logged.from_event}};
@@ -202,13 +202,13 @@ Json as_json(const Shown& shown) {
                                 {"name", check->name},
                                 {"verdict", name_of(check->verdict)},
                                 {"finding", check->finding}});
-    if (!is_worth_telling(event)) continue;
+    if (!is_listed(event)) continue;
     const EventRow row = row_of(event);
     json["events"].push_back(
         {{"t_s", row.t_s}, {"kind", name_of(row.kind)}, {"detail", row.detail}});
   }
   json["participant_info"] = Json::object();
-  for (const auto& [key, value] : told_by_participant(shown.facts.row))
+  for (const auto& [key, value] : participant_reports(shown.facts.row))
     json["participant_info"][key] = value;
   return json;
 }
@@ -237,7 +237,7 @@ void add_show(Command& app) {
   };
   const auto options = std::make_shared<ShowOptions>();
   Command command =
-      app.add_command("show", "one session: progress, setups, checks, notes, voids, what was told",
+      app.add_command("show", "one session: progress, configuration, checks, notes, void trials",
                       {"heft show --db lab.db", "heft show --db lab.db --session 3 --json"});
   command.add_option("--db", &options->db, "the log").shows_default();
   command.add_session(options->session, "the newest one");

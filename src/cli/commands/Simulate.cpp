@@ -1,4 +1,4 @@
-// heft simulate: many sessions of a protocol with a model for a participant.
+// heft simulate: many sessions of a protocol with a simulated participant.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -37,7 +37,7 @@ void simulate_participants(const SimulateOptions& options) {
   say("{} participants, protocol {}, responder {}, seed {}\n", request.participants,
       request.config->protocol->name, to_text(request.config->config.responder),
       request.config->seed);
-  tell_simulator(request.config);
+  print_simulator(request.config);
 
   const StopOnSignal stop;
   const auto started = std::chrono::steady_clock::now();
@@ -46,7 +46,7 @@ void simulate_participants(const SimulateOptions& options) {
     ProgressBar bar("simulating");
     request.numbered = [&](int first) {
       if (first > 1)
-        say("{} holds participants up to {} of this protocol already; going on with {}\n",
+        say("{} already holds participants up to {} of this protocol; continuing with {}\n",
             request.db, simulated_participant(first - 1), simulated_participant(first));
       bar.update(0, "");
     };
@@ -59,12 +59,12 @@ void simulate_participants(const SimulateOptions& options) {
         stop.requested());
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
-  say("{} participants in {:.1f} s: {:.1f} participants a minute with {} job{}\n", stored,
+  say("{} participants in {:.1f} s: {:.1f} participants/min with {} thread{}\n", stored,
       elapsed.count(), 60 * stored / elapsed.count(), request.jobs, request.jobs == 1 ? "" : "s");
   if (stored < request.participants)
     throw Error(fmt::format("stopped; {} participants are stored in {}", stored, request.db),
                 ExitCode::interrupted);
-  say("what was found: heft analyse --db {}\n", shell_quoted(request.db));
+  say("results: heft analyse --db {}\n", shell_quoted(request.db));
 }
 
 }  // namespace
@@ -79,19 +79,19 @@ void add_simulate(Command& app) {
   command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
   add_responder(command, options->given.responder,
                 "NAME or NAME:FILE (heft doctor lists them; default: simulated)");
-  command.add_option("--participants", &options->participants, "how many")
+  command.add_option("--participants", &options->participants, "number of participants")
       .whole_number(1, 1'000'000)
       .shows_default();
   command
       .add_option("--jobs", &options->jobs,
-                  "threads; any number gives the same data (default: one a core)")
+                  "threads; the data do not depend on it (default: one per core)")
       .whole_number(1, 1024);
   command.add_option("--db", &options->db, "the log; an existing one gets more sessions")
       .shows_default();
   command.add_seed(options->seed);
   command.add_option("--simulator", &options->given.simulator, "instead of the protocol's");
   command.add_flag("--frames", options->frames,
-                   "store every displayed frame too (about 10 MB a session)");
+                   "store every displayed frame, too (about 10 MB per session)");
   add_settings(command, options->given.settings,
                "change a key of the protocol, such as coupling.stiffness_n_per_m=100; kept with "
                "the sessions");

@@ -1,5 +1,4 @@
-// heft track: tracking alone. Pictures of a board and an effector in, their poses out, as CSV on
-// stdout.
+// heft track: tracking alone. Reads pictures of a board and an effector, prints their poses as CSV.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -42,8 +41,8 @@ A picture that can't be read has a row in which nothing is found, and is named
 on stderr; the program then ends with exit code 1.
 )";
 
-// n_tags, reprojection_px and quality are the effector's, or the board's where no effector was
-// asked for.
+// n_tags, reprojection_px and quality are the effector's, or the board's if no effector file is
+// given.
 std::string row(long frame, double t_s, const TrackedPicture& seen, bool with_effector) {
   const bool found =
       with_effector ? seen.board_from_effector.has_value() : seen.camera_from_board.has_value();
@@ -56,7 +55,7 @@ std::string row(long frame, double t_s, const TrackedPicture& seen, bool with_ef
                      found && with_effector ? seen.effector_t_s : t_s);
 }
 
-// One of the pictures; where it can't be read, without an image but with why.
+// A picture; if it cannot be read, the reason instead of an image.
 struct TakenPicture {
   Image image;
   double t_s = 0;
@@ -64,7 +63,7 @@ struct TakenPicture {
 };
 using TakePicture = std::function<void(const TakenPicture&)>;
 
-// One of another size than the camera's is not decoded: the tracker says what is wrong with it.
+// A picture of another size than the camera's is not decoded: the tracker reports it.
 TakenPicture read_picture(const std::string& file, double t_s, const Intrinsics& camera) {
   try {
     const auto size = size_in_header(file);
@@ -114,7 +113,7 @@ TrackedPicture track_named(Tracker& tracker, const TakenPicture& picture) {
   }
 }
 
-// Whether a body was in no picture at all, and what the last one shows instead.
+// Counts the pictures that show each body, to report one that was never seen.
 class Sightings {
  public:
   void add(const Image& picture, const TrackedPicture& tracked) {
@@ -140,9 +139,10 @@ class Sightings {
 
 void run_track(const TrackOptions& options) {
   if (!(options.rate_hz > 0 && options.rate_hz <= 1e6))
-    throw Error(fmt::format("--rate {}: expected more than 0 and at most 1000000 pictures a second",
-                            options.rate_hz),
-                ExitCode::usage);
+    throw Error(
+        fmt::format("--rate {}: expected more than 0 and at most 1000000 pictures per second",
+                    options.rate_hz),
+        ExitCode::usage);
   Apparatus apparatus;
   apparatus.camera = load_intrinsics(options.camera);
   apparatus.board = load_board(options.board);
@@ -166,14 +166,14 @@ void run_track(const TrackOptions& options) {
   });
   sightings.say_what_was_never_seen(apparatus);
   if (n_damaged > 0)
-    throw Error(fmt::format("{} of {} picture(s) can't be read; in their rows nothing is found",
+    throw Error(fmt::format("{} of {} picture(s) cannot be read; their rows have no poses",
                             n_damaged, frame));
 }
 }  // namespace
 
 void add_track(Command& app) {
   Command command = app.add_command(
-      "track", "tracking alone: pictures in, poses of board and effector out, as CSV",
+      "track", "tracking alone: from pictures to poses of board and effector, as CSV",
       {"heft track --camera-file camera.yaml --board board.toml --effector effector.toml frames/",
        "heft track --camera-file camera.yaml --board board.toml one.png two.png",
        "heft track --camera-file camera.yaml --board board.toml film.mp4 > poses.csv"});
@@ -183,7 +183,7 @@ void add_track(Command& app) {
       .required();
   command.add_option("--board", &options->board, "a board file").required();
   command.add_option("--effector", &options->effector, "an effector file");
-  command.add_option("--rate", &options->rate_hz, "pictures a second, for single picture files")
+  command.add_option("--rate", &options->rate_hz, "pictures per second, for single picture files")
       .shows_default();
   command.add_option("FRAMES", &options->frames, "picture files, a folder of them, or a video")
       .required();

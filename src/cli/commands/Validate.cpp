@@ -1,5 +1,5 @@
-// heft validate: checks protocols, study plans and every other file that people write, and reports
-// every mistake of every file.
+// heft validate: checks protocols, study plans and all other input files, and reports every mistake
+// in every file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@
 namespace heft::cli {
 
 namespace {
-// The trials of a simulated participant; none where there is no end to them.
+// The trials of a simulated participant; none if they would be endless.
 std::optional<TrialsByTask> simulated_trials(const Protocol& protocol, std::uint64_t seed) {
   constexpr int enough_trials = 2000;
   SessionOptions given;
@@ -64,9 +64,9 @@ struct TrialsOfSome {
   double least = std::numeric_limits<double>::infinity(), most = 0;
 };
 
-// The same few participants each time, so that a protocol always gets the same numbers. None where
-// a session has no end, or where the protocol's simulator can't do what hands do (cautions()), or
-// with one more caution where they can't get through.
+// Always the same few participants, so that a protocol gets the same numbers each time. None if a
+// session is endless, or the protocol's simulator does not model hands (cautions()); with another
+// caution if the participants cannot complete it.
 std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int participants,
                                                 std::vector<std::string>& cautions) try {
   if (!entry_named("simulator", protocol.simulator.name, simulators()).for_sessions)
@@ -85,8 +85,7 @@ std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int pa
   }
   return of_all;
 } catch (const Error& error) {
-  cautions.push_back(
-      fmt::format("a simulated participant does not get through it: {}", error.what()));
+  cautions.push_back(fmt::format("a simulated participant cannot complete it: {}", error.what()));
   return std::nullopt;
 }
 
@@ -110,17 +109,17 @@ std::string described(const Protocol& protocol, std::vector<std::string>& cautio
                               taken->most, participants);
     }
   std::string text =
-      fmt::format("about {:.0f} trials{} and {:.0f} minutes (assuming {})", total_of(trials),
-                  simulated, expected_minutes(protocol, trials), assumed_text(trials));
+      fmt::format("about {:.0f} trials{} and {:.0f} min (assuming {})", total_of(trials), simulated,
+                  expected_minutes(protocol, trials), assumed_text(trials));
   if (protocol.simulator.name == "auto") text += "; " + described(resolve_auto(protocol));
   return text;
 }
 
-// What is in a file that is valid, and what should be known of it.
+// Summary and cautions of a valid file.
 struct Checked {
   std::string summary;
   std::vector<std::string> cautions = {};
-  std::vector<Mistake> mistakes = {};  ///< beside those that it can't be read with
+  std::vector<Mistake> mistakes = {};  ///< besides those that prevent reading it
 
   Checked& operator+=(WordFaults words) {
     for (std::string& caution : words.cautions) cautions.push_back(std::move(caution));
@@ -135,13 +134,13 @@ std::string described(const ScreenTexts& texts) {
 
 std::string described(const DisplayMeasures& display) {
   const double pitch_mm = display.w_mm / display.w_px;
-  return fmt::format("{} x {} px on {:g} x {:g} mm, seen from {:g} mm: {:.3g} px a degree",
+  return fmt::format("{} x {} px on {:g} x {:g} mm, seen from {:g} mm: {:.3g} px/degree",
                      display.w_px, display.h_px, display.w_mm, display.h_mm,
                      display.eye_distance_mm,
                      display.eye_distance_mm * std::numbers::pi / 180 / pitch_mm);
 }
 
-// Each group and order, with how many of the planned participants get it.
+// Each group and order, and its number of planned participants.
 std::string described(const StudyPlan& plan) {
   std::map<std::pair<int, int>, int> people;
   for (int number = 1; number <= plan.participants; ++number) {
@@ -168,13 +167,13 @@ std::vector<std::string> cautions_of(const StudyPlan& plan) {
   if (plan.participants % n_cells == 0) return {};
   const int below = plan.participants / n_cells * n_cells;
   return {fmt::format(
-      "{} participants can't be as many in each of {} group(s) with each of {} order(s), expected "
+      "{} participants cannot be divided equally among {} group(s) with {} order(s) each, expected "
       "{}{}",
       plan.participants, plan.groups.size(), plan.orders.size(),
       below > 0 ? fmt::format("{} or ", below) : "", below + n_cells)};
 }
 
-// Whether what people are to read is there in the language that they read, and can be shown.
+// Checks that the participant's texts exist in the session's language, and can be displayed.
 WordFaults check_words(const Protocol& protocol, const std::string& protocol_file,
                        const std::string& language, const std::string& path) {
   try {
@@ -188,11 +187,11 @@ WordFaults check_words(const Protocol& protocol, const std::string& protocol_fil
 
 Checked checked(const StudyPlan& plan, const std::string& path) {
   Checked file{described(plan), cautions_of(plan)};
-  std::set<std::pair<std::string, std::string>> told;
+  std::set<std::pair<std::string, std::string>> checked_texts;
   for (const StudyGroup& group : plan.groups) {
     const Protocol protocol = load_protocol(group.protocol);
     const std::string language = group.language.value_or(protocol.screens.language);
-    if (told.insert({group.protocol, language}).second)
+    if (checked_texts.insert({group.protocol, language}).second)
       file += check_words(protocol, group.protocol, language, path);
   }
   return file;
@@ -211,7 +210,7 @@ Checked checked(const ScreenTexts& texts, std::string summary, const std::string
   return file += faults_in_words(texts, path);
 }
 
-// Beside the English words, which every questionnaire is shown with.
+// Together with the English texts, with which every questionnaire is shown.
 Checked checked_questionnaires(const ScreenTexts& read, const std::string& path) {
   ScreenTexts texts = load_texts(texts_file("en"));
   texts.questionnaires = read.questionnaires;
@@ -251,7 +250,7 @@ std::string with_article(FileKind kind) {
   return fmt::format("{} {}", kind == FileKind::effector ? "an" : "a", name_of(kind));
 }
 
-// Checks one file and says how it went.
+// Checks one file and prints the result.
 ExitCode validate(const std::string& path) {
   try {
     const std::string text = read_text_file(path);
@@ -282,8 +281,7 @@ void validate_all(const std::vector<std::string>& paths) {
     worst = std::max(worst, code);
   }
   if (worst != ExitCode::ok)
-    throw Error(fmt::format("{} of {} file(s) can't be used as they are", n_bad, paths.size()),
-                worst);
+    throw Error(fmt::format("{} of {} file(s) are not usable", n_bad, paths.size()), worst);
 }
 }  // namespace
 

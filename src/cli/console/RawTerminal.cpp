@@ -12,13 +12,13 @@
 namespace heft::cli {
 
 namespace {
-// Of the one RawTerminal, for the signal handlers; written before these are installed.
+// State of the one RawTerminal, for signal handlers; set before these are installed.
 termios as_it_was{}, raw{};
 std::atomic<bool> is_raw{false};
 struct sigaction stopping_before {
 }, continuing_before{};
 
-// On a terminal that is not the one that controls the program there is no background.
+// A terminal that does not control the program has no background.
 bool is_in_foreground() {
   const pid_t group = tcgetpgrp(STDIN_FILENO);
   return group < 0 || group == getpgrp();
@@ -28,7 +28,7 @@ void set(const termios& settings) {
   tcsetattr(STDIN_FILENO, TCSANOW, &settings);
 }
 
-// Only what a signal handler may call.
+// Calls only async-signal-safe functions.
 void on_stop(int) {
   const int error = errno;
   if (is_raw.exchange(false)) {
@@ -42,13 +42,13 @@ void on_stop(int) {
   sigset_t stopping, blocked;
   sigemptyset(&stopping);
   sigaddset(&stopping, SIGTSTP);
-  pthread_sigmask(SIG_UNBLOCK, &stopping, &blocked);  // stops here, until it is continued
+  pthread_sigmask(SIG_UNBLOCK, &stopping, &blocked);  // stops here, until continued
   pthread_sigmask(SIG_SETMASK, &blocked, nullptr);
   sigaction(SIGTSTP, &now, nullptr);
   errno = error;
 }
 
-// Whoever had the terminal meanwhile may have left it otherwise; listens() looks.
+// Another program may have changed the terminal meanwhile; listens() checks.
 void on_continue(int) {
   is_raw = false;
 }
@@ -66,7 +66,7 @@ RawTerminal::RawTerminal() : is_there_(isatty(STDIN_FILENO) == 1 && isatty(STDER
   if (!is_there_) return;
   tcgetattr(STDIN_FILENO, &as_it_was);
   raw = as_it_was;
-  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // single keys; Ctrl-C stays a signal
+  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // single keys; Ctrl-C remains a signal
   install(SIGTSTP, on_stop, stopping_before);
   install(SIGCONT, on_continue, continuing_before);
   listens();

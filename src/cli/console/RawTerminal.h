@@ -1,12 +1,12 @@
-// The keyboard key by key: the terminal without line editing and echo while this lives, and as it
-// was before whenever the program is stopped (Ctrl-Z) or ends.
+// The keyboard key by key: while this object exists, the terminal has no line editing and no echo.
+// Restored whenever the program is stopped (Ctrl-Z) or ends.
 #pragma once
 
 namespace heft::cli {
 
 class RawTerminal {
  public:
-  /// Does nothing where stdin and stderr are not both a terminal. One at a time.
+  /// Has no effect unless stdin and stderr are both terminals. One object at a time.
   RawTerminal();
   ~RawTerminal();
   RawTerminal(const RawTerminal&) = delete;
@@ -14,11 +14,11 @@ class RawTerminal {
 
   bool is_there() const { return is_there_; }
 
-  /// Whether keys can be read now: not while the program runs in the background. Puts the terminal
-  /// right where somebody else had it meanwhile.
+  /// Whether keys can be read: not while the program runs in the background. Restores the
+  /// key-by-key mode if another program changed it.
   bool listens();
 
-  /// Columns of the terminal as it is now; 80 where it does not say.
+  /// Current number of columns of the terminal; 80 if unknown.
   static int width();
 
  private:

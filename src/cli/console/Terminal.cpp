@@ -39,8 +39,8 @@ int columns_of(std::string_view line) {
 }
 
 Error output_error(const std::string& reason) {
-  return Error(fmt::format("can't write to the standard output: {}. What it holds is not complete.",
-                           reason));
+  return Error(
+      fmt::format("cannot write to the standard output: {}. Its content is incomplete.", reason));
 }
 
 void ring() {
@@ -87,8 +87,9 @@ const std::atomic<bool>& StopOnSignal::requested() const {
 
 void explain_missing_charts(const ReportResult& report, const std::string& folder) {
   if (report.charts_drawn) return;
-  say("No charts: gnuplot is not installed (sudo apt-get install gnuplot-nox). The .gp files in {} "
-      "draw them later: gnuplot NAME.gp\n",
+  say("No charts: gnuplot is not installed (sudo apt-get install gnuplot-nox). To draw them later "
+      "from "
+      "the .gp files in {}: gnuplot NAME.gp\n",
       folder);
 }
 

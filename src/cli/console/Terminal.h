@@ -1,7 +1,6 @@
-// The terminal: data on stdout, messages and progress on stderr, Ctrl-C as a flag. A command has
-// done its work only once its data are where they should be; but a stderr that has gone, a reader
-// that went away or a full disk behind it must not end a session, so nothing that is said there
-// fails.
+// The terminal: data on stdout, messages and progress on stderr, Ctrl-C as a flag. A command
+// succeeds only if its data were written completely. Messages never fail, because a closed stderr
+// or a full disk behind it must not end a session.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,44 +22,44 @@ struct ReportResult;
 
 namespace heft::cli {
 
-/// On stderr, as it stands, with what moves a terminal's cursor.
+/// Writes to stderr unchanged, including control sequences.
 inline void draw(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// The terminal's bell, where stderr is one: somebody has to look.
+/// Rings the terminal's bell, if stderr is one: the experimenter is needed.
 void ring();
 
-/// On stderr; whatever names, notes and cells are in it, a terminal only shows them.
+/// Writes a message to stderr, with control characters escaped.
 template <typename... Args>
 void say(fmt::format_string<Args...> format, Args&&... args) {
   draw(escaped(fmt::format(format, std::forward<Args>(args)...)));
 }
 
-/// Prints text for people, in which names and notes of any file may stand: a terminal only shows
-/// them.
+/// Writes text to stdout, with control characters escaped, since names and notes may come from any
+/// file.
 template <typename... Args>
 void print(fmt::format_string<Args...> format, Args&&... args) {
   fmt::print("{}", escaped(fmt::format(format, std::forward<Args>(args)...)));
 }
 
-/// Writes out what was printed so far, so that what is said on stderr comes after it.
-/// @throws Error when it can't be written
+/// Flushes stdout, so that later messages on stderr follow it.
+/// @throws Error if it cannot be written
 void flush_output();
 
-/// Columns of the terminal that a line takes: most of what lies beyond the alphabets takes two.
+/// Columns of the terminal that a line needs: many characters beyond the alphabets need two.
 int columns_of(std::string_view line);
 
-/// What is said when stdout can't be written.
+/// The error for a failed write to stdout.
 Error output_error(const std::string& reason);
 
-/// "31 of about 70"; "71" where more were done than was expected.
+/// "31 of about 70"; "71" if the expected number is exceeded.
 std::string of_about(int n_done, double expected, std::string_view between = " of about ");
 
-/// On stderr, when stderr is a terminal.
+/// On stderr, if it is a terminal.
 class ProgressBar {
  public:
-  /// @param label what is going on
+  /// @param label of the work in progress
   explicit ProgressBar(std::string label);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -75,8 +74,8 @@ class ProgressBar {
   std::chrono::steady_clock::time_point drawn_{};
 };
 
-/// While one of these lives, SIGINT, SIGTERM and SIGHUP set the flag instead of ending the program.
-/// A SIGHUP that was ignored (nohup) stays ignored.
+/// While such an object exists, SIGINT, SIGTERM and SIGHUP set the flag instead of ending the
+/// program. An ignored SIGHUP (nohup) stays ignored.
 class StopOnSignal {
  public:
   StopOnSignal();
@@ -93,7 +92,7 @@ class StopOnSignal {
 inline constexpr std::string_view missing_charts =
     "No charts: gnuplot is not installed (sudo apt-get install gnuplot-nox).";
 
-/// Says how to get the charts of a report in `folder`, if they were not drawn.
+/// Prints how to draw a report's charts, if they were not drawn.
 void explain_missing_charts(const ReportResult& report, const std::string& folder);
 
 }  // namespace heft::cli

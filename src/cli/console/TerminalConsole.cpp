@@ -33,7 +33,7 @@ std::optional<char> next_key() {
   return key;
 }
 
-// What terminals send for one key after Esc: "[" or "O", parameters, and a letter or "~".
+// Discards the rest of a key's sequence after Esc: "[" or "O", parameters, and a letter or "~".
 void swallow_sequence() {
   const auto introducer = next_key();
   if (introducer != '[' && introducer != 'O') return;
@@ -75,7 +75,7 @@ std::string cut_to(const std::string& text, int width, bool keep_end) {
   std::vector<std::string_view> letters = letters_of(text);
   if (keep_end) std::ranges::reverse(letters);
   std::vector<std::string_view> kept;
-  int used = 1;  // for the mark
+  int used = 1;  // of the mark
   for (const std::string_view letter : letters) {
     used += columns_of(letter);
     if (used > width) break;
@@ -147,7 +147,7 @@ void TerminalConsole::take_key(char key) {
   }
 }
 
-// Yes, no or once more; any other key is none of them.
+// Answers a question with yes, no or check; other keys are ignored.
 void TerminalConsole::take_answer(char key) {
   if (key != 'y' && key != 'n' && key != 'r') return;
   asking_ = Asking::nothing;
@@ -156,7 +156,7 @@ void TerminalConsole::take_answer(char key) {
                     : ConsoleCommandKind::check);
 }
 
-// Yes to what can't be undone; any other key takes the question back.
+// Confirms what cannot be undone with yes; any other key cancels.
 void TerminalConsole::take_choice(char key) {
   const Asking asked = std::exchange(asking_, Asking::nothing);
   if (key != 'y') return;
@@ -168,7 +168,7 @@ bool TerminalConsole::asks_for_text() const {
          asking_ == Asking::answer_reason;
 }
 
-// A reason's number alone is the reason, at once.
+// A digit alone selects its reason immediately.
 void TerminalConsole::take_text_key(char key) {
   if (asking_ != Asking::note && text_.empty())
     for (const auto& [code, reason] : veto_reasons)
@@ -181,7 +181,7 @@ void TerminalConsole::take_text_key(char key) {
     text_.clear();
     asking_ = Asking::nothing;
   } else if (key == backspace) {
-    // A letter of several bytes goes as a whole.
+    // Removes all bytes of a character.
     while (!text_.empty() && (text_.back() & 0xC0) == 0x80) text_.pop_back();
     if (!text_.empty()) text_.pop_back();
   } else if (static_cast<unsigned char>(key) >= ' ') {
@@ -189,7 +189,7 @@ void TerminalConsole::take_text_key(char key) {
   }
 }
 
-// An empty text is none.
+// An empty text counts as none.
 void TerminalConsole::take_text() {
   const Asking asked = std::exchange(asking_, Asking::nothing);
   const std::string text = std::exchange(text_, {});
@@ -205,7 +205,7 @@ void TerminalConsole::give(ConsoleCommandKind kind, const std::string& text) {
 }
 
 namespace {
-// What is asked, what is typed, and how it ends, with the end of what is typed in sight.
+// The prompt, the typed text and the keys that end it; a long text shows its end.
 std::string text_prompt(const std::string& what, const std::string& typed, const std::string& keys,
                         int width) {
   const std::string before = what + ": ", after = "_  (" + keys + ")";
@@ -230,19 +230,19 @@ std::string TerminalConsole::prompt(int width) const {
     case Asking::answer_reason:
       return reason_prompt("undo", text_, width);
     case Asking::note:
-      return text_prompt("note", text_, "Enter keeps it, Esc drops it", width);
+      return text_prompt("note", text_, "Enter saves it, Esc discards it", width);
     case Asking::end:
-      return "leave the session? everything is saved; heft resume goes on. y/n";
+      return "leave the session? everything is saved; heft resume continues. y/n";
     case Asking::unblind:
       return "show masses and condition from now on? it is logged. y/n";
     case Asking::nothing:
       break;
   }
-  return paused_ ? "p go on  v void  x undo answer  n note  r check  e end"
+  return paused_ ? "p continue  v void  x undo answer  n note  r check  e end"
                  : "p pause  v void  x undo answer  n note  b break  r check  e end  u unblind";
 }
 
-// A session that stands still by itself is heard every few seconds.
+// Repeats a sound every few seconds while the session is paused and needs the experimenter.
 void TerminalConsole::sound(const ConsoleStatus& status) {
   constexpr auto every = std::chrono::seconds(5);
   const auto now = std::chrono::steady_clock::now();
@@ -257,14 +257,14 @@ void TerminalConsole::show(const ConsoleStatus& status) {
   if (!terminal_.is_there() || !terminal_.listens() || now - drawn_ < redraw_every) return;
   drawn_ = now;
   sound(status);
-  const int width = RawTerminal::width() - 1;  // the cursor stays on the line
+  const int width = RawTerminal::width() - 1;  // keeps the cursor on the line
   draw(fmt::format("\r\033[J{}\n{}\033[A\r", status_line(status, expected_trials_, width, place_),
                    cut_to(prompt(width), width)));
 }
 
 bool TerminalConsole::ask_to_go_on(const std::string& question) {
   if (!terminal_.is_there()) return false;
-  tcflush(STDIN_FILENO, TCIFLUSH);  // what was typed before is no answer to this
+  tcflush(STDIN_FILENO, TCIFLUSH);  // discards keys typed before the question
   ring();
   question_ = question;
   ask(Asking::go_on);

@@ -1,5 +1,5 @@
-// The experimenter's console on a terminal: one line that tells how the session goes and keeps them
-// blind, and single keys to act on it. Without a terminal it shows and hears nothing.
+// The experimenter's console on a terminal: a status line without masses or conditions, and single
+// keys as commands. Without a terminal it does nothing.
 #pragma once
 
 #include <chrono>
@@ -50,13 +50,12 @@ class TerminalConsole final : public Console {
   std::chrono::steady_clock::time_point drawn_{}, sounded_{};
 };
 
-/// The status in one line of a terminal: in fewer words where they don't fit, cut where these
-/// don't.
+/// The status in one line of a terminal: abbreviated if necessary, then truncated.
 /// @param place as TerminalConsole has it
 std::string status_line(const ConsoleStatus& status, double expected_trials, int width,
                         const std::string& place = {});
 
-/// At most so many columns of a text of one line: its end where `keep_end`, else its beginning.
+/// Truncates a line to a number of columns: keeps its end if `keep_end`, else its beginning.
 std::string cut_to(const std::string& text, int width, bool keep_end = false);
 
 }  // namespace heft::cli

@@ -66,7 +66,7 @@ void print_agreement(const Agreement& group) {
   print_detection("logged", group.logged);
   print_detection("responder", group.judged);
   if (task_named(group.task).detects && !group.logged)
-    print("    no d': that takes trials with a difference and without (catch trials)\n");
+    print("    no d': it needs trials with and without a difference (catch trials)\n");
 }
 
 ordered_json table_of(const Confusion& confusion) {
@@ -126,11 +126,11 @@ ordered_json object_of(const AnsweredSession& session) {
 
 void print_offline_responder(const AnsweredSession& session) {
   const OfflineAnswers& judgments = session.judgments;
-  print("session {}, participant {}, as {} judges what was shown:\n", session.session_id,
+  print("session {}, participant {}, {} judging the displayed frames:\n", session.session_id,
         session.participant, session.responder);
   for (const Agreement& group : agreements(judgments.trials)) print_agreement(group);
   if (judgments.n_without_frames > 0)
-    print("  {} completed trials were not judged: the log keeps no frames of them\n",
+    print("  {} completed trials were not judged: the log has no frames of them\n",
           judgments.n_without_frames);
   if (judgments.n_without_answer > 0)
     print("  {} completed trials were not judged: {} has no answer to them\n",

@@ -12,7 +12,7 @@
 namespace heft::cli {
 
 namespace {
-// Of the protocol as the session has it, with its settings.
+// Of the session's protocol with its settings.
 std::optional<double> planned_trials(const LogReader& reader, const SessionRow& row) try {
   const auto setups = reader.setups(row.session_id);
   const auto settings =
@@ -75,16 +75,16 @@ std::vector<std::string> next_steps(const std::vector<SessionFacts>& sessions,
   bool any_ended = false;
   for (const SessionFacts& facts : sessions) {
     if (is_unfinished(facts.row.state))
-      steps.push_back(fmt::format("go on with participant {}: heft resume --db {} --session {}",
+      steps.push_back(fmt::format("resume participant {}: heft resume --db {} --session {}",
                                   facts.row.header.participant, log, facts.row.session_id));
     else
       any_ended = true;
   }
   if (sessions.size() == 1 && any_ended)
-    steps.push_back(fmt::format("what was found: heft analyse --db {} --session {}", log,
+    steps.push_back(fmt::format("results: heft analyse --db {} --session {}", log,
                                 sessions.front().row.session_id));
   else if (any_ended)
-    steps.push_back(fmt::format("what was found: heft analyse --db {}", log));
+    steps.push_back(fmt::format("results: heft analyse --db {}", log));
   if (any_ended) steps.push_back(fmt::format("for other programs: heft export {} --out data", log));
   return steps;
 }

@@ -1,5 +1,4 @@
-// What is worth knowing of a logged session at a glance: for heft list and heft show. Blind: no
-// mass, level or correctness.
+// Summary of a logged session for heft list and heft show. Blind: no mass, level or correctness.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,7 +14,7 @@ namespace heft::cli {
 struct SessionFacts {
   SessionRow row;
   int n_completed = 0, n_void = 0;       ///< attempts
-  std::optional<double> planned_trials;  ///< about so many; none: the protocol can't be read
+  std::optional<double> planned_trials;  ///< approximately; none: the protocol cannot be read
   double duration_s = 0;                 ///< session time
   std::optional<LoggedPlace> place;      ///< in a study
 };
@@ -27,7 +26,7 @@ std::string trials_text(const SessionFacts& facts);
 
 nlohmann::ordered_json as_json(const SessionFacts& facts);
 
-/// What can be done next with a log of these sessions: a line each, with commands to copy.
+/// Possible next steps with a log of these sessions: one line each, with commands to copy.
 std::vector<std::string> next_steps(const std::vector<SessionFacts>& sessions,
                                     const std::string& db);
 

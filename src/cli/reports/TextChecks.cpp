@@ -17,7 +17,7 @@
 namespace heft::cli {
 
 namespace {
-// What of the texts would not be read well on the smallest screen, a sentence each.
+// Texts that would be hard to read on the smallest screen, one sentence each.
 std::vector<std::string> misfits(const ScreenTexts& texts, double text_size) {
   return texts_that_do_not_fit(texts, smallest_screen(text_size));
 }
@@ -32,7 +32,7 @@ bool has_letter(std::string_view line, char32_t code) {
       letters_of(line), [&](std::string_view letter) { return first_letter(letter).code == code; });
 }
 
-// The line that the character is first written in; 0 where it is only spelled out as an escape.
+// The line where the character first occurs; 0 if only as an escape.
 int line_with(char32_t code, const std::string& file) {
   const std::string text = read_text_file(file);
   int number = 0;
@@ -50,11 +50,11 @@ void tell_lacking(const std::vector<LackingCharacter>& lacking, const std::strin
         {{file, line_with(lacking.front().code, file), 0}, without_font(lacking)});
 }
 
-// The texts of a session, and which file each page is from.
+// The texts of a session, and the file of each page.
 struct SessionWords {
   ScreenTexts texts;
   std::string texts_file;
-  std::map<std::string, std::string> file_of_page;  ///< of those from elsewhere
+  std::map<std::string, std::string> file_of_page;  ///< only pages from another file
 
   const std::string& file_of(const std::string& page) const {
     const auto found = file_of_page.find(page);
@@ -87,7 +87,7 @@ WordFaults faults_in_words(const ScreenTexts& texts, const std::string& file) {
   tell_lacking(characters_without_font(texts), file, faults);
   for (const std::string& sentence : misfits(texts, 1))
     faults.cautions.push_back(on_smallest_screen(sentence));
-  // In the largest letters that somebody may ask for, what fits in small ones will do.
+  // With the largest letters, only what does not fit either in small ones.
   for (const std::string& sentence : misfits(texts, most_text_size))
     if (sentence.find("only in small letters") == std::string::npos)
       faults.cautions.push_back(
